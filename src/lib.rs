@@ -1,1 +1,8 @@
-pub fn x(){}
+//! Batten: an editor for fair curves, shaped by their float S-polygons.
+//!
+//! The layers and which way they look:
+//! `geometry ← document ← { analysis, io } ← editor ← ui`, with `cli` beside the editor.
+#![forbid(unsafe_code)]
+
+pub mod document;
+pub mod geometry;

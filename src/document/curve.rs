@@ -1,0 +1,76 @@
+//! One curve of a document.
+
+use crate::geometry::end_correction::EndTarget;
+use crate::geometry::{End, FloatPolygon};
+
+/// The identity of a curve within its document; it survives every edit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct CurveId(pub(super) u64);
+
+/// A colour: red, green, blue.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Colour(pub [u8; 3]);
+
+/// The targets of a curve's two ends, where they are set.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct EndTargets {
+    /// What the start shall be.
+    pub start: Option<EndTarget>,
+    /// What the end shall be.
+    pub finish: Option<EndTarget>,
+}
+
+impl EndTargets {
+    /// The target of one end.
+    pub fn get(&self, end: End) -> Option<EndTarget> {
+        match end {
+            End::Start => self.start,
+            End::Finish => self.finish,
+        }
+    }
+
+    /// Set or clear the target of one end.
+    pub fn set(&mut self, end: End, target: Option<EndTarget>) {
+        match end {
+            End::Start => self.start = target,
+            End::Finish => self.finish = target,
+        }
+    }
+
+    /// List the ends that have a target, with it.
+    pub fn list(&self) -> Vec<(End, EndTarget)> {
+        let both = End::BOTH.into_iter();
+        both.filter_map(|end| Some((end, self.get(end)?))).collect()
+    }
+}
+
+/// Hold a curve: its float polygon, which is the truth of its shape, and what the user calls it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    /// The name shown in lists and written to files.
+    pub name: String,
+    /// The curve's own colour; `None` takes the theme's.
+    pub colour: Option<Colour>,
+    /// Whether it is drawn and can be picked.
+    pub visible: bool,
+    /// Whether its shape is protected from edits.
+    pub locked: bool,
+    /// The float polygon.
+    pub polygon: FloatPolygon,
+    /// Where the ends shall be.
+    pub targets: EndTargets,
+}
+
+impl Curve {
+    /// Make a visible, unlocked curve without targets.
+    pub fn new(name: impl Into<String>, polygon: FloatPolygon) -> Self {
+        Self {
+            name: name.into(),
+            colour: None,
+            visible: true,
+            locked: false,
+            polygon,
+            targets: EndTargets::default(),
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! A document: an ordered list of curves.
+
+use std::sync::Arc;
+
+use super::curve::{Curve, CurveId};
+
+/// Hold the curves of a project, in the order in which they are listed and drawn.
+///
+/// Curves are shared between snapshots, so copying a document is cheap.
+#[derive(Clone, Debug, Default)]
+pub struct Document {
+    pub(super) curves: Vec<(CurveId, Arc<Curve>)>,
+    pub(super) next: u64,
+}
+
+impl Document {
+    /// Make a document of some curves.
+    pub fn from_curves(curves: impl IntoIterator<Item = Curve>) -> Self {
+        let mut document = Self::default();
+        for curve in curves {
+            document.push(curve);
+        }
+        document
+    }
+
+    /// List the curves with their identities.
+    pub fn curves(&self) -> impl ExactSizeIterator<Item = (CurveId, &Arc<Curve>)> {
+        self.curves.iter().map(|(id, curve)| (*id, curve))
+    }
+
+    /// Find a curve.
+    pub fn curve(&self, id: CurveId) -> Option<&Arc<Curve>> {
+        self.position(id).map(|index| &self.curves[index].1)
+    }
+
+    /// The identities of all curves, in order.
+    pub fn ids(&self) -> impl Iterator<Item = CurveId> + '_ {
+        self.curves.iter().map(|(id, _)| *id)
+    }
+
+    /// The number of curves.
+    pub fn len(&self) -> usize {
+        self.curves.len()
+    }
+
+    /// Whether there is no curve.
+    pub fn is_empty(&self) -> bool {
+        self.curves.is_empty()
+    }
+
+    /// Whether the other document holds the very same curves: equal because nothing was changed,
+    /// not by comparing numbers.
+    pub fn is_same(&self, other: &Self) -> bool {
+        self.curves.len() == other.curves.len()
+            && self
+                .curves
+                .iter()
+                .zip(&other.curves)
+                .all(|(a, b)| a.0 == b.0 && Arc::ptr_eq(&a.1, &b.1))
+    }
+
+    /// The identity that the next added curve will get.
+    pub fn next_id(&self) -> CurveId {
+        CurveId(self.next)
+    }
+
+    pub(super) fn push(&mut self, curve: Curve) -> CurveId {
+        let id = self.next_id();
+        self.next += 1;
+        self.curves.push((id, Arc::new(curve)));
+        id
+    }
+
+    pub(super) fn position(&self, id: CurveId) -> Option<usize> {
+        self.curves.iter().position(|(other, _)| *other == id)
+    }
+}

@@ -1,0 +1,191 @@
+//! Edits: every change to a document, as data, applied in one place.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use thiserror::Error;
+
+use super::curve::{Colour, Curve, CurveId};
+use super::document::Document;
+use crate::geometry::end_correction::EndTarget;
+use crate::geometry::{End, FloatPolygon, PolygonError};
+
+/// A change to a document.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Edit {
+    /// Put vertices of a curve's float polygon somewhere else.
+    MoveVertices {
+        /// The curve.
+        curve: CurveId,
+        /// The vertices, counted from 0, with their new places.
+        moves: Vec<(usize, DVec3)>,
+    },
+    /// Give a curve another float polygon.
+    SetPolygon {
+        /// The curve.
+        curve: CurveId,
+        /// The new polygon.
+        polygon: FloatPolygon,
+    },
+    /// Change the weight of a vertex.
+    SetWeight {
+        /// The curve.
+        curve: CurveId,
+        /// The vertex, counted from 0.
+        vertex: usize,
+        /// The new weight.
+        weight: f64,
+    },
+    /// Give a curve another name.
+    Rename {
+        /// The curve.
+        curve: CurveId,
+        /// The new name.
+        name: String,
+    },
+    /// Give a curve a colour of its own, or the theme's.
+    Recolour {
+        /// The curve.
+        curve: CurveId,
+        /// The new colour.
+        colour: Option<Colour>,
+    },
+    /// Show or hide a curve.
+    SetVisible {
+        /// The curve.
+        curve: CurveId,
+        /// Whether it shall be drawn.
+        visible: bool,
+    },
+    /// Protect a curve's shape from edits, or release it.
+    SetLocked {
+        /// The curve.
+        curve: CurveId,
+        /// Whether it shall be protected.
+        locked: bool,
+    },
+    /// Set or clear the target of an end.
+    SetTarget {
+        /// The curve.
+        curve: CurveId,
+        /// The end.
+        end: End,
+        /// The new target.
+        target: Option<EndTarget>,
+    },
+    /// Add a curve behind the others. It gets [`Document::next_id`].
+    Add(Box<Curve>),
+    /// Remove a curve.
+    Remove(CurveId),
+    /// Put a curve at another place of the list.
+    Reorder {
+        /// The curve.
+        curve: CurveId,
+        /// Its new place, counted from 0; the last place if it lies beyond.
+        place: usize,
+    },
+}
+
+/// Why an edit cannot be made; the document is as it was.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum EditError {
+    /// The curve is not in the document.
+    #[error("the curve is no longer in the document")]
+    NoSuchCurve,
+    /// The curve is locked.
+    #[error("“{name}” is locked: unlock it in the list of curves to change its shape")]
+    Locked {
+        /// The curve's name.
+        name: String,
+    },
+    /// The curve's new shape is not one.
+    #[error("“{name}”: {error}")]
+    Polygon {
+        /// The curve's name.
+        name: String,
+        /// What is wrong with it.
+        error: PolygonError,
+    },
+    /// A name is empty.
+    #[error("a curve needs a name: type at least one character")]
+    EmptyName,
+}
+
+impl Document {
+    /// Make one edit.
+    ///
+    /// # Errors
+    /// [`EditError`]; the document is unchanged then.
+    pub fn apply(&mut self, edit: Edit) -> Result<(), EditError> {
+        match edit {
+            Edit::MoveVertices { curve, moves } => self.reshape(curve, |polygon| {
+                polygon.move_vertices(moves.iter().copied())
+            }),
+            Edit::SetPolygon { curve, polygon } => self.reshape(curve, |old| {
+                *old = polygon;
+                Ok(())
+            }),
+            Edit::SetWeight {
+                curve,
+                vertex,
+                weight,
+            } => self.reshape(curve, |polygon| polygon.set_weight(vertex, weight)),
+            Edit::Rename { curve, name } => {
+                let name = name.trim().to_owned();
+                if name.is_empty() {
+                    return Err(EditError::EmptyName);
+                }
+                self.change(curve, |curve| curve.name = name)
+            }
+            Edit::Recolour { curve, colour } => self.change(curve, |curve| curve.colour = colour),
+            Edit::SetVisible { curve, visible } => {
+                self.change(curve, |curve| curve.visible = visible)
+            }
+            Edit::SetLocked { curve, locked } => self.change(curve, |curve| curve.locked = locked),
+            Edit::SetTarget { curve, end, target } => {
+                self.change(curve, |curve| curve.targets.set(end, target))
+            }
+            Edit::Add(curve) => {
+                self.push(*curve);
+                Ok(())
+            }
+            Edit::Remove(curve) => {
+                let index = self.position(curve).ok_or(EditError::NoSuchCurve)?;
+                self.curves.remove(index);
+                Ok(())
+            }
+            Edit::Reorder { curve, place } => {
+                let index = self.position(curve).ok_or(EditError::NoSuchCurve)?;
+                let moved = self.curves.remove(index);
+                self.curves.insert(place.min(self.curves.len()), moved);
+                Ok(())
+            }
+        }
+    }
+
+    fn change(&mut self, id: CurveId, change: impl FnOnce(&mut Curve)) -> Result<(), EditError> {
+        let index = self.position(id).ok_or(EditError::NoSuchCurve)?;
+        change(Arc::make_mut(&mut self.curves[index].1));
+        Ok(())
+    }
+
+    fn reshape(
+        &mut self,
+        id: CurveId,
+        change: impl FnOnce(&mut FloatPolygon) -> Result<(), PolygonError>,
+    ) -> Result<(), EditError> {
+        let index = self.position(id).ok_or(EditError::NoSuchCurve)?;
+        let shared = &mut self.curves[index].1;
+        let name = || shared.name.clone();
+        if shared.locked {
+            return Err(EditError::Locked { name: name() });
+        }
+        let mut changed = Curve::clone(shared);
+        change(&mut changed.polygon).map_err(|error| EditError::Polygon {
+            name: name(),
+            error,
+        })?;
+        *shared = Arc::new(changed);
+        Ok(())
+    }
+}

@@ -1,0 +1,167 @@
+//! Undo and redo: labelled snapshots of the document.
+
+use super::document::Document;
+use super::edit::{Edit, EditError};
+
+/// Hold the document with every state it can be taken back to.
+///
+/// A gesture (a drag, a typed field) is begun, previewed any number of times, and committed as
+/// one step or aborted; each preview starts from the state at the gesture's beginning, so nothing
+/// drifts and an abort restores it bit for bit.
+#[derive(Clone, Debug, Default)]
+pub struct History {
+    document: Document,
+    saved: Document,
+    undo: Vec<Step>,
+    redo: Vec<Step>,
+    gesture: Option<Step>,
+}
+
+/// A state of the document and what was done from it.
+#[derive(Clone, Debug)]
+struct Step {
+    label: String,
+    document: Document,
+}
+
+impl History {
+    /// Begin with a document that counts as saved.
+    pub fn new(document: Document) -> Self {
+        Self {
+            saved: document.clone(),
+            document,
+            ..Self::default()
+        }
+    }
+
+    /// The document as it is now, a running gesture's preview included.
+    pub fn document(&self) -> &Document {
+        &self.document
+    }
+
+    /// Begin a gesture; one that still runs is committed first.
+    pub fn begin(&mut self, label: impl Into<String>) {
+        self.commit();
+        self.gesture = Some(Step {
+            label: label.into(),
+            document: self.document.clone(),
+        });
+    }
+
+    /// Whether a gesture is running.
+    pub fn is_in_gesture(&self) -> bool {
+        self.gesture.is_some()
+    }
+
+    /// The document as it was when the running gesture began; as it is now if none runs.
+    pub fn before_gesture(&self) -> &Document {
+        self.gesture
+            .as_ref()
+            .map_or(&self.document, |step| &step.document)
+    }
+
+    /// Show what `edits` make of the document that the gesture began with.
+    ///
+    /// # Errors
+    /// [`EditError`] of the first edit that cannot be made; the last good preview stays.
+    pub fn preview(&mut self, edits: Vec<Edit>) -> Result<(), EditError> {
+        let mut document = self.before_gesture().clone();
+        for edit in edits {
+            document.apply(edit)?;
+        }
+        self.document = document;
+        Ok(())
+    }
+
+    /// End the gesture and keep what it shows as one step. Returns whether there is a step: a
+    /// gesture that changed nothing leaves none.
+    pub fn commit(&mut self) -> bool {
+        let Some(step) = self.gesture.take() else {
+            return false;
+        };
+        if self.document.is_same(&step.document) {
+            return false;
+        }
+        self.undo.push(step);
+        self.redo.clear();
+        true
+    }
+
+    /// End the gesture and restore the document that it began with.
+    pub fn abort(&mut self) {
+        if let Some(step) = self.gesture.take() {
+            self.document = step.document;
+        }
+    }
+
+    /// Make some edits as one step.
+    ///
+    /// # Errors
+    /// [`EditError`] of the first edit that cannot be made; none is made then.
+    pub fn apply(&mut self, label: impl Into<String>, edits: Vec<Edit>) -> Result<(), EditError> {
+        self.begin(label);
+        let result = self.preview(edits);
+        match result {
+            Ok(()) => {
+                self.commit();
+            }
+            Err(_) => self.abort(),
+        }
+        result
+    }
+
+    /// Take back the last step, or abort the running gesture. Returns its label.
+    pub fn undo(&mut self) -> Option<String> {
+        if let Some(step) = self.gesture.take() {
+            self.document = step.document;
+            return Some(step.label);
+        }
+        let step = self.undo.pop()?;
+        let label = step.label.clone();
+        self.redo.push(Step {
+            label: step.label,
+            document: std::mem::replace(&mut self.document, step.document),
+        });
+        Some(label)
+    }
+
+    /// Make the last undone step again. Returns its label.
+    pub fn redo(&mut self) -> Option<String> {
+        if self.gesture.is_some() {
+            return None;
+        }
+        let step = self.redo.pop()?;
+        let label = step.label.clone();
+        self.undo.push(Step {
+            label: step.label,
+            document: std::mem::replace(&mut self.document, step.document),
+        });
+        Some(label)
+    }
+
+    /// The label of the step that undo would take back.
+    pub fn undo_label(&self) -> Option<&str> {
+        let step = self.gesture.as_ref().or(self.undo.last());
+        step.map(|step| step.label.as_str())
+    }
+
+    /// The label of the step that redo would make again.
+    pub fn redo_label(&self) -> Option<&str> {
+        self.redo.last().map(|step| step.label.as_str())
+    }
+
+    /// The number of steps that can be taken back.
+    pub fn undo_steps(&self) -> usize {
+        self.undo.len()
+    }
+
+    /// Whether the document differs from the one last saved or opened.
+    pub fn is_modified(&self) -> bool {
+        !self.document.is_same(&self.saved)
+    }
+
+    /// Take the document as it is now as saved.
+    pub fn mark_saved(&mut self) {
+        self.saved = self.document.clone();
+    }
+}

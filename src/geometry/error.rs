@@ -1,0 +1,112 @@
+//! What can be wrong with a polygon, a parameter or a condition, and where.
+
+use thiserror::Error;
+
+use super::polygon_kind::PolygonKind;
+
+/// The highest degree a polygon may have: CAD kernels stop at 25.
+pub const MAX_DEGREE: usize = 25;
+
+/// A reason why vertices, weights and a degree do not make a polygon.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum PolygonError {
+    /// The degree lies outside 1 to [`MAX_DEGREE`].
+    #[error("degree {degree} is out of range: a degree from 1 to {MAX_DEGREE} is needed")]
+    DegreeOutOfRange {
+        /// The degree given.
+        degree: usize,
+    },
+    /// There are fewer vertices than a curve of this degree has.
+    #[error(
+        "{found} vertices are too few: a {} curve of degree {degree} needs at least {needed}",
+        if *periodic { "periodic" } else { "open" }
+    )]
+    TooFewVertices {
+        /// The number of vertices given.
+        found: usize,
+        /// The smallest number that makes a curve.
+        needed: usize,
+        /// The degree given.
+        degree: usize,
+        /// Whether a periodic curve was asked for.
+        periodic: bool,
+    },
+    /// A coordinate is infinite or not a number.
+    #[error(
+        "vertex {index}: coordinate {axis} is {value}, and only finite numbers up to 1e100 can be used"
+    )]
+    BadCoordinate {
+        /// The vertex, counted from 0.
+        index: usize,
+        /// Its coordinate: x, y or z.
+        axis: char,
+        /// The value given.
+        value: f64,
+    },
+    /// A weight is zero, negative, infinite or not a number.
+    #[error(
+        "vertex {index}: weight {value} cannot be used: weights are positive numbers from 1e-100 to 1e100"
+    )]
+    BadWeight {
+        /// The vertex, counted from 0.
+        index: usize,
+        /// The value given.
+        value: f64,
+    },
+    /// The number of weights is not the number of vertices.
+    #[error("{weights} weights for {vertices} vertices: give one weight a vertex, or none at all")]
+    WeightCount {
+        /// The number of weights given.
+        weights: usize,
+        /// The number of vertices given.
+        vertices: usize,
+    },
+    /// A chain of Bézier polygons has a number of vertices that no number of segments gives.
+    #[error(
+        "{found} vertices do not make Bézier polygons of degree {degree}: the number must be a multiple of {degree}, plus 1"
+    )]
+    BezierCount {
+        /// The number of vertices given.
+        found: usize,
+        /// The degree given.
+        degree: usize,
+    },
+    /// A chain of Bézier polygons is not the B-spline curve that a float polygon can hold.
+    #[error(
+        "the Bézier polygons do not join as one B-spline curve: at vertex {index} they are {distance:.3e} away from the smooth curve nearest to them; import the segments one by one"
+    )]
+    NotSmooth {
+        /// The worst vertex, counted from 0.
+        index: usize,
+        /// How far it is from the curve's own Bézier vertex.
+        distance: f64,
+    },
+    /// A conversion gives a vertex without a positive weight.
+    #[error(
+        "the {to} polygon would have weight {weight:e} at vertex {index}: a curve with these weights has no {to} polygon with positive weights"
+    )]
+    WeightLost {
+        /// The polygon that was asked for.
+        to: PolygonKind,
+        /// The vertex, counted from 0.
+        index: usize,
+        /// The weight the exact conversion gives it.
+        weight: f64,
+    },
+    /// A conversion gives a coordinate too large to hold.
+    #[error("the {to} polygon would have vertex {index} outside the range of numbers")]
+    Overflow {
+        /// The polygon that was asked for.
+        to: PolygonKind,
+        /// The vertex, counted from 0.
+        index: usize,
+    },
+    /// A vertex number that the polygon does not have.
+    #[error("vertex {index} does not exist: the polygon has {count} vertices, counted from 0")]
+    NoSuchVertex {
+        /// The vertex asked for.
+        index: usize,
+        /// The number of vertices.
+        count: usize,
+    },
+}

@@ -1,0 +1,130 @@
+//! Points and derivatives of a curve at single parameters.
+
+use glam::{DVec3, DVec4};
+
+use super::error::MAX_DEGREE;
+use super::float_polygon::FloatPolygon;
+use super::jet::Jet;
+
+impl FloatPolygon {
+    /// Find the segment that holds u and the local parameter in it.
+    ///
+    /// A periodic curve takes u modulo L; an open one continues its first and last segment's
+    /// polynomials beyond \[0, L\].
+    pub fn locate(&self, u: f64) -> (usize, f64) {
+        let segments = self.segments();
+        let u = if self.is_periodic() {
+            u.rem_euclid(segments as f64)
+        } else {
+            u
+        };
+        // The cast takes NaN and everything below 0 to segment 0.
+        let segment = (u.floor() as usize).min(segments - 1);
+        (segment, u - segment as f64)
+    }
+
+    /// Evaluate the point C(u) by de Boor's algorithm, which interpolates only: accurate to a
+    /// few roundings of the largest coordinate for u in \[0, L\].
+    pub fn point(&self, u: f64) -> DVec3 {
+        let (segment, t) = self.locate(u);
+        if self.is_rational() {
+            let homogeneous = de_boor(self.degree(), t, |j| self.homogeneous(segment + j));
+            homogeneous.truncate() / homogeneous.w
+        } else {
+            de_boor(self.degree(), t, |j| self.vertex(segment + j).extend(1.0)).truncate()
+        }
+    }
+
+    /// Evaluate the point and all derivatives by u up to `order`: `order` + 1 vectors.
+    ///
+    /// The derivative of order r of the homogeneous curve has the r-th differences of the
+    /// vertices as its float polygon; a rational curve takes Leibniz' rule from there.
+    pub fn derivatives(&self, u: f64, order: usize) -> Vec<DVec3> {
+        let (segment, t) = self.locate(u);
+        self.segment_derivatives(segment, t, order)
+    }
+
+    /// Evaluate as [`FloatPolygon::derivatives`] does, but on a given segment: at a knot this
+    /// chooses the side, with t = 0 or t = 1.
+    ///
+    /// # Panics
+    /// If the curve has no segment with this number.
+    pub fn segment_derivatives(&self, segment: usize, t: f64, order: usize) -> Vec<DVec3> {
+        let homogeneous = self.homogeneous_derivatives(segment, t, order);
+        if self.is_rational() {
+            quotient(&homogeneous)
+        } else {
+            homogeneous.iter().map(|value| value.truncate()).collect()
+        }
+    }
+
+    /// Evaluate the point and the first three derivatives.
+    pub fn jet(&self, u: f64) -> Jet {
+        let (segment, t) = self.locate(u);
+        self.segment_jet(segment, t)
+    }
+
+    /// Evaluate as [`FloatPolygon::jet`] does, on a given segment.
+    ///
+    /// # Panics
+    /// If the curve has no segment with this number.
+    pub fn segment_jet(&self, segment: usize, t: f64) -> Jet {
+        let values = self.segment_derivatives(segment, t, 3);
+        Jet {
+            point: values[0],
+            first: values[1],
+            second: values[2],
+            third: values[3],
+        }
+    }
+
+    fn homogeneous_derivatives(&self, segment: usize, t: f64, order: usize) -> Vec<DVec4> {
+        let degree = self.degree();
+        let mut differences = [DVec4::ZERO; MAX_DEGREE + 1];
+        for (j, value) in differences[..=degree].iter_mut().enumerate() {
+            *value = self.homogeneous(segment + j);
+        }
+        let mut values = vec![DVec4::ZERO; order + 1];
+        for (r, value) in values.iter_mut().enumerate().take(degree + 1) {
+            *value = de_boor(degree - r, t, |j| differences[j]);
+            for j in 0..degree - r {
+                differences[j] = differences[j + 1] - differences[j];
+            }
+        }
+        values
+    }
+}
+
+/// Run de Boor's algorithm on one segment of a uniform B-spline.
+fn de_boor(degree: usize, t: f64, vertex: impl Fn(usize) -> DVec4) -> DVec4 {
+    let mut values = [DVec4::ZERO; MAX_DEGREE + 1];
+    for (j, value) in values[..=degree].iter_mut().enumerate() {
+        *value = vertex(j);
+    }
+    for level in (1..=degree).rev() {
+        let width = level as f64;
+        for j in 0..level {
+            // The knots of this step are j + 1 − level and j + 1, as t counts.
+            let rising = t + (level - 1 - j) as f64;
+            let falling = (j + 1) as f64 - t;
+            values[j] = (falling * values[j] + rising * values[j + 1]) / width;
+        }
+    }
+    values[0]
+}
+
+/// Take the derivatives of a projected curve from those of the homogeneous one (Leibniz).
+fn quotient(homogeneous: &[DVec4]) -> Vec<DVec3> {
+    let weight = homogeneous[0].w;
+    let mut values: Vec<DVec3> = Vec::with_capacity(homogeneous.len());
+    for (order, derivative) in homogeneous.iter().enumerate() {
+        let mut value = derivative.truncate();
+        let mut binomial = 1.0;
+        for k in 1..=order {
+            binomial *= (order + 1 - k) as f64 / k as f64;
+            value -= binomial * homogeneous[k].w * values[order - k];
+        }
+        values.push(value / weight);
+    }
+    values
+}

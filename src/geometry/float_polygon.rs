@@ -1,0 +1,270 @@
+//! The float polygon: control vertices on uniform, unclamped knots.
+
+use glam::{DVec3, DVec4};
+
+use super::error::{MAX_DEGREE, PolygonError};
+
+/// The largest magnitude of a coordinate or weight, and the inverse of the smallest weight.
+/// Derivatives, squares and cubes of such numbers still fit into a double.
+pub const MAX_MAGNITUDE: f64 = 1e100;
+
+/// Hold a B-spline curve of degree n by N vertices on uniform knots (paper, section 1:
+/// the S-polygon in float format).
+///
+/// An open curve has L = N − n segments, a periodic one L = N; the parameter u runs over
+/// \[0, L\], one unit a segment, and segment k depends on vertices k … k + n (modulo N when
+/// periodic). Planar curves have z = 0. A value of this type is always valid: see
+/// [`FloatPolygon::new`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct FloatPolygon {
+    degree: usize,
+    vertices: Vec<DVec3>,
+    weights: Option<Vec<f64>>,
+    periodic: bool,
+}
+
+impl FloatPolygon {
+    /// Build a polygon from its degree, vertices, optional weights and whether it is periodic.
+    ///
+    /// # Errors
+    /// [`PolygonError`] if the degree is not 1 … 25, there are fewer than n + 1 vertices, a
+    /// coordinate is not finite (or beyond ±1e100), the numbers of weights and vertices differ,
+    /// or a weight is not a positive number (1e-100 … 1e100).
+    pub fn new(
+        degree: usize,
+        vertices: Vec<DVec3>,
+        weights: Option<Vec<f64>>,
+        periodic: bool,
+    ) -> Result<Self, PolygonError> {
+        check_degree(degree)?;
+        let needed = degree + 1;
+        if vertices.len() < needed {
+            return Err(PolygonError::TooFewVertices {
+                found: vertices.len(),
+                needed,
+                degree,
+                periodic,
+            });
+        }
+        check_vertices(&vertices)?;
+        check_weights(weights.as_deref(), vertices.len())?;
+        Ok(Self {
+            degree,
+            vertices,
+            weights,
+            periodic,
+        })
+    }
+
+    /// Build a polynomial open polygon of a planar curve from (x, y) pairs.
+    ///
+    /// # Errors
+    /// As [`FloatPolygon::new`].
+    pub fn planar(degree: usize, points: &[(f64, f64)]) -> Result<Self, PolygonError> {
+        let vertices = points.iter().map(|&(x, y)| DVec3::new(x, y, 0.0));
+        Self::new(degree, vertices.collect(), None, false)
+    }
+
+    /// The degree n.
+    pub fn degree(&self) -> usize {
+        self.degree
+    }
+
+    /// The N vertices.
+    pub fn vertices(&self) -> &[DVec3] {
+        &self.vertices
+    }
+
+    /// The weights, one a vertex, of a rational curve.
+    pub fn weights(&self) -> Option<&[f64]> {
+        self.weights.as_deref()
+    }
+
+    /// Whether the curve is periodic.
+    pub fn is_periodic(&self) -> bool {
+        self.periodic
+    }
+
+    /// Whether the curve is rational: whether it has weights.
+    pub fn is_rational(&self) -> bool {
+        self.weights.is_some()
+    }
+
+    /// Whether the curve lies in the plane z = 0.
+    pub fn is_planar(&self) -> bool {
+        self.vertices.iter().all(|vertex| vertex.z == 0.0)
+    }
+
+    /// The number of segments L, which is also the end of the parameter's domain \[0, L\].
+    pub fn segments(&self) -> usize {
+        if self.periodic {
+            self.vertices.len()
+        } else {
+            self.vertices.len() - self.degree
+        }
+    }
+
+    /// The vertex that segment and knot counting reach with number `index`: modulo N if periodic.
+    ///
+    /// # Panics
+    /// If the curve is open and has no vertex `index`.
+    pub fn vertex(&self, index: usize) -> DVec3 {
+        self.vertices[self.wrapped(index)]
+    }
+
+    /// The weight that goes with [`FloatPolygon::vertex`]; 1 for a polynomial curve.
+    ///
+    /// # Panics
+    /// As [`FloatPolygon::vertex`].
+    pub fn weight(&self, index: usize) -> f64 {
+        let index = self.wrapped(index);
+        self.weights.as_ref().map_or(1.0, |weights| weights[index])
+    }
+
+    /// The homogeneous vertex (w·x, w·y, w·z, w) with number `index`, modulo N if periodic.
+    ///
+    /// # Panics
+    /// As [`FloatPolygon::vertex`].
+    pub fn homogeneous(&self, index: usize) -> DVec4 {
+        let weight = self.weight(index);
+        (self.vertex(index) * weight).extend(weight)
+    }
+
+    /// Change where some vertices are; everything else stays.
+    ///
+    /// # Errors
+    /// [`PolygonError`] if a number or coordinate cannot be used; nothing is changed then.
+    pub fn move_vertices(
+        &mut self,
+        moves: impl IntoIterator<Item = (usize, DVec3)> + Clone,
+    ) -> Result<(), PolygonError> {
+        for (index, point) in moves.clone() {
+            self.check_index(index)?;
+            check_vertex(index, point)?;
+        }
+        for (index, point) in moves {
+            self.vertices[index] = point;
+        }
+        Ok(())
+    }
+
+    /// Change the weight of one vertex, turning a polynomial curve into a rational one.
+    ///
+    /// # Errors
+    /// [`PolygonError`] if the vertex does not exist or the weight cannot be used.
+    pub fn set_weight(&mut self, index: usize, weight: f64) -> Result<(), PolygonError> {
+        self.check_index(index)?;
+        check_weight(index, weight)?;
+        let count = self.vertices.len();
+        let weights = self.weights.get_or_insert_with(|| vec![1.0; count]);
+        weights[index] = weight;
+        Ok(())
+    }
+
+    /// Write the periodic curve's polygon as an open one: the first n vertices are repeated
+    /// behind the last, so that the open curve runs round once. An open polygon is returned as
+    /// it is.
+    pub fn unrolled(&self) -> Self {
+        let mut open = self.clone();
+        if self.periodic {
+            open.periodic = false;
+            open.vertices
+                .extend_from_slice(&self.vertices[..self.degree]);
+            if let (Some(unrolled), Some(weights)) = (&mut open.weights, &self.weights) {
+                unrolled.extend_from_slice(&weights[..self.degree]);
+            }
+        }
+        open
+    }
+
+    /// Reverse the direction in which the curve runs; the curve itself is the same.
+    pub fn reversed(&self) -> Self {
+        let mut reversed = self.clone();
+        reversed.vertices.reverse();
+        if let Some(weights) = &mut reversed.weights {
+            weights.reverse();
+        }
+        if self.periodic {
+            // The joint u = 0 lies between fixed vertices: keep it where it was.
+            reversed.vertices.rotate_right(self.degree);
+            if let Some(weights) = &mut reversed.weights {
+                weights.rotate_right(self.degree);
+            }
+        }
+        reversed
+    }
+
+    /// The diagonal of the box around the vertices: the size that tolerances are relative to.
+    pub fn size(&self) -> f64 {
+        let (low, high) = self.vertices.iter().fold(
+            (DVec3::INFINITY, DVec3::NEG_INFINITY),
+            |(low, high), vertex| (low.min(*vertex), high.max(*vertex)),
+        );
+        (high - low).length()
+    }
+
+    fn wrapped(&self, index: usize) -> usize {
+        if self.periodic {
+            index % self.vertices.len()
+        } else {
+            index
+        }
+    }
+
+    fn check_index(&self, index: usize) -> Result<(), PolygonError> {
+        let count = self.vertices.len();
+        if index < count {
+            Ok(())
+        } else {
+            Err(PolygonError::NoSuchVertex { index, count })
+        }
+    }
+}
+
+pub(super) fn check_degree(degree: usize) -> Result<(), PolygonError> {
+    if (1..=MAX_DEGREE).contains(&degree) {
+        Ok(())
+    } else {
+        Err(PolygonError::DegreeOutOfRange { degree })
+    }
+}
+
+pub(super) fn check_vertices(vertices: &[DVec3]) -> Result<(), PolygonError> {
+    let mut numbered = vertices.iter().enumerate();
+    numbered.try_for_each(|(index, vertex)| check_vertex(index, *vertex))
+}
+
+fn check_vertex(index: usize, vertex: DVec3) -> Result<(), PolygonError> {
+    for (axis, value) in ['x', 'y', 'z'].into_iter().zip(vertex.to_array()) {
+        // A comparison with NaN is false, so this refuses it too.
+        if !(value.abs() <= MAX_MAGNITUDE) {
+            return Err(PolygonError::BadCoordinate { index, axis, value });
+        }
+    }
+    Ok(())
+}
+
+pub(super) fn check_weights(weights: Option<&[f64]>, vertices: usize) -> Result<(), PolygonError> {
+    let Some(weights) = weights else {
+        return Ok(());
+    };
+    if weights.len() != vertices {
+        return Err(PolygonError::WeightCount {
+            weights: weights.len(),
+            vertices,
+        });
+    }
+    let mut numbered = weights.iter().enumerate();
+    numbered.try_for_each(|(index, weight)| check_weight(index, *weight))
+}
+
+fn check_weight(index: usize, weight: f64) -> Result<(), PolygonError> {
+    if (1.0 / MAX_MAGNITUDE..=MAX_MAGNITUDE).contains(&weight) {
+        Ok(())
+    } else {
+        Err(PolygonError::BadWeight {
+            index,
+            value: weight,
+        })
+    }
+}

@@ -1,0 +1,33 @@
+//! Curves as numbers: polygons, their conversions, evaluation, differential geometry and
+//! corrections. Nothing in here knows of documents, files or windows, and nothing panics on
+//! finite input.
+
+mod arc_length;
+mod banded;
+pub mod basis;
+mod bezier_polygon;
+pub mod circle_comparison;
+mod clamped_polygon;
+mod end;
+pub mod end_correction;
+mod error;
+mod evaluation;
+mod float_polygon;
+mod jet;
+pub mod joint_correction;
+mod knots;
+mod nearest;
+pub mod polygon_figures;
+mod polygon_kind;
+mod sampler;
+
+pub use bezier_polygon::{BezierPolygon, segment_bezier};
+pub use clamped_polygon::ClampedPolygon;
+pub use end::{End, rotation_between};
+pub use error::{MAX_DEGREE, PolygonError};
+pub use float_polygon::{FloatPolygon, MAX_MAGNITUDE};
+pub use jet::Jet;
+pub use nearest::Nearest;
+pub use polygon_figures::Range;
+pub use polygon_kind::PolygonKind;
+pub use sampler::{BATCH_ORDER, Batch, Sampler};

@@ -1,0 +1,112 @@
+//! The point of a curve nearest to a given point.
+
+use glam::DVec3;
+
+use super::float_polygon::FloatPolygon;
+use super::sampler::{Batch, Sampler};
+
+/// Samples a segment from which the search for the nearest point starts.
+const STARTS: usize = 16;
+
+/// Newton steps a start: far more than quadratic convergence needs.
+const STEPS: usize = 24;
+
+/// Hold the point of a curve nearest to another point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nearest {
+    /// Its parameter, in \[0, L\].
+    pub u: f64,
+    /// The point C(u).
+    pub point: DVec3,
+    /// Its distance from the point asked for.
+    pub distance: f64,
+}
+
+impl FloatPolygon {
+    /// Find the point of the curve nearest to `target`.
+    ///
+    /// Segments whose polygon's box is farther away than the best point so far are passed over;
+    /// the others are sampled, and the best sample is refined by Newton's method on
+    /// (C − target) · C′ = 0, kept within its two neighbours. Where two points are equally near
+    /// either may be found.
+    pub fn nearest(&self, target: DVec3) -> Nearest {
+        let sampler = Sampler::even(self.degree(), STARTS);
+        let mut batch = Batch::default();
+        let mut order: Vec<(f64, usize)> = (0..self.segments())
+            .map(|segment| (self.box_distance(segment, target), segment))
+            .collect();
+        order.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut best = self.candidate(0, 0.0, target);
+        for (distance, segment) in order {
+            if distance >= best.distance {
+                break;
+            }
+            sampler.segment(self, segment, 0, &mut batch);
+            let samples: Vec<f64> = (0..batch.len())
+                .map(|index| batch.jet(index).point.distance(target))
+                .collect();
+            for index in local_minima(&samples) {
+                let found = self.refine(segment, index as f64 / STARTS as f64, target);
+                if found.distance < best.distance {
+                    best = found;
+                }
+            }
+        }
+        best
+    }
+
+    fn box_distance(&self, segment: usize, target: DVec3) -> f64 {
+        let vertices = (segment..=segment + self.degree()).map(|index| self.vertex(index));
+        let (low, high) = vertices.fold(
+            (DVec3::INFINITY, DVec3::NEG_INFINITY),
+            |(low, high), vertex| (low.min(vertex), high.max(vertex)),
+        );
+        target.distance(target.clamp(low, high))
+    }
+
+    fn refine(&self, segment: usize, start: f64, target: DVec3) -> Nearest {
+        let step = 1.0 / STARTS as f64;
+        let (low, high) = ((start - step).max(0.0), (start + step).min(1.0));
+        let mut t = start;
+        for _ in 0..STEPS {
+            let jet = self.segment_jet(segment, t);
+            let away = jet.point - target;
+            let slope = jet.first.length_squared() + away.dot(jet.second);
+            let next = if slope > 0.0 {
+                t - away.dot(jet.first) / slope
+            } else {
+                // Here the distance is not convex: walk downhill by a quarter of the bracket.
+                t - 0.25 * step * away.dot(jet.first).signum()
+            };
+            let next = next.clamp(low, high);
+            if (next - t).abs() <= f64::EPSILON {
+                break;
+            }
+            t = next;
+        }
+        let refined = self.candidate(segment, t, target);
+        let unrefined = self.candidate(segment, start, target);
+        if refined.distance <= unrefined.distance {
+            refined
+        } else {
+            unrefined
+        }
+    }
+
+    fn candidate(&self, segment: usize, t: f64, target: DVec3) -> Nearest {
+        let point = self.segment_derivatives(segment, t, 0)[0];
+        Nearest {
+            u: segment as f64 + t,
+            point,
+            distance: point.distance(target),
+        }
+    }
+}
+
+fn local_minima(samples: &[f64]) -> impl Iterator<Item = usize> + '_ {
+    (0..samples.len()).filter(|&index| {
+        let before = index.checked_sub(1).map_or(f64::INFINITY, |i| samples[i]);
+        let after = samples.get(index + 1).copied().unwrap_or(f64::INFINITY);
+        samples[index] <= before && samples[index] <= after
+    })
+}

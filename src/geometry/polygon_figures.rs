@@ -1,0 +1,97 @@
+//! Figures of a polygon itself: legs, turning angles, discrete curvature.
+
+use glam::{DVec2, DVec3};
+
+use super::float_polygon::FloatPolygon;
+
+/// The smallest and the largest of some values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    /// The smallest.
+    pub low: f64,
+    /// The largest.
+    pub high: f64,
+}
+
+impl Range {
+    /// Find the smallest and largest of `values`, or `None` if there are none that compare.
+    pub fn of(values: impl IntoIterator<Item = f64>) -> Option<Self> {
+        let numbers = values.into_iter().filter(|value| !value.is_nan());
+        numbers.fold(None, |range: Option<Self>, value| {
+            Some(range.map_or(Self::at(value), |range| range.with(value)))
+        })
+    }
+
+    /// The range that holds one value.
+    pub fn at(value: f64) -> Self {
+        Self {
+            low: value,
+            high: value,
+        }
+    }
+
+    /// The range widened to hold `value` too.
+    pub fn with(self, value: f64) -> Self {
+        Self {
+            low: self.low.min(value),
+            high: self.high.max(value),
+        }
+    }
+
+    /// The range that holds both.
+    pub fn union(self, other: Self) -> Self {
+        Self {
+            low: self.low.min(other.low),
+            high: self.high.max(other.high),
+        }
+    }
+}
+
+/// Measure the legs of a polygon, |P_{i+1} − P_i|: N − 1 lengths.
+pub fn leg_lengths(vertices: &[DVec3]) -> Vec<f64> {
+    let legs = vertices.windows(2);
+    legs.map(|leg| leg[0].distance(leg[1])).collect()
+}
+
+/// Measure the turning angles of a polygon at its inner vertices, in radians: N − 2 angles.
+///
+/// In the plane z = 0 left turns are positive, in space all angles are. A leg of length 0 turns
+/// by 0.
+pub fn turning_angles(vertices: &[DVec3]) -> Vec<f64> {
+    let corners = vertices.windows(3);
+    corners.map(|v| turning_angle(v[0], v[1], v[2])).collect()
+}
+
+/// Measure the angle by which a polygon turns at `corner`, as [`turning_angles`] does.
+pub fn turning_angle(before: DVec3, corner: DVec3, after: DVec3) -> f64 {
+    let (incoming, outgoing) = (corner - before, after - corner);
+    if before.z == 0.0 && corner.z == 0.0 && after.z == 0.0 {
+        let (a, b): (DVec2, DVec2) = (incoming.truncate(), outgoing.truncate());
+        a.perp_dot(b).atan2(a.dot(b))
+    } else {
+        let sine = incoming.cross(outgoing).length();
+        sine.atan2(incoming.dot(outgoing))
+    }
+}
+
+/// Compute the discrete curvature of a polygon at `corner` (paper, section 3): D₁ × D₂ / |D₁|³
+/// with the central differences D₁ = (after − before)/2 and D₂ = before − 2 corner + after.
+/// Signed in the plane z = 0; not a number where `before` and `after` coincide.
+pub fn discrete_curvature(before: DVec3, corner: DVec3, after: DVec3) -> f64 {
+    let first = 0.5 * (after - before);
+    let second = before - 2.0 * corner + after;
+    let cubed = first.length().powi(3);
+    if before.z == 0.0 && corner.z == 0.0 && after.z == 0.0 {
+        first.truncate().perp_dot(second.truncate()) / cubed
+    } else {
+        first.cross(second).length() / cubed
+    }
+}
+
+impl FloatPolygon {
+    /// Compute the parameter that belongs to vertex i, its Greville abscissa i − (n − 1)/2: the
+    /// mean of its knots. It may lie outside \[0, L\].
+    pub fn greville(&self, index: usize) -> f64 {
+        index as f64 - 0.5 * (self.degree() as f64 - 1.0)
+    }
+}
