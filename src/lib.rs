@@ -4,5 +4,6 @@
 //! `geometry ← document ← { analysis, io } ← editor ← ui`, with `cli` beside the editor.
 #![forbid(unsafe_code)]
 
+pub mod analysis;
 pub mod document;
 pub mod geometry;

@@ -1,0 +1,533 @@
+//! All that is shown of one curve, kept up to date segment by segment.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::outline::{Bounds, GAP, Outline, ViewBox};
+use super::plot_series::PlotBlock;
+use super::sample::{Sample, SegmentSampler};
+use super::vertex_chain::VertexChain;
+use crate::document::Curve;
+use crate::geometry::{ClampedPolygon, FloatPolygon, Range as Span};
+
+/// Segments in one block.
+const BLOCK: usize = 32;
+
+/// Samples that a curve is given in all, shared evenly by its segments …
+const SAMPLES: usize = 4096;
+
+/// … but never fewer or more than these a segment.
+const SAMPLES_PER_SEGMENT: Range<usize> = 4..256;
+
+/// A segment is sampled anew when its samples are farther apart than this, in screen points.
+const COARSE: f64 = 8.0;
+
+/// Samples of a segment that is sampled anew for a close view.
+const FINE: usize = 256;
+
+/// Hold the samples of a curve, its closed S-polygon, and what is drawn of both.
+#[derive(Debug)]
+pub struct CurveAnalysis {
+    curve: Arc<Curve>,
+    planar: bool,
+    /// Steps that each segment is sampled with; it has one sample more.
+    steps: usize,
+    samples: Vec<Sample>,
+    sampler: SegmentSampler,
+    fine: Option<SegmentSampler>,
+    blocks: Vec<Block>,
+    float: VertexChain,
+    clamped: VertexChain,
+    redone: usize,
+}
+
+/// What is derived from the segments of one block.
+#[derive(Debug, Default)]
+pub(super) struct Block {
+    curve: Outline<i32>,
+    evolute: Outline<i32>,
+    comb: Outline<(i32, u64)>,
+    teeth: Teeth,
+    summary: Option<BlockSummary>,
+    pub(super) plot: PlotBlock,
+}
+
+/// The teeth of one block's comb: where they stand, and their tips.
+#[derive(Debug, Default)]
+struct Teeth {
+    key: Option<(i32, u64, usize)>,
+    teeth: Vec<[DVec2; 2]>,
+    bounds: Option<Bounds>,
+}
+
+/// Figures of one block's samples.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BlockSummary {
+    pub(super) length: f64,
+    pub(super) curvature: Option<Span>,
+    pub(super) bounds: Bounds,
+    /// The longest step between two samples.
+    longest: f64,
+}
+
+/// How a curvature comb is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CombSettings {
+    /// The length of a tooth for curvature 1, in units of the model squared.
+    pub scale: f64,
+    /// Teeth a segment.
+    pub density: usize,
+}
+
+impl CurveAnalysis {
+    /// Analyse a curve.
+    pub fn new(curve: Arc<Curve>) -> Self {
+        let polygon = &curve.polygon;
+        let share = (SAMPLES / polygon.segments()).next_power_of_two();
+        let steps = share.clamp(SAMPLES_PER_SEGMENT.start, SAMPLES_PER_SEGMENT.end);
+        let blank = Sample::of(&Default::default(), true);
+        let mut analysis = Self {
+            planar: polygon.is_planar(),
+            steps,
+            samples: vec![blank; (steps + 1) * polygon.segments()],
+            sampler: SegmentSampler::new(polygon.degree(), steps),
+            fine: None,
+            blocks: Vec::new(),
+            float: VertexChain::default(),
+            clamped: VertexChain::default(),
+            redone: 0,
+            curve,
+        };
+        let blocks = analysis.curve.polygon.segments().div_ceil(BLOCK);
+        analysis.blocks.resize_with(blocks, Block::default);
+        analysis.sample(0..analysis.curve.polygon.segments());
+        let polygon = &analysis.curve.polygon;
+        analysis
+            .float
+            .update(polygon.vertices(), polygon.is_periodic());
+        analysis
+            .clamped
+            .update(ClampedPolygon::from_float(polygon).vertices(), false);
+        analysis
+    }
+
+    /// Bring the analysis up to date with the curve. Only segments that depend on a vertex that
+    /// moved are sampled again.
+    pub fn update(&mut self, curve: &Arc<Curve>) {
+        if Arc::ptr_eq(&self.curve, curve) {
+            return;
+        }
+        let (old, new) = (&self.curve.polygon, &curve.polygon);
+        let alike = old.degree() == new.degree()
+            && old.is_periodic() == new.is_periodic()
+            && old.weights() == new.weights();
+        let changed = alike
+            .then(|| self.float.update(new.vertices(), new.is_periodic()))
+            .flatten();
+        let Some(changed) = changed else {
+            *self = Self::new(curve.clone());
+            return;
+        };
+        self.curve = curve.clone();
+        self.redone = 0;
+        if changed.is_empty() {
+            return;
+        }
+        let new = &self.curve.polygon;
+        let moved = &new.vertices()[changed.clone()];
+        let planar = if self.planar {
+            moved.iter().all(|vertex| vertex.z == 0.0)
+        } else {
+            new.is_planar()
+        };
+        if planar != self.planar {
+            *self = Self::new(curve.clone());
+            return;
+        }
+        for range in dependent_segments(new, &changed) {
+            self.sample(range);
+        }
+        self.update_clamped(changed);
+    }
+
+    /// The curve as it was last analysed.
+    pub fn curve(&self) -> &Arc<Curve> {
+        &self.curve
+    }
+
+    /// Whether the curve is planar, and its curvature therefore signed.
+    pub fn is_planar(&self) -> bool {
+        self.planar
+    }
+
+    /// The float S-polygon as it is drawn.
+    pub fn float(&mut self) -> &mut VertexChain {
+        &mut self.float
+    }
+
+    /// The closed S-polygon as it is drawn; of a periodic curve, opened at u = 0.
+    pub fn clamped(&mut self) -> &mut VertexChain {
+        &mut self.clamped
+    }
+
+    /// The number of segments that the last update sampled.
+    pub fn segments_redone(&self) -> usize {
+        self.redone
+    }
+
+    /// The samples of one segment, its ends included, at even parameters.
+    pub fn segment_samples(&self, segment: usize) -> &[Sample] {
+        let first = segment * (self.steps + 1);
+        self.samples
+            .get(first..first + self.steps + 1)
+            .unwrap_or_default()
+    }
+
+    /// Measure the arc length from the samples: to plotting accuracy, not the exact figure.
+    pub fn length(&mut self) -> f64 {
+        (0..self.blocks.len())
+            .map(|index| self.summary(index).length)
+            .sum()
+    }
+
+    /// Measure the arc length from the curve's start to u, to plotting accuracy.
+    pub fn length_at(&mut self, u: f64) -> f64 {
+        let (segment, t) = self.curve.polygon.locate(u);
+        let block = segment / BLOCK;
+        let before: f64 = (0..block).map(|index| self.summary(index).length).sum();
+        before + self.length_between(block * BLOCK, segment, t)
+    }
+
+    /// Find the parameter at an arc length from the curve's start; the inverse of
+    /// [`CurveAnalysis::length_at`].
+    pub fn parameter_at_length(&mut self, length: f64) -> f64 {
+        let mut left = length.max(0.0);
+        let mut block = 0;
+        while block + 1 < self.blocks.len() && self.summary(block).length < left {
+            left -= self.summary(block).length;
+            block += 1;
+        }
+        let last = self.curve.polygon.segments() - 1;
+        let mut segment = block * BLOCK;
+        while segment < last && self.segment_length(segment) < left {
+            left -= self.segment_length(segment);
+            segment += 1;
+        }
+        let samples = self.segment_samples(segment);
+        let after = samples.partition_point(|sample| sample.arc_length < left);
+        let (Some(b), Some(a)) = (samples.get(after), after.checked_sub(1)) else {
+            return (segment + usize::from(after > 0)) as f64;
+        };
+        let step = b.arc_length - samples[a].arc_length;
+        let share = if step > 0.0 {
+            (left - samples[a].arc_length) / step
+        } else {
+            0.0
+        };
+        segment as f64 + (a as f64 + share) / self.steps as f64
+    }
+
+    /// The smallest and largest sampled curvature.
+    pub fn curvature(&mut self) -> Option<Span> {
+        let blocks = 0..self.blocks.len();
+        let spans = blocks.filter_map(|index| self.summary(index).curvature);
+        spans.reduce(Span::union)
+    }
+
+    /// The box around the curve, seen from above.
+    pub fn bounds(&mut self) -> Bounds {
+        let mut all = Bounds::EMPTY;
+        for index in 0..self.blocks.len() {
+            all.unite(&self.summary(index).bounds);
+        }
+        all
+    }
+
+    /// Append what is visible of the curve, thinned to the view's pixels. Gaps are
+    /// [`GAP`] points.
+    pub fn append_curve(&mut self, view: &ViewBox, out: &mut Vec<DVec2>) {
+        let place = |sample: &Sample| sample.point.truncate();
+        self.append(view, out, view.level(), |block| &mut block.curve, place);
+    }
+
+    /// Append what is visible of the evolute; it breaks where it passes through infinity.
+    pub fn append_evolute(&mut self, view: &ViewBox, out: &mut Vec<DVec2>) {
+        let place = |sample: &Sample| finite(sample.centre().truncate());
+        self.append(view, out, view.level(), |block| &mut block.evolute, place);
+    }
+
+    /// Append what is visible of the comb's envelope.
+    pub fn append_comb(&mut self, view: &ViewBox, comb: &CombSettings, out: &mut Vec<DVec2>) {
+        let scale = comb.scale;
+        let place = move |sample: &Sample| finite(sample.comb_tip(scale).truncate());
+        let key = (view.level(), scale.to_bits());
+        self.append(view, out, key, |block| &mut block.comb, place);
+    }
+
+    /// Append the comb's visible teeth, each from its foot on the curve to its tip; where they
+    /// would stand closer than three screen points they are thinned out.
+    pub fn append_teeth(&mut self, view: &ViewBox, comb: &CombSettings, out: &mut Vec<[DVec2; 2]>) {
+        let level = view.level();
+        let spacing = 3.0 * 2f64.powi(level + 1);
+        let stride = (self.steps / comb.density.clamp(1, self.steps)).max(1);
+        for index in 0..self.blocks.len() {
+            let range = self.block_segments(index);
+            let (steps, samples) = (self.steps, &self.samples);
+            let teeth = &mut self.blocks[index].teeth;
+            let key = (level, comb.scale.to_bits(), stride);
+            teeth.refresh(key, spacing, || {
+                range.flat_map(move |segment| {
+                    let own = &samples[segment * (steps + 1)..(segment + 1) * (steps + 1)];
+                    own.iter().step_by(stride)
+                })
+            });
+            if teeth.bounds.is_some_and(|bounds| bounds.meets(view)) {
+                out.extend_from_slice(&teeth.teeth);
+            }
+        }
+    }
+
+    pub(super) fn blocks(&self) -> usize {
+        self.blocks.len()
+    }
+
+    pub(super) fn block_segments(&self, index: usize) -> Range<usize> {
+        index * BLOCK..((index + 1) * BLOCK).min(self.curve.polygon.segments())
+    }
+
+    pub(super) fn plot_block(&mut self, index: usize) -> &mut PlotBlock {
+        &mut self.blocks[index].plot
+    }
+
+    pub(super) fn summary(&mut self, index: usize) -> BlockSummary {
+        if let Some(summary) = self.blocks[index].summary {
+            return summary;
+        }
+        let range = self.block_segments(index);
+        let samples = &self.samples[range.start * (self.steps + 1)..range.end * (self.steps + 1)];
+        let mut bounds = Bounds::EMPTY;
+        let mut longest: f64 = 0.0;
+        for pair in samples.windows(2) {
+            longest = longest.max(pair[0].point.distance_squared(pair[1].point));
+        }
+        for sample in samples {
+            bounds.add(sample.point.truncate());
+        }
+        let summary = BlockSummary {
+            length: range.map(|segment| self.segment_length(segment)).sum(),
+            curvature: Span::of(samples.iter().map(|sample| sample.curvature)),
+            bounds,
+            longest: longest.sqrt(),
+        };
+        self.blocks[index].summary = Some(summary);
+        summary
+    }
+
+    fn sample(&mut self, segments: Range<usize>) {
+        let size = self.steps + 1;
+        self.redone += segments.len();
+        for segment in segments {
+            let samples = &mut self.samples[segment * size..(segment + 1) * size];
+            self.sampler
+                .fill(&self.curve.polygon, segment, self.planar, samples);
+            self.blocks[segment / BLOCK] = Block::default();
+        }
+    }
+
+    /// Carry moved vertices over to the closed polygon: inner vertices are the same, and the
+    /// n − 1 at either end are converted anew if they may have moved.
+    fn update_clamped(&mut self, changed: Range<usize>) {
+        let polygon = &self.curve.polygon;
+        let (count, degree) = (polygon.vertices().len(), polygon.degree());
+        let simple = !polygon.is_periodic() && !polygon.is_rational() && count > 4 * degree;
+        if !simple {
+            let clamped = ClampedPolygon::from_float(polygon);
+            self.clamped.update(clamped.vertices(), false);
+            return;
+        }
+        let near_end = changed.start < degree || changed.end > count - degree;
+        let inner = changed.start.max(degree)..changed.end.min(count - degree);
+        if !inner.is_empty() {
+            self.clamped
+                .replace(inner.start, &polygon.vertices()[inner]);
+        }
+        if near_end {
+            let ends = [0..2 * degree, count - 2 * degree..count];
+            for (range, keep_first) in ends.into_iter().zip([true, false]) {
+                let vertices = polygon.vertices()[range.clone()].to_vec();
+                let Ok(part) = FloatPolygon::new(degree, vertices, None, false) else {
+                    continue;
+                };
+                let part = ClampedPolygon::from_float(&part);
+                let (first, own) = if keep_first {
+                    (0, &part.vertices()[..degree])
+                } else {
+                    (count - degree, &part.vertices()[degree..])
+                };
+                self.clamped.replace(first, own);
+            }
+        }
+    }
+
+    /// Append one layer that is a chain of points made of the samples.
+    fn append<Key: PartialEq + Copy>(
+        &mut self,
+        view: &ViewBox,
+        out: &mut Vec<DVec2>,
+        key: Key,
+        layer: impl Fn(&mut Block) -> &mut Outline<Key>,
+        place: impl Fn(&Sample) -> DVec2 + Copy,
+    ) {
+        let spacing = 2f64.powi(view.level());
+        for index in 0..self.blocks.len() {
+            let summary = self.summary(index);
+            if summary.longest > COARSE * view.pixel {
+                self.append_fine(index, view, out, place);
+                continue;
+            }
+            let range = self.block_segments(index);
+            let size = self.steps + 1;
+            let samples = &self.samples[range.start * size..range.end * size];
+            let outline = layer(&mut self.blocks[index]);
+            outline.refresh(key, spacing, || chain(samples, place));
+            outline.append(view, out);
+        }
+    }
+
+    /// Append a block whose samples are too coarse for the view: segments that the view touches
+    /// are sampled anew.
+    fn append_fine(
+        &mut self,
+        index: usize,
+        view: &ViewBox,
+        out: &mut Vec<DVec2>,
+        place: impl Fn(&Sample) -> DVec2 + Copy,
+    ) {
+        let degree = self.curve.polygon.degree();
+        let size = self.steps + 1;
+        let mut fine = vec![self.samples[0]; FINE + 1];
+        for segment in self.block_segments(index) {
+            let samples = &self.samples[segment * size..(segment + 1) * size];
+            let mut bounds = Bounds::EMPTY;
+            chain(samples, place).for_each(|point| bounds.add(point));
+            let reach = if bounds.is_empty() {
+                0.0
+            } else {
+                (bounds.high - bounds.low).max_element()
+            };
+            let visible = bounds.meets(&view.grown(0.25 * reach));
+            if visible && self.steps < FINE {
+                let sampler = self
+                    .fine
+                    .get_or_insert_with(|| SegmentSampler::new(degree, FINE));
+                sampler.fill(&self.curve.polygon, segment, self.planar, &mut fine);
+                out.extend(chain(&fine, place));
+            } else {
+                out.extend(chain(samples, place));
+            }
+        }
+    }
+
+    /// Measure from the start of segment `first` to the local parameter t of another.
+    pub(super) fn length_between(&self, first: usize, segment: usize, t: f64) -> f64 {
+        let whole: f64 = (first..segment).map(|k| self.segment_length(k)).sum();
+        whole + self.length_within(segment, t)
+    }
+
+    fn segment_length(&self, segment: usize) -> f64 {
+        self.segment_samples(segment)
+            .last()
+            .map_or(0.0, |sample| sample.arc_length)
+    }
+
+    fn length_within(&self, segment: usize, t: f64) -> f64 {
+        let samples = self.segment_samples(segment);
+        let at = (t * self.steps as f64).clamp(0.0, self.steps as f64);
+        let before = (at.floor() as usize).min(self.steps - 1);
+        match samples.get(before..before + 2) {
+            Some([a, b]) => a.arc_length + (at - before as f64) * (b.arc_length - a.arc_length),
+            _ => 0.0,
+        }
+    }
+}
+
+impl Teeth {
+    fn refresh<'a, I: Iterator<Item = &'a Sample>>(
+        &mut self,
+        key: (i32, u64, usize),
+        spacing: f64,
+        samples: impl FnOnce() -> I,
+    ) {
+        if self.key == Some(key) {
+            return;
+        }
+        self.key = Some(key);
+        self.teeth.clear();
+        let scale = f64::from_bits(key.1);
+        let mut bounds = Bounds::EMPTY;
+        let mut kept: Option<DVec2> = None;
+        for sample in samples() {
+            let (foot, tip) = (sample.point.truncate(), sample.comb_tip(scale).truncate());
+            if !tip.is_finite() || kept.is_some_and(|kept| kept.distance(foot) < spacing) {
+                continue;
+            }
+            kept = Some(foot);
+            bounds.add(foot);
+            bounds.add(tip);
+            self.teeth.push([foot, tip]);
+        }
+        self.bounds = Some(bounds);
+    }
+}
+
+/// Turn samples into a chain of points with a gap wherever the curvature changes sign, if the
+/// points follow the curvature through infinity there.
+fn chain(
+    samples: &[Sample],
+    place: impl Fn(&Sample) -> DVec2 + Copy,
+) -> impl Iterator<Item = DVec2> {
+    let mut before: Option<&Sample> = None;
+    samples.iter().flat_map(move |sample| {
+        let point = place(sample);
+        let gap = before.is_some_and(|before| {
+            let turned =
+                before.curvature * sample.curvature < 0.0 || before.normal.dot(sample.normal) < 0.0;
+            turned && leaps(place(before), point, before, sample)
+        });
+        before = Some(sample);
+        gap.then_some(GAP).into_iter().chain([point])
+    })
+}
+
+/// Whether a layer's points leap between two samples: it moves farther than the curve itself by
+/// an order of magnitude.
+fn leaps(from: DVec2, to: DVec2, a: &Sample, b: &Sample) -> bool {
+    from.distance_squared(to) > 400.0 * a.point.distance_squared(b.point)
+}
+
+/// Turn a point that is not finite into a gap.
+fn finite(point: DVec2) -> DVec2 {
+    if point.is_finite() { point } else { GAP }
+}
+
+/// List the segments that depend on the vertices of a range: one range, or two where a periodic
+/// curve's segments wrap around.
+fn dependent_segments(polygon: &FloatPolygon, changed: &Range<usize>) -> Vec<Range<usize>> {
+    let (degree, segments) = (polygon.degree(), polygon.segments());
+    if !polygon.is_periodic() {
+        let first = changed.start.saturating_sub(degree);
+        return vec![first..changed.end.min(segments)];
+    }
+    if changed.len() + degree >= segments {
+        return vec![0..segments];
+    }
+    match changed.start.checked_sub(degree) {
+        Some(first) => vec![first..changed.end],
+        None => {
+            let wrapped = changed.start + segments - degree;
+            vec![0..changed.end, wrapped..segments]
+        }
+    }
+}
