@@ -6,4 +6,6 @@
 
 pub mod analysis;
 pub mod document;
+pub mod editor;
 pub mod geometry;
+pub mod io;

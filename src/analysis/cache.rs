@@ -28,4 +28,9 @@ impl AnalysisCache {
     pub fn get(&mut self, id: CurveId) -> Option<&mut CurveAnalysis> {
         self.analyses.get_mut(&id)
     }
+
+    /// The analysis of one curve, to look at what is there.
+    pub fn peek(&self, id: CurveId) -> Option<&CurveAnalysis> {
+        self.analyses.get(&id)
+    }
 }

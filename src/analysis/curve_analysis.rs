@@ -50,7 +50,7 @@ pub(super) struct Block {
     evolute: Outline<i32>,
     comb: Outline<(i32, u64)>,
     teeth: Teeth,
-    summary: Option<BlockSummary>,
+    summary: BlockSummary,
     pub(super) plot: PlotBlock,
 }
 
@@ -63,7 +63,7 @@ struct Teeth {
 }
 
 /// Figures of one block's samples.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct BlockSummary {
     pub(super) length: f64,
     pub(super) curvature: Option<Span>,
@@ -186,14 +186,14 @@ impl CurveAnalysis {
     }
 
     /// Measure the arc length from the samples: to plotting accuracy, not the exact figure.
-    pub fn length(&mut self) -> f64 {
+    pub fn length(&self) -> f64 {
         (0..self.blocks.len())
             .map(|index| self.summary(index).length)
             .sum()
     }
 
     /// Measure the arc length from the curve's start to u, to plotting accuracy.
-    pub fn length_at(&mut self, u: f64) -> f64 {
+    pub fn length_at(&self, u: f64) -> f64 {
         let (segment, t) = self.curve.polygon.locate(u);
         let block = segment / BLOCK;
         let before: f64 = (0..block).map(|index| self.summary(index).length).sum();
@@ -202,7 +202,7 @@ impl CurveAnalysis {
 
     /// Find the parameter at an arc length from the curve's start; the inverse of
     /// [`CurveAnalysis::length_at`].
-    pub fn parameter_at_length(&mut self, length: f64) -> f64 {
+    pub fn parameter_at_length(&self, length: f64) -> f64 {
         let mut left = length.max(0.0);
         let mut block = 0;
         while block + 1 < self.blocks.len() && self.summary(block).length < left {
@@ -230,19 +230,75 @@ impl CurveAnalysis {
     }
 
     /// The smallest and largest sampled curvature.
-    pub fn curvature(&mut self) -> Option<Span> {
+    pub fn curvature(&self) -> Option<Span> {
         let blocks = 0..self.blocks.len();
         let spans = blocks.filter_map(|index| self.summary(index).curvature);
         spans.reduce(Span::union)
     }
 
     /// The box around the curve, seen from above.
-    pub fn bounds(&mut self) -> Bounds {
+    pub fn bounds(&self) -> Bounds {
         let mut all = Bounds::EMPTY;
         for index in 0..self.blocks.len() {
             all.unite(&self.summary(index).bounds);
         }
         all
+    }
+
+    /// Find the point of the curve that is nearest to `target`, seen from above, if it is at most
+    /// `reach` away: its parameter, place and distance. Sampled chords lead to it and Newton's
+    /// method refines it.
+    pub fn nearest(&self, target: DVec2, reach: f64) -> Option<(f64, DVec2, f64)> {
+        let size = self.steps + 1;
+        let mut best: Option<(f64, f64)> = None;
+        for index in 0..self.blocks.len() {
+            let BlockSummary {
+                bounds, longest, ..
+            } = *self.summary(index);
+            if !(target.distance(target.clamp(bounds.low, bounds.high)) <= reach + longest) {
+                continue;
+            }
+            for segment in self.block_segments(index) {
+                let samples = &self.samples[segment * size..(segment + 1) * size];
+                for (step, pair) in samples.windows(2).enumerate() {
+                    let (from, to) = (pair[0].point.truncate(), pair[1].point.truncate());
+                    let chord = to - from;
+                    let share =
+                        ((target - from).dot(chord) / chord.length_squared()).clamp(0.0, 1.0);
+                    let share = if share.is_nan() { 0.0 } else { share };
+                    let distance = (from + share * chord).distance(target);
+                    if best.is_none_or(|(nearest, _)| distance < nearest) {
+                        let t = (step as f64 + share) / self.steps as f64;
+                        best = Some((distance, segment as f64 + t));
+                    }
+                }
+            }
+        }
+        let (_, u) = best?;
+        let u = self.refined(u, target);
+        let point = self.curve.polygon.point(u).truncate();
+        let distance = point.distance(target);
+        (distance <= reach).then_some((u, point, distance))
+    }
+
+    /// Refine the parameter of the point nearest to `target`, seen from above.
+    fn refined(&self, start: f64, target: DVec2) -> f64 {
+        let end = self.curve.polygon.segments() as f64;
+        let step = 1.0 / self.steps as f64;
+        let mut u = start;
+        for _ in 0..8 {
+            let jet = self.curve.polygon.jet(u);
+            let away = jet.point.truncate() - target;
+            let (first, second) = (jet.first.truncate(), jet.second.truncate());
+            let slope = first.length_squared() + away.dot(second);
+            if !(slope > 0.0) {
+                break;
+            }
+            u = (u - away.dot(first) / slope)
+                .clamp(start - step, start + step)
+                .clamp(0.0, end);
+        }
+        u
     }
 
     /// Append what is visible of the curve, thinned to the view's pixels. Gaps are
@@ -301,10 +357,11 @@ impl CurveAnalysis {
         &mut self.blocks[index].plot
     }
 
-    pub(super) fn summary(&mut self, index: usize) -> BlockSummary {
-        if let Some(summary) = self.blocks[index].summary {
-            return summary;
-        }
+    pub(super) fn summary(&self, index: usize) -> &BlockSummary {
+        &self.blocks[index].summary
+    }
+
+    fn summarise(&mut self, index: usize) {
         let range = self.block_segments(index);
         let samples = &self.samples[range.start * (self.steps + 1)..range.end * (self.steps + 1)];
         let mut bounds = Bounds::EMPTY;
@@ -315,24 +372,26 @@ impl CurveAnalysis {
         for sample in samples {
             bounds.add(sample.point.truncate());
         }
-        let summary = BlockSummary {
+        self.blocks[index].summary = BlockSummary {
             length: range.map(|segment| self.segment_length(segment)).sum(),
             curvature: Span::of(samples.iter().map(|sample| sample.curvature)),
             bounds,
             longest: longest.sqrt(),
         };
-        self.blocks[index].summary = Some(summary);
-        summary
     }
 
     fn sample(&mut self, segments: Range<usize>) {
         let size = self.steps + 1;
         self.redone += segments.len();
+        let blocks = segments.start / BLOCK..segments.end.div_ceil(BLOCK);
         for segment in segments {
             let samples = &mut self.samples[segment * size..(segment + 1) * size];
             self.sampler
                 .fill(&self.curve.polygon, segment, self.planar, samples);
-            self.blocks[segment / BLOCK] = Block::default();
+        }
+        for block in blocks {
+            self.blocks[block] = Block::default();
+            self.summarise(block);
         }
     }
 

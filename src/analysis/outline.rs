@@ -40,6 +40,12 @@ pub struct Bounds {
     pub high: DVec2,
 }
 
+impl Default for Bounds {
+    fn default() -> Self {
+        Self::EMPTY
+    }
+}
+
 impl Bounds {
     /// The box around nothing.
     pub const EMPTY: Self = Self {
@@ -94,11 +100,6 @@ impl<Key> Default for Outline<Key> {
 }
 
 impl<Key: PartialEq> Outline<Key> {
-    /// Forget the points: their source has changed.
-    pub(super) fn invalidate(&mut self) {
-        self.key = None;
-    }
-
     /// Bring the points up to date with `source` if `key` has changed since.
     pub(super) fn refresh<I: Iterator<Item = DVec2>>(
         &mut self,

@@ -118,7 +118,7 @@ struct LengthCursor {
 }
 
 impl LengthCursor {
-    fn length_at(&mut self, analysis: &mut CurveAnalysis, u: f64) -> f64 {
+    fn length_at(&mut self, analysis: &CurveAnalysis, u: f64) -> f64 {
         let (segment, t) = analysis.curve().polygon.locate(u);
         if segment < analysis.block_segments(self.block).start {
             *self = Self::default();

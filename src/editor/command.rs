@@ -99,7 +99,14 @@ impl Command {
     /// List every command there is, in the order in which the palette offers them; `examples`
     /// is the number of built-in examples.
     pub fn all(examples: usize) -> Vec<Self> {
-        let mut all = vec![Self::New, Self::Open, Self::Import, Self::Save, Self::SaveAs, Self::ExportDxf];
+        let mut all = vec![
+            Self::New,
+            Self::Open,
+            Self::Import,
+            Self::Save,
+            Self::SaveAs,
+            Self::ExportDxf,
+        ];
         all.extend(PolygonKind::ALL.map(Self::ExportCsv));
         all.extend((0..examples).map(Self::OpenExample));
         all.extend([
@@ -129,7 +136,13 @@ impl Command {
         all.extend(Layer::ALL.map(Self::ToggleLayer));
         all.push(Self::ToggleSnapping);
         all.extend(ToolKind::ALL.map(Self::Tool));
-        all.extend([Self::ToggleTheme, Self::TogglePlots, Self::Palette, Self::Keys, Self::About]);
+        all.extend([
+            Self::ToggleTheme,
+            Self::TogglePlots,
+            Self::Palette,
+            Self::Keys,
+            Self::About,
+        ]);
         all
     }
 
@@ -205,9 +218,15 @@ impl Command {
             Self::SelectAll => "Select all vertices of the active curve; again, of all curves",
             Self::SelectNone => "Select nothing",
             Self::Reverse => "Let the curve run the other way; its shape stays",
-            Self::TogglePeriodic => "Join the curve's end to its start, or open it; the polygon stays",
-            Self::RaiseDegree => "Raise the degree by one; the polygon stays, the curve becomes smoother",
-            Self::LowerDegree => "Lower the degree by one; the polygon stays, the curve follows it closer",
+            Self::TogglePeriodic => {
+                "Join the curve's end to its start, or open it; the polygon stays"
+            }
+            Self::RaiseDegree => {
+                "Raise the degree by one; the polygon stays, the curve becomes smoother"
+            }
+            Self::LowerDegree => {
+                "Lower the degree by one; the polygon stays, the curve follows it closer"
+            }
             Self::ToggleVisible => "Show or hide the active curve",
             Self::ToggleLocked => "Protect the active curve's shape from edits, or release it",
             Self::Fit => "Show the selection, or everything if nothing is selected",
@@ -216,7 +235,9 @@ impl Command {
             Self::ZoomOut => "Show more, smaller",
             Self::ResetComb => "Give the curvature comb a legible scale",
             Self::ToggleLayer(_) => "Show or hide this layer",
-            Self::ToggleSnapping => "Let dragged points snap to the grid, to vertices and to targets",
+            Self::ToggleSnapping => {
+                "Let dragged points snap to the grid, to vertices and to targets"
+            }
             Self::Tool(tool) => tool.tooltip(),
             Self::ToggleTheme => "Switch between the dark and the light theme",
             Self::TogglePlots => "Show or hide the plots under the canvas",
@@ -229,7 +250,12 @@ impl Command {
 
     /// The key that gives the command.
     pub fn shortcut(self) -> Option<Shortcut> {
-        let plain = |key| Some(Shortcut { modifiers: Modifiers::NONE, key });
+        let plain = |key| {
+            Some(Shortcut {
+                modifiers: Modifiers::NONE,
+                key,
+            })
+        };
         let ctrl = |letter| {
             Some(Shortcut {
                 modifiers: Modifiers::CTRL,
@@ -263,9 +289,7 @@ impl Command {
             Self::FitAll => plain(Key::Character('h')),
             Self::ZoomIn => plain(Key::Character('+')),
             Self::ZoomOut => plain(Key::Character('-')),
-            Self::ToggleLayer(layer) => {
-                plain(Key::Character(char::from(b'1' + layer as u8)))
-            }
+            Self::ToggleLayer(layer) => plain(Key::Character(char::from(b'1' + layer as u8))),
             Self::ToggleSnapping => plain(Key::Character('g')),
             Self::Tool(tool) => plain(Key::Character(tool.letter())),
             Self::Palette => ctrl('p'),

@@ -26,13 +26,29 @@ pub struct Modifiers {
 
 impl Modifiers {
     /// No key.
-    pub const NONE: Self = Self { shift: false, ctrl: false, alt: false };
+    pub const NONE: Self = Self {
+        shift: false,
+        ctrl: false,
+        alt: false,
+    };
     /// Shift alone.
-    pub const SHIFT: Self = Self { shift: true, ctrl: false, alt: false };
+    pub const SHIFT: Self = Self {
+        shift: true,
+        ctrl: false,
+        alt: false,
+    };
     /// Ctrl alone.
-    pub const CTRL: Self = Self { shift: false, ctrl: true, alt: false };
+    pub const CTRL: Self = Self {
+        shift: false,
+        ctrl: true,
+        alt: false,
+    };
     /// Ctrl and shift.
-    pub const CTRL_SHIFT: Self = Self { shift: true, ctrl: true, alt: false };
+    pub const CTRL_SHIFT: Self = Self {
+        shift: true,
+        ctrl: true,
+        alt: false,
+    };
 }
 
 /// A key that commands and tools know.

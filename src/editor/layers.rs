@@ -61,7 +61,9 @@ pub struct Layers {
 impl Default for Layers {
     /// All but the comb: together with the evolute it would hide the polygons at first sight.
     fn default() -> Self {
-        let mut layers = Self { shown: [true; Layer::ALL.len()] };
+        let mut layers = Self {
+            shown: [true; Layer::ALL.len()],
+        };
         layers.set(Layer::Comb, false);
         layers
     }

@@ -86,7 +86,11 @@ impl Viewport {
         let extent = bounds.high - bounds.low;
         let free = (self.size - 2.0 * MARGIN).max(0.25 * self.size);
         let ratio = free / extent;
-        let scale = if extent.max_element() > 0.0 { ratio.min_element() } else { self.scale };
+        let scale = if extent.max_element() > 0.0 {
+            ratio.min_element()
+        } else {
+            self.scale
+        };
         Self {
             centre: 0.5 * (bounds.low + bounds.high),
             scale: scale.clamp(SCALES.0, SCALES.1),

@@ -1,6 +1,18 @@
 //! The tools: small state machines that take pointer events in model coordinates and return
 //! effects.
 
+mod draw;
+mod end_fit;
+mod measure;
+mod select;
+mod tool;
+mod transform;
+mod vertices;
+
+pub use tool::{Context, Cursor, Effect, Tool};
+
+use transform::Transform;
+
 /// A tool that can be taken into the hand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub enum ToolKind {
@@ -38,6 +50,21 @@ impl ToolKind {
         Self::Measure,
         Self::EndFit,
     ];
+
+    /// Take the tool into the hand, in its first state.
+    pub fn take(self) -> Box<dyn Tool> {
+        match self {
+            Self::Select => Box::new(select::SelectTool::default()),
+            Self::AddVertex => Box::new(vertices::AddVertexTool::default()),
+            Self::Insert => Box::new(vertices::InsertTool::default()),
+            Self::Delete => Box::new(vertices::DeleteTool),
+            Self::Draw => Box::new(draw::DrawTool::default()),
+            Self::Rotate => Box::new(transform::TransformTool::new(Transform::Rotate)),
+            Self::Scale => Box::new(transform::TransformTool::new(Transform::Scale)),
+            Self::Measure => Box::new(measure::MeasureTool::default()),
+            Self::EndFit => Box::new(end_fit::EndFitTool::default()),
+        }
+    }
 
     /// What the tool is called on screen.
     pub fn label(self) -> &'static str {
