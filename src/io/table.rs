@@ -1,0 +1,275 @@
+//! Polygon tables as comma-separated values: one block a curve.
+//!
+//! ```text
+//! # degree=3 polygon=float periodic=false name=arc
+//! x,y
+//! -10.0,0.0
+//! -5.0,8.660254037844386
+//! …
+//! ```
+//!
+//! Space curves have the columns `x,y,z`, rational ones `x,y,z,weight`. Columns are read by
+//! their names in any order, so that `x,y,weight` is read too. Numbers are written with the
+//! digits that it takes to read the very same number again.
+
+use csv::{ReaderBuilder, StringRecord, WriterBuilder};
+use glam::DVec3;
+
+use super::error::{Place, Problem, ReadError, WriteError};
+use super::format::Format;
+use super::loss::{Export, Loss, LossReport};
+use super::polygon::{Written, build, written};
+use super::project::text;
+use super::table_header::TableHeader;
+use crate::document::Curve;
+use crate::geometry::{PolygonError, PolygonKind};
+
+/// The columns that a table can have, in the order in which they are written.
+const COLUMNS: [&str; 4] = ["x", "y", "z", "weight"];
+
+/// Read the curves of a file of tables.
+///
+/// # Errors
+/// [`ReadError`] with the line, and with the curve and vertex where the numbers make no curve.
+pub fn read(bytes: &[u8]) -> Result<Vec<Curve>, ReadError> {
+    let text = text(bytes)?;
+    let mut blocks: Vec<Block> = Vec::new();
+    each_record(text, |line, record| {
+        if let Some(header) = header_text(record) {
+            let header = TableHeader::parse(&header);
+            let header = header.map_err(|problem| Place::line(line).problem(problem))?;
+            blocks.push(Block::new(line, header));
+            return Ok(());
+        }
+        let block = blocks.last_mut();
+        let block = block.ok_or_else(|| Place::line(line).problem(Problem::NoTableHeader))?;
+        block.take(line, record)
+    })?;
+    if blocks.is_empty() {
+        return Err(Problem::NoTableHeader.into());
+    }
+    let numbered = blocks.into_iter().enumerate();
+    numbered
+        .map(|(index, block)| block.into_curve(index + 1))
+        .collect()
+}
+
+/// Write curves as tables of one of their polygons.
+///
+/// # Errors
+/// [`WriteError::NoCurves`]: an empty file could not be read again.
+pub fn write(curves: &[&Curve], kind: PolygonKind) -> Result<Export, WriteError> {
+    if curves.is_empty() {
+        let format = Format::Csv;
+        return Err(WriteError::NoCurves { format });
+    }
+    let mut losses = LossReport::new(Format::Csv);
+    let mut bytes = Vec::new();
+    for curve in curves {
+        if !bytes.is_empty() {
+            bytes.push(b'\n');
+        }
+        let block = block_bytes(curve, kind, &mut losses);
+        bytes.extend(block.expect("a table of text can be written to memory"));
+        losses.add_if(curve.colour.is_some(), curve, Loss::Colour);
+        losses.add_if(!curve.visible, curve, Loss::Hidden);
+        losses.add_if(curve.locked, curve, Loss::Locked);
+        let has_targets = !curve.targets.list().is_empty();
+        losses.add_if(has_targets, curve, Loss::Targets);
+    }
+    Ok(Export { bytes, losses })
+}
+
+fn block_bytes(curve: &Curve, kind: PolygonKind, losses: &mut LossReport) -> csv::Result<Vec<u8>> {
+    let Written {
+        vertices,
+        weights,
+        periodic,
+        losses: lost,
+    } = written(&curve.polygon, kind);
+    for loss in lost {
+        losses.add(curve, loss);
+    }
+    let header = TableHeader {
+        degree: curve.polygon.degree(),
+        kind,
+        periodic,
+        name: Some(curve.name.clone()),
+    };
+    let columns = match (&weights, curve.polygon.is_planar()) {
+        (Some(_), _) => 4,
+        (None, false) => 3,
+        (None, true) => 2,
+    };
+    let mut writer = WriterBuilder::new().flexible(true).from_writer(Vec::new());
+    writer.write_record([header.to_line()])?;
+    writer.write_record(&COLUMNS[..columns])?;
+    for (index, vertex) in vertices.iter().enumerate() {
+        let weight = weights.as_ref().map_or(1.0, |weights| weights[index]);
+        let values = [vertex.x, vertex.y, vertex.z, weight].map(|value| format!("{value:?}"));
+        writer.write_record(&values[..columns])?;
+    }
+    writer
+        .into_inner()
+        .map_err(|error| error.into_error().into())
+}
+
+/// Hand over each line of values with its number, but for lines without any value; the empty
+/// values that spreadsheets pad lines with are cut off.
+fn each_record(
+    text: &str,
+    mut take: impl FnMut(usize, &StringRecord) -> Result<(), ReadError>,
+) -> Result<(), ReadError> {
+    let mut reader = ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .from_reader(text.as_bytes());
+    let mut record = StringRecord::new();
+    let (mut line, mut counted) = (1, 0);
+    loop {
+        let more = reader.read_record(&mut record);
+        let more = more.map_err(|error| Problem::Table(error.to_string()))?;
+        if !more {
+            return Ok(());
+        }
+        // The position lies before the blank lines above the record, so these count too.
+        let start = record
+            .position()
+            .map_or(0, |position| position.byte() as usize);
+        let blank = text[start..].len() - text[start..].trim_start_matches(['\r', '\n']).len();
+        line += text[counted..start + blank].matches('\n').count();
+        counted = start + blank;
+        let filled = (0..record.len()).rev();
+        let mut filled = filled.filter(|index| !record[*index].trim().is_empty());
+        if let Some(last) = filled.next() {
+            record.truncate(last + 1);
+            take(line, &record)?;
+        }
+    }
+}
+
+/// Join a line that begins with `#` to the text it was before it was split at commas.
+fn header_text(record: &StringRecord) -> Option<String> {
+    let is_header = record.get(0)?.trim_start().starts_with('#');
+    is_header.then(|| {
+        record
+            .iter()
+            .collect::<Vec<_>>()
+            .join(",")
+            .trim()
+            .to_owned()
+    })
+}
+
+/// A table as it is being read.
+struct Block {
+    line: usize,
+    header: TableHeader,
+    /// For each column of the table which one of [`COLUMNS`] it is.
+    columns: Vec<usize>,
+    vertices: Vec<DVec3>,
+    weights: Vec<f64>,
+    /// The line of each vertex.
+    lines: Vec<usize>,
+}
+
+impl Block {
+    fn new(line: usize, header: TableHeader) -> Self {
+        Self {
+            line,
+            header,
+            columns: Vec::new(),
+            vertices: Vec::new(),
+            weights: Vec::new(),
+            lines: Vec::new(),
+        }
+    }
+
+    fn take(&mut self, line: usize, record: &StringRecord) -> Result<(), ReadError> {
+        let place = |problem| Place::line(line).problem(problem);
+        if self.columns.is_empty() {
+            self.columns = columns(record).map_err(place)?;
+            return Ok(());
+        }
+        let (found, needed) = (record.len(), self.columns.len());
+        if found != needed {
+            return Err(place(Problem::ValueCount { found, needed }));
+        }
+        let mut values = [0.0, 0.0, 0.0, 1.0];
+        for (text, column) in record.iter().zip(&self.columns) {
+            values[*column] = number(text, COLUMNS[*column]).map_err(place)?;
+        }
+        let [x, y, z, weight] = values;
+        self.vertices.push(DVec3::new(x, y, z));
+        self.weights.push(weight);
+        self.lines.push(line);
+        Ok(())
+    }
+
+    fn into_curve(self, number: usize) -> Result<Curve, ReadError> {
+        let name = self.header.name;
+        let name = name.unwrap_or_else(|| format!("curve {number}"));
+        let place = |line: usize| Place {
+            line: Some(line),
+            ..Place::curve(number, &name)
+        };
+        if self.columns.is_empty() {
+            return Err(place(self.line).problem(Problem::NoColumns));
+        }
+        let is_rational = self
+            .columns
+            .iter()
+            .any(|column| COLUMNS[*column] == "weight");
+        let polygon = build(
+            self.header.kind,
+            self.header.degree,
+            self.vertices,
+            is_rational.then_some(self.weights),
+            self.header.periodic,
+        );
+        let polygon = polygon.map_err(|problem| {
+            let vertex = match &problem {
+                Problem::Polygon(
+                    PolygonError::BadCoordinate { index, .. }
+                    | PolygonError::BadWeight { index, .. },
+                ) => self.lines.get(*index),
+                _ => None,
+            };
+            place(vertex.copied().unwrap_or(self.line)).problem(problem)
+        })?;
+        Ok(Curve::new(name, polygon))
+    }
+}
+
+fn columns(record: &StringRecord) -> Result<Vec<usize>, Problem> {
+    let mut columns = Vec::with_capacity(COLUMNS.len());
+    for name in record.iter().map(str::trim) {
+        let known = |column: &&str| name.eq_ignore_ascii_case(column);
+        match COLUMNS.iter().position(|column| known(column)) {
+            Some(column) if !columns.contains(&column) => columns.push(column),
+            _ if columns.is_empty() && name.parse::<f64>().is_ok() => {
+                return Err(Problem::NoColumns);
+            }
+            _ => return Err(Problem::BadColumn(name.to_owned())),
+        }
+    }
+    for needed in [0, 1] {
+        if !columns.contains(&needed) {
+            return Err(Problem::MissingColumn(COLUMNS[needed]));
+        }
+    }
+    Ok(columns)
+}
+
+fn number(text: &str, column: &'static str) -> Result<f64, Problem> {
+    let text = text.trim();
+    let value: f64 = text.parse().map_err(|_| Problem::NotANumber {
+        column,
+        text: text.to_owned(),
+    })?;
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(Problem::NotFinite(text.to_owned()))
+    }
+}
