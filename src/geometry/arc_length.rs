@@ -52,7 +52,10 @@ impl FloatPolygon {
         let left = self.quadrature(segment, from, middle);
         let right = self.quadrature(segment, middle, to);
         let rounding = 4.0 * f64::EPSILON * whole;
-        if (left + right - whole).abs() <= allowed.max(rounding) || depth == 0 {
+        let error = (left + right - whole).abs();
+        // A speed beyond the range of numbers gives an error that is no number: halving on
+        // would never end.
+        if !(error > allowed.max(rounding)) || depth == 0 {
             return left + right;
         }
         self.halved(segment, (from, middle), left, 0.5 * allowed, depth - 1)

@@ -139,12 +139,9 @@ fn each_record(
         let blank = text[start..].len() - text[start..].trim_start_matches(['\r', '\n']).len();
         line += text[counted..start + blank].matches('\n').count();
         counted = start + blank;
-        if let Some(last) = record
-            .iter()
-            .collect::<Vec<_>>()
-            .iter()
-            .rposition(|value| !value.trim().is_empty())
-        {
+        let filled = (0..record.len()).rev();
+        let mut filled = filled.filter(|index| !record[*index].trim().is_empty());
+        if let Some(last) = filled.next() {
             record.truncate(last + 1);
             take(line, &record)?;
         }
@@ -248,7 +245,7 @@ fn columns(record: &StringRecord) -> Result<Vec<usize>, Problem> {
     let mut columns = Vec::with_capacity(COLUMNS.len());
     for name in record.iter().map(str::trim) {
         let known = |column: &&str| name.eq_ignore_ascii_case(column);
-        match COLUMNS.iter().position(|column| known(&column)) {
+        match COLUMNS.iter().position(|column| known(column)) {
             Some(column) if !columns.contains(&column) => columns.push(column),
             _ if columns.is_empty() && name.parse::<f64>().is_ok() => {
                 return Err(Problem::NoColumns);
