@@ -41,19 +41,27 @@ fn dragging(count: usize, close: bool) -> (Editor, DVec2) {
         let at = editor.viewport().to_screen(vertex);
         editor.input(Input::Zoomed { at, factor });
         let at = editor.viewport().to_screen(vertex);
-        editor.input(Input::Panned { by: 0.5 * CANVAS - at });
+        editor.input(Input::Panned {
+            by: 0.5 * CANVAS - at,
+        });
     }
     editor.scene();
     let at = editor.viewport().to_screen(vertex);
     editor.select_vertex(curve, count / 2, false);
     editor.input(Input::Moved { at });
-    editor.input(Input::Pressed { button: Button::Primary, at });
+    editor.input(Input::Pressed {
+        button: Button::Primary,
+        at,
+    });
     editor.input(Input::Moved { at: at + 10.0 });
     assert!(editor.is_dragging());
     let before = editor.document().curve(curve).expect("the curve").clone();
     editor.input(Input::Moved { at: at + 20.0 });
     let after = editor.document().curve(curve).expect("the curve").clone();
-    assert_ne!(before.polygon.vertex(count / 2), after.polygon.vertex(count / 2));
+    assert_ne!(
+        before.polygon.vertex(count / 2),
+        after.polygon.vertex(count / 2)
+    );
     (editor, at)
 }
 
@@ -68,7 +76,10 @@ fn frame(editor: &mut Editor, at: DVec2) {
 }
 
 fn drag(criterion: &mut Criterion) {
-    for (name, close) in [("whole curve in view", false), ("a dozen legs in view", true)] {
+    for (name, close) in [
+        ("whole curve in view", false),
+        ("a dozen legs in view", true),
+    ] {
         let mut group = criterion.benchmark_group(format!("drag a vertex, {name}"));
         for count in [100, 1_000, 10_000] {
             let (mut editor, at) = dragging(count, close);

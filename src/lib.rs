@@ -4,6 +4,7 @@
 //! `geometry ← document ← { analysis, io } ← editor ← ui`, with `cli` beside the editor.
 #![forbid(unsafe_code)]
 
+pub mod analysis;
 pub mod cli;
 pub mod document;
 pub mod editor;

@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::outline::{Bounds, GAP, Outline, ViewBox};
+use super::comb::{CombSettings, Teeth};
+use super::outline::{Bounds, Outline, ViewBox};
 use super::plot_series::PlotBlock;
-use super::sample::{Sample, SegmentSampler};
+use super::sample::{Sample, SegmentSampler, chain, finite};
 use super::vertex_chain::VertexChain;
 use crate::document::Curve;
 use crate::geometry::{ClampedPolygon, FloatPolygon, Range as Span};
@@ -54,14 +55,6 @@ pub(super) struct Block {
     pub(super) plot: PlotBlock,
 }
 
-/// The teeth of one block's comb: where they stand, and their tips.
-#[derive(Debug, Default)]
-struct Teeth {
-    key: Option<(i32, u64, usize)>,
-    teeth: Vec<[DVec2; 2]>,
-    bounds: Option<Bounds>,
-}
-
 /// Figures of one block's samples.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct BlockSummary {
@@ -70,15 +63,6 @@ pub(super) struct BlockSummary {
     pub(super) bounds: Bounds,
     /// The longest step between two samples.
     longest: f64,
-}
-
-/// How a curvature comb is drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CombSettings {
-    /// The length of a tooth for curvature 1, in units of the model squared.
-    pub scale: f64,
-    /// Teeth a segment.
-    pub density: usize,
 }
 
 impl CurveAnalysis {
@@ -302,7 +286,7 @@ impl CurveAnalysis {
     }
 
     /// Append what is visible of the curve, thinned to the view's pixels. Gaps are
-    /// [`GAP`] points.
+    /// [`super::GAP`] points.
     pub fn append_curve(&mut self, view: &ViewBox, out: &mut Vec<DVec2>) {
         let place = |sample: &Sample| sample.point.truncate();
         self.append(view, out, view.level(), |block| &mut block.curve, place);
@@ -339,9 +323,7 @@ impl CurveAnalysis {
                     own.iter().step_by(stride)
                 })
             });
-            if teeth.bounds.is_some_and(|bounds| bounds.meets(view)) {
-                out.extend_from_slice(&teeth.teeth);
-            }
+            teeth.append(view, out);
         }
     }
 
@@ -510,65 +492,6 @@ impl CurveAnalysis {
             _ => 0.0,
         }
     }
-}
-
-impl Teeth {
-    fn refresh<'a, I: Iterator<Item = &'a Sample>>(
-        &mut self,
-        key: (i32, u64, usize),
-        spacing: f64,
-        samples: impl FnOnce() -> I,
-    ) {
-        if self.key == Some(key) {
-            return;
-        }
-        self.key = Some(key);
-        self.teeth.clear();
-        let scale = f64::from_bits(key.1);
-        let mut bounds = Bounds::EMPTY;
-        let mut kept: Option<DVec2> = None;
-        for sample in samples() {
-            let (foot, tip) = (sample.point.truncate(), sample.comb_tip(scale).truncate());
-            if !tip.is_finite() || kept.is_some_and(|kept| kept.distance(foot) < spacing) {
-                continue;
-            }
-            kept = Some(foot);
-            bounds.add(foot);
-            bounds.add(tip);
-            self.teeth.push([foot, tip]);
-        }
-        self.bounds = Some(bounds);
-    }
-}
-
-/// Turn samples into a chain of points with a gap wherever the curvature changes sign, if the
-/// points follow the curvature through infinity there.
-fn chain(
-    samples: &[Sample],
-    place: impl Fn(&Sample) -> DVec2 + Copy,
-) -> impl Iterator<Item = DVec2> {
-    let mut before: Option<&Sample> = None;
-    samples.iter().flat_map(move |sample| {
-        let point = place(sample);
-        let gap = before.is_some_and(|before| {
-            let turned =
-                before.curvature * sample.curvature < 0.0 || before.normal.dot(sample.normal) < 0.0;
-            turned && leaps(place(before), point, before, sample)
-        });
-        before = Some(sample);
-        gap.then_some(GAP).into_iter().chain([point])
-    })
-}
-
-/// Whether a layer's points leap between two samples: it moves farther than the curve itself by
-/// an order of magnitude.
-fn leaps(from: DVec2, to: DVec2, a: &Sample, b: &Sample) -> bool {
-    from.distance_squared(to) > 400.0 * a.point.distance_squared(b.point)
-}
-
-/// Turn a point that is not finite into a gap.
-fn finite(point: DVec2) -> DVec2 {
-    if point.is_finite() { point } else { GAP }
 }
 
 /// List the segments that depend on the vertices of a range: one range, or two where a periodic
