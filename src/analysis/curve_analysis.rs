@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::comb::{CombSettings, Teeth};
-use super::outline::{Bounds, Outline, ViewBox};
+use super::outline::{Bounds, Outline, OutlineKey, ViewBox, append_gap, thin};
 use super::plot_series::PlotBlock;
 use super::sample::{Sample, SegmentSampler, chain, finite};
 use super::vertex_chain::VertexChain;
@@ -25,8 +25,8 @@ const SAMPLES_PER_SEGMENT: Range<usize> = 4..256;
 /// A segment is sampled anew when its samples are farther apart than this, in screen points.
 const COARSE: f64 = 8.0;
 
-/// Samples of a segment that is sampled anew for a close view.
-const FINE: usize = 256;
+/// The most samples of a segment that is sampled anew for a close view.
+const FINEST: usize = 256;
 
 /// Hold the samples of a curve, its closed S-polygon, and what is drawn of both.
 #[derive(Debug)]
@@ -47,9 +47,9 @@ pub struct CurveAnalysis {
 /// What is derived from the segments of one block.
 #[derive(Debug, Default)]
 pub(super) struct Block {
-    curve: Outline<i32>,
-    evolute: Outline<i32>,
-    comb: Outline<(i32, u64)>,
+    curve: Outline,
+    evolute: Outline,
+    comb: Outline,
     teeth: Teeth,
     summary: BlockSummary,
     pub(super) plot: PlotBlock,
@@ -289,21 +289,20 @@ impl CurveAnalysis {
     /// [`super::GAP`] points.
     pub fn append_curve(&mut self, view: &ViewBox, out: &mut Vec<DVec2>) {
         let place = |sample: &Sample| sample.point.truncate();
-        self.append(view, out, view.level(), |block| &mut block.curve, place);
+        self.append(view, out, 0, |block| &mut block.curve, place);
     }
 
     /// Append what is visible of the evolute; it breaks where it passes through infinity.
     pub fn append_evolute(&mut self, view: &ViewBox, out: &mut Vec<DVec2>) {
         let place = |sample: &Sample| finite(sample.centre().truncate());
-        self.append(view, out, view.level(), |block| &mut block.evolute, place);
+        self.append(view, out, 0, |block| &mut block.evolute, place);
     }
 
     /// Append what is visible of the comb's envelope.
     pub fn append_comb(&mut self, view: &ViewBox, comb: &CombSettings, out: &mut Vec<DVec2>) {
         let scale = comb.scale;
         let place = move |sample: &Sample| finite(sample.comb_tip(scale).truncate());
-        let key = (view.level(), scale.to_bits());
-        self.append(view, out, key, |block| &mut block.comb, place);
+        self.append(view, out, scale.to_bits(), |block| &mut block.comb, place);
     }
 
     /// Append the comb's visible teeth, each from its foot on the curve to its tip; where they
@@ -412,33 +411,37 @@ impl CurveAnalysis {
         }
     }
 
-    /// Append one layer that is a chain of points made of the samples.
-    fn append<Key: PartialEq + Copy>(
+    /// Append one layer that is a chain of points made of the samples; `shape` is whatever else
+    /// the points depend on.
+    fn append(
         &mut self,
         view: &ViewBox,
         out: &mut Vec<DVec2>,
-        key: Key,
-        layer: impl Fn(&mut Block) -> &mut Outline<Key>,
+        shape: u64,
+        layer: impl Fn(&mut Block) -> &mut Outline,
         place: impl Fn(&Sample) -> DVec2 + Copy,
     ) {
-        let spacing = 2f64.powi(view.level());
         for index in 0..self.blocks.len() {
-            let summary = self.summary(index);
-            if summary.longest > COARSE * view.pixel {
-                self.append_fine(index, view, out, place);
-                continue;
-            }
+            let longest = self.summary(index).longest;
+            let coarse = longest > COARSE * view.pixel && self.steps < FINEST;
+            let level = (!coarse).then(|| view.level());
             let range = self.block_segments(index);
             let size = self.steps + 1;
             let samples = &self.samples[range.start * size..range.end * size];
             let outline = layer(&mut self.blocks[index]);
-            outline.refresh(key, spacing, || chain(samples, place));
-            outline.append(view, out);
+            outline.refresh(OutlineKey { level, shape }, || chain(samples, place));
+            if !coarse {
+                outline.append(view, out);
+            } else if outline.bounds().may_meet(view) {
+                self.append_fine(index, view, out, place);
+            } else {
+                append_gap(out);
+            }
         }
     }
 
     /// Append a block whose samples are too coarse for the view: segments that the view touches
-    /// are sampled anew.
+    /// are sampled anew, as densely as the view needs.
     fn append_fine(
         &mut self,
         index: usize,
@@ -446,27 +449,26 @@ impl CurveAnalysis {
         out: &mut Vec<DVec2>,
         place: impl Fn(&Sample) -> DVec2 + Copy,
     ) {
-        let degree = self.curve.polygon.degree();
+        let needed = self.steps as f64 * self.summary(index).longest / (COARSE * view.pixel);
+        let steps = (needed.min(FINEST as f64) as usize).next_power_of_two();
+        if self.fine.as_ref().is_none_or(|fine| fine.steps() != steps) {
+            self.fine = Some(SegmentSampler::new(self.curve.polygon.degree(), steps));
+        }
+        let Some(fine) = &mut self.fine else {
+            return;
+        };
         let size = self.steps + 1;
-        let mut fine = vec![self.samples[0]; FINE + 1];
-        for segment in self.block_segments(index) {
-            let samples = &self.samples[segment * size..(segment + 1) * size];
+        let mut samples = vec![self.samples[0]; steps + 1];
+        for segment in index * BLOCK..((index + 1) * BLOCK).min(self.curve.polygon.segments()) {
+            let coarse = &self.samples[segment * size..(segment + 1) * size];
             let mut bounds = Bounds::EMPTY;
-            chain(samples, place).for_each(|point| bounds.add(point));
-            let reach = if bounds.is_empty() {
-                0.0
+            chain(coarse, place).for_each(|point| bounds.add(point));
+            if bounds.may_meet(view) {
+                fine.fill(&self.curve.polygon, segment, self.planar, &mut samples);
+                let spacing = 2f64.powi(view.level());
+                thin(chain(&samples, place), spacing, out, &mut bounds);
             } else {
-                (bounds.high - bounds.low).max_element()
-            };
-            let visible = bounds.meets(&view.grown(0.25 * reach));
-            if visible && self.steps < FINE {
-                let sampler = self
-                    .fine
-                    .get_or_insert_with(|| SegmentSampler::new(degree, FINE));
-                sampler.fill(&self.curve.polygon, segment, self.planar, &mut fine);
-                out.extend(chain(&fine, place));
-            } else {
-                out.extend(chain(samples, place));
+                append_gap(out);
             }
         }
     }

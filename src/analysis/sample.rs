@@ -71,6 +71,11 @@ impl SegmentSampler {
         }
     }
 
+    /// The number of steps that a segment is divided into.
+    pub(super) fn steps(&self) -> usize {
+        self.count
+    }
+
     /// Fill `samples` with `count` + 1 samples of one segment.
     ///
     /// Arc lengths come from Simpson's rule on each pair of steps, with the speeds at hand.

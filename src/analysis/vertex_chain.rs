@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::{DVec2, DVec3};
 
-use super::outline::{Bounds, Outline, ViewBox};
+use super::outline::{Bounds, Outline, OutlineKey, ViewBox};
 use crate::geometry::Range as Span;
 use crate::geometry::polygon_figures::turning_angle;
 
@@ -24,7 +24,7 @@ pub struct VertexChain {
 
 #[derive(Clone, Debug, Default)]
 struct Block {
-    legs: Outline<i32>,
+    legs: Outline,
     handles: Handles,
     figures: Option<BlockFigures>,
 }
@@ -103,7 +103,10 @@ impl VertexChain {
 
     /// Append what is visible of the legs.
     pub fn append_legs(&mut self, view: &ViewBox, out: &mut Vec<DVec2>) {
-        let level = view.level();
+        let key = OutlineKey {
+            level: Some(view.level()),
+            shape: 0,
+        };
         let count = self.vertices.len();
         for (index, block) in self.blocks.iter_mut().enumerate() {
             let first = index * BLOCK;
@@ -111,7 +114,7 @@ impl VertexChain {
             let end = (first + BLOCK + 1).min(count);
             let closing = self.closed && end == count && first + BLOCK >= count;
             let vertices = &self.vertices;
-            block.legs.refresh(level, 2f64.powi(level), || {
+            block.legs.refresh(key, || {
                 let wrap = closing.then(|| vertices[0].truncate());
                 let own = vertices[first..end].iter().map(|vertex| vertex.truncate());
                 own.chain(wrap)

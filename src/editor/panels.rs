@@ -95,6 +95,11 @@ impl Editor {
         })
     }
 
+    /// The number of segments of a curve that were sampled when it last changed.
+    pub fn segments_redone(&self, curve: crate::document::CurveId) -> Option<usize> {
+        Some(self.analyses.peek(curve)?.segments_redone())
+    }
+
     fn hovered_vertex(&self, id: crate::document::CurveId) -> Option<usize> {
         if self.hovered.vertex.is_some() {
             return self.hovered.vertex;
