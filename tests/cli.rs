@@ -393,7 +393,7 @@ fn bad_input_is_refused_with_file_and_place() {
         );
         check(
             "weight.batten",
-            "curve 2 “hull”, vertex 1: weight -1 cannot be used: weights are positive numbers from 1e-100 to 1e100",
+            "curve 2 “hull”, vertex 1: weight -1.0 cannot be used: weights are positive numbers from 1e-100 to 1e100",
         );
         check(
             "a.dxf",

@@ -460,7 +460,7 @@ mod tests {
         );
         check(
             "# degree=1\nx,y,weight\n0,0,1\n1,1,-2\n",
-            "line 4, curve 1 “curve 1”, vertex 1: weight -2 cannot be used: weights are positive numbers from 1e-100 to 1e100",
+            "line 4, curve 1 “curve 1”, vertex 1: weight -2.0 cannot be used: weights are positive numbers from 1e-100 to 1e100",
         );
         check(
             &format!("# degree=0{rows}"),
