@@ -55,7 +55,7 @@ impl FloatPolygon {
         let error = (left + right - whole).abs();
         // A speed beyond the range of numbers gives an error that is no number: halving on
         // would never end.
-        if !(error > allowed.max(rounding)) || depth == 0 {
+        if error <= allowed.max(rounding) || error.is_nan() || depth == 0 {
             return left + right;
         }
         self.halved(segment, (from, middle), left, 0.5 * allowed, depth - 1)
