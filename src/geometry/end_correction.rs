@@ -13,6 +13,7 @@ use glam::{DMat3, DVec3};
 use super::end::{End, rotation_between};
 use super::error::PolygonError;
 use super::float_polygon::FloatPolygon;
+use super::vector;
 
 /// Passes without halving of the residual after which the loop is taken not to converge.
 const PATIENCE: usize = 4;
@@ -58,12 +59,14 @@ impl EndDifference {
     /// Express both differences as one length: the larger of the position difference and of
     /// the arc that `size` sweeps through the difference angle.
     pub fn residual(&self, size: f64) -> f64 {
-        self.vector.length().max(self.angle.abs() * size)
+        vector::length(self.vector).max(self.angle.abs() * size)
     }
 }
 
-/// Measure the angle from one direction to another, signed in the plane z = 0.
+/// Measure the angle from one direction to another in radians: in the plane z = 0 signed, left
+/// turns positive; in space not negative. 0 if either vector is zero.
 pub fn angle_between(from: DVec3, to: DVec3) -> f64 {
+    let ((from, _), (to, _)) = (vector::scaled(from), vector::scaled(to));
     if from.z == 0.0 && to.z == 0.0 {
         let sine = from.truncate().perp_dot(to.truncate());
         sine.atan2(from.truncate().dot(to.truncate()))
