@@ -13,15 +13,12 @@ use super::error::MAX_DEGREE;
 use super::float_polygon::FloatPolygon;
 use super::jet::Jet;
 
-/// Parameters evaluated side by side. Two coordinates of so many just fit into the registers of
-/// a processor with vectors of two doubles.
-const LANES: usize = 8;
+/// Parameters evaluated side by side: the sums of so many just fit into the registers of a
+/// processor with vectors of two doubles, and are enough to hide its latency.
+const LANES: usize = 16;
 
 /// The highest derivative that a batch holds.
 pub const BATCH_ORDER: usize = 3;
-
-/// The coordinates x, y, z and w of a segment's vertices.
-type Window = [[f64; MAX_DEGREE + 1]; 4];
 
 /// Evaluate many points of one segment after another, at the same local parameters in each.
 #[derive(Clone, Debug)]
@@ -44,6 +41,9 @@ pub struct Batch {
     flat: bool,
     /// The highest derivative that is not 0 throughout.
     order: usize,
+    /// The differences of the segment's vertices, coordinate by coordinate: kept here because
+    /// clearing room for them for every segment would take as long as evaluating it.
+    differences: [[f64; MAX_DEGREE + 1]; 4],
 }
 
 impl Batch {
@@ -90,13 +90,6 @@ impl Batch {
         &self.values[first..first + self.stride]
     }
 
-    /// The rows of the coordinates `axis` … `axis` + K − 1 of one derivative.
-    fn rows_mut<const K: usize>(&mut self, order: usize, axis: usize) -> [&mut [f64]; K] {
-        let first = (order * 4 + axis) * self.stride;
-        let mut rows = self.values[first..first + K * self.stride].chunks_exact_mut(self.stride);
-        std::array::from_fn(|_| rows.next().unwrap_or_default())
-    }
-
     /// Make room, and clear what an earlier evaluation left in rows that this one skips.
     fn prepare(&mut self, count: usize, stride: usize, order: usize, flat: bool) {
         if self.stride != stride {
@@ -107,8 +100,8 @@ impl Batch {
         }
         if flat && !self.flat {
             for order in 0..=BATCH_ORDER {
-                let [row] = self.rows_mut(order, 2);
-                row.fill(0.0);
+                let first = (order * 4 + 2) * stride;
+                self.values[first..first + stride].fill(0.0);
             }
         }
         if order < self.order {
@@ -181,112 +174,147 @@ impl Sampler {
     pub fn segment(&self, polygon: &FloatPolygon, segment: usize, order: usize, batch: &mut Batch) {
         assert_eq!(self.degree, polygon.degree(), "the sampler's degree");
         assert!(order <= BATCH_ORDER, "derivatives up to the third");
-        // Coordinates count from a vertex of the segment, so that far from the origin nothing
-        // is lost.
-        let reference = polygon.vertex(segment + self.degree / 2);
-        let mut window: Window = [[0.0; MAX_DEGREE + 1]; 4];
-        let rational = polygon.is_rational();
-        let flat = self.gather(polygon, segment, reference, &mut window);
-        let stride = self.count.next_multiple_of(LANES);
-        batch.prepare(self.count, stride, order, flat);
+        let size = self.degree + 1;
+        let inside = polygon.vertices().get(segment..segment + size);
+        if let (Some(vertices), false) = (inside, polygon.is_rational()) {
+            return self.coordinates(vertices, order, batch);
+        }
+        // The segment runs over the joint of a periodic polygon, or is rational. A rational one
+        // counts its coordinates from one of its vertices: the division by the weight would
+        // otherwise lose what the distance from the origin takes.
+        let origin = if polygon.is_rational() {
+            polygon.vertex(segment + self.degree / 2)
+        } else {
+            DVec3::ZERO
+        };
+        let mut vertices = [DVec3::ZERO; MAX_DEGREE + 1];
+        for (vertex, index) in vertices[..size].iter_mut().zip(segment..) {
+            *vertex = (polygon.vertex(index) - origin) * polygon.weight(index);
+        }
+        self.coordinates(&vertices[..size], order, batch);
+        if polygon.is_rational() && self.count > 0 {
+            self.weights(polygon, segment, order, batch);
+            project(batch, order, origin);
+        }
+    }
+
+    /// Evaluate x, y and, if it is not 0 throughout, z.
+    fn coordinates(&self, vertices: &[DVec3], order: usize, batch: &mut Batch) {
+        let flat = vertices.iter().all(|vertex| vertex.z == 0.0);
+        batch.prepare(self.count, self.count.next_multiple_of(LANES), order, flat);
         if self.count == 0 {
             return;
         }
-        // A rational curve is moved to its place after the division by the weight.
-        let origin = if rational { DVec3::ZERO } else { reference };
-        let [x, y, z, w] = &mut window;
-        self.coordinates([x, y], 0, [origin.x, origin.y], order, batch);
-        match (flat, rational) {
-            (true, false) => {}
-            (false, false) => self.coordinates([z], 2, [origin.z], order, batch),
-            (true, true) => self.coordinates([w], 3, [0.0], order, batch),
-            (false, true) => self.coordinates([z, w], 2, [0.0, 0.0], order, batch),
+        let axes = if flat { 2 } else { 3 };
+        POINTS[self.degree](&self.tables[0], vertices, axes, &mut batch.values);
+        if order == 0 {
+            return;
         }
-        if rational {
-            project(batch, order, reference);
+        let [x, y, z, _] = &mut batch.differences;
+        for (j, leg) in vertices.windows(2).enumerate() {
+            let difference = leg[1] - leg[0];
+            (x[j], y[j], z[j]) = (difference.x, difference.y, difference.z);
+        }
+        for axis in 0..axes {
+            self.derivatives(axis, order, batch);
         }
     }
 
-    /// Write the segment's vertices coordinate by coordinate, and tell whether z is 0 throughout.
-    fn gather(
-        &self,
-        polygon: &FloatPolygon,
-        segment: usize,
-        reference: DVec3,
-        window: &mut Window,
-    ) -> bool {
-        let rational = polygon.is_rational();
-        let mut flat = reference.z == 0.0;
-        let last = segment + self.degree;
-        let inside = polygon.vertices().get(segment..=last);
-        for j in 0..=self.degree {
-            let vertex = inside.map_or_else(|| polygon.vertex(segment + j), |inside| inside[j]);
-            flat &= vertex.z == 0.0;
-            let mut arm = vertex - reference;
-            if rational {
-                let weight = polygon.weight(segment + j);
-                arm *= weight;
-                window[3][j] = weight;
-            }
-            (window[0][j], window[1][j], window[2][j]) = (arm.x, arm.y, arm.z);
+    /// Evaluate the weight as a fourth coordinate.
+    fn weights(&self, polygon: &FloatPolygon, segment: usize, order: usize, batch: &mut Batch) {
+        let weights = &mut batch.differences[3];
+        for (weight, index) in weights[..=self.degree].iter_mut().zip(segment..) {
+            *weight = polygon.weight(index);
         }
-        flat
+        let out = &mut batch.values[3 * batch.stride..4 * batch.stride];
+        SUMS[self.degree](&self.tables[0], weights, out);
+        for j in 0..self.degree {
+            weights[j] = weights[j + 1] - weights[j];
+        }
+        self.derivatives(3, order, batch);
     }
 
-    /// Evaluate K neighbouring coordinates, of which the first has number `axis`, and move their
-    /// points by `origin`. The vertices in `window` are replaced by their differences.
-    fn coordinates<const K: usize>(
-        &self,
-        mut window: [&mut [f64; MAX_DEGREE + 1]; K],
-        axis: usize,
-        mut origin: [f64; K],
-        order: usize,
-        batch: &mut Batch,
-    ) {
-        for derivative in 0..=order {
-            let out = batch.rows_mut::<K>(derivative, axis);
+    /// Evaluate the derivatives of one coordinate from the first differences of its vertices,
+    /// which higher differences replace.
+    fn derivatives(&self, axis: usize, order: usize, batch: &mut Batch) {
+        let differences = &mut batch.differences[axis];
+        for derivative in 1..=order {
+            let first = (derivative * 4 + axis) * batch.stride;
+            let out = &mut batch.values[first..first + batch.stride];
             let Some(table) = self.tables.get(derivative) else {
-                out.into_iter().for_each(|row| row.fill(0.0));
+                out.fill(0.0);
                 continue;
             };
-            let used = self.degree + 1 - derivative;
-            combine(table, std::array::from_fn(|k| &window[k][..used]), origin, out);
-            for values in window.iter_mut() {
-                for j in 0..used - 1 {
-                    values[j] = values[j + 1] - values[j];
-                }
+            let last = self.degree - derivative;
+            SUMS[last](table, differences, out);
+            for j in 0..last {
+                differences[j] = differences[j + 1] - differences[j];
             }
-            origin = [0.0; K];
         }
     }
 }
 
-/// Add up vertices times basis functions, at all parameters of the table, for K coordinates.
-fn combine<const K: usize>(
-    table: &[[f64; LANES]],
-    vertices: [&[f64]; K],
-    origin: [f64; K],
-    mut out: [&mut [f64]; K],
-) {
-    let used = vertices[0].len();
-    for (pass, rows) in table.chunks_exact(used).enumerate() {
-        let mut sums = [[0.0; LANES]; K];
-        for (j, row) in rows.iter().enumerate() {
-            for (sum, vertices) in sums.iter_mut().zip(&vertices) {
-                let vertex = vertices[j];
-                for lane in 0..LANES {
-                    sum[lane] += row[lane] * vertex;
-                }
-            }
-        }
-        for ((sum, origin), out) in sums.into_iter().zip(origin).zip(&mut out) {
-            let out = &mut out[pass * LANES..(pass + 1) * LANES];
+/// Adds up the coordinates of vertices times basis functions at all parameters of a table.
+type Sum = fn(&[[f64; LANES]], &[f64], &mut [f64]);
+
+/// Adds up the vertices themselves, for the first so many coordinates, into one row each.
+type PointSum = fn(&[[f64; LANES]], &[DVec3], usize, &mut [f64]);
+
+/// The sum of `SIZE` products. With their number known to the compiler the sums of all lanes stay
+/// in registers, which is worth a factor of two.
+#[inline(always)]
+fn sum<const SIZE: usize>(table: &[[f64; LANES]], values: &[f64], out: &mut [f64]) {
+    let Some(values) = values.first_chunk::<SIZE>() else {
+        return;
+    };
+    let passes = table.as_chunks::<SIZE>().0;
+    for (rows, out) in passes.iter().zip(out.as_chunks_mut::<LANES>().0) {
+        let mut sums = [0.0; LANES];
+        for (row, value) in rows.iter().zip(values) {
             for lane in 0..LANES {
-                out[lane] = sum[lane] + origin;
+                sums[lane] += row[lane] * value;
             }
         }
+        *out = sums;
     }
 }
+
+/// The sums of `SIZE` vertices, coordinate by coordinate.
+fn point_sum<const SIZE: usize>(
+    table: &[[f64; LANES]],
+    vertices: &[DVec3],
+    axes: usize,
+    out: &mut [f64],
+) {
+    let Some(vertices) = vertices.first_chunk::<SIZE>() else {
+        return;
+    };
+    let stride = table.len() / SIZE * LANES;
+    let (x, rest) = out.split_at_mut(stride);
+    let (y, rest) = rest.split_at_mut(stride);
+    sum::<SIZE>(table, &vertices.map(|vertex| vertex.x), x);
+    sum::<SIZE>(table, &vertices.map(|vertex| vertex.y), y);
+    if axes > 2 {
+        sum::<SIZE>(table, &vertices.map(|vertex| vertex.z), &mut rest[..stride]);
+    }
+}
+
+/// List a function for 1, 2, … 26 basis functions.
+macro_rules! for_every_size {
+    ($function:ident) => {
+        for_every_size!($function: 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24
+            25 26)
+    };
+    ($function:ident: $($size:literal)+) => {
+        [$($function::<$size>),+]
+    };
+}
+
+/// The sums by the number of basis functions, less 1.
+const SUMS: [Sum; MAX_DEGREE + 1] = for_every_size!(sum);
+
+/// The sums of vertices by degree.
+const POINTS: [PointSum; MAX_DEGREE + 1] = for_every_size!(point_sum);
 
 /// Divide a batch of homogeneous derivatives by the weight (Leibniz' rule) and move the points
 /// by `origin`.

@@ -45,7 +45,10 @@ mod tests {
         for scale in [1e-308, 1e-300, 1e-160, 1.0, 1e160, 1e300] {
             let vector = DVec3::new(2.0, -3.0, 6.0) * scale;
             let relative = length(vector) / (7.0 * scale) - 1.0;
-            assert!(relative.abs() <= 4.0 * f64::EPSILON, "{scale:e}: {relative:e}");
+            assert!(
+                relative.abs() <= 4.0 * f64::EPSILON,
+                "{scale:e}: {relative:e}"
+            );
             let along = direction(vector).map(|unit| unit * 7.0);
             let expected = DVec3::new(2.0, -3.0, 6.0);
             assert!(along.is_some_and(|along| along.distance(expected) <= 1e-14));
