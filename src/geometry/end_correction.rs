@@ -144,14 +144,15 @@ pub enum EndOverlap {
 impl EndOverlap {
     /// Tell how the ends of an open polygon overlap.
     pub fn of(polygon: &FloatPolygon) -> Self {
-        let (count, degree) = (polygon.vertices().len(), polygon.degree());
-        if count >= 2 * degree {
+        let count = polygon.vertices().len();
+        let terminal = polygon.terminal_vertices(End::Start).len();
+        if count >= 2 * terminal {
             Self::None
-        } else if count == degree + 1 {
+        } else if count == polygon.degree() + 1 {
             Self::OneSegment
         } else {
             Self::Partial {
-                shared: 2 * degree - count,
+                shared: 2 * terminal - count,
             }
         }
     }
@@ -204,7 +205,7 @@ pub fn correct_in_turn(
         residuals.push(now);
         converged = now <= tolerance;
         let earlier = residuals.len().checked_sub(PATIENCE + 1);
-        if earlier.is_some_and(|index| !(now <= 0.5 * residuals[index])) {
+        if earlier.is_some_and(|index| now.is_nan() || now > 0.5 * residuals[index]) {
             break;
         }
     }

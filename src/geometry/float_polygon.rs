@@ -237,8 +237,7 @@ pub(super) fn check_vertices(vertices: &[DVec3]) -> Result<(), PolygonError> {
 
 fn check_vertex(index: usize, vertex: DVec3) -> Result<(), PolygonError> {
     for (axis, value) in ['x', 'y', 'z'].into_iter().zip(vertex.to_array()) {
-        // A comparison with NaN is false, so this refuses it too.
-        if !(value.abs() <= MAX_MAGNITUDE) {
+        if value.is_nan() || value.abs() > MAX_MAGNITUDE {
             return Err(PolygonError::BadCoordinate { index, axis, value });
         }
     }

@@ -90,14 +90,21 @@ impl Batch {
         &self.values[first..first + self.stride]
     }
 
-    /// Make room, and clear what an earlier evaluation left in rows that this one skips.
-    fn prepare(&mut self, count: usize, stride: usize, order: usize, flat: bool) {
+    /// Make room for so many parameters.
+    fn prepare(&mut self, count: usize) {
+        let stride = count.next_multiple_of(LANES);
         if self.stride != stride {
             self.values = vec![0.0; (BATCH_ORDER + 1) * 4 * stride];
             self.stride = stride;
             self.flat = true;
             self.order = 0;
         }
+        self.count = count;
+    }
+
+    /// Clear what an earlier evaluation left in rows that this one skipped.
+    fn clear_skipped(&mut self, order: usize, flat: bool) {
+        let stride = self.stride;
         if flat && !self.flat {
             for order in 0..=BATCH_ORDER {
                 let first = (order * 4 + 2) * stride;
@@ -107,7 +114,6 @@ impl Batch {
         if order < self.order {
             self.values[(order + 1) * 4 * stride..].fill(0.0);
         }
-        self.count = count;
         self.flat = flat;
         self.order = order;
     }
@@ -200,16 +206,18 @@ impl Sampler {
 
     /// Evaluate x, y and, if it is not 0 throughout, z.
     fn coordinates(&self, vertices: &[DVec3], order: usize, batch: &mut Batch) {
-        let flat = vertices.iter().all(|vertex| vertex.z == 0.0);
-        batch.prepare(self.count, self.count.next_multiple_of(LANES), order, flat);
+        batch.prepare(self.count);
         if self.count == 0 {
             return;
         }
-        let axes = if flat { 2 } else { 3 };
-        POINTS[self.degree](&self.tables[0], vertices, axes, &mut batch.values);
+        let flat = POINTS[self.degree](&self.tables[0], vertices, &mut batch.values);
+        if flat != batch.flat || order != batch.order {
+            batch.clear_skipped(order, flat);
+        }
         if order == 0 {
             return;
         }
+        let axes = if flat { 2 } else { 3 };
         let [x, y, z, _] = &mut batch.differences;
         for (j, leg) in vertices.windows(2).enumerate() {
             let difference = leg[1] - leg[0];
@@ -257,8 +265,9 @@ impl Sampler {
 /// Adds up the coordinates of vertices times basis functions at all parameters of a table.
 type Sum = fn(&[[f64; LANES]], &[f64], &mut [f64]);
 
-/// Adds up the vertices themselves, for the first so many coordinates, into one row each.
-type PointSum = fn(&[[f64; LANES]], &[DVec3], usize, &mut [f64]);
+/// Adds up the vertices themselves, into one row a coordinate. Returns whether z is 0 throughout,
+/// in which case its row is left as it is.
+type PointSum = fn(&[[f64; LANES]], &[DVec3], &mut [f64]) -> bool;
 
 /// The sum of `SIZE` products. With their number known to the compiler the sums of all lanes stay
 /// in registers, which is worth a factor of two.
@@ -283,20 +292,22 @@ fn sum<const SIZE: usize>(table: &[[f64; LANES]], values: &[f64], out: &mut [f64
 fn point_sum<const SIZE: usize>(
     table: &[[f64; LANES]],
     vertices: &[DVec3],
-    axes: usize,
     out: &mut [f64],
-) {
+) -> bool {
     let Some(vertices) = vertices.first_chunk::<SIZE>() else {
-        return;
+        return true;
     };
     let stride = table.len() / SIZE * LANES;
     let (x, rest) = out.split_at_mut(stride);
     let (y, rest) = rest.split_at_mut(stride);
     sum::<SIZE>(table, &vertices.map(|vertex| vertex.x), x);
     sum::<SIZE>(table, &vertices.map(|vertex| vertex.y), y);
-    if axes > 2 {
-        sum::<SIZE>(table, &vertices.map(|vertex| vertex.z), &mut rest[..stride]);
+    let z = vertices.map(|vertex| vertex.z);
+    let flat = z.iter().fold(true, |flat, z| flat & (*z == 0.0));
+    if !flat {
+        sum::<SIZE>(table, &z, &mut rest[..stride]);
     }
+    flat
 }
 
 /// List a function for 1, 2, … 26 basis functions.
