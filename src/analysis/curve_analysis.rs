@@ -63,6 +63,8 @@ pub(super) struct BlockSummary {
     pub(super) bounds: Bounds,
     /// The longest step between two samples.
     longest: f64,
+    /// The arc length from the block's start to each segment's.
+    starts: [f64; BLOCK],
 }
 
 impl CurveAnalysis {
@@ -181,7 +183,7 @@ impl CurveAnalysis {
         let (segment, t) = self.curve.polygon.locate(u);
         let block = segment / BLOCK;
         let before: f64 = (0..block).map(|index| self.summary(index).length).sum();
-        before + self.length_between(block * BLOCK, segment, t)
+        before + self.length_in_block(segment, t)
     }
 
     /// Find the parameter at an arc length from the curve's start; the inverse of
@@ -353,11 +355,18 @@ impl CurveAnalysis {
         for sample in samples {
             bounds.add(sample.point.truncate());
         }
+        let mut length = 0.0;
+        let mut starts = [0.0; BLOCK];
+        for (start, segment) in starts.iter_mut().zip(range) {
+            *start = length;
+            length += self.segment_length(segment);
+        }
         self.blocks[index].summary = BlockSummary {
-            length: range.map(|segment| self.segment_length(segment)).sum(),
+            length,
             curvature: Span::of(samples.iter().map(|sample| sample.curvature)),
             bounds,
             longest: longest.sqrt(),
+            starts,
         };
     }
 
@@ -473,10 +482,9 @@ impl CurveAnalysis {
         }
     }
 
-    /// Measure from the start of segment `first` to the local parameter t of another.
-    pub(super) fn length_between(&self, first: usize, segment: usize, t: f64) -> f64 {
-        let whole: f64 = (first..segment).map(|k| self.segment_length(k)).sum();
-        whole + self.length_within(segment, t)
+    /// Measure from the start of a segment's block to the local parameter t.
+    pub(super) fn length_in_block(&self, segment: usize, t: f64) -> f64 {
+        self.summary(segment / BLOCK).starts[segment % BLOCK] + self.length_within(segment, t)
     }
 
     fn segment_length(&self, segment: usize) -> f64 {
