@@ -99,10 +99,7 @@ fn figure_2_compares_the_curvature_of_one_polygon_taken_both_ways() {
         let bspline = FloatPolygon::new(degree, polygon.clone(), None, false).expect("valid");
         let bezier = BezierPolygon::new(degree, polygon, None).expect("valid");
         let bezier = bezier.to_float().expect("a float polygon");
-        for (key, curve) in [
-            ("bspline_curvature", bspline),
-            ("bezier_curvature", bezier),
-        ] {
+        for (key, curve) in [("bspline_curvature", bspline), ("bezier_curvature", bezier)] {
             let at = numbers(&figure["u"]);
             for (u, expected) in at.into_iter().zip(numbers(&figure[key])) {
                 let found = curve.jet(u).signed_curvature();
@@ -119,7 +116,10 @@ fn figure_3_puts_the_vertices_of_a_degree_8_curve_on_a_conical_spiral() {
     let vertices = points(&figure["vertices"]);
     let scale = reach(&vertices);
     let curve = FloatPolygon::new(degree, vertices, None, false).expect("a valid curve");
-    for (u, expected) in numbers(&figure["u"]).into_iter().zip(list(&figure["curve_at_u"])) {
+    for (u, expected) in numbers(&figure["u"])
+        .into_iter()
+        .zip(list(&figure["curve_at_u"]))
+    {
         let jet = curve.jet(u);
         let found = [jet.point, jet.first, jet.second, jet.third];
         for (key, found) in ["point", "d1", "d2", "d3"].into_iter().zip(found) {

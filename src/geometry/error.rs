@@ -18,8 +18,8 @@ pub enum PolygonError {
     },
     /// There are fewer vertices than a curve of this degree has.
     #[error(
-        "{found} vertices are too few: a {} curve of degree {degree} needs at least {needed}",
-        if *periodic { "periodic" } else { "open" }
+        "{found} vertices are too few: {} curve of degree {degree} needs at least {needed}",
+        if *periodic { "a periodic" } else { "an open" }
     )]
     TooFewVertices {
         /// The number of vertices given.
