@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::outline::{Bounds, GAP, Outline, ViewBox};
+use super::comb::{CombSettings, Teeth};
+use super::outline::{Bounds, Outline, OutlineKey, ViewBox, append_gap, thin};
 use super::plot_series::PlotBlock;
-use super::sample::{Sample, SegmentSampler};
+use super::sample::{Sample, SegmentSampler, chain, finite};
 use super::vertex_chain::VertexChain;
 use crate::document::Curve;
 use crate::geometry::{ClampedPolygon, FloatPolygon, Range as Span};
@@ -24,8 +25,8 @@ const SAMPLES_PER_SEGMENT: Range<usize> = 4..256;
 /// A segment is sampled anew when its samples are farther apart than this, in screen points.
 const COARSE: f64 = 8.0;
 
-/// Samples of a segment that is sampled anew for a close view.
-const FINE: usize = 256;
+/// The most samples of a segment that is sampled anew for a close view.
+const FINEST: usize = 256;
 
 /// Hold the samples of a curve, its closed S-polygon, and what is drawn of both.
 #[derive(Debug)]
@@ -46,20 +47,12 @@ pub struct CurveAnalysis {
 /// What is derived from the segments of one block.
 #[derive(Debug, Default)]
 pub(super) struct Block {
-    curve: Outline<i32>,
-    evolute: Outline<i32>,
-    comb: Outline<(i32, u64)>,
+    curve: Outline,
+    evolute: Outline,
+    comb: Outline,
     teeth: Teeth,
     summary: BlockSummary,
     pub(super) plot: PlotBlock,
-}
-
-/// The teeth of one block's comb: where they stand, and their tips.
-#[derive(Debug, Default)]
-struct Teeth {
-    key: Option<(i32, u64, usize)>,
-    teeth: Vec<[DVec2; 2]>,
-    bounds: Option<Bounds>,
 }
 
 /// Figures of one block's samples.
@@ -70,15 +63,8 @@ pub(super) struct BlockSummary {
     pub(super) bounds: Bounds,
     /// The longest step between two samples.
     longest: f64,
-}
-
-/// How a curvature comb is drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CombSettings {
-    /// The length of a tooth for curvature 1, in units of the model squared.
-    pub scale: f64,
-    /// Teeth a segment.
-    pub density: usize,
+    /// The arc length from the block's start to each segment's.
+    starts: [f64; BLOCK],
 }
 
 impl CurveAnalysis {
@@ -197,7 +183,7 @@ impl CurveAnalysis {
         let (segment, t) = self.curve.polygon.locate(u);
         let block = segment / BLOCK;
         let before: f64 = (0..block).map(|index| self.summary(index).length).sum();
-        before + self.length_between(block * BLOCK, segment, t)
+        before + self.length_in_block(segment, t)
     }
 
     /// Find the parameter at an arc length from the curve's start; the inverse of
@@ -302,24 +288,23 @@ impl CurveAnalysis {
     }
 
     /// Append what is visible of the curve, thinned to the view's pixels. Gaps are
-    /// [`GAP`] points.
+    /// [`super::GAP`] points.
     pub fn append_curve(&mut self, view: &ViewBox, out: &mut Vec<DVec2>) {
         let place = |sample: &Sample| sample.point.truncate();
-        self.append(view, out, view.level(), |block| &mut block.curve, place);
+        self.append(view, out, 0, |block| &mut block.curve, place);
     }
 
     /// Append what is visible of the evolute; it breaks where it passes through infinity.
     pub fn append_evolute(&mut self, view: &ViewBox, out: &mut Vec<DVec2>) {
         let place = |sample: &Sample| finite(sample.centre().truncate());
-        self.append(view, out, view.level(), |block| &mut block.evolute, place);
+        self.append(view, out, 0, |block| &mut block.evolute, place);
     }
 
     /// Append what is visible of the comb's envelope.
     pub fn append_comb(&mut self, view: &ViewBox, comb: &CombSettings, out: &mut Vec<DVec2>) {
         let scale = comb.scale;
         let place = move |sample: &Sample| finite(sample.comb_tip(scale).truncate());
-        let key = (view.level(), scale.to_bits());
-        self.append(view, out, key, |block| &mut block.comb, place);
+        self.append(view, out, scale.to_bits(), |block| &mut block.comb, place);
     }
 
     /// Append the comb's visible teeth, each from its foot on the curve to its tip; where they
@@ -339,9 +324,7 @@ impl CurveAnalysis {
                     own.iter().step_by(stride)
                 })
             });
-            if teeth.bounds.is_some_and(|bounds| bounds.meets(view)) {
-                out.extend_from_slice(&teeth.teeth);
-            }
+            teeth.append(view, out);
         }
     }
 
@@ -372,11 +355,18 @@ impl CurveAnalysis {
         for sample in samples {
             bounds.add(sample.point.truncate());
         }
+        let mut length = 0.0;
+        let mut starts = [0.0; BLOCK];
+        for (start, segment) in starts.iter_mut().zip(range) {
+            *start = length;
+            length += self.segment_length(segment);
+        }
         self.blocks[index].summary = BlockSummary {
-            length: range.map(|segment| self.segment_length(segment)).sum(),
+            length,
             curvature: Span::of(samples.iter().map(|sample| sample.curvature)),
             bounds,
             longest: longest.sqrt(),
+            starts,
         };
     }
 
@@ -430,33 +420,37 @@ impl CurveAnalysis {
         }
     }
 
-    /// Append one layer that is a chain of points made of the samples.
-    fn append<Key: PartialEq + Copy>(
+    /// Append one layer that is a chain of points made of the samples; `shape` is whatever else
+    /// the points depend on.
+    fn append(
         &mut self,
         view: &ViewBox,
         out: &mut Vec<DVec2>,
-        key: Key,
-        layer: impl Fn(&mut Block) -> &mut Outline<Key>,
+        shape: u64,
+        layer: impl Fn(&mut Block) -> &mut Outline,
         place: impl Fn(&Sample) -> DVec2 + Copy,
     ) {
-        let spacing = 2f64.powi(view.level());
         for index in 0..self.blocks.len() {
-            let summary = self.summary(index);
-            if summary.longest > COARSE * view.pixel {
-                self.append_fine(index, view, out, place);
-                continue;
-            }
+            let longest = self.summary(index).longest;
+            let coarse = longest > COARSE * view.pixel && self.steps < FINEST;
+            let level = (!coarse).then(|| view.level());
             let range = self.block_segments(index);
             let size = self.steps + 1;
             let samples = &self.samples[range.start * size..range.end * size];
             let outline = layer(&mut self.blocks[index]);
-            outline.refresh(key, spacing, || chain(samples, place));
-            outline.append(view, out);
+            outline.refresh(OutlineKey { level, shape }, || chain(samples, place));
+            if !coarse {
+                outline.append(view, out);
+            } else if outline.bounds().may_meet(view) {
+                self.append_fine(index, view, out, place);
+            } else {
+                append_gap(out);
+            }
         }
     }
 
     /// Append a block whose samples are too coarse for the view: segments that the view touches
-    /// are sampled anew.
+    /// are sampled anew, as densely as the view needs.
     fn append_fine(
         &mut self,
         index: usize,
@@ -464,35 +458,33 @@ impl CurveAnalysis {
         out: &mut Vec<DVec2>,
         place: impl Fn(&Sample) -> DVec2 + Copy,
     ) {
-        let degree = self.curve.polygon.degree();
+        let needed = self.steps as f64 * self.summary(index).longest / (COARSE * view.pixel);
+        let steps = (needed.min(FINEST as f64) as usize).next_power_of_two();
+        if self.fine.as_ref().is_none_or(|fine| fine.steps() != steps) {
+            self.fine = Some(SegmentSampler::new(self.curve.polygon.degree(), steps));
+        }
+        let Some(fine) = &mut self.fine else {
+            return;
+        };
         let size = self.steps + 1;
-        let mut fine = vec![self.samples[0]; FINE + 1];
-        for segment in self.block_segments(index) {
-            let samples = &self.samples[segment * size..(segment + 1) * size];
+        let mut samples = vec![self.samples[0]; steps + 1];
+        for segment in index * BLOCK..((index + 1) * BLOCK).min(self.curve.polygon.segments()) {
+            let coarse = &self.samples[segment * size..(segment + 1) * size];
             let mut bounds = Bounds::EMPTY;
-            chain(samples, place).for_each(|point| bounds.add(point));
-            let reach = if bounds.is_empty() {
-                0.0
+            chain(coarse, place).for_each(|point| bounds.add(point));
+            if bounds.may_meet(view) {
+                fine.fill(&self.curve.polygon, segment, self.planar, &mut samples);
+                let spacing = 2f64.powi(view.level());
+                thin(chain(&samples, place), spacing, out, &mut bounds);
             } else {
-                (bounds.high - bounds.low).max_element()
-            };
-            let visible = bounds.meets(&view.grown(0.25 * reach));
-            if visible && self.steps < FINE {
-                let sampler = self
-                    .fine
-                    .get_or_insert_with(|| SegmentSampler::new(degree, FINE));
-                sampler.fill(&self.curve.polygon, segment, self.planar, &mut fine);
-                out.extend(chain(&fine, place));
-            } else {
-                out.extend(chain(samples, place));
+                append_gap(out);
             }
         }
     }
 
-    /// Measure from the start of segment `first` to the local parameter t of another.
-    pub(super) fn length_between(&self, first: usize, segment: usize, t: f64) -> f64 {
-        let whole: f64 = (first..segment).map(|k| self.segment_length(k)).sum();
-        whole + self.length_within(segment, t)
+    /// Measure from the start of a segment's block to the local parameter t.
+    pub(super) fn length_in_block(&self, segment: usize, t: f64) -> f64 {
+        self.summary(segment / BLOCK).starts[segment % BLOCK] + self.length_within(segment, t)
     }
 
     fn segment_length(&self, segment: usize) -> f64 {
@@ -510,65 +502,6 @@ impl CurveAnalysis {
             _ => 0.0,
         }
     }
-}
-
-impl Teeth {
-    fn refresh<'a, I: Iterator<Item = &'a Sample>>(
-        &mut self,
-        key: (i32, u64, usize),
-        spacing: f64,
-        samples: impl FnOnce() -> I,
-    ) {
-        if self.key == Some(key) {
-            return;
-        }
-        self.key = Some(key);
-        self.teeth.clear();
-        let scale = f64::from_bits(key.1);
-        let mut bounds = Bounds::EMPTY;
-        let mut kept: Option<DVec2> = None;
-        for sample in samples() {
-            let (foot, tip) = (sample.point.truncate(), sample.comb_tip(scale).truncate());
-            if !tip.is_finite() || kept.is_some_and(|kept| kept.distance(foot) < spacing) {
-                continue;
-            }
-            kept = Some(foot);
-            bounds.add(foot);
-            bounds.add(tip);
-            self.teeth.push([foot, tip]);
-        }
-        self.bounds = Some(bounds);
-    }
-}
-
-/// Turn samples into a chain of points with a gap wherever the curvature changes sign, if the
-/// points follow the curvature through infinity there.
-fn chain(
-    samples: &[Sample],
-    place: impl Fn(&Sample) -> DVec2 + Copy,
-) -> impl Iterator<Item = DVec2> {
-    let mut before: Option<&Sample> = None;
-    samples.iter().flat_map(move |sample| {
-        let point = place(sample);
-        let gap = before.is_some_and(|before| {
-            let turned =
-                before.curvature * sample.curvature < 0.0 || before.normal.dot(sample.normal) < 0.0;
-            turned && leaps(place(before), point, before, sample)
-        });
-        before = Some(sample);
-        gap.then_some(GAP).into_iter().chain([point])
-    })
-}
-
-/// Whether a layer's points leap between two samples: it moves farther than the curve itself by
-/// an order of magnitude.
-fn leaps(from: DVec2, to: DVec2, a: &Sample, b: &Sample) -> bool {
-    from.distance_squared(to) > 400.0 * a.point.distance_squared(b.point)
-}
-
-/// Turn a point that is not finite into a gap.
-fn finite(point: DVec2) -> DVec2 {
-    if point.is_finite() { point } else { GAP }
 }
 
 /// List the segments that depend on the vertices of a range: one range, or two where a periodic

@@ -2,6 +2,7 @@
 //! segment by segment; nothing in here draws.
 
 mod cache;
+mod comb;
 mod curve_analysis;
 mod outline;
 mod plot_series;
@@ -9,7 +10,8 @@ mod sample;
 mod vertex_chain;
 
 pub use cache::AnalysisCache;
-pub use curve_analysis::{CombSettings, CurveAnalysis};
+pub use comb::CombSettings;
+pub use curve_analysis::CurveAnalysis;
 pub use outline::{Bounds, GAP, ViewBox};
 pub use sample::Sample;
 pub use vertex_chain::{ChainFigures, VertexChain};

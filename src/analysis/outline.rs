@@ -17,7 +17,8 @@ pub struct ViewBox {
 }
 
 impl ViewBox {
-    /// The level of detail: detail finer than 2^level units is not seen.
+    /// The level of detail: detail finer than 2^level units, at most half a screen point, is not
+    /// seen.
     pub(super) fn level(&self) -> i32 {
         (0.5 * self.pixel).log2().floor().clamp(-1000.0, 1000.0) as i32
     }
@@ -72,6 +73,13 @@ impl Bounds {
         !(self.low.x <= self.high.x)
     }
 
+    /// Whether a curve through points with this box around them may be visible: between the
+    /// points it may run a little beyond the box.
+    pub(super) fn may_meet(&self, view: &ViewBox) -> bool {
+        let reach = (self.high - self.low).max_element();
+        !self.is_empty() && self.meets(&view.grown(0.25 * reach))
+    }
+
     /// Whether any part of the box is visible.
     pub fn meets(&self, view: &ViewBox) -> bool {
         self.low.cmple(view.high).all() && self.high.cmpge(view.low).all()
@@ -81,54 +89,65 @@ impl Bounds {
 /// A point that breaks a chain: what comes after starts anew.
 pub const GAP: DVec2 = DVec2::NAN;
 
+/// What an outline's points were made for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct OutlineKey {
+    /// The level of detail; `None` keeps every point of the source.
+    pub(super) level: Option<i32>,
+    /// Whatever else the points depend on, such as the comb's scale.
+    pub(super) shape: u64,
+}
+
 /// The thinned points of one block of a chain.
-#[derive(Clone, Debug)]
-pub(super) struct Outline<Key> {
-    key: Option<Key>,
+#[derive(Clone, Debug, Default)]
+pub(super) struct Outline {
+    key: Option<OutlineKey>,
     points: Vec<DVec2>,
     bounds: Bounds,
 }
 
-impl<Key> Default for Outline<Key> {
-    fn default() -> Self {
-        Self {
-            key: None,
-            points: Vec::new(),
-            bounds: Bounds::EMPTY,
-        }
-    }
-}
-
-impl<Key: PartialEq> Outline<Key> {
+impl Outline {
     /// Bring the points up to date with `source` if `key` has changed since.
     pub(super) fn refresh<I: Iterator<Item = DVec2>>(
         &mut self,
-        key: Key,
-        spacing: f64,
+        key: OutlineKey,
         source: impl FnOnce() -> I,
     ) {
-        if self.key.as_ref() == Some(&key) {
+        if self.key == Some(key) {
             return;
         }
         self.key = Some(key);
         self.bounds = Bounds::EMPTY;
         self.points.clear();
+        let spacing = key.level.map_or(0.0, |level| 2f64.powi(level));
         thin(source(), spacing, &mut self.points, &mut self.bounds);
+    }
+
+    /// The box around the points.
+    pub(super) fn bounds(&self) -> &Bounds {
+        &self.bounds
     }
 
     /// Append the points if any of them may be visible, otherwise a gap.
     pub(super) fn append(&self, view: &ViewBox, out: &mut Vec<DVec2>) {
         if self.bounds.meets(view) {
             out.extend_from_slice(&self.points);
-        } else if out.last().is_some_and(|last| !last.is_nan()) {
-            out.push(GAP);
+        } else {
+            append_gap(out);
         }
+    }
+}
+
+/// Break a chain, if it is not broken already.
+pub(super) fn append_gap(out: &mut Vec<DVec2>) {
+    if out.last().is_some_and(|last| !last.is_nan()) {
+        out.push(GAP);
     }
 }
 
 /// Copy a chain, leaving out points nearer than `spacing` to the last one kept; the ends of the
 /// chain and of each of its pieces stay.
-fn thin(
+pub(super) fn thin(
     source: impl Iterator<Item = DVec2>,
     spacing: f64,
     out: &mut Vec<DVec2>,

@@ -3,7 +3,6 @@
 use glam::DVec2;
 
 use super::curve_analysis::CurveAnalysis;
-use crate::geometry::polygon_figures::{discrete_curvature, turning_angle};
 
 /// Points of a series kept for each bin of the horizontal axis: first, lowest, highest, last.
 const BINS: f64 = 1024.0;
@@ -39,20 +38,12 @@ impl CurveAnalysis {
     pub fn append_discrete_curvature(&mut self, out: &mut Vec<(usize, DVec2)>) {
         let polygon = self.curve().clone();
         let polygon = &polygon.polygon;
-        let count = polygon.vertices().len();
-        let stride = count.div_ceil(BINS as usize).max(1);
         let end = polygon.segments() as f64;
         let mut cursor = LengthCursor::default();
-        for first in (0..count).step_by(stride) {
-            let bin = first..(first + stride).min(count);
-            let values = bin.filter_map(|index| {
-                let [before, corner, after] = self.float().corner(index)?;
-                Some((index, discrete_curvature(before, corner, after)))
-            });
-            let extreme = values.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-            let Some((index, value)) = extreme else {
-                continue;
-            };
+        let mut extremes = Vec::new();
+        self.float()
+            .append_extreme_curvatures(BINS as usize, &mut extremes);
+        for (index, value) in extremes {
             let u = polygon.greville(index);
             let inside = polygon.is_periodic() || (0.0..=end).contains(&u);
             if value.is_finite() && inside {
@@ -68,17 +59,12 @@ impl CurveAnalysis {
 
     /// Append the lengths of the legs, over the number of the vertex where each begins.
     pub fn append_leg_lengths(&mut self, out: &mut Vec<DVec2>) {
-        let chain = self.float();
-        let count = chain.vertices().len();
-        append_binned(count, |index| chain.leg(index), out);
+        self.float().append_leg_series(BINS as usize, out);
     }
 
     /// Append the turning angles in radians, over the numbers of their vertices.
     pub fn append_turning_angles(&mut self, out: &mut Vec<DVec2>) {
-        let chain = self.float();
-        let count = chain.vertices().len();
-        let turn = |index| chain.corner(index).map(|[a, b, c]| turning_angle(a, b, c));
-        append_binned(count, turn, out);
+        self.float().append_turn_series(BINS as usize, out);
     }
 
     fn refresh_plot(&mut self, index: usize, level: i32) {
@@ -127,14 +113,13 @@ impl LengthCursor {
             self.before_block += analysis.summary(self.block).length;
             self.block += 1;
         }
-        let first = analysis.block_segments(self.block).start;
-        self.before_block + analysis.length_between(first, segment, t)
+        self.before_block + analysis.length_in_block(segment, t)
     }
 }
 
 /// Thin a series: of the points that fall into one bin keep the first, the lowest, the highest
 /// and the last.
-struct Bins {
+pub(super) struct Bins {
     width: f64,
     bin: f64,
     kept: [DVec2; 4],
@@ -142,7 +127,7 @@ struct Bins {
 }
 
 impl Bins {
-    fn new(width: f64) -> Self {
+    pub(super) fn new(width: f64) -> Self {
         Self {
             width,
             bin: 0.0,
@@ -151,7 +136,7 @@ impl Bins {
         }
     }
 
-    fn add(&mut self, point: DVec2, out: &mut Vec<DVec2>) {
+    pub(super) fn add(&mut self, point: DVec2, out: &mut Vec<DVec2>) {
         if point.y.is_nan() {
             self.finish(out);
             out.push(DVec2::new(point.x, f64::NAN));
@@ -179,7 +164,7 @@ impl Bins {
         self.kept[3] = point;
     }
 
-    fn finish(&mut self, out: &mut Vec<DVec2>) {
+    pub(super) fn finish(&mut self, out: &mut Vec<DVec2>) {
         if !self.filled {
             return;
         }
@@ -196,15 +181,4 @@ impl Bins {
             }
         }
     }
-}
-
-fn append_binned(count: usize, value: impl Fn(usize) -> Option<f64>, out: &mut Vec<DVec2>) {
-    let width = (count as f64 / BINS).max(1.0);
-    let mut bins = Bins::new(width);
-    for index in 0..count {
-        if let Some(value) = value(index) {
-            bins.add(DVec2::new(index as f64, value), out);
-        }
-    }
-    bins.finish(out);
 }

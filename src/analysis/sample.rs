@@ -1,7 +1,8 @@
 //! Samples of a curve: what every drawn layer is made of.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
+use super::outline::GAP;
 use crate::geometry::{Batch, FloatPolygon, Jet, Sampler};
 
 /// Hold what is drawn at one parameter of the curve.
@@ -70,6 +71,11 @@ impl SegmentSampler {
         }
     }
 
+    /// The number of steps that a segment is divided into.
+    pub(super) fn steps(&self) -> usize {
+        self.count
+    }
+
     /// Fill `samples` with `count` + 1 samples of one segment.
     ///
     /// Arc lengths come from Simpson's rule on each pair of steps, with the speeds at hand.
@@ -113,4 +119,34 @@ impl SegmentSampler {
             sample.arc_length += shift;
         }
     }
+}
+
+/// Turn samples into a chain of points with a gap wherever the curvature changes sign, if the
+/// points follow the curvature through infinity there.
+pub(super) fn chain(
+    samples: &[Sample],
+    place: impl Fn(&Sample) -> DVec2 + Copy,
+) -> impl Iterator<Item = DVec2> {
+    let mut before: Option<&Sample> = None;
+    samples.iter().flat_map(move |sample| {
+        let point = place(sample);
+        let gap = before.is_some_and(|before| {
+            let turned =
+                before.curvature * sample.curvature < 0.0 || before.normal.dot(sample.normal) < 0.0;
+            turned && leaps(place(before), point, before, sample)
+        });
+        before = Some(sample);
+        gap.then_some(GAP).into_iter().chain([point])
+    })
+}
+
+/// Whether a layer's points leap between two samples: it moves farther than the curve itself by
+/// an order of magnitude.
+fn leaps(from: DVec2, to: DVec2, a: &Sample, b: &Sample) -> bool {
+    from.distance_squared(to) > 400.0 * a.point.distance_squared(b.point)
+}
+
+/// Turn a point that is not finite into a gap.
+pub(super) fn finite(point: DVec2) -> DVec2 {
+    if point.is_finite() { point } else { GAP }
 }

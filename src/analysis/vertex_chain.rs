@@ -4,9 +4,10 @@ use std::ops::Range;
 
 use glam::{DVec2, DVec3};
 
-use super::outline::{Bounds, Outline, ViewBox};
+use super::outline::{Bounds, Outline, OutlineKey, ViewBox};
+use super::plot_series::Bins;
 use crate::geometry::Range as Span;
-use crate::geometry::polygon_figures::turning_angle;
+use crate::geometry::polygon_figures::{discrete_curvature, turning_angle};
 
 /// Vertices in one block.
 const BLOCK: usize = 64;
@@ -24,9 +25,12 @@ pub struct VertexChain {
 
 #[derive(Clone, Debug, Default)]
 struct Block {
-    legs: Outline<i32>,
+    legs: Outline,
     handles: Handles,
     figures: Option<BlockFigures>,
+    extremes: Option<Vec<(usize, f64)>>,
+    leg_series: Option<Vec<DVec2>>,
+    turn_series: Option<Vec<DVec2>>,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -103,7 +107,10 @@ impl VertexChain {
 
     /// Append what is visible of the legs.
     pub fn append_legs(&mut self, view: &ViewBox, out: &mut Vec<DVec2>) {
-        let level = view.level();
+        let key = OutlineKey {
+            level: Some(view.level()),
+            shape: 0,
+        };
         let count = self.vertices.len();
         for (index, block) in self.blocks.iter_mut().enumerate() {
             let first = index * BLOCK;
@@ -111,7 +118,7 @@ impl VertexChain {
             let end = (first + BLOCK + 1).min(count);
             let closing = self.closed && end == count && first + BLOCK >= count;
             let vertices = &self.vertices;
-            block.legs.refresh(level, 2f64.powi(level), || {
+            block.legs.refresh(key, || {
                 let wrap = closing.then(|| vertices[0].truncate());
                 let own = vertices[first..end].iter().map(|vertex| vertex.truncate());
                 own.chain(wrap)
@@ -155,6 +162,87 @@ impl VertexChain {
         all
     }
 
+    /// Append the discrete curvature at the vertices, with their numbers; where there are more
+    /// than `bins` vertices, only the greatest in magnitude of each run of neighbours.
+    pub(super) fn append_extreme_curvatures(&mut self, bins: usize, out: &mut Vec<(usize, f64)>) {
+        let run = self
+            .vertices
+            .len()
+            .div_ceil(bins)
+            .next_power_of_two()
+            .min(BLOCK);
+        for index in 0..self.blocks.len() {
+            let known = self.blocks[index].extremes.take();
+            let extremes = known.unwrap_or_else(|| self.block_extremes(index, run));
+            out.extend_from_slice(&extremes);
+            self.blocks[index].extremes = Some(extremes);
+        }
+    }
+
+    /// Append the lengths of the legs over the number of the vertex where each begins, thinned to
+    /// about `bins` bins with their extrema kept.
+    pub(super) fn append_leg_series(&mut self, bins: usize, out: &mut Vec<DVec2>) {
+        let run = self.run(bins);
+        for index in 0..self.blocks.len() {
+            let known = self.blocks[index].leg_series.take();
+            let series = known.unwrap_or_else(|| self.binned(index, run, |i| self.leg(i)));
+            out.extend_from_slice(&series);
+            self.blocks[index].leg_series = Some(series);
+        }
+    }
+
+    /// Append the turning angles in radians over the numbers of their vertices, thinned as
+    /// [`VertexChain::append_leg_series`] does.
+    pub(super) fn append_turn_series(&mut self, bins: usize, out: &mut Vec<DVec2>) {
+        let run = self.run(bins);
+        for index in 0..self.blocks.len() {
+            let known = self.blocks[index].turn_series.take();
+            let series = known.unwrap_or_else(|| self.binned(index, run, |i| self.turn(i)));
+            out.extend_from_slice(&series);
+            self.blocks[index].turn_series = Some(series);
+        }
+    }
+
+    /// The number of neighbours that share a bin: a power of two, so that blocks hold whole bins.
+    fn run(&self, bins: usize) -> usize {
+        self.vertices
+            .len()
+            .div_ceil(bins)
+            .next_power_of_two()
+            .min(BLOCK)
+    }
+
+    fn binned(&self, index: usize, run: usize, value: impl Fn(usize) -> Option<f64>) -> Vec<DVec2> {
+        let mut points = Vec::new();
+        let mut bins = Bins::new(run as f64);
+        for vertex in index * BLOCK..((index + 1) * BLOCK).min(self.vertices.len()) {
+            if let Some(value) = value(vertex) {
+                bins.add(DVec2::new(vertex as f64, value), &mut points);
+            }
+        }
+        bins.finish(&mut points);
+        points
+    }
+
+    fn block_extremes(&self, index: usize, run: usize) -> Vec<(usize, f64)> {
+        let range = index * BLOCK..((index + 1) * BLOCK).min(self.vertices.len());
+        let curvature = |i: usize| {
+            let [before, corner, after] = self.corner(i)?;
+            Some((i, discrete_curvature(before, corner, after)))
+        };
+        let runs = range
+            .clone()
+            .step_by(run)
+            .map(|first| first..(first + run).min(range.end));
+        runs.filter_map(|run| {
+            let values = run
+                .filter_map(curvature)
+                .filter(|(_, value)| value.is_finite());
+            values.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
+        })
+        .collect()
+    }
+
     /// The vertex with this number; beyond the last it wraps if the polygon is closed.
     pub fn get(&self, index: usize) -> Option<DVec3> {
         let count = self.vertices.len();
@@ -165,6 +253,12 @@ impl VertexChain {
     /// The length of the leg from vertex `index` to the next.
     pub fn leg(&self, index: usize) -> Option<f64> {
         Some(self.get(index)?.distance(self.get(index + 1)?))
+    }
+
+    /// The turning angle at vertex `index`, in radians.
+    pub fn turn(&self, index: usize) -> Option<f64> {
+        self.corner(index)
+            .map(|[before, corner, after]| turning_angle(before, corner, after))
     }
 
     /// The vertex with its two neighbours.
@@ -183,14 +277,13 @@ impl VertexChain {
             return figures;
         }
         let range = index * BLOCK..((index + 1) * BLOCK).min(self.vertices.len());
-        let turn = |i: usize| self.corner(i).map(|[a, b, c]| turning_angle(a, b, c));
         let mut bounds = Bounds::EMPTY;
         for vertex in &self.vertices[range.clone()] {
             bounds.add(vertex.truncate());
         }
         let figures = BlockFigures {
             legs: Span::of(range.clone().filter_map(|i| self.leg(i))),
-            turns: Span::of(range.filter_map(turn)),
+            turns: Span::of(range.filter_map(|i| self.turn(i))),
             bounds,
         };
         self.blocks[index].figures = Some(figures);

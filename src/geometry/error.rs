@@ -18,8 +18,8 @@ pub enum PolygonError {
     },
     /// There are fewer vertices than a curve of this degree has.
     #[error(
-        "{found} vertices are too few: a {} curve of degree {degree} needs at least {needed}",
-        if *periodic { "periodic" } else { "open" }
+        "{found} vertices are too few: {} curve of degree {degree} needs at least {needed}",
+        if *periodic { "a periodic" } else { "an open" }
     )]
     TooFewVertices {
         /// The number of vertices given.
@@ -33,7 +33,7 @@ pub enum PolygonError {
     },
     /// A coordinate is infinite or not a number.
     #[error(
-        "vertex {index}: coordinate {axis} is {value}, and only finite numbers up to 1e100 can be used"
+        "vertex {index}: coordinate {axis} is {value:?}, and only finite numbers up to 1e100 can be used"
     )]
     BadCoordinate {
         /// The vertex, counted from 0.
@@ -45,7 +45,7 @@ pub enum PolygonError {
     },
     /// A weight is zero, negative, infinite or not a number.
     #[error(
-        "vertex {index}: weight {value} cannot be used: weights are positive numbers from 1e-100 to 1e100"
+        "vertex {index}: weight {value:?} cannot be used: weights are positive numbers from 1e-100 to 1e100"
     )]
     BadWeight {
         /// The vertex, counted from 0.

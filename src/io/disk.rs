@@ -115,7 +115,7 @@ fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, FileError> {
         path: path.to_owned(),
         most,
     };
-    let mut file = File::open(path).map_err(failed)?;
+    let file = File::open(path).map_err(failed)?;
     let metadata = file.metadata().map_err(failed)?;
     if metadata.is_dir() {
         return Err(FileError::NotAFile {
@@ -127,9 +127,7 @@ fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, FileError> {
     }
     // The file may grow, or not know its size: the limit holds for what is read.
     let mut bytes = Vec::new();
-    let limited = std::io::Read::by_ref(&mut file)
-        .take(most + 1)
-        .read_to_end(&mut bytes);
+    let limited = file.take(most + 1).read_to_end(&mut bytes);
     limited.map_err(failed)?;
     if bytes.len() as u64 > most {
         return Err(too_large());

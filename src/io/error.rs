@@ -45,7 +45,7 @@ impl Place {
     /// Say what is wrong here.
     pub fn problem(self, problem: Problem) -> ReadError {
         ReadError {
-            place: self,
+            place: Box::new(self),
             problem,
         }
     }
@@ -91,7 +91,7 @@ pub(crate) fn quoted(text: &str) -> String {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReadError {
     /// Where it is.
-    pub place: Place,
+    pub place: Box<Place>,
     /// What it is.
     pub problem: Problem,
 }

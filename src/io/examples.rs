@@ -160,7 +160,7 @@ mod tests {
     #[test]
     fn the_bottle_and_the_hull_have_their_proportions() {
         let near = |found: f64, expected: f64| {
-            let allowed = 0.01 * expected.abs().max(1.0);
+            let allowed = 0.05 + 1e-3 * expected;
             assert!(
                 (found - expected).abs() < allowed,
                 "{found} is not {expected}"

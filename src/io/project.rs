@@ -166,3 +166,6 @@ fn token(text: &str, line: usize, column: usize) -> Option<&str> {
     let number: f64 = token.parse().ok()?;
     (!number.is_finite()).then_some(token)
 }
+
+#[cfg(test)]
+mod tests;

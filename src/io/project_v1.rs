@@ -172,7 +172,7 @@ fn checked(target: Option<Target>, end: End) -> Result<Option<EndTarget>, Proble
         .flatten()
         .flat_map(|vector| vector.to_array())
     {
-        if !(value.abs() <= MAX_MAGNITUDE) {
+        if value.abs() > MAX_MAGNITUDE {
             let end = end.name();
             return Err(Problem::TargetOutOfRange { end, value });
         }

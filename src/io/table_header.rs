@@ -177,8 +177,8 @@ mod tests {
             "a;b",
             "\"",
             "tab\there",
-            "\u{2028}",
-            "\r\n",
+            "a\u{2028}b",
+            "a\r\n",
             "name=",
         ] {
             let line = header(name).to_line();

@@ -185,7 +185,7 @@ impl App {
     fn take_dropped_files(&mut self, context: &Context) {
         let dropped: Vec<PathBuf> = context.input(|input| {
             let files = input.raw.dropped_files.iter();
-            files.filter_map(|file| file.path.clone()).collect()
+            files.map(|file| file.path().to_owned()).collect()
         });
         match dropped.as_slice() {
             [] => {}

@@ -33,7 +33,7 @@ pub fn drop_ui(context: &Context, canvas: Rect) {
         return;
     }
     let tokens = Tokens::of_theme(context.global_style().visuals.dark_mode);
-    let layer = LayerId::unique(Order::Foreground, Id::unique("drop"));
+    let layer = LayerId::new(Order::Foreground, Id::unique("drop"));
     let painter = context.layer_painter(layer);
     let rect = canvas.shrink(2.0 * STEP);
     let stroke = Stroke::new(2.0, tokens.accent);

@@ -260,7 +260,7 @@ pub fn of_document(colour: Colour) -> Color32 {
 
 /// The font of icons.
 pub fn icon_font(size: f32) -> FontId {
-    FontId::unique(size, FontFamily::Name(ICON_FAMILY.into()))
+    FontId::new(size, FontFamily::Name(ICON_FAMILY.into()))
 }
 
 /// The font of numbers: every figure as wide as the next.

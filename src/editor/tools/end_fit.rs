@@ -173,11 +173,11 @@ impl Tool for EndFitTool {
             State::Target { .. } => "Drag the target point; Shift keeps to an axis".into(),
             State::Direction => "Drag the target direction; Shift keeps to 15°".into(),
             State::Body { .. } => format!(
-                "Step 5: drag the {} terminal vertices as one body; the {name} snaps to the target",
+                "Step 5: drag the {} terminal vertices as one body; the {name} snaps to the target, Ctrl frees it",
                 subject.curve.polygon.degree()
             ),
             State::Ring { angle, .. } => format!(
-                "Step 6: turned by {:.3}°; the tangent snaps to the target direction",
+                "Step 6: turned by {:.3}°; the tangent snaps to the target direction, Ctrl frees it",
                 angle.to_degrees()
             ),
             State::Idle => {
@@ -355,7 +355,7 @@ impl EndFitTool {
                 let target = subject.target.map(|target| target.point.truncate());
                 let near =
                     |target: &DVec2| target.distance(wanted) <= REACH * context.viewport.pixel();
-                let snaps = context.snapping != context.modifiers.ctrl;
+                let snaps = !context.modifiers.ctrl;
                 *snapped = target.filter(near).filter(|_| snaps);
                 let exact = subject.target.filter(|_| snapped.is_some());
                 let vector = match exact {
@@ -381,7 +381,7 @@ impl EndFitTool {
                 let wanted = subject.target.filter(|target| target.direction.is_some());
                 let missing = wanted
                     .map(|target| EndDifference::between(polygon, subject.end, &target).angle);
-                let snaps = context.snapping != context.modifiers.ctrl;
+                let snaps = !context.modifiers.ctrl;
                 let close = |missing: &f64| (missing - free).abs() < SNAP_ANGLE.to_radians();
                 let exact = missing
                     .filter(close)
