@@ -10,3 +10,5 @@ pub mod document;
 pub mod editor;
 pub mod geometry;
 pub mod io;
+#[cfg(feature = "gui")]
+pub mod ui;

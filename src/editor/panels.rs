@@ -35,7 +35,7 @@ impl Editor {
                     plots.hovered = Some(glam::DVec2::new(analysis.length_at(u), curvature));
                 }
             }
-            plots.hovered_vertex = self.hovered_vertex(id);
+            plots.hovered_vertex = self.vertex_hovered_on(id);
         }
         self.plots = plots;
         &self.plots
@@ -95,12 +95,17 @@ impl Editor {
         })
     }
 
+    /// The vertex of the active curve that is hovered, on the canvas or in a panel.
+    pub fn hovered_vertex(&self) -> Option<usize> {
+        self.vertex_hovered_on(self.selection.active()?)
+    }
+
+
     /// The number of segments of a curve that were sampled when it last changed.
     pub fn segments_redone(&self, curve: crate::document::CurveId) -> Option<usize> {
         Some(self.analyses.peek(curve)?.segments_redone())
     }
-
-    fn hovered_vertex(&self, id: crate::document::CurveId) -> Option<usize> {
+    fn vertex_hovered_on(&self, id: crate::document::CurveId) -> Option<usize> {
         if self.hovered.vertex.is_some() {
             return self.hovered.vertex;
         }
