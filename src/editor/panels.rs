@@ -100,7 +100,6 @@ impl Editor {
         self.vertex_hovered_on(self.selection.active()?)
     }
 
-
     /// The number of segments of a curve that were sampled when it last changed.
     pub fn segments_redone(&self, curve: crate::document::CurveId) -> Option<usize> {
         Some(self.analyses.peek(curve)?.segments_redone())

@@ -41,7 +41,12 @@ pub struct Shell {
 
 impl Default for Shell {
     fn default() -> Self {
-        Self { dark: true, plots: true, legs: false, hidden: None }
+        Self {
+            dark: true,
+            plots: true,
+            legs: false,
+            hidden: None,
+        }
     }
 }
 
@@ -94,7 +99,11 @@ impl App {
             hide_layers(&mut editor, hidden);
         }
         let mut plots = Plots::default();
-        plots.set_tab(if shell.legs { Tab::Legs } else { Tab::Curvature });
+        plots.set_tab(if shell.legs {
+            Tab::Legs
+        } else {
+            Tab::Curvature
+        });
         Self {
             editor,
             shell,
@@ -116,7 +125,10 @@ impl App {
     pub fn open_files(&mut self, files: &[PathBuf]) {
         if let Some((first, others)) = files.split_first() {
             self.editor.open(first);
-            let failed = self.editor.message().is_some_and(|message| message.is_error);
+            let failed = self
+                .editor
+                .message()
+                .is_some_and(|message| message.is_error);
             if !others.is_empty() && !failed {
                 self.editor.import(others);
             }
@@ -199,30 +211,46 @@ impl App {
 
     fn panels_ui(&mut self, ui: &mut Ui) {
         let tokens = Tokens::of(ui);
-        let bar = |x: i8, y: i8| Frame::NONE.fill(tokens.panel).inner_margin(Margin::symmetric(x, y));
-        Panel::top("menu").frame(bar(4, 2)).resizable(false).show(ui, |ui| {
-            menu_ui(ui, &self.editor, &self.shell, &mut self.commands);
-        });
+        let bar = |x: i8, y: i8| {
+            Frame::NONE
+                .fill(tokens.panel)
+                .inner_margin(Margin::symmetric(x, y))
+        };
+        Panel::top("menu")
+            .frame(bar(4, 2))
+            .resizable(false)
+            .show(ui, |ui| {
+                menu_ui(ui, &self.editor, &self.shell, &mut self.commands);
+            });
         let status = Panel::bottom("status").frame(bar(12, 0)).resizable(false);
-        status.exact_size(status_bar::HEIGHT).show(ui, |ui| status_bar_ui(ui, &self.editor));
+        status
+            .exact_size(status_bar::HEIGHT)
+            .show(ui, |ui| status_bar_ui(ui, &self.editor));
         let rail = Panel::left("tools").frame(bar(4, 4)).resizable(false);
         rail.exact_size(tool_rail::WIDTH).show(ui, |ui| {
             tool_rail_ui(ui, &self.editor, &mut self.commands);
         });
         let side = Panel::right("side").frame(Frame::NONE.fill(tokens.panel));
-        side.default_size(320.0).size_range(280.0..=520.0).show(ui, |ui| self.side_ui(ui));
+        side.default_size(320.0)
+            .size_range(280.0..=520.0)
+            .show(ui, |ui| self.side_ui(ui));
         self.plots_ui(ui);
-        CentralPanel::default().frame(Frame::NONE.fill(tokens.background)).show(ui, |ui| {
-            self.canvas.show(ui, &mut self.editor);
-        });
+        CentralPanel::default()
+            .frame(Frame::NONE.fill(tokens.background))
+            .show(ui, |ui| {
+                self.canvas.show(ui, &mut self.editor);
+            });
     }
 
     fn side_ui(&mut self, ui: &mut Ui) {
         let pad = Frame::NONE.inner_margin(Margin::symmetric(12, 8));
         let curves = Panel::top("curves").frame(pad).resizable(true);
-        curves.default_size(116.0).size_range(72.0..=400.0).show(ui, |ui| {
-            self.curves.show(ui, &mut self.editor, &mut self.commands);
-        });
+        curves
+            .default_size(116.0)
+            .size_range(72.0..=400.0)
+            .show(ui, |ui| {
+                self.curves.show(ui, &mut self.editor, &mut self.commands);
+            });
         let layers = Panel::bottom("layers").frame(pad).resizable(false);
         layers.show(ui, |ui| {
             widgets::section(ui, "Layers", true, |ui| {
@@ -233,7 +261,9 @@ impl App {
             // Each has its own place in its own scroll area.
             let is_end_fit = self.editor.tool() == ToolKind::EndFit;
             let name = if is_end_fit { "end fit" } else { "inspector" };
-            let area = ScrollArea::vertical().id_salt(name).auto_shrink([false, false]);
+            let area = ScrollArea::vertical()
+                .id_salt(name)
+                .auto_shrink([false, false]);
             area.show(ui, |ui| {
                 if is_end_fit {
                     self.end_fit.show(ui, &mut self.editor);
@@ -246,7 +276,9 @@ impl App {
 
     fn plots_ui(&mut self, ui: &mut Ui) {
         let tokens = Tokens::of(ui);
-        let frame = Frame::NONE.fill(tokens.panel).inner_margin(Margin::symmetric(8, 0));
+        let frame = Frame::NONE
+            .fill(tokens.panel)
+            .inner_margin(Margin::symmetric(8, 0));
         if !self.shell.plots {
             let bar = Panel::bottom("plots folded").frame(frame).resizable(false);
             bar.exact_size(plots::BAR).show(ui, |ui| {
@@ -255,12 +287,15 @@ impl App {
             return;
         }
         let panel = Panel::bottom("plots").frame(frame).resizable(true);
-        panel.default_size(232.0).size_range(140.0..=640.0).show(ui, |ui| {
-            ui.allocate_ui(egui::vec2(ui.available_width(), plots::BAR), |ui| {
-                self.plots.bar_ui(ui, true, &mut self.commands);
+        panel
+            .default_size(232.0)
+            .size_range(140.0..=640.0)
+            .show(ui, |ui| {
+                ui.allocate_ui(egui::vec2(ui.available_width(), plots::BAR), |ui| {
+                    self.plots.bar_ui(ui, true, &mut self.commands);
+                });
+                self.plots.show(ui, &mut self.editor);
             });
-            self.plots.show(ui, &mut self.editor);
-        });
     }
 
     fn overlays_ui(&mut self, context: &Context) {
@@ -275,9 +310,10 @@ impl App {
         if let Some(chosen) = self.files.show(context) {
             self.use_chosen(context, chosen);
         }
-        let decided = self.dialog.as_ref().and_then(|dialog| {
-            dialogs::dialog_ui(context, dialog, &self.editor)
-        });
+        let decided = self
+            .dialog
+            .as_ref()
+            .and_then(|dialog| dialogs::dialog_ui(context, dialog, &self.editor));
         if let Some(decision) = decided {
             self.dialog = None;
             self.decide(context, decision);
@@ -329,9 +365,15 @@ impl App {
     /// Where questions for files begin: beside the document's file, otherwise where the program
     /// was started. Ends with a separator, so that a name can be typed behind it.
     fn folder(&self) -> PathBuf {
-        let beside = self.editor.path().and_then(Path::parent).map(Path::to_owned);
+        let beside = self
+            .editor
+            .path()
+            .and_then(Path::parent)
+            .map(Path::to_owned);
         let folder = beside.filter(|folder| folder.is_dir());
-        let folder = folder.or_else(|| std::env::current_dir().ok()).unwrap_or_default();
+        let folder = folder
+            .or_else(|| std::env::current_dir().ok())
+            .unwrap_or_default();
         folder.join("")
     }
 
@@ -369,7 +411,11 @@ impl App {
             Purpose::Import => self.editor.import(&paths),
             Purpose::Export(export) => self.editor.export(path, export),
         }
-        if self.editor.message().is_some_and(|message| message.is_error) {
+        if self
+            .editor
+            .message()
+            .is_some_and(|message| message.is_error)
+        {
             self.ask_again(purpose, path);
         }
         context.request_repaint();
@@ -390,7 +436,11 @@ impl App {
     fn update_title(&mut self, context: &Context) {
         let name = self.editor.path().and_then(Path::file_name);
         let name = name.map_or("Untitled".into(), |name| name.to_string_lossy());
-        let dot = if self.editor.is_modified() { "• " } else { "" };
+        let dot = if self.editor.is_modified() {
+            "• "
+        } else {
+            ""
+        };
         let title = format!("{dot}{name} – Batten");
         if title != self.title {
             context.send_viewport_cmd(ViewportCommand::Title(title.clone()));
@@ -409,7 +459,10 @@ impl App {
 
     fn settings(&self) -> Shell {
         let layers = self.editor.layers();
-        let hidden = Layer::ALL.into_iter().enumerate().filter(|(_, layer)| !layers.shows(*layer));
+        let hidden = Layer::ALL
+            .into_iter()
+            .enumerate()
+            .filter(|(_, layer)| !layers.shows(*layer));
         Shell {
             legs: self.plots.tab() == Tab::Legs,
             hidden: Some(hidden.map(|(place, _)| place).collect()),
@@ -441,7 +494,8 @@ fn hide_layers(editor: &mut Editor, hidden: &[usize]) {
 }
 
 fn is_project(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("batten"))
+    path.extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("batten"))
 }
 
 /// F6: the keyboard goes on from the canvas to the panels, and back.

@@ -6,8 +6,8 @@ use eframe::egui::{
 };
 use glam::DVec2;
 
-use super::{grid, keyboard, painting};
 use super::theme::Tokens;
+use super::{grid, keyboard, painting};
 use crate::editor::{Button, Cursor, Editor, Input, Key, Layer, Modifiers};
 
 /// Points of the wheel that scale by the factor e.
@@ -60,7 +60,12 @@ impl Canvas {
     fn send_event(&mut self, context: &Context, editor: &mut Editor, rect: Rect, event: &Event) {
         match event {
             Event::PointerMoved(pos) => self.moved(context, editor, rect, *pos),
-            Event::PointerButton { pos, button, pressed, modifiers } => {
+            Event::PointerButton {
+                pos,
+                button,
+                pressed,
+                modifiers,
+            } => {
                 self.send_modifiers(editor, keyboard::modifiers(*modifiers));
                 if *pressed {
                     self.pressed(context, editor, rect, *pos, *button);
@@ -73,7 +78,12 @@ impl Canvas {
                 let is_wheel = *source == MouseWheelSource::Wheel;
                 self.fingers = *unit == MouseWheelUnit::Point && !is_wheel;
             }
-            Event::Key { key, pressed, modifiers, .. } => {
+            Event::Key {
+                key,
+                pressed,
+                modifiers,
+                ..
+            } => {
                 self.send_modifiers(editor, keyboard::modifiers(*modifiers));
                 self.key(context, editor, *key, *pressed);
             }
@@ -91,7 +101,9 @@ impl Canvas {
         let foreign = self.held.is_empty() && context.input(|input| input.pointer.any_down());
         if !self.held.is_empty() || (inside && !foreign) {
             self.inside = true;
-            editor.input(Input::Moved { at: place(rect, pos) });
+            editor.input(Input::Moved {
+                at: place(rect, pos),
+            });
         } else {
             self.leave(editor);
         }
@@ -118,7 +130,10 @@ impl Canvas {
         {
             self.held.push(button);
             context.memory_mut(|memory| memory.request_focus(id()));
-            editor.input(Input::Pressed { button: translated, at: place(rect, pos) });
+            editor.input(Input::Pressed {
+                button: translated,
+                at: place(rect, pos),
+            });
         }
     }
 
@@ -128,9 +143,8 @@ impl Canvas {
         let is_up_again = context.input(|input| !input.pointer.any_down());
         let response = context.read_response(id());
         is_up_again
-            || response.is_none_or(|response| {
-                response.is_pointer_button_down_on() || response.clicked()
-            })
+            || response
+                .is_none_or(|response| response.is_pointer_button_down_on() || response.clicked())
     }
 
     fn released(
@@ -149,7 +163,10 @@ impl Canvas {
             return;
         };
         let at = place(rect, pos);
-        editor.input(Input::Released { button: translated, at });
+        editor.input(Input::Released {
+            button: translated,
+            at,
+        });
         let is_double = context.input(|input| input.pointer.button_double_clicked(button));
         if is_double && button == PointerButton::Primary {
             editor.input(Input::DoubleClicked { at });
@@ -160,7 +177,9 @@ impl Canvas {
     }
 
     fn is_on_top(&self, context: &Context, rect: Rect, pos: Pos2) -> bool {
-        let is_behind = context.layer_id_at(pos).is_some_and(|layer| layer.order != egui::Order::Background);
+        let is_behind = context
+            .layer_id_at(pos)
+            .is_some_and(|layer| layer.order != egui::Order::Background);
         rect.contains(pos) && !is_behind
     }
 
@@ -211,19 +230,29 @@ impl Canvas {
         };
         let at = place(rect, pos);
         if pinched != 1.0 {
-            editor.input(Input::Zoomed { at, factor: f64::from(pinched) });
+            editor.input(Input::Zoomed {
+                at,
+                factor: f64::from(pinched),
+            });
         }
         let (x, y) = (f64::from(scrolled.x), f64::from(scrolled.y));
         if self.fingers {
             if x != 0.0 || y != 0.0 {
-                editor.input(Input::Panned { by: DVec2::new(x, y) });
+                editor.input(Input::Panned {
+                    by: DVec2::new(x, y),
+                });
             }
         } else {
             if y != 0.0 {
-                editor.input(Input::Zoomed { at, factor: (y / WHEEL_POINTS).exp() });
+                editor.input(Input::Zoomed {
+                    at,
+                    factor: (y / WHEEL_POINTS).exp(),
+                });
             }
             if x != 0.0 {
-                editor.input(Input::Panned { by: DVec2::new(x, 0.0) });
+                editor.input(Input::Panned {
+                    by: DVec2::new(x, 0.0),
+                });
             }
         }
     }

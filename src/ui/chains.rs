@@ -142,7 +142,10 @@ mod tests {
             scale: 1.0,
             size: DVec2::new(200.0, 100.0),
         };
-        let screen = Screen::new(&viewport, Rect::from_min_size(pos2(10.0, 20.0), vec2(200.0, 100.0)));
+        let screen = Screen::new(
+            &viewport,
+            Rect::from_min_size(pos2(10.0, 20.0), vec2(200.0, 100.0)),
+        );
         let lines = screen.lines(chain);
         let lengths: Vec<usize> = lines.iter().map(Vec::len).collect();
         assert_eq!(lengths, expected, "{lines:?}");
@@ -162,9 +165,17 @@ mod tests {
     #[test]
     fn far_points_are_cut_off_and_never_join_what_is_apart() {
         let far = 1e250;
-        check(&[DVec2::new(-far, 0.0), DVec2::ZERO, DVec2::new(far, far)], &[3]);
+        check(
+            &[DVec2::new(-far, 0.0), DVec2::ZERO, DVec2::new(far, far)],
+            &[3],
+        );
         check(&[DVec2::new(0.0, far), DVec2::new(1.0, far)], &[]);
-        let out_and_back = [DVec2::ZERO, DVec2::new(1e9, 0.0), DVec2::new(1e9, 9.0), DVec2::ZERO];
+        let out_and_back = [
+            DVec2::ZERO,
+            DVec2::new(1e9, 0.0),
+            DVec2::new(1e9, 9.0),
+            DVec2::ZERO,
+        ];
         check(&out_and_back, &[2, 2]);
     }
 }

@@ -1,8 +1,8 @@
 //! The list of curves.
 
 use eframe::egui::{
-    Align2, Color32, CursorIcon, Key, Rect, Response, Role, ScrollArea, Sense, Stroke,
-    StrokeKind, TextEdit, Ui, UiBuilder, Vec2, WidgetInfo, vec2,
+    Align2, Color32, CursorIcon, Key, Rect, Response, Role, ScrollArea, Sense, Stroke, StrokeKind,
+    TextEdit, Ui, UiBuilder, Vec2, WidgetInfo, vec2,
 };
 use lucide_icons::Icon;
 
@@ -35,22 +35,35 @@ impl CurveList {
     pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Command>) {
         heading_ui(ui, editor, commands);
         if editor.document().is_empty() {
-            widgets::note(ui, "No curves yet. Draw one with D, or open a file or an example.");
+            widgets::note(
+                ui,
+                "No curves yet. Draw one with D, or open a file or an example.",
+            );
             return;
         }
         let mut asked = None;
-        ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
-            ui.spacing_mut().item_spacing.y = 0.0;
-            let curves: Vec<_> =
-                editor.document().curves().map(|(id, curve)| (id, curve.clone())).collect();
-            let active = editor.active();
-            for (place, (id, curve)) in curves.iter().enumerate() {
-                let row = Row { id: *id, curve, place, active: active == Some(*id) };
-                if let Some(more) = self.row_ui(ui, &row) {
-                    asked = Some(more);
+        ScrollArea::vertical()
+            .auto_shrink([false, false])
+            .show(ui, |ui| {
+                ui.spacing_mut().item_spacing.y = 0.0;
+                let curves: Vec<_> = editor
+                    .document()
+                    .curves()
+                    .map(|(id, curve)| (id, curve.clone()))
+                    .collect();
+                let active = editor.active();
+                for (place, (id, curve)) in curves.iter().enumerate() {
+                    let row = Row {
+                        id: *id,
+                        curve,
+                        place,
+                        active: active == Some(*id),
+                    };
+                    if let Some(more) = self.row_ui(ui, &row) {
+                        asked = Some(more);
+                    }
                 }
-            }
-        });
+            });
         match asked {
             Some(Asked::Activate(curve)) => editor.activate(curve),
             Some(Asked::Rename(curve)) => self.begin_renaming(editor, curve),
@@ -60,8 +73,15 @@ impl CurveList {
     }
 
     fn begin_renaming(&mut self, editor: &mut Editor, curve: CurveId) {
-        let text = editor.document().curve(curve).map(|curve| curve.name.clone());
-        self.renaming = text.map(|text| Renaming { curve, text, fresh: true });
+        let text = editor
+            .document()
+            .curve(curve)
+            .map(|curve| curve.name.clone());
+        self.renaming = text.map(|text| Renaming {
+            curve,
+            text,
+            fresh: true,
+        });
     }
 
     fn row_ui(&mut self, ui: &mut Ui, row: &Row<'_>) -> Option<Asked> {
@@ -87,7 +107,10 @@ impl CurveList {
             inner.min + vec2(6.0 * STEP, 0.0),
             inner.max - vec2(2.0 * ROW + STEP, 0.0),
         );
-        let is_renamed = self.renaming.as_ref().is_some_and(|renaming| renaming.curve == row.id);
+        let is_renamed = self
+            .renaming
+            .as_ref()
+            .is_some_and(|renaming| renaming.curve == row.id);
         if is_renamed {
             asked = self.renaming_ui(ui, name).or(asked);
         } else {
@@ -118,7 +141,10 @@ impl CurveList {
         }
         let Renaming { curve, text, .. } = self.renaming.take()?;
         let called_off = ui.input(|input| input.key_pressed(Key::Escape));
-        (!called_off).then_some(Asked::Edit("rename curve", Edit::Rename { curve, name: text }))
+        (!called_off).then_some(Asked::Edit(
+            "rename curve",
+            Edit::Rename { curve, name: text },
+        ))
     }
 }
 
@@ -127,9 +153,10 @@ fn heading_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Command>) {
         ui.strong("Curves");
         widgets::at_right(ui, |ui| {
             ui.spacing_mut().item_spacing.x = 0.0;
-            for (icon, command) in
-                [(Icon::Trash2, Command::DeleteCurve), (Icon::CopyPlus, Command::Duplicate)]
-            {
+            for (icon, command) in [
+                (Icon::Trash2, Command::DeleteCurve),
+                (Icon::CopyPlus, Command::Duplicate),
+            ] {
                 let name = command.label();
                 let button = IconButton::new(icon, &name).enabled(editor.is_enabled(command));
                 if button.tooltip(command.tooltip()).show(ui).clicked() {
@@ -141,7 +168,9 @@ fn heading_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Command>) {
                 Some((active, place))
             });
             let last = editor.document().len().saturating_sub(1);
-            let down = place.filter(|(_, place)| *place < last).map(|(id, place)| (id, place + 1));
+            let down = place
+                .filter(|(_, place)| *place < last)
+                .map(|(id, place)| (id, place + 1));
             let up = place.and_then(|(id, place)| Some((id, place.checked_sub(1)?)));
             for (icon, name, to) in [
                 (Icon::ArrowDown, "Move curve down", down),
@@ -167,7 +196,11 @@ impl Row<'_> {
     fn paint(&self, ui: &Ui, rect: Rect, response: &Response) {
         let tokens = Tokens::of(ui);
         if self.active || response.hovered() {
-            let fill = if self.active { tokens.selection } else { tokens.button[0] };
+            let fill = if self.active {
+                tokens.selection
+            } else {
+                tokens.button[0]
+            };
             ui.painter().rect_filled(rect, RADIUS, fill);
         }
         if response.has_focus() {
@@ -175,7 +208,11 @@ impl Row<'_> {
         }
         let centre = rect.left_center() + vec2(4.0 * STEP, 0.0);
         let swatch = Rect::from_center_size(centre, Vec2::splat(3.0 * STEP));
-        swatch_in(ui, swatch, self.curve.colour.map_or(tokens.curve, theme::of_document));
+        swatch_in(
+            ui,
+            swatch,
+            self.curve.colour.map_or(tokens.curve, theme::of_document),
+        );
         let name = &self.curve.name;
         response.widget_info(|| {
             WidgetInfo::selected(Role::ListItem, true, self.active, format!("curve {name}"))
@@ -194,10 +231,18 @@ impl Row<'_> {
         if let Some(dragged) = response.dnd_hover_payload::<CurveId>()
             && *dragged != self.id
         {
-            ui.painter().rect_stroke(rect, RADIUS, Stroke::new(1.5, tokens.accent), StrokeKind::Inside);
+            ui.painter().rect_stroke(
+                rect,
+                RADIUS,
+                Stroke::new(1.5, tokens.accent),
+                StrokeKind::Inside,
+            );
         }
         let curve = *response.dnd_release_payload::<CurveId>()?;
-        let edit = Edit::Reorder { curve, place: self.place };
+        let edit = Edit::Reorder {
+            curve,
+            place: self.place,
+        };
         (curve != self.id).then_some(Asked::Edit("reorder curves", edit))
     }
 
@@ -205,22 +250,64 @@ impl Row<'_> {
         let tokens = Tokens::of(ui);
         let is_hovered = ui.rect_contains_pointer(row);
         // Switches at rest stay out of sight, unless they tell something.
-        let faint = if is_hovered || self.active { tokens.faint_text } else { Color32::TRANSPARENT };
-        let Self { id: curve, curve: Curve { name, visible, locked, .. }, .. } = *self;
+        let faint = if is_hovered || self.active {
+            tokens.faint_text
+        } else {
+            Color32::TRANSPARENT
+        };
+        let Self {
+            id: curve,
+            curve:
+                Curve {
+                    name,
+                    visible,
+                    locked,
+                    ..
+                },
+            ..
+        } = *self;
         let mut asked = None;
-        let (icon, colour) = if *locked { (Icon::Lock, tokens.text) } else { (Icon::LockOpen, faint) };
+        let (icon, colour) = if *locked {
+            (Icon::Lock, tokens.text)
+        } else {
+            (Icon::LockOpen, faint)
+        };
         let label = format!("Lock {name}");
-        let button = IconButton::new(icon, &label).colour(colour).tooltip("Protect the shape from edits");
+        let button = IconButton::new(icon, &label)
+            .colour(colour)
+            .tooltip("Protect the shape from edits");
         if button.show(ui).clicked() {
-            let edit = Edit::SetLocked { curve, locked: !locked };
-            asked = Some(Asked::Edit(if *locked { "unlock curve" } else { "lock curve" }, edit));
+            let edit = Edit::SetLocked {
+                curve,
+                locked: !locked,
+            };
+            asked = Some(Asked::Edit(
+                if *locked {
+                    "unlock curve"
+                } else {
+                    "lock curve"
+                },
+                edit,
+            ));
         }
-        let (icon, colour) = if *visible { (Icon::Eye, faint) } else { (Icon::EyeOff, tokens.text) };
+        let (icon, colour) = if *visible {
+            (Icon::Eye, faint)
+        } else {
+            (Icon::EyeOff, tokens.text)
+        };
         let label = format!("Show {name}");
-        let button = IconButton::new(icon, &label).colour(colour).tooltip("Show or hide the curve");
+        let button = IconButton::new(icon, &label)
+            .colour(colour)
+            .tooltip("Show or hide the curve");
         if button.show(ui).clicked() {
-            let edit = Edit::SetVisible { curve, visible: !visible };
-            asked = Some(Asked::Edit(if *visible { "hide curve" } else { "show curve" }, edit));
+            let edit = Edit::SetVisible {
+                curve,
+                visible: !visible,
+            };
+            asked = Some(Asked::Edit(
+                if *visible { "hide curve" } else { "show curve" },
+                edit,
+            ));
         }
         asked
     }
@@ -229,5 +316,6 @@ impl Row<'_> {
 /// Paint a colour as a small square.
 pub fn swatch_in(ui: &Ui, rect: Rect, colour: Color32) {
     let outline = Stroke::new(1.0, Tokens::of(ui).outline);
-    ui.painter().rect(rect, 2, colour, outline, StrokeKind::Inside);
+    ui.painter()
+        .rect(rect, 2, colour, outline, StrokeKind::Inside);
 }

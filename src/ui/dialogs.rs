@@ -30,14 +30,17 @@ pub enum Decision {
 
 /// Show a dialog; returns what was decided, once something is.
 pub fn dialog_ui(context: &Context, dialog: &Dialog, editor: &Editor) -> Option<Decision> {
-    let modal = Modal::new(Id::unique("dialog")).show(context, |ui| {
-        ui.spacing_mut().item_spacing.y = 2.0 * STEP;
-        match dialog {
-            Dialog::Unsaved(after) => unsaved_ui(ui, after, editor),
-            Dialog::Keys => keys_ui(ui, editor),
-            Dialog::About => about_ui(ui),
-        }
-    });
+    let frame = widgets::dialog_frame(&context.global_style());
+    let modal = Modal::new(Id::unique("dialog"))
+        .frame(frame)
+        .show(context, |ui| {
+            ui.spacing_mut().item_spacing.y = 2.0 * STEP;
+            match dialog {
+                Dialog::Unsaved(after) => unsaved_ui(ui, after, editor),
+                Dialog::Keys => keys_ui(ui, editor),
+                Dialog::About => about_ui(ui),
+            }
+        });
     let closes = modal.should_close();
     modal.inner.or(closes.then_some(Decision::Close))
 }
@@ -46,17 +49,22 @@ fn unsaved_ui(ui: &mut Ui, after: &AfterDiscard, editor: &Editor) -> Option<Deci
     ui.set_width(400.0);
     ui.strong("Save the changes?");
     let name = editor.path().and_then(|path| path.file_name());
-    let name = name.map_or("the document".to_owned(), |name| format!("“{}”", name.display()));
+    let name = name.map_or("the document".to_owned(), |name| {
+        format!("“{}”", name.display())
+    });
     let what = match after {
         AfterDiscard::Quit => "Batten is closed",
         AfterDiscard::New => "an empty document takes its place",
         _ => "another document takes its place",
     };
-    widgets::note(ui, &format!("The changes to {name} are lost if they are not saved before {what}."));
+    widgets::note(
+        ui,
+        &format!("The changes to {name} are lost if they are not saved before {what}."),
+    );
     let mut decision = None;
     ui.horizontal(|ui| {
         widgets::at_right(ui, |ui| {
-            let save = ui.button("Save");
+            let save = widgets::primary_button(ui, "Save");
             if save.clicked() || ui.input(|input| input.key_pressed(Key::Enter)) {
                 decision = Some(Decision::Save(after.clone()));
             }
@@ -79,7 +87,10 @@ const MOUSE: [(&str, &str); 12] = [
     ("Click, Shift and click", "Select, add to the selection"),
     ("Drag on empty canvas", "Select by a box"),
     ("Drag a vertex", "Move the selection"),
-    ("Shift while dragging", "Keep to an axis, or to steps of 15°"),
+    (
+        "Shift while dragging",
+        "Keep to an axis, or to steps of 15°",
+    ),
     ("Ctrl while dragging", "Snapping the other way"),
     ("Alt", "Show the state before the drag"),
     ("Arrows, Shift and arrows", "Nudge, ten times as far"),
@@ -95,11 +106,15 @@ fn keys_ui(ui: &mut Ui, editor: &Editor) -> Option<Decision> {
         let keys: Vec<(String, String)> = Command::all(editor.examples())
             .into_iter()
             .filter_map(|command| {
-                Some((keyboard::shortcut_text(command.shortcut()?), command.label()))
+                Some((
+                    keyboard::shortcut_text(command.shortcut()?),
+                    command.label(),
+                ))
             })
             .collect();
-        let mouse: Vec<(String, String)> =
-            MOUSE.map(|(keys, what)| (keys.to_owned(), what.to_owned())).into();
+        let mouse: Vec<(String, String)> = MOUSE
+            .map(|(keys, what)| (keys.to_owned(), what.to_owned()))
+            .into();
         let half = keys.len().div_ceil(2);
         ui.horizontal_top(|ui| {
             list_ui(ui, "keys", &keys[..half]);
@@ -114,13 +129,20 @@ fn keys_ui(ui: &mut Ui, editor: &Editor) -> Option<Decision> {
 
 fn list_ui(ui: &mut Ui, id: &str, rows: &[(String, String)]) {
     let tokens = Tokens::of(ui);
-    Grid::new(id).num_columns(2).spacing(vec2(4.0 * STEP, STEP)).show(ui, |ui| {
-        for (keys, what) in rows {
-            ui.label(RichText::new(keys).font(theme::number_font()).color(tokens.strong_text));
-            ui.label(what);
-            ui.end_row();
-        }
-    });
+    Grid::new(id)
+        .num_columns(2)
+        .spacing(vec2(4.0 * STEP, STEP))
+        .show(ui, |ui| {
+            for (keys, what) in rows {
+                ui.label(
+                    RichText::new(keys)
+                        .font(theme::number_font())
+                        .color(tokens.strong_text),
+                );
+                ui.label(what);
+                ui.end_row();
+            }
+        });
 }
 
 fn about_ui(ui: &mut Ui) -> Option<Decision> {
@@ -132,13 +154,20 @@ fn about_ui(ui: &mut Ui) -> Option<Decision> {
          for fair curves: shape them by their float S-polygons, and see on every frame what that \
          does to curvature and evolute.",
     );
-    widgets::note(ui, "Licensed under MIT or Apache-2.0, as you like. Icons: Lucide (ISC).");
+    widgets::note(
+        ui,
+        "Licensed under MIT or Apache-2.0, as you like. Icons: Lucide (ISC).",
+    );
     close_ui(ui)
 }
 
 fn close_ui(ui: &mut Ui) -> Option<Decision> {
     let mut closed = false;
-    ui.horizontal(|ui| widgets::at_right(ui, |ui| closed = ui.button("Close").clicked()));
+    ui.horizontal(|ui| {
+        widgets::at_right(ui, |ui| {
+            closed = widgets::primary_button(ui, "Close").clicked()
+        })
+    });
     let entered = ui.input(|input| input.key_pressed(Key::Enter));
     (closed || entered).then_some(Decision::Close)
 }

@@ -1,8 +1,8 @@
 //! The end-fit panel: the seven steps, each with its live figures and its button.
 
 use eframe::egui::{
-    Align2, Button, Checkbox, Color32, Label, Rect, RichText, Sense, Stroke, StrokeKind, Ui,
-    UiBuilder, vec2,
+    Align2, Button, Checkbox, Color32, Label, Rect, Response, RichText, Role, Sense, Stroke,
+    StrokeKind, Ui, WidgetInfo, vec2,
 };
 use glam::{DVec2, DVec3};
 use lucide_icons::Icon;
@@ -18,6 +18,9 @@ use crate::geometry::end_correction::{EndOverlap, EndTarget};
 
 /// The indentation of what belongs to a step.
 const INDENT: f32 = 28.0;
+
+/// The width of a step's button.
+const BUTTON: f32 = 76.0;
 
 /// The width of a field for a coordinate.
 const FIELD: f32 = 72.0;
@@ -62,11 +65,18 @@ fn preview(editor: &mut Editor, report: &EndFitReport, action: EndFitAction) {
         return;
     };
     let target = match action {
-        EndFitAction::SetPoint(point) => EndTarget { point, direction: report.target_direction },
+        EndFitAction::SetPoint(point) => EndTarget {
+            point,
+            direction: report.target_direction,
+        },
         EndFitAction::SetDirection(direction) => EndTarget { point, direction },
         _ => return,
     };
-    let edit = Edit::SetTarget { curve, end: report.end, target: Some(target) };
+    let edit = Edit::SetTarget {
+        curve,
+        end: report.end,
+        target: Some(target),
+    };
     editor.preview_field("Set target", vec![edit]);
 }
 
@@ -144,20 +154,30 @@ impl Panel<'_> {
             self.point_ui(ui, point);
             self.direction_ui(ui);
         } else {
-            widgets::note(ui, "No target yet: click the place on the canvas, or take one here.");
+            widgets::note(
+                ui,
+                "No target yet: click the place on the canvas, or take one here.",
+            );
         }
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing.x = STEP;
             let actual = ui.button("Take actual end");
-            if actual.on_hover_text("Put the target where the end is now").clicked() {
+            if actual
+                .on_hover_text("Put the target where the end is now")
+                .clicked()
+            {
                 self.ask(TARGET, EndFitAction::TargetActual);
             }
-            let pick = ui.add(Button::selectable(report.picking, "Pick from curve"));
-            let tooltip = "Then click another curve's end: its point and direction become the target";
+            let pick = ui.add(Button::new("Pick from curve").selected(report.picking));
+            let tooltip =
+                "Then click another curve's end: its point and direction become the target";
             if pick.on_hover_text(tooltip).clicked() {
                 self.ask(TARGET, EndFitAction::PickFromCurve);
             }
-            if ui.add_enabled(report.target_point.is_some(), Button::new("Clear")).clicked() {
+            if ui
+                .add_enabled(report.target_point.is_some(), Button::new("Clear"))
+                .clicked()
+            {
                 self.ask(TARGET, EndFitAction::ClearTarget);
             }
         });
@@ -173,7 +193,9 @@ impl Panel<'_> {
                 let value = point[axis];
                 let name = format!("target {}", ["x", "y", "z"][axis]);
                 let shown = figures::to_resolution(value, 0.01 * self.pixel);
-                let field = NumberField::new(&name, value, shown).speed(self.pixel).width(width);
+                let field = NumberField::new(&name, value, shown)
+                    .speed(self.pixel)
+                    .width(width);
                 let event = field.show(ui).1;
                 self.field(event, |value| {
                     let mut moved = point;
@@ -195,7 +217,10 @@ impl Panel<'_> {
             }
             let mut fixed = direction.is_some();
             let free = ui.add(Checkbox::new(&mut fixed, "Fixed"));
-            if free.on_hover_text("Whether the tangent is to have a direction").clicked() {
+            if free
+                .on_hover_text("Whether the tangent is to have a direction")
+                .clicked()
+            {
                 let actual = self.report.tangent.unwrap_or(DVec3::X);
                 self.ask(TARGET, EndFitAction::SetDirection(fixed.then_some(actual)));
             }
@@ -205,7 +230,9 @@ impl Panel<'_> {
     fn angle_ui(&mut self, ui: &mut Ui, direction: DVec3) {
         let degrees = direction.truncate().to_angle().to_degrees();
         let shown = format!("{degrees:.3}°");
-        let field = NumberField::new("target direction", degrees, shown).speed(0.25).width(FIELD + 8.0);
+        let field = NumberField::new("target direction", degrees, shown)
+            .speed(0.25)
+            .width(FIELD + 8.0);
         let event = field.show(ui).1;
         self.field(event, |degrees| {
             let direction = DVec2::from_angle(degrees.to_radians()).extend(0.0);
@@ -219,7 +246,9 @@ impl Panel<'_> {
             let value = direction[axis];
             let name = format!("target direction {}", ["x", "y", "z"][axis]);
             let shown = format!("{value:.3}");
-            let field = NumberField::new(&name, value, shown).speed(0.005).width(width);
+            let field = NumberField::new(&name, value, shown)
+                .speed(0.005)
+                .width(width);
             let event = field.show(ui).1;
             self.field(event, |value| {
                 let mut turned = direction;
@@ -242,7 +271,8 @@ impl Panel<'_> {
 
     fn shape_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
-        step_ui(ui, 1, "Shape the float S-polygon", false, |ui| {
+        step_ui(ui, 1, "Shape the float S-polygon", false, |_| {});
+        indented(ui, |ui| {
             let plain = |value: f64| figures::significant(value, 6);
             widgets::figure_row(ui, "Legs", &range(report.legs, plain));
             let angle = |value: f64| figures::degrees(value, 3);
@@ -252,9 +282,9 @@ impl Panel<'_> {
 
     fn closed_ui(&mut self, ui: &mut Ui) {
         let closed = self.closed;
-        step_ui(ui, 2, "Format as closed S-polygon", false, |ui| {
-            let button = Button::selectable(closed, "Show closed S-polygon");
-            if wide(ui, true, button).clicked() {
+        step_ui(ui, 2, "Closed S-polygon", false, |ui| {
+            let response = step_button(ui, "Show", true, Some(closed));
+            if response.accessible_name("Show closed S-polygon").clicked() {
                 self.ask(2, EndFitAction::ShowClosed(true));
             }
         });
@@ -262,65 +292,86 @@ impl Panel<'_> {
 
     fn difference_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
-        let is_met = report.target_point.is_some() && report.within;
-        step_ui(ui, 3, "Difference to the target", is_met, |ui| {
+        let is_met = report.target_point.is_some() && self.is_in_place() && self.is_aligned();
+        step_ui(ui, 3, "Difference to the target", is_met, |_| {});
+        indented(ui, |ui| {
             if report.target_point.is_none() {
                 widgets::note(ui, "Set a target first.");
                 return;
             }
             let d = report.difference;
             let plain = |value: f64| figures::significant(value, 6);
-            widgets::figure_row(ui, "dx", &plain(d.x));
-            widgets::figure_row(ui, "dy", &plain(d.y));
+            let mut pairs = vec![("dx", plain(d.x)), ("dy", plain(d.y))];
             if !report.planar {
-                widgets::figure_row(ui, "dz", &plain(d.z));
+                pairs.push(("dz", plain(d.z)));
             }
-            widgets::figure_row(ui, "Length", &plain(d.length()));
-            widgets::figure_row(ui, "Angle", &angle_text(report.angle));
+            pairs.push(("Length", plain(d.length())));
+            pairs.push(("Angle", angle_text(report.angle)));
+            figure_pairs(ui, &pairs);
         });
     }
 
     fn float_ui(&mut self, ui: &mut Ui) {
         let closed = self.closed;
         step_ui(ui, 4, "Back to the float S-polygon", false, |ui| {
-            let button = Button::selectable(!closed, "Show float S-polygon");
-            if wide(ui, true, button).clicked() {
+            let response = step_button(ui, "Show", true, Some(!closed));
+            if response.accessible_name("Show float S-polygon").clicked() {
                 self.ask(4, EndFitAction::ShowClosed(false));
             }
         });
     }
 
+    fn is_in_place(&self) -> bool {
+        let report = self.report;
+        report.target_point.is_some() && report.difference.length() <= report.tolerance
+    }
+
+    fn is_aligned(&self) -> bool {
+        self.report.angle.abs() <= 1e-9
+    }
+
     fn translate_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
-        let is_met = report.target_point.is_some() && report.difference.length() <= report.tolerance;
-        let title = format!("Translate the {} terminal vertices", report.degree);
-        step_ui(ui, 5, &title, is_met, |ui| {
-            let text = format!("Translate by {}", figures::significant(report.difference.length(), 4));
-            if wide(ui, report.target_point.is_some(), Button::new(text)).clicked() {
+        let title = format!("Move {} vertices", report.degree);
+        step_ui(ui, 5, &title, self.is_in_place(), |ui| {
+            let response = step_button(ui, "Translate", report.target_point.is_some(), None);
+            let tooltip = "Translate the terminal vertices, as one body, by the difference vector";
+            if response.on_hover_text(tooltip).clicked() {
                 self.ask(5, EndFitAction::Translate);
             }
-            self.outcome_ui(ui, 5);
         });
+        self.outcome_ui(ui, 5);
     }
 
     fn rotate_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
         let has_target = report.target_direction.is_some() && report.tangent.is_some();
-        let is_met = has_target && report.angle.abs() <= 1e-9;
-        step_ui(ui, 6, "Rotate them about the end point", is_met, |ui| {
-            let text = format!("Rotate by {}", angle_text(report.angle));
-            if wide(ui, has_target, Button::new(text)).clicked() {
+        let title = format!("Turn {} vertices", report.degree);
+        step_ui(ui, 6, &title, has_target && self.is_aligned(), |ui| {
+            let response = step_button(ui, "Rotate", has_target, None);
+            let tooltip = "Rotate them about the end point by the difference angle";
+            if response.on_hover_text(tooltip).clicked() {
                 self.ask(6, EndFitAction::Rotate);
             }
-            self.outcome_ui(ui, 6);
         });
+        self.outcome_ui(ui, 6);
     }
 
     fn repeat_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
         step_ui(ui, 7, "Edit on, and repeat", report.within, |ui| {
-            widgets::figure_row(ui, "Left over", &figures::significant(report.residual, 4));
-            widgets::figure_row(ui, "Passes", &report.passes.to_string());
+            let response = step_button(ui, "Repeat", report.targets > 0, None);
+            let tooltip = "Repeat steps 2 to 6 on both ends until within the tolerance";
+            if response.on_hover_text(tooltip).clicked() {
+                self.ask(7, EndFitAction::Repeat);
+            }
+        });
+        indented(ui, |ui| {
+            let left = figures::significant(report.residual, 4);
+            figure_pairs(
+                ui,
+                &[("Left over", left), ("Passes", report.passes.to_string())],
+            );
             widgets::form_row(ui, "Tolerance", |ui| {
                 let shown = figures::significant(report.tolerance, 4);
                 let field = NumberField::new("tolerance", report.tolerance, shown)
@@ -331,29 +382,27 @@ impl Panel<'_> {
                     self.ask(7, EndFitAction::SetTolerance(value));
                 }
             });
-            if wide(ui, report.targets > 0, Button::new("Repeat until within tolerance")).clicked() {
-                self.ask(7, EndFitAction::Repeat);
-            }
-            self.outcome_ui(ui, 7);
-            overlap_ui(ui, report);
         });
+        self.outcome_ui(ui, 7);
+        overlap_ui(ui, report);
     }
 
     fn both_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
         indented(ui, |ui| {
-            let button = Button::new("Both ends at once");
-            let response = wide(ui, report.targets > 0, button);
+            let size = vec2(ui.available_width(), ROW);
+            let button = Button::new("Both ends at once").min_size(size);
+            let response = ui.add_enabled(report.targets > 0, button);
             let tooltip = "Meet all targets together by the least disturbance of the vertices";
             if response.on_hover_text(tooltip).clicked() {
                 self.ask(8, EndFitAction::BothAtOnce);
             }
             if let Some((distance, vertex)) = report.largest_move {
-                let text = format!("{} at {vertex}", figures::significant(distance, 4));
-                widgets::figure_row(ui, "Largest vertex move", &text);
+                let text = format!("{} at vertex {vertex}", figures::significant(distance, 4));
+                widgets::figure_row(ui, "Largest move", &text);
             }
-            self.outcome_ui(ui, 8);
         });
+        self.outcome_ui(ui, 8);
     }
 
     /// Tell what the last action came to, below the button that was pressed.
@@ -371,7 +420,7 @@ impl Panel<'_> {
         } else {
             (Icon::Check, tokens.good)
         };
-        remark_ui(ui, icon, text, colour);
+        indented(ui, |ui| remark_ui(ui, icon, text, colour));
     }
 }
 
@@ -391,21 +440,44 @@ fn overlap_ui(ui: &mut Ui, report: &EndFitReport) {
         ),
     };
     let warning = Tokens::of(ui).warning;
-    remark_ui(ui, Icon::Info, &text, warning);
+    indented(ui, |ui| remark_ui(ui, Icon::Info, &text, warning));
 }
 
 fn remark_ui(ui: &mut Ui, icon: Icon, text: &str, colour: Color32) {
     ui.horizontal_top(|ui| {
         ui.spacing_mut().item_spacing.x = 1.5 * STEP;
         ui.label(icons::text(icon).color(colour));
-        ui.add(Label::new(RichText::new(text).color(colour)).wrap().selectable(true));
+        ui.add(
+            Label::new(RichText::new(text).color(colour))
+                .wrap()
+                .selectable(true),
+        );
     });
 }
 
-/// A button as wide as its column.
-fn wide(ui: &mut Ui, enabled: bool, button: Button<'_>) -> eframe::egui::Response {
-    let size = vec2(ui.available_width(), ROW);
-    ui.add_enabled_ui(enabled, |ui| ui.add_sized(size, button)).inner
+/// The button at the right end of a step's row.
+fn step_button(ui: &mut Ui, name: &str, enabled: bool, on: Option<bool>) -> Response {
+    let button = Button::new(name)
+        .min_size(vec2(BUTTON, ROW))
+        .selected(on == Some(true));
+    ui.add_enabled(enabled, button)
+}
+
+/// Figures in two columns.
+fn figure_pairs(ui: &mut Ui, pairs: &[(&str, String)]) {
+    let gap = 4.0 * STEP;
+    let width = 0.5 * (ui.available_width() - gap);
+    for row in pairs.chunks(2) {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = gap;
+            for (name, figures) in row {
+                ui.allocate_ui(vec2(width, 5.0 * STEP), |ui| {
+                    ui.set_width(width);
+                    widgets::figure_row(ui, name, figures);
+                });
+            }
+        });
+    }
 }
 
 fn field_width(ui: &Ui, fields: usize) -> f32 {
@@ -422,30 +494,38 @@ fn angle_text(radians: f64) -> String {
     }
 }
 
-/// One step: its number (a check mark once it is done), its title, and what belongs to it.
-fn step_ui(ui: &mut Ui, number: usize, title: &str, done: bool, contents: impl FnOnce(&mut Ui)) {
-    ui.add_space(STEP);
-    let width = ui.available_width();
-    let (rect, _) = ui.allocate_exact_size(vec2(width, ROW - STEP), Sense::hover());
-    let tokens = Tokens::of(ui);
-    let badge = Rect::from_center_size(rect.left_center() + vec2(9.0, 0.0), vec2(18.0, 18.0));
-    if done {
-        ui.painter().rect_filled(badge, RADIUS, tokens.button[0]);
-        widgets::icon(ui, badge, Icon::Check, tokens.good);
-    } else {
-        let outline = Stroke::new(1.0, tokens.faint_text);
-        ui.painter().rect_stroke(badge, RADIUS, outline, StrokeKind::Inside);
+/// One step's row: its number, its title with a check mark once it is done, and its button.
+fn step_ui(ui: &mut Ui, number: usize, title: &str, done: bool, button: impl FnOnce(&mut Ui)) {
+    ui.add_space(0.5 * STEP);
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 0.0;
+        ui.set_min_height(ROW);
+        let (rect, response) = ui.allocate_exact_size(vec2(INDENT, ROW), Sense::hover());
+        let tokens = Tokens::of(ui);
+        let badge = Rect::from_center_size(rect.left_center() + vec2(9.0, 0.0), vec2(18.0, 18.0));
+        let colour = if done { tokens.good } else { tokens.faint_text };
+        ui.painter()
+            .rect_stroke(badge, RADIUS, Stroke::new(1.0, colour), StrokeKind::Inside);
         let font = theme::small_font();
         let text = number.to_string();
-        ui.painter().text(badge.center(), Align2::CENTER_CENTER, text, font, tokens.text);
-    }
-    let caption = rect.with_min_x(rect.left() + INDENT);
-    let builder = UiBuilder::new().max_rect(caption);
-    ui.scope_builder(builder, |ui| {
-        let text = RichText::new(format!("{number}  {title}")).color(tokens.strong_text);
-        ui.add(Label::new(text).truncate());
+        ui.painter().text(
+            badge.center(),
+            Align2::CENTER_CENTER,
+            text,
+            font,
+            tokens.text,
+        );
+        response.widget_info(|| {
+            let state = if done { "done" } else { "open" };
+            WidgetInfo::labeled(Role::Label, true, format!("step {number}: {state}"))
+        });
+        ui.label(RichText::new(title).color(tokens.strong_text));
+        if done {
+            ui.add_space(1.5 * STEP);
+            ui.label(icons::text(Icon::Check).color(tokens.good));
+        }
+        widgets::at_right(ui, button);
     });
-    indented(ui, contents);
 }
 
 fn indented(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {

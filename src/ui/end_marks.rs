@@ -49,7 +49,9 @@ fn actual(brush: &Brush<'_>, marks: &EndFitMarks) {
     let tokens = brush.tokens;
     for vertex in &marks.terminal {
         if let Some(at) = brush.screen.point(*vertex) {
-            brush.painter.circle_stroke(at, 7.0, Stroke::new(1.0, tokens.target));
+            brush
+                .painter
+                .circle_stroke(at, 7.0, Stroke::new(1.0, tokens.target));
         }
     }
     if let Some(tip) = marks.tangent_tip {
@@ -63,7 +65,9 @@ fn actual(brush: &Brush<'_>, marks: &EndFitMarks) {
     }
     if let Some(at) = brush.screen.point(marks.actual) {
         ring(brush, marks, at);
-        brush.painter.circle(at, 3.5, tokens.background, Stroke::new(1.5, tokens.curve));
+        brush
+            .painter
+            .circle(at, 3.5, tokens.background, Stroke::new(1.5, tokens.curve));
     }
 }
 
@@ -96,15 +100,29 @@ fn angle(brush: &Brush<'_>, marks: &EndFitMarks, along: DVec2) {
     let tokens = brush.tokens;
     let radius = ARC * marks.ring;
     let place = |angle: f64| marks.actual + DVec2::from_angle(angle).rotate(along) * radius;
-    let arc: Vec<DVec2> = (0..=48).map(|step| place(marks.angle * f64::from(step) / 48.0)).collect();
+    let arc: Vec<DVec2> = (0..=48)
+        .map(|step| place(marks.angle * f64::from(step) / 48.0))
+        .collect();
     brush.chain(&arc, Stroke::new(2.0, tokens.target));
-    let ray = [marks.actual, marks.actual + DVec2::from_angle(marks.angle).rotate(along) * marks.ring];
+    let ray = [
+        marks.actual,
+        marks.actual + DVec2::from_angle(marks.angle).rotate(along) * marks.ring,
+    ];
     brush.dashed(ray, Stroke::new(1.0, tokens.target));
     let beyond = marks.actual
-        + DVec2::from_angle(0.5 * marks.angle).rotate(along) * (marks.ring + 22.0 / brush.screen.scale());
+        + DVec2::from_angle(0.5 * marks.angle).rotate(along)
+            * (marks.ring + 22.0 / brush.screen.scale());
     if let Some(at) = brush.screen.point(beyond) {
         let text = figures::degrees(marks.angle, 2);
         let font = theme::number_font();
-        labels::paint(brush.painter, at, Align2::CENTER_CENTER, &text, font, tokens.target, tokens);
+        labels::paint(
+            brush.painter,
+            at,
+            Align2::CENTER_CENTER,
+            &text,
+            font,
+            tokens.target,
+            tokens,
+        );
     }
 }

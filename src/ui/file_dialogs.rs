@@ -60,7 +60,11 @@ struct Prompt {
 impl FileDialogs {
     /// Ask through the system's dialogs, or only through the window's own prompt.
     pub fn new(native: bool) -> Self {
-        Self { native, waiting: None, prompt: None }
+        Self {
+            native,
+            waiting: None,
+            prompt: None,
+        }
     }
 
     /// Whether the system's dialogs are in use.
@@ -86,7 +90,12 @@ impl FileDialogs {
         } else {
             std::thread::spawn(show);
         }
-        self.waiting = Some(Waiting { purpose, proposal, begun: Instant::now(), answer });
+        self.waiting = Some(Waiting {
+            purpose,
+            proposal,
+            begun: Instant::now(),
+            answer,
+        });
     }
 
     /// Show the prompt again because the path could not be used.
@@ -99,7 +108,12 @@ impl FileDialogs {
 
     fn open_prompt(&mut self, purpose: Purpose, path: &Path) {
         let text = path.display().to_string();
-        self.prompt = Some(Prompt { purpose, text, error: None, fresh: true });
+        self.prompt = Some(Prompt {
+            purpose,
+            text,
+            error: None,
+            fresh: true,
+        });
     }
 
     /// Take an answer, if one has come.
@@ -110,7 +124,12 @@ impl FileDialogs {
             Ok(paths) => paths,
             Err(TryRecvError::Disconnected) => Vec::new(),
         };
-        let Waiting { purpose, proposal, begun, .. } = self.waiting.take()?;
+        let Waiting {
+            purpose,
+            proposal,
+            begun,
+            ..
+        } = self.waiting.take()?;
         if !paths.is_empty() {
             return Some(Chosen { purpose, paths });
         }
@@ -124,7 +143,9 @@ impl FileDialogs {
     /// Show the window's own prompt, if it is open.
     pub fn show(&mut self, context: &Context) -> Option<Chosen> {
         let prompt = self.prompt.as_mut()?;
-        let modal = Modal::new(Id::unique("path prompt")).show(context, |ui| prompt.show(ui));
+        let frame = widgets::dialog_frame(&context.global_style());
+        let modal = Modal::new(Id::unique("path prompt")).frame(frame);
+        let modal = modal.show(context, |ui| prompt.show(ui));
         let closes = modal.should_close();
         let answer = modal.inner.or(closes.then_some(Answer::Cancel))?;
         match answer {
@@ -133,7 +154,10 @@ impl FileDialogs {
                 Some(error) => prompt.error = Some(error),
                 None => {
                     let purpose = self.prompt.take()?.purpose;
-                    return Some(Chosen { purpose, paths: vec![path] });
+                    return Some(Chosen {
+                        purpose,
+                        paths: vec![path],
+                    });
                 }
             },
         }
@@ -169,7 +193,7 @@ impl Prompt {
         let mut answer = entered.then(|| self.path());
         ui.horizontal(|ui| {
             widgets::at_right(ui, |ui| {
-                if ui.button(verb(&self.purpose)).clicked() {
+                if widgets::primary_button(ui, verb(&self.purpose)).clicked() {
                     answer = Some(self.path());
                 }
                 if ui.button("Cancel").clicked() {
@@ -218,14 +242,19 @@ fn refused(purpose: &Purpose, path: &Path) -> Option<String> {
         return Some("Type the path of a file.".to_owned());
     }
     if path.is_dir() {
-        return Some(format!("{} is a folder: add a file's name.", path.display()));
+        return Some(format!(
+            "{} is a folder: add a file's name.",
+            path.display()
+        ));
     }
     match purpose {
         Purpose::Open | Purpose::Import if !path.is_file() => {
             Some(format!("There is no file {}.", path.display()))
         }
         Purpose::Save(_) | Purpose::Export(_) => {
-            let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty())?;
+            let folder = path
+                .parent()
+                .filter(|folder| !folder.as_os_str().is_empty())?;
             let missing = || format!("There is no folder {}.", folder.display());
             (!folder.is_dir()).then(missing)
         }
@@ -261,13 +290,20 @@ fn native_dialog(purpose: &Purpose, proposal: &Path) -> Vec<PathBuf> {
     }
     let readable = ["batten", "csv"];
     match purpose {
-        Purpose::Open => dialog.add_filter("Curves", &readable).pick_file().into_iter().collect(),
-        Purpose::Import => {
-            dialog.add_filter("Curves", &readable).pick_files().unwrap_or_default()
-        }
-        Purpose::Save(_) => {
-            dialog.add_filter("Batten project", &["batten"]).save_file().into_iter().collect()
-        }
+        Purpose::Open => dialog
+            .add_filter("Curves", &readable)
+            .pick_file()
+            .into_iter()
+            .collect(),
+        Purpose::Import => dialog
+            .add_filter("Curves", &readable)
+            .pick_files()
+            .unwrap_or_default(),
+        Purpose::Save(_) => dialog
+            .add_filter("Batten project", &["batten"])
+            .save_file()
+            .into_iter()
+            .collect(),
         Purpose::Export(export) => {
             let name = export.extension.to_uppercase();
             let dialog = dialog.add_filter(name, &[export.extension]);

@@ -34,7 +34,13 @@ pub fn paint(painter: &Painter, rect: Rect, viewport: &Viewport, tokens: &Tokens
         let place = place + f64::from(origin(axis, rect));
         let (low, high) = extent(axis, rect);
         if (low..=high).contains(&place) {
-            line(painter, rect, axis, place as f32, Stroke::new(hair.max(1.0), tokens.axes));
+            line(
+                painter,
+                rect,
+                axis,
+                place as f32,
+                Stroke::new(hair.max(1.0), tokens.axes),
+            );
         }
     }
     numbers(painter, rect, viewport, major, tokens);
@@ -59,7 +65,9 @@ fn lines(axis: Axis, step: f64, viewport: &Viewport, rect: Rect) -> Vec<(f64, f3
     };
     let origin = f64::from(origin(axis, rect));
     let on_screen = |value: f64| (value, (origin + place(value)) as f32);
-    numbers.map(|number| on_screen(number as f64 * step)).collect()
+    numbers
+        .map(|number| on_screen(number as f64 * step))
+        .collect()
 }
 
 fn origin(axis: Axis, rect: Rect) -> f32 {
@@ -96,19 +104,36 @@ fn numbers(painter: &Painter, rect: Rect, viewport: &Viewport, major: f64, token
     let spacing = (major * viewport.scale) as f32;
     let stride = stride(widest + 4.0 * STEP, spacing);
     let foot = rect.bottom() - STEP;
-    let left_numbers_end = rect.left() + 2.0 * STEP + widest_at_left(painter, rect, viewport, major);
+    let left_numbers_end =
+        rect.left() + 2.0 * STEP + widest_at_left(painter, rect, viewport, major);
     for (value, place) in across {
         let half = 0.5 * labels::size(painter, &text(value), font.clone()).x;
         let is_clear = place - half > left_numbers_end && place + half < rect.right() - STEP;
         if is_clear && is_multiple(value, major, stride) {
             let at = pos2(place, foot);
-            labels::paint(painter, at, Align2::CENTER_BOTTOM, &text(value), font.clone(), tokens.faint_text, tokens);
+            labels::paint(
+                painter,
+                at,
+                Align2::CENTER_BOTTOM,
+                &text(value),
+                font.clone(),
+                tokens.faint_text,
+                tokens,
+            );
         }
     }
     for (value, place) in lines(Axis::Y, major, viewport, rect) {
         if place > rect.top() + 3.0 * STEP && place < rect.bottom() - 7.0 * STEP {
             let at = pos2(rect.left() + 1.5 * STEP, place);
-            labels::paint(painter, at, Align2::LEFT_CENTER, &text(value), font.clone(), tokens.faint_text, tokens);
+            labels::paint(
+                painter,
+                at,
+                Align2::LEFT_CENTER,
+                &text(value),
+                font.clone(),
+                tokens.faint_text,
+                tokens,
+            );
         }
     }
 }
@@ -116,16 +141,21 @@ fn numbers(painter: &Painter, rect: Rect, viewport: &Viewport, major: f64, token
 fn widest_at_left(painter: &Painter, rect: Rect, viewport: &Viewport, major: f64) -> f32 {
     let font = theme::small_font();
     let values = lines(Axis::Y, major, viewport, rect);
-    let width = |value: f64| {
-        labels::size(painter, &figures::to_resolution(value, major), font.clone()).x
-    };
-    values.iter().map(|(value, _)| width(*value)).fold(0.0, f32::max)
+    let width =
+        |value: f64| labels::size(painter, &figures::to_resolution(value, major), font.clone()).x;
+    values
+        .iter()
+        .map(|(value, _)| width(*value))
+        .fold(0.0, f32::max)
 }
 
 /// How many steps apart numbers must stand so that they don't touch.
 fn stride(width: f32, spacing: f32) -> i64 {
     let strides = [1, 2, 5, 10, 20, 50, 100];
-    strides.into_iter().find(|stride| *stride as f32 * spacing >= width).unwrap_or(1000)
+    strides
+        .into_iter()
+        .find(|stride| *stride as f32 * spacing >= width)
+        .unwrap_or(1000)
 }
 
 fn is_multiple(value: f64, step: f64, stride: i64) -> bool {

@@ -6,11 +6,11 @@ use eframe::egui::{
 use lucide_icons::Icon;
 
 use super::curve_list::swatch_in;
+use super::figures;
 use super::number_field::{FieldEvent, NumberField};
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
 use super::vertex_table::VertexTable;
 use super::widgets::{self, IconButton};
-use super::figures;
 use crate::document::{Colour, Curve, CurveId, Edit};
 use crate::editor::{CurveReport, Editor};
 use crate::geometry::{MAX_DEGREE, Range};
@@ -30,10 +30,15 @@ impl Inspector {
         let found = active.and_then(|id| Some((id, editor.document().curve(id)?.clone())));
         let Some((id, curve)) = found else {
             ui.strong("Inspector");
-            widgets::note(ui, "Select a curve to see its degree, figures and coordinates.");
+            widgets::note(
+                ui,
+                "Select a curve to see its degree, figures and coordinates.",
+            );
             return;
         };
-        widgets::section(ui, "Inspector", true, |ui| self.curve_ui(ui, editor, id, &curve));
+        widgets::section(ui, "Inspector", true, |ui| {
+            self.curve_ui(ui, editor, id, &curve)
+        });
         widgets::section(ui, "Figures", true, |ui| {
             if let Some(report) = editor.report() {
                 figures_ui(ui, &curve, &report);
@@ -80,7 +85,13 @@ impl Inspector {
         if response.lost_focus() {
             let called_off = ui.input(|input| input.key_pressed(Key::Escape));
             if !called_off && text.trim() != curve.name {
-                editor.apply("Rename curve", vec![Edit::Rename { curve: id, name: text }]);
+                editor.apply(
+                    "Rename curve",
+                    vec![Edit::Rename {
+                        curve: id,
+                        name: text,
+                    }],
+                );
             }
         } else if response.has_focus() {
             self.name = Some((id, text));
@@ -124,7 +135,11 @@ fn ends_ui(ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
 fn colour_ui(ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
     let tokens = Tokens::of(ui);
     let shown = curve.colour.map_or(tokens.curve, theme::of_document);
-    let name = if curve.colour.is_some() { "Its own" } else { "Of the theme" };
+    let name = if curve.colour.is_some() {
+        "Its own"
+    } else {
+        "Of the theme"
+    };
     let swatch = RichText::new("      ").background_color(shown);
     let button = ui.menu_button((swatch, name), |ui| {
         let mut chosen = None;
@@ -151,12 +166,16 @@ fn choice_ui(ui: &mut Ui, name: &str, colour: Color32) -> eframe::egui::Response
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(ROW), Sense::click());
     if response.hovered() || response.has_focus() {
         let stroke = Stroke::new(1.5, Tokens::of(ui).accent);
-        ui.painter().rect_stroke(rect, RADIUS, stroke, eframe::egui::StrokeKind::Inside);
+        ui.painter()
+            .rect_stroke(rect, RADIUS, stroke, eframe::egui::StrokeKind::Inside);
     }
-    swatch_in(ui, Rect::from_center_size(rect.center(), Vec2::splat(4.0 * STEP)), colour);
-    response.widget_info(|| {
-        eframe::egui::WidgetInfo::labeled(eframe::egui::Role::Button, true, name)
-    });
+    swatch_in(
+        ui,
+        Rect::from_center_size(rect.center(), Vec2::splat(4.0 * STEP)),
+        colour,
+    );
+    response
+        .widget_info(|| eframe::egui::WidgetInfo::labeled(eframe::egui::Role::Button, true, name));
     response.on_hover_text(name)
 }
 
@@ -184,7 +203,8 @@ fn figures_ui(ui: &mut Ui, curve: &Curve, report: &CurveReport) {
 
 /// Write a range as "low … high".
 pub fn range(range: Option<Range>, text: impl Fn(f64) -> String) -> String {
-    range.map_or_else(|| "–".to_owned(), |range| {
-        format!("{} … {}", text(range.low), text(range.high))
-    })
+    range.map_or_else(
+        || "–".to_owned(),
+        |range| format!("{} … {}", text(range.low), text(range.high)),
+    )
 }

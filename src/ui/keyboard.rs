@@ -84,8 +84,7 @@ pub fn is_typing(context: &Context) -> bool {
 
 /// Whether a dialog or menu is open, so that keys are not for the window behind it.
 pub fn is_covered(context: &Context) -> bool {
-    egui::Popup::is_any_open(context)
-        || context.memory(|memory| memory.top_modal_layer().is_some())
+    egui::Popup::is_any_open(context) || context.memory(|memory| memory.top_modal_layer().is_some())
 }
 
 /// What this frame's keys ask for.
@@ -108,13 +107,15 @@ pub fn asked(context: &Context, editor: &Editor) -> Vec<Asked> {
         .collect();
     let mut asked = Vec::new();
     context.input_mut(|input| {
-        input.events.retain(|event| match command_of(event, &table, typing) {
-            Some(found) => {
-                asked.push(found);
-                false
-            }
-            None => true,
-        });
+        input
+            .events
+            .retain(|event| match command_of(event, &table, typing) {
+                Some(found) => {
+                    asked.push(found);
+                    false
+                }
+                None => true,
+            });
     });
     asked
 }
@@ -124,9 +125,18 @@ fn command_of(event: &Event, table: &[(Shortcut, Command)], typing: bool) -> Opt
         Event::Copy if !typing => Some(Asked::Command(Command::Copy)),
         Event::Cut if !typing => Some(Asked::Command(Command::Cut)),
         Event::Paste(text) if !typing => Some(Asked::Paste(text.clone())),
-        Event::Key { key: pressed, pressed: true, repeat, modifiers: held, .. } => {
+        Event::Key {
+            key: pressed,
+            pressed: true,
+            repeat,
+            modifiers: held,
+            ..
+        } => {
             let shortcut = pressed_shortcut(*pressed, *held)?;
-            let found = table.iter().find(|(keys, _)| *keys == shortcut).map(|(_, command)| *command);
+            let found = table
+                .iter()
+                .find(|(keys, _)| *keys == shortcut)
+                .map(|(_, command)| *command);
             let command = found.or_else(|| alias(shortcut))?;
             let repeats = matches!(
                 command,
@@ -140,7 +150,10 @@ fn command_of(event: &Event, table: &[(Shortcut, Command)], typing: bool) -> Opt
 }
 
 fn pressed_shortcut(pressed: egui::Key, held: egui::Modifiers) -> Option<Shortcut> {
-    let mut shortcut = Shortcut { modifiers: modifiers(held), key: key(pressed)? };
+    let mut shortcut = Shortcut {
+        modifiers: modifiers(held),
+        key: key(pressed)?,
+    };
     if shortcut.key == Key::Character('+') {
         // Plus needs shift on many keyboards.
         shortcut.modifiers.shift = false;
@@ -150,13 +163,19 @@ fn pressed_shortcut(pressed: egui::Key, held: egui::Modifiers) -> Option<Shortcu
 
 /// Keys that people know from elsewhere.
 fn alias(shortcut: Shortcut) -> Option<Command> {
-    let redo = Shortcut { modifiers: Modifiers::CTRL, key: Key::Character('y') };
+    let redo = Shortcut {
+        modifiers: Modifiers::CTRL,
+        key: Key::Character('y'),
+    };
     (shortcut == redo).then_some(Command::Redo)
 }
 
 /// Whether a text field needs the key for itself.
 fn belongs_to_text(shortcut: Shortcut) -> bool {
-    let edits = matches!(shortcut.key, Key::Character('z' | 'y' | 'x' | 'c' | 'v' | 'a'));
+    let edits = matches!(
+        shortcut.key,
+        Key::Character('z' | 'y' | 'x' | 'c' | 'v' | 'a')
+    );
     match shortcut.key {
         Key::Function(_) => false,
         _ => !shortcut.modifiers.ctrl || edits,
@@ -180,9 +199,16 @@ mod tests {
     #[test]
     fn every_command_has_a_key_of_its_own() {
         let commands = Command::all(0);
-        let keys: Vec<Shortcut> = commands.iter().filter_map(|command| command.shortcut()).collect();
+        let keys: Vec<Shortcut> = commands
+            .iter()
+            .filter_map(|command| command.shortcut())
+            .collect();
         for (index, shortcut) in keys.iter().enumerate() {
-            assert!(!keys[..index].contains(shortcut), "{}", shortcut_text(*shortcut));
+            assert!(
+                !keys[..index].contains(shortcut),
+                "{}",
+                shortcut_text(*shortcut)
+            );
         }
     }
 }

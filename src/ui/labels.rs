@@ -1,8 +1,6 @@
 //! Texts on the canvas: legible over anything, and never outside.
 
-use eframe::egui::{
-    Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, StrokeKind, Vec2, vec2,
-};
+use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, StrokeKind, Vec2, vec2};
 
 use super::theme::{self, RADIUS, STEP, Tokens};
 
@@ -11,7 +9,9 @@ const CLEARANCE: f32 = 14.0;
 
 /// The size of a line of text.
 pub fn size(painter: &Painter, text: &str, font: FontId) -> Vec2 {
-    painter.layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER).size()
+    painter
+        .layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER)
+        .size()
 }
 
 /// Write a text with a halo in the canvas's colour, so that lines under it don't disturb.
@@ -47,7 +47,13 @@ pub fn tooltip(painter: &Painter, canvas: Rect, point: Pos2, text: &str, tokens:
     let galley = painter.layout_no_wrap(text.to_owned(), theme::number_font(), tokens.text);
     let padding = vec2(2.0 * STEP, 1.5 * STEP);
     let rect = beside(canvas.shrink(STEP), point, galley.size() + 2.0 * padding);
-    painter.rect(rect, RADIUS, tokens.panel, Stroke::new(1.0, tokens.outline), StrokeKind::Outside);
+    painter.rect(
+        rect,
+        RADIUS,
+        tokens.panel,
+        Stroke::new(1.0, tokens.outline),
+        StrokeKind::Outside,
+    );
     painter.galley(rect.min + padding, galley, tokens.text);
 }
 
@@ -64,7 +70,11 @@ fn beside(canvas: Rect, point: Pos2, size: Vec2) -> Rect {
         return free;
     }
     // Near a short edge: keep to a side of the point and slide along it.
-    let x = if right + size.x <= canvas.right() { right } else { left };
+    let x = if right + size.x <= canvas.right() {
+        right
+    } else {
+        left
+    };
     let y = above.clamp(canvas.top(), (canvas.bottom() - size.y).max(canvas.top()));
     Rect::from_min_size(Pos2::new(x.max(canvas.left()), y), size)
 }

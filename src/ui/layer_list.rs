@@ -37,27 +37,56 @@ fn row_ui(ui: &mut Ui, editor: &Editor, layer: Layer, commands: &mut Vec<Command
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
     let tokens = Tokens::of(ui);
     if response.hovered() {
-        ui.painter().rect_filled(rect, super::theme::RADIUS, tokens.button[0]);
+        ui.painter()
+            .rect_filled(rect, super::theme::RADIUS, tokens.button[0]);
     }
     if response.has_focus() {
         widgets::focus_ring(ui, rect);
     }
-    let text = if shown { tokens.text } else { tokens.faint_text };
+    let text = if shown {
+        tokens.text
+    } else {
+        tokens.faint_text
+    };
     let mut left = rect.with_max_x(rect.left() + 6.0 * STEP);
     let own = colour(tokens, layer);
-    widgets::icon(ui, left, icons::of_layer(layer), if shown { own } else { tokens.faint_text });
-    left = rect.with_min_x(left.right() + STEP).with_max_x(rect.right() - 12.0 * STEP);
+    widgets::icon(
+        ui,
+        left,
+        icons::of_layer(layer),
+        if shown { own } else { tokens.faint_text },
+    );
+    left = rect
+        .with_min_x(left.right() + STEP)
+        .with_max_x(rect.right() - 12.0 * STEP);
     widgets::label_in(ui, left, layer.label(), text);
     let switch = rect.with_min_x(rect.right() - ROW);
     if let Some(shortcut) = layer.command().shortcut() {
         let at = rect.with_max_x(switch.left() - STEP);
-        widgets::number_in(ui, at, &keyboard::shortcut_text(shortcut), tokens.faint_text);
+        widgets::number_in(
+            ui,
+            at,
+            &keyboard::shortcut_text(shortcut),
+            tokens.faint_text,
+        );
     }
     let eye = if shown { Icon::Eye } else { Icon::EyeOff };
-    widgets::icon(ui, switch, eye, if shown { tokens.text } else { tokens.faint_text });
+    widgets::icon(
+        ui,
+        switch,
+        eye,
+        if shown {
+            tokens.text
+        } else {
+            tokens.faint_text
+        },
+    );
     if shown {
         // A stroke in the layer's own colour beside the icon: hue is not the only cue.
-        let edge = [rect.left_top() + vec2(0.0, STEP), rect.left_bottom() - vec2(0.0, STEP)];
+        let edge = [
+            rect.left_top() + vec2(0.0, STEP),
+            rect.left_bottom() - vec2(0.0, STEP),
+        ];
         ui.painter().line_segment(edge, Stroke::new(2.0, own));
     }
     response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, shown, layer.label()));
@@ -79,7 +108,11 @@ fn comb_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Command>) {
             editor.set_comb(comb);
         }
         let reset = IconButton::new(Icon::RotateCcw, "Reset comb scale");
-        if reset.tooltip(Command::ResetComb.tooltip()).show(ui).clicked() {
+        if reset
+            .tooltip(Command::ResetComb.tooltip())
+            .show(ui)
+            .clicked()
+        {
             commands.push(Command::ResetComb);
         }
     });

@@ -98,8 +98,20 @@ fn menus() -> [(&'static str, Vec<Entry>); 6] {
         Item(Command::ToggleTheme),
     ]);
     let tools = ToolKind::ALL.map(|tool| Item(Command::Tool(tool))).into();
-    let help = vec![Item(Command::Palette), Item(Command::Keys), Divider, Item(Command::About)];
-    [("File", file), ("Edit", edit), ("Curve", curve), ("View", view), ("Tools", tools), ("Help", help)]
+    let help = vec![
+        Item(Command::Palette),
+        Item(Command::Keys),
+        Divider,
+        Item(Command::About),
+    ];
+    [
+        ("File", file),
+        ("Edit", edit),
+        ("Curve", curve),
+        ("View", view),
+        ("Tools", tools),
+        ("Help", help),
+    ]
 }
 
 fn examples_ui(ui: &mut Ui, editor: &Editor, shell: &Shell, commands: &mut Vec<Command>) {
@@ -122,13 +134,20 @@ fn item_ui(
 ) {
     let label = editor.label(command);
     let checked = shell.is_checked(editor, command);
-    let mark = if checked == Some(true) { icons::text(Icon::Check) } else { blank() };
+    let mark = if checked == Some(true) {
+        icons::text(Icon::Check)
+    } else {
+        blank()
+    };
     let mut button = Button::new((mark, label.clone())).min_size(eframe::egui::vec2(WIDTH, 0.0));
     if let Some(shortcut) = command.shortcut() {
-        let keys = RichText::new(keyboard::shortcut_text(shortcut)).color(Tokens::of(ui).faint_text);
+        let keys =
+            RichText::new(keyboard::shortcut_text(shortcut)).color(Tokens::of(ui).faint_text);
         button = button.shortcut_text(keys);
     }
-    let response = ui.add_enabled(editor.is_enabled(command), button).accessible_name(&label);
+    let response = ui
+        .add_enabled(editor.is_enabled(command), button)
+        .accessible_name(&label);
     if response.on_hover_text(command.tooltip()).clicked() {
         commands.push(command);
         ui.close();

@@ -29,7 +29,11 @@ pub fn message_ui(context: &Context, canvas: Rect, editor: &mut Editor) {
         } else {
             (Icon::Info, tokens.faint_text)
         };
-        let outline = if message.is_error { tokens.error } else { tokens.outline };
+        let outline = if message.is_error {
+            tokens.error
+        } else {
+            tokens.outline
+        };
         let frame = Frame::popup(ui.style()).stroke(Stroke::new(1.0, outline));
         let shown = frame.inner_margin(2.0 * STEP).show(ui, |ui| {
             let width = WIDTH.min(canvas.width() - 8.0 * STEP).max(120.0);
@@ -43,7 +47,10 @@ pub fn message_ui(context: &Context, canvas: Rect, editor: &mut Editor) {
                     let text = RichText::new(&message.text).color(tokens.text);
                     ui.add(Label::new(text).wrap().selectable(true));
                 });
-                IconButton::new(Icon::X, "Dismiss message").size(5.0 * STEP).show(ui).clicked()
+                IconButton::new(Icon::X, "Dismiss message")
+                    .size(5.0 * STEP)
+                    .show(ui)
+                    .clicked()
             })
             .inner
         });

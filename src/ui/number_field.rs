@@ -3,8 +3,9 @@
 use std::ops::RangeInclusive;
 
 use eframe::egui::{
-    Align2, CursorIcon, Id, Key, Rect, Response, Sense, Stroke, StrokeKind, TextEdit, Ui,
-    Vec2, WidgetInfo, accesskit::Action, accesskit::ActionData, pos2, text::CCursorRange, text_edit::TextEditState,
+    Align2, CursorIcon, Id, Key, Rect, Response, Sense, Stroke, StrokeKind, TextEdit, Ui, Vec2,
+    WidgetInfo, accesskit::Action, accesskit::ActionData, pos2, text::CCursorRange,
+    text_edit::TextEditState,
 };
 
 use super::figures;
@@ -116,7 +117,10 @@ impl<'a> NumberField<'a> {
         let is_new = kept.is_none();
         let mut typing = kept.unwrap_or_else(|| {
             let text = figures::exact(self.value);
-            Typing { before: text.clone(), text }
+            Typing {
+                before: text.clone(),
+                text,
+            }
         });
         let tokens = Tokens::of(ui);
         let is_readable = figures::read(&typing.text).is_some();
@@ -124,11 +128,16 @@ impl<'a> NumberField<'a> {
             .id(id)
             .font(theme::number_font())
             .align(Align2::RIGHT_CENTER)
-            .text_color(if is_readable { tokens.strong_text } else { tokens.error })
+            .text_color(if is_readable {
+                tokens.strong_text
+            } else {
+                tokens.error
+            })
             .min_size(rect.size())
             .desired_width(rect.width());
         let response = ui.put(rect, edit);
-        ui.ctx().accesskit_node_builder(id, |node| node.set_label(self.name));
+        ui.ctx()
+            .accesskit_node_builder(id, |node| node.set_label(self.name));
         if is_new {
             select_all(ui, id, &typing.text);
         }
@@ -136,7 +145,9 @@ impl<'a> NumberField<'a> {
             response.show_tooltip_text("Type a number, such as 12.5");
         }
         if response.lost_focus() {
-            let event = self.finished(&typing).map_or(FieldEvent::Idle, FieldEvent::Typed);
+            let event = self
+                .finished(&typing)
+                .map_or(FieldEvent::Idle, FieldEvent::Typed);
             return (response, event);
         }
         ui.data_mut(|data| data.insert_temp(id, typing));
@@ -147,7 +158,11 @@ impl<'a> NumberField<'a> {
     fn typed_before_leaving(&self, ui: &Ui, id: Id) -> Option<f64> {
         let typing: Typing = ui.data_mut(|data| data.remove_temp(id))?;
         let called_off = ui.input(|input| input.key_pressed(Key::Escape));
-        if called_off { None } else { self.finished(&typing) }
+        if called_off {
+            None
+        } else {
+            self.finished(&typing)
+        }
     }
 
     fn finished(&self, typing: &Typing) -> Option<f64> {
@@ -160,7 +175,11 @@ impl<'a> NumberField<'a> {
     }
 
     fn resting_ui(&self, ui: &mut Ui, rect: Rect, id: Id) -> (Response, FieldEvent) {
-        let sense = if self.typed_only { Sense::click() } else { Sense::click_and_drag() };
+        let sense = if self.typed_only {
+            Sense::click()
+        } else {
+            Sense::click_and_drag()
+        };
         let response = ui.interact(rect, id, sense);
         if ui.is_rect_visible(rect) {
             self.paint(ui, rect, &response);
@@ -169,10 +188,16 @@ impl<'a> NumberField<'a> {
         if response.clicked() {
             response.request_focus();
         }
-        let event = self.requested_value(ui, id).unwrap_or_else(|| self.drag(ui, &response));
+        let event = self
+            .requested_value(ui, id)
+            .unwrap_or_else(|| self.drag(ui, &response));
         let response = if ui.is_enabled() {
             let drags = CursorIcon::ResizeHorizontal;
-            response.on_hover_and_drag_cursor(if self.typed_only { CursorIcon::Text } else { drags })
+            response.on_hover_and_drag_cursor(if self.typed_only {
+                CursorIcon::Text
+            } else {
+                drags
+            })
         } else {
             response
         };
@@ -184,13 +209,33 @@ impl<'a> NumberField<'a> {
         let is_hot = response.hovered() || response.dragged();
         let visible = ui.visuals().widgets.style(response);
         if !self.flat || is_hot {
-            let outline = if is_hot { tokens.accent } else { tokens.outline };
-            ui.painter().rect(rect, RADIUS, tokens.inset, Stroke::new(1.0, outline), StrokeKind::Inside);
+            let outline = if is_hot {
+                tokens.accent
+            } else {
+                tokens.outline
+            };
+            ui.painter().rect(
+                rect,
+                RADIUS,
+                tokens.inset,
+                Stroke::new(1.0, outline),
+                StrokeKind::Inside,
+            );
         }
         let at = pos2(rect.right() - 1.5 * STEP, rect.center().y);
         let painter = ui.painter_at(rect);
-        let colour = if is_hot { tokens.strong_text } else { visible.text_color() };
-        painter.text(at, Align2::RIGHT_CENTER, &self.shown, theme::number_font(), colour);
+        let colour = if is_hot {
+            tokens.strong_text
+        } else {
+            visible.text_color()
+        };
+        painter.text(
+            at,
+            Align2::RIGHT_CENTER,
+            &self.shown,
+            theme::number_font(),
+            colour,
+        );
     }
 
     fn describe(&self, ui: &Ui, response: &Response) {
@@ -223,7 +268,11 @@ impl<'a> NumberField<'a> {
     fn drag(&self, ui: &Ui, response: &Response) -> FieldEvent {
         let memory = response.id.with("drag");
         if response.drag_started() {
-            let drag = Drag { start: self.value, points: 0.0, called_off: false };
+            let drag = Drag {
+                start: self.value,
+                points: 0.0,
+                called_off: false,
+            };
             ui.data_mut(|data| data.insert_temp(memory, drag));
         }
         let Some(mut drag) = ui.data(|data| data.get_temp::<Drag>(memory)) else {
@@ -231,7 +280,11 @@ impl<'a> NumberField<'a> {
         };
         if response.drag_stopped() || !response.dragged() {
             ui.data_mut(|data| data.remove_temp::<Drag>(memory));
-            return if drag.called_off { FieldEvent::Idle } else { FieldEvent::Commit };
+            return if drag.called_off {
+                FieldEvent::Idle
+            } else {
+                FieldEvent::Commit
+            };
         }
         if drag.called_off {
             return FieldEvent::Idle;
@@ -240,7 +293,11 @@ impl<'a> NumberField<'a> {
             drag.called_off = true;
             FieldEvent::Abort
         } else {
-            let fine = if ui.input(|input| input.modifiers.shift) { 0.1 } else { 1.0 };
+            let fine = if ui.input(|input| input.modifiers.shift) {
+                0.1
+            } else {
+                1.0
+            };
             let moved = f64::from(response.drag_delta().x) * fine;
             drag.points += moved;
             if moved == 0.0 {
@@ -259,13 +316,19 @@ impl<'a> NumberField<'a> {
         let step = 10f64.powf((self.speed * fine).log10().floor());
         let rounded = (value / step).round() * step;
         // Dividing by the inverse keeps decimal fractions short: 0.3, not 0.30000000000000004.
-        let short = if step < 1.0 { (value / step).round() / (1.0 / step).round() } else { rounded };
+        let short = if step < 1.0 {
+            (value / step).round() / (1.0 / step).round()
+        } else {
+            rounded
+        };
         self.clamped(if short.is_finite() { short } else { value })
     }
 }
 
 fn select_all(ui: &Ui, id: Id, text: &str) {
     let mut state = TextEditState::load(ui.ctx(), id).unwrap_or_default();
-    state.cursor.set_char_range(Some(CCursorRange::select_all_str(text)));
+    state
+        .cursor
+        .set_char_range(Some(CCursorRange::select_all_str(text)));
     state.store(ui.ctx(), id);
 }

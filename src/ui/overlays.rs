@@ -40,5 +40,11 @@ pub fn drop_ui(context: &Context, canvas: Rect) {
     painter.rect(rect, 2 * RADIUS, tokens.veil, stroke, StrokeKind::Inside);
     let font = eframe::egui::FontId::proportional(13.0);
     let text = "Drop a project to open it, or tables to add their curves";
-    painter.text(rect.center(), Align2::CENTER_CENTER, text, font, tokens.strong_text);
+    painter.text(
+        rect.center(),
+        Align2::CENTER_CENTER,
+        text,
+        font,
+        tokens.strong_text,
+    );
 }

@@ -30,7 +30,10 @@ pub fn paint(painter: &Painter, rect: Rect, viewport: &Viewport, scene: &Scene, 
     for curve in others.iter().chain(&active) {
         brush.derived(curve);
     }
-    brush.chain(&scene.ghost, Stroke::new(1.5, tokens.curve.gamma_multiply(0.35)));
+    brush.chain(
+        &scene.ghost,
+        Stroke::new(1.5, tokens.curve.gamma_multiply(0.35)),
+    );
     for curve in others.iter().chain(&active) {
         brush.curve(curve);
     }
@@ -70,7 +73,8 @@ impl Brush<'_> {
 
     fn dashed_chain(&self, chain: &[DVec2], stroke: Stroke) {
         for line in self.screen.lines(chain) {
-            self.painter.extend(Shape::dashed_line(&line, stroke, 5.0, 4.0));
+            self.painter
+                .extend(Shape::dashed_line(&line, stroke, 5.0, 4.0));
         }
     }
 
@@ -90,7 +94,8 @@ impl Brush<'_> {
             let side = along.rot90();
             let head = |sign: f32| tip - along * 9.0 + side * (4.0 * sign);
             let points = vec![tip, head(1.0), head(-1.0)];
-            self.painter.add(Shape::convex_polygon(points, stroke.color, Stroke::NONE));
+            self.painter
+                .add(Shape::convex_polygon(points, stroke.color, Stroke::NONE));
         }
     }
 
@@ -126,7 +131,8 @@ impl Brush<'_> {
         for vertex in &curve.clamped_vertices {
             if let Some(at) = self.screen.point(*vertex) {
                 let rect = Rect::from_center_size(at, Vec2::splat(2.0 * SQUARE));
-                self.painter.rect(rect, 0, self.tokens.background, square, StrokeKind::Middle);
+                self.painter
+                    .rect_stroke(rect, 0, square, StrokeKind::Middle);
             }
         }
         let colour = fade(self.tokens.float);
@@ -141,7 +147,8 @@ impl Brush<'_> {
         };
         if vertex.selected {
             self.painter.circle_filled(at, 5.0, colour);
-            self.painter.circle_stroke(at, 8.0, Stroke::new(1.5, self.tokens.strong_text));
+            self.painter
+                .circle_stroke(at, 8.0, Stroke::new(1.5, self.tokens.strong_text));
         } else if locked {
             let stroke = Stroke::new(1.25, colour);
             self.painter.circle(at, 3.5, self.tokens.background, stroke);
@@ -180,7 +187,8 @@ impl Brush<'_> {
             Mark::Pivot(at) => self.pivot(*at),
             Mark::Arm([pivot, handle]) => {
                 if let Some(line) = self.screen.segment([*pivot, *handle]) {
-                    self.painter.line_segment(line, Stroke::new(1.0, tokens.accent));
+                    self.painter
+                        .line_segment(line, Stroke::new(1.0, tokens.accent));
                 }
                 if let Some(at) = self.screen.point(*handle) {
                     self.painter.circle(at, 6.0, tokens.background, accent);
@@ -189,7 +197,8 @@ impl Brush<'_> {
             Mark::Snap(at) => {
                 if let Some(at) = self.screen.point(*at) {
                     let rect = Rect::from_center_size(at, Vec2::splat(14.0));
-                    self.painter.rect_stroke(rect, 0, accent, StrokeKind::Middle);
+                    self.painter
+                        .rect_stroke(rect, 0, accent, StrokeKind::Middle);
                 }
             }
             Mark::Label(at, text) => {
@@ -208,7 +217,8 @@ impl Brush<'_> {
         self.painter.line_segment([from, to], stroke);
         let across = (to - from).normalized().rot90() * 6.0;
         for end in [from, to] {
-            self.painter.line_segment([end - across, end + across], stroke);
+            self.painter
+                .line_segment([end - across, end + across], stroke);
         }
     }
 
@@ -220,7 +230,13 @@ impl Brush<'_> {
         let rect = Rect::from_two_pos(corner(a), corner(b));
         let accent = self.tokens.accent;
         let stroke = Stroke::new(1.0, accent);
-        self.painter.rect(rect, 0, accent.gamma_multiply(0.12), stroke, StrokeKind::Middle);
+        self.painter.rect(
+            rect,
+            0,
+            accent.gamma_multiply(0.12),
+            stroke,
+            StrokeKind::Middle,
+        );
     }
 
     fn pivot(&self, at: DVec2) {
@@ -244,7 +260,9 @@ impl Brush<'_> {
                     labels::tooltip(self.painter, self.rect, at, text, tokens);
                 }
             }
-            HoverScene::Curve { at, centre, text, .. } => {
+            HoverScene::Curve {
+                at, centre, text, ..
+            } => {
                 if let Some(centre) = centre {
                     self.osculating_circle(*at, *centre);
                 }
@@ -286,7 +304,13 @@ fn fading(curve: &CurveScene) -> impl Fn(Color32) -> Color32 {
         (true, true) => 0.65,
         (false, _) => 0.4,
     };
-    move |colour| if strength < 1.0 { colour.gamma_multiply(strength) } else { colour }
+    move |colour| {
+        if strength < 1.0 {
+            colour.gamma_multiply(strength)
+        } else {
+            colour
+        }
+    }
 }
 
 /// Append a line one pixel wide with soft edges.

@@ -1,8 +1,8 @@
 //! The command palette: find a command by typing a part of its name.
 
 use eframe::egui::{
-    Align2, Area, Context, Event, Frame, Id, Key, Order, ScrollArea, Sense, TextEdit, Ui,
-    Vec2, WidgetInfo, Role,
+    Align2, Area, Context, Event, Frame, Id, Key, Order, Role, ScrollArea, Sense, TextEdit, Ui,
+    Vec2, WidgetInfo,
 };
 use nucleo_matcher::pattern::{CaseMatching, Normalization, Pattern};
 use nucleo_matcher::{Config, Matcher, Utf32Str};
@@ -26,7 +26,11 @@ pub struct Palette {
 impl Palette {
     /// Open it, empty.
     pub fn open(&mut self) {
-        *self = Self { open: true, fresh: true, ..Self::default() };
+        *self = Self {
+            open: true,
+            fresh: true,
+            ..Self::default()
+        };
     }
 
     /// Whether it is open.
@@ -43,10 +47,12 @@ impl Palette {
             .order(Order::Foreground)
             .anchor(Align2::CENTER_TOP, Vec2::new(0.0, 72.0));
         let shown = area.show(context, |ui| {
-            Frame::popup(ui.style()).inner_margin(2.0 * STEP).show(ui, |ui| {
-                ui.set_width(WIDTH);
-                self.contents_ui(ui, editor)
-            })
+            Frame::popup(ui.style())
+                .inner_margin(2.0 * STEP)
+                .show(ui, |ui| {
+                    ui.set_width(WIDTH);
+                    self.contents_ui(ui, editor)
+                })
         });
         let chosen = shown.inner.inner;
         if let Some(command) = chosen {
@@ -78,9 +84,13 @@ impl Palette {
         }
         let moved = self.chosen as i64 + keys.steps;
         self.chosen = moved.clamp(0, found.len().max(1) as i64 - 1) as usize;
-        let by_key = (keys.enter).then(|| found.get(self.chosen).copied()).flatten();
+        let by_key = (keys.enter)
+            .then(|| found.get(self.chosen).copied())
+            .flatten();
         let by_hand = self.list_ui(ui, editor, &found, keys.steps != 0);
-        by_key.or(by_hand).filter(|command| editor.is_enabled(*command))
+        by_key
+            .or(by_hand)
+            .filter(|command| editor.is_enabled(*command))
     }
 
     fn list_ui(
@@ -94,18 +104,20 @@ impl Palette {
             widgets::note(ui, "No command is called that. Try another word.");
         }
         let mut clicked = None;
-        ScrollArea::vertical().max_height(12.0 * ROW).show(ui, |ui| {
-            ui.spacing_mut().item_spacing.y = 0.0;
-            for (index, command) in found.iter().enumerate() {
-                let response = row_ui(ui, editor, *command, index == self.chosen);
-                if index == self.chosen && follow {
-                    response.scroll_to_me(None);
+        ScrollArea::vertical()
+            .max_height(12.0 * ROW)
+            .show(ui, |ui| {
+                ui.spacing_mut().item_spacing.y = 0.0;
+                for (index, command) in found.iter().enumerate() {
+                    let response = row_ui(ui, editor, *command, index == self.chosen);
+                    if index == self.chosen && follow {
+                        response.scroll_to_me(None);
+                    }
+                    if response.clicked() {
+                        clicked = Some(*command);
+                    }
                 }
-                if response.clicked() {
-                    clicked = Some(*command);
-                }
-            }
-        });
+            });
         clicked
     }
 
@@ -113,7 +125,10 @@ impl Palette {
         let mut keys = Keys::default();
         ui.input_mut(|input| {
             input.events.retain(|event| {
-                let Event::Key { key, pressed: true, .. } = event else {
+                let Event::Key {
+                    key, pressed: true, ..
+                } = event
+                else {
                     return true;
                 };
                 match key {
@@ -143,7 +158,11 @@ fn row_ui(ui: &mut Ui, editor: &Editor, command: Command, chosen: bool) -> efram
     let (rect, response) = ui.allocate_exact_size(Vec2::new(width, ROW), Sense::click());
     let tokens = Tokens::of(ui);
     if chosen || response.hovered() {
-        let fill = if chosen { tokens.selection } else { tokens.button[0] };
+        let fill = if chosen {
+            tokens.selection
+        } else {
+            tokens.button[0]
+        };
         ui.painter().rect_filled(rect, RADIUS, fill);
     }
     let label = editor.label(command);
@@ -157,12 +176,18 @@ fn row_ui(ui: &mut Ui, editor: &Editor, command: Command, chosen: bool) -> efram
         let place = inner.with_max_x(inner.left() + theme::ICON);
         widgets::icon(ui, place, icon, colour);
     }
-    widgets::label_in(ui, inner.with_min_x(inner.left() + 7.0 * STEP), &label, colour);
+    widgets::label_in(
+        ui,
+        inner.with_min_x(inner.left() + 7.0 * STEP),
+        &label,
+        colour,
+    );
     if let Some(shortcut) = command.shortcut() {
         let text = keyboard::shortcut_text(shortcut);
         let at = inner.right_center();
         let font = theme::small_font();
-        ui.painter().text(at, Align2::RIGHT_CENTER, text, font, tokens.faint_text);
+        ui.painter()
+            .text(at, Align2::RIGHT_CENTER, text, font, tokens.faint_text);
     }
     response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, enabled, chosen, &label));
     response.on_hover_text(command.tooltip())

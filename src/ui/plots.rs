@@ -10,9 +10,9 @@ use egui_plot::{
 use glam::DVec2;
 use lucide_icons::Icon;
 
+use super::figures;
 use super::theme::{STEP, Tokens};
 use super::widgets::{self, IconButton};
-use super::figures;
 use crate::editor::{Command, Editor, PlotScene};
 
 /// The height of the bar with the tabs.
@@ -78,9 +78,10 @@ fn is_better(new: (DVec2, DVec2), old: (DVec2, DVec2)) -> bool {
 /// The bounds that hold some points, with a margin above and below.
 fn bounds_of(points: impl Iterator<Item = DVec2>, from_zero: bool) -> (DVec2, DVec2) {
     let finite = points.filter(|point| point.is_finite());
-    let (mut low, mut high) = finite.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), point| {
-        (low.min(point), high.max(point))
-    });
+    let (mut low, mut high) = finite.fold(
+        (DVec2::INFINITY, DVec2::NEG_INFINITY),
+        |(low, high), point| (low.min(point), high.max(point)),
+    );
     if !(low.x <= high.x) {
         return (DVec2::ZERO, DVec2::ONE);
     }
@@ -94,7 +95,10 @@ fn bounds_of(points: impl Iterator<Item = DVec2>, from_zero: bool) -> (DVec2, DV
     if high.x == low.x {
         high.x = low.x + 1.0;
     }
-    (low - DVec2::new(0.0, margin), high + DVec2::new(0.0, margin))
+    (
+        low - DVec2::new(0.0, margin),
+        high + DVec2::new(0.0, margin),
+    )
 }
 
 impl Plots {
@@ -112,7 +116,10 @@ impl Plots {
     pub fn bar_ui(&mut self, ui: &mut Ui, shown: bool, commands: &mut Vec<Command>) {
         ui.horizontal_centered(|ui| {
             ui.spacing_mut().item_spacing.x = STEP;
-            let tabs = [(Tab::Curvature, "Curvature"), (Tab::Legs, "Legs and turning angles")];
+            let tabs = [
+                (Tab::Curvature, "Curvature"),
+                (Tab::Legs, "Legs and turning angles"),
+            ];
             for (tab, name) in tabs {
                 let response = ui.add(Button::selectable(shown && self.tab == tab, name));
                 if response.clicked() {
@@ -158,18 +165,29 @@ impl Plots {
         wanted.0.x = wanted.0.x.min(0.0);
         wanted.1.x = wanted.1.x.max(length);
         let bounds = self.curvature.settle(padded(wanted), dragging);
-        let signed = if scene.planar { "signed curvature κ (1/unit)" } else { "curvature κ (1/unit)" };
-        let plot = plot("curvature", "arc length (units)", signed, bounds).label_formatter(|hover| {
-            let HoverPosition::NearDataPoint { position, plot_name, index } = hover else {
-                return None;
-            };
-            let place = format!("at {}", figures::significant(position.x, 5));
-            let curvature = figures::significant(position.y, 6);
-            Some(match *plot_name {
-                "discrete" => format!("discrete κ {curvature}\n{place}, dot {index}"),
-                _ => format!("κ {curvature}\n{place}"),
-            })
-        });
+        let signed = if scene.planar {
+            "signed curvature κ (1/unit)"
+        } else {
+            "curvature κ (1/unit)"
+        };
+        let plot = plot("curvature", "arc length (units)", signed, bounds, tokens).label_formatter(
+            |hover| {
+                let HoverPosition::NearDataPoint {
+                    position,
+                    plot_name,
+                    index,
+                } = hover
+                else {
+                    return None;
+                };
+                let place = format!("at {}", figures::significant(position.x, 5));
+                let curvature = figures::significant(position.y, 6);
+                Some(match *plot_name {
+                    "discrete" => format!("discrete κ {curvature}\n{place}, dot {index}"),
+                    _ => format!("κ {curvature}\n{place}"),
+                })
+            },
+        );
         let hovered = plot
             .show(ui, |plot| {
                 plot.set_plot_bounds(bounds);
@@ -207,14 +225,19 @@ impl Plots {
             ui.spacing_mut().item_spacing.x = 2.0 * STEP;
             let series = [
                 ("legs", &scene.legs, "leg length (units)", &mut self.legs),
-                ("turning angles", &scene.turns, "turning angle (°)", &mut self.turns),
+                (
+                    "turning angles",
+                    &scene.turns,
+                    "turning angle (°)",
+                    &mut self.turns,
+                ),
             ];
             for (name, points, axis, frame) in series {
                 let mut wanted = bounds_of(points.iter().copied(), name == "legs");
                 wanted.0.x = wanted.0.x.min(0.0);
                 wanted.1.x = wanted.1.x.max(count - 1.0);
                 let bounds = frame.settle(padded(wanted), dragging);
-                let plot = plot(name, "vertex", axis, bounds).width(width);
+                let plot = plot(name, "vertex", axis, bounds, tokens).width(width);
                 let found = plot.label_formatter(vertex_label).show(ui, |plot| {
                     plot.set_plot_bounds(bounds);
                     zero_line(plot, tokens);
@@ -236,7 +259,12 @@ impl Plots {
 }
 
 fn vertex_label(hover: &HoverPosition<'_>) -> Option<String> {
-    let HoverPosition::NearDataPoint { position, plot_name, .. } = hover else {
+    let HoverPosition::NearDataPoint {
+        position,
+        plot_name,
+        ..
+    } = hover
+    else {
         return None;
     };
     let value = figures::significant(position.y, 6);
@@ -253,7 +281,7 @@ fn padded((low, high): (DVec2, DVec2)) -> (DVec2, DVec2) {
 }
 
 /// A plot that shows the bounds it is given and cannot be pushed about.
-fn plot<'a>(id: &'a str, x: &'a str, y: &'a str, bounds: PlotBounds) -> Plot<'a> {
+fn plot<'a>(id: &'a str, x: &'a str, y: &'a str, bounds: PlotBounds, tokens: &Tokens) -> Plot<'a> {
     let resolution = 1e-3 * (bounds.height()).abs();
     Plot::new(id)
         .allow_drag(false)
@@ -263,6 +291,8 @@ fn plot<'a>(id: &'a str, x: &'a str, y: &'a str, bounds: PlotBounds) -> Plot<'a>
         .allow_axis_zoom_drag(false)
         .allow_double_click_reset(false)
         .show_crosshair(false)
+        .grid_color(tokens.grid_major)
+        .grid_fade(0.0)
         .set_margin_fraction(Vec2::ZERO)
         .x_axis_label(x)
         .y_axis_label(y)
@@ -277,40 +307,68 @@ fn axis_number(mark: GridMark, _: &RangeInclusive<f64>) -> String {
 }
 
 fn axis_figure(value: f64, step: f64) -> String {
-    if value.abs() < 1e-9 * step { "0".to_owned() } else { figures::to_resolution(value, step) }
+    if value.abs() < 1e-9 * step {
+        "0".to_owned()
+    } else {
+        figures::to_resolution(value, step)
+    }
 }
 
 fn zero_line(plot: &mut PlotUi<'_>, tokens: &Tokens) {
-    let line = egui_plot::HLine::new("zero", 0.0).color(tokens.axes).width(1.0);
+    let line = egui_plot::HLine::new("zero", 0.0)
+        .color(tokens.axes)
+        .width(1.0);
     plot.hline(line.allow_hover(false));
 }
 
 /// Draw a chain, one line for each of its pieces.
 fn lines(plot: &mut PlotUi<'_>, name: &str, chain: &[DVec2], colour: Color32) {
-    for piece in chain.split(|point| point.is_nan()).filter(|piece| !piece.is_empty()) {
-        let line = Line::new(name.to_owned(), series(piece)).color(colour).width(1.5);
+    for piece in chain
+        .split(|point| point.is_nan())
+        .filter(|piece| !piece.is_empty())
+    {
+        let line = Line::new(name.to_owned(), series(piece))
+            .color(colour)
+            .width(1.5);
         plot.line(line);
     }
 }
 
 fn dots_of(name: &str, points: &[DVec2], colour: Color32) -> Points<'static> {
-    let finite: Vec<DVec2> = points.iter().copied().filter(|point| point.is_finite()).collect();
+    let finite: Vec<DVec2> = points
+        .iter()
+        .copied()
+        .filter(|point| point.is_finite())
+        .collect();
     let dots = Points::new(name.to_owned(), series(&finite));
-    dots.color(colour).radius(3.0).shape(MarkerShape::Circle).filled(true)
+    dots.color(colour)
+        .radius(3.0)
+        .shape(MarkerShape::Circle)
+        .filled(true)
 }
 
 fn ring(at: DVec2, tokens: &Tokens) -> Points<'static> {
     let ring = Points::new("hovered", series(&[at]));
-    ring.color(tokens.accent).radius(6.0).filled(false).allow_hover(false)
+    ring.color(tokens.accent)
+        .radius(6.0)
+        .filled(false)
+        .allow_hover(false)
 }
 
 fn series(points: &[DVec2]) -> PlotPoints<'static> {
-    PlotPoints::Owned(points.iter().map(|point| PlotPoint::new(point.x, point.y)).collect())
+    PlotPoints::Owned(
+        points
+            .iter()
+            .map(|point| PlotPoint::new(point.x, point.y))
+            .collect(),
+    )
 }
 
 /// Mark what is hovered on the canvas.
 fn cursor(plot: &mut PlotUi<'_>, at: DVec2, tokens: &Tokens) {
-    let line = VLine::new("hovered", at.x).color(tokens.accent.gamma_multiply(0.6)).width(1.0);
+    let line = VLine::new("hovered", at.x)
+        .color(tokens.accent.gamma_multiply(0.6))
+        .width(1.0);
     plot.vline(line.allow_hover(false));
     if at.is_finite() {
         plot.points(ring(at, tokens));
@@ -319,7 +377,9 @@ fn cursor(plot: &mut PlotUi<'_>, at: DVec2, tokens: &Tokens) {
 
 fn mark_vertex(plot: &mut PlotUi<'_>, scene: &PlotScene, points: &[DVec2], tokens: &Tokens) {
     if let Some(vertex) = scene.hovered_vertex
-        && let Some(at) = points.iter().find(|point| point.x.round() as usize == vertex)
+        && let Some(at) = points
+            .iter()
+            .find(|point| point.x.round() as usize == vertex)
     {
         plot.points(ring(*at, tokens));
     }
@@ -328,7 +388,10 @@ fn mark_vertex(plot: &mut PlotUi<'_>, scene: &PlotScene, points: &[DVec2], token
 /// The abscissa under the pointer, if it is over the plot.
 fn hovered_x(plot: &PlotUi<'_>) -> Option<f64> {
     let is_over = plot.response().hovered();
-    is_over.then(|| plot.pointer_coordinate()).flatten().map(|point| point.x)
+    is_over
+        .then(|| plot.pointer_coordinate())
+        .flatten()
+        .map(|point| point.x)
 }
 
 #[cfg(test)]
@@ -337,7 +400,9 @@ mod tests {
 
     fn check(before: (f64, f64), wanted: (f64, f64), dragging: bool, expected: (f64, f64)) {
         let tall = |(low, high): (f64, f64)| (DVec2::new(0.0, low), DVec2::new(1.0, high));
-        let mut frame = Frame { bounds: Some(tall(before)) };
+        let mut frame = Frame {
+            bounds: Some(tall(before)),
+        };
         frame.settle(tall(wanted), dragging);
         assert_eq!(frame.bounds, Some(tall(expected)));
     }

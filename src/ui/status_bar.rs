@@ -1,6 +1,6 @@
 //! The status bar: what the mouse will do now, and where it is.
 
-use eframe::egui::{Label, Response, RichText, Role, Sense, Ui, Vec2, WidgetInfo};
+use eframe::egui::{Label, Response, RichText, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
 
 use super::figures;
 use super::theme::{self, STEP, Tokens};
@@ -18,10 +18,13 @@ pub fn status_bar_ui(ui: &mut Ui, editor: &Editor) {
         for (name, text, width) in cells(&readout).into_iter().rev() {
             cell_ui(ui, name, &text, width);
         }
-        ui.with_layout(eframe::egui::Layout::left_to_right(eframe::egui::Align::Center), |ui| {
-            let hint = RichText::new(editor.hint()).color(Tokens::of(ui).text);
-            ui.add(Label::new(hint).truncate());
-        });
+        ui.with_layout(
+            eframe::egui::Layout::left_to_right(eframe::egui::Align::Center),
+            |ui| {
+                let hint = RichText::new(editor.hint()).color(Tokens::of(ui).text);
+                ui.add(Label::new(hint).truncate());
+            },
+        );
     });
 }
 
@@ -36,9 +39,25 @@ fn cells(readout: &Readout) -> Vec<(&'static str, String, f32)> {
     vec![
         ("x", coordinate(pointer.map(|at| at.x)), 92.0),
         ("y", coordinate(pointer.map(|at| at.y)), 92.0),
-        ("u", readout.u.map_or_else(blank, |u| format!("{u:.3}")), 68.0),
-        ("κ", readout.curvature.map_or_else(blank, |k| figures::significant(k, 5)), 92.0),
-        ("degree", readout.degree.map_or_else(blank, |degree| degree.to_string()), 64.0),
+        (
+            "u",
+            readout.u.map_or_else(blank, |u| format!("{u:.3}")),
+            68.0,
+        ),
+        (
+            "κ",
+            readout
+                .curvature
+                .map_or_else(blank, |k| figures::significant(k, 5)),
+            92.0,
+        ),
+        (
+            "degree",
+            readout
+                .degree
+                .map_or_else(blank, |degree| degree.to_string()),
+            64.0,
+        ),
         ("1 unit", zoom(readout.scale), 108.0),
     ]
 }
@@ -53,9 +72,13 @@ fn zoom(scale: f64) -> String {
 }
 
 fn cell_ui(ui: &mut Ui, name: &str, text: &str, width: f32) -> Response {
-    let (rect, response) = ui.allocate_exact_size(Vec2::new(width, HEIGHT - 2.0 * STEP), Sense::hover());
+    let (rect, response) =
+        ui.allocate_exact_size(Vec2::new(width, HEIGHT - 2.0 * STEP), Sense::hover());
     let tokens = Tokens::of(ui);
     let font = theme::small_font();
+    let divider = rect.left() - 2.0 * STEP;
+    ui.painter()
+        .vline(divider, rect.y_range(), Stroke::new(1.0, tokens.outline));
     ui.painter().text(
         rect.left_center(),
         eframe::egui::Align2::LEFT_CENTER,

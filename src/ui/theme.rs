@@ -177,7 +177,11 @@ impl Tokens {
     }
 
     fn visuals(&self, dark: bool) -> Visuals {
-        let base = if dark { Visuals::dark() } else { Visuals::light() };
+        let base = if dark {
+            Visuals::dark()
+        } else {
+            Visuals::light()
+        };
         Visuals {
             widgets: self.widgets(),
             selection: Selection {
@@ -276,7 +280,9 @@ pub fn small_font() -> FontId {
 fn fonts() -> FontDefinitions {
     let mut fonts = FontDefinitions::default();
     let lucide = FontData::from_static(lucide_icons::LUCIDE_FONT_BYTES);
-    fonts.font_data.insert(ICON_FAMILY.to_owned(), Arc::new(lucide));
+    fonts
+        .font_data
+        .insert(ICON_FAMILY.to_owned(), Arc::new(lucide));
     fonts.families.insert(
         FontFamily::Name(ICON_FAMILY.into()),
         vec![ICON_FAMILY.to_owned()],

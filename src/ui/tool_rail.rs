@@ -17,7 +17,10 @@ pub fn tool_rail_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing = Vec2::splat(STEP);
     ui.vertical_centered(|ui| {
         for tool in ToolKind::ALL {
-            let starts_group = matches!(tool, ToolKind::AddVertex | ToolKind::Rotate | ToolKind::Measure);
+            let starts_group = matches!(
+                tool,
+                ToolKind::AddVertex | ToolKind::Rotate | ToolKind::Measure
+            );
             if starts_group {
                 divider(ui);
             }
@@ -45,21 +48,34 @@ fn button_ui(ui: &mut Ui, editor: &Editor, command: Command, commands: &mut Vec<
             let is_on = checked == Some(true);
             let is_hot = response.hovered() || response.has_focus();
             if is_on || is_hot {
-                let fill = if is_on { tokens.selection } else { tokens.button[1] };
+                let fill = if is_on {
+                    tokens.selection
+                } else {
+                    tokens.button[1]
+                };
                 ui.painter().rect_filled(rect, RADIUS, fill);
             }
             if response.has_focus() {
                 widgets::focus_ring(ui, rect);
             }
-            let colour = if is_on || is_hot { tokens.strong_text } else { tokens.text };
+            let colour = if is_on || is_hot {
+                tokens.strong_text
+            } else {
+                tokens.text
+            };
             if let Some(icon) = icons::of_command(command) {
                 widgets::icon(ui, rect.translate(Vec2::new(-2.0, -2.0)), icon, colour);
             }
             if let Some(shortcut) = command.shortcut() {
                 let at = rect.right_bottom() - Vec2::splat(STEP);
                 let key = keyboard::shortcut_text(shortcut);
-                let faint = if is_on { tokens.strong_text } else { tokens.faint_text };
-                ui.painter().text(at, Align2::RIGHT_BOTTOM, key, theme::small_font(), faint);
+                let faint = if is_on {
+                    tokens.strong_text
+                } else {
+                    tokens.faint_text
+                };
+                ui.painter()
+                    .text(at, Align2::RIGHT_BOTTOM, key, theme::small_font(), faint);
             }
             response.widget_info(|| match checked {
                 Some(on) => WidgetInfo::selected(Role::Button, ui.is_enabled(), on, &name),
@@ -68,7 +84,10 @@ fn button_ui(ui: &mut Ui, editor: &Editor, command: Command, commands: &mut Vec<
             response
         })
         .inner;
-    if response.on_hover_text(format!("{name}\n{}", command.tooltip())).clicked() {
+    if response
+        .on_hover_text(format!("{name}\n{}", command.tooltip()))
+        .clicked()
+    {
         commands.push(command);
     }
 }

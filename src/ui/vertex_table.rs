@@ -56,7 +56,7 @@ impl VertexTable {
         let plots_hover = editor.hovered_vertex();
         let count = curve.polygon.vertices().len();
         let height = (count as f32 * ROW).clamp(0.0, HEIGHTS.1);
-        let free = ui.available_height() - 2.0 * ROW;
+        let free = ui.available_height() - ROW - 2.0 * STEP;
         let height = height.min(free.max(HEIGHTS.0));
         let width = ui.available_width() - 3.0 * STEP;
         let column = ((width - NUMBER) / columns.len() as f32).floor();
@@ -131,7 +131,8 @@ fn heading_ui(ui: &mut Ui, columns: &[Column], width: f32) {
         let mut cell = |text: &str, width: f32| {
             let (rect, _) = ui.allocate_exact_size(vec2(width, 5.0 * STEP), Sense::hover());
             let at = rect.right_center() - vec2(1.5 * STEP, 0.0);
-            ui.painter().text(at, Align2::RIGHT_CENTER, text, theme::small_font(), colour);
+            ui.painter()
+                .text(at, Align2::RIGHT_CENTER, text, theme::small_font(), colour);
         };
         cell("vertex", NUMBER);
         for column in columns {
@@ -186,7 +187,11 @@ impl Row<'_> {
     fn number_ui(&self, ui: &mut Ui) -> Option<Asked> {
         let (rect, response) = ui.allocate_exact_size(vec2(NUMBER, ROW), Sense::click());
         let tokens = Tokens::of(ui);
-        let colour = if self.selected { tokens.strong_text } else { tokens.faint_text };
+        let colour = if self.selected {
+            tokens.strong_text
+        } else {
+            tokens.faint_text
+        };
         let inner = rect.with_max_x(rect.right() - 1.5 * STEP);
         widgets::number_in(ui, inner, &self.vertex.to_string(), colour);
         if response.has_focus() {
@@ -197,18 +202,27 @@ impl Row<'_> {
             WidgetInfo::selected(Role::Button, true, self.selected, name)
         });
         let add = ui.input(|input| input.modifiers.shift || input.modifiers.command);
-        response.clicked().then_some(Asked::Select { vertex: self.vertex, add })
+        response.clicked().then_some(Asked::Select {
+            vertex: self.vertex,
+            add,
+        })
     }
 
     fn field_ui(&self, ui: &mut Ui, column: Column) -> FieldEvent {
         let value = value(self.curve, column, self.vertex);
         let (shown, speed) = match column {
-            Column::Axis(_) => (figures::to_resolution(value, 0.01 * self.speed.max(1e-300)), self.speed),
+            Column::Axis(_) => (
+                figures::to_resolution(value, 0.01 * self.speed.max(1e-300)),
+                self.speed,
+            ),
             Column::Weight => (figures::significant(value, 6), 0.01),
         };
         let shown = fitting(ui, shown, value, self.width - 3.0 * STEP);
         let name = format!("vertex {} {}", self.vertex, column.name());
-        let field = NumberField::new(&name, value, shown).speed(speed).width(self.width).flat();
+        let field = NumberField::new(&name, value, shown)
+            .speed(speed)
+            .width(self.width)
+            .flat();
         field.show(ui).1
     }
 }
@@ -220,8 +234,13 @@ fn fitting(ui: &Ui, shown: String, value: f64, width: f32) -> String {
     if shown.len() <= most {
         return shown;
     }
-    let longest = (1..=most).rev().map(|digits| figures::significant(value, digits));
-    longest.into_iter().find(|text| text.len() <= most).unwrap_or(shown)
+    let longest = (1..=most)
+        .rev()
+        .map(|digits| figures::significant(value, digits));
+    longest
+        .into_iter()
+        .find(|text| text.len() <= most)
+        .unwrap_or(shown)
 }
 
 fn value(curve: &Curve, column: Column, vertex: usize) -> f64 {
@@ -245,9 +264,16 @@ fn execute(editor: &mut Editor, id: CurveId, curve: &Curve, asked: Asked) {
             Column::Axis(axis) => {
                 let mut place: DVec3 = curve.polygon.vertex(vertex);
                 place[axis] = value;
-                Edit::MoveVertices { curve: id, moves: vec![(vertex, place)] }
+                Edit::MoveVertices {
+                    curve: id,
+                    moves: vec![(vertex, place)],
+                }
             }
-            Column::Weight => Edit::SetWeight { curve: id, vertex, weight: value },
+            Column::Weight => Edit::SetWeight {
+                curve: id,
+                vertex,
+                weight: value,
+            },
         }]
     };
     match event {

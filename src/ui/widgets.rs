@@ -16,7 +16,6 @@ pub struct IconButton<'a> {
     icon: Icon,
     name: &'a str,
     tooltip: String,
-    selected: Option<bool>,
     enabled: bool,
     size: f32,
     colour: Option<Color32>,
@@ -29,7 +28,6 @@ impl<'a> IconButton<'a> {
             icon,
             name,
             tooltip: name.to_owned(),
-            selected: None,
             enabled: true,
             size: ROW,
             colour: None,
@@ -39,12 +37,6 @@ impl<'a> IconButton<'a> {
     /// Say more on hover than the name.
     pub fn tooltip(mut self, tooltip: impl Into<String>) -> Self {
         self.tooltip = tooltip.into();
-        self
-    }
-
-    /// Make it a toggle that is on or off.
-    pub fn selected(mut self, selected: bool) -> Self {
-        self.selected = Some(selected);
         self
     }
 
@@ -68,28 +60,24 @@ impl<'a> IconButton<'a> {
 
     /// Show the button.
     pub fn show(self, ui: &mut Ui) -> Response {
-        ui.add_enabled_ui(self.enabled, |ui| self.enabled_ui(ui)).inner
+        ui.add_enabled_ui(self.enabled, |ui| self.enabled_ui(ui))
+            .inner
     }
 
     fn enabled_ui(self, ui: &mut Ui) -> Response {
         let (rect, response) = ui.allocate_exact_size(Vec2::splat(self.size), Sense::click());
         let tokens = Tokens::of(ui);
-        let is_on = self.selected == Some(true);
         let is_hot = response.hovered() || response.has_focus();
-        if is_on || is_hot {
-            let fill = if is_on { tokens.selection } else { tokens.button[1] };
-            ui.painter().rect_filled(rect, RADIUS, fill);
+        if is_hot {
+            ui.painter().rect_filled(rect, RADIUS, tokens.button[1]);
         }
         if response.has_focus() {
             focus_ring(ui, rect);
         }
         let at_rest = self.colour.unwrap_or(tokens.text);
-        let colour = if is_on || is_hot { tokens.strong_text } else { at_rest };
+        let colour = if is_hot { tokens.strong_text } else { at_rest };
         icon(ui, rect, self.icon, colour);
-        response.widget_info(|| match self.selected {
-            Some(on) => WidgetInfo::selected(Role::Button, ui.is_enabled(), on, self.name),
-            None => WidgetInfo::labeled(Role::Button, ui.is_enabled(), self.name),
-        });
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), self.name));
         response.on_hover_text(self.tooltip)
     }
 }
@@ -108,13 +96,18 @@ pub fn icon(ui: &Ui, rect: Rect, icon: Icon, colour: Color32) {
 /// Outline what has the keyboard.
 pub fn focus_ring(ui: &Ui, rect: Rect) {
     let stroke = Stroke::new(1.0, Tokens::of(ui).accent);
-    ui.painter().rect_stroke(rect, RADIUS, stroke, StrokeKind::Inside);
+    ui.painter()
+        .rect_stroke(rect, RADIUS, stroke, StrokeKind::Inside);
 }
 
 /// A caption in small, faint type.
 pub fn caption(ui: &mut Ui, text: &str) -> Response {
     let tokens = Tokens::of(ui);
-    ui.label(RichText::new(text).font(theme::small_font()).color(tokens.faint_text))
+    ui.label(
+        RichText::new(text)
+            .font(theme::small_font())
+            .color(tokens.faint_text),
+    )
 }
 
 /// A line of text that wraps, faint: hints and explanations.
@@ -176,22 +169,39 @@ pub fn figure_row(ui: &mut Ui, name: &str, figures: &str) {
 /// Write a text at the left of a box.
 pub fn label_in(ui: &Ui, rect: Rect, text: &str, colour: Color32) {
     let font = egui::TextStyle::Body.resolve(ui.style());
-    ui.painter_at(rect).text(rect.left_center(), Align2::LEFT_CENTER, text, font, colour);
+    ui.painter_at(rect)
+        .text(rect.left_center(), Align2::LEFT_CENTER, text, font, colour);
 }
 
 /// Write a number at the right of a box.
 pub fn number_in(ui: &Ui, rect: Rect, text: &str, colour: Color32) {
     let at = rect.right_center();
-    ui.painter().text(at, Align2::RIGHT_CENTER, text, theme::number_font(), colour);
+    ui.painter()
+        .text(at, Align2::RIGHT_CENTER, text, theme::number_font(), colour);
 }
 
 /// The width of a text in a font.
 pub fn text_width(ui: &Ui, text: &str, font: FontId) -> f32 {
-    let galley = ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER);
+    let galley = ui
+        .painter()
+        .layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER);
     galley.size().x
+}
+
+/// The frame of a dialog.
+pub fn dialog_frame(style: &egui::Style) -> egui::Frame {
+    egui::Frame::window(style).inner_margin(4.0 * STEP)
+}
+
+/// The button that Enter presses too.
+pub fn primary_button(ui: &mut Ui, name: &str) -> Response {
+    let tokens = Tokens::of(ui);
+    let text = RichText::new(name).color(tokens.strong_text);
+    ui.add(egui::Button::new(text).fill(tokens.selection))
 }
 
 /// Lay contents out from the right edge of the row.
 pub fn at_right<R>(ui: &mut Ui, contents: impl FnOnce(&mut Ui) -> R) -> R {
-    ui.with_layout(Layout::right_to_left(Align::Center), contents).inner
+    ui.with_layout(Layout::right_to_left(Align::Center), contents)
+        .inner
 }
