@@ -14,10 +14,14 @@ fn main() -> ExitCode {
 }
 
 #[cfg(feature = "gui")]
-fn editor(_files: Vec<PathBuf>) -> ExitCode {
-    // The editor's place: ui::run(files).
-    eprintln!("batten: the editor is not there yet; see batten --help for what is");
-    ExitCode::FAILURE
+fn editor(files: Vec<PathBuf>) -> ExitCode {
+    match batten::ui::run(files) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("batten: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
 }
 
 #[cfg(not(feature = "gui"))]

@@ -74,12 +74,14 @@ impl History {
     }
 
     /// End the gesture and keep what it shows as one step. Returns whether there is a step: a
-    /// gesture that changed nothing leaves none.
+    /// gesture that changed nothing, or came back to where it began, leaves none.
     pub fn commit(&mut self) -> bool {
         let Some(step) = self.gesture.take() else {
             return false;
         };
         if self.document.is_same(&step.document) {
+            // Equal is not the same: a zero may have changed its sign.
+            self.document = step.document;
             return false;
         }
         self.undo.push(step);

@@ -1,6 +1,8 @@
 //! Arc length.
 
 use super::float_polygon::FloatPolygon;
+use super::polygon_figures::Range;
+use super::vector;
 
 /// Nodes and weights of Gauss–Legendre quadrature with 16 points on \[−1, 1\]: the positive
 /// half; the other half mirrors it.
@@ -17,6 +19,22 @@ const NODES: [(f64, f64); 8] = [
 
 /// Halvings after which an interval is taken as it is: it is then 2⁻⁴⁰ of a segment.
 const DEEPEST: usize = 40;
+
+/// Halvings of one segment after which all remaining intervals are taken as they are. Cusps take
+/// some hundreds.
+const MOST_HALVINGS: usize = 10_000;
+
+/// Roundings that a quadrature may differ by from that of its halves.
+const ROUNDINGS: f64 = 16.0 * f64::EPSILON;
+
+/// One segment being measured.
+struct Measurement<'a> {
+    polygon: &'a FloatPolygon,
+    segment: usize,
+    /// How much a length may err for an interval of the whole segment.
+    allowed: f64,
+    halvings: usize,
+}
 
 impl FloatPolygon {
     /// Measure the arc length of the whole curve to the relative `tolerance`.
@@ -36,35 +54,55 @@ impl FloatPolygon {
     /// # Panics
     /// If the curve has no segment with this number.
     pub fn segment_arc_length(&self, segment: usize, from: f64, to: f64, tolerance: f64) -> f64 {
-        let whole = self.quadrature(segment, from, to);
-        self.halved(segment, (from, to), whole, tolerance * whole, DEEPEST)
+        let mut measurement = Measurement {
+            polygon: self,
+            segment,
+            allowed: 0.0,
+            halvings: 0,
+        };
+        let whole = measurement.quadrature(from, to);
+        let rounding = ROUNDINGS * self.greatest_leg(segment) * (to - from).abs();
+        measurement.allowed = rounding.max(tolerance * whole);
+        measurement.halved(from, to, whole, 0)
     }
 
-    fn halved(
-        &self,
-        segment: usize,
-        (from, to): (f64, f64),
-        whole: f64,
-        allowed: f64,
-        depth: usize,
-    ) -> f64 {
+    /// Find the longest leg of a segment's polygon, which bounds the speed of a polynomial curve
+    /// and what rounding does to it. For a rational curve, the same of its homogeneous polygon.
+    fn greatest_leg(&self, segment: usize) -> f64 {
+        let vertices = segment..segment + self.degree();
+        let legs =
+            vertices.map(|index| vector::length(self.vertex(index + 1) - self.vertex(index)));
+        let weights = (segment..=segment + self.degree()).map(|index| self.weight(index));
+        let range = Range::of(weights).map_or(1.0, |range| range.high / range.low);
+        let greatest = legs.fold(0.0, f64::max);
+        if self.is_rational() {
+            greatest * range * self.degree() as f64
+        } else {
+            greatest
+        }
+    }
+}
+
+impl Measurement<'_> {
+    fn halved(&mut self, from: f64, to: f64, whole: f64, depth: usize) -> f64 {
         let middle = 0.5 * (from + to);
-        let left = self.quadrature(segment, from, middle);
-        let right = self.quadrature(segment, middle, to);
-        let rounding = 4.0 * f64::EPSILON * whole;
-        let error = (left + right - whole).abs();
-        // A speed beyond the range of numbers gives an error that is no number: halving on
-        // would never end.
-        if error <= allowed.max(rounding) || error.is_nan() || depth == 0 {
+        let left = self.quadrature(from, middle);
+        let right = self.quadrature(middle, to);
+        let difference = (left + right - whole).abs();
+        let allowed = self.allowed * 0.5_f64.powi(depth as i32);
+        // Where numbers overflow, halving would go on for ever.
+        let hopeless =
+            !difference.is_finite() || depth == DEEPEST || self.halvings == MOST_HALVINGS;
+        if difference <= allowed || hopeless {
             return left + right;
         }
-        self.halved(segment, (from, middle), left, 0.5 * allowed, depth - 1)
-            + self.halved(segment, (middle, to), right, 0.5 * allowed, depth - 1)
+        self.halvings += 1;
+        self.halved(from, middle, left, depth + 1) + self.halved(middle, to, right, depth + 1)
     }
 
-    fn quadrature(&self, segment: usize, from: f64, to: f64) -> f64 {
+    fn quadrature(&self, from: f64, to: f64) -> f64 {
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-        let speed = |t: f64| self.segment_derivatives(segment, t, 1)[1].length();
+        let speed = |t: f64| self.polygon.segment_jet(self.segment, t).speed();
         let sum = NODES.iter().map(|(node, weight)| {
             weight * (speed(middle - half * node) + speed(middle + half * node))
         });

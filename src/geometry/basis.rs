@@ -5,18 +5,24 @@
 /// Function j weighs the segment's vertex j, has the support \[j − n, j + 1\] (as t counts), is
 /// not negative, and all of them sum to 1 (the Cox–de Boor recurrence on integer knots).
 pub fn uniform_basis(degree: usize, t: f64) -> Vec<f64> {
-    let mut values = vec![1.0];
+    let mut values = vec![0.0; degree + 1];
+    values[0] = 1.0;
     for level in 1..=degree {
-        let divisor = level as f64;
-        let mut next = vec![0.0; level + 1];
-        for (index, value) in values.iter().enumerate() {
-            let falling = (index + 1) as f64 - t;
-            next[index] += value * falling / divisor;
-            next[index + 1] += value * (divisor - falling) / divisor;
-        }
-        values = next;
+        uniform_basis_step(level, t, &mut values);
     }
     values
+}
+
+/// Take the basis of degree `level` − 1 to that of degree `level`, in place: one level of the
+/// recurrence. Values beyond the basis must be 0.
+pub(super) fn uniform_basis_step(level: usize, t: f64, values: &mut [f64]) {
+    let divisor = level as f64;
+    for index in (1..=level).rev() {
+        let falling = (index + 1) as f64 - t;
+        let rising = (level - index) as f64 + t;
+        values[index] = (values[index] * falling + values[index - 1] * rising) / divisor;
+    }
+    values[0] *= (1.0 - t) / divisor;
 }
 
 /// Evaluate the `order`-th derivatives by t of the n + 1 basis functions of one segment.

@@ -42,7 +42,7 @@ impl BezierPolygon {
                 periodic: false,
             });
         }
-        if (found - 1) % degree != 0 {
+        if !(found - 1).is_multiple_of(degree) {
             return Err(PolygonError::BezierCount { found, degree });
         }
         check_vertices(&vertices)?;

@@ -68,8 +68,8 @@ impl ClampedPolygon {
 
     /// Convert to the float polygon of the same curve (open, over the same segments).
     ///
-    /// The conversion extrapolates: an error in an end vertex grows by up to (2n − 1)!!
-    /// (definitions: 2.2 million for degree 9).
+    /// The conversion extrapolates: with one segment an error in a vertex grows by up to
+    /// (2n − 1)!!, which is 3.4e7 for degree 9; with N ≥ 2n by 1.8e6.
     ///
     /// # Errors
     /// [`PolygonError::WeightLost`] if the exact float polygon has a weight that is not
@@ -139,7 +139,9 @@ pub(super) fn float_from_homogeneous(
     let to = PolygonKind::Float;
     if rational {
         let mut numbered = homogeneous.iter().enumerate();
-        if let Some((index, vertex)) = numbered.find(|(_, vertex)| !(vertex.w > 0.0)) {
+        if let Some((index, vertex)) =
+            numbered.find(|(_, vertex)| vertex.w.is_nan() || vertex.w <= 0.0)
+        {
             let weight = vertex.w;
             return Err(PolygonError::WeightLost { to, index, weight });
         }

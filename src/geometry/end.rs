@@ -1,10 +1,11 @@
 //! The two ends of an open curve and their jets.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::basis::uniform_basis_derivative;
 use super::float_polygon::FloatPolygon;
 use super::jet::Jet;
+use super::vector;
 
 /// One end of an open curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -46,46 +47,73 @@ impl FloatPolygon {
         }
     }
 
-    /// The numbers of the n vertices that act at one end, from the curve's start on: they fix
-    /// the end point and the first n − 1 derivatives there.
+    /// The numbers of the terminal vertices of one end, from the curve's start on: the n vertices
+    /// that fix the end point and the first n − 1 derivatives there. For degree 1 the two of the
+    /// end's leg, since one alone has no direction.
     pub fn terminal_vertices(&self, end: End) -> std::ops::Range<usize> {
-        let count = self.vertices().len();
+        let (count, terminal) = (self.vertices().len(), self.degree().max(2));
         match end {
-            End::Start => 0..self.degree(),
-            End::Finish => count - self.degree()..count,
+            End::Start => 0..terminal,
+            End::Finish => count - terminal..count,
         }
     }
 
-    /// The weights with which the n terminal vertices enter the `order`-th derivative at an end
-    /// of a polynomial curve: Eulerian numbers over n! for the point itself.
+    /// The weights with which the terminal vertices enter the `order`-th derivative at an end of
+    /// a polynomial curve: Eulerian numbers over n! for the point itself. The vertex beyond them
+    /// that enters the n-th derivative is left out.
     pub fn end_weights(&self, end: End, order: usize) -> Vec<f64> {
-        let (t, skipped) = match end {
-            End::Start => (0.0, 0),
-            End::Finish => (1.0, 1),
+        let t = match end {
+            End::Start => 0.0,
+            End::Finish => 1.0,
         };
         let mut weights = uniform_basis_derivative(self.degree(), order, t);
-        weights.rotate_left(skipped);
-        weights.truncate(self.degree());
+        let excess = weights.len() - self.terminal_vertices(end).len();
+        if end == End::Finish {
+            weights.rotate_left(excess);
+        }
+        weights.truncate(weights.len() - excess);
         weights
     }
 }
 
 /// Find the rotation that takes direction `from` to `to` the shortest way; in the plane z = 0 it
 /// stays in the plane, half a turn included. `None` if either vector is zero.
-pub fn rotation_between(from: DVec3, to: DVec3) -> Option<glam::DMat3> {
-    let (from, to) = (from.try_normalize()?, to.try_normalize()?);
+pub fn rotation_between(from: DVec3, to: DVec3) -> Option<DMat3> {
+    let (from, to) = (vector::direction(from)?, vector::direction(to)?);
     if from.z == 0.0 && to.z == 0.0 {
         let (sine, cosine) = (from.truncate().perp_dot(to.truncate()), from.dot(to));
         let length = sine.hypot(cosine);
         let (sine, cosine) = (sine / length, cosine / length);
-        return Some(glam::DMat3::from_cols(
+        return Some(DMat3::from_cols(
             DVec3::new(cosine, sine, 0.0),
             DVec3::new(-sine, cosine, 0.0),
             DVec3::Z,
         ));
     }
-    let axis = from.cross(to).try_normalize();
-    let axis = axis.unwrap_or_else(|| from.any_orthonormal_vector());
-    let angle = from.cross(to).length().atan2(from.dot(to));
-    Some(glam::DMat3::from_axis_angle(axis, angle))
+    if from.dot(to) >= 0.0 {
+        return Some(turn_by_acute(from, to));
+    }
+    // Near half a turn the axis from × to is nothing but rounding: half a turn about an axis that
+    // is surely orthogonal to `from` leaves less than a right angle to go.
+    let across = from.cross(to);
+    let axis = if across.length() > 1e-4 {
+        (across - across.dot(from) * from).normalize()
+    } else {
+        from.any_orthonormal_vector()
+    };
+    let half_turn = DMat3::from_cols(axis * axis.x, axis * axis.y, axis * axis.z) * 2.0;
+    let half_turn = half_turn - DMat3::IDENTITY;
+    Some(turn_by_acute(-from, to) * half_turn)
+}
+
+/// The rotation of one unit vector to another that is at most a right angle away:
+/// I + V + V²/(1 + from · to), V the matrix of v ↦ (from × to) × v.
+fn turn_by_acute(from: DVec3, to: DVec3) -> DMat3 {
+    let v = from.cross(to);
+    let cross = DMat3::from_cols(
+        DVec3::new(0.0, v.z, -v.y),
+        DVec3::new(-v.z, 0.0, v.x),
+        DVec3::new(v.y, -v.x, 0.0),
+    );
+    DMat3::IDENTITY + cross + cross * cross * (1.0 / (1.0 + from.dot(to)))
 }

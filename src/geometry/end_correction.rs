@@ -13,6 +13,7 @@ use glam::{DMat3, DVec3};
 use super::end::{End, rotation_between};
 use super::error::PolygonError;
 use super::float_polygon::FloatPolygon;
+use super::vector;
 
 /// Passes without halving of the residual after which the loop is taken not to converge.
 const PATIENCE: usize = 4;
@@ -58,12 +59,14 @@ impl EndDifference {
     /// Express both differences as one length: the larger of the position difference and of
     /// the arc that `size` sweeps through the difference angle.
     pub fn residual(&self, size: f64) -> f64 {
-        self.vector.length().max(self.angle.abs() * size)
+        vector::length(self.vector).max(self.angle.abs() * size)
     }
 }
 
-/// Measure the angle from one direction to another, signed in the plane z = 0.
+/// Measure the angle from one direction to another in radians: in the plane z = 0 signed, left
+/// turns positive; in space not negative. 0 if either vector is zero.
 pub fn angle_between(from: DVec3, to: DVec3) -> f64 {
+    let ((from, _), (to, _)) = (vector::scaled(from), vector::scaled(to));
     if from.z == 0.0 && to.z == 0.0 {
         let sine = from.truncate().perp_dot(to.truncate());
         sine.atan2(from.truncate().dot(to.truncate()))
@@ -141,14 +144,15 @@ pub enum EndOverlap {
 impl EndOverlap {
     /// Tell how the ends of an open polygon overlap.
     pub fn of(polygon: &FloatPolygon) -> Self {
-        let (count, degree) = (polygon.vertices().len(), polygon.degree());
-        if count >= 2 * degree {
+        let count = polygon.vertices().len();
+        let terminal = polygon.terminal_vertices(End::Start).len();
+        if count >= 2 * terminal {
             Self::None
-        } else if count == degree + 1 {
+        } else if count == polygon.degree() + 1 {
             Self::OneSegment
         } else {
             Self::Partial {
-                shared: 2 * degree - count,
+                shared: 2 * terminal - count,
             }
         }
     }
@@ -201,7 +205,7 @@ pub fn correct_in_turn(
         residuals.push(now);
         converged = now <= tolerance;
         let earlier = residuals.len().checked_sub(PATIENCE + 1);
-        if earlier.is_some_and(|index| !(now <= 0.5 * residuals[index])) {
+        if earlier.is_some_and(|index| now.is_nan() || now > 0.5 * residuals[index]) {
             break;
         }
     }

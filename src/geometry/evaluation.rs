@@ -50,12 +50,9 @@ impl FloatPolygon {
     /// # Panics
     /// If the curve has no segment with this number.
     pub fn segment_derivatives(&self, segment: usize, t: f64, order: usize) -> Vec<DVec3> {
-        let homogeneous = self.homogeneous_derivatives(segment, t, order);
-        if self.is_rational() {
-            quotient(&homogeneous)
-        } else {
-            homogeneous.iter().map(|value| value.truncate()).collect()
-        }
+        let mut values = vec![DVec4::ZERO; order + 1];
+        self.fill_derivatives(segment, t, &mut values);
+        values.into_iter().map(DVec4::truncate).collect()
     }
 
     /// Evaluate the point and the first three derivatives.
@@ -69,29 +66,42 @@ impl FloatPolygon {
     /// # Panics
     /// If the curve has no segment with this number.
     pub fn segment_jet(&self, segment: usize, t: f64) -> Jet {
-        let values = self.segment_derivatives(segment, t, 3);
+        let mut values = [DVec4::ZERO; 4];
+        self.fill_derivatives(segment, t, &mut values);
+        let [point, first, second, third] = values.map(DVec4::truncate);
         Jet {
-            point: values[0],
-            first: values[1],
-            second: values[2],
-            third: values[3],
+            point,
+            first,
+            second,
+            third,
         }
     }
 
-    fn homogeneous_derivatives(&self, segment: usize, t: f64, order: usize) -> Vec<DVec4> {
+    /// Fill `values` with the point and as many derivatives as there is room for.
+    fn fill_derivatives(&self, segment: usize, t: f64, values: &mut [DVec4]) {
         let degree = self.degree();
+        // A rational curve is evaluated about one of its vertices: the quotient would otherwise
+        // lose what the coordinates' distance from the origin takes.
+        let origin = if self.is_rational() {
+            self.vertex(segment + degree / 2)
+        } else {
+            DVec3::ZERO
+        };
         let mut differences = [DVec4::ZERO; MAX_DEGREE + 1];
         for (j, value) in differences[..=degree].iter_mut().enumerate() {
-            *value = self.homogeneous(segment + j);
+            let weight = self.weight(segment + j);
+            *value = ((self.vertex(segment + j) - origin) * weight).extend(weight);
         }
-        let mut values = vec![DVec4::ZERO; order + 1];
         for (r, value) in values.iter_mut().enumerate().take(degree + 1) {
             *value = de_boor(degree - r, t, |j| differences[j]);
             for j in 0..degree - r {
                 differences[j] = differences[j + 1] - differences[j];
             }
         }
-        values
+        if self.is_rational() {
+            quotient(values);
+            values[0] += origin.extend(0.0);
+        }
     }
 }
 
@@ -114,17 +124,15 @@ fn de_boor(degree: usize, t: f64, vertex: impl Fn(usize) -> DVec4) -> DVec4 {
 }
 
 /// Take the derivatives of a projected curve from those of the homogeneous one (Leibniz).
-fn quotient(homogeneous: &[DVec4]) -> Vec<DVec3> {
-    let weight = homogeneous[0].w;
-    let mut values: Vec<DVec3> = Vec::with_capacity(homogeneous.len());
-    for (order, derivative) in homogeneous.iter().enumerate() {
-        let mut value = derivative.truncate();
+fn quotient(values: &mut [DVec4]) {
+    let weight = values[0].w;
+    for order in 0..values.len() {
+        let mut value = values[order].truncate();
         let mut binomial = 1.0;
         for k in 1..=order {
             binomial *= (order + 1 - k) as f64 / k as f64;
-            value -= binomial * homogeneous[k].w * values[order - k];
+            value -= binomial * values[k].w * values[order - k].truncate();
         }
-        values.push(value / weight);
+        values[order] = (value / weight).extend(values[order].w);
     }
-    values
 }

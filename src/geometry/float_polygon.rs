@@ -3,6 +3,7 @@
 use glam::{DVec3, DVec4};
 
 use super::error::{MAX_DEGREE, PolygonError};
+use super::vector;
 
 /// The largest magnitude of a coordinate or weight, and the inverse of the smallest weight.
 /// Derivatives, squares and cubes of such numbers still fit into a double.
@@ -200,7 +201,7 @@ impl FloatPolygon {
             (DVec3::INFINITY, DVec3::NEG_INFINITY),
             |(low, high), vertex| (low.min(*vertex), high.max(*vertex)),
         );
-        (high - low).length()
+        vector::length(high - low)
     }
 
     fn wrapped(&self, index: usize) -> usize {
@@ -236,8 +237,7 @@ pub(super) fn check_vertices(vertices: &[DVec3]) -> Result<(), PolygonError> {
 
 fn check_vertex(index: usize, vertex: DVec3) -> Result<(), PolygonError> {
     for (axis, value) in ['x', 'y', 'z'].into_iter().zip(vertex.to_array()) {
-        // A comparison with NaN is false, so this refuses it too.
-        if !(value.abs() <= MAX_MAGNITUDE) {
+        if value.is_nan() || value.abs() > MAX_MAGNITUDE {
             return Err(PolygonError::BadCoordinate { index, axis, value });
         }
     }

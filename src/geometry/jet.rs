@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use super::vector;
+
 /// Hold a point of the curve and its first three derivatives by the parameter u.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Jet {
@@ -18,38 +20,52 @@ pub struct Jet {
 impl Jet {
     /// Compute the unit tangent, or `None` at a cusp (C′ = 0).
     pub fn tangent(&self) -> Option<DVec3> {
-        self.first.try_normalize()
+        vector::direction(self.first)
     }
 
     /// Compute the signed curvature of a planar curve, (x′y″ − y′x″) / |C′|³: positive where
     /// the curve turns left. Infinite or not a number at a cusp.
     pub fn signed_curvature(&self) -> f64 {
-        self.first.truncate().perp_dot(self.second.truncate()) / self.speed().powi(3)
+        let (first, second, factor) = self.scaled();
+        factor * first.truncate().perp_dot(second.truncate()) / first.length().powi(3)
     }
 
-    /// Compute the curvature of a space curve, |C′ × C″| / |C′|³ ≥ 0.
+    /// Compute the curvature of a space curve, |C′ × C″| / |C′|³ ≥ 0. Infinite or not a number
+    /// at a cusp.
     pub fn curvature(&self) -> f64 {
-        self.first.cross(self.second).length() / self.speed().powi(3)
+        let (first, second, factor) = self.scaled();
+        factor * first.cross(second).length() / first.length().powi(3)
     }
 
     /// Compute the torsion (C′ × C″) · C‴ / |C′ × C″|²; not a number where the curvature is 0.
     pub fn torsion(&self) -> f64 {
-        let normal = self.first.cross(self.second);
-        normal.dot(self.third) / normal.length_squared()
+        let (first, a) = vector::scaled(self.first);
+        let (second, b) = vector::scaled(self.second);
+        let (third, c) = vector::scaled(self.third);
+        let normal = first.cross(second);
+        c / b / a * normal.dot(third) / normal.length_squared()
     }
 
     /// Compute the speed |C′|.
     pub fn speed(&self) -> f64 {
-        self.first.length()
+        vector::length(self.first)
     }
 
     /// Compute the centre of curvature, the point of the evolute:
     /// C + |C′|² (C′ × C″) × C′ / |C′ × C″|². `None` where the curvature is 0 or at a cusp.
     pub fn centre_of_curvature(&self) -> Option<DVec3> {
-        let normal = self.first.cross(self.second);
-        let radius_vector =
-            self.first.length_squared() * normal.cross(self.first) / normal.length_squared();
-        let centre = self.point + radius_vector;
+        let (first, second, factor) = self.scaled();
+        let normal = first.cross(second);
+        let radius_vector = first.length_squared() * normal.cross(first) / normal.length_squared();
+        let centre = self.point + radius_vector / factor;
         centre.is_finite().then_some(centre)
+    }
+
+    /// The first two derivatives, brought to sizes that can be squared and cubed, and the factor
+    /// by which the curvature computed from them must be multiplied.
+    fn scaled(&self) -> (DVec3, DVec3, f64) {
+        let (first, a) = vector::scaled(self.first);
+        let (second, b) = vector::scaled(self.second);
+        (first, second, b / a / a)
     }
 }

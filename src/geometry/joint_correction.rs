@@ -14,6 +14,7 @@ use super::end::End;
 use super::end_correction::{EndDifference, EndTarget};
 use super::error::PolygonError;
 use super::float_polygon::FloatPolygon;
+use super::vector;
 
 /// The order k of the differences kept small: 1 moves the vertices least.
 const SMOOTHNESS: usize = 1;
@@ -91,7 +92,7 @@ pub fn correct_jointly(
     let zero = |target: &EndTarget| {
         target
             .direction
-            .is_some_and(|d| d.try_normalize().is_none())
+            .is_some_and(|direction| vector::direction(direction).is_none())
     };
     if let Some((end, _)) = targets.iter().find(|(_, target)| zero(target)) {
         return Err(CorrectionError::NoDirection { end: *end });
@@ -147,7 +148,7 @@ fn solve(
             });
         }
         stencils.push(point);
-        if let Some(direction) = target.direction.and_then(DVec3::try_normalize) {
+        if let Some(direction) = target.direction.and_then(vector::direction) {
             let speed = polygon.end_jet(*end).speed();
             for (axis, value) in tangent_axes(direction, flat, length, speed) {
                 conditions.push(Condition {
@@ -263,7 +264,7 @@ fn report(
         .fold(0.0, f64::max);
     let reach = polygon.vertices().iter().map(|v| v.abs().max_element());
     let scale = reach.fold(size, f64::max);
-    if !(residual <= MET * scale) {
+    if residual.is_nan() || residual > MET * scale {
         return Err(CorrectionError::NotSolvable {
             vertices: before.vertices().len(),
             degree: before.degree(),

@@ -20,6 +20,7 @@ mod nearest;
 pub mod polygon_figures;
 mod polygon_kind;
 mod sampler;
+mod vector;
 
 pub use bezier_polygon::{BezierPolygon, segment_bezier};
 pub use clamped_polygon::ClampedPolygon;

@@ -1,8 +1,11 @@
 //! Figures of a polygon itself: legs, turning angles, discrete curvature.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
+use super::end_correction::angle_between;
 use super::float_polygon::FloatPolygon;
+use super::jet::Jet;
+use super::vector;
 
 /// The smallest and the largest of some values.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,7 +53,7 @@ impl Range {
 /// Measure the legs of a polygon, |P_{i+1} − P_i|: N − 1 lengths.
 pub fn leg_lengths(vertices: &[DVec3]) -> Vec<f64> {
     let legs = vertices.windows(2);
-    legs.map(|leg| leg[0].distance(leg[1])).collect()
+    legs.map(|leg| vector::length(leg[1] - leg[0])).collect()
 }
 
 /// Measure the turning angles of a polygon at its inner vertices, in radians: N − 2 angles.
@@ -64,13 +67,11 @@ pub fn turning_angles(vertices: &[DVec3]) -> Vec<f64> {
 
 /// Measure the angle by which a polygon turns at `corner`, as [`turning_angles`] does.
 pub fn turning_angle(before: DVec3, corner: DVec3, after: DVec3) -> f64 {
-    let (incoming, outgoing) = (corner - before, after - corner);
+    let angle = angle_between(corner - before, after - corner);
     if before.z == 0.0 && corner.z == 0.0 && after.z == 0.0 {
-        let (a, b): (DVec2, DVec2) = (incoming.truncate(), outgoing.truncate());
-        a.perp_dot(b).atan2(a.dot(b))
+        angle
     } else {
-        let sine = incoming.cross(outgoing).length();
-        sine.atan2(incoming.dot(outgoing))
+        angle.abs()
     }
 }
 
@@ -78,13 +79,15 @@ pub fn turning_angle(before: DVec3, corner: DVec3, after: DVec3) -> f64 {
 /// with the central differences D₁ = (after − before)/2 and D₂ = before − 2 corner + after.
 /// Signed in the plane z = 0; not a number where `before` and `after` coincide.
 pub fn discrete_curvature(before: DVec3, corner: DVec3, after: DVec3) -> f64 {
-    let first = 0.5 * (after - before);
-    let second = before - 2.0 * corner + after;
-    let cubed = first.length().powi(3);
+    let differences = Jet {
+        first: 0.5 * (after - before),
+        second: before - 2.0 * corner + after,
+        ..Jet::default()
+    };
     if before.z == 0.0 && corner.z == 0.0 && after.z == 0.0 {
-        first.truncate().perp_dot(second.truncate()) / cubed
+        differences.signed_curvature()
     } else {
-        first.cross(second).length() / cubed
+        differences.curvature()
     }
 }
 

@@ -1,17 +1,20 @@
 //! Batches of points and derivatives: what every view of a curve is drawn from.
 //!
-//! All segments of a float polygon share one basis. A segment is converted once to powers of
-//! s = t − ½ about its middle vertex, which loses a few roundings only, and then evaluated at
-//! all parameters of the batch in loops that a compiler turns into vector instructions.
+//! All segments of a float polygon share one basis, so the basis is computed once, for all
+//! parameters of the batch, and every segment is a small product of that table and its own
+//! vertices. The r-th derivative is the curve of degree n − r on the r-th differences of the
+//! vertices. The loops run over a fixed number of parameters side by side, which a compiler turns
+//! into vector instructions.
 
 use glam::DVec3;
 
-use super::basis::power_matrix;
+use super::basis::uniform_basis_step;
 use super::error::MAX_DEGREE;
 use super::float_polygon::FloatPolygon;
 use super::jet::Jet;
 
-/// Parameters evaluated in one pass of the inner loop.
+/// Parameters evaluated side by side: the sums of so many just fit into the registers of a
+/// processor with vectors of two doubles, and are enough to hide its latency.
 const LANES: usize = 16;
 
 /// The highest derivative that a batch holds.
@@ -21,10 +24,10 @@ pub const BATCH_ORDER: usize = 3;
 #[derive(Clone, Debug)]
 pub struct Sampler {
     degree: usize,
-    matrix: Vec<f64>,
-    /// s = t − ½ for every parameter, padded with zeros to whole passes.
-    offsets: Vec<f64>,
     count: usize,
+    /// For each derivative r that does not vanish, for every pass of `LANES` parameters: the
+    /// n + 1 − r basis functions of degree n − r. Lanes beyond `count` repeat the last parameter.
+    tables: Vec<Vec<[f64; LANES]>>,
 }
 
 /// Hold the points and derivatives of one segment, coordinate by coordinate.
@@ -34,6 +37,13 @@ pub struct Batch {
     stride: usize,
     /// For each derivative, for each coordinate x, y, z, w: the values at all parameters.
     values: Vec<f64>,
+    /// Whether every value of z is 0.
+    flat: bool,
+    /// The highest derivative that is not 0 throughout.
+    order: usize,
+    /// The differences of the segment's vertices, coordinate by coordinate: kept here because
+    /// clearing room for them for every segment would take as long as evaluating it.
+    differences: [[f64; MAX_DEGREE + 1]; 4],
 }
 
 impl Batch {
@@ -80,12 +90,32 @@ impl Batch {
         &self.values[first..first + self.stride]
     }
 
-    fn reset(&mut self, count: usize, stride: usize) {
-        if self.stride != stride || self.values.len() != (BATCH_ORDER + 1) * 4 * stride {
+    /// Make room for so many parameters.
+    fn prepare(&mut self, count: usize) {
+        let stride = count.next_multiple_of(LANES);
+        if self.stride != stride {
             self.values = vec![0.0; (BATCH_ORDER + 1) * 4 * stride];
             self.stride = stride;
+            self.flat = true;
+            self.order = 0;
         }
         self.count = count;
+    }
+
+    /// Clear what an earlier evaluation left in rows that this one skipped.
+    fn clear_skipped(&mut self, order: usize, flat: bool) {
+        let stride = self.stride;
+        if flat && !self.flat {
+            for order in 0..=BATCH_ORDER {
+                let first = (order * 4 + 2) * stride;
+                self.values[first..first + stride].fill(0.0);
+            }
+        }
+        if order < self.order {
+            self.values[(order + 1) * 4 * stride..].fill(0.0);
+        }
+        self.flat = flat;
+        self.order = order;
     }
 }
 
@@ -93,20 +123,40 @@ impl Sampler {
     /// Prepare to evaluate curves of this degree at the local parameters `parameters`, each in
     /// \[0, 1\].
     pub fn new(degree: usize, parameters: &[f64]) -> Self {
-        let mut offsets: Vec<f64> = parameters.iter().map(|t| t - 0.5).collect();
-        offsets.resize(parameters.len().next_multiple_of(LANES), 0.0);
+        let passes = parameters.len().div_ceil(LANES);
+        let orders = BATCH_ORDER.min(degree) + 1;
+        let mut tables: Vec<Vec<[f64; LANES]>> = (0..orders)
+            .map(|order| vec![[0.0; LANES]; passes * (degree + 1 - order)])
+            .collect();
+        for lane in 0..passes * LANES {
+            let t = parameters[lane.min(parameters.len() - 1)];
+            let mut basis = [0.0; MAX_DEGREE + 1];
+            basis[0] = 1.0;
+            for level in 0..=degree {
+                if level > 0 {
+                    uniform_basis_step(level, t, &mut basis);
+                }
+                let Some(table) = tables.get_mut(degree - level) else {
+                    continue;
+                };
+                let first = lane / LANES * (level + 1);
+                for (row, value) in table[first..=first + level].iter_mut().zip(basis) {
+                    row[lane % LANES] = value;
+                }
+            }
+        }
         Self {
             degree,
-            matrix: power_matrix(degree),
-            offsets,
             count: parameters.len(),
+            tables,
         }
     }
 
     /// Prepare to evaluate at `count` + 1 evenly spaced parameters, both ends of the segment
-    /// among them.
+    /// among them; at the start alone if `count` is 0.
     pub fn even(degree: usize, count: usize) -> Self {
-        let parameters: Vec<f64> = (0..=count).map(|j| j as f64 / count as f64).collect();
+        let steps = count.max(1) as f64;
+        let parameters: Vec<f64> = (0..=count).map(|j| j as f64 / steps).collect();
         Self::new(degree, &parameters)
     }
 
@@ -122,120 +172,199 @@ impl Sampler {
 
     /// Evaluate the points and the derivatives up to `order` (at most 3) of one segment.
     ///
-    /// The cost is (n + 1)² steps for the segment and about (order + 1)·n a parameter, for each
-    /// coordinate; z is skipped where it is 0. Nothing is allocated after the batch's first use.
+    /// The cost is n + 1 − r multiplications for the r-th derivative of each coordinate at each
+    /// parameter; z is skipped where it is 0. Nothing is allocated after the batch's first use.
     ///
     /// # Panics
     /// If the degrees differ, `order` is above 3, or the curve has no such segment.
     pub fn segment(&self, polygon: &FloatPolygon, segment: usize, order: usize, batch: &mut Batch) {
         assert_eq!(self.degree, polygon.degree(), "the sampler's degree");
         assert!(order <= BATCH_ORDER, "derivatives up to the third");
-        batch.reset(self.count, self.offsets.len());
-        let mut window = [[0.0; MAX_DEGREE + 1]; 4];
-        let reference = polygon.vertex(segment + self.degree / 2);
-        let mut flat = reference.z == 0.0;
-        if polygon.is_rational() {
-            for j in 0..=self.degree {
-                let (vertex, weight) = (polygon.vertex(segment + j), polygon.weight(segment + j));
-                store(&mut window, j, (vertex - reference) * weight);
-                window[3][j] = weight;
-                flat &= vertex.z == 0.0;
-            }
-        } else {
-            for j in 0..=self.degree {
-                let vertex = polygon.vertex(segment + j);
-                store(&mut window, j, vertex - reference);
-                flat &= vertex.z == 0.0;
-            }
-        }
-        for axis in 0..4 {
-            let used = axis < 2 || (axis == 2 && !flat) || (axis == 3 && polygon.is_rational());
-            if used {
-                self.coordinate(&window[axis], axis, order, batch);
-            } else if axis == 2 {
-                for derivative in 0..=order {
-                    let first = (derivative * 4 + axis) * batch.stride;
-                    batch.values[first..first + batch.stride].fill(0.0);
-                }
-            }
-        }
-        if polygon.is_rational() {
-            project(batch, order);
-        }
-        for (axis, offset) in reference.to_array().into_iter().enumerate() {
-            let first = axis * batch.stride;
-            for value in &mut batch.values[first..first + self.count] {
-                *value += offset;
-            }
-        }
-    }
-
-    fn coordinate(&self, window: &[f64], axis: usize, order: usize, batch: &mut Batch) {
         let size = self.degree + 1;
-        let mut coefficients = [0.0; MAX_DEGREE + 1];
-        for (power, coefficient) in coefficients[..size].iter_mut().enumerate() {
-            let row = &self.matrix[power * size..(power + 1) * size];
-            *coefficient = row.iter().zip(window).map(|(m, v)| m * v).sum();
+        let inside = polygon.vertices().get(segment..segment + size);
+        if let (Some(vertices), false) = (inside, polygon.is_rational()) {
+            return self.coordinates(vertices, order, batch);
         }
-        let stride = batch.stride;
-        let mut length = size;
-        for derivative in 0..=order {
-            let first = (derivative * 4 + axis) * stride;
-            let out = &mut batch.values[first..first + stride];
-            horner(&coefficients[..length], &self.offsets, out);
-            length = length.saturating_sub(1);
-            for power in 0..length {
-                coefficients[power] = coefficients[power + 1] * (power + 1) as f64;
+        // The segment runs over the joint of a periodic polygon, or is rational. A rational one
+        // counts its coordinates from one of its vertices: the division by the weight would
+        // otherwise lose what the distance from the origin takes.
+        let origin = if polygon.is_rational() {
+            polygon.vertex(segment + self.degree / 2)
+        } else {
+            DVec3::ZERO
+        };
+        let mut vertices = [DVec3::ZERO; MAX_DEGREE + 1];
+        for (vertex, index) in vertices[..size].iter_mut().zip(segment..) {
+            *vertex = (polygon.vertex(index) - origin) * polygon.weight(index);
+        }
+        self.coordinates(&vertices[..size], order, batch);
+        if polygon.is_rational() && self.count > 0 {
+            self.weights(polygon, segment, order, batch);
+            project(batch, order, origin);
+        }
+    }
+
+    /// Evaluate x, y and, if it is not 0 throughout, z.
+    fn coordinates(&self, vertices: &[DVec3], order: usize, batch: &mut Batch) {
+        batch.prepare(self.count);
+        if self.count == 0 {
+            return;
+        }
+        let flat = POINTS[self.degree](&self.tables[0], vertices, &mut batch.values);
+        if flat != batch.flat || order != batch.order {
+            batch.clear_skipped(order, flat);
+        }
+        if order == 0 {
+            return;
+        }
+        let axes = if flat { 2 } else { 3 };
+        let [x, y, z, _] = &mut batch.differences;
+        for (j, leg) in vertices.windows(2).enumerate() {
+            let difference = leg[1] - leg[0];
+            (x[j], y[j], z[j]) = (difference.x, difference.y, difference.z);
+        }
+        for axis in 0..axes {
+            self.derivatives(axis, order, batch);
+        }
+    }
+
+    /// Evaluate the weight as a fourth coordinate.
+    fn weights(&self, polygon: &FloatPolygon, segment: usize, order: usize, batch: &mut Batch) {
+        let weights = &mut batch.differences[3];
+        for (weight, index) in weights[..=self.degree].iter_mut().zip(segment..) {
+            *weight = polygon.weight(index);
+        }
+        let out = &mut batch.values[3 * batch.stride..4 * batch.stride];
+        SUMS[self.degree](&self.tables[0], weights, out);
+        for j in 0..self.degree {
+            weights[j] = weights[j + 1] - weights[j];
+        }
+        self.derivatives(3, order, batch);
+    }
+
+    /// Evaluate the derivatives of one coordinate from the first differences of its vertices,
+    /// which higher differences replace.
+    fn derivatives(&self, axis: usize, order: usize, batch: &mut Batch) {
+        let differences = &mut batch.differences[axis];
+        for derivative in 1..=order {
+            let first = (derivative * 4 + axis) * batch.stride;
+            let out = &mut batch.values[first..first + batch.stride];
+            let Some(table) = self.tables.get(derivative) else {
+                out.fill(0.0);
+                continue;
+            };
+            let last = self.degree - derivative;
+            SUMS[last](table, differences, out);
+            for j in 0..last {
+                differences[j] = differences[j + 1] - differences[j];
             }
         }
     }
 }
 
-fn store(window: &mut [[f64; MAX_DEGREE + 1]; 4], index: usize, vector: DVec3) {
-    window[0][index] = vector.x;
-    window[1][index] = vector.y;
-    window[2][index] = vector.z;
-}
+/// Adds up the coordinates of vertices times basis functions at all parameters of a table.
+type Sum = fn(&[[f64; LANES]], &[f64], &mut [f64]);
 
-/// Evaluate one polynomial at all offsets, a fixed number of them side by side.
-fn horner(coefficients: &[f64], offsets: &[f64], out: &mut [f64]) {
-    let Some((&leading, rest)) = coefficients.split_last() else {
-        out.fill(0.0);
+/// Adds up the vertices themselves, into one row a coordinate. Returns whether z is 0 throughout,
+/// in which case its row is left as it is.
+type PointSum = fn(&[[f64; LANES]], &[DVec3], &mut [f64]) -> bool;
+
+/// The sum of `SIZE` products. With their number known to the compiler the sums of all lanes stay
+/// in registers, which is worth a factor of two.
+#[inline(always)]
+fn sum<const SIZE: usize>(table: &[[f64; LANES]], values: &[f64], out: &mut [f64]) {
+    let Some(values) = values.first_chunk::<SIZE>() else {
         return;
     };
-    let passes = offsets.as_chunks::<LANES>().0;
-    for (s, out) in passes.iter().zip(out.as_chunks_mut::<LANES>().0) {
-        let mut values = [leading; LANES];
-        for &coefficient in rest.iter().rev() {
+    let passes = table.as_chunks::<SIZE>().0;
+    for (rows, out) in passes.iter().zip(out.as_chunks_mut::<LANES>().0) {
+        let mut sums = [0.0; LANES];
+        for (row, value) in rows.iter().zip(values) {
             for lane in 0..LANES {
-                values[lane] = values[lane] * s[lane] + coefficient;
+                sums[lane] += row[lane] * value;
             }
         }
-        *out = values;
+        *out = sums;
     }
 }
 
-/// Divide a batch of homogeneous derivatives by the weight (Leibniz' rule).
-fn project(batch: &mut Batch, order: usize) {
+/// The sums of `SIZE` vertices, coordinate by coordinate.
+fn point_sum<const SIZE: usize>(
+    table: &[[f64; LANES]],
+    vertices: &[DVec3],
+    out: &mut [f64],
+) -> bool {
+    let Some(vertices) = vertices.first_chunk::<SIZE>() else {
+        return true;
+    };
+    let stride = table.len() / SIZE * LANES;
+    let (x, rest) = out.split_at_mut(stride);
+    let (y, rest) = rest.split_at_mut(stride);
+    sum::<SIZE>(table, &vertices.map(|vertex| vertex.x), x);
+    sum::<SIZE>(table, &vertices.map(|vertex| vertex.y), y);
+    let z = vertices.map(|vertex| vertex.z);
+    let flat = z.iter().fold(true, |flat, z| flat & (*z == 0.0));
+    if !flat {
+        sum::<SIZE>(table, &z, &mut rest[..stride]);
+    }
+    flat
+}
+
+/// List a function for 1, 2, … 26 basis functions.
+macro_rules! for_every_size {
+    ($function:ident) => {
+        for_every_size!($function: 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24
+            25 26)
+    };
+    ($function:ident: $($size:literal)+) => {
+        [$($function::<$size>),+]
+    };
+}
+
+/// The sums by the number of basis functions, less 1.
+const SUMS: [Sum; MAX_DEGREE + 1] = for_every_size!(sum);
+
+/// The sums of vertices by degree.
+const POINTS: [PointSum; MAX_DEGREE + 1] = for_every_size!(point_sum);
+
+/// Divide a batch of homogeneous derivatives by the weight (Leibniz' rule) and move the points
+/// by `origin`.
+fn project(batch: &mut Batch, order: usize, origin: DVec3) {
     const BINOMIAL: [[f64; 4]; 4] = [
         [1.0, 0.0, 0.0, 0.0],
         [1.0, 1.0, 0.0, 0.0],
         [1.0, 2.0, 1.0, 0.0],
         [1.0, 3.0, 3.0, 1.0],
     ];
+    let axes = if batch.flat { 2 } else { 3 };
     let stride = batch.stride;
-    for index in 0..batch.count {
-        let weight = |k: usize| (k * 4 + 3) * stride + index;
-        let inverse = 1.0 / batch.values[weight(0)];
-        for axis in 0..3 {
+    for first in (0..stride).step_by(LANES) {
+        let at = |order: usize, axis: usize| (order * 4 + axis) * stride + first;
+        let mut weights = [[0.0; LANES]; BATCH_ORDER + 1];
+        for (derivative, weights) in weights.iter_mut().enumerate().take(order + 1) {
+            weights.copy_from_slice(&batch.values[at(derivative, 3)..][..LANES]);
+        }
+        let inverse = weights[0].map(|weight| 1.0 / weight);
+        for axis in 0..axes {
+            let mut found = [[0.0; LANES]; BATCH_ORDER + 1];
             for derivative in 0..=order {
-                let mut value = batch.values[(derivative * 4 + axis) * stride + index];
+                let out = &mut batch.values[at(derivative, axis)..][..LANES];
+                let mut value = [0.0; LANES];
+                value.copy_from_slice(out);
                 for k in 1..=derivative {
-                    value -= BINOMIAL[derivative][k]
-                        * batch.values[weight(k)]
-                        * batch.values[((derivative - k) * 4 + axis) * stride + index];
+                    let factor = BINOMIAL[derivative][k];
+                    for lane in 0..LANES {
+                        value[lane] -= factor * weights[k][lane] * found[derivative - k][lane];
+                    }
                 }
-                batch.values[(derivative * 4 + axis) * stride + index] = value * inverse;
+                for lane in 0..LANES {
+                    value[lane] *= inverse[lane];
+                }
+                found[derivative] = value;
+                out.copy_from_slice(&value);
+            }
+            for value in &mut batch.values[at(0, axis)..][..LANES] {
+                *value += origin[axis];
             }
         }
     }

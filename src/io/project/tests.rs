@@ -182,7 +182,10 @@ fn malformed_json_is_refused_with_its_place() {
         "line 2, column 27, curve 2: expected `,` or `}`",
     );
     let nested = format!("{{\"more\":{}", "[".repeat(100_000));
-    check_curve(&nested, "line 2, column 100010, curve 2: expected `,` or `]`");
+    check_curve(
+        &nested,
+        "line 2, column 100010, curve 2: expected `,` or `]`",
+    );
 }
 
 #[test]

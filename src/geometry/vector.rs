@@ -1,0 +1,59 @@
+//! Lengths and directions of vectors whose squares would leave the range of numbers.
+
+use glam::DVec3;
+
+/// Components between this and its inverse can be squared and cubed without harm.
+const SMALL: f64 = 1e-50;
+
+/// Measure |v|, also where the squares of its components overflow or vanish.
+pub(super) fn length(vector: DVec3) -> f64 {
+    let largest = vector.abs().max_element();
+    if is_moderate(largest) {
+        vector.length()
+    } else {
+        largest * (vector / largest).length()
+    }
+}
+
+/// Find the direction of a vector; `None` if it is zero or not finite.
+pub(super) fn direction(vector: DVec3) -> Option<DVec3> {
+    let (scaled, _) = scaled(vector);
+    scaled.try_normalize()
+}
+
+/// Write a vector as (v, factor) with v · factor the vector and v of a size that can be squared
+/// and cubed. Vectors of such a size, zero among them, come back as they are, with factor 1.
+pub(super) fn scaled(vector: DVec3) -> (DVec3, f64) {
+    let largest = vector.abs().max_element();
+    if is_moderate(largest) {
+        (vector, 1.0)
+    } else {
+        (vector / largest, largest)
+    }
+}
+
+fn is_moderate(largest: f64) -> bool {
+    largest == 0.0 || !largest.is_finite() || (SMALL..=1.0 / SMALL).contains(&largest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_and_directions_hold_over_the_whole_range_of_numbers() {
+        for scale in [1e-308, 1e-300, 1e-160, 1.0, 1e160, 1e300] {
+            let vector = DVec3::new(2.0, -3.0, 6.0) * scale;
+            let relative = length(vector) / (7.0 * scale) - 1.0;
+            assert!(
+                relative.abs() <= 4.0 * f64::EPSILON,
+                "{scale:e}: {relative:e}"
+            );
+            let along = direction(vector).map(|unit| unit * 7.0);
+            let expected = DVec3::new(2.0, -3.0, 6.0);
+            assert!(along.is_some_and(|along| along.distance(expected) <= 1e-14));
+        }
+        assert_eq!(direction(DVec3::ZERO), None);
+        assert_eq!(length(DVec3::ZERO), 0.0);
+    }
+}
