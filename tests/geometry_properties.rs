@@ -148,7 +148,9 @@ proptest! {
         let polygon = kind.polygon();
         let u = at * polygon.segments() as f64;
         let all = polygon.derivatives(u, kind.degree + 2);
-        prop_assert_eq!(vectors(&polygon.jet(u)).as_slice(), &all[..4.min(all.len())]);
+        let jet = vectors(&polygon.jet(u));
+        let shared = all.len().min(4);
+        prop_assert_eq!(&jet[..shared], &all[..shared]);
         if !kind.rational {
             prop_assert_eq!(&all[kind.degree + 1..], &[DVec3::ZERO; 2]);
         }
