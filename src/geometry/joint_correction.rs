@@ -6,7 +6,7 @@
 //! conditions, δ = H⁻¹Aᵀλ, A H⁻¹Aᵀ λ = b.
 
 use glam::DVec3;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, SVD};
 use thiserror::Error;
 
 use super::banded::BandedCholesky;
@@ -30,6 +30,9 @@ const MET: f64 = 1e-11;
 
 /// Singular values of the small system below this share of the largest count as zero.
 const RANK_TOLERANCE: f64 = 1e-13;
+
+/// Iterations of the singular value decomposition; a system of ten conditions takes some tens.
+const MOST_ITERATIONS: usize = 1000;
 
 /// Why both ends cannot be corrected at once.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -216,30 +219,50 @@ fn minimise(
     let count = polygon.vertices().len();
     let factor = BandedCholesky::of_differences(count, SMOOTHNESS, FIDELITY);
     let responses: Vec<Vec<f64>> = stencils.iter().map(|row| factor.solve(row)).collect();
-    let system = DMatrix::from_fn(conditions.len(), conditions.len(), |row, column| {
+    let entry = |row: usize, column: usize| {
         let (a, b) = (&conditions[row], &conditions[column]);
         a.axis.dot(b.axis) * dot(&stencils[a.stencil], &responses[b.stencil])
+    };
+    // Points and derivatives, and the ends of a curve with very different weights, differ by
+    // orders of magnitude: each condition is measured in its own unit.
+    let units: Vec<f64> = (0..conditions.len())
+        .map(|row| entry(row, row).sqrt().recip())
+        .collect();
+    let system = DMatrix::from_fn(conditions.len(), conditions.len(), |row, column| {
+        units[row] * entry(row, column) * units[column]
     });
-    let decomposition = system.svd(true, true);
-    let cutoff = RANK_TOLERANCE * decomposition.singular_values.max();
     let size = polygon.size();
     let mut corrected = polygon.clone();
+    // The iteration need not end where numbers overflowed.
+    let decomposition = system
+        .iter()
+        .all(|entry| entry.is_finite())
+        .then(|| SVD::try_new(system, true, true, f64::EPSILON, MOST_ITERATIONS))
+        .flatten();
+    let Some(decomposition) = decomposition else {
+        return report(polygon, corrected, targets, size);
+    };
+    let cutoff = RANK_TOLERANCE * decomposition.singular_values.max();
     for _ in 0..REFINEMENTS {
         let missing = DVector::from_iterator(
             conditions.len(),
-            conditions.iter().map(|condition| {
-                condition.value
-                    - functional(&corrected, &stencils[condition.stencil], condition.axis)
+            conditions.iter().zip(&units).map(|(condition, unit)| {
+                let stencil = &stencils[condition.stencil];
+                unit * (condition.value - functional(&corrected, stencil, condition.axis))
             }),
         );
         let Ok(multipliers) = decomposition.solve(&missing, cutoff) else {
             break;
         };
         let mut moves = vec![DVec3::ZERO; count];
-        for (condition, multiplier) in conditions.iter().zip(multipliers.iter()) {
+        let multipliers = multipliers
+            .iter()
+            .zip(&units)
+            .map(|(value, unit)| value * unit);
+        for (condition, multiplier) in conditions.iter().zip(multipliers) {
             let response = &responses[condition.stencil];
             for (movement, value) in moves.iter_mut().zip(response) {
-                *movement += *multiplier * *value * condition.axis;
+                *movement += multiplier * *value * condition.axis;
             }
         }
         let moved: Vec<(usize, DVec3)> = moves

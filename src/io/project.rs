@@ -37,6 +37,9 @@ pub(super) const VERSION: u64 = 1;
 /// belongs there, and with curve and vertex for numbers that make no curve.
 pub fn read(bytes: &[u8]) -> Result<Vec<Curve>, ReadError> {
     let text = text(bytes)?;
+    if !text.trim_start().starts_with('{') {
+        return Err(Problem::WrongFormat { found: None }.into());
+    }
     let header: Header = parse(text).map_err(|error| {
         // The types of the version know in which curve the JSON is malformed.
         let located = parse::<project_v1::Project>(text).err();

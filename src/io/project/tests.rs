@@ -131,10 +131,10 @@ fn check(text: &str, expected: &str) {
 fn files_that_are_no_projects_are_refused() {
     check("", "the file is empty");
     check("\u{feff} \n", "the file is empty");
-    check(
-        "[1, 2]",
-        "this is not a Batten project: it says \"format\": 1, where \"format\": \"batten\" is needed",
-    );
+    for text in ["[1, 2]", "x,y\n0,1\n", &"[".repeat(1000)] {
+        let problem = read(text.as_bytes()).unwrap_err().problem;
+        assert_eq!(problem, Problem::WrongFormat { found: None }, "{text}");
+    }
     check(
         "{}",
         "this is not a Batten project: it says no \"format\", where \"format\": \"batten\" is needed",
@@ -181,9 +181,10 @@ fn malformed_json_is_refused_with_its_place() {
         "{\"name\":\"hull\",\"degree\":2 \"vertices\"",
         "line 2, column 27, curve 2: expected `,` or `}`",
     );
-    check(
-        &"[".repeat(1000),
-        "line 1, column 1: invalid type: sequence, expected a string",
+    let nested = format!("{{\"more\":{}", "[".repeat(100_000));
+    check_curve(
+        &nested,
+        "line 2, column 100010, curve 2: expected `,` or `]`",
     );
 }
 

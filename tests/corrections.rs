@@ -1,0 +1,419 @@
+//! End corrections: in turn, by rigid motions of the terminal vertices, and jointly, by the least
+//! disturbance, which a dense solver of its own confirms.
+
+mod common;
+
+use batten::geometry::basis::{uniform_basis, uniform_basis_derivative};
+use batten::geometry::circle_comparison::regular_polygon;
+use batten::geometry::end_correction::{
+    EndDifference, EndOverlap, EndTarget, correct_end, correct_in_turn,
+};
+use batten::geometry::joint_correction::{CorrectionError, JointCorrection, correct_jointly};
+use batten::geometry::{End, FloatPolygon, rotation_between};
+use common::Random;
+use glam::{DMat3, DVec3};
+use nalgebra::{DMatrix, DVector};
+
+/// The residual that counts as met, in units of the curve's size.
+const MET: f64 = 1e-12;
+
+/// How far the moves may lie from those of the dense solver, in units of the largest.
+const SAME_MOVES: f64 = 1e-8;
+
+/// Targets tried for each kind of curve.
+const TRIALS: usize = 1000;
+
+/// The objective of the joint correction: first differences, and the moves themselves by this.
+const FIDELITY: f64 = 1e-3;
+
+fn residual(polygon: &FloatPolygon, targets: &[(End, EndTarget)], size: f64) -> f64 {
+    let ends = targets.iter();
+    ends.map(|(end, target)| EndDifference::between(polygon, *end, target).residual(size))
+        .fold(0.0, f64::max)
+}
+
+/// Targets within `shift` sizes and about `angle` radians of the actual ends.
+fn targets_near(
+    random: &mut Random,
+    polygon: &FloatPolygon,
+    shift: f64,
+    angle: f64,
+    in_space: bool,
+) -> Vec<(End, EndTarget)> {
+    let both = End::BOTH.into_iter().map(|end| {
+        let jet = polygon.end_jet(end);
+        let tangent = jet.tangent().expect("a tangent");
+        let target = EndTarget {
+            point: jet.point + random.vector(shift * polygon.size(), in_space),
+            direction: Some(tangent + random.vector(angle, in_space)),
+        };
+        (end, target)
+    });
+    both.collect()
+}
+
+#[test]
+fn apart_ends_are_corrected_in_one_pass_and_keep_their_curvature() {
+    let mut random = Random(1);
+    for trial in 0..TRIALS {
+        let degree = 2 + trial % 11;
+        let in_space = trial % 3 == 0;
+        let count = 2 * degree + trial % 5;
+        let polygon = random.gentle(degree, count, in_space, trial % 2 == 0);
+        assert_eq!(EndOverlap::of(&polygon), EndOverlap::None);
+        let targets = targets_near(&mut random, &polygon, 0.3, 0.8, in_space);
+        let size = polygon.size();
+        let outcome = correct_in_turn(&polygon, &targets, MET * size).expect("in range");
+        let left = outcome.residuals.last().copied().unwrap_or(f64::NAN);
+        assert!(
+            outcome.converged && outcome.passes() == 1,
+            "trial {trial}: {left:e}"
+        );
+        // Degree 2 has two terminal vertices, but its curvature three.
+        for end in End::BOTH.into_iter().filter(|_| degree > 2) {
+            let (before, after) = (polygon.end_jet(end), outcome.polygon.end_jet(end));
+            let change = after.curvature() / before.curvature() - 1.0;
+            assert!(
+                change.abs() <= 1e-11,
+                "trial {trial}: curvature changed by {change:e}"
+            );
+        }
+        let (end, target) = &targets[trial % 2];
+        let corrected = correct_end(&polygon, *end, target).expect("in range");
+        let (segment, t) = match end.other() {
+            End::Start => (0, 0.0),
+            End::Finish => (polygon.segments() - 1, 1.0),
+        };
+        let other = |polygon: &FloatPolygon| polygon.segment_derivatives(segment, t, degree - 1);
+        assert_eq!(other(&corrected), other(&polygon), "the other end moved");
+    }
+}
+
+#[test]
+fn the_loop_converges_or_stops_and_changes_nothing() {
+    let mut random = Random(2);
+    for degree in 3..=12 {
+        for count in degree + 1..2 * degree {
+            let polygon = random.gentle(degree, count, false, false);
+            let targets = targets_near(&mut random, &polygon, 0.05, 0.2, false);
+            let tolerance = MET * polygon.size();
+            let outcome = correct_in_turn(&polygon, &targets, tolerance).expect("in range");
+            let overlap = EndOverlap::of(&polygon);
+            if count == degree + 1 {
+                assert_eq!(overlap, EndOverlap::OneSegment);
+                assert!(
+                    !outcome.converged,
+                    "degree {degree} converged in one segment"
+                );
+                assert!(outcome.passes() <= 8, "{} passes", outcome.passes());
+            } else {
+                let shared = 2 * degree - count;
+                assert_eq!(overlap, EndOverlap::Partial { shared });
+            }
+            if outcome.converged {
+                let left = residual(&outcome.polygon, &targets, polygon.size());
+                assert!(left <= tolerance);
+            } else {
+                assert_eq!(outcome.polygon, polygon);
+            }
+        }
+    }
+}
+
+#[test]
+fn more_vertices_make_the_loop_converge_faster() {
+    // Degree 9 on the corners of a dodecagon: from N = 10, which never converges, to N = 18,
+    // which takes one pass.
+    let mut passes = Vec::new();
+    for count in 14..=18 {
+        let corners = (0..count).map(|i| {
+            let (sine, cosine) = (std::f64::consts::TAU / 12.0 * i as f64).sin_cos();
+            (10.0 * sine, 10.0 * cosine)
+        });
+        let polygon = FloatPolygon::planar(9, &corners.collect::<Vec<_>>()).expect("valid");
+        let targets = targets_near(&mut Random(5), &polygon, 0.02, 0.05, false);
+        let tolerance = MET * polygon.size();
+        let outcome = correct_in_turn(&polygon, &targets, tolerance).expect("in range");
+        assert!(outcome.converged, "N = {count}: {:?}", outcome.residuals);
+        passes.push(outcome.passes());
+    }
+    assert!(passes.is_sorted_by(|a, b| a > b), "{passes:?}");
+    assert_eq!(passes.last(), Some(&1));
+}
+
+#[track_caller]
+fn check_joint(polygon: &FloatPolygon, targets: &[(End, EndTarget)]) -> JointCorrection {
+    let found = match correct_jointly(polygon, targets) {
+        Ok(found) => found,
+        Err(error) => panic!("{error}: {polygon:?} {targets:?}"),
+    };
+    let size = polygon.size();
+    let left = residual(&found.polygon, targets, size);
+    assert!(left <= MET * size, "residual {:e} of the size", left / size);
+    assert_eq!(found.residual, left);
+    for (end, target) in targets {
+        let tangent = found.polygon.end_jet(*end).first;
+        let forward = target
+            .direction
+            .is_none_or(|direction| tangent.dot(direction) > 0.0);
+        assert!(forward, "the tangent at the {} flipped", end.name());
+    }
+    let moves = polygon.vertices().iter().zip(found.polygon.vertices());
+    let largest = moves.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+    assert_eq!(found.largest_move, largest);
+    found
+}
+
+fn check_joint_for_many(seed: u64, in_space: bool, rational: bool) {
+    let mut random = Random(seed);
+    for trial in 0..TRIALS {
+        let degree = 2 + trial % 11;
+        let fewest = degree + 1 + usize::from(in_space && degree == 2);
+        let count = fewest + (trial / 11) % (degree + 2);
+        let polygon = arc(&mut random, degree, count, in_space, rational);
+        let targets = targets_near(&mut random, &polygon, 0.01, 0.03, in_space);
+        let found = check_joint(&polygon, &targets);
+        if trial % 7 == 0 {
+            let expected = dense_moves(&polygon, &targets, in_space);
+            let scale = found.largest_move;
+            for (index, expected) in expected.iter().enumerate() {
+                let movement = found.polygon.vertex(index) - polygon.vertex(index);
+                let error = movement.distance(*expected) / scale;
+                assert!(error <= SAME_MOVES, "trial {trial}: off by {error:e}");
+            }
+        }
+    }
+}
+
+/// Legs of about 1 that turn steadily, so that both ends have room to be corrected.
+fn arc(
+    random: &mut Random,
+    degree: usize,
+    count: usize,
+    in_space: bool,
+    rational: bool,
+) -> FloatPolygon {
+    let (mut angle, mut vertex) = (random.between(0.0, 6.0), random.vector(5.0, in_space));
+    let mut vertices = vec![vertex];
+    while vertices.len() < count {
+        let rise = if in_space {
+            random.between(-0.2, 0.2)
+        } else {
+            0.0
+        };
+        angle += random.between(0.25, 0.45);
+        vertex += random.between(0.9, 1.1) * DVec3::new(angle.cos(), angle.sin(), rise);
+        vertices.push(vertex);
+    }
+    let weights = (0..count).map(|_| random.between(0.8, 1.25)).collect();
+    let weights = Some(weights).filter(|_| rational);
+    FloatPolygon::new(degree, vertices, weights, false).expect("a valid polygon")
+}
+
+/// Solve for the moves with one dense system of moves and multipliers.
+fn dense_moves(polygon: &FloatPolygon, targets: &[(End, EndTarget)], in_space: bool) -> Vec<DVec3> {
+    let count = polygon.vertices().len();
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+    let dimensions = if in_space { 3 } else { 2 };
+    let mut rows: Vec<(Vec<f64>, DVec3, f64)> = Vec::new();
+    for (end, target) in targets {
+        let (point, tangent) = end_influence(polygon, *end);
+        let jet = polygon.end_jet(*end);
+        for axis in &axes[..dimensions] {
+            rows.push((point.clone(), *axis, (target.point - jet.point).dot(*axis)));
+        }
+        let direction = target.direction.expect("a direction").normalize();
+        let across = if in_space {
+            let (first, second) = direction.any_orthonormal_pair();
+            vec![first, second]
+        } else {
+            vec![DVec3::new(-direction.y, direction.x, 0.0)]
+        };
+        for axis in across {
+            rows.push((tangent.clone(), axis, -jet.first.dot(axis)));
+        }
+    }
+    let unknowns = count * dimensions;
+    let mut matrix = DMatrix::zeros(unknowns + rows.len(), unknowns + rows.len());
+    for dimension in 0..dimensions {
+        for index in 0..count {
+            let here = dimension * count + index;
+            matrix[(here, here)] += FIDELITY;
+            if index + 1 < count {
+                matrix[(here, here)] += 1.0;
+                matrix[(here + 1, here + 1)] += 1.0;
+                matrix[(here, here + 1)] -= 1.0;
+                matrix[(here + 1, here)] -= 1.0;
+            }
+        }
+    }
+    let mut right = DVector::zeros(unknowns + rows.len());
+    for (number, (stencil, axis, value)) in rows.iter().enumerate() {
+        right[unknowns + number] = *value;
+        for dimension in 0..dimensions {
+            for (index, weight) in stencil.iter().enumerate() {
+                let entry = weight * axis.dot(axes[dimension]);
+                matrix[(unknowns + number, dimension * count + index)] = entry;
+                matrix[(dimension * count + index, unknowns + number)] = entry;
+            }
+        }
+    }
+    let solution = matrix
+        .full_piv_lu()
+        .solve(&right)
+        .expect("a regular system");
+    let coordinate = |dimension: usize, index: usize| {
+        if dimension < dimensions {
+            solution[dimension * count + index]
+        } else {
+            0.0
+        }
+    };
+    (0..count)
+        .map(|index| DVec3::from_array([0, 1, 2].map(|axis| coordinate(axis, index))))
+        .collect()
+}
+
+/// The weights with which the vertices enter an end's point and first derivative.
+fn end_influence(polygon: &FloatPolygon, end: End) -> (Vec<f64>, Vec<f64>) {
+    let degree = polygon.degree();
+    let (t, first) = match end {
+        End::Start => (0.0, 0),
+        End::Finish => (1.0, polygon.segments() - 1),
+    };
+    let basis = uniform_basis(degree, t);
+    let slopes = uniform_basis_derivative(degree, 1, t);
+    let weight = |j: usize| polygon.weight(first + j);
+    let sum: f64 = (0..=degree).map(|j| weight(j) * basis[j]).sum();
+    let slope: f64 = (0..=degree).map(|j| weight(j) * slopes[j]).sum();
+    let count = polygon.vertices().len();
+    let (mut point, mut tangent) = (vec![0.0; count], vec![0.0; count]);
+    for j in 0..=degree {
+        point[first + j] = weight(j) * basis[j] / sum;
+        tangent[first + j] = weight(j) * (slopes[j] * sum - basis[j] * slope) / (sum * sum);
+    }
+    (point, tangent)
+}
+
+#[test]
+fn joint_correction_in_the_plane() {
+    check_joint_for_many(10, false, false);
+}
+
+#[test]
+fn joint_correction_in_space() {
+    check_joint_for_many(11, true, false);
+}
+
+#[test]
+fn joint_correction_of_rational_curves() {
+    check_joint_for_many(12, false, true);
+    check_joint_for_many(13, true, true);
+}
+
+#[test]
+fn joint_correction_of_the_ninth_degree_arc() {
+    let arc = regular_polygon(9, 12, 10.0).expect("a valid arc");
+    let mut random = Random(14);
+    for _ in 0..TRIALS {
+        let targets = targets_near(&mut random, &arc, 0.02, 0.1, false);
+        let found = check_joint(&arc, &targets);
+        assert!(found.polygon.is_planar());
+    }
+}
+
+#[test]
+fn tangents_are_never_flipped_by_large_targets() {
+    let arc = regular_polygon(9, 12, 10.0).expect("a valid arc");
+    let mut random = Random(15);
+    let mut solved = 0;
+    for _ in 0..TRIALS {
+        let targets = targets_near(&mut random, &arc, 0.5, 3.0, false);
+        if let Ok(found) = correct_jointly(&arc, &targets) {
+            solved += 1;
+            for (end, target) in &targets {
+                let direction = target.direction.expect("a direction");
+                assert!(found.polygon.end_jet(*end).first.dot(direction) > 0.0);
+            }
+        }
+    }
+    assert_eq!(solved, TRIALS);
+}
+
+#[test]
+fn degree_1_has_its_direction_from_two_vertices() {
+    let mut random = Random(16);
+    for count in 4..8 {
+        let polygon = arc(&mut random, 1, count, false, false);
+        let targets = targets_near(&mut random, &polygon, 0.05, 0.2, false);
+        check_joint(&polygon, &targets);
+        let tolerance = MET * polygon.size();
+        let outcome = correct_in_turn(&polygon, &targets, tolerance).expect("in range");
+        assert!(outcome.converged && outcome.passes() == 1);
+    }
+    for count in 2..4 {
+        let polygon = arc(&mut random, 1, count, false, false);
+        let mut targets = targets_near(&mut random, &polygon, 0.05, 0.2, false);
+        targets
+            .iter_mut()
+            .for_each(|(_, target)| target.direction = None);
+        check_joint(&polygon, &targets);
+    }
+}
+
+#[test]
+fn what_cannot_be_solved_says_so() {
+    let mut random = Random(17);
+    // Two points and two directions in space are ten conditions, three vertices nine numbers.
+    let polygon = arc(&mut random, 2, 3, true, false);
+    let targets = targets_near(&mut random, &polygon, 0.01, 0.03, true);
+    match correct_jointly(&polygon, &targets) {
+        Err(error @ CorrectionError::NotSolvable { .. }) => {
+            let message = error.to_string();
+            let start = "3 vertices of degree 2 cannot meet these end conditions (off by";
+            assert!(message.starts_with(start), "{message}");
+        }
+        other => panic!("{other:?}"),
+    }
+    let vertices = polygon.vertices().to_vec();
+    let periodic = FloatPolygon::new(2, vertices, None, true).expect("valid");
+    let refused = correct_jointly(&periodic, &targets);
+    assert_eq!(refused, Err(CorrectionError::Periodic));
+    let mut nowhere = targets;
+    nowhere[1].1.direction = Some(DVec3::ZERO);
+    let refused = correct_jointly(&polygon, &nowhere);
+    assert_eq!(
+        refused,
+        Err(CorrectionError::NoDirection { end: End::Finish })
+    );
+}
+
+#[test]
+fn rotations_take_one_direction_to_the_other_also_near_half_a_turn() {
+    let mut random = Random(18);
+    for trial in 0..TRIALS {
+        let in_space = trial % 4 != 0;
+        let from = random.vector(2.0, in_space);
+        let nudge = 10.0_f64.powi(-((trial % 20) as i32));
+        let to = match trial % 3 {
+            0 => random.vector(1e-3, in_space),
+            1 => -from + random.vector(nudge, in_space),
+            _ => from + random.vector(nudge, in_space),
+        };
+        let rotation = rotation_between(from, to).expect("directions");
+        let found = rotation * from.normalize();
+        let error = found.distance(to.normalize());
+        assert!(
+            error <= 1e-15 * 4.0,
+            "trial {trial}: {from} to {to} is off by {error:e}"
+        );
+        let square = rotation * rotation.transpose() - DMat3::IDENTITY;
+        let largest = square
+            .to_cols_array()
+            .into_iter()
+            .map(f64::abs)
+            .fold(0.0, f64::max);
+        assert!(largest <= 1e-15 * 4.0, "not a rotation by {largest:e}");
+    }
+    assert_eq!(rotation_between(DVec3::ZERO, DVec3::X), None);
+}

@@ -1,0 +1,385 @@
+//! The document and its history: gestures, undo and redo, locked curves, edits that fail.
+
+use batten::document::{Colour, Curve, CurveId, Document, Edit, EditError, History};
+use batten::geometry::end_correction::EndTarget;
+use batten::geometry::{End, FloatPolygon};
+use glam::DVec3;
+
+fn cubic() -> FloatPolygon {
+    let points = [(0.1, 0.2), (1.3, 0.7), (2.1, -0.3), (3.7, 0.9), (4.1, 1.1)];
+    FloatPolygon::planar(3, &points).expect("a valid polygon")
+}
+
+fn history() -> (History, CurveId) {
+    let curves = [Curve::new("first", cubic()), Curve::new("second", cubic())];
+    let document = Document::from_curves(curves);
+    let id = document.ids().next().expect("a curve");
+    (History::new(document), id)
+}
+
+fn moved(curve: CurveId, x: f64) -> Vec<Edit> {
+    let moves = vec![(2, DVec3::new(x, 0.5, 0.0))];
+    vec![Edit::MoveVertices { curve, moves }]
+}
+
+/// Every bit of the document's numbers, so that −0 and 0 differ.
+fn bits(document: &Document) -> Vec<(CurveId, String, Vec<[u64; 3]>)> {
+    let curves = document.curves().map(|(id, curve)| {
+        let vertices = curve.polygon.vertices().iter();
+        let bits = vertices.map(|vertex| vertex.to_array().map(f64::to_bits));
+        (id, curve.name.clone(), bits.collect())
+    });
+    curves.collect()
+}
+
+#[test]
+fn a_drag_is_one_step_and_undo_restores_it_bit_for_bit() {
+    let (mut history, id) = history();
+    let before = bits(history.document());
+    history.begin("Move vertex");
+    assert!(history.is_in_gesture());
+    for step in 0..100 {
+        let previewed = history.preview(moved(id, 0.1 * f64::from(step)));
+        assert_eq!(previewed, Ok(()));
+        assert_eq!(bits(history.before_gesture()), before);
+    }
+    assert!(history.commit());
+    assert_eq!(history.undo_steps(), 1);
+    let after = bits(history.document());
+    assert_eq!(history.undo_label(), Some("Move vertex"));
+    assert_eq!(history.redo_label(), None);
+
+    assert_eq!(history.undo().as_deref(), Some("Move vertex"));
+    assert_eq!(bits(history.document()), before);
+    assert_eq!(history.undo(), None);
+    assert_eq!(history.redo_label(), Some("Move vertex"));
+    assert_eq!(history.redo().as_deref(), Some("Move vertex"));
+    assert_eq!(bits(history.document()), after);
+    assert_eq!(history.redo(), None);
+}
+
+#[test]
+fn an_aborted_drag_leaves_the_document_as_it_was_and_keeps_what_can_be_redone() {
+    let (mut history, id) = history();
+    history.apply("Move vertex", moved(id, 7.0)).expect("valid");
+    history.undo();
+    let before = bits(history.document());
+    history.begin("Move vertex");
+    history.preview(moved(id, 9.0)).expect("valid");
+    history.abort();
+    assert!(!history.is_in_gesture());
+    assert_eq!(bits(history.document()), before);
+    assert_eq!(history.undo_steps(), 0);
+    assert_eq!(history.redo_label(), Some("Move vertex"));
+    history.abort();
+    assert_eq!(bits(history.document()), before);
+}
+
+#[test]
+fn undo_in_the_middle_of_a_drag_aborts_it() {
+    let (mut history, id) = history();
+    history.apply("Move vertex", moved(id, 7.0)).expect("valid");
+    let before = bits(history.document());
+    history.begin("Rotate");
+    history.preview(moved(id, 9.0)).expect("valid");
+    assert_eq!(history.undo_label(), Some("Rotate"));
+    assert_eq!(history.redo(), None);
+    assert_eq!(history.undo().as_deref(), Some("Rotate"));
+    assert_eq!(bits(history.document()), before);
+    assert_eq!(history.undo_steps(), 1);
+}
+
+#[test]
+fn gestures_that_change_nothing_leave_no_step() {
+    let (mut history, id) = history();
+    let before = bits(history.document());
+    history.begin("Move vertex");
+    assert!(!history.commit());
+    assert!(!history.commit(), "there is no gesture any more");
+
+    // A drag that comes back to where it began.
+    let start = history
+        .document()
+        .curve(id)
+        .expect("there")
+        .polygon
+        .vertex(2);
+    history.begin("Move vertex");
+    history.preview(moved(id, 5.0)).expect("valid");
+    let back = Edit::MoveVertices {
+        curve: id,
+        moves: vec![(2, DVec3::new(start.x, start.y, -0.0))],
+    };
+    history.preview(vec![back]).expect("valid");
+    assert!(!history.commit());
+    assert_eq!(history.undo_steps(), 0);
+    assert_eq!(bits(history.document()), before);
+    assert!(!history.is_modified());
+
+    for edit in [
+        Edit::Rename {
+            curve: id,
+            name: " first ".into(),
+        },
+        Edit::Recolour {
+            curve: id,
+            colour: None,
+        },
+        Edit::SetVisible {
+            curve: id,
+            visible: true,
+        },
+        Edit::SetLocked {
+            curve: id,
+            locked: false,
+        },
+        Edit::SetTarget {
+            curve: id,
+            end: End::Start,
+            target: None,
+        },
+        Edit::Reorder {
+            curve: id,
+            place: 0,
+        },
+        Edit::SetPolygon {
+            curve: id,
+            polygon: cubic(),
+        },
+    ] {
+        history.apply("Nothing", vec![edit.clone()]).expect("valid");
+        assert_eq!(history.undo_steps(), 0, "{edit:?} left a step");
+    }
+}
+
+#[test]
+fn every_edit_is_undone_and_redone() {
+    let (mut history, id) = history();
+    let target = EndTarget {
+        point: DVec3::ONE,
+        direction: None,
+    };
+    let added = Box::new(Curve::new("third", cubic()));
+    let edits = [
+        Edit::MoveVertices {
+            curve: id,
+            moves: vec![(0, DVec3::ONE)],
+        },
+        Edit::SetPolygon {
+            curve: id,
+            polygon: cubic().reversed(),
+        },
+        Edit::SetWeight {
+            curve: id,
+            vertex: 1,
+            weight: 2.0,
+        },
+        Edit::Rename {
+            curve: id,
+            name: "stem".into(),
+        },
+        Edit::Recolour {
+            curve: id,
+            colour: Some(Colour([1, 2, 3])),
+        },
+        Edit::SetVisible {
+            curve: id,
+            visible: false,
+        },
+        Edit::SetTarget {
+            curve: id,
+            end: End::Finish,
+            target: Some(target),
+        },
+        Edit::SetLocked {
+            curve: id,
+            locked: true,
+        },
+        Edit::Add(added),
+        Edit::Reorder {
+            curve: id,
+            place: 99,
+        },
+        Edit::Remove(id),
+    ];
+    let mut states = vec![history.document().clone()];
+    for edit in edits.clone() {
+        history
+            .apply(format!("{edit:?}"), vec![edit])
+            .expect("valid");
+        states.push(history.document().clone());
+    }
+    assert_eq!(history.undo_steps(), edits.len());
+    assert!(history.is_modified());
+    for (state, edit) in states.iter().zip(&edits).rev() {
+        assert_eq!(history.undo(), Some(format!("{edit:?}")));
+        assert!(history.document().is_same(state));
+    }
+    assert!(!history.is_modified());
+    for (state, edit) in states[1..].iter().zip(&edits) {
+        assert_eq!(history.redo(), Some(format!("{edit:?}")));
+        assert!(history.document().is_same(state));
+    }
+}
+
+#[test]
+fn a_new_step_forgets_what_could_be_redone() {
+    let (mut history, id) = history();
+    history.apply("One", moved(id, 1.0)).expect("valid");
+    history.undo();
+    history.apply("Two", moved(id, 2.0)).expect("valid");
+    assert_eq!(history.redo_label(), None);
+    assert_eq!(history.undo_label(), Some("Two"));
+}
+
+#[test]
+fn a_gesture_begun_in_another_commits_the_other() {
+    let (mut history, id) = history();
+    history.begin("One");
+    history.preview(moved(id, 1.0)).expect("valid");
+    history.begin("Two");
+    history.preview(moved(id, 2.0)).expect("valid");
+    assert!(history.commit());
+    assert_eq!(history.undo().as_deref(), Some("Two"));
+    assert_eq!(history.undo().as_deref(), Some("One"));
+}
+
+#[test]
+fn saving_is_remembered_across_undo() {
+    let (mut history, id) = history();
+    history.apply("One", moved(id, 1.0)).expect("valid");
+    history.mark_saved();
+    assert!(!history.is_modified());
+    history.undo();
+    assert!(history.is_modified());
+    history.redo();
+    assert!(!history.is_modified());
+}
+
+#[track_caller]
+fn check_refused(history: &mut History, edits: Vec<Edit>, expected: &str) {
+    let before = bits(history.document());
+    let steps = history.undo_steps();
+    let refused = history.apply("Refused", edits);
+    let message = refused.expect_err("an edit that must fail").to_string();
+    assert_eq!(message, expected);
+    assert_eq!(bits(history.document()), before);
+    assert_eq!(history.undo_steps(), steps);
+    assert!(!history.is_in_gesture());
+}
+
+#[test]
+fn failed_edits_change_nothing() {
+    let (mut history, id) = history();
+    let good = moved(id, 3.0);
+    let far = Edit::MoveVertices {
+        curve: id,
+        moves: vec![(9, DVec3::ZERO)],
+    };
+    let infinite = Edit::MoveVertices {
+        curve: id,
+        moves: vec![(0, DVec3::ONE), (1, DVec3::splat(f64::INFINITY))],
+    };
+    let weight = Edit::SetWeight {
+        curve: id,
+        vertex: 0,
+        weight: -1.0,
+    };
+    let nameless = Edit::Rename {
+        curve: id,
+        name: "  ".into(),
+    };
+    for (bad, expected) in [
+        (
+            far,
+            "“first”: vertex 9 does not exist: the polygon has 5 vertices, counted from 0",
+        ),
+        (
+            infinite,
+            "“first”: vertex 1: coordinate x is inf, and only finite numbers up to 1e100 can be \
+             used",
+        ),
+        (
+            weight,
+            "“first”: vertex 0: weight -1 cannot be used: weights are positive numbers from \
+             1e-100 to 1e100",
+        ),
+        (
+            nameless,
+            "a curve needs a name: type at least one character",
+        ),
+    ] {
+        let mut edits = good.clone();
+        edits.push(bad);
+        check_refused(&mut history, edits, expected);
+    }
+    let gone = Edit::Remove(id);
+    history.apply("Remove", vec![gone.clone()]).expect("valid");
+    check_refused(
+        &mut history,
+        vec![gone],
+        "the curve is no longer in the document",
+    );
+    check_refused(&mut history, good, "the curve is no longer in the document");
+}
+
+#[test]
+fn a_failed_preview_keeps_the_last_good_one() {
+    let (mut history, id) = history();
+    history.begin("Move vertex");
+    history.preview(moved(id, 3.0)).expect("valid");
+    let shown = bits(history.document());
+    assert!(history.preview(moved(id, f64::NAN)).is_err());
+    assert_eq!(bits(history.document()), shown);
+    assert!(history.commit());
+}
+
+#[test]
+fn locked_curves_keep_their_shape() {
+    let (mut history, id) = history();
+    let lock = |locked| vec![Edit::SetLocked { curve: id, locked }];
+    history.apply("Lock", lock(true)).expect("valid");
+    let expected = "“first” is locked: unlock it in the list of curves to change its shape";
+    check_refused(&mut history, moved(id, 3.0), expected);
+    let polygon = cubic().reversed();
+    check_refused(
+        &mut history,
+        vec![Edit::SetPolygon { curve: id, polygon }],
+        expected,
+    );
+    let weight = Edit::SetWeight {
+        curve: id,
+        vertex: 0,
+        weight: 2.0,
+    };
+    check_refused(&mut history, vec![weight], expected);
+    let rename = Edit::Rename {
+        curve: id,
+        name: "stem".into(),
+    };
+    assert_eq!(history.apply("Rename", vec![rename]), Ok(()));
+    history.apply("Unlock", lock(false)).expect("valid");
+    assert_eq!(history.apply("Move", moved(id, 3.0)), Ok(()));
+    let refused = history
+        .document()
+        .clone()
+        .apply(Edit::Remove(CurveId::clone(&id)));
+    assert_eq!(refused, Ok(()));
+    let gone = EditError::NoSuchCurve.to_string();
+    assert_eq!(gone, "the curve is no longer in the document");
+}
+
+#[test]
+fn identities_are_never_given_twice() {
+    let (mut history, id) = history();
+    let next = history.document().next_id();
+    let add = || vec![Edit::Add(Box::new(Curve::new("new", cubic())))];
+    history.apply("Add", add()).expect("valid");
+    assert!(history.document().curve(next).is_some());
+    history
+        .apply("Remove", vec![Edit::Remove(next)])
+        .expect("valid");
+    history.apply("Add", add()).expect("valid");
+    assert!(history.document().curve(next).is_none());
+    assert!(history.document().curve(id).is_some());
+}
