@@ -200,6 +200,8 @@ impl Sampler {
         self.coordinates(&vertices[..size], order, batch);
         if polygon.is_rational() && self.count > 0 {
             self.weights(polygon, segment, order, batch);
+            // Arms may lie in a plane z ≠ 0; their own z is 0 then, and so are its rows.
+            batch.flat &= origin.z == 0.0;
             project(batch, order, origin);
         }
     }
