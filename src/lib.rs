@@ -4,5 +4,11 @@
 //! `geometry ← document ← { analysis, io } ← editor ← ui`, with `cli` beside the editor.
 #![forbid(unsafe_code)]
 
+pub mod analysis;
+pub mod cli;
 pub mod document;
+pub mod editor;
 pub mod geometry;
+pub mod io;
+#[cfg(feature = "gui")]
+pub mod ui;

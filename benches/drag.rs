@@ -1,0 +1,100 @@
+//! Drag one vertex of a degree-9 curve and redo all that is on screen: the document, the closed
+//! S-polygon, the curve, the evolute, the comb, both plots and the panels' figures. The time must
+//! hardly grow with the number of vertices.
+#![allow(missing_docs)]
+
+use std::hint::black_box;
+
+use batten::document::{Curve, Document};
+use batten::editor::{Button, Command, Editor, Input, Layer};
+use batten::geometry::FloatPolygon;
+use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use glam::DVec2;
+
+const CANVAS: DVec2 = DVec2::new(1200.0, 700.0);
+
+/// A slowly winding curve with as many turns whatever its number of vertices.
+fn winding(count: usize) -> Document {
+    let points: Vec<(f64, f64)> = (0..count)
+        .map(|index| {
+            let angle = 12.0 * index as f64 / count as f64;
+            let radius = 100.0 + 60.0 * angle;
+            (radius * angle.cos(), radius * angle.sin())
+        })
+        .collect();
+    let polygon = FloatPolygon::planar(9, &points).expect("a polygon");
+    Document::from_curves([Curve::new("winding", polygon)])
+}
+
+/// An editor in the middle of a drag of one inner vertex.
+fn dragging(count: usize, close: bool) -> (Editor, DVec2) {
+    let mut editor = Editor::with_document(winding(count));
+    editor.set_canvas_size(CANVAS);
+    editor.execute(Command::ToggleLayer(Layer::Comb));
+    let curve = editor.active().expect("a curve");
+    let polygon = &editor.document().curve(curve).expect("the curve").polygon;
+    let vertex = polygon.vertex(count / 2).truncate();
+    if close {
+        // A dozen legs across the canvas, around the vertex.
+        let leg = polygon.vertex(count / 2 + 1).truncate().distance(vertex);
+        let factor = CANVAS.x / (12.0 * leg) / editor.viewport().scale;
+        let at = editor.viewport().to_screen(vertex);
+        editor.input(Input::Zoomed { at, factor });
+        let at = editor.viewport().to_screen(vertex);
+        editor.input(Input::Panned {
+            by: 0.5 * CANVAS - at,
+        });
+    }
+    editor.scene();
+    let at = editor.viewport().to_screen(vertex);
+    editor.select_vertex(curve, count / 2, false);
+    editor.input(Input::Moved { at });
+    editor.input(Input::Pressed {
+        button: Button::Primary,
+        at,
+    });
+    editor.input(Input::Moved { at: at + 10.0 });
+    assert!(editor.is_dragging());
+    let before = editor.document().curve(curve).expect("the curve").clone();
+    editor.input(Input::Moved { at: at + 20.0 });
+    let after = editor.document().curve(curve).expect("the curve").clone();
+    assert_ne!(
+        before.polygon.vertex(count / 2),
+        after.polygon.vertex(count / 2)
+    );
+    (editor, at)
+}
+
+/// One frame of the drag.
+fn frame(editor: &mut Editor, at: DVec2) {
+    editor.input(Input::Moved { at });
+    black_box(editor.scene());
+    // The leg plots come with the curvature plot.
+    black_box(editor.leg_plots());
+    black_box(editor.report());
+    black_box(editor.readout());
+    black_box(editor.hint());
+}
+
+fn drag(criterion: &mut Criterion) {
+    for (name, close) in [
+        ("whole curve in view", false),
+        ("a dozen legs in view", true),
+    ] {
+        let mut group = criterion.benchmark_group(format!("drag a vertex, {name}"));
+        for count in [100, 1_000, 10_000] {
+            let (mut editor, at) = dragging(count, close);
+            let mut step = 0;
+            group.bench_function(BenchmarkId::from_parameter(count), |bencher| {
+                bencher.iter(|| {
+                    step = (step + 1) % 64;
+                    frame(&mut editor, at + DVec2::new(10.0 + step as f64, 10.0));
+                });
+            });
+        }
+        group.finish();
+    }
+}
+
+criterion_group!(benches, drag);
+criterion_main!(benches);

@@ -1,0 +1,60 @@
+//! The curvature comb: teeth that stand on the curve, as long as it is curved there.
+
+use glam::DVec2;
+
+use super::outline::{Bounds, ViewBox};
+use super::sample::Sample;
+
+/// How a curvature comb is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CombSettings {
+    /// The length of a tooth for curvature 1, in units of the model squared.
+    pub scale: f64,
+    /// Teeth a segment.
+    pub density: usize,
+}
+
+/// The teeth of one block's comb: where they stand, and their tips.
+#[derive(Debug, Default)]
+pub(super) struct Teeth {
+    key: Option<(i32, u64, usize)>,
+    teeth: Vec<[DVec2; 2]>,
+    bounds: Option<Bounds>,
+}
+
+impl Teeth {
+    /// Bring the teeth up to date if `key` (level, scale, stride) has changed since.
+    pub(super) fn refresh<'a, I: Iterator<Item = &'a Sample>>(
+        &mut self,
+        key: (i32, u64, usize),
+        spacing: f64,
+        samples: impl FnOnce() -> I,
+    ) {
+        if self.key == Some(key) {
+            return;
+        }
+        self.key = Some(key);
+        self.teeth.clear();
+        let scale = f64::from_bits(key.1);
+        let mut bounds = Bounds::EMPTY;
+        let mut kept: Option<DVec2> = None;
+        for sample in samples() {
+            let (foot, tip) = (sample.point.truncate(), sample.comb_tip(scale).truncate());
+            if !tip.is_finite() || kept.is_some_and(|kept| kept.distance(foot) < spacing) {
+                continue;
+            }
+            kept = Some(foot);
+            bounds.add(foot);
+            bounds.add(tip);
+            self.teeth.push([foot, tip]);
+        }
+        self.bounds = Some(bounds);
+    }
+
+    /// Append the teeth if any of them may be visible.
+    pub(super) fn append(&self, view: &ViewBox, out: &mut Vec<[DVec2; 2]>) {
+        if self.bounds.is_some_and(|bounds| bounds.meets(view)) {
+            out.extend_from_slice(&self.teeth);
+        }
+    }
+}

@@ -1,0 +1,17 @@
+//! What is shown of a curve: samples, comb, evolute and plots as plain series. Kept up to date
+//! segment by segment; nothing in here draws.
+
+mod cache;
+mod comb;
+mod curve_analysis;
+mod outline;
+mod plot_series;
+mod sample;
+mod vertex_chain;
+
+pub use cache::AnalysisCache;
+pub use comb::CombSettings;
+pub use curve_analysis::CurveAnalysis;
+pub use outline::{Bounds, GAP, ViewBox};
+pub use sample::Sample;
+pub use vertex_chain::{ChainFigures, VertexChain};

@@ -1,0 +1,208 @@
+//! Outlines: chains of points thinned to what a screen can show, kept block by block.
+//!
+//! A block is redone only when its source changed or the level of detail did, so a drag redoes
+//! the blocks under the hand and copies the others.
+
+use glam::DVec2;
+
+/// What is visible: a box in the view plane and the size of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ViewBox {
+    /// The lower left corner.
+    pub low: DVec2,
+    /// The upper right corner.
+    pub high: DVec2,
+    /// The width of one screen point, in units of the model.
+    pub pixel: f64,
+}
+
+impl ViewBox {
+    /// The level of detail: detail finer than 2^level units, at most half a screen point, is not
+    /// seen.
+    pub(super) fn level(&self) -> i32 {
+        (0.5 * self.pixel).log2().floor().clamp(-1000.0, 1000.0) as i32
+    }
+
+    pub(super) fn grown(&self, by: f64) -> Self {
+        Self {
+            low: self.low - by,
+            high: self.high + by,
+            pixel: self.pixel,
+        }
+    }
+}
+
+/// A box around points; empty until the first is added.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// The lower left corner.
+    pub low: DVec2,
+    /// The upper right corner.
+    pub high: DVec2,
+}
+
+impl Default for Bounds {
+    fn default() -> Self {
+        Self::EMPTY
+    }
+}
+
+impl Bounds {
+    /// The box around nothing.
+    pub const EMPTY: Self = Self {
+        low: DVec2::INFINITY,
+        high: DVec2::NEG_INFINITY,
+    };
+
+    /// Widen the box to hold a point; points that are not finite are passed over.
+    pub fn add(&mut self, point: DVec2) {
+        if point.is_finite() {
+            self.low = self.low.min(point);
+            self.high = self.high.max(point);
+        }
+    }
+
+    /// Widen the box to hold another.
+    pub fn unite(&mut self, other: &Self) {
+        self.low = self.low.min(other.low);
+        self.high = self.high.max(other.high);
+    }
+
+    /// Whether there is nothing in the box.
+    pub fn is_empty(&self) -> bool {
+        !(self.low.x <= self.high.x)
+    }
+
+    /// Whether a curve through points with this box around them may be visible: between the
+    /// points it may run a little beyond the box.
+    pub(super) fn may_meet(&self, view: &ViewBox) -> bool {
+        let reach = (self.high - self.low).max_element();
+        !self.is_empty() && self.meets(&view.grown(0.25 * reach))
+    }
+
+    /// Whether any part of the box is visible.
+    pub fn meets(&self, view: &ViewBox) -> bool {
+        self.low.cmple(view.high).all() && self.high.cmpge(view.low).all()
+    }
+}
+
+/// A point that breaks a chain: what comes after starts anew.
+pub const GAP: DVec2 = DVec2::NAN;
+
+/// What an outline's points were made for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct OutlineKey {
+    /// The level of detail; `None` keeps every point of the source.
+    pub(super) level: Option<i32>,
+    /// Whatever else the points depend on, such as the comb's scale.
+    pub(super) shape: u64,
+}
+
+/// The thinned points of one block of a chain.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Outline {
+    key: Option<OutlineKey>,
+    points: Vec<DVec2>,
+    bounds: Bounds,
+}
+
+impl Outline {
+    /// Bring the points up to date with `source` if `key` has changed since.
+    pub(super) fn refresh<I: Iterator<Item = DVec2>>(
+        &mut self,
+        key: OutlineKey,
+        source: impl FnOnce() -> I,
+    ) {
+        if self.key == Some(key) {
+            return;
+        }
+        self.key = Some(key);
+        self.bounds = Bounds::EMPTY;
+        self.points.clear();
+        let spacing = key.level.map_or(0.0, |level| 2f64.powi(level));
+        thin(source(), spacing, &mut self.points, &mut self.bounds);
+    }
+
+    /// The box around the points.
+    pub(super) fn bounds(&self) -> &Bounds {
+        &self.bounds
+    }
+
+    /// Append the points if any of them may be visible, otherwise a gap.
+    pub(super) fn append(&self, view: &ViewBox, out: &mut Vec<DVec2>) {
+        if self.bounds.meets(view) {
+            out.extend_from_slice(&self.points);
+        } else {
+            append_gap(out);
+        }
+    }
+}
+
+/// Break a chain, if it is not broken already.
+pub(super) fn append_gap(out: &mut Vec<DVec2>) {
+    if out.last().is_some_and(|last| !last.is_nan()) {
+        out.push(GAP);
+    }
+}
+
+/// Copy a chain, leaving out points nearer than `spacing` to the last one kept; the ends of the
+/// chain and of each of its pieces stay.
+pub(super) fn thin(
+    source: impl Iterator<Item = DVec2>,
+    spacing: f64,
+    out: &mut Vec<DVec2>,
+    bounds: &mut Bounds,
+) {
+    let squared = spacing * spacing;
+    let mut kept = GAP;
+    let mut skipped: Option<DVec2> = None;
+    for point in source {
+        if point.is_nan() {
+            out.extend(skipped.take());
+            if !kept.is_nan() {
+                out.push(GAP);
+            }
+            kept = GAP;
+            continue;
+        }
+        bounds.add(point);
+        if kept.is_nan() || point.distance_squared(kept) >= squared {
+            out.push(point);
+            kept = point;
+            skipped = None;
+        } else {
+            skipped = Some(point);
+        }
+    }
+    out.extend(skipped);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check_thin(source: &[DVec2], spacing: f64, expected: &[DVec2]) {
+        let (mut points, mut bounds) = (Vec::new(), Bounds::EMPTY);
+        thin(source.iter().copied(), spacing, &mut points, &mut bounds);
+        assert_eq!(points.len(), expected.len(), "{points:?}");
+        for (point, expected) in points.iter().zip(expected) {
+            assert!(point == expected || (point.is_nan() && expected.is_nan()));
+        }
+    }
+
+    #[test]
+    fn thinning_keeps_ends_and_gaps() {
+        let at = |x: f64| DVec2::new(x, 0.0);
+        check_thin(
+            &[at(0.0), at(0.1), at(0.2), at(1.0), at(1.1)],
+            0.5,
+            &[at(0.0), at(1.0), at(1.1)],
+        );
+        check_thin(
+            &[at(0.0), at(0.1), GAP, GAP, at(0.2), at(0.9)],
+            0.5,
+            &[at(0.0), at(0.1), GAP, at(0.2), at(0.9)],
+        );
+        check_thin(&[GAP], 0.5, &[]);
+    }
+}

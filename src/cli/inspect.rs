@@ -1,0 +1,151 @@
+//! `batten inspect`: curves as JSON.
+
+use std::path::Path;
+
+use anyhow::bail;
+use glam::DVec3;
+use serde::Serialize;
+
+use super::output;
+use crate::document::Curve;
+use crate::geometry::{ClampedPolygon, End, FloatPolygon, Jet};
+use crate::io::{Place, disk, json_layout};
+
+/// The relative error allowed in lengths.
+const LENGTH_TOLERANCE: f64 = 1e-13;
+
+/// Print the curves of a file, evaluated at some parameters.
+pub(super) fn run(file: &Path, at: &[f64]) -> anyhow::Result<()> {
+    let curves = disk::read_file(file)?;
+    for (index, curve) in curves.iter().enumerate() {
+        let last = curve.polygon.segments() as f64;
+        if let Some(u) = at.iter().find(|u| !(0.0..=last).contains(*u)) {
+            let place = Place::curve(index + 1, &curve.name);
+            bail!(
+                "{}: {place}: the parameter {u} of --at lies outside the curve's domain, 0 to {last}",
+                file.display()
+            );
+        }
+    }
+    let curves = curves.iter().map(|curve| inspected(curve, at)).collect();
+    output::print(&json_layout::to_text(&Report { curves }))
+}
+
+#[derive(Serialize)]
+struct Report {
+    curves: Vec<Inspected>,
+}
+
+#[derive(Serialize)]
+struct Inspected {
+    name: String,
+    degree: usize,
+    dimension: usize,
+    periodic: bool,
+    float: Vec<Vec<f64>>,
+    weights: Option<Vec<f64>>,
+    clamped: Vec<Vec<f64>>,
+    clamped_weights: Option<Vec<f64>>,
+    domain: [f64; 2],
+    length: f64,
+    ends: Option<Ends>,
+    at: Vec<At>,
+}
+
+#[derive(Serialize)]
+struct Ends {
+    start: EndReport,
+    end: EndReport,
+}
+
+#[derive(Serialize)]
+struct EndReport {
+    point: Vec<f64>,
+    tangent: Option<Vec<f64>>,
+    curvature: f64,
+}
+
+#[derive(Serialize)]
+struct At {
+    u: f64,
+    point: Vec<f64>,
+    d1: Vec<f64>,
+    d2: Vec<f64>,
+    d3: Vec<f64>,
+    /// By level; numbers that are infinite or none become null.
+    curvature: [f64; 1],
+    evolute: Option<Vec<f64>>,
+}
+
+/// How the vectors and curvatures of a curve are printed: planar ones with 2 numbers and signed.
+struct Space {
+    dimension: usize,
+}
+
+impl Space {
+    fn of(polygon: &FloatPolygon) -> Self {
+        Self {
+            dimension: if polygon.is_planar() { 2 } else { 3 },
+        }
+    }
+
+    fn vector(&self, vector: DVec3) -> Vec<f64> {
+        vector.to_array()[..self.dimension].to_vec()
+    }
+
+    fn vectors(&self, vectors: &[DVec3]) -> Vec<Vec<f64>> {
+        vectors.iter().map(|vector| self.vector(*vector)).collect()
+    }
+
+    fn curvature(&self, jet: &Jet) -> f64 {
+        if self.dimension == 2 {
+            jet.signed_curvature()
+        } else {
+            jet.curvature()
+        }
+    }
+}
+
+fn inspected(curve: &Curve, at: &[f64]) -> Inspected {
+    let polygon = &curve.polygon;
+    let space = Space::of(polygon);
+    let clamped = ClampedPolygon::from_float(polygon);
+    let end = |end| {
+        let jet = polygon.end_jet(end);
+        EndReport {
+            point: space.vector(jet.point),
+            tangent: jet.tangent().map(|tangent| space.vector(tangent)),
+            curvature: space.curvature(&jet),
+        }
+    };
+    Inspected {
+        name: curve.name.clone(),
+        degree: polygon.degree(),
+        dimension: space.dimension,
+        periodic: polygon.is_periodic(),
+        float: space.vectors(polygon.vertices()),
+        weights: polygon.weights().map(<[f64]>::to_vec),
+        clamped: space.vectors(clamped.vertices()),
+        clamped_weights: clamped.weights().map(<[f64]>::to_vec),
+        domain: [0.0, polygon.segments() as f64],
+        length: polygon.arc_length(LENGTH_TOLERANCE),
+        ends: (!polygon.is_periodic()).then(|| Ends {
+            start: end(End::Start),
+            end: end(End::Finish),
+        }),
+        at: at.iter().map(|u| evaluated(polygon, &space, *u)).collect(),
+    }
+}
+
+fn evaluated(polygon: &FloatPolygon, space: &Space, u: f64) -> At {
+    let jet = polygon.jet(u);
+    At {
+        u,
+        point: space.vector(jet.point),
+        d1: space.vector(jet.first),
+        d2: space.vector(jet.second),
+        d3: space.vector(jet.third),
+        curvature: [space.curvature(&jet)],
+        evolute: jet.centre_of_curvature().map(|centre| space.vector(centre)),
+    }
+}

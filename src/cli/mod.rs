@@ -1,0 +1,117 @@
+//! The command line: the library from a shell. It reads files, calls the library and prints; it
+//! holds no logic of its own.
+
+mod arguments;
+mod inspect;
+mod output;
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use crate::geometry::PolygonKind;
+use crate::geometry::circle_comparison::CircleComparison;
+use crate::io::examples::{EXAMPLES, Example};
+use crate::io::{LossReport, disk, json_layout};
+use arguments::{Arguments, Command};
+
+/// What the command line asks for.
+#[derive(Debug)]
+pub enum Request {
+    /// To open the editor with these files; with the first example if there are none.
+    Editor(Vec<PathBuf>),
+    /// Nothing more: it is done, and this is the exit code.
+    Done(ExitCode),
+}
+
+/// Run the command line: `arguments` begin with the program's name.
+///
+/// The exit code is 0, or 1 with a message that names file and place, or 2 with the usage if
+/// the arguments are not understood. A reader of the output that goes away early is no error.
+pub fn run(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> Request {
+    let arguments = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Help goes to a reader that may go away; there is nobody else to tell.
+            let _ = error.print();
+            let code = u8::try_from(error.exit_code()).unwrap_or(2);
+            return Request::Done(ExitCode::from(code));
+        }
+    };
+    let result = match arguments.command {
+        None => return Request::Editor(arguments.files),
+        Some(Command::Example { name, out, .. }) => example(name, out),
+        Some(Command::Table1 { json }) => table1(json),
+        Some(Command::Convert {
+            input,
+            out,
+            polygon,
+        }) => convert(&input, &out, polygon),
+        Some(Command::Inspect { file, at }) => inspect::run(&file, &at),
+    };
+    Request::Done(match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            output::message(&error.to_string());
+            ExitCode::FAILURE
+        }
+    })
+}
+
+fn example(example: Option<Example>, out: Option<PathBuf>) -> anyhow::Result<()> {
+    let (Some(example), Some(out)) = (example, out) else {
+        let width = EXAMPLES.iter().map(|example| example.name.len());
+        let width = width.max().unwrap_or_default();
+        let lines = EXAMPLES.map(
+            |Example {
+                 name,
+                 title,
+                 description,
+                 ..
+             }| { format!("{name:width$}  {title}. {description}\n") },
+        );
+        return output::print(&lines.concat());
+    };
+    report(&disk::write_file(&out, &example.curves()?, None)?);
+    Ok(())
+}
+
+fn table1(json: bool) -> anyhow::Result<()> {
+    let rows = CircleComparison::paper_table()?;
+    if json {
+        let rows = rows.iter().map(|row| {
+            serde_json::json!({
+                "degree": row.degree,
+                "bspline": row.bspline,
+                "bezier": row.bezier,
+            })
+        });
+        return output::print(&json_layout::to_text(&rows.collect::<Vec<_>>()));
+    }
+    let mut text =
+        "Largest distance of the evolute from the circle's centre, radius 10\n".to_owned();
+    text.push_str("degree         B-spline           Bézier\n");
+    for row in rows {
+        let CircleComparison {
+            degree,
+            bspline,
+            bezier,
+        } = row;
+        text.push_str(&format!("{degree:>6} {bspline:>16.9e} {bezier:>16.9e}\n"));
+    }
+    output::print(&text)
+}
+
+fn convert(input: &Path, out: &Path, polygon: Option<PolygonKind>) -> anyhow::Result<()> {
+    let curves = disk::read_file(input)?;
+    report(&disk::write_file(out, &curves, polygon)?);
+    Ok(())
+}
+
+fn report(losses: &LossReport) {
+    if !losses.is_empty() {
+        output::message(&losses.to_string());
+    }
+}

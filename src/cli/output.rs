@@ -1,0 +1,24 @@
+//! Printing to readers that may go away.
+
+use std::io::{self, ErrorKind, Write};
+
+/// Print to the standard output. A reader that has gone away wants no more, which is no error.
+pub(super) fn print(text: &str) -> anyhow::Result<()> {
+    let mut out = io::stdout().lock();
+    let result = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    match result {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(anyhow::Error::new(error).context("cannot write to the standard output"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Print to the standard error, each line with the program's name in front.
+pub(super) fn message(text: &str) {
+    let mut out = io::stderr().lock();
+    for line in text.lines() {
+        // Where nobody listens there is nobody to tell.
+        let _ = writeln!(out, "batten: {line}");
+    }
+}

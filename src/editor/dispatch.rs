@@ -1,0 +1,124 @@
+//! From inputs to gestures, to the tool in the hand, and from its effects to the document.
+
+use glam::DVec2;
+
+use super::Editor;
+use super::gesture::Gesture;
+use super::hit::HitTest;
+use super::input::{Input, Key};
+use super::tools::{Context, Cursor, Effect, ToolKind};
+
+impl Editor {
+    /// Take what the hand does on the canvas.
+    pub fn input(&mut self, input: Input) {
+        if let Input::Modifiers(modifiers) = input {
+            self.modifiers = modifiers;
+        }
+        if matches!(input, Input::Moved { .. }) && !self.gestures.is_dragging() {
+            let moved = |at: DVec2| self.gestures.pointer().is_none_or(|old| old != at);
+            if let Input::Moved { at } = input
+                && moved(at)
+            {
+                self.cycle = 0;
+            }
+        }
+        if matches!(input, Input::Pressed { .. } | Input::Key(_)) {
+            self.commit_field();
+            self.message = None;
+        }
+        for gesture in self.gestures.input(input) {
+            match gesture {
+                Gesture::Pan(by) => self.viewport.pan(by),
+                Gesture::Zoom(at, factor) => self.viewport.zoom(at, factor),
+                Gesture::Key(Key::Tab) => self.cycle = self.cycle.wrapping_add(1),
+                Gesture::Hover(_) | Gesture::Leave => {}
+                gesture => self.deliver(gesture),
+            }
+        }
+    }
+
+    /// Say what the mouse will do now.
+    pub fn hint(&self) -> String {
+        if self.gestures.is_panning() {
+            return "Drag to push the view".into();
+        }
+        self.tool_state.hint(&self.context())
+    }
+
+    /// The shape of the pointer while it rests here.
+    pub fn cursor(&self) -> Cursor {
+        if self.gestures.is_panning() {
+            return Cursor::Grab;
+        }
+        self.tool_state.cursor(&self.context())
+    }
+
+    /// Hand a gesture to the tool and do what it wants.
+    pub(super) fn deliver(&mut self, gesture: Gesture) {
+        let mut tool = std::mem::replace(&mut self.tool_state, ToolKind::Select.take());
+        let effects = tool.gesture(gesture, &self.context());
+        self.tool_state = tool;
+        for effect in effects {
+            self.take_effect(effect);
+        }
+        self.document_changed();
+    }
+
+    pub(super) fn context(&self) -> Context<'_> {
+        let active = self.selection.active();
+        let shown = self.scene.curves.iter().find(|curve| curve.id == active);
+        Context {
+            document: self.history.document(),
+            before: self.history.before_gesture(),
+            selection: &self.selection,
+            viewport: &self.viewport,
+            hits: HitTest {
+                document: self.history.document(),
+                analyses: &self.analyses,
+                viewport: &self.viewport,
+                layers: self.layers,
+                active,
+                cycle: self.cycle,
+            },
+            modifiers: self.modifiers,
+            snapping: self.snapping,
+            comb: self.comb,
+            teeth: shown.map_or(&[], |curve| &curve.teeth),
+            end_fit: &self.end_fit,
+            pointer: self.gestures.pointer().map(|at| self.viewport.to_model(at)),
+        }
+    }
+
+    fn take_effect(&mut self, effect: Effect) {
+        match effect {
+            Effect::Begin(label) => {
+                self.end_fit.begin_anew();
+                self.history.begin(label);
+            }
+            Effect::Preview(edits) => {
+                if let Err(error) = self.history.preview(edits) {
+                    self.fail(error.to_string());
+                }
+            }
+            Effect::Commit => {
+                self.history.commit();
+            }
+            Effect::Abort => self.history.abort(),
+            Effect::Apply(label, edits) => {
+                self.end_fit.begin_anew();
+                if let Err(error) = self.history.apply(label, edits) {
+                    self.fail(error.to_string());
+                }
+            }
+            Effect::Select(vertices) => self.selection.set(vertices),
+            Effect::SelectMore(vertices) => self.selection.add(vertices),
+            Effect::ToggleSelected(vertex) => self.selection.toggle(vertex),
+            Effect::Activate(curve) => self.selection.activate(Some(curve)),
+            Effect::SetComb(comb) => self.set_comb(comb),
+            Effect::FitAll => self.fit_all(),
+            Effect::Say(text) => self.say(text),
+            Effect::Finish => self.take(ToolKind::Select),
+            Effect::EndFit(action) => self.end_fit_action(action),
+        }
+    }
+}

@@ -1,0 +1,342 @@
+//! Making the scene: what the canvas shows for this frame.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::Editor;
+use super::end_fit;
+use super::layers::Layer;
+use super::scene::{CurveScene, HoverScene, Scene, VertexMark};
+use super::tools::ToolKind;
+use crate::analysis::{CurveAnalysis, GAP, ViewBox};
+use crate::document::{Curve, CurveId};
+use crate::geometry::{End, FloatPolygon};
+
+/// Screen points around the canvas that are drawn too, so that strokes run off it.
+const BORDER: f64 = 16.0;
+
+/// Joints nearer together than this, in screen points, are not drawn.
+const JOINT_SPACING: f64 = 12.0;
+
+/// Remember the analysis of a curve as it was, which changes rarely while it is drawn often.
+#[derive(Debug, Default)]
+pub(super) struct Ghost {
+    analysis: Option<CurveAnalysis>,
+}
+
+impl Ghost {
+    fn append(&mut self, curve: &Arc<Curve>, view: &ViewBox, out: &mut Vec<DVec2>) {
+        let analysis = self
+            .analysis
+            .get_or_insert_with(|| CurveAnalysis::new(curve.clone()));
+        analysis.update(curve);
+        analysis.append_curve(view, out);
+    }
+}
+
+impl Editor {
+    /// Bring the scene up to date and return it.
+    pub fn scene(&mut self) -> &Scene {
+        self.analyses.update(self.history.document());
+        let mut scene = std::mem::take(&mut self.scene);
+        let mut view = self.viewport.view_box();
+        let border = BORDER * view.pixel;
+        view.low -= border;
+        view.high += border;
+        self.draw_curves(&view, &mut scene.curves);
+        self.draw_ghost(&view, &mut scene.ghost);
+        scene.ends.clear();
+        if self.layers.shows(Layer::Targets) || self.tool == ToolKind::EndFit {
+            self.draw_ends(&mut scene);
+        }
+        // Tools look at the scene's teeth, so it is put back before they draw.
+        scene.hover = None;
+        scene.marks.clear();
+        self.scene = scene;
+        let marks = self.tool_state.marks(&self.context());
+        let hover = self.hover();
+        self.scene.marks = marks;
+        self.scene.hover = hover;
+        &self.scene
+    }
+
+    fn draw_curves(&mut self, view: &ViewBox, scenes: &mut Vec<CurveScene>) {
+        let active = self.selection.active();
+        let mut shown: Vec<(CurveId, Arc<Curve>)> = self
+            .history
+            .document()
+            .curves()
+            .filter(|(_, curve)| curve.visible)
+            .map(|(id, curve)| (id, curve.clone()))
+            .collect();
+        // The active curve is drawn last, on top.
+        shown.sort_by_key(|(id, _)| Some(*id) == active);
+        scenes.resize_with(shown.len(), CurveScene::default);
+        for ((id, curve), scene) in shown.iter().zip(scenes.iter_mut()) {
+            scene.clear();
+            scene.id = Some(*id);
+            scene.active = Some(*id) == active;
+            scene.locked = curve.locked;
+            scene.colour = curve.colour;
+            self.draw_curve(*id, &curve.polygon, view, scene);
+        }
+    }
+
+    fn draw_curve(
+        &mut self,
+        id: CurveId,
+        polygon: &FloatPolygon,
+        view: &ViewBox,
+        scene: &mut CurveScene,
+    ) {
+        let (layers, comb, active) = (self.layers, self.comb, scene.active);
+        let Some(analysis) = self.analyses.get(id) else {
+            return;
+        };
+        if layers.shows(Layer::Curve) {
+            analysis.append_curve(view, &mut scene.curve);
+            append_joints(analysis, view, &mut scene.joints);
+        }
+        if layers.shows(Layer::Float) {
+            let chain = analysis.float();
+            chain.append_legs(view, &mut scene.float);
+            let mut handles = Vec::new();
+            chain.append_handles(view, &mut handles);
+            let selection = &self.selection;
+            // A selected vertex keeps its handle in a crowd.
+            let crowd = handles.len() < polygon.vertices().len();
+            if crowd {
+                handles.extend(selection.of_curve(id));
+                handles.sort_unstable();
+                handles.dedup();
+            }
+            scene
+                .vertices
+                .extend(handles.into_iter().map(|index| VertexMark {
+                    index,
+                    at: polygon.vertex(index).truncate(),
+                    selected: selection.contains((id, index)),
+                }));
+        }
+        // Only the active curve shows what is derived from it: the others step back.
+        if !active {
+            return;
+        }
+        if layers.shows(Layer::Clamped) {
+            let chain = analysis.clamped();
+            chain.append_legs(view, &mut scene.clamped);
+            let mut handles = Vec::new();
+            chain.append_handles(view, &mut handles);
+            let vertices = chain.vertices();
+            scene.clamped_vertices.extend(
+                handles
+                    .iter()
+                    .filter_map(|index| vertices.get(*index))
+                    .map(|v| v.truncate()),
+            );
+        }
+        if layers.shows(Layer::Evolute) {
+            analysis.append_evolute(view, &mut scene.evolute);
+        }
+        if layers.shows(Layer::Comb) {
+            analysis.append_comb(view, &comb, &mut scene.comb);
+            analysis.append_teeth(view, &comb, &mut scene.teeth);
+        }
+    }
+
+    /// The curve before the gesture, while Alt is held; or before the last end correction.
+    fn draw_ghost(&mut self, view: &ViewBox, out: &mut Vec<DVec2>) {
+        out.clear();
+        let held = self.modifiers.alt && self.history.is_in_gesture();
+        let before = if held {
+            let active = self.selection.active();
+            active
+                .and_then(|id| self.history.before_gesture().curve(id))
+                .cloned()
+        } else {
+            let ghost = self.end_fit.ghost.as_ref();
+            let active = self.selection.active();
+            ghost
+                .filter(|(id, _)| Some(*id) == active)
+                .map(|(_, curve)| curve.clone())
+        };
+        if let Some(before) = before {
+            self.ghost.append(&before, view, out);
+        }
+    }
+
+    fn draw_ends(&self, scene: &mut Scene) {
+        let fitting = self.tool == ToolKind::EndFit;
+        let active = self.selection.active();
+        for (id, curve) in self.history.document().curves() {
+            if !curve.visible || curve.polygon.is_periodic() {
+                continue;
+            }
+            for end in End::BOTH {
+                let chosen = fitting && Some(id) == active && end == self.end_fit.end;
+                scene
+                    .ends
+                    .extend(end_fit::marks(curve, end, chosen, &self.viewport));
+            }
+        }
+    }
+
+    fn hover(&self) -> Option<HoverScene> {
+        if let Some(hover) = self.hover_from_panels() {
+            return Some(hover);
+        }
+        let place = self.gestures.pointer()?;
+        let context = self.context();
+        if self.gestures.is_dragging() {
+            let held = self.held_vertex()?;
+            return self.vertex_hover(held);
+        }
+        if self.gestures.is_panning()
+            || !matches!(
+                self.tool,
+                ToolKind::Select
+                    | ToolKind::Delete
+                    | ToolKind::EndFit
+                    | ToolKind::Rotate
+                    | ToolKind::Scale
+            )
+        {
+            return None;
+        }
+        if let Some(vertex) = context.hits.vertex(place) {
+            return self.vertex_hover(vertex);
+        }
+        let hit = context.hits.curve(place)?;
+        self.curve_hover(hit.curve, hit.u)
+    }
+
+    /// The one vertex that a drag moves.
+    fn held_vertex(&self) -> Option<(CurveId, usize)> {
+        let mut selected = self.selection.vertices();
+        let only = selected.next().filter(|_| selected.next().is_none());
+        only.filter(|_| self.tool == ToolKind::Select && self.history.is_in_gesture())
+    }
+
+    fn hover_from_panels(&self) -> Option<HoverScene> {
+        let id = self.selection.active()?;
+        if let Some(index) = self.hovered.vertex {
+            return self.vertex_hover((id, index));
+        }
+        let u = self
+            .analyses
+            .peek(id)?
+            .parameter_at_length(self.hovered.length?);
+        self.curve_hover(id, u)
+    }
+
+    fn vertex_hover(&self, (id, index): (CurveId, usize)) -> Option<HoverScene> {
+        let curve = self.document().curve(id).filter(|curve| curve.visible)?;
+        let vertex = *curve.polygon.vertices().get(index)?;
+        let mut text = format!(
+            "vertex {index}\nx {}\ny {}",
+            figure(vertex.x),
+            figure(vertex.y)
+        );
+        if vertex.z != 0.0 {
+            text += &format!("\nz {}", figure(vertex.z));
+        }
+        if let Some(weights) = curve.polygon.weights() {
+            text += &format!("\nw {}", figure(*weights.get(index)?));
+        }
+        Some(HoverScene::Vertex {
+            at: vertex.truncate(),
+            text,
+        })
+    }
+
+    fn curve_hover(&self, id: CurveId, u: f64) -> Option<HoverScene> {
+        let curve = self.document().curve(id).filter(|curve| curve.visible)?;
+        let planar = self.analyses.peek(id)?.is_planar();
+        let jet = curve.polygon.jet(u);
+        let curvature = if planar {
+            jet.signed_curvature()
+        } else {
+            jet.curvature()
+        };
+        let radius = 1.0 / curvature.abs();
+        let text = format!(
+            "u {u:.4}\nx {}\ny {}\nκ {}\nR {}",
+            figure(jet.point.x),
+            figure(jet.point.y),
+            figure(curvature),
+            if radius.is_finite() {
+                figure(radius)
+            } else {
+                "∞".into()
+            },
+        );
+        Some(HoverScene::Curve {
+            u,
+            at: jet.point.truncate(),
+            // Seen from above, only a planar curve's osculating circle is a circle.
+            centre: jet
+                .centre_of_curvature()
+                .filter(|_| planar)
+                .map(|centre| centre.truncate()),
+            text,
+        })
+    }
+}
+
+impl CurveScene {
+    fn clear(&mut self) {
+        self.teeth.clear();
+        self.joints.clear();
+        self.vertices.clear();
+        for chain in [
+            &mut self.comb,
+            &mut self.evolute,
+            &mut self.clamped,
+            &mut self.clamped_vertices,
+            &mut self.float,
+            &mut self.curve,
+        ] {
+            chain.clear();
+        }
+    }
+}
+
+/// Write a figure for reading: seven significant digits.
+pub(super) fn figure(value: f64) -> String {
+    let magnitude = value.abs();
+    if value == 0.0 {
+        "0".into()
+    } else if !(1e-4..1e7).contains(&magnitude) {
+        format!("{value:.6e}")
+    } else {
+        let decimals = (6 - magnitude.log10().floor() as i32).clamp(0, 10) as usize;
+        format!("{value:.decimals$}")
+    }
+}
+
+/// Append the joints between segments, with the curve's unit normals, unless they crowd.
+fn append_joints(analysis: &CurveAnalysis, view: &ViewBox, out: &mut Vec<[DVec2; 2]>) {
+    let polygon = &analysis.curve().polygon;
+    let segments = polygon.segments();
+    let joint = |segment: usize| analysis.segment_samples(segment).first();
+    let mut kept = GAP;
+    // Where a whole segment is smaller than the spacing everywhere there is nothing to draw.
+    if segments as f64 * JOINT_SPACING * view.pixel > 4.0 * extent(view) {
+        return;
+    }
+    let from = usize::from(!polygon.is_periodic());
+    for sample in (from..segments).filter_map(joint) {
+        let at = sample.point.truncate();
+        let apart = kept.is_nan() || at.distance(kept) >= JOINT_SPACING * view.pixel;
+        if apart && at.cmpge(view.low).all() && at.cmple(view.high).all() {
+            out.push([at, sample.normal.truncate()]);
+            kept = at;
+        }
+    }
+}
+
+fn extent(view: &ViewBox) -> f64 {
+    let size = view.high - view.low;
+    size.x + size.y
+}

@@ -1,0 +1,271 @@
+//! The end-fit tool's words and state: the paper's seven steps.
+
+use glam::{DVec2, DVec3};
+
+use super::viewport::Viewport;
+use crate::analysis::CurveAnalysis;
+use crate::document::{Curve, CurveId, Document};
+use crate::geometry::end_correction::{EndDifference, EndOverlap, EndTarget};
+use crate::geometry::{End, Range};
+
+/// The length of a target direction's arrow, in screen points.
+pub const ARROW: f64 = 64.0;
+
+/// The radius of the ring that rotates the terminal vertices, in screen points.
+pub const RING: f64 = 40.0;
+
+/// The loop's tolerance that is offered, in units of the polygon's size.
+const TOLERANCE: f64 = 1e-9;
+
+/// What the seven steps say of one end, in figures.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EndFitReport {
+    /// The end that is being corrected.
+    pub end: End,
+    /// Whether the curve is planar: figures in z are left out then.
+    pub planar: bool,
+    /// The degree n: the number of terminal vertices.
+    pub degree: usize,
+    /// The number of vertices N.
+    pub vertices: usize,
+    /// Step 1: the smallest and largest leg.
+    pub legs: Option<Range>,
+    /// Step 1: the smallest and largest turning angle, in radians.
+    pub turns: Option<Range>,
+    /// The actual end point.
+    pub point: DVec3,
+    /// The actual unit tangent; `None` at a cusp.
+    pub tangent: Option<DVec3>,
+    /// The target point; `None` until it is set.
+    pub target_point: Option<DVec3>,
+    /// The target direction.
+    pub target_direction: Option<DVec3>,
+    /// Step 3: the difference vector.
+    pub difference: DVec3,
+    /// Step 3: the difference angle, in radians.
+    pub angle: f64,
+    /// The larger of the position difference and the difference angle's arc, over both ends
+    /// that have targets.
+    pub residual: f64,
+    /// The tolerance that the loop works to, as a length.
+    pub tolerance: f64,
+    /// Whether every end that has a target is within the tolerance.
+    pub within: bool,
+    /// The number of ends that have a target.
+    pub targets: usize,
+    /// Passes made by "repeat" since the targets last changed.
+    pub passes: usize,
+    /// Whether the next click on the canvas picks a target from another curve.
+    pub picking: bool,
+    /// How the two ends share their vertices.
+    pub overlap: EndOverlap,
+    /// What the last action came to, in words; `true` if it failed.
+    pub outcome: Option<(String, bool)>,
+    /// The largest move of a vertex by the last "both ends at once", and which vertex.
+    pub largest_move: Option<(f64, usize)>,
+}
+
+/// Something that the end-fit panel asks for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum EndFitAction {
+    /// Work on this end.
+    Choose(End),
+    /// Show the closed S-polygon (step 2), or go back to the float one (step 4).
+    ShowClosed(bool),
+    /// Put the target where the actual end is.
+    TargetActual,
+    /// Type the target point.
+    SetPoint(DVec3),
+    /// Type the target direction, or free it.
+    SetDirection(Option<DVec3>),
+    /// Forget the target.
+    ClearTarget,
+    /// Pick the target from another curve's end by the next click.
+    PickFromCurve,
+    /// Take this target, picked from another curve's end.
+    Picked(EndTarget),
+    /// Translate the terminal vertices by the difference vector (step 5).
+    Translate,
+    /// Rotate them by the difference angle (step 6).
+    Rotate,
+    /// Repeat steps 2 to 6 on every end that has a target until within the tolerance (step 7).
+    Repeat,
+    /// Correct both ends at once by the least disturbance.
+    BothAtOnce,
+    /// Set the tolerance, as a length.
+    SetTolerance(f64),
+}
+
+/// One end's marks on the canvas.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EndFitMarks {
+    /// Whether the end-fit tool works on this end now; otherwise only the target is drawn.
+    pub chosen: bool,
+    /// The actual end point.
+    pub actual: DVec2,
+    /// The tip of the actual tangent's arrow.
+    pub tangent_tip: Option<DVec2>,
+    /// The target point.
+    pub target: Option<DVec2>,
+    /// The tip of the target direction's arrow; a handle.
+    pub target_tip: Option<DVec2>,
+    /// The radius of the ring that rotates the terminal vertices, in units of the model.
+    pub ring: f64,
+    /// The terminal vertices.
+    pub terminal: Vec<DVec2>,
+    /// The difference angle in radians, for the arc that shows it.
+    pub angle: f64,
+}
+
+/// Hold what the end-fit tool remembers between actions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EndFitState {
+    /// The end that is being corrected.
+    pub end: End,
+    /// Whether the next click picks a target from another curve.
+    pub picking: bool,
+    /// The tolerance that was typed; `None` offers one by the curve's size.
+    pub tolerance: Option<f64>,
+    /// Passes made by "repeat" since the targets last changed.
+    pub passes: usize,
+    /// What the last action came to; `true` if it failed.
+    pub outcome: Option<(String, bool)>,
+    /// The largest vertex move of the last joint correction.
+    pub largest_move: Option<(f64, usize)>,
+    /// The curve before the last correction: drawn as a ghost until something else happens.
+    pub ghost: Option<(CurveId, std::sync::Arc<Curve>)>,
+}
+
+impl Default for EndFitState {
+    fn default() -> Self {
+        Self {
+            end: End::Finish,
+            picking: false,
+            tolerance: None,
+            passes: 0,
+            outcome: None,
+            largest_move: None,
+            ghost: None,
+        }
+    }
+}
+
+impl EndFitState {
+    /// Forget what earlier actions came to, as when targets or curve change.
+    pub fn begin_anew(&mut self) {
+        self.passes = 0;
+        self.outcome = None;
+        self.largest_move = None;
+        self.ghost = None;
+    }
+
+    /// The tolerance for a curve, as a length.
+    pub fn tolerance_for(&self, curve: &Curve) -> f64 {
+        self.tolerance.unwrap_or(TOLERANCE * curve.polygon.size())
+    }
+
+    /// Collect the figures of the seven steps.
+    pub fn report(&self, analysis: &mut CurveAnalysis) -> EndFitReport {
+        let curve = analysis.curve().clone();
+        let polygon = &curve.polygon;
+        let figures = analysis.float().figures();
+        let jet = polygon.end_jet(self.end);
+        let target = curve.targets.get(self.end);
+        let difference = target.map(|target| EndDifference::between(polygon, self.end, &target));
+        let size = polygon.size();
+        let tolerance = self.tolerance_for(&curve);
+        let targets = curve.targets.list();
+        let residuals = targets
+            .iter()
+            .map(|(end, target)| EndDifference::between(polygon, *end, target).residual(size));
+        let residual = residuals.fold(0.0, f64::max);
+        EndFitReport {
+            end: self.end,
+            planar: analysis.is_planar(),
+            degree: polygon.degree(),
+            vertices: polygon.vertices().len(),
+            legs: figures.legs,
+            turns: figures.turns,
+            point: jet.point,
+            tangent: jet.tangent(),
+            target_point: target.map(|target| target.point),
+            target_direction: target.and_then(|target| target.direction),
+            difference: difference.map_or(DVec3::ZERO, |difference| difference.vector),
+            angle: difference.map_or(0.0, |difference| difference.angle),
+            residual,
+            tolerance,
+            within: !targets.is_empty() && residual <= tolerance,
+            targets: targets.len(),
+            passes: self.passes,
+            overlap: EndOverlap::of(polygon),
+            picking: self.picking,
+            outcome: self.outcome.clone(),
+            largest_move: self.largest_move,
+        }
+    }
+}
+
+/// Find the end of another curve nearest to a place, within `reach`, as a target: its point, and
+/// its direction so that the tangents continue each other.
+pub fn nearest_other_end(
+    document: &Document,
+    own: CurveId,
+    place: DVec2,
+    reach: f64,
+) -> Option<EndTarget> {
+    let others = document
+        .curves()
+        .filter(|(id, curve)| *id != own && curve.visible && !curve.polygon.is_periodic());
+    let ends = others.flat_map(|(_, curve)| End::BOTH.map(|end| curve.polygon.end_jet(end)));
+    let near = ends
+        .map(|jet| (jet.point.truncate().distance(place), jet))
+        .filter(|(distance, _)| *distance <= reach);
+    let (_, jet) = near.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some(EndTarget {
+        point: jet.point,
+        direction: jet.tangent(),
+    })
+}
+
+/// Turn a picked direction round if the curve's own tangent points the other way: two curves
+/// that meet may run towards each other.
+pub fn oriented(target: EndTarget, tangent: Option<DVec3>) -> EndTarget {
+    let against = target
+        .direction
+        .zip(tangent)
+        .is_some_and(|(a, b)| a.dot(b) < 0.0);
+    EndTarget {
+        direction: target
+            .direction
+            .map(|direction| if against { -direction } else { direction }),
+        ..target
+    }
+}
+
+/// Make the marks of one end.
+pub fn marks(curve: &Curve, end: End, chosen: bool, viewport: &Viewport) -> Option<EndFitMarks> {
+    let target = curve.targets.get(end);
+    if target.is_none() && !chosen {
+        return None;
+    }
+    let polygon = &curve.polygon;
+    let jet = polygon.end_jet(end);
+    let arrow = ARROW * viewport.pixel();
+    let along = |direction: DVec3| direction.truncate().try_normalize().map(|d| arrow * d);
+    let actual = jet.point.truncate();
+    let terminal = polygon.terminal_vertices(end).filter(|_| chosen);
+    let difference = target.map(|target| EndDifference::between(polygon, end, &target));
+    Some(EndFitMarks {
+        chosen,
+        actual,
+        tangent_tip: jet.tangent().and_then(along).map(|arm| actual + arm),
+        target: target.map(|target| target.point.truncate()),
+        target_tip: target
+            .and_then(|target| Some(target.point.truncate() + along(target.direction?)?)),
+        ring: RING * viewport.pixel(),
+        terminal: terminal
+            .map(|index| polygon.vertex(index).truncate())
+            .collect(),
+        angle: difference.map_or(0.0, |difference| difference.angle),
+    })
+}

@@ -1,0 +1,244 @@
+//! Doing what the end-fit panel asks for: the seven steps by button.
+
+use std::sync::Arc;
+
+use super::Editor;
+use super::end_fit::{EndFitAction, EndFitReport, oriented};
+use super::layers::Layer;
+use super::tools::ToolKind;
+use crate::document::{Curve, CurveId, Edit};
+use crate::geometry::end_correction::{
+    EndDifference, EndOverlap, EndTarget, LoopOutcome, align_end, correct_in_turn, translate_end,
+};
+use crate::geometry::joint_correction::correct_jointly;
+use crate::geometry::{End, FloatPolygon};
+
+impl Editor {
+    /// Collect the figures of the seven steps, if the end-fit tool is in the hand and the active
+    /// curve has ends.
+    pub fn end_fit(&mut self) -> Option<EndFitReport> {
+        if self.tool != ToolKind::EndFit {
+            return None;
+        }
+        let (id, curve) = self.active_curve()?;
+        if curve.polygon.is_periodic() {
+            return None;
+        }
+        self.analyses.update(self.history.document());
+        Some(self.end_fit.report(self.analyses.get(id)?))
+    }
+
+    /// Do one thing of the end-fit panel.
+    pub fn end_fit_action(&mut self, action: EndFitAction) {
+        self.commit_field();
+        let Some((id, curve)) = self.active_curve() else {
+            return;
+        };
+        if curve.polygon.is_periodic() {
+            self.fail(format!(
+                "“{}” is periodic and has no ends: open it first",
+                curve.name
+            ));
+            return;
+        }
+        let end = self.end_fit.end;
+        let target = curve.targets.get(end);
+        let jet = curve.polygon.end_jet(end);
+        match action {
+            EndFitAction::Choose(end) => {
+                self.end_fit.end = end;
+                self.end_fit.picking = false;
+            }
+            EndFitAction::ShowClosed(closed) => {
+                self.layers.set(Layer::Clamped, true);
+                self.layers.set(Layer::Float, !closed);
+            }
+            EndFitAction::TargetActual => {
+                let target = EndTarget {
+                    point: jet.point,
+                    direction: jet.tangent(),
+                };
+                self.set_target(id, "Set target", Some(target));
+            }
+            EndFitAction::SetPoint(point) => {
+                let direction = target.map_or(jet.tangent(), |target| target.direction);
+                self.set_target(id, "Set target point", Some(EndTarget { point, direction }));
+            }
+            EndFitAction::SetDirection(direction) => {
+                let point = target.map_or(jet.point, |target| target.point);
+                let label = if direction.is_some() {
+                    "Set target direction"
+                } else {
+                    "Free target direction"
+                };
+                self.set_target(id, label, Some(EndTarget { point, direction }));
+            }
+            EndFitAction::ClearTarget => self.set_target(id, "Clear target", None),
+            EndFitAction::PickFromCurve => self.end_fit.picking = !self.end_fit.picking,
+            EndFitAction::Picked(picked) => {
+                self.end_fit.picking = false;
+                let target = oriented(picked, jet.tangent());
+                self.set_target(id, "Pick target", Some(target));
+            }
+            EndFitAction::Translate => self.translate(id, &curve, target),
+            EndFitAction::Rotate => self.rotate(id, &curve, target),
+            EndFitAction::Repeat => self.repeat(id, &curve),
+            EndFitAction::BothAtOnce => self.both_at_once(id, &curve),
+            EndFitAction::SetTolerance(tolerance) => {
+                if tolerance > 0.0 && tolerance.is_finite() {
+                    self.end_fit.tolerance = Some(tolerance);
+                } else {
+                    self.outcome("The tolerance must be a length greater than 0", true);
+                }
+            }
+        }
+    }
+
+    fn set_target(&mut self, curve: CurveId, label: &str, target: Option<EndTarget>) {
+        self.end_fit.begin_anew();
+        let end = self.end_fit.end;
+        let finite = target.is_none_or(|target| {
+            target.point.is_finite() && target.direction.is_none_or(|d| d.is_finite())
+        });
+        let directed = target.is_none_or(|target| {
+            target
+                .direction
+                .is_none_or(|direction| direction.try_normalize().is_some())
+        });
+        if !finite {
+            self.outcome("A target needs finite numbers", true);
+        } else if !directed {
+            self.outcome(
+                "A target direction needs a length: type one that is not 0",
+                true,
+            );
+        } else {
+            self.apply(label, vec![Edit::SetTarget { curve, end, target }]);
+        }
+    }
+
+    /// Step 5: translate the terminal vertices by the difference vector.
+    fn translate(&mut self, id: CurveId, curve: &Arc<Curve>, target: Option<EndTarget>) {
+        let Some(target) = target else {
+            self.outcome("Set a target point first", true);
+            return;
+        };
+        let end = self.end_fit.end;
+        let difference = EndDifference::between(&curve.polygon, end, &target);
+        let label = format!("Translate {}", end.name());
+        match translate_end(&curve.polygon, end, difference.vector) {
+            Ok(polygon) => self.corrected(id, curve, &label, polygon),
+            Err(error) => self.outcome(error.to_string(), true),
+        }
+    }
+
+    /// Step 6: rotate the terminal vertices by the difference angle about the actual end.
+    fn rotate(&mut self, id: CurveId, curve: &Arc<Curve>, target: Option<EndTarget>) {
+        let Some(direction) = target.and_then(|target| target.direction) else {
+            self.outcome("Set a target direction first", true);
+            return;
+        };
+        let end = self.end_fit.end;
+        let label = format!("Rotate {}", end.name());
+        match align_end(&curve.polygon, end, direction) {
+            Ok(polygon) => self.corrected(id, curve, &label, polygon),
+            Err(error) => self.outcome(error.to_string(), true),
+        }
+    }
+
+    /// Step 7: repeat steps 2 to 6 on every end that has a target.
+    fn repeat(&mut self, id: CurveId, curve: &Arc<Curve>) {
+        let targets = curve.targets.list();
+        if targets.is_empty() {
+            self.outcome("Set a target first", true);
+            return;
+        }
+        let tolerance = self.end_fit.tolerance_for(curve);
+        match correct_in_turn(&curve.polygon, &targets, tolerance) {
+            Ok(outcome) if outcome.converged && outcome.passes() == 0 => {
+                self.outcome("Already within the tolerance", false);
+            }
+            Ok(outcome) if outcome.converged => {
+                let passes = outcome.passes();
+                let total = self.end_fit.passes + passes;
+                let left = outcome.residuals.last().copied().unwrap_or_default();
+                self.corrected(id, curve, "Repeat end correction", outcome.polygon);
+                self.end_fit.passes = total;
+                let passes = if passes == 1 {
+                    "1 pass".into()
+                } else {
+                    format!("{passes} passes")
+                };
+                self.outcome(
+                    format!("Within the tolerance after {passes}: {left:.1e} is left"),
+                    false,
+                );
+            }
+            Ok(outcome) => self.outcome(why_not(&curve.polygon, &outcome), true),
+            Err(error) => self.outcome(error.to_string(), true),
+        }
+    }
+
+    /// Correct both ends at once. An end without a target keeps its point and direction.
+    fn both_at_once(&mut self, id: CurveId, curve: &Arc<Curve>) {
+        if curve.targets.list().is_empty() {
+            self.outcome("Set a target first", true);
+            return;
+        }
+        let kept = |end: End| {
+            let jet = curve.polygon.end_jet(end);
+            EndTarget {
+                point: jet.point,
+                direction: jet.tangent(),
+            }
+        };
+        let targets =
+            End::BOTH.map(|end| (end, curve.targets.get(end).unwrap_or_else(|| kept(end))));
+        match correct_jointly(&curve.polygon, &targets) {
+            Ok(correction) => {
+                let (moved, at) = (correction.largest_move, correction.largest_at);
+                let residual = correction.residual;
+                self.corrected(id, curve, "Correct both ends", correction.polygon);
+                self.end_fit.largest_move = Some((moved, at));
+                self.outcome(format!("Both ends are met: {residual:.1e} is left"), false);
+            }
+            Err(error) => self.outcome(error.to_string(), true),
+        }
+    }
+
+    fn corrected(&mut self, id: CurveId, before: &Arc<Curve>, label: &str, polygon: FloatPolygon) {
+        let passes = self.end_fit.passes;
+        self.end_fit.begin_anew();
+        self.end_fit.passes = passes;
+        match self
+            .history
+            .apply(label, vec![Edit::SetPolygon { curve: id, polygon }])
+        {
+            Ok(()) => self.end_fit.ghost = Some((id, before.clone())),
+            Err(error) => self.outcome(error.to_string(), true),
+        }
+        self.document_changed();
+    }
+
+    fn outcome(&mut self, text: impl Into<String>, failed: bool) {
+        self.end_fit.outcome = Some((text.into(), failed));
+    }
+}
+
+/// Say why the loop was given up.
+fn why_not(polygon: &FloatPolygon, outcome: &LoopOutcome) -> String {
+    let passes = outcome.passes();
+    let left = outcome.residuals.last().copied().unwrap_or_default();
+    let reason = match EndOverlap::of(polygon) {
+        EndOverlap::None => "the ends do not settle".to_owned(),
+        EndOverlap::Partial { shared } => {
+            format!("the ends share {shared} vertices, and correcting one keeps spoiling the other")
+        }
+        EndOverlap::OneSegment => {
+            "the curve is one segment, and both ends depend on almost the same vertices".to_owned()
+        }
+    };
+    format!(
+        "Stopped after {passes} passes with {left:.1e} left: {reason}. Nothing was changed. Use “both ends at once”."
+    )
+}

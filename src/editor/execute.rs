@@ -1,0 +1,449 @@
+//! Doing what the commands say.
+
+use std::sync::Arc;
+
+use super::Editor;
+use super::command::Command;
+use super::examples;
+use super::layers::Layer;
+use super::polygon_edits::{reinterpreted, without};
+use super::report::{AfterDiscard, Export, Request};
+use super::selection::VertexId;
+use crate::analysis::Bounds;
+use crate::document::{Curve, CurveId, Edit};
+use crate::geometry::PolygonKind;
+
+/// The factor by which the zoom commands change the scale.
+const ZOOM: f64 = 1.25;
+
+/// The height of the comb after a reset, as a share of the smaller side of the curve's box.
+const COMB_HEIGHT: f64 = 0.35;
+
+impl Editor {
+    /// The number of built-in examples.
+    pub fn examples(&self) -> usize {
+        examples::count()
+    }
+
+    /// Do what a command says; what only a window can do is returned as a request.
+    pub fn execute(&mut self, command: Command) -> Option<Request> {
+        if !self.is_enabled(command) {
+            return None;
+        }
+        self.commit_field();
+        self.message = None;
+        match command {
+            Command::Undo => self.undo(),
+            Command::Redo => self.redo(),
+            _ => {
+                if self.gestures.is_dragging() {
+                    self.call_off();
+                }
+                return self.execute_idle(command);
+            }
+        }
+        None
+    }
+
+    /// Whether a command can be given now.
+    pub fn is_enabled(&self, command: Command) -> bool {
+        let curve = self.active_curve();
+        let unlocked = curve.as_ref().is_some_and(|(_, curve)| !curve.locked);
+        match command {
+            Command::Undo => self.history.undo_label().is_some(),
+            Command::Redo => self.history.redo_label().is_some(),
+            Command::Cut | Command::Delete => curve.is_some(),
+            Command::Copy
+            | Command::Duplicate
+            | Command::DeleteCurve
+            | Command::ToggleVisible
+            | Command::ToggleLocked => curve.is_some(),
+            Command::Reverse => unlocked,
+            Command::TogglePeriodic => unlocked,
+            Command::RaiseDegree => unlocked && self.can_have_degree(1),
+            Command::LowerDegree => unlocked && self.can_have_degree(-1),
+            Command::SelectAll | Command::Fit | Command::FitAll => !self.document().is_empty(),
+            Command::SelectNone => !self.selection.is_empty(),
+            Command::ExportDxf | Command::ExportCsv(_) => !self.document().is_empty(),
+            _ => true,
+        }
+    }
+
+    /// Whether a switch is on; `None` for commands that are no switches.
+    pub fn is_checked(&self, command: Command) -> Option<bool> {
+        let curve = self.active_curve().map(|(_, curve)| curve);
+        match command {
+            Command::ToggleLayer(layer) => Some(self.layers.shows(layer)),
+            Command::ToggleSnapping => Some(self.snapping),
+            Command::Tool(tool) => Some(self.tool == tool),
+            Command::TogglePeriodic => Some(curve.is_some_and(|c| c.polygon.is_periodic())),
+            Command::ToggleVisible => Some(curve.is_some_and(|c| c.visible)),
+            Command::ToggleLocked => Some(curve.is_some_and(|c| c.locked)),
+            _ => None,
+        }
+    }
+
+    /// What a menu calls the command now: undo and redo name their step.
+    pub fn label(&self, command: Command) -> String {
+        let named = |label: &str| {
+            let mut letters = label.chars();
+            let first = letters
+                .next()
+                .map(|letter| letter.to_lowercase().to_string());
+            format!(
+                "{} {}{}",
+                command.label(),
+                first.unwrap_or_default(),
+                letters.as_str()
+            )
+        };
+        match command {
+            Command::Undo => self.history.undo_label().map(named),
+            Command::Redo => self.history.redo_label().map(named),
+            _ => None,
+        }
+        .unwrap_or_else(|| command.label())
+    }
+
+    /// Give a curve another degree; the polygon stays. An error becomes the message.
+    pub fn set_degree(&mut self, curve: CurveId, degree: usize) {
+        self.reinterpret(curve, &format!("Set degree {degree}"), Some(degree), None);
+    }
+
+    /// Make a curve periodic, or open it; the polygon stays. An error becomes the message.
+    pub fn set_periodic(&mut self, curve: CurveId, periodic: bool) {
+        let label = if periodic {
+            "Make periodic"
+        } else {
+            "Open curve"
+        };
+        self.reinterpret(curve, label, None, Some(periodic));
+    }
+
+    pub(super) fn active_curve(&self) -> Option<(CurveId, Arc<Curve>)> {
+        let id = self.selection.active()?;
+        Some((id, self.document().curve(id)?.clone()))
+    }
+
+    pub(super) fn fit_all(&mut self) {
+        self.analyses.update(self.history.document());
+        let mut bounds = Bounds::EMPTY;
+        let shown: Vec<CurveId> = self
+            .document()
+            .curves()
+            .filter(|(_, curve)| curve.visible)
+            .map(|(id, _)| id)
+            .collect();
+        for id in shown {
+            bounds.unite(&self.bounds_of(id));
+        }
+        self.viewport = self.viewport.fitted(&bounds);
+    }
+
+    /// Give the comb a scale at which its longest tooth is a good part of the curve's box.
+    pub(super) fn reset_comb(&mut self) {
+        self.analyses.update(self.history.document());
+        let Some(analysis) = self.selection.active().and_then(|id| self.analyses.get(id)) else {
+            return;
+        };
+        let bounds = analysis.bounds();
+        let extent = (bounds.high - bounds.low).max_element();
+        let largest = analysis
+            .curvature()
+            .map_or(0.0, |range| range.high.abs().max(range.low.abs()));
+        let mut comb = self.comb;
+        comb.scale = COMB_HEIGHT * extent / largest;
+        self.set_comb(comb);
+    }
+
+    fn undo(&mut self) {
+        if self.gestures.is_dragging() {
+            self.call_off();
+            return;
+        }
+        self.end_fit.begin_anew();
+        if let Some(label) = self.history.undo() {
+            self.say(format!("Undone: {label}"));
+        }
+        self.document_changed();
+    }
+
+    fn redo(&mut self) {
+        if self.gestures.is_dragging() {
+            return;
+        }
+        self.end_fit.begin_anew();
+        if let Some(label) = self.history.redo() {
+            self.say(format!("Redone: {label}"));
+        }
+        self.document_changed();
+    }
+
+    fn execute_idle(&mut self, command: Command) -> Option<Request> {
+        match command {
+            Command::New => return self.confirmed(AfterDiscard::New),
+            Command::Open => return self.confirmed(AfterDiscard::Open),
+            Command::OpenExample(index) => return self.confirmed(AfterDiscard::OpenExample(index)),
+            Command::Quit => return self.confirmed(AfterDiscard::Quit),
+            Command::Import => return Some(Request::Import),
+            Command::Save => match self.path.clone() {
+                Some(path) => {
+                    self.save(&path);
+                }
+                None => return Some(Request::SaveAs),
+            },
+            Command::SaveAs => return Some(Request::SaveAs),
+            Command::ExportDxf => return Some(self.export_request("dxf", PolygonKind::Float)),
+            Command::ExportCsv(polygon) => return Some(self.export_request("csv", polygon)),
+            Command::Undo | Command::Redo => {}
+            Command::Cut => {
+                let request = self.copy();
+                if request.is_some() {
+                    self.delete("Cut");
+                }
+                return request;
+            }
+            Command::Copy => return self.copy(),
+            Command::Paste => return Some(Request::Paste),
+            Command::Duplicate => self.duplicate(),
+            Command::Delete => self.delete("Delete"),
+            Command::DeleteCurve => self.delete_curve("Delete curve"),
+            Command::SelectAll => self.select_all(),
+            Command::SelectNone => self.selection.clear(),
+            Command::Reverse => self.reverse(),
+            Command::TogglePeriodic => {
+                if let Some((id, curve)) = self.active_curve() {
+                    self.set_periodic(id, !curve.polygon.is_periodic());
+                }
+            }
+            Command::RaiseDegree | Command::LowerDegree => {
+                if let Some((id, curve)) = self.active_curve() {
+                    let degree = curve.polygon.degree();
+                    let raised = command == Command::RaiseDegree;
+                    self.set_degree(id, if raised { degree + 1 } else { degree - 1 });
+                }
+            }
+            Command::ToggleVisible | Command::ToggleLocked => self.toggle_flag(command),
+            Command::Fit => self.fit(),
+            Command::FitAll => self.fit_all(),
+            Command::ZoomIn => self.viewport.zoom(0.5 * self.viewport.size, ZOOM),
+            Command::ZoomOut => self.viewport.zoom(0.5 * self.viewport.size, 1.0 / ZOOM),
+            Command::ResetComb => self.reset_comb(),
+            Command::ToggleLayer(layer) => self.toggle_layer(layer),
+            Command::ToggleSnapping => self.snapping = !self.snapping,
+            Command::Tool(tool) => self.take(tool),
+            Command::ToggleTheme => return Some(Request::ToggleTheme),
+            Command::TogglePlots => return Some(Request::TogglePlots),
+            Command::Palette => return Some(Request::Palette),
+            Command::Keys => return Some(Request::Keys),
+            Command::About => return Some(Request::About),
+        }
+        None
+    }
+
+    fn export_request(&self, extension: &'static str, polygon: PolygonKind) -> Request {
+        let stem = self.path.as_deref().and_then(|path| path.file_stem());
+        let name = stem.map(|stem| stem.to_string_lossy().into_owned());
+        let name = name.or_else(|| Some(self.active_curve()?.1.name.clone()));
+        let name = name.unwrap_or_else(|| "curves".into());
+        Request::Export(Export {
+            extension,
+            polygon,
+            file_name: format!("{name}.{extension}"),
+        })
+    }
+
+    fn bounds_of(&mut self, id: CurveId) -> Bounds {
+        let Some(analysis) = self.analyses.get(id) else {
+            return Bounds::EMPTY;
+        };
+        let mut bounds = analysis.bounds();
+        if self.layers.shows(Layer::Float) {
+            bounds.unite(&analysis.float().figures().bounds);
+        }
+        bounds
+    }
+
+    fn fit(&mut self) {
+        self.analyses.update(self.history.document());
+        if self.selection.is_empty() {
+            self.fit_all();
+        } else {
+            let mut bounds = Bounds::EMPTY;
+            for (curve, index) in self.selection.vertices() {
+                if let Some(curve) = self.document().curve(curve) {
+                    bounds.add(curve.polygon.vertex(index).truncate());
+                }
+            }
+            self.viewport = self.viewport.fitted(&bounds);
+        }
+        self.reset_comb();
+    }
+
+    fn toggle_layer(&mut self, layer: Layer) {
+        self.layers.toggle(layer);
+    }
+
+    fn toggle_flag(&mut self, command: Command) {
+        let Some((id, curve)) = self.active_curve() else {
+            return;
+        };
+        let (label, edit) = if command == Command::ToggleVisible {
+            let visible = !curve.visible;
+            let label = if visible { "Show curve" } else { "Hide curve" };
+            (label, Edit::SetVisible { curve: id, visible })
+        } else {
+            let locked = !curve.locked;
+            let label = if locked { "Lock curve" } else { "Unlock curve" };
+            (label, Edit::SetLocked { curve: id, locked })
+        };
+        self.apply(label, vec![edit]);
+    }
+
+    fn select_all(&mut self) {
+        let all_of = |(id, curve): (CurveId, &Arc<Curve>)| {
+            let count = if curve.visible {
+                curve.polygon.vertices().len()
+            } else {
+                0
+            };
+            (0..count)
+                .map(move |index| (id, index))
+                .collect::<Vec<VertexId>>()
+        };
+        let active = self.selection.active();
+        let own: Vec<VertexId> = self
+            .document()
+            .curves()
+            .filter(|(id, _)| Some(*id) == active)
+            .flat_map(all_of)
+            .collect();
+        if own.iter().all(|vertex| self.selection.contains(*vertex)) {
+            let all: Vec<VertexId> = self.document().curves().flat_map(all_of).collect();
+            self.selection.set(all);
+        } else {
+            self.selection.set(own);
+        }
+    }
+
+    fn delete(&mut self, verb: &str) {
+        if self.selection.is_empty() {
+            self.delete_curve(&format!("{verb} curve"));
+            return;
+        }
+        let edits = match self.deletion() {
+            Ok(edits) => edits,
+            Err(reason) => {
+                self.fail(reason);
+                return;
+            }
+        };
+        let label = format!("{verb} vertices");
+        let done = self.history.apply(label, edits);
+        match done {
+            Ok(()) => self.selection.clear(),
+            Err(error) => self.fail(error.to_string()),
+        }
+        self.document_changed();
+    }
+
+    /// The edits that remove the selected vertices; curves of which all are selected go whole.
+    fn deletion(&self) -> Result<Vec<Edit>, String> {
+        let mut edits = Vec::new();
+        for (id, curve) in self.document().curves() {
+            let indices: Vec<usize> = self.selection.of_curve(id).collect();
+            if indices.is_empty() {
+                continue;
+            }
+            if indices.len() == curve.polygon.vertices().len() && !curve.locked {
+                edits.push(Edit::Remove(id));
+                continue;
+            }
+            let polygon = without(&curve.polygon, &indices)
+                .map_err(|error| format!("“{}”: {error}; lower its degree first", curve.name))?;
+            edits.push(Edit::SetPolygon { curve: id, polygon });
+        }
+        Ok(edits)
+    }
+
+    fn delete_curve(&mut self, label: &str) {
+        let Some((id, curve)) = self.active_curve() else {
+            return;
+        };
+        if curve.locked {
+            self.fail(format!(
+                "“{}” is locked: unlock it in the list of curves to delete it",
+                curve.name
+            ));
+            return;
+        }
+        self.apply(label, vec![Edit::Remove(id)]);
+    }
+
+    fn duplicate(&mut self) {
+        let Some((_, curve)) = self.active_curve() else {
+            return;
+        };
+        self.add_copies("Duplicate curve", vec![Curve::clone(&curve)]);
+    }
+
+    fn reverse(&mut self) {
+        let Some((id, curve)) = self.active_curve() else {
+            return;
+        };
+        let turned = |target: crate::geometry::end_correction::EndTarget| {
+            let direction = target.direction.map(|direction| -direction);
+            crate::geometry::end_correction::EndTarget {
+                direction,
+                ..target
+            }
+        };
+        let polygon = curve.polygon.reversed();
+        let mut edits = vec![Edit::SetPolygon { curve: id, polygon }];
+        for end in crate::geometry::End::BOTH {
+            let target = curve.targets.get(end.other()).map(turned);
+            if target != curve.targets.get(end) {
+                edits.push(Edit::SetTarget {
+                    curve: id,
+                    end,
+                    target,
+                });
+            }
+        }
+        self.apply("Reverse direction", edits);
+        self.selection.clear();
+    }
+
+    fn can_have_degree(&self, change: isize) -> bool {
+        let Some((_, curve)) = self.active_curve() else {
+            return false;
+        };
+        let polygon = &curve.polygon;
+        let degree = polygon.degree().checked_add_signed(change);
+        degree.is_some_and(|degree| {
+            (1..=crate::geometry::MAX_DEGREE).contains(&degree) && degree < polygon.vertices().len()
+        })
+    }
+
+    fn reinterpret(
+        &mut self,
+        id: CurveId,
+        label: &str,
+        degree: Option<usize>,
+        periodic: Option<bool>,
+    ) {
+        let Some(curve) = self.document().curve(id).cloned() else {
+            return;
+        };
+        let polygon = &curve.polygon;
+        let degree = degree.unwrap_or(polygon.degree());
+        let periodic = periodic.unwrap_or(polygon.is_periodic());
+        if degree == polygon.degree() && periodic == polygon.is_periodic() {
+            return;
+        }
+        match reinterpreted(polygon, degree, periodic) {
+            Ok(polygon) => self.apply(label, vec![Edit::SetPolygon { curve: id, polygon }]),
+            Err(error) => self.fail(format!("“{}”: {error}", curve.name)),
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! What the hand does, in words that no window system owns.
+
+use glam::DVec2;
+
+/// A button of the pointer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Button {
+    /// The first button: picks and drags.
+    Primary,
+    /// The second button: ends what is being drawn.
+    Secondary,
+    /// The middle button: pans.
+    Middle,
+}
+
+/// The modifier keys that are held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Hash)]
+pub struct Modifiers {
+    /// Shift: constrains, or adds to the selection.
+    pub shift: bool,
+    /// Ctrl, or the command key on a Mac: toggles snapping while dragging.
+    pub ctrl: bool,
+    /// Alt: shows the state before the gesture.
+    pub alt: bool,
+}
+
+impl Modifiers {
+    /// No key.
+    pub const NONE: Self = Self {
+        shift: false,
+        ctrl: false,
+        alt: false,
+    };
+    /// Shift alone.
+    pub const SHIFT: Self = Self {
+        shift: true,
+        ctrl: false,
+        alt: false,
+    };
+    /// Ctrl alone.
+    pub const CTRL: Self = Self {
+        shift: false,
+        ctrl: true,
+        alt: false,
+    };
+    /// Ctrl and shift.
+    pub const CTRL_SHIFT: Self = Self {
+        shift: true,
+        ctrl: true,
+        alt: false,
+    };
+}
+
+/// A key that commands and tools know.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Key {
+    /// A letter, digit or sign, in lower case.
+    Character(char),
+    /// Enter or Return.
+    Enter,
+    /// Escape.
+    Escape,
+    /// Delete.
+    Delete,
+    /// Backspace.
+    Backspace,
+    /// Tab.
+    Tab,
+    /// The space bar.
+    Space,
+    /// An arrow key.
+    Left,
+    /// An arrow key.
+    Right,
+    /// An arrow key.
+    Up,
+    /// An arrow key.
+    Down,
+    /// A function key, F1 to F12.
+    Function(u8),
+}
+
+/// One event on the canvas; places are in screen points from the canvas's upper left corner,
+/// y down.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Input {
+    /// The pointer is now here.
+    Moved {
+        /// Where.
+        at: DVec2,
+    },
+    /// A button went down.
+    Pressed {
+        /// The button.
+        button: Button,
+        /// Where.
+        at: DVec2,
+    },
+    /// A button went up.
+    Released {
+        /// The button.
+        button: Button,
+        /// Where.
+        at: DVec2,
+    },
+    /// The primary button was pressed and released twice in quick succession, the second time
+    /// here; comes after the second release.
+    DoubleClicked {
+        /// Where.
+        at: DVec2,
+    },
+    /// The pointer left the canvas.
+    Left,
+    /// The wheel turned, or fingers pinched: zoom about a place.
+    Zoomed {
+        /// Where.
+        at: DVec2,
+        /// By what factor things grow.
+        factor: f64,
+    },
+    /// The view was pushed without a button (two fingers).
+    Panned {
+        /// By how many screen points.
+        by: DVec2,
+    },
+    /// A key went down (or repeats) while the canvas has the keyboard.
+    Key(Key),
+    /// The space bar went down or up.
+    SpaceHeld(bool),
+    /// The modifier keys that are held have changed.
+    Modifiers(Modifiers),
+}

@@ -1,0 +1,118 @@
+//! What panels and plots read, made anew each frame.
+
+use super::Editor;
+use super::report::{CurveReport, Readout};
+use super::scene::{HoverScene, PlotScene};
+
+impl Editor {
+    /// Bring the plots of the active curve up to date and return them.
+    pub fn plots(&mut self) -> &PlotScene {
+        self.analyses.update(self.history.document());
+        let mut plots = std::mem::take(&mut self.plots);
+        plots.curvature.clear();
+        plots.discrete.clear();
+        plots.legs.clear();
+        plots.turns.clear();
+        plots.hovered = None;
+        plots.hovered_vertex = None;
+        plots.name.clear();
+        if let Some((id, curve)) = self.active_curve() {
+            plots.name.push_str(&curve.name);
+            let hover = self.scene.hover.clone();
+            if let Some(analysis) = self.analyses.get(id) {
+                plots.planar = analysis.is_planar();
+                analysis.append_curvature(&mut plots.curvature);
+                analysis.append_discrete_curvature(&mut plots.discrete);
+                plots.length = analysis.length();
+                plots.curvature_range = analysis.curvature();
+                if let Some(HoverScene::Curve { u, .. }) = hover {
+                    let jet = curve.polygon.jet(u);
+                    let curvature = if plots.planar {
+                        jet.signed_curvature()
+                    } else {
+                        jet.curvature()
+                    };
+                    plots.hovered = Some(glam::DVec2::new(analysis.length_at(u), curvature));
+                }
+            }
+            plots.hovered_vertex = self.vertex_hovered_on(id);
+        }
+        self.plots = plots;
+        &self.plots
+    }
+
+    /// Bring the plot of legs and turning angles up to date and return it with the others.
+    pub fn leg_plots(&mut self) -> &PlotScene {
+        self.plots();
+        let Some(id) = self.selection.active() else {
+            return &self.plots;
+        };
+        if let Some(analysis) = self.analyses.get(id) {
+            analysis.append_leg_lengths(&mut self.plots.legs);
+            analysis.append_turning_angles(&mut self.plots.turns);
+        }
+        for point in &mut self.plots.turns {
+            point.y = point.y.to_degrees();
+        }
+        &self.plots
+    }
+
+    /// What the status bar reads.
+    pub fn readout(&self) -> Readout {
+        let mut readout = Readout {
+            pointer: self.gestures.pointer().map(|at| self.viewport.to_model(at)),
+            scale: self.viewport.scale,
+            degree: self.active_curve().map(|(_, curve)| curve.polygon.degree()),
+            ..Readout::default()
+        };
+        if let Some(HoverScene::Curve { u, .. }) = self.scene.hover {
+            readout.u = Some(u);
+            readout.curvature = self.active_curve().map(|(_, curve)| {
+                let jet = curve.polygon.jet(u);
+                if curve.polygon.is_planar() {
+                    jet.signed_curvature()
+                } else {
+                    jet.curvature()
+                }
+            });
+        }
+        readout
+    }
+
+    /// What the inspector says of the active curve.
+    pub fn report(&mut self) -> Option<CurveReport> {
+        self.analyses.update(self.history.document());
+        let id = self.selection.active()?;
+        let analysis = self.analyses.get(id)?;
+        let figures = analysis.float().figures();
+        Some(CurveReport {
+            planar: analysis.is_planar(),
+            segments: analysis.curve().polygon.segments(),
+            length: analysis.length(),
+            curvature: analysis.curvature(),
+            legs: figures.legs,
+            turns: figures.turns,
+        })
+    }
+
+    /// The vertex of the active curve that is hovered, on the canvas or in a panel.
+    pub fn hovered_vertex(&self) -> Option<usize> {
+        self.vertex_hovered_on(self.selection.active()?)
+    }
+
+    /// The number of segments of a curve that were sampled when it last changed.
+    pub fn segments_redone(&self, curve: crate::document::CurveId) -> Option<usize> {
+        Some(self.analyses.peek(curve)?.segments_redone())
+    }
+    fn vertex_hovered_on(&self, id: crate::document::CurveId) -> Option<usize> {
+        if self.hovered.vertex.is_some() {
+            return self.hovered.vertex;
+        }
+        let place = self.gestures.pointer()?;
+        if self.gestures.is_dragging() {
+            return None;
+        }
+        let hit = self.context().hits.vertex(place)?;
+        (hit.0 == id).then_some(hit.1)
+    }
+}

@@ -1,0 +1,62 @@
+//! New polygons from old ones: the edits that change how many vertices there are.
+
+use glam::DVec3;
+
+use crate::geometry::{FloatPolygon, PolygonError};
+
+/// Insert a vertex so that it gets number `index`; its weight is the geometric mean of its neighbours'.
+///
+/// # Errors
+/// [`PolygonError`] if the vertex cannot be used.
+pub fn inserted(
+    polygon: &FloatPolygon,
+    index: usize,
+    vertex: DVec3,
+) -> Result<FloatPolygon, PolygonError> {
+    let index = index.min(polygon.vertices().len());
+    let mut vertices = polygon.vertices().to_vec();
+    vertices.insert(index, vertex);
+    let weights = polygon.weights().map(|old| {
+        let before = old
+            .get(index.wrapping_sub(1))
+            .or(old.first())
+            .copied()
+            .unwrap_or(1.0);
+        let after = old.get(index).copied().unwrap_or(before);
+        let mut weights = old.to_vec();
+        weights.insert(index, (before * after).sqrt());
+        weights
+    });
+    FloatPolygon::new(polygon.degree(), vertices, weights, polygon.is_periodic())
+}
+
+/// Remove vertices, by their numbers. The degree stays.
+///
+/// # Errors
+/// [`PolygonError::TooFewVertices`] if the rest is no curve of this degree.
+pub fn without(polygon: &FloatPolygon, indices: &[usize]) -> Result<FloatPolygon, PolygonError> {
+    let kept = |index: &usize| indices.binary_search(index).is_err();
+    let all = 0..polygon.vertices().len();
+    let vertices = all
+        .clone()
+        .filter(kept)
+        .map(|i| polygon.vertex(i))
+        .collect();
+    let weights = polygon
+        .weights()
+        .map(|old| all.filter(kept).map(|i| old[i]).collect());
+    FloatPolygon::new(polygon.degree(), vertices, weights, polygon.is_periodic())
+}
+
+/// Keep the polygon and change the degree or whether it is periodic.
+///
+/// # Errors
+/// [`PolygonError`] if there are too few vertices, or the degree is out of range.
+pub fn reinterpreted(
+    polygon: &FloatPolygon,
+    degree: usize,
+    periodic: bool,
+) -> Result<FloatPolygon, PolygonError> {
+    let weights = polygon.weights().map(<[f64]>::to_vec);
+    FloatPolygon::new(degree, polygon.vertices().to_vec(), weights, periodic)
+}

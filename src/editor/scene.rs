@@ -1,0 +1,141 @@
+//! What the canvas shows, in model coordinates: the ui only paints it.
+
+use glam::DVec2;
+
+use super::end_fit::EndFitMarks;
+use crate::document::{Colour, CurveId};
+use crate::geometry::Range;
+
+/// All that is on the canvas, from back to front. Chains are points in the model's plane; a NaN
+/// point ([`crate::analysis::GAP`]) breaks them.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    /// The curves that are shown.
+    pub curves: Vec<CurveScene>,
+    /// The curve as it was before the gesture or the correction, drawn faintly.
+    pub ghost: Vec<DVec2>,
+    /// What the tool in the hand draws.
+    pub marks: Vec<Mark>,
+    /// The end-fit tool's marks, and the targets of all curves.
+    pub ends: Vec<EndFitMarks>,
+    /// What is under the pointer.
+    pub hover: Option<HoverScene>,
+}
+
+/// One curve's layers; those that are not shown are empty.
+#[derive(Clone, Debug, Default)]
+pub struct CurveScene {
+    /// The curve.
+    pub id: Option<CurveId>,
+    /// Whether it is the active one; the others step back.
+    pub active: bool,
+    /// Whether it is locked.
+    pub locked: bool,
+    /// Its own colour.
+    pub colour: Option<Colour>,
+    /// The comb's teeth.
+    pub teeth: Vec<[DVec2; 2]>,
+    /// The comb's envelope.
+    pub comb: Vec<DVec2>,
+    /// The evolute.
+    pub evolute: Vec<DVec2>,
+    /// The closed S-polygon's legs.
+    pub clamped: Vec<DVec2>,
+    /// The closed S-polygon's vertices.
+    pub clamped_vertices: Vec<DVec2>,
+    /// The float S-polygon's legs.
+    pub float: Vec<DVec2>,
+    /// The float S-polygon's vertices.
+    pub vertices: Vec<VertexMark>,
+    /// The curve itself.
+    pub curve: Vec<DVec2>,
+    /// The joints between segments: points with the curve's unit normals.
+    pub joints: Vec<[DVec2; 2]>,
+}
+
+/// A vertex of a float S-polygon, as it is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VertexMark {
+    /// Its number, counted from 0.
+    pub index: usize,
+    /// Where it is.
+    pub at: DVec2,
+    /// Whether it is selected.
+    pub selected: bool,
+}
+
+/// Something that a tool draws.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Mark {
+    /// A dashed line, such as the leg that a click would add.
+    Guide([DVec2; 2]),
+    /// A line that measures.
+    Ruler([DVec2; 2]),
+    /// A box that selects, by opposite corners.
+    SelectionBox([DVec2; 2]),
+    /// A vertex that a click would add.
+    NewVertex(DVec2),
+    /// The pivot of a rotation or scaling.
+    Pivot(DVec2),
+    /// The handle that rotates or scales, on its arm from the pivot.
+    Arm([DVec2; 2]),
+    /// A place that the pointer snapped to.
+    Snap(DVec2),
+    /// A short text at a place.
+    Label(DVec2, String),
+}
+
+/// What the pointer is over.
+#[derive(Clone, Debug, PartialEq)]
+pub enum HoverScene {
+    /// A vertex of a float S-polygon.
+    Vertex {
+        /// Where it is.
+        at: DVec2,
+        /// Its number and coordinates, in words.
+        text: String,
+    },
+    /// A place on a curve.
+    Curve {
+        /// The parameter u.
+        u: f64,
+        /// The point.
+        at: DVec2,
+        /// The centre of the osculating circle; `None` where the curve is straight.
+        centre: Option<DVec2>,
+        /// u, point, curvature and radius, in words, a line each.
+        text: String,
+    },
+    /// A leg, a target or another handle.
+    Handle {
+        /// Where it is.
+        at: DVec2,
+        /// What it is, in words.
+        text: String,
+    },
+}
+
+/// The plots of the active curve.
+#[derive(Clone, Debug, Default)]
+pub struct PlotScene {
+    /// The curve's name.
+    pub name: String,
+    /// Whether curvature is signed.
+    pub planar: bool,
+    /// Curvature over arc length; NaN points are gaps.
+    pub curvature: Vec<DVec2>,
+    /// The polygon's discrete curvature at its vertices, over arc length, by vertex number.
+    pub discrete: Vec<(usize, DVec2)>,
+    /// Leg lengths over the number of the vertex where each begins.
+    pub legs: Vec<DVec2>,
+    /// Turning angles in degrees over the vertices' numbers.
+    pub turns: Vec<DVec2>,
+    /// The arc length of the whole curve.
+    pub length: f64,
+    /// The smallest and largest curvature.
+    pub curvature_range: Option<Range>,
+    /// The arc length and curvature at what is hovered on the canvas.
+    pub hovered: Option<DVec2>,
+    /// The vertex that is hovered on the canvas.
+    pub hovered_vertex: Option<usize>,
+}

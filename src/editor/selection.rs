@@ -1,0 +1,99 @@
+//! What is selected: vertices, and the active curve that panels show.
+
+use std::collections::BTreeSet;
+
+use crate::document::{CurveId, Document};
+
+/// A vertex of a curve.
+pub type VertexId = (CurveId, usize);
+
+/// Hold the selected vertices and the active curve.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Selection {
+    vertices: BTreeSet<VertexId>,
+    active: Option<CurveId>,
+}
+
+impl Selection {
+    /// The active curve.
+    pub fn active(&self) -> Option<CurveId> {
+        self.active
+    }
+
+    /// Make a curve the active one.
+    pub fn activate(&mut self, curve: Option<CurveId>) {
+        self.active = curve;
+    }
+
+    /// The selected vertices, by curve and number.
+    pub fn vertices(&self) -> impl ExactSizeIterator<Item = VertexId> + '_ {
+        self.vertices.iter().copied()
+    }
+
+    /// The selected vertices of one curve, in rising order.
+    pub fn of_curve(&self, curve: CurveId) -> impl Iterator<Item = usize> + '_ {
+        let range = (curve, 0)..=(curve, usize::MAX);
+        self.vertices.range(range).map(|(_, index)| *index)
+    }
+
+    /// Whether a vertex is selected.
+    pub fn contains(&self, vertex: VertexId) -> bool {
+        self.vertices.contains(&vertex)
+    }
+
+    /// Whether no vertex is selected.
+    pub fn is_empty(&self) -> bool {
+        self.vertices.is_empty()
+    }
+
+    /// Select just these vertices; the active curve becomes that of the first.
+    pub fn set(&mut self, vertices: impl IntoIterator<Item = VertexId>) {
+        self.vertices = vertices.into_iter().collect();
+        self.follow();
+    }
+
+    /// Select these vertices too.
+    pub fn add(&mut self, vertices: impl IntoIterator<Item = VertexId>) {
+        self.vertices.extend(vertices);
+        self.follow();
+    }
+
+    /// Select a vertex that is not selected, and the other way round.
+    pub fn toggle(&mut self, vertex: VertexId) {
+        if !self.vertices.remove(&vertex) {
+            self.vertices.insert(vertex);
+            self.active = Some(vertex.0);
+        }
+    }
+
+    /// Select no vertex; the active curve stays.
+    pub fn clear(&mut self) {
+        self.vertices.clear();
+    }
+
+    /// Forget what the document no longer has or does not show.
+    pub fn retain_valid(&mut self, document: &Document) {
+        let valid = |(curve, index): &VertexId| {
+            let curve = document.curve(*curve);
+            curve.is_some_and(|curve| curve.visible && *index < curve.polygon.vertices().len())
+        };
+        if !self.vertices.iter().all(valid) {
+            self.vertices.retain(valid);
+        }
+        if self
+            .active
+            .is_none_or(|active| document.curve(active).is_none())
+        {
+            self.active = document.ids().next();
+        }
+    }
+
+    fn follow(&mut self) {
+        let holds_active = self
+            .active
+            .is_some_and(|active| self.of_curve(active).next().is_some());
+        if !holds_active && let Some((curve, _)) = self.vertices.first() {
+            self.active = Some(*curve);
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! Draw a new float S-polygon, click by click.
+
+use std::collections::BTreeSet;
+
+use glam::{DVec2, DVec3};
+
+use super::tool::{Context, Effect, Tool, count_vertices};
+use crate::document::{Curve, Edit};
+use crate::editor::gesture::Gesture;
+use crate::editor::hit::REACH;
+use crate::editor::input::Key;
+use crate::editor::scene::Mark;
+use crate::editor::snapping::{along_axis, by_fifteen_degrees};
+use crate::geometry::FloatPolygon;
+
+/// The degree that a drawn curve gets if there is no active curve to take it from.
+const DEGREE: usize = 5;
+
+/// The draw tool's state: the vertices so far.
+#[derive(Debug, Default)]
+pub struct DrawTool {
+    points: Vec<DVec2>,
+}
+
+impl DrawTool {
+    /// Where a click would put the next vertex: Shift keeps to multiples of 15°.
+    fn next(&self, at: DVec2, context: &Context) -> DVec2 {
+        let last = self.points.last().filter(|_| context.modifiers.shift);
+        let Some(last) = last else {
+            return context.snapped(at, &BTreeSet::new());
+        };
+        let leg = at - *last;
+        let angle = by_fifteen_degrees(leg.to_angle());
+        let constrained = DVec2::from_angle(angle);
+        if constrained.abs().min_element() < 1e-9 {
+            return *last + along_axis(leg);
+        }
+        *last + leg.dot(constrained) * constrained
+    }
+
+    fn closes(&self, place: DVec2, context: &Context) -> bool {
+        let first = self.points.first().filter(|_| self.points.len() >= 3);
+        first.is_some_and(|first| context.viewport.to_screen(*first).distance(place) <= REACH)
+    }
+
+    fn finish(&mut self, periodic: bool, context: &Context) -> Vec<Effect> {
+        let points = std::mem::take(&mut self.points);
+        let wanted = context
+            .selection
+            .active()
+            .and_then(|id| context.document.curve(id))
+            .map_or(DEGREE, |curve| curve.polygon.degree());
+        let degree = wanted.min(points.len().saturating_sub(1)).max(1);
+        let vertices: Vec<DVec3> = points.iter().map(|point| point.extend(0.0)).collect();
+        match FloatPolygon::new(degree, vertices, None, periodic) {
+            Ok(polygon) => {
+                let id = context.document.next_id();
+                let curve = Curve::new(free_name(context), polygon);
+                vec![
+                    Effect::Apply("Draw polygon".into(), vec![Edit::Add(Box::new(curve))]),
+                    Effect::Select(Vec::new()),
+                    Effect::Activate(id),
+                    Effect::Say(format!(
+                        "{}, degree {degree}{}",
+                        count_vertices(points.len()),
+                        if degree < wanted {
+                            ": add vertices to raise it"
+                        } else {
+                            ""
+                        }
+                    )),
+                    Effect::Finish,
+                ]
+            }
+            Err(_) if points.is_empty() => vec![Effect::Finish],
+            Err(error) => {
+                self.points = points;
+                vec![Effect::Say(error.to_string())]
+            }
+        }
+    }
+}
+
+/// Find a name that no curve has yet.
+fn free_name(context: &Context) -> String {
+    let taken = |name: &str| {
+        context
+            .document
+            .curves()
+            .any(|(_, curve)| curve.name == name)
+    };
+    let mut names = (1..).map(|number| format!("curve {number}"));
+    names.find(|name| !taken(name)).unwrap_or_default()
+}
+
+impl Tool for DrawTool {
+    fn gesture(&mut self, gesture: Gesture, context: &Context) -> Vec<Effect> {
+        match gesture {
+            Gesture::Click(place) if self.closes(place, context) => self.finish(true, context),
+            // A hasty click is a short drag: the vertex goes where the button is released.
+            Gesture::Click(place) | Gesture::DragEnd(place) => {
+                let point = self.next(context.model(place), context);
+                // The second press of a double click sets no vertex of its own.
+                let apart = 2.0 * context.viewport.pixel();
+                if self
+                    .points
+                    .last()
+                    .is_none_or(|last| last.distance(point) > apart)
+                {
+                    self.points.push(point);
+                }
+                Vec::new()
+            }
+            Gesture::DoubleClick(_) | Gesture::SecondaryClick(_) | Gesture::Key(Key::Enter) => {
+                self.finish(false, context)
+            }
+            Gesture::Key(Key::Backspace) => {
+                self.points.pop();
+                Vec::new()
+            }
+            Gesture::Key(Key::Escape) if self.points.is_empty() => vec![Effect::Finish],
+            Gesture::Key(Key::Escape) => {
+                self.points.clear();
+                Vec::new()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    fn hint(&self, _context: &Context) -> String {
+        match self.points.len() {
+            0 => "Click to set the first vertex; Esc ends".into(),
+            1 | 2 => "Click on; Shift keeps to 15°, Backspace takes a vertex back, Esc begins anew"
+                .into(),
+            count => format!(
+                "{}: Enter or right click ends; click the first vertex to make it periodic",
+                count_vertices(count)
+            ),
+        }
+    }
+
+    fn marks(&self, context: &Context) -> Vec<Mark> {
+        let mut marks: Vec<Mark> = Vec::new();
+        marks.extend(
+            self.points
+                .windows(2)
+                .map(|leg| Mark::Guide([leg[0], leg[1]])),
+        );
+        if let Some(pointer) = context.pointer {
+            let next = self.next(pointer, context);
+            marks.extend(self.points.last().map(|last| Mark::Guide([*last, next])));
+            marks.push(Mark::NewVertex(next));
+        }
+        marks.extend(self.points.iter().map(|point| Mark::NewVertex(*point)));
+        marks
+    }
+}

@@ -1,0 +1,416 @@
+//! The end-fit tool on the canvas: targets, the body of terminal vertices, and the ring.
+
+use glam::{DMat3, DVec2, DVec3};
+
+use super::tool::{Context, Cursor, Effect, Tool};
+use crate::document::{Curve, CurveId, Edit};
+use crate::editor::end_fit::{ARROW, EndFitAction, RING, nearest_other_end};
+use crate::editor::gesture::Gesture;
+use crate::editor::hit::REACH;
+use crate::editor::input::Key;
+use crate::editor::scene::Mark;
+use crate::editor::snapping::{along_axis, by_fifteen_degrees};
+use crate::geometry::End;
+use crate::geometry::end_correction::{
+    EndDifference, EndTarget, align_end, rotate_end, translate_end,
+};
+
+/// The ring snaps to the target direction within this angle.
+const SNAP_ANGLE: f64 = 2.5;
+
+/// The end-fit tool's state.
+#[derive(Debug, Default)]
+pub struct EndFitTool {
+    state: State,
+}
+
+#[derive(Debug, Default)]
+enum State {
+    #[default]
+    Idle,
+    /// The target point is dragged; `offset` is from the pointer to it.
+    Target { offset: DVec2 },
+    /// The target direction is dragged by its tip.
+    Direction,
+    /// The terminal vertices are translated as one body.
+    Body {
+        origin: DVec2,
+        snapped: Option<DVec2>,
+    },
+    /// The terminal vertices are rotated about the end point.
+    Ring { origin: DVec2, angle: f64 },
+}
+
+/// What of the tool's own handles is under a place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Handle {
+    Target,
+    Direction,
+    Ring,
+    Body,
+    OtherEnd(End),
+}
+
+/// The curve that the tool works on, as it was when the gesture began.
+struct Subject<'a> {
+    id: CurveId,
+    curve: &'a Curve,
+    end: End,
+    point: DVec2,
+    target: Option<EndTarget>,
+}
+
+impl<'a> Subject<'a> {
+    fn of(context: &Context<'a>, before: bool) -> Result<Self, String> {
+        let document = if before {
+            context.before
+        } else {
+            context.document
+        };
+        let found = context
+            .selection
+            .active()
+            .and_then(|id| Some((id, document.curve(id)?)));
+        let Some((id, curve)) = found else {
+            return Err("Choose the curve whose ends shall be corrected".into());
+        };
+        if curve.polygon.is_periodic() {
+            return Err(format!(
+                "“{}” is periodic and has no ends: open it in the inspector",
+                curve.name
+            ));
+        }
+        let end = context.end_fit.end;
+        Ok(Self {
+            id,
+            curve,
+            end,
+            point: curve.polygon.end_jet(end).point.truncate(),
+            target: curve.targets.get(end),
+        })
+    }
+
+    /// The place of the target direction's handle.
+    fn direction_tip(&self, context: &Context) -> Option<DVec2> {
+        let target = self.target?;
+        let direction = target.direction?.truncate().try_normalize()?;
+        Some(target.point.truncate() + ARROW * context.viewport.pixel() * direction)
+    }
+
+    fn handle(&self, place: DVec2, context: &Context) -> Option<Handle> {
+        let near = |model: DVec2| context.viewport.to_screen(model).distance(place) <= REACH;
+        if self.direction_tip(context).is_some_and(near) {
+            return Some(Handle::Direction);
+        }
+        if self
+            .target
+            .is_some_and(|target| near(target.point.truncate()))
+        {
+            // On a target that is met, the target gives way to the end point with Alt held.
+            if !(context.modifiers.alt && near(self.point)) {
+                return Some(Handle::Target);
+            }
+        }
+        let terminal = self.curve.polygon.terminal_vertices(self.end);
+        let mut vertices = self.curve.polygon.vertices()[terminal].iter();
+        if near(self.point) || vertices.any(|vertex| near(vertex.truncate())) {
+            return Some(Handle::Body);
+        }
+        let from_end = context.viewport.to_screen(self.point).distance(place);
+        if (from_end - RING).abs() <= 0.75 * REACH {
+            return Some(Handle::Ring);
+        }
+        let other = self.end.other();
+        near(self.curve.polygon.end_jet(other).point.truncate()).then_some(Handle::OtherEnd(other))
+    }
+
+    fn with_target(&self, target: EndTarget) -> Effect {
+        Effect::Preview(vec![Edit::SetTarget {
+            curve: self.id,
+            end: self.end,
+            target: Some(target),
+        }])
+    }
+}
+
+impl Tool for EndFitTool {
+    fn gesture(&mut self, gesture: Gesture, context: &Context) -> Vec<Effect> {
+        let subject = match Subject::of(context, true) {
+            Ok(subject) => subject,
+            Err(reason) => return without_subject(gesture, reason, context),
+        };
+        match (std::mem::take(&mut self.state), gesture) {
+            (State::Idle, Gesture::Click(place)) => click(place, &subject, context),
+            (State::Idle, Gesture::DragStart(place)) => self.start(place, &subject, context),
+            (State::Idle, Gesture::Key(Key::Escape)) => vec![Effect::Finish],
+            (state @ State::Idle, _) => {
+                self.state = state;
+                Vec::new()
+            }
+            (_, Gesture::DragEnd(_)) => vec![Effect::Commit],
+            (_, Gesture::Cancel) => vec![Effect::Abort],
+            (state, Gesture::Drag(place)) => {
+                self.state = state;
+                self.drag(context.model(place), &subject, context)
+            }
+            (state, _) => {
+                self.state = state;
+                Vec::new()
+            }
+        }
+    }
+
+    fn hint(&self, context: &Context) -> String {
+        let subject = match Subject::of(context, false) {
+            Ok(subject) => subject,
+            Err(reason) => return reason,
+        };
+        if context.end_fit.picking {
+            return "Click another curve's end to take its point and direction as the target; Esc ends".into();
+        }
+        let name = subject.end.name();
+        match &self.state {
+            State::Target { .. } => "Drag the target point; Shift keeps to an axis".into(),
+            State::Direction => "Drag the target direction; Shift keeps to 15°".into(),
+            State::Body { .. } => format!(
+                "Step 5: drag the {} terminal vertices as one body; the {name} snaps to the target, Ctrl frees it",
+                subject.curve.polygon.degree()
+            ),
+            State::Ring { angle, .. } => format!(
+                "Step 6: turned by {:.3}°; the tangent snaps to the target direction, Ctrl frees it",
+                angle.to_degrees()
+            ),
+            State::Idle => {
+                let place = context
+                    .pointer
+                    .map(|pointer| context.viewport.to_screen(pointer));
+                match place.and_then(|place| subject.handle(place, context)) {
+                    Some(Handle::Target) => "Drag to move the target point".into(),
+                    Some(Handle::Direction) => "Drag to turn the target direction".into(),
+                    Some(Handle::Ring) => "Step 6: drag the ring to rotate the terminal vertices about the end point".into(),
+                    Some(Handle::Body) => "Step 5: drag to translate the terminal vertices as one body".into(),
+                    Some(Handle::OtherEnd(end)) => format!("Click to work on the {}", end.name()),
+                    None if subject.target.is_none() => format!("Click to set the target of the {name}, or use the panel"),
+                    None => "Drag the target, its arrow, the end or its ring; the panel lists the seven steps".into(),
+                }
+            }
+        }
+    }
+
+    fn marks(&self, _context: &Context) -> Vec<Mark> {
+        match &self.state {
+            State::Body {
+                snapped: Some(place),
+                ..
+            } => vec![Mark::Snap(*place)],
+            _ => Vec::new(),
+        }
+    }
+
+    fn cursor(&self, context: &Context) -> Cursor {
+        let place = context
+            .pointer
+            .map(|pointer| context.viewport.to_screen(pointer));
+        let handle = Subject::of(context, false)
+            .ok()
+            .zip(place)
+            .and_then(|(subject, place)| subject.handle(place, context));
+        match (&self.state, handle) {
+            (State::Idle, None) => Cursor::Crosshair,
+            (State::Idle, Some(_)) => Cursor::Grab,
+            _ => Cursor::Grabbing,
+        }
+    }
+}
+
+fn without_subject(gesture: Gesture, reason: String, context: &Context) -> Vec<Effect> {
+    match gesture {
+        Gesture::Click(place) => match context.hits.curve(place) {
+            Some(hit) => vec![Effect::Activate(hit.curve)],
+            None => vec![Effect::Say(reason)],
+        },
+        Gesture::Key(Key::Escape) => vec![Effect::Finish],
+        _ => Vec::new(),
+    }
+}
+
+fn click(place: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
+    if context.end_fit.picking {
+        return match nearest_other_end(
+            context.document,
+            subject.id,
+            context.model(place),
+            2.0 * REACH * context.viewport.pixel(),
+        ) {
+            Some(target) => vec![Effect::EndFit(EndFitAction::Picked(target))],
+            None => vec![Effect::Say(
+                "There is no other curve's end here: click nearer to one".into(),
+            )],
+        };
+    }
+    match subject.handle(place, context) {
+        Some(Handle::OtherEnd(end)) => vec![Effect::EndFit(EndFitAction::Choose(end))],
+        Some(_) => Vec::new(),
+        None if subject.target.is_none() => {
+            let at = context.snapped(context.model(place), &own_vertices(subject));
+            vec![Effect::EndFit(EndFitAction::SetPoint(
+                at.extend(subject_height(subject)),
+            ))]
+        }
+        None => match context.hits.curve(place) {
+            Some(hit) if hit.curve != subject.id => vec![Effect::Activate(hit.curve)],
+            _ => Vec::new(),
+        },
+    }
+}
+
+/// The height at which a target clicked in the plane lies: that of the actual end.
+fn subject_height(subject: &Subject) -> f64 {
+    subject.curve.polygon.end_jet(subject.end).point.z
+}
+
+fn own_vertices(subject: &Subject) -> std::collections::BTreeSet<(CurveId, usize)> {
+    let all = 0..subject.curve.polygon.vertices().len();
+    all.map(|index| (subject.id, index)).collect()
+}
+
+impl EndFitTool {
+    fn start(&mut self, place: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
+        let origin = context.model(place);
+        let name = subject.end.name();
+        let (state, label) = match subject.handle(place, context) {
+            Some(Handle::Target) => {
+                let target = subject
+                    .target
+                    .map_or(origin, |target| target.point.truncate());
+                let offset = target - origin;
+                (State::Target { offset }, format!("Move target of {name}"))
+            }
+            Some(Handle::Direction) => (State::Direction, format!("Turn target of {name}")),
+            Some(Handle::Body) => {
+                let state = State::Body {
+                    origin,
+                    snapped: None,
+                };
+                (state, format!("Translate {name}"))
+            }
+            Some(Handle::Ring) => {
+                let state = State::Ring { origin, angle: 0.0 };
+                (state, format!("Rotate {name}"))
+            }
+            Some(Handle::OtherEnd(_)) | None => return Vec::new(),
+        };
+        let shapes = matches!(state, State::Body { .. } | State::Ring { .. });
+        if shapes && subject.curve.locked {
+            return vec![Effect::Say(format!(
+                "“{}” is locked: unlock it in the list of curves",
+                subject.curve.name
+            ))];
+        }
+        self.state = state;
+        vec![Effect::Begin(label)]
+    }
+
+    fn drag(&mut self, at: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
+        match &mut self.state {
+            State::Idle => Vec::new(),
+            State::Target { offset } => {
+                let Some(target) = subject.target else {
+                    return Vec::new();
+                };
+                let from = target.point.truncate();
+                let wanted = at + *offset;
+                let to = if context.modifiers.shift {
+                    from + along_axis(wanted - from)
+                } else {
+                    context.snapped(wanted, &own_vertices(subject))
+                };
+                let point = to.extend(target.point.z);
+                vec![subject.with_target(EndTarget { point, ..target })]
+            }
+            State::Direction => {
+                let Some(target) = subject.target else {
+                    return Vec::new();
+                };
+                let free = (at - target.point.truncate()).to_angle();
+                let angle = if context.modifiers.shift {
+                    by_fifteen_degrees(free)
+                } else {
+                    free
+                };
+                let height = target
+                    .direction
+                    .and_then(DVec3::try_normalize)
+                    .map_or(0.0, |d| d.z);
+                let flat = DVec2::from_angle(angle) * (1.0 - height * height).max(0.0).sqrt();
+                let direction = Some(flat.extend(height));
+                vec![subject.with_target(EndTarget {
+                    direction,
+                    ..target
+                })]
+            }
+            State::Body { origin, snapped } => {
+                let free = at - *origin;
+                let wanted = subject.point + free;
+                let target = subject.target.map(|target| target.point.truncate());
+                let near =
+                    |target: &DVec2| target.distance(wanted) <= REACH * context.viewport.pixel();
+                let snaps = !context.modifiers.ctrl;
+                *snapped = target.filter(near).filter(|_| snaps);
+                let exact = subject.target.filter(|_| snapped.is_some());
+                let vector = match exact {
+                    Some(target) => {
+                        EndDifference::between(&subject.curve.polygon, subject.end, &target).vector
+                    }
+                    None if context.modifiers.shift => along_axis(free).extend(0.0),
+                    None => free.extend(0.0),
+                };
+                shaped(
+                    subject,
+                    translate_end(&subject.curve.polygon, subject.end, vector),
+                )
+            }
+            State::Ring { origin, angle } => {
+                let polygon = &subject.curve.polygon;
+                let turned = (*origin - subject.point).angle_to(at - subject.point);
+                let free = if context.modifiers.shift {
+                    by_fifteen_degrees(turned)
+                } else {
+                    turned
+                };
+                let wanted = subject.target.filter(|target| target.direction.is_some());
+                let missing = wanted
+                    .map(|target| EndDifference::between(polygon, subject.end, &target).angle);
+                let snaps = !context.modifiers.ctrl;
+                let close = |missing: &f64| (missing - free).abs() < SNAP_ANGLE.to_radians();
+                let exact = missing
+                    .filter(close)
+                    .filter(|_| snaps && polygon.is_planar());
+                *angle = exact.unwrap_or(free);
+                let direction = wanted.and_then(|target| target.direction);
+                match (exact, direction) {
+                    (Some(_), Some(direction)) => {
+                        shaped(subject, align_end(polygon, subject.end, direction))
+                    }
+                    _ => shaped(
+                        subject,
+                        rotate_end(polygon, subject.end, DMat3::from_rotation_z(*angle)),
+                    ),
+                }
+            }
+        }
+    }
+}
+
+fn shaped<E: std::fmt::Display>(
+    subject: &Subject,
+    polygon: Result<crate::geometry::FloatPolygon, E>,
+) -> Vec<Effect> {
+    match polygon {
+        Ok(polygon) => {
+            let curve = subject.id;
+            vec![Effect::Preview(vec![Edit::SetPolygon { curve, polygon }])]
+        }
+        Err(error) => vec![Effect::Say(error.to_string())],
+    }
+}

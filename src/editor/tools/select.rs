@@ -1,0 +1,351 @@
+//! Select and move: click, shift-click, box; drag one vertex or many; nudge with the arrows.
+
+use std::collections::BTreeSet;
+
+use glam::{DVec2, DVec3};
+
+use super::tool::{Context, Cursor, Effect, Tool, count_vertices, move_edits};
+use crate::document::CurveId;
+use crate::editor::gesture::Gesture;
+use crate::editor::grid::grid_steps;
+use crate::editor::hit::REACH;
+use crate::editor::input::Key;
+use crate::editor::layers::Layer;
+use crate::editor::scene::Mark;
+use crate::editor::selection::VertexId;
+use crate::editor::snapping::along_axis;
+
+/// The smallest length of a comb's tooth, in screen points, that can be dragged by its tip.
+const SHORTEST_TOOTH: f64 = 4.0;
+
+/// The select tool's state.
+#[derive(Debug, Default)]
+pub struct SelectTool {
+    state: State,
+}
+
+#[derive(Debug, Default)]
+enum State {
+    #[default]
+    Idle,
+    /// Vertices are dragged; `held` is where the vertex under the hand was.
+    Moving {
+        origin: DVec2,
+        held: DVec2,
+        vertices: Vec<(VertexId, DVec3)>,
+        moving: BTreeSet<VertexId>,
+        snap: Option<DVec2>,
+    },
+    /// A box is drawn, by its corners on the canvas.
+    Boxing { from: DVec2, to: DVec2 },
+    /// The comb is scaled by the tip of a tooth.
+    Scaling { foot: DVec2, tip: DVec2, scale: f64 },
+}
+
+impl Tool for SelectTool {
+    fn gesture(&mut self, gesture: Gesture, context: &Context) -> Vec<Effect> {
+        match (std::mem::take(&mut self.state), gesture) {
+            (State::Idle, Gesture::Click(place)) => click(place, context),
+            (State::Idle, Gesture::DoubleClick(place)) => double_click(place, context),
+            (State::Idle, Gesture::DragStart(place)) => self.start(place, context),
+            (State::Idle, Gesture::Key(key)) => nudge(key, context),
+            (
+                State::Moving {
+                    origin,
+                    held,
+                    vertices,
+                    moving,
+                    ..
+                },
+                Gesture::Drag(place),
+            ) => {
+                let (movement, snap) = movement(origin, held, place, &moving, context);
+                let places = vertices
+                    .iter()
+                    .map(|(id, at)| (*id, *at + movement.extend(0.0)));
+                let effects = vec![Effect::Preview(move_edits(places))];
+                self.state = State::Moving {
+                    origin,
+                    held,
+                    vertices,
+                    moving,
+                    snap,
+                };
+                effects
+            }
+            (State::Moving { .. }, Gesture::DragEnd(_)) => vec![Effect::Commit],
+            (State::Moving { .. }, Gesture::Cancel) => vec![Effect::Abort],
+            (State::Boxing { from, .. }, Gesture::Drag(to)) => {
+                self.state = State::Boxing { from, to };
+                Vec::new()
+            }
+            (State::Boxing { from, .. }, Gesture::DragEnd(to)) => {
+                let found = context.hits.vertices_in_box(from, to);
+                if context.modifiers.shift {
+                    vec![Effect::SelectMore(found)]
+                } else {
+                    vec![Effect::Select(found)]
+                }
+            }
+            (State::Scaling { foot, tip, scale }, Gesture::Drag(place)) => {
+                let arm = tip - foot;
+                let reach = (context.model(place) - foot).dot(arm) / arm.length_squared();
+                self.state = State::Scaling { foot, tip, scale };
+                let mut comb = context.comb;
+                comb.scale = scale * reach.max(1e-3);
+                vec![Effect::SetComb(comb)]
+            }
+            (State::Scaling { scale, .. }, Gesture::Cancel) => {
+                let mut comb = context.comb;
+                comb.scale = scale;
+                vec![Effect::SetComb(comb)]
+            }
+            (_, Gesture::Cancel | Gesture::DragEnd(_)) => Vec::new(),
+            (state, _) => {
+                self.state = state;
+                Vec::new()
+            }
+        }
+    }
+
+    fn hint(&self, context: &Context) -> String {
+        match &self.state {
+            State::Moving { vertices, .. } => format!(
+                "Moving {}: Shift keeps to an axis, Ctrl turns snapping {}, Alt shows before, Esc cancels",
+                count_vertices(vertices.len()),
+                if context.snapping { "off" } else { "on" },
+            ),
+            State::Boxing { .. } => {
+                "Release to select what is in the box; Shift adds to the selection".into()
+            }
+            State::Scaling { .. } => "Drag the tip to scale the curvature comb".into(),
+            State::Idle => {
+                let selected = context.selection.vertices().len();
+                if selected > 0 {
+                    format!(
+                        "{} selected: drag, or nudge with the arrow keys (Shift ×10); Del deletes",
+                        count_vertices(selected)
+                    )
+                } else if context.document.is_empty() {
+                    "Nothing here yet: draw a polygon with D, or open a file with Ctrl+O".into()
+                } else {
+                    "Drag a vertex to shape the curve; drag over empty space selects by a box"
+                        .into()
+                }
+            }
+        }
+    }
+
+    fn marks(&self, context: &Context) -> Vec<Mark> {
+        match &self.state {
+            State::Boxing { from, to } => {
+                vec![Mark::SelectionBox([
+                    context.model(*from),
+                    context.model(*to),
+                ])]
+            }
+            State::Moving {
+                snap: Some(snap), ..
+            } => vec![Mark::Snap(*snap)],
+            _ => Vec::new(),
+        }
+    }
+
+    fn cursor(&self, context: &Context) -> Cursor {
+        let place = context
+            .pointer
+            .map(|pointer| context.viewport.to_screen(pointer));
+        match self.state {
+            State::Moving { .. } | State::Scaling { .. } => Cursor::Move,
+            State::Idle if place.is_some_and(|place| context.hits.vertex(place).is_some()) => {
+                Cursor::Move
+            }
+            _ => Cursor::Default,
+        }
+    }
+}
+
+impl SelectTool {
+    fn start(&mut self, place: DVec2, context: &Context) -> Vec<Effect> {
+        if let Some(vertex) = context.hits.vertex(place) {
+            return self.start_moving(place, vertex, context);
+        }
+        if let Some(([foot, tip], scale)) = tooth(place, context) {
+            self.state = State::Scaling { foot, tip, scale };
+            return Vec::new();
+        }
+        if let Some(leg) = context.hits.leg(place, 0.5 * REACH) {
+            let count = vertex_count(leg.curve, context);
+            let ends = [
+                (leg.curve, leg.index),
+                (leg.curve, (leg.index + 1) % count.max(1)),
+            ];
+            return self.move_these(place, leg.point, ends.into(), "Move leg", context);
+        }
+        self.state = State::Boxing {
+            from: place,
+            to: place,
+        };
+        Vec::new()
+    }
+
+    fn start_moving(&mut self, place: DVec2, hit: VertexId, context: &Context) -> Vec<Effect> {
+        let taken: Vec<VertexId> = if context.selection.contains(hit) {
+            context.selection.vertices().collect()
+        } else if context.modifiers.shift {
+            context.selection.vertices().chain([hit]).collect()
+        } else {
+            vec![hit]
+        };
+        let held = context.places([hit]).first().map(|(_, at)| at.truncate());
+        let Some(held) = held else {
+            return vec![locked(hit.0, context)];
+        };
+        let label = format!("Move {}", count_vertices(taken.len()));
+        let mut effects = self.move_these(place, held, taken.clone(), &label, context);
+        effects.insert(0, Effect::Activate(hit.0));
+        effects.insert(0, Effect::Select(taken));
+        effects
+    }
+
+    fn move_these(
+        &mut self,
+        place: DVec2,
+        held: DVec2,
+        taken: Vec<VertexId>,
+        label: &str,
+        context: &Context,
+    ) -> Vec<Effect> {
+        let vertices = context.places(taken.iter().copied());
+        let Some(((curve, _), _)) = vertices.first() else {
+            return taken
+                .first()
+                .map(|id| locked(id.0, context))
+                .into_iter()
+                .collect();
+        };
+        let effects = vec![Effect::Activate(*curve), Effect::Begin(label.to_owned())];
+        self.state = State::Moving {
+            origin: context.model(place),
+            held,
+            moving: taken.into_iter().collect(),
+            vertices,
+            snap: None,
+        };
+        effects
+    }
+}
+
+fn vertex_count(curve: CurveId, context: &Context) -> usize {
+    let curve = context.document.curve(curve);
+    curve.map_or(0, |curve| curve.polygon.vertices().len())
+}
+
+fn locked(curve: CurveId, context: &Context) -> Effect {
+    let name = context
+        .document
+        .curve(curve)
+        .map_or("", |curve| &curve.name);
+    Effect::Say(format!(
+        "“{name}” is locked: unlock it in the list of curves to change its shape"
+    ))
+}
+
+fn click(place: DVec2, context: &Context) -> Vec<Effect> {
+    if let Some(vertex) = context.hits.vertex(place) {
+        let select = if context.modifiers.shift {
+            Effect::ToggleSelected(vertex)
+        } else {
+            Effect::Select(vec![vertex])
+        };
+        return vec![Effect::Activate(vertex.0), select];
+    }
+    let curve = context.hits.curve(place).map(|hit| hit.curve);
+    let curve = curve.or_else(|| context.hits.leg(place, 0.5 * REACH).map(|hit| hit.curve));
+    match curve {
+        Some(curve) if context.modifiers.shift => vec![Effect::Activate(curve)],
+        Some(curve) => vec![Effect::Select(Vec::new()), Effect::Activate(curve)],
+        None if context.modifiers.shift => Vec::new(),
+        None => vec![Effect::Select(Vec::new())],
+    }
+}
+
+fn double_click(place: DVec2, context: &Context) -> Vec<Effect> {
+    if context.hits.vertex(place).is_some() {
+        return Vec::new();
+    }
+    match context.hits.curve(place) {
+        Some(hit) => {
+            let all = (0..vertex_count(hit.curve, context)).map(|index| (hit.curve, index));
+            vec![Effect::Activate(hit.curve), Effect::Select(all.collect())]
+        }
+        None => vec![Effect::FitAll],
+    }
+}
+
+/// How far the vertices move, and the place that the held one snaps to.
+fn movement(
+    origin: DVec2,
+    held: DVec2,
+    place: DVec2,
+    moving: &BTreeSet<VertexId>,
+    context: &Context,
+) -> (DVec2, Option<DVec2>) {
+    let free = context.model(place) - origin;
+    if context.modifiers.shift {
+        return (along_axis(free), None);
+    }
+    let wanted = held + free;
+    let snapped = context.snapped(wanted, moving);
+    let snap = (snapped != wanted).then_some(snapped);
+    (snap.map_or(free, |snap| snap - held), snap)
+}
+
+/// Find the tooth of the comb whose tip is under a place.
+fn tooth(place: DVec2, context: &Context) -> Option<([DVec2; 2], f64)> {
+    if !context.hits.layers.shows(Layer::Comb) {
+        return None;
+    }
+    let distance = |tooth: &[DVec2; 2]| context.viewport.to_screen(tooth[1]).distance(place);
+    let long = |tooth: &&[DVec2; 2]| {
+        tooth[0].distance(tooth[1]) > SHORTEST_TOOTH * context.viewport.pixel()
+    };
+    let teeth = context.teeth.iter().filter(long);
+    let nearest = teeth.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+    (distance(nearest) <= REACH).then_some((*nearest, context.comb.scale))
+}
+
+/// Move the selection by an arrow key: a tenth of the grid's minor step, or all of it with Shift.
+fn nudge(key: Key, context: &Context) -> Vec<Effect> {
+    let direction = match key {
+        Key::Left => DVec2::NEG_X,
+        Key::Right => DVec2::X,
+        Key::Up => DVec2::Y,
+        Key::Down => DVec2::NEG_Y,
+        Key::Escape => return vec![Effect::Select(Vec::new())],
+        _ => return Vec::new(),
+    };
+    let (minor, _) = grid_steps(context.viewport);
+    let step = if context.modifiers.shift {
+        minor
+    } else {
+        0.1 * minor
+    };
+    let movement = (direction * step).extend(0.0);
+    let vertices = context.places(context.selection.vertices());
+    let Some(((curve, _), _)) = vertices.first() else {
+        return context
+            .selection
+            .vertices()
+            .next()
+            .map(|id| locked(id.0, context))
+            .into_iter()
+            .collect();
+    };
+    let label = format!("Nudge {}", count_vertices(vertices.len()));
+    let places = vertices.iter().map(|(id, at)| (*id, *at + movement));
+    vec![
+        Effect::Activate(*curve),
+        Effect::Apply(label, move_edits(places)),
+    ]
+}

@@ -1,0 +1,179 @@
+//! What every tool is: a state machine from gestures to effects.
+
+use std::collections::BTreeSet;
+
+use glam::{DVec2, DVec3};
+
+use crate::analysis::CombSettings;
+use crate::document::{CurveId, Document, Edit};
+use crate::editor::end_fit::{EndFitAction, EndFitState};
+use crate::editor::gesture::Gesture;
+use crate::editor::hit::HitTest;
+use crate::editor::input::Modifiers;
+use crate::editor::scene::Mark;
+use crate::editor::selection::{Selection, VertexId};
+use crate::editor::snapping;
+use crate::editor::viewport::Viewport;
+
+/// What a tool may look at. It changes nothing itself: it returns [`Effect`]s.
+pub struct Context<'a> {
+    /// The document, a running gesture's preview included.
+    pub document: &'a Document,
+    /// The document as it was when the running gesture began.
+    pub before: &'a Document,
+    /// What is selected.
+    pub selection: &'a Selection,
+    /// How the model is mapped to the canvas.
+    pub viewport: &'a Viewport,
+    /// What lies where.
+    pub hits: HitTest<'a>,
+    /// The modifier keys that are held.
+    pub modifiers: Modifiers,
+    /// Whether snapping is on; Ctrl turns it round.
+    pub snapping: bool,
+    /// The comb's settings.
+    pub comb: CombSettings,
+    /// The teeth of the active curve's comb, if it is shown.
+    pub teeth: &'a [[DVec2; 2]],
+    /// The state of the end-fit tool.
+    pub end_fit: &'a EndFitState,
+    /// Where the pointer is, in the model.
+    pub pointer: Option<DVec2>,
+}
+
+/// What a tool wants done.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Effect {
+    /// Begin a gesture with this label.
+    Begin(String),
+    /// Show what these edits make of the document that the gesture began with.
+    Preview(Vec<Edit>),
+    /// End the gesture and keep it as one step.
+    Commit,
+    /// End the gesture and restore.
+    Abort,
+    /// Make edits as one step.
+    Apply(String, Vec<Edit>),
+    /// Select just these vertices.
+    Select(Vec<VertexId>),
+    /// Select these vertices too.
+    SelectMore(Vec<VertexId>),
+    /// Turn round whether a vertex is selected.
+    ToggleSelected(VertexId),
+    /// Make a curve the active one.
+    Activate(CurveId),
+    /// Change how the comb is drawn.
+    SetComb(CombSettings),
+    /// Show everything.
+    FitAll,
+    /// Tell the user something.
+    Say(String),
+    /// Take the select tool.
+    Finish,
+    /// Do what the end-fit panel could ask for too.
+    EndFit(EndFitAction),
+}
+
+/// A tool in the hand.
+pub trait Tool: std::fmt::Debug + Send {
+    /// Take a gesture and tell what it does.
+    fn gesture(&mut self, gesture: Gesture, context: &Context) -> Vec<Effect>;
+
+    /// Say what the mouse will do now, in a sentence.
+    fn hint(&self, context: &Context) -> String;
+
+    /// Draw what the tool shows besides the document.
+    fn marks(&self, _context: &Context) -> Vec<Mark> {
+        Vec::new()
+    }
+
+    /// The shape of the pointer while it rests here.
+    fn cursor(&self, _context: &Context) -> Cursor {
+        Cursor::Crosshair
+    }
+
+    /// The pivot, of a tool that has one.
+    fn pivot(&self, _context: &Context) -> Option<DVec2> {
+        None
+    }
+}
+
+/// A shape of the pointer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Cursor {
+    /// The arrow.
+    #[default]
+    Default,
+    /// An open hand: a press would push the view.
+    Grab,
+    /// A closed hand.
+    Grabbing,
+    /// A cross: a click sets a point.
+    Crosshair,
+    /// Four arrows: a drag moves what is here.
+    Move,
+}
+
+impl Context<'_> {
+    /// Map a place on the canvas to the model.
+    pub fn model(&self, place: DVec2) -> DVec2 {
+        self.viewport.to_model(place)
+    }
+
+    /// Let a point snap, if snapping is on and something is near.
+    pub fn snapped(&self, point: DVec2, moving: &BTreeSet<VertexId>) -> DVec2 {
+        if self.snapping == self.modifiers.ctrl {
+            return point;
+        }
+        snapping::snap(point, self.before, moving, self.viewport).unwrap_or(point)
+    }
+
+    /// The vertices that a transformation takes: the selected ones that can be moved, or all of
+    /// the active curve if none is selected.
+    pub fn transformed(&self) -> Vec<(VertexId, DVec3)> {
+        let chosen: Vec<VertexId> = if self.selection.is_empty() {
+            let active = self
+                .selection
+                .active()
+                .and_then(|id| Some((id, self.before.curve(id)?)));
+            let all = active.into_iter().flat_map(|(id, curve)| {
+                (0..curve.polygon.vertices().len()).map(move |index| (id, index))
+            });
+            all.collect()
+        } else {
+            self.selection.vertices().collect()
+        };
+        self.places(chosen)
+    }
+
+    /// Look up where vertices were when the gesture began; those of locked curves are left out.
+    pub fn places(&self, vertices: impl IntoIterator<Item = VertexId>) -> Vec<(VertexId, DVec3)> {
+        let place = |(curve, index): VertexId| {
+            let found = self.before.curve(curve).filter(|curve| !curve.locked)?;
+            let vertex = found.polygon.vertices().get(index)?;
+            Some(((curve, index), *vertex))
+        };
+        vertices.into_iter().filter_map(place).collect()
+    }
+}
+
+/// Turn moved vertices into edits, one a curve.
+pub fn move_edits(moved: impl IntoIterator<Item = (VertexId, DVec3)>) -> Vec<Edit> {
+    let mut edits: Vec<(CurveId, Vec<(usize, DVec3)>)> = Vec::new();
+    for ((curve, index), place) in moved {
+        match edits.iter_mut().find(|(other, _)| *other == curve) {
+            Some((_, moves)) => moves.push((index, place)),
+            None => edits.push((curve, vec![(index, place)])),
+        }
+    }
+    let edit = |(curve, moves)| Edit::MoveVertices { curve, moves };
+    edits.into_iter().map(edit).collect()
+}
+
+/// Say "1 vertex" or "7 vertices".
+pub fn count_vertices(count: usize) -> String {
+    match count {
+        1 => "1 vertex".to_owned(),
+        count => format!("{count} vertices"),
+    }
+}

@@ -1,0 +1,390 @@
+//! Everything around the entities that AutoCAD wants to see in a drawing: header, tables,
+//! blocks and objects.
+
+use glam::DVec3;
+
+use super::writer::{MODEL_SPACE, Writer};
+use crate::document::Curve;
+use crate::geometry::PolygonKind;
+
+// The handles of the frame; those of entities begin above.
+const VPORT_TABLE: u64 = 0x1;
+const LTYPE_TABLE: u64 = 0x2;
+const LAYER_TABLE: u64 = 0x3;
+const STYLE_TABLE: u64 = 0x4;
+const VIEW_TABLE: u64 = 0x5;
+const UCS_TABLE: u64 = 0x6;
+const APPID_TABLE: u64 = 0x7;
+const DIMSTYLE_TABLE: u64 = 0x8;
+const BLOCK_RECORD_TABLE: u64 = 0x9;
+const VPORT: u64 = 0xA;
+const STYLE: u64 = 0xB;
+const PAPER_SPACE: u64 = 0x11;
+const ROOT: u64 = 0x20;
+const GROUPS: u64 = 0x21;
+const LAYOUTS: u64 = 0x22;
+const MODEL_LAYOUT: u64 = 0x23;
+const PAPER_LAYOUT: u64 = 0x24;
+
+/// Millimetres, as `$INSUNITS` counts units.
+const MILLIMETRES: i64 = 4;
+
+/// A layer of the drawing.
+pub(super) struct Layer {
+    name: String,
+    colour: i64,
+    visible: bool,
+    locked: bool,
+}
+
+impl Layer {
+    /// Make the layer of a curve, or of one of its polygons.
+    pub(super) fn of(curve: &Curve, name: String, polygon: Option<PolygonKind>) -> Self {
+        Self {
+            name,
+            // AutoCAD's numbers: 7 is black or white, whatever the background is not.
+            colour: match polygon {
+                None => 7,
+                Some(PolygonKind::Float) => 5,
+                Some(PolygonKind::Clamped) => 3,
+                Some(PolygonKind::Bezier) => 6,
+            },
+            visible: curve.visible,
+            locked: curve.locked,
+        }
+    }
+}
+
+/// Put the entities into a whole drawing.
+pub(super) fn drawing(layers: &[Layer], entities: Writer, reach: (DVec3, DVec3)) -> String {
+    let mut rest = Writer::following(&entities);
+    section(&mut rest, "CLASSES", |_| {});
+    section(&mut rest, "TABLES", |writer| tables(writer, layers, reach));
+    section(&mut rest, "BLOCKS", blocks);
+    let entities = entities.into_text();
+    section(&mut rest, "ENTITIES", |writer| writer.append(&entities));
+    section(&mut rest, "OBJECTS", |writer| objects(writer, reach));
+    rest.text(0, "EOF");
+    let mut writer = Writer::new();
+    let free_handle = rest.next_handle();
+    section(&mut writer, "HEADER", |writer| {
+        header(writer, free_handle, reach)
+    });
+    writer.append(&rest.into_text());
+    writer.into_text()
+}
+
+fn section(writer: &mut Writer, name: &str, content: impl FnOnce(&mut Writer)) {
+    writer.text(0, "SECTION");
+    writer.text(2, name);
+    content(writer);
+    writer.text(0, "ENDSEC");
+}
+
+fn header(writer: &mut Writer, free_handle: u64, (low, high): (DVec3, DVec3)) {
+    writer.text(9, "$ACADVER");
+    writer.text(1, "AC1015");
+    writer.text(9, "$DWGCODEPAGE");
+    writer.text(3, "ANSI_1252");
+    writer.text(9, "$INSBASE");
+    writer.point(10, DVec3::ZERO);
+    writer.text(9, "$EXTMIN");
+    writer.point(10, low);
+    writer.text(9, "$EXTMAX");
+    writer.point(10, high);
+    writer.text(9, "$INSUNITS");
+    writer.integer(70, MILLIMETRES);
+    writer.text(9, "$MEASUREMENT");
+    writer.integer(70, 1);
+    writer.text(9, "$HANDSEED");
+    writer.handle(5, free_handle);
+}
+
+fn tables(writer: &mut Writer, layers: &[Layer], (low, high): (DVec3, DVec3)) {
+    table(writer, "VPORT", VPORT_TABLE, 1, |writer| {
+        record(
+            writer,
+            "VPORT",
+            VPORT,
+            VPORT_TABLE,
+            "AcDbViewportTableRecord",
+        );
+        let (middle, size) = (0.5 * (low + high), high - low);
+        writer.text(2, "*Active");
+        writer.integer(70, 0);
+        flat_point(writer, 10, 0.0, 0.0);
+        flat_point(writer, 11, 1.0, 1.0);
+        flat_point(writer, 12, middle.x, middle.y);
+        flat_point(writer, 13, 0.0, 0.0);
+        flat_point(writer, 14, 10.0, 10.0);
+        flat_point(writer, 15, 10.0, 10.0);
+        writer.point(16, DVec3::Z);
+        writer.point(17, DVec3::ZERO);
+        // The view shows everything, twice as wide as high.
+        let height = 1.1 * size.y.max(0.5 * size.x);
+        writer.number(40, if height > 0.0 { height } else { 1.0 });
+        writer.number(41, 2.0);
+        writer.number(42, 50.0);
+    });
+    table(writer, "LTYPE", LTYPE_TABLE, 3, |writer| {
+        for name in ["ByBlock", "ByLayer", "Continuous"] {
+            let handle = writer.take_handle();
+            record(
+                writer,
+                "LTYPE",
+                handle,
+                LTYPE_TABLE,
+                "AcDbLinetypeTableRecord",
+            );
+            writer.text(2, name);
+            writer.integer(70, 0);
+            writer.text(3, "");
+            writer.integer(72, 65);
+            writer.integer(73, 0);
+            writer.number(40, 0.0);
+        }
+    });
+    table(writer, "LAYER", LAYER_TABLE, layers.len() + 1, |writer| {
+        let zero = Layer {
+            name: "0".to_owned(),
+            colour: 7,
+            visible: true,
+            locked: false,
+        };
+        for layer in std::iter::once(&zero).chain(layers) {
+            let handle = writer.take_handle();
+            record(writer, "LAYER", handle, LAYER_TABLE, "AcDbLayerTableRecord");
+            writer.text(2, &layer.name);
+            writer.integer(70, if layer.locked { 4 } else { 0 });
+            // A negative colour turns the layer off.
+            writer.integer(
+                62,
+                if layer.visible {
+                    layer.colour
+                } else {
+                    -layer.colour
+                },
+            );
+            writer.text(6, "Continuous");
+        }
+    });
+    table(writer, "STYLE", STYLE_TABLE, 1, |writer| {
+        record(
+            writer,
+            "STYLE",
+            STYLE,
+            STYLE_TABLE,
+            "AcDbTextStyleTableRecord",
+        );
+        writer.text(2, "Standard");
+        writer.integer(70, 0);
+        writer.number(40, 0.0);
+        writer.number(41, 1.0);
+        writer.number(50, 0.0);
+        writer.integer(71, 0);
+        writer.number(42, 2.5);
+        writer.text(3, "txt");
+        writer.text(4, "");
+    });
+    table(writer, "VIEW", VIEW_TABLE, 0, |_| {});
+    table(writer, "UCS", UCS_TABLE, 0, |_| {});
+    table(writer, "APPID", APPID_TABLE, 1, |writer| {
+        let handle = writer.take_handle();
+        record(
+            writer,
+            "APPID",
+            handle,
+            APPID_TABLE,
+            "AcDbRegAppTableRecord",
+        );
+        writer.text(2, "ACAD");
+        writer.integer(70, 0);
+    });
+    dimension_styles(writer);
+    table(writer, "BLOCK_RECORD", BLOCK_RECORD_TABLE, 2, |writer| {
+        for (handle, name, layout) in [
+            (MODEL_SPACE, "*Model_Space", MODEL_LAYOUT),
+            (PAPER_SPACE, "*Paper_Space", PAPER_LAYOUT),
+        ] {
+            let table = BLOCK_RECORD_TABLE;
+            record(
+                writer,
+                "BLOCK_RECORD",
+                handle,
+                table,
+                "AcDbBlockTableRecord",
+            );
+            writer.text(2, name);
+            writer.handle(340, layout);
+        }
+    });
+}
+
+fn dimension_styles(writer: &mut Writer) {
+    begin_table(writer, "DIMSTYLE", DIMSTYLE_TABLE, 1);
+    writer.text(100, "AcDbDimStyleTable");
+    writer.integer(71, 1);
+    let handle = writer.take_handle();
+    writer.text(0, "DIMSTYLE");
+    // The one record whose handle has another code.
+    writer.handle(105, handle);
+    writer.handle(330, DIMSTYLE_TABLE);
+    writer.text(100, "AcDbSymbolTableRecord");
+    writer.text(100, "AcDbDimStyleTableRecord");
+    writer.text(2, "Standard");
+    writer.integer(70, 0);
+    writer.handle(340, STYLE);
+    writer.text(0, "ENDTAB");
+}
+
+fn table(
+    writer: &mut Writer,
+    name: &str,
+    handle: u64,
+    records: usize,
+    content: impl FnOnce(&mut Writer),
+) {
+    begin_table(writer, name, handle, records);
+    content(writer);
+    writer.text(0, "ENDTAB");
+}
+
+fn begin_table(writer: &mut Writer, name: &str, handle: u64, records: usize) {
+    writer.text(0, "TABLE");
+    writer.text(2, name);
+    writer.handle(5, handle);
+    writer.handle(330, 0);
+    writer.text(100, "AcDbSymbolTable");
+    writer.count(70, records);
+}
+
+fn record(writer: &mut Writer, name: &str, handle: u64, table: u64, class: &str) {
+    writer.text(0, name);
+    writer.handle(5, handle);
+    writer.handle(330, table);
+    writer.text(100, "AcDbSymbolTableRecord");
+    writer.text(100, class);
+}
+
+fn blocks(writer: &mut Writer) {
+    for (record, name, paper) in [
+        (MODEL_SPACE, "*Model_Space", false),
+        (PAPER_SPACE, "*Paper_Space", true),
+    ] {
+        let begin = |writer: &mut Writer, entity: &str, class: &str| {
+            let handle = writer.take_handle();
+            writer.text(0, entity);
+            writer.handle(5, handle);
+            writer.handle(330, record);
+            writer.text(100, "AcDbEntity");
+            if paper {
+                writer.integer(67, 1);
+            }
+            writer.text(8, "0");
+            writer.text(100, class);
+        };
+        begin(writer, "BLOCK", "AcDbBlockBegin");
+        writer.text(2, name);
+        writer.integer(70, 0);
+        writer.point(10, DVec3::ZERO);
+        writer.text(3, name);
+        writer.text(1, "");
+        begin(writer, "ENDBLK", "AcDbBlockEnd");
+    }
+}
+
+fn objects(writer: &mut Writer, reach: (DVec3, DVec3)) {
+    dictionary(
+        writer,
+        ROOT,
+        0,
+        &[("ACAD_GROUP", GROUPS), ("ACAD_LAYOUT", LAYOUTS)],
+    );
+    dictionary(writer, GROUPS, ROOT, &[]);
+    let layouts = [("Model", MODEL_LAYOUT), ("Layout1", PAPER_LAYOUT)];
+    dictionary(writer, LAYOUTS, ROOT, &layouts);
+    let spaces = [(MODEL_SPACE, 1024), (PAPER_SPACE, 0)];
+    for ((order, (name, handle)), (space, flags)) in (0..).zip(layouts).zip(spaces) {
+        writer.text(0, "LAYOUT");
+        writer.handle(5, handle);
+        writer.handle(330, LAYOUTS);
+        plot_settings(writer, flags);
+        layout(writer, name, order, space, reach);
+    }
+}
+
+fn dictionary(writer: &mut Writer, handle: u64, owner: u64, entries: &[(&str, u64)]) {
+    writer.text(0, "DICTIONARY");
+    writer.handle(5, handle);
+    writer.handle(330, owner);
+    writer.text(100, "AcDbDictionary");
+    writer.integer(281, 1);
+    for (name, entry) in entries {
+        writer.text(3, name);
+        writer.handle(350, *entry);
+    }
+}
+
+/// Write how a layout would be printed: an A3 sheet, one to one.
+fn plot_settings(writer: &mut Writer, flags: i64) {
+    writer.text(100, "AcDbPlotSettings");
+    for code in [1, 2, 4, 6] {
+        writer.text(code, "");
+    }
+    for code in 40..44 {
+        writer.number(code, 0.0);
+    }
+    writer.number(44, 420.0);
+    writer.number(45, 297.0);
+    for code in [46, 47, 48, 49, 140, 141] {
+        writer.number(code, 0.0);
+    }
+    writer.number(142, 1.0);
+    writer.number(143, 1.0);
+    writer.integer(70, flags);
+    writer.integer(72, 1);
+    writer.integer(73, 0);
+    writer.integer(74, 5);
+    writer.text(7, "");
+    writer.integer(75, 16);
+    writer.number(147, 1.0);
+    writer.number(148, 0.0);
+    writer.number(149, 0.0);
+}
+
+fn layout(writer: &mut Writer, name: &str, order: i64, space: u64, (low, high): (DVec3, DVec3)) {
+    writer.text(100, "AcDbLayout");
+    writer.text(1, name);
+    writer.integer(70, 1);
+    writer.integer(71, order);
+    flat_point(writer, 10, 0.0, 0.0);
+    flat_point(writer, 11, 420.0, 297.0);
+    writer.point(12, DVec3::ZERO);
+    writer.point(
+        14,
+        if space == MODEL_SPACE {
+            low
+        } else {
+            DVec3::ZERO
+        },
+    );
+    writer.point(
+        15,
+        if space == MODEL_SPACE {
+            high
+        } else {
+            DVec3::ZERO
+        },
+    );
+    writer.number(146, 0.0);
+    writer.point(13, DVec3::ZERO);
+    writer.point(16, DVec3::X);
+    writer.point(17, DVec3::Y);
+    writer.integer(76, 0);
+    writer.handle(330, space);
+}
+
+fn flat_point(writer: &mut Writer, code: u32, x: f64, y: f64) {
+    writer.number(code, x);
+    writer.number(code + 10, y);
+}

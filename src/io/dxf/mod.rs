@@ -1,0 +1,188 @@
+//! AutoCAD's drawing exchange format, version AC1015 (AutoCAD 2000), written only.
+//!
+//! Each curve is a SPLINE on clamped knots that start at 0, which is what readers agree on,
+//! with its polygons beside it as polylines on layers of their own. Lengths are millimetres.
+//! Numbers have the digits that it takes to read the very same number again.
+
+use glam::DVec3;
+
+use crate::document::Curve;
+use crate::geometry::{ClampedPolygon, PolygonKind};
+use crate::io::error::WriteError;
+use crate::io::format::Format;
+use crate::io::layer_names::LayerNames;
+use crate::io::loss::{Export, Loss, LossReport};
+use crate::io::polygon::written;
+
+mod frame;
+mod writer;
+
+use frame::Layer;
+use writer::Writer;
+
+/// The most knots that a SPLINE can count: the group that holds their number has 16 bits.
+const MOST_KNOTS: usize = i16::MAX as usize;
+
+/// The polygons that are drawn beside the curve unless one is chosen.
+const DRAWN: [PolygonKind; 2] = [PolygonKind::Float, PolygonKind::Clamped];
+
+/// Write curves as a drawing. `polygon` chooses the one polygon that is drawn beside each
+/// curve; without it these are the float and the clamped one.
+///
+/// A periodic curve is opened at u = 0; its last vertex is exactly its first one. A hidden curve
+/// is on layers that are off, a locked one on layers that are locked.
+///
+/// # Errors
+/// [`WriteError`] if there are no curves, or one has more vertices than the format can count.
+pub fn write(curves: &[&Curve], polygon: Option<PolygonKind>) -> Result<Export, WriteError> {
+    let format = Format::Dxf;
+    if curves.is_empty() {
+        return Err(WriteError::NoCurves { format });
+    }
+    let chosen = polygon.map(|kind| [kind]);
+    let kinds: &[PolygonKind] = chosen.as_ref().map_or(&DRAWN, |kind| kind);
+    let mut losses = LossReport::new(format);
+    let mut names = LayerNames::new();
+    let mut layers = Vec::new();
+    let mut entities = Writer::new();
+    let mut reach = Reach::default();
+    for curve in curves {
+        let most = MOST_KNOTS - 2 * curve.polygon.degree() - 1;
+        let vertices = curve.polygon.vertices().len();
+        if vertices > most {
+            return Err(WriteError::TooManyVertices {
+                format,
+                name: curve.name.clone(),
+                vertices,
+                most,
+            });
+        }
+        let base = names.take(&curve.name, &PolygonKind::ALL.map(suffix));
+        report(curve, &base, kinds, &mut losses);
+        layers.push(Layer::of(curve, base.clone(), None));
+        spline(&mut entities, curve, &base, &mut reach);
+        for &kind in kinds {
+            let layer = format!("{base}{}", suffix(kind));
+            layers.push(Layer::of(curve, layer.clone(), Some(kind)));
+            polyline(&mut entities, curve, kind, &layer, &mut reach);
+        }
+    }
+    let text = frame::drawing(&layers, entities, (reach.low, reach.high));
+    Ok(Export {
+        bytes: text.into_bytes(),
+        losses,
+    })
+}
+
+/// The box around everything drawn.
+struct Reach {
+    low: DVec3,
+    high: DVec3,
+}
+
+impl Default for Reach {
+    fn default() -> Self {
+        Self {
+            low: DVec3::INFINITY,
+            high: DVec3::NEG_INFINITY,
+        }
+    }
+}
+
+impl Reach {
+    fn add(&mut self, points: &[DVec3]) {
+        for point in points {
+            self.low = self.low.min(*point);
+            self.high = self.high.max(*point);
+        }
+    }
+}
+
+fn suffix(kind: PolygonKind) -> &'static str {
+    match kind {
+        PolygonKind::Float => " float polygon",
+        PolygonKind::Clamped => " closed polygon",
+        PolygonKind::Bezier => " bezier polygon",
+    }
+}
+
+fn report(curve: &Curve, layer: &str, kinds: &[PolygonKind], losses: &mut LossReport) {
+    if layer != curve.name {
+        let written = layer.to_owned();
+        losses.add(curve, Loss::Name { written });
+    }
+    losses.add_if(curve.colour.is_some(), curve, Loss::Colour);
+    let has_targets = !curve.targets.list().is_empty();
+    losses.add_if(has_targets, curve, Loss::Targets);
+    losses.add_if(curve.polygon.is_periodic(), curve, Loss::Periodic);
+    for &kind in kinds {
+        let is_rational = curve.polygon.is_rational();
+        losses.add_if(is_rational, curve, Loss::PolygonWeights { kind });
+    }
+}
+
+fn spline(writer: &mut Writer, curve: &Curve, layer: &str, reach: &mut Reach) {
+    let clamped = ClampedPolygon::from_float(&curve.polygon);
+    let mut vertices = clamped.vertices().to_vec();
+    if curve.polygon.is_periodic()
+        && let (Some(first), Some(last)) = (vertices.first().copied(), vertices.last_mut())
+    {
+        *last = first;
+    }
+    reach.add(&vertices);
+    let planar = curve.polygon.is_planar();
+    let knots = clamped.knots();
+    writer.entity("SPLINE", layer);
+    writer.text(100, "AcDbSpline");
+    if planar {
+        writer.point(210, DVec3::Z);
+    }
+    let flags = 8 * i64::from(planar) + 4 * i64::from(clamped.weights().is_some());
+    writer.integer(70, flags);
+    writer.count(71, clamped.degree());
+    writer.count(72, knots.len());
+    writer.count(73, vertices.len());
+    writer.integer(74, 0);
+    writer.number(42, 1e-9);
+    writer.number(43, 1e-9);
+    for knot in knots {
+        writer.number(40, knot);
+    }
+    for weight in clamped.weights().into_iter().flatten() {
+        writer.number(41, *weight);
+    }
+    for vertex in vertices {
+        writer.point(10, vertex);
+    }
+}
+
+fn polyline(writer: &mut Writer, curve: &Curve, kind: PolygonKind, layer: &str, reach: &mut Reach) {
+    let polygon = written(&curve.polygon, kind);
+    let closed = i64::from(polygon.periodic);
+    reach.add(&polygon.vertices);
+    if curve.polygon.is_planar() {
+        writer.entity("LWPOLYLINE", layer);
+        writer.text(100, "AcDbPolyline");
+        writer.count(90, polygon.vertices.len());
+        writer.integer(70, closed);
+        writer.number(43, 0.0);
+        for vertex in polygon.vertices {
+            writer.number(10, vertex.x);
+            writer.number(20, vertex.y);
+        }
+        return;
+    }
+    let owner = writer.entity("POLYLINE", layer);
+    writer.text(100, "AcDb3dPolyline");
+    writer.integer(66, 1);
+    writer.point(10, DVec3::ZERO);
+    writer.integer(70, 8 + closed);
+    for vertex in polygon.vertices {
+        writer.part("VERTEX", owner, layer);
+        writer.text(100, "AcDbVertex");
+        writer.text(100, "AcDb3dPolylineVertex");
+        writer.point(10, vertex);
+        writer.integer(70, 32);
+    }
+    writer.part("SEQEND", owner, layer);
+}

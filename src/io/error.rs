@@ -1,0 +1,383 @@
+//! What can be wrong with a file, and where in it.
+
+use std::fmt;
+use std::io;
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use super::format::Format;
+use crate::geometry::{MAX_DEGREE, PolygonError, PolygonKind};
+
+/// A place in a file, as exactly as it is known.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Place {
+    /// The line, counted from 1.
+    pub line: Option<usize>,
+    /// The byte in the line, counted from 1.
+    pub column: Option<usize>,
+    /// The curve, counted from 1.
+    pub curve: Option<usize>,
+    /// The curve's name.
+    pub name: Option<String>,
+    /// The vertex, counted from 0 as on the screen.
+    pub vertex: Option<usize>,
+}
+
+impl Place {
+    /// Name a line.
+    pub fn line(line: usize) -> Self {
+        Self {
+            line: Some(line),
+            ..Self::default()
+        }
+    }
+
+    /// Name a curve: its number, counted from 1, and its name.
+    pub fn curve(number: usize, name: &str) -> Self {
+        Self {
+            curve: Some(number),
+            name: Some(name.to_owned()),
+            ..Self::default()
+        }
+    }
+
+    /// Say what is wrong here.
+    pub fn problem(self, problem: Problem) -> ReadError {
+        ReadError {
+            place: Box::new(self),
+            problem,
+        }
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let number = |what: &str, value: Option<usize>| Some(format!("{what} {}", value?));
+        let curve = number("curve", self.curve).map(|curve| match &self.name {
+            Some(name) => format!("{curve} {}", quoted(name)),
+            None => curve,
+        });
+        let parts = [
+            number("line", self.line),
+            number("column", self.column),
+            curve,
+            number("vertex", self.vertex),
+        ];
+        let known: Vec<String> = parts.into_iter().flatten().collect();
+        formatter.write_str(&known.join(", "))
+    }
+}
+
+/// Put text from a file into quotation marks for a message: on one line and of bearable length.
+pub(crate) fn quoted(text: &str) -> String {
+    const LONGEST: usize = 60;
+    let mut shown = String::new();
+    for (index, character) in text.chars().enumerate() {
+        if index == LONGEST {
+            shown.push('…');
+            break;
+        }
+        if character.is_control() {
+            shown.extend(character.escape_default());
+        } else {
+            shown.push(character);
+        }
+    }
+    format!("“{shown}”")
+}
+
+/// A reason why a file cannot be read, with its place. Nothing is read then.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReadError {
+    /// Where it is.
+    pub place: Box<Place>,
+    /// What it is.
+    pub problem: Problem,
+}
+
+impl From<Problem> for ReadError {
+    fn from(problem: Problem) -> Self {
+        Place::default().problem(problem)
+    }
+}
+
+impl fmt::Display for ReadError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let place = self.place.to_string();
+        // These problems name the vertex themselves, which continues the place.
+        let continued = matches!(
+            self.problem,
+            Problem::Polygon(PolygonError::BadCoordinate { .. } | PolygonError::BadWeight { .. })
+        );
+        match (place.is_empty(), continued) {
+            (true, _) => write!(formatter, "{}", self.problem),
+            (false, true) => write!(formatter, "{place}, {}", self.problem),
+            (false, false) => write!(formatter, "{place}: {}", self.problem),
+        }
+    }
+}
+
+impl std::error::Error for ReadError {}
+
+/// What can be wrong with a file's content.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum Problem {
+    /// Files of the format are only written.
+    #[error("{0} files can be written but not read")]
+    Unreadable(Format),
+    /// The file has no content.
+    #[error("the file is empty")]
+    Empty,
+    /// The file is not text in UTF-8.
+    #[error("the file is not text in UTF-8 here: save it as UTF-8")]
+    NotUtf8,
+    /// The JSON is malformed, or has something else than belongs there.
+    #[error("{0}")]
+    Json(String),
+    /// The table cannot be split into values.
+    #[error("the table cannot be read: {0}")]
+    Table(String),
+    /// A number is written that is none, or is infinite.
+    #[error("{} is not a finite number: only finite numbers can be used", quoted(.0))]
+    NotFinite(String),
+    /// The JSON is no project.
+    #[error(
+        "this is not a Batten project: it says {}, where \"format\": \"batten\" is needed",
+        match .found { Some(found) => format!("\"format\": {found}"), None => "no \"format\"".to_owned() }
+    )]
+    WrongFormat {
+        /// The format that it claims to have.
+        found: Option<String>,
+    },
+    /// The project is of a version that this program does not know.
+    #[error(
+        "the project is of version {found}, and this Batten reads versions up to {newest}: open it with a newer Batten"
+    )]
+    NewerVersion {
+        /// Its version.
+        found: u64,
+        /// The newest version that can be read.
+        newest: u64,
+    },
+    /// The project has no version, or one that is no number from 1 up.
+    #[error("the project's \"version\" is {found}: a whole number from 1 up is needed")]
+    BadVersion {
+        /// What is written there.
+        found: String,
+    },
+    /// The vertices do not make a curve.
+    #[error("{0}")]
+    Polygon(#[from] PolygonError),
+    /// A periodic curve is given by a polygon that has two ends.
+    #[error(
+        "a periodic curve cannot be given by its {kind} polygon, which starts and ends somewhere: give its float polygon, or make it open"
+    )]
+    PeriodicKind {
+        /// The polygon's kind.
+        kind: PolygonKind,
+    },
+    /// A clamped polygon is of so high a degree that its float polygon loses the curve.
+    #[error(
+        "the float polygon that follows from these {kind} vertices misses the curve by {distance:.1e}: its degree is too high for the digits of a number; give its float polygon"
+    )]
+    Unstable {
+        /// The polygon's kind.
+        kind: PolygonKind,
+        /// How far the curve would be off.
+        distance: f64,
+    },
+    /// A target has no direction.
+    #[error("the target of the {end} has a direction of length 0: give another one, or null")]
+    NoDirection {
+        /// The end.
+        end: &'static str,
+    },
+    /// A target has a coordinate that cannot be used.
+    #[error(
+        "the target of the {end} has the coordinate {value:e}: only numbers up to 1e100 can be used"
+    )]
+    TargetOutOfRange {
+        /// The end.
+        end: &'static str,
+        /// The coordinate.
+        value: f64,
+    },
+    /// A table does not begin with a line that says what its vertices are.
+    #[error(
+        "the table does not say which curve its vertices make: put a line like “# degree=3 polygon=float periodic=false name=curve” above the line with the column names"
+    )]
+    NoTableHeader,
+    /// The line above a table lacks the degree.
+    #[error("the line lacks the degree: add, for example, degree=3 (from 1 to {MAX_DEGREE})")]
+    NoDegree,
+    /// The line above a table has something unknown.
+    #[error(
+        "{} is not known here: a line above a table holds degree=…, polygon=…, periodic=… and, last, name=…",
+        quoted(.0)
+    )]
+    UnknownKey(String),
+    /// The line above a table says something twice.
+    #[error("{0} is given twice")]
+    Repeated(&'static str),
+    /// The line above a table has a value that cannot be used.
+    #[error("{key}={value} cannot be used: {needed}")]
+    BadValue {
+        /// Which value.
+        key: &'static str,
+        /// What is written there.
+        value: String,
+        /// What is needed.
+        needed: &'static str,
+    },
+    /// A table has no line with column names.
+    #[error(
+        "the table has no columns: put a line with their names, for example “x,y”, above its numbers"
+    )]
+    NoColumns,
+    /// A column name is unknown or is there twice.
+    #[error(
+        "{} is not a column name that can stand here: the columns are x,y or x,y,z, then weight, each once and separated by commas",
+        quoted(.0)
+    )]
+    BadColumn(String),
+    /// A column is missing.
+    #[error("the column {0} is missing: the columns x and y are needed")]
+    MissingColumn(&'static str),
+    /// A line of a table has too many or too few values.
+    #[error("{found} values for {needed} columns")]
+    ValueCount {
+        /// The number of values.
+        found: usize,
+        /// The number of columns.
+        needed: usize,
+    },
+    /// A value of a table is not a number.
+    #[error("{} in column {column} is not a number", quoted(.text))]
+    NotANumber {
+        /// The column.
+        column: &'static str,
+        /// What is written there.
+        text: String,
+    },
+}
+
+/// A reason why curves cannot be written in a format.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum WriteError {
+    /// There are no curves.
+    #[error("there is no curve to write: a {format} file needs at least one")]
+    NoCurves {
+        /// The format.
+        format: Format,
+    },
+    /// A curve has more vertices than the format can count.
+    #[error(
+        "{} has {vertices} vertices, and a {format} file can hold {most} a curve: split the curve",
+        quoted(.name)
+    )]
+    TooManyVertices {
+        /// The format.
+        format: Format,
+        /// The curve's name.
+        name: String,
+        /// The number of its vertices.
+        vertices: usize,
+        /// The most that can be written.
+        most: usize,
+    },
+}
+
+/// A reason why a format cannot be told from a file's name, or not be used.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum FormatError {
+    /// The name has no extension.
+    #[error("the name has no extension that tells its format: add one of {known}")]
+    NoExtension {
+        /// The extensions that could be used.
+        known: String,
+    },
+    /// The name has an extension that is not known.
+    #[error("“.{extension}” is not a format Batten knows: use one of {known}")]
+    UnknownExtension {
+        /// The extension.
+        extension: String,
+        /// The extensions that could be used.
+        known: String,
+    },
+    /// The format is only written.
+    #[error("{format} files can be written but not read: the formats that can be read are {known}")]
+    NotReadable {
+        /// The format.
+        format: Format,
+        /// The extensions that can be read.
+        known: String,
+    },
+}
+
+/// A reason why a file cannot be read or written; every message begins with the file.
+#[derive(Debug, Error)]
+pub enum FileError {
+    /// Its format is not known or cannot be used so.
+    #[error("{}: {error}", path.display())]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        error: FormatError,
+    },
+    /// Its content cannot be used.
+    #[error("{}: {error}", path.display())]
+    Content {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, and where.
+        error: ReadError,
+    },
+    /// The curves cannot be written to it.
+    #[error("{}: {error}", path.display())]
+    Export {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        error: WriteError,
+    },
+    /// The system refused.
+    #[error("{}: cannot {action} the file: {error}", path.display())]
+    System {
+        /// The file.
+        path: PathBuf,
+        /// What was tried.
+        action: &'static str,
+        /// What the system says.
+        error: io::Error,
+    },
+    /// The folder that it would be in is not there.
+    #[error("{}: the folder {} does not exist: create it first", path.display(), folder.display())]
+    NoFolder {
+        /// The file.
+        path: PathBuf,
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// It is a folder or a device.
+    #[error("{}: this is not a file", path.display())]
+    NotAFile {
+        /// The path.
+        path: PathBuf,
+    },
+    /// It is protected against writing.
+    #[error("{}: the file is read-only: save under another name, or allow writing to it", path.display())]
+    ReadOnly {
+        /// The file.
+        path: PathBuf,
+    },
+    /// It is too large.
+    #[error("{}: the file is larger than {} MiB, the most that Batten reads", path.display(), most >> 20)]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// The largest number of bytes that is read.
+        most: u64,
+    },
+}

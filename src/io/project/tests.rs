@@ -1,0 +1,387 @@
+//! What a project file keeps, and what it refuses.
+
+use glam::DVec3;
+use proptest::prelude::*;
+
+use super::*;
+use crate::document::{Colour, EndTargets};
+use crate::geometry::end_correction::EndTarget;
+use crate::geometry::{FloatPolygon, MAX_MAGNITUDE};
+
+fn line(name: &str) -> Curve {
+    let polygon = FloatPolygon::planar(1, &[(0.0, 1.0), (2.0, 3.5)]);
+    Curve::new(name, polygon.unwrap())
+}
+
+fn text_of(curves: &[&Curve]) -> String {
+    String::from_utf8(write(curves, PolygonKind::Float).bytes).unwrap()
+}
+
+#[test]
+fn the_layout_is_as_described() {
+    assert_eq!(
+        text_of(&[&line("arc")]),
+        r#"{
+  "format": "batten",
+  "version": 1,
+  "curves": [
+    {
+      "name": "arc",
+      "degree": 1,
+      "polygon": "float",
+      "vertices": [
+        [0.0, 1.0],
+        [2.0, 3.5]
+      ],
+      "weights": null,
+      "periodic": false
+    }
+  ]
+}
+"#
+    );
+}
+
+#[test]
+fn everything_is_kept() {
+    let mut curve = line("a \"b\"\n曲");
+    curve.colour = Some(Colour([0x1f, 0x00, 0xb4]));
+    curve.visible = false;
+    curve.locked = true;
+    curve.targets = EndTargets {
+        start: Some(EndTarget {
+            point: DVec3::new(1.0, 2.0, 0.0),
+            direction: None,
+        }),
+        finish: Some(EndTarget {
+            point: DVec3::new(1.0, 2.0, 3.0),
+            direction: Some(DVec3::X),
+        }),
+    };
+    let text = text_of(&[&curve, &line("b")]);
+    for part in [
+        "\"colour\": \"#1f00b4\"",
+        "\"visible\": false",
+        "\"locked\": true",
+        "\"point\": [1.0, 2.0]",
+        "\"point\": [1.0, 2.0, 3.0]",
+    ] {
+        assert!(text.contains(part), "{part} in {text}");
+    }
+    assert_eq!(read(text.as_bytes()).unwrap(), [curve, line("b")]);
+}
+
+#[test]
+fn what_others_write_is_read() {
+    let check = |curve: &str, expected: Curve| {
+        let text = format!(r#"{{"format":"batten","version":1,"more":[{{}}],"curves":[{curve}]}}"#);
+        assert_eq!(read(text.as_bytes()).unwrap(), [expected], "{curve}");
+    };
+    check(
+        r#"{"name":"arc","degree":1,"vertices":[[0,1],[2,3.5]]}"#,
+        line("arc"),
+    );
+    check(
+        r#"{"degree":1.0,"polygon":"bezier","vertices":[[0,1,0],[2,3.5]],"weights":null,"more":null}"#,
+        line("curve 1"),
+    );
+    check(
+        r#"{"name":" ","degree":1,"polygon":"clamped","vertices":[[0,1],[2,3.5]],"targets":{}}"#,
+        line("curve 1"),
+    );
+    let mut expected = line("arc");
+    expected.targets.finish = Some(EndTarget {
+        point: DVec3::new(7.0, 8.0, 0.0),
+        direction: None,
+    });
+    expected.colour = Some(Colour([255, 0, 16]));
+    check(
+        r##"{"name":"arc","degree":1,"vertices":[[0,1],[2,3.5]],"colour":"#FF0010","periodic":null,
+            "targets":{"start":null,"end":{"point":[7,8],"direction":null}}}"##,
+        expected,
+    );
+    assert_eq!(
+        read("\u{feff}{\"format\":\"batten\",\"version\":1,\"curves\":[]}\r\n".as_bytes()),
+        Ok(vec![])
+    );
+}
+
+#[test]
+fn a_clamped_polygon_is_converted() {
+    let text = r#"{"format":"batten","version":1,"curves":[{"name":"a","degree":2,
+        "polygon":"clamped","vertices":[[0,0],[1,1],[2,0]]}]}"#;
+    let curves = read(text.as_bytes()).unwrap();
+    let expected = FloatPolygon::planar(2, &[(-1.0, -1.0), (1.0, 1.0), (3.0, -1.0)]);
+    assert_eq!(curves, [Curve::new("a", expected.unwrap())]);
+}
+
+/// Check the message for a file with two curves, the second of which is `curve`.
+fn check_curve(curve: &str, expected: &str) {
+    let first = r#"{"name":"a","degree":1,"vertices":[[0,0],[1,1]]}"#;
+    let text = format!("{{\"format\":\"batten\",\"version\":1,\"curves\":[{first},\n{curve}]}}");
+    check(&text, expected);
+}
+
+fn check(text: &str, expected: &str) {
+    let message = read(text.as_bytes()).unwrap_err().to_string();
+    assert_eq!(message, expected, "{text}");
+}
+
+#[test]
+fn files_that_are_no_projects_are_refused() {
+    check("", "the file is empty");
+    check("\u{feff} \n", "the file is empty");
+    for text in ["[1, 2]", "x,y\n0,1\n", &"[".repeat(1000)] {
+        let problem = read(text.as_bytes()).unwrap_err().problem;
+        assert_eq!(problem, Problem::WrongFormat { found: None }, "{text}");
+    }
+    check(
+        "{}",
+        "this is not a Batten project: it says no \"format\", where \"format\": \"batten\" is needed",
+    );
+    check(
+        r#"{"format":"other","version":1}"#,
+        "this is not a Batten project: it says \"format\": \"other\", where \"format\": \"batten\" is needed",
+    );
+    check(
+        r#"{"format":"batten","version":2,"curves":{}}"#,
+        "the project is of version 2, and this Batten reads versions up to 1: open it with a newer Batten",
+    );
+    for (version, found) in [
+        ("", "not given"),
+        (r#","version":"1""#, "\"1\""),
+        (r#","version":0"#, "0"),
+    ] {
+        check(
+            &format!(r#"{{"format":"batten"{version},"curves":[]}}"#),
+            &format!("the project's \"version\" is {found}: a whole number from 1 up is needed"),
+        );
+    }
+    check(
+        r#"{"format":"batten","version":1}"#,
+        "line 1, column 31: missing field `curves`",
+    );
+    check(
+        "{\"format\":\"batten\",\"version\":1,\"curves\":[]}\n x",
+        "line 2, column 2: trailing characters",
+    );
+}
+
+#[test]
+fn malformed_json_is_refused_with_its_place() {
+    check(
+        "{\"format\"\n",
+        "line 2, column 0: EOF while parsing an object",
+    );
+    check_curve(
+        "{\"name\":\"hull\",\"degree\":2,\n\"vertices\":[[0,0],[1,1],[2,,0]]}",
+        "line 3, column 28, curve 2, vertex 2: expected value",
+    );
+    check_curve(
+        "{\"name\":\"hull\",\"degree\":2 \"vertices\"",
+        "line 2, column 27, curve 2: expected `,` or `}`",
+    );
+    let nested = format!("{{\"more\":{}", "[".repeat(100_000));
+    check_curve(
+        &nested,
+        "line 2, column 100010, curve 2: expected `,` or `]`",
+    );
+}
+
+#[test]
+fn numbers_that_are_none_are_refused_with_their_place() {
+    for value in ["NaN", "-Infinity", "1e999", "-1e400"] {
+        let curve = format!("{{\"degree\":1,\"vertices\":[[0,0],[1,{value}]]}}");
+        let text = format!("{{\"format\":\"batten\",\"version\":1,\"curves\":[\n{curve}]}}");
+        let error = read(text.as_bytes()).unwrap_err();
+        let place = (error.place.line, error.place.curve, error.place.vertex);
+        assert_eq!(place, (Some(2), Some(1), Some(1)), "{error}");
+        assert_eq!(error.problem, Problem::NotFinite(value.to_owned()));
+    }
+}
+
+#[test]
+fn content_of_the_wrong_kind_is_refused_with_its_place() {
+    check_curve(
+        "7",
+        "line 2, column 1, curve 2: invalid type: integer `7`, expected a curve, which is a JSON object",
+    );
+    check_curve(
+        r#"{"degree":1,"vertices":1000000000}"#,
+        "line 2, column 33, curve 2: invalid type: integer `1000000000`, expected a sequence",
+    );
+    check_curve(
+        r#"{"degree":1,"vertices":[[0,0],[1]]}"#,
+        "line 2, column 33, curve 2, vertex 1: invalid length 1, expected 2 or 3 numbers in brackets",
+    );
+    check_curve(
+        r#"{"degree":1,"vertices":[[0,0],[1,2,3,4]]}"#,
+        "line 2, column 39, curve 2, vertex 1: invalid length 4, expected 2 or 3 numbers in brackets",
+    );
+    check_curve(
+        r#"{"degree":1,"vertices":[[0,0],[1,"2"]]}"#,
+        "line 2, column 36, curve 2, vertex 1: invalid type: string \"2\", expected a number",
+    );
+    check_curve(
+        r#"{"degree":1,"vertices":[[0,0],[1,2]],"weights":[1,null]}"#,
+        "line 2, column 54, curve 2, vertex 1: invalid type: null, expected a number",
+    );
+    check_curve(
+        r#"{"vertices":[[0,0],[1,2]]}"#,
+        "line 2, column 26, curve 2: missing field `degree`",
+    );
+    for degree in ["-1", "2.5"] {
+        check_curve(
+            &format!(r#"{{"name":"b","vertices":[],"degree":{degree}}}"#),
+            &format!(
+                "line 2, column {}, curve 2: degree {degree} is out of range: a whole number from 1 to 25 is needed",
+                36 + degree.len()
+            ),
+        );
+    }
+    check_curve(
+        r#"{"degree":1,"polygon":"closed"}"#,
+        "line 2, column 31, curve 2: invalid value: string \"closed\", expected float, clamped or bezier",
+    );
+    check_curve(
+        r#"{"degree":1,"colour":"red"}"#,
+        "line 2, column 27, curve 2: invalid value: string \"red\", expected a colour like #1f77b4",
+    );
+}
+
+#[test]
+fn vertices_that_make_no_curve_are_refused_with_their_curve() {
+    let vertices = r#""vertices":[[0,0],[1,2],[3,4]]"#;
+    let check = |rest: &str, expected: &str| {
+        let curve = format!(r#"{{"name":"hull",{rest}}}"#);
+        check_curve(&curve, &format!("curve 2 “hull”{expected}"));
+    };
+    for degree in ["0", "26", "1e300"] {
+        let shown = if degree == "1e300" {
+            "18446744073709551615"
+        } else {
+            degree
+        };
+        check(
+            &format!(r#""degree":{degree},{vertices}"#),
+            &format!(": degree {shown} is out of range: a degree from 1 to 25 is needed"),
+        );
+    }
+    check(
+        &format!(r#""degree":3,{vertices}"#),
+        ": 3 vertices are too few: an open curve of degree 3 needs at least 4",
+    );
+    check(
+        &format!(r#""degree":2,{vertices},"weights":[1,2]"#),
+        ": 2 weights for 3 vertices: give one weight a vertex, or none at all",
+    );
+    check(
+        &format!(r#""degree":2,{vertices},"weights":[1,-2,1]"#),
+        ", vertex 1: weight -2.0 cannot be used: weights are positive numbers from 1e-100 to 1e100",
+    );
+    check(
+        r#""degree":1,"vertices":[[0,0],[1,1e200]]"#,
+        ", vertex 1: coordinate y is 1e200, and only finite numbers up to 1e100 can be used",
+    );
+    check(
+        &format!(r#""degree":2,{vertices},"polygon":"clamped","periodic":true"#),
+        ": a periodic curve cannot be given by its clamped polygon, which starts and ends somewhere: give its float polygon, or make it open",
+    );
+    check(
+        r#""degree":2,"polygon":"bezier","vertices":[[0,0],[1,2],[3,4],[5,6]]"#,
+        ": 4 vertices do not make Bézier polygons of degree 2: the number must be a multiple of 2, plus 1",
+    );
+    check(
+        &format!(
+            r#""degree":2,{vertices},"targets":{{"end":{{"point":[0,0],"direction":[0,0]}}}}"#
+        ),
+        ": the target of the end has a direction of length 0: give another one, or null",
+    );
+    check(
+        &format!(r#""degree":2,{vertices},"targets":{{"start":{{"point":[0,1e200]}}}}"#),
+        ": the target of the start has the coordinate 1e200: only numbers up to 1e100 can be used",
+    );
+}
+
+fn number() -> impl Strategy<Value = f64> {
+    any::<f64>().prop_map(|value| {
+        if value.abs() <= MAX_MAGNITUDE {
+            value
+        } else {
+            1.0 / 3.0
+        }
+    })
+}
+
+prop_compose! {
+    fn any_curve()(
+        degree in 1usize..=25,
+        more in 0usize..5,
+        planar in any::<bool>(),
+        weighted in any::<bool>(),
+    )(
+        vertices in prop::collection::vec([number(), number(), number()], degree + 1 + more),
+        weights in prop::collection::vec(1e-100..1e100f64, degree + 1 + more),
+        name in "\\PC*[a-z#=,\"\n ]*x",
+        degree in Just(degree), planar in Just(planar), weighted in Just(weighted),
+        periodic in any::<bool>(),
+        colour in any::<Option<[u8; 3]>>(),
+        visible in any::<bool>(),
+        locked in any::<bool>(),
+    ) -> Curve {
+        let vertices = vertices.into_iter().map(|[x, y, z]| {
+            DVec3::new(x, y, if planar { 0.0 } else { z })
+        });
+        let weights = weighted.then_some(weights);
+        let polygon = FloatPolygon::new(degree, vertices.collect(), weights, periodic);
+        let curve = Curve::new(name, polygon.expect("valid by construction"));
+        Curve { colour: colour.map(Colour), visible, locked, ..curve }
+    }
+}
+
+fn bits(curve: &Curve) -> Vec<u64> {
+    let vertices = curve.polygon.vertices().iter();
+    let numbers = vertices.flat_map(|vertex| vertex.to_array());
+    let weights = curve.polygon.weights().into_iter().flatten().copied();
+    numbers.chain(weights).map(f64::to_bits).collect()
+}
+
+proptest! {
+    #[test]
+    fn every_curve_survives_bit_for_bit(curve in any_curve()) {
+        let back = read(text_of(&[&curve]).as_bytes()).expect("what is written is read");
+        prop_assert_eq!(bits(&back[0]), bits(&curve));
+        prop_assert_eq!(&back[0], &curve);
+    }
+
+    #[test]
+    fn every_polygon_survives_a_table_bit_for_bit(mut curve in any_curve()) {
+        curve.name = curve.name.trim().to_owned();
+        let bytes = super::super::table::write(&[&curve], PolygonKind::Float).expect("one curve").bytes;
+        let back = super::super::table::read(&bytes).expect("what is written is read");
+        prop_assert_eq!(bits(&back[0]), bits(&curve));
+        prop_assert_eq!((&back[0].name, &back[0].polygon), (&curve.name, &curve.polygon));
+    }
+
+    #[test]
+    fn no_bytes_make_the_readers_panic(
+        bytes in prop::collection::vec(any::<u8>(), 0..200),
+        cut in 0usize..400,
+        at in 0usize..400,
+        other in any::<u8>(),
+    ) {
+        let mut text = text_of(&[&line("arc")]).into_bytes();
+        text.truncate(cut);
+        if let Some(byte) = text.get_mut(at) {
+            *byte = other;
+        }
+        for input in [bytes, text] {
+            // Whatever it is, the message can be shown.
+            for format in [Format::Batten, Format::Csv] {
+                if let Err(error) = format.read(&input) {
+                    prop_assert!(!error.to_string().is_empty());
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,339 @@
+//! The canvas: one response for all of it, and every event of the hand in order.
+
+use eframe::egui::{
+    self, Context, CursorIcon, Event, EventFilter, Id, MouseWheelSource, MouseWheelUnit,
+    PointerButton, Pos2, Rect, Role, Sense, Ui, WidgetInfo,
+};
+use glam::DVec2;
+
+use super::theme::Tokens;
+use super::{grid, keyboard, painting};
+use crate::editor::{Button, Cursor, Editor, Input, Key, Layer, Modifiers};
+
+/// Points of the wheel that scale by the factor e.
+const WHEEL_POINTS: f64 = 220.0;
+
+/// The canvas's own state: how egui's events are to be read.
+#[derive(Debug, Default)]
+pub struct Canvas {
+    /// Where it was in the last frame.
+    rect: Option<Rect>,
+    /// The buttons that went down on the canvas and are still held.
+    held: Vec<PointerButton>,
+    /// Whether the pointer is on the canvas.
+    inside: bool,
+    /// Whether the space bar is held.
+    space: bool,
+    /// The modifiers the editor knows of.
+    modifiers: Modifiers,
+    /// Whether the last wheel event came from fingers on a touchpad: they push, wheels zoom.
+    fingers: bool,
+}
+
+/// The identity of the canvas, the same in every frame.
+pub fn id() -> Id {
+    Id::unique("canvas")
+}
+
+impl Canvas {
+    /// Where the canvas is, once it was shown.
+    pub fn rect(&self) -> Option<Rect> {
+        self.rect
+    }
+
+    /// Send this frame's events to the editor. Called before any panel is shown, so that all of
+    /// them show what the events have made.
+    pub fn send_events(&mut self, context: &Context, editor: &mut Editor) {
+        let Some(rect) = self.rect else {
+            return;
+        };
+        let events = context.input(|input| input.events.clone());
+        for event in &events {
+            self.send_event(context, editor, rect, event);
+        }
+        let modifiers = context.input(|input| keyboard::modifiers(input.modifiers));
+        self.send_modifiers(editor, modifiers);
+        self.send_wheel(context, editor, rect);
+        self.notice_covering(context, editor);
+    }
+
+    fn send_event(&mut self, context: &Context, editor: &mut Editor, rect: Rect, event: &Event) {
+        match event {
+            Event::PointerMoved(pos) => self.moved(context, editor, rect, *pos),
+            Event::PointerButton {
+                pos,
+                button,
+                pressed,
+                modifiers,
+            } => {
+                self.send_modifiers(editor, keyboard::modifiers(*modifiers));
+                if *pressed {
+                    self.pressed(context, editor, rect, *pos, *button);
+                } else {
+                    self.released(context, editor, rect, *pos, *button);
+                }
+            }
+            Event::PointerGone => self.leave(editor),
+            Event::MouseWheel { unit, source, .. } => {
+                let is_wheel = *source == MouseWheelSource::Wheel;
+                self.fingers = *unit == MouseWheelUnit::Point && !is_wheel;
+            }
+            Event::Key {
+                key,
+                pressed,
+                modifiers,
+                ..
+            } => {
+                self.send_modifiers(editor, keyboard::modifiers(*modifiers));
+                self.key(context, editor, *key, *pressed);
+            }
+            Event::WindowFocused(false) => {
+                self.send_modifiers(editor, Modifiers::NONE);
+                self.hold_space(editor, false);
+            }
+            _ => {}
+        }
+    }
+
+    fn moved(&mut self, context: &Context, editor: &mut Editor, rect: Rect, pos: Pos2) {
+        let inside = self.is_on_top(context, rect, pos);
+        // A drag that began elsewhere, such as on a panel's edge, hovers nothing here.
+        let foreign = self.held.is_empty() && context.input(|input| input.pointer.any_down());
+        if !self.held.is_empty() || (inside && !foreign) {
+            self.inside = true;
+            editor.input(Input::Moved {
+                at: place(rect, pos),
+            });
+        } else {
+            self.leave(editor);
+        }
+    }
+
+    fn leave(&mut self, editor: &mut Editor) {
+        if self.inside && self.held.is_empty() {
+            self.inside = false;
+            editor.input(Input::Left);
+        }
+    }
+
+    fn pressed(
+        &mut self,
+        context: &Context,
+        editor: &mut Editor,
+        rect: Rect,
+        pos: Pos2,
+        button: PointerButton,
+    ) {
+        if self.is_on_top(context, rect, pos)
+            && self.has_the_press(context)
+            && let Some(translated) = translated(button)
+        {
+            self.held.push(button);
+            context.memory_mut(|memory| memory.request_focus(id()));
+            editor.input(Input::Pressed {
+                button: translated,
+                at: place(rect, pos),
+            });
+        }
+    }
+
+    /// Whether egui gives a press to the canvas rather than to what lies over its edge, such as
+    /// the handle that resizes a panel.
+    fn has_the_press(&self, context: &Context) -> bool {
+        let is_up_again = context.input(|input| !input.pointer.any_down());
+        let response = context.read_response(id());
+        is_up_again
+            || response
+                .is_none_or(|response| response.is_pointer_button_down_on() || response.clicked())
+    }
+
+    fn released(
+        &mut self,
+        context: &Context,
+        editor: &mut Editor,
+        rect: Rect,
+        pos: Pos2,
+        button: PointerButton,
+    ) {
+        let Some(index) = self.held.iter().position(|held| *held == button) else {
+            return;
+        };
+        self.held.swap_remove(index);
+        let Some(translated) = translated(button) else {
+            return;
+        };
+        let at = place(rect, pos);
+        editor.input(Input::Released {
+            button: translated,
+            at,
+        });
+        let is_double = context.input(|input| input.pointer.button_double_clicked(button));
+        if is_double && button == PointerButton::Primary {
+            editor.input(Input::DoubleClicked { at });
+        }
+        if !self.is_on_top(context, rect, pos) {
+            self.leave(editor);
+        }
+    }
+
+    fn is_on_top(&self, context: &Context, rect: Rect, pos: Pos2) -> bool {
+        let is_behind = context
+            .layer_id_at(pos)
+            .is_some_and(|layer| layer.order != egui::Order::Background);
+        rect.contains(pos) && !is_behind
+    }
+
+    fn send_modifiers(&mut self, editor: &mut Editor, modifiers: Modifiers) {
+        if modifiers != self.modifiers {
+            self.modifiers = modifiers;
+            editor.input(Input::Modifiers(modifiers));
+        }
+    }
+
+    fn hold_space(&mut self, editor: &mut Editor, held: bool) {
+        if held != self.space {
+            self.space = held;
+            editor.input(Input::SpaceHeld(held));
+        }
+    }
+
+    fn key(&mut self, context: &Context, editor: &mut Editor, key: egui::Key, pressed: bool) {
+        if key == egui::Key::Space && !pressed {
+            self.hold_space(editor, false);
+        }
+        if !pressed || !self.has_keyboard(context) {
+            return;
+        }
+        match keyboard::key(key) {
+            Some(Key::Space) => self.hold_space(editor, true),
+            Some(key) => editor.input(Input::Key(key)),
+            None => {}
+        }
+    }
+
+    /// Whether keys are the canvas's: it was given the keyboard, or nothing else has it.
+    fn has_keyboard(&self, context: &Context) -> bool {
+        let focused = context.memory(|memory| memory.focused());
+        let dragged = context.dragged_id();
+        focused.is_none_or(|focused| focused == id())
+            && dragged.is_none_or(|dragged| dragged == id())
+            && !keyboard::is_covered(context)
+    }
+
+    fn send_wheel(&mut self, context: &Context, editor: &mut Editor, rect: Rect) {
+        let (pointer, scrolled, pinched) = context.input(|input| {
+            let pointer = input.pointer.hover_pos();
+            (pointer, input.smooth_scroll_delta(), input.zoom_delta())
+        });
+        let Some(pos) = pointer.filter(|pos| self.is_on_top(context, rect, *pos)) else {
+            return;
+        };
+        let at = place(rect, pos);
+        if pinched != 1.0 {
+            editor.input(Input::Zoomed {
+                at,
+                factor: f64::from(pinched),
+            });
+        }
+        let (x, y) = (f64::from(scrolled.x), f64::from(scrolled.y));
+        if self.fingers {
+            if x != 0.0 || y != 0.0 {
+                editor.input(Input::Panned {
+                    by: DVec2::new(x, y),
+                });
+            }
+        } else {
+            if y != 0.0 {
+                editor.input(Input::Zoomed {
+                    at,
+                    factor: (y / WHEEL_POINTS).exp(),
+                });
+            }
+            if x != 0.0 {
+                editor.input(Input::Panned {
+                    by: DVec2::new(x, 0.0),
+                });
+            }
+        }
+    }
+
+    /// A dialog that opens takes the hover away.
+    fn notice_covering(&mut self, context: &Context, editor: &mut Editor) {
+        let pointer = context.input(|input| input.pointer.hover_pos());
+        let uncovered = match (self.rect, pointer) {
+            (Some(rect), Some(pos)) => self.is_on_top(context, rect, pos),
+            _ => false,
+        };
+        if !uncovered {
+            self.leave(editor);
+        }
+    }
+
+    /// Show the canvas in all the space there is.
+    pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor) {
+        let rect = ui.available_rect_before_wrap();
+        let (_, rect) = ui.allocate_space(rect.size());
+        if self.rect != Some(rect) {
+            self.rect = Some(rect);
+            let size = rect.size();
+            editor.set_canvas_size(DVec2::new(f64::from(size.x), f64::from(size.y)));
+        }
+        let response = ui.interact(rect, id(), Sense::click_and_drag());
+        response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "Canvas"));
+        self.keep_keyboard(ui);
+        if self.inside || !self.held.is_empty() {
+            ui.set_cursor_icon(cursor_icon(editor.cursor()));
+        }
+        let painter = ui.painter_at(rect);
+        let tokens = Tokens::of(ui);
+        painter.rect_filled(rect, 0, tokens.background);
+        if editor.layers().shows(Layer::Grid) {
+            grid::paint(&painter, rect, editor.viewport(), tokens);
+        }
+        let viewport = *editor.viewport();
+        painting::paint(&painter, rect, &viewport, editor.scene(), tokens);
+    }
+
+    /// Give the canvas the keyboard whenever nothing else wants it, with Tab and arrow keys.
+    fn keep_keyboard(&self, ui: &Ui) {
+        let covered = keyboard::is_covered(ui.ctx());
+        ui.memory_mut(|memory| {
+            if memory.focused().is_none() && !covered {
+                memory.request_focus(id());
+            }
+            if memory.has_focus(id()) {
+                let all = EventFilter {
+                    tab: true,
+                    horizontal_arrows: true,
+                    vertical_arrows: true,
+                    escape: true,
+                };
+                memory.set_focus_lock_filter(id(), all);
+            }
+        });
+    }
+}
+
+fn place(rect: Rect, pos: Pos2) -> DVec2 {
+    let offset = pos - rect.min;
+    DVec2::new(f64::from(offset.x), f64::from(offset.y))
+}
+
+fn translated(button: PointerButton) -> Option<Button> {
+    match button {
+        PointerButton::Primary => Some(Button::Primary),
+        PointerButton::Secondary => Some(Button::Secondary),
+        PointerButton::Middle => Some(Button::Middle),
+        _ => None,
+    }
+}
+
+fn cursor_icon(cursor: Cursor) -> CursorIcon {
+    match cursor {
+        Cursor::Default => CursorIcon::Default,
+        Cursor::Grab => CursorIcon::Grab,
+        Cursor::Grabbing => CursorIcon::Grabbing,
+        Cursor::Crosshair => CursorIcon::Crosshair,
+        Cursor::Move => CursorIcon::Move,
+    }
+}

@@ -1,0 +1,321 @@
+//! The list of curves.
+
+use eframe::egui::{
+    Align2, Color32, CursorIcon, Key, Rect, Response, Role, ScrollArea, Sense, Stroke, StrokeKind,
+    TextEdit, Ui, UiBuilder, Vec2, WidgetInfo, vec2,
+};
+use lucide_icons::Icon;
+
+use super::theme::{self, RADIUS, ROW, STEP, Tokens};
+use super::widgets::{self, IconButton};
+use crate::document::{Curve, CurveId, Edit};
+use crate::editor::{Command, Editor};
+
+/// The list's own state: the name that is being typed.
+#[derive(Default)]
+pub struct CurveList {
+    renaming: Option<Renaming>,
+}
+
+struct Renaming {
+    curve: CurveId,
+    text: String,
+    fresh: bool,
+}
+
+/// What a row asks for.
+enum Asked {
+    Activate(CurveId),
+    Rename(CurveId),
+    Edit(&'static str, Edit),
+}
+
+impl CurveList {
+    /// Show the list with its heading.
+    pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Command>) {
+        heading_ui(ui, editor, commands);
+        if editor.document().is_empty() {
+            widgets::note(
+                ui,
+                "No curves yet. Draw one with D, or open a file or an example.",
+            );
+            return;
+        }
+        let mut asked = None;
+        ScrollArea::vertical()
+            .auto_shrink([false, false])
+            .show(ui, |ui| {
+                ui.spacing_mut().item_spacing.y = 0.0;
+                let curves: Vec<_> = editor
+                    .document()
+                    .curves()
+                    .map(|(id, curve)| (id, curve.clone()))
+                    .collect();
+                let active = editor.active();
+                for (place, (id, curve)) in curves.iter().enumerate() {
+                    let row = Row {
+                        id: *id,
+                        curve,
+                        place,
+                        active: active == Some(*id),
+                    };
+                    if let Some(more) = self.row_ui(ui, &row) {
+                        asked = Some(more);
+                    }
+                }
+            });
+        match asked {
+            Some(Asked::Activate(curve)) => editor.activate(curve),
+            Some(Asked::Rename(curve)) => self.begin_renaming(editor, curve),
+            Some(Asked::Edit(label, edit)) => editor.apply(label, vec![edit]),
+            None => {}
+        }
+    }
+
+    fn begin_renaming(&mut self, editor: &mut Editor, curve: CurveId) {
+        let text = editor
+            .document()
+            .curve(curve)
+            .map(|curve| curve.name.clone());
+        self.renaming = text.map(|text| Renaming {
+            curve,
+            text,
+            fresh: true,
+        });
+    }
+
+    fn row_ui(&mut self, ui: &mut Ui, row: &Row<'_>) -> Option<Asked> {
+        let (rect, response) =
+            ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click_and_drag());
+        row.paint(ui, rect, &response);
+        let mut asked = row.reorder(ui, rect, &response);
+        if response.clicked() {
+            asked = Some(Asked::Activate(row.id));
+        }
+        if response.double_clicked() {
+            asked = Some(Asked::Rename(row.id));
+        }
+        let inner = rect.shrink2(vec2(2.0 * STEP, 0.0));
+        let builder = UiBuilder::new().max_rect(inner).id_salt(row.id);
+        ui.scope_builder(builder, |ui| {
+            widgets::at_right(ui, |ui| {
+                ui.spacing_mut().item_spacing.x = 0.0;
+                asked = row.switches_ui(ui, rect).or(asked.take());
+            });
+        });
+        let name = Rect::from_min_max(
+            inner.min + vec2(6.0 * STEP, 0.0),
+            inner.max - vec2(2.0 * ROW + STEP, 0.0),
+        );
+        let is_renamed = self
+            .renaming
+            .as_ref()
+            .is_some_and(|renaming| renaming.curve == row.id);
+        if is_renamed {
+            asked = self.renaming_ui(ui, name).or(asked);
+        } else {
+            let tokens = Tokens::of(ui);
+            let colour = match (row.active, row.curve.visible) {
+                (true, _) => tokens.strong_text,
+                (false, true) => tokens.text,
+                (false, false) => tokens.faint_text,
+            };
+            widgets::label_in(ui, name, &row.curve.name, colour);
+        }
+        asked
+    }
+
+    fn renaming_ui(&mut self, ui: &mut Ui, rect: Rect) -> Option<Asked> {
+        let renaming = self.renaming.as_mut()?;
+        let field = TextEdit::singleline(&mut renaming.text)
+            .align(Align2::LEFT_CENTER)
+            .min_size(rect.size())
+            .desired_width(rect.width());
+        let response = ui.put(rect, field).accessible_name("Curve name");
+        if std::mem::take(&mut renaming.fresh) {
+            response.request_focus();
+            return None;
+        }
+        if !response.lost_focus() {
+            return None;
+        }
+        let Renaming { curve, text, .. } = self.renaming.take()?;
+        let called_off = ui.input(|input| input.key_pressed(Key::Escape));
+        (!called_off).then_some(Asked::Edit(
+            "rename curve",
+            Edit::Rename { curve, name: text },
+        ))
+    }
+}
+
+fn heading_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        ui.strong("Curves");
+        widgets::at_right(ui, |ui| {
+            ui.spacing_mut().item_spacing.x = 0.0;
+            for (icon, command) in [
+                (Icon::Trash2, Command::DeleteCurve),
+                (Icon::CopyPlus, Command::Duplicate),
+            ] {
+                let name = command.label();
+                let button = IconButton::new(icon, &name).enabled(editor.is_enabled(command));
+                if button.tooltip(command.tooltip()).show(ui).clicked() {
+                    commands.push(command);
+                }
+            }
+            let place = editor.active().and_then(|active| {
+                let place = editor.document().ids().position(|id| id == active)?;
+                Some((active, place))
+            });
+            let last = editor.document().len().saturating_sub(1);
+            let down = place
+                .filter(|(_, place)| *place < last)
+                .map(|(id, place)| (id, place + 1));
+            let up = place.and_then(|(id, place)| Some((id, place.checked_sub(1)?)));
+            for (icon, name, to) in [
+                (Icon::ArrowDown, "Move curve down", down),
+                (Icon::ArrowUp, "Move curve up", up),
+            ] {
+                let response = IconButton::new(icon, name).enabled(to.is_some()).show(ui);
+                if let (true, Some((curve, place))) = (response.clicked(), to) {
+                    editor.apply("reorder curves", vec![Edit::Reorder { curve, place }]);
+                }
+            }
+        });
+    });
+}
+
+struct Row<'a> {
+    id: CurveId,
+    curve: &'a Curve,
+    place: usize,
+    active: bool,
+}
+
+impl Row<'_> {
+    fn paint(&self, ui: &Ui, rect: Rect, response: &Response) {
+        let tokens = Tokens::of(ui);
+        if self.active || response.hovered() {
+            let fill = if self.active {
+                tokens.selection
+            } else {
+                tokens.button[0]
+            };
+            ui.painter().rect_filled(rect, RADIUS, fill);
+        }
+        if response.has_focus() {
+            widgets::focus_ring(ui, rect);
+        }
+        let centre = rect.left_center() + vec2(4.0 * STEP, 0.0);
+        let swatch = Rect::from_center_size(centre, Vec2::splat(3.0 * STEP));
+        swatch_in(
+            ui,
+            swatch,
+            self.curve.colour.map_or(tokens.curve, theme::of_document),
+        );
+        let name = &self.curve.name;
+        response.widget_info(|| {
+            WidgetInfo::selected(Role::ListItem, true, self.active, format!("curve {name}"))
+        });
+    }
+
+    /// A row can be dragged to another place.
+    fn reorder(&self, ui: &Ui, rect: Rect, response: &Response) -> Option<Asked> {
+        if response.drag_started() {
+            response.dnd_set_drag_payload(self.id);
+        }
+        if response.dragged() {
+            ui.set_cursor_icon(CursorIcon::Grabbing);
+        }
+        let tokens = Tokens::of(ui);
+        if let Some(dragged) = response.dnd_hover_payload::<CurveId>()
+            && *dragged != self.id
+        {
+            ui.painter().rect_stroke(
+                rect,
+                RADIUS,
+                Stroke::new(1.5, tokens.accent),
+                StrokeKind::Inside,
+            );
+        }
+        let curve = *response.dnd_release_payload::<CurveId>()?;
+        let edit = Edit::Reorder {
+            curve,
+            place: self.place,
+        };
+        (curve != self.id).then_some(Asked::Edit("reorder curves", edit))
+    }
+
+    fn switches_ui(&self, ui: &mut Ui, row: Rect) -> Option<Asked> {
+        let tokens = Tokens::of(ui);
+        let is_hovered = ui.rect_contains_pointer(row);
+        // Switches at rest stay out of sight, unless they tell something.
+        let faint = if is_hovered || self.active {
+            tokens.faint_text
+        } else {
+            Color32::TRANSPARENT
+        };
+        let Self {
+            id: curve,
+            curve:
+                Curve {
+                    name,
+                    visible,
+                    locked,
+                    ..
+                },
+            ..
+        } = *self;
+        let mut asked = None;
+        let (icon, colour) = if *locked {
+            (Icon::Lock, tokens.text)
+        } else {
+            (Icon::LockOpen, faint)
+        };
+        let label = format!("Lock {name}");
+        let button = IconButton::new(icon, &label)
+            .colour(colour)
+            .tooltip("Protect the shape from edits");
+        if button.show(ui).clicked() {
+            let edit = Edit::SetLocked {
+                curve,
+                locked: !locked,
+            };
+            asked = Some(Asked::Edit(
+                if *locked {
+                    "unlock curve"
+                } else {
+                    "lock curve"
+                },
+                edit,
+            ));
+        }
+        let (icon, colour) = if *visible {
+            (Icon::Eye, faint)
+        } else {
+            (Icon::EyeOff, tokens.text)
+        };
+        let label = format!("Show {name}");
+        let button = IconButton::new(icon, &label)
+            .colour(colour)
+            .tooltip("Show or hide the curve");
+        if button.show(ui).clicked() {
+            let edit = Edit::SetVisible {
+                curve,
+                visible: !visible,
+            };
+            asked = Some(Asked::Edit(
+                if *visible { "hide curve" } else { "show curve" },
+                edit,
+            ));
+        }
+        asked
+    }
+}
+
+/// Paint a colour as a small square.
+pub fn swatch_in(ui: &Ui, rect: Rect, colour: Color32) {
+    let outline = Stroke::new(1.0, Tokens::of(ui).outline);
+    ui.painter()
+        .rect(rect, 2, colour, outline, StrokeKind::Inside);
+}

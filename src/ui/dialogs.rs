@@ -1,0 +1,173 @@
+//! The few things that stop everything else: unsaved changes, the list of keys, about.
+
+use eframe::egui::{Context, Grid, Id, Key, Modal, RichText, ScrollArea, Ui, vec2};
+
+use super::theme::{self, STEP, Tokens};
+use super::{keyboard, widgets};
+use crate::editor::{AfterDiscard, Command, Editor};
+
+/// What is asked or told.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Dialog {
+    /// Save, discard or go back, before something replaces the document.
+    Unsaved(AfterDiscard),
+    /// What keys and mouse do.
+    Keys,
+    /// What this program is.
+    About,
+}
+
+/// What the user decided.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Decision {
+    /// Save, then go on.
+    Save(AfterDiscard),
+    /// Go on without saving.
+    Discard(AfterDiscard),
+    /// Close the dialog.
+    Close,
+}
+
+/// Show a dialog; returns what was decided, once something is.
+pub fn dialog_ui(context: &Context, dialog: &Dialog, editor: &Editor) -> Option<Decision> {
+    let frame = widgets::dialog_frame(&context.global_style());
+    let modal = Modal::new(Id::unique("dialog"))
+        .frame(frame)
+        .show(context, |ui| {
+            ui.spacing_mut().item_spacing.y = 2.0 * STEP;
+            match dialog {
+                Dialog::Unsaved(after) => unsaved_ui(ui, after, editor),
+                Dialog::Keys => keys_ui(ui, editor),
+                Dialog::About => about_ui(ui),
+            }
+        });
+    let closes = modal.should_close();
+    modal.inner.or(closes.then_some(Decision::Close))
+}
+
+fn unsaved_ui(ui: &mut Ui, after: &AfterDiscard, editor: &Editor) -> Option<Decision> {
+    ui.set_width(400.0);
+    ui.strong("Save the changes?");
+    let name = editor.path().and_then(|path| path.file_name());
+    let name = name.map_or("the document".to_owned(), |name| {
+        format!("“{}”", name.display())
+    });
+    let what = match after {
+        AfterDiscard::Quit => "Batten is closed",
+        AfterDiscard::New => "an empty document takes its place",
+        _ => "another document takes its place",
+    };
+    widgets::note(
+        ui,
+        &format!("The changes to {name} are lost if they are not saved before {what}."),
+    );
+    let mut decision = None;
+    ui.horizontal(|ui| {
+        widgets::at_right(ui, |ui| {
+            let save = widgets::primary_button(ui, "Save");
+            if save.clicked() || ui.input(|input| input.key_pressed(Key::Enter)) {
+                decision = Some(Decision::Save(after.clone()));
+            }
+            if ui.button("Discard").clicked() {
+                decision = Some(Decision::Discard(after.clone()));
+            }
+            if ui.button("Cancel").clicked() {
+                decision = Some(Decision::Close);
+            }
+        });
+    });
+    decision
+}
+
+/// What the mouse does, beside the keys that the table of commands lists.
+const MOUSE: [(&str, &str); 12] = [
+    ("Wheel, pinch", "Zoom to the pointer"),
+    ("Middle button, Space and drag", "Pan"),
+    ("Double-click on empty canvas", "Fit all"),
+    ("Click, Shift and click", "Select, add to the selection"),
+    ("Drag on empty canvas", "Select by a box"),
+    ("Drag a vertex", "Move the selection"),
+    (
+        "Shift while dragging",
+        "Keep to an axis, or to steps of 15°",
+    ),
+    ("Ctrl while dragging", "Snapping the other way"),
+    ("Alt", "Show the state before the drag"),
+    ("Arrows, Shift and arrows", "Nudge, ten times as far"),
+    ("Tab", "Next of what lies at the pointer"),
+    ("F6", "Move the keyboard on to the panels"),
+];
+
+fn keys_ui(ui: &mut Ui, editor: &Editor) -> Option<Decision> {
+    ui.set_width(680.0);
+    ui.strong("Keys and mouse");
+    let height = (ui.ctx().content_rect().height() - 200.0).clamp(200.0, 560.0);
+    ScrollArea::vertical().max_height(height).show(ui, |ui| {
+        let keys: Vec<(String, String)> = Command::all(editor.examples())
+            .into_iter()
+            .filter_map(|command| {
+                Some((
+                    keyboard::shortcut_text(command.shortcut()?),
+                    command.label(),
+                ))
+            })
+            .collect();
+        let mouse: Vec<(String, String)> = MOUSE
+            .map(|(keys, what)| (keys.to_owned(), what.to_owned()))
+            .into();
+        let half = keys.len().div_ceil(2);
+        ui.horizontal_top(|ui| {
+            list_ui(ui, "keys", &keys[..half]);
+            ui.add_space(6.0 * STEP);
+            list_ui(ui, "more keys", &keys[half..]);
+        });
+        ui.add_space(2.0 * STEP);
+        list_ui(ui, "mouse", &mouse);
+    });
+    close_ui(ui)
+}
+
+fn list_ui(ui: &mut Ui, id: &str, rows: &[(String, String)]) {
+    let tokens = Tokens::of(ui);
+    Grid::new(id)
+        .num_columns(2)
+        .spacing(vec2(4.0 * STEP, STEP))
+        .show(ui, |ui| {
+            for (keys, what) in rows {
+                ui.label(
+                    RichText::new(keys)
+                        .font(theme::number_font())
+                        .color(tokens.strong_text),
+                );
+                ui.label(what);
+                ui.end_row();
+            }
+        });
+}
+
+fn about_ui(ui: &mut Ui) -> Option<Decision> {
+    ui.set_width(400.0);
+    ui.strong(format!("Batten {}", env!("CARGO_PKG_VERSION")));
+    widgets::note(
+        ui,
+        "A batten is the thin strip that loftsmen bend to draw a fair line. Batten is an editor \
+         for fair curves: shape them by their float S-polygons, and see on every frame what that \
+         does to curvature and evolute.",
+    );
+    widgets::note(
+        ui,
+        "Licensed under MIT or Apache-2.0, as you like. Icons: Lucide (ISC).",
+    );
+    close_ui(ui)
+}
+
+fn close_ui(ui: &mut Ui) -> Option<Decision> {
+    let mut closed = false;
+    ui.horizontal(|ui| {
+        widgets::at_right(ui, |ui| {
+            closed = widgets::primary_button(ui, "Close").clicked()
+        })
+    });
+    let entered = ui.input(|input| input.key_pressed(Key::Enter));
+    (closed || entered).then_some(Decision::Close)
+}

@@ -1,0 +1,540 @@
+//! The end-fit panel: the seven steps, each with its live figures and its button.
+
+use eframe::egui::{
+    Align2, Button, Checkbox, Color32, Label, Rect, Response, RichText, Role, Sense, Stroke,
+    StrokeKind, Ui, WidgetInfo, vec2,
+};
+use glam::{DVec2, DVec3};
+use lucide_icons::Icon;
+
+use super::inspector::range;
+use super::number_field::{FieldEvent, NumberField};
+use super::theme::{self, RADIUS, ROW, STEP, Tokens};
+use super::{figures, icons, widgets};
+use crate::document::Edit;
+use crate::editor::{Editor, EndFitAction, EndFitReport, Layer};
+use crate::geometry::End;
+use crate::geometry::end_correction::{EndOverlap, EndTarget};
+
+/// The indentation of what belongs to a step.
+const INDENT: f32 = 28.0;
+
+/// The width of a step's button.
+const BUTTON: f32 = 76.0;
+
+/// The width of a field for a coordinate.
+const FIELD: f32 = 72.0;
+
+/// The panel's own state.
+#[derive(Default)]
+pub struct EndFitPanel {
+    /// The step whose button was pressed last: its outcome is told there.
+    step: Option<usize>,
+}
+
+impl EndFitPanel {
+    /// Show the panel.
+    pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor) {
+        let Some(report) = editor.end_fit() else {
+            empty_ui(ui, editor);
+            return;
+        };
+        let mut panel = Panel {
+            report: &report,
+            closed: !editor.layers().shows(Layer::Float),
+            pixel: editor.viewport().pixel(),
+            step: self.step,
+            asked: None,
+        };
+        panel.show(ui);
+        if let Some((step, action)) = panel.asked {
+            self.step = Some(step);
+            match action {
+                Asked::Action(action) => editor.end_fit_action(action),
+                Asked::Preview(action) => preview(editor, &report, action),
+                Asked::Commit => editor.commit_field(),
+                Asked::Abort => editor.abort_field(),
+            }
+        }
+    }
+}
+
+/// Show what a target field would make while it is dragged.
+fn preview(editor: &mut Editor, report: &EndFitReport, action: EndFitAction) {
+    let (Some(curve), Some(point)) = (editor.active(), report.target_point) else {
+        return;
+    };
+    let target = match action {
+        EndFitAction::SetPoint(point) => EndTarget {
+            point,
+            direction: report.target_direction,
+        },
+        EndFitAction::SetDirection(direction) => EndTarget { point, direction },
+        _ => return,
+    };
+    let edit = Edit::SetTarget {
+        curve,
+        end: report.end,
+        target: Some(target),
+    };
+    editor.preview_field("Set target", vec![edit]);
+}
+
+fn empty_ui(ui: &mut Ui, editor: &Editor) {
+    ui.strong("End fit");
+    let periodic = editor.active().and_then(|id| editor.document().curve(id));
+    let text = match periodic {
+        Some(curve) if curve.polygon.is_periodic() => {
+            "This curve is periodic: it has no ends. Open it (Curve menu) to correct its ends."
+        }
+        Some(_) => "This curve cannot be corrected.",
+        None => "Select an open curve to correct its ends.",
+    };
+    widgets::note(ui, text);
+}
+
+/// What the panel sends to the editor.
+enum Asked {
+    Action(EndFitAction),
+    Preview(EndFitAction),
+    Commit,
+    Abort,
+}
+
+struct Panel<'a> {
+    report: &'a EndFitReport,
+    /// Whether the closed S-polygon stands in for the float one.
+    closed: bool,
+    pixel: f64,
+    step: Option<usize>,
+    asked: Option<(usize, Asked)>,
+}
+
+/// The number under which the target's fields stand: they are no step.
+const TARGET: usize = 0;
+
+impl Panel<'_> {
+    fn show(&mut self, ui: &mut Ui) {
+        self.ends_ui(ui);
+        self.target_ui(ui);
+        ui.add_space(STEP);
+        self.shape_ui(ui);
+        self.closed_ui(ui);
+        self.difference_ui(ui);
+        self.float_ui(ui);
+        self.translate_ui(ui);
+        self.rotate_ui(ui);
+        self.repeat_ui(ui);
+        self.both_ui(ui);
+    }
+
+    fn ask(&mut self, step: usize, action: EndFitAction) {
+        self.asked = Some((step, Asked::Action(action)));
+    }
+
+    fn ends_ui(&mut self, ui: &mut Ui) {
+        ui.horizontal(|ui| {
+            ui.strong("End fit");
+            widgets::at_right(ui, |ui| {
+                ui.spacing_mut().item_spacing.x = STEP;
+                for (end, name) in [(End::Finish, "End"), (End::Start, "Start")] {
+                    let button = Button::selectable(self.report.end == end, name);
+                    let response = ui.add_sized(vec2(56.0, ROW), button);
+                    if response.clicked() {
+                        self.ask(TARGET, EndFitAction::Choose(end));
+                    }
+                }
+            });
+        });
+    }
+
+    fn target_ui(&mut self, ui: &mut Ui) {
+        let report = self.report;
+        if let Some(point) = report.target_point {
+            self.point_ui(ui, point);
+            self.direction_ui(ui);
+        } else {
+            widgets::note(
+                ui,
+                "No target yet: click the place on the canvas, or take one here.",
+            );
+        }
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing.x = STEP;
+            let actual = ui.button("Take actual end");
+            if actual
+                .on_hover_text("Put the target where the end is now")
+                .clicked()
+            {
+                self.ask(TARGET, EndFitAction::TargetActual);
+            }
+            let pick = ui.add(Button::new("Pick from curve").selected(report.picking));
+            let tooltip =
+                "Then click another curve's end: its point and direction become the target";
+            if pick.on_hover_text(tooltip).clicked() {
+                self.ask(TARGET, EndFitAction::PickFromCurve);
+            }
+            if ui
+                .add_enabled(report.target_point.is_some(), Button::new("Clear"))
+                .clicked()
+            {
+                self.ask(TARGET, EndFitAction::ClearTarget);
+            }
+        });
+        self.outcome_ui(ui, TARGET);
+    }
+
+    fn point_ui(&mut self, ui: &mut Ui, point: DVec3) {
+        let axes = if self.report.planar { 2 } else { 3 };
+        let width = field_width(ui, axes);
+        widgets::form_row(ui, "Target", |ui| {
+            ui.spacing_mut().item_spacing.x = STEP;
+            for axis in 0..axes {
+                let value = point[axis];
+                let name = format!("target {}", ["x", "y", "z"][axis]);
+                let shown = figures::to_resolution(value, 0.01 * self.pixel);
+                let field = NumberField::new(&name, value, shown)
+                    .speed(self.pixel)
+                    .width(width);
+                let event = field.show(ui).1;
+                self.field(event, |value| {
+                    let mut moved = point;
+                    moved[axis] = value;
+                    EndFitAction::SetPoint(moved)
+                });
+            }
+        });
+    }
+
+    fn direction_ui(&mut self, ui: &mut Ui) {
+        let direction = self.report.target_direction;
+        widgets::form_row(ui, "Direction", |ui| {
+            ui.spacing_mut().item_spacing.x = STEP;
+            match direction {
+                Some(direction) if self.report.planar => self.angle_ui(ui, direction),
+                Some(direction) => self.components_ui(ui, direction),
+                None => {}
+            }
+            let mut fixed = direction.is_some();
+            let free = ui.add(Checkbox::new(&mut fixed, "Fixed"));
+            if free
+                .on_hover_text("Whether the tangent is to have a direction")
+                .clicked()
+            {
+                let actual = self.report.tangent.unwrap_or(DVec3::X);
+                self.ask(TARGET, EndFitAction::SetDirection(fixed.then_some(actual)));
+            }
+        });
+    }
+
+    fn angle_ui(&mut self, ui: &mut Ui, direction: DVec3) {
+        let degrees = direction.truncate().to_angle().to_degrees();
+        let shown = format!("{degrees:.3}°");
+        let field = NumberField::new("target direction", degrees, shown)
+            .speed(0.25)
+            .width(FIELD + 8.0);
+        let event = field.show(ui).1;
+        self.field(event, |degrees| {
+            let direction = DVec2::from_angle(degrees.to_radians()).extend(0.0);
+            EndFitAction::SetDirection(Some(direction))
+        });
+    }
+
+    fn components_ui(&mut self, ui: &mut Ui, direction: DVec3) {
+        let width = 0.75 * field_width(ui, 3);
+        for axis in 0..3 {
+            let value = direction[axis];
+            let name = format!("target direction {}", ["x", "y", "z"][axis]);
+            let shown = format!("{value:.3}");
+            let field = NumberField::new(&name, value, shown)
+                .speed(0.005)
+                .width(width);
+            let event = field.show(ui).1;
+            self.field(event, |value| {
+                let mut turned = direction;
+                turned[axis] = value;
+                EndFitAction::SetDirection(Some(turned))
+            });
+        }
+    }
+
+    fn field(&mut self, event: FieldEvent, action: impl Fn(f64) -> EndFitAction) {
+        let asked = match event {
+            FieldEvent::Idle => return,
+            FieldEvent::Preview(value) => Asked::Preview(action(value)),
+            FieldEvent::Typed(value) => Asked::Action(action(value)),
+            FieldEvent::Commit => Asked::Commit,
+            FieldEvent::Abort => Asked::Abort,
+        };
+        self.asked = Some((TARGET, asked));
+    }
+
+    fn shape_ui(&mut self, ui: &mut Ui) {
+        let report = self.report;
+        step_ui(ui, 1, "Shape the float S-polygon", false, |_| {});
+        indented(ui, |ui| {
+            let plain = |value: f64| figures::significant(value, 6);
+            widgets::figure_row(ui, "Legs", &range(report.legs, plain));
+            let angle = |value: f64| figures::degrees(value, 3);
+            widgets::figure_row(ui, "Turning angles", &range(report.turns, angle));
+        });
+    }
+
+    fn closed_ui(&mut self, ui: &mut Ui) {
+        let closed = self.closed;
+        step_ui(ui, 2, "Closed S-polygon", false, |ui| {
+            let response = step_button(ui, "Show", true, Some(closed));
+            if response.accessible_name("Show closed S-polygon").clicked() {
+                self.ask(2, EndFitAction::ShowClosed(true));
+            }
+        });
+    }
+
+    fn difference_ui(&mut self, ui: &mut Ui) {
+        let report = self.report;
+        let is_met = report.target_point.is_some() && self.is_in_place() && self.is_aligned();
+        step_ui(ui, 3, "Difference to the target", is_met, |_| {});
+        indented(ui, |ui| {
+            if report.target_point.is_none() {
+                widgets::note(ui, "Set a target first.");
+                return;
+            }
+            let d = report.difference;
+            let plain = |value: f64| figures::significant(value, 6);
+            let mut pairs = vec![("dx", plain(d.x)), ("dy", plain(d.y))];
+            if !report.planar {
+                pairs.push(("dz", plain(d.z)));
+            }
+            pairs.push(("Length", plain(d.length())));
+            pairs.push(("Angle", angle_text(report.angle)));
+            figure_pairs(ui, &pairs);
+        });
+    }
+
+    fn float_ui(&mut self, ui: &mut Ui) {
+        let closed = self.closed;
+        step_ui(ui, 4, "Back to the float S-polygon", false, |ui| {
+            let response = step_button(ui, "Show", true, Some(!closed));
+            if response.accessible_name("Show float S-polygon").clicked() {
+                self.ask(4, EndFitAction::ShowClosed(false));
+            }
+        });
+    }
+
+    fn is_in_place(&self) -> bool {
+        let report = self.report;
+        report.target_point.is_some() && report.difference.length() <= report.tolerance
+    }
+
+    fn is_aligned(&self) -> bool {
+        self.report.angle.abs() <= 1e-9
+    }
+
+    fn translate_ui(&mut self, ui: &mut Ui) {
+        let report = self.report;
+        let title = format!("Move {} vertices", report.degree);
+        step_ui(ui, 5, &title, self.is_in_place(), |ui| {
+            let response = step_button(ui, "Translate", report.target_point.is_some(), None);
+            let tooltip = "Translate the terminal vertices, as one body, by the difference vector";
+            if response.on_hover_text(tooltip).clicked() {
+                self.ask(5, EndFitAction::Translate);
+            }
+        });
+        self.outcome_ui(ui, 5);
+    }
+
+    fn rotate_ui(&mut self, ui: &mut Ui) {
+        let report = self.report;
+        let has_target = report.target_direction.is_some() && report.tangent.is_some();
+        let title = format!("Turn {} vertices", report.degree);
+        step_ui(ui, 6, &title, has_target && self.is_aligned(), |ui| {
+            let response = step_button(ui, "Rotate", has_target, None);
+            let tooltip = "Rotate them about the end point by the difference angle";
+            if response.on_hover_text(tooltip).clicked() {
+                self.ask(6, EndFitAction::Rotate);
+            }
+        });
+        self.outcome_ui(ui, 6);
+    }
+
+    fn repeat_ui(&mut self, ui: &mut Ui) {
+        let report = self.report;
+        step_ui(ui, 7, "Edit on, and repeat", report.within, |ui| {
+            let response = step_button(ui, "Repeat", report.targets > 0, None);
+            let tooltip = "Repeat steps 2 to 6 on both ends until within the tolerance";
+            if response.on_hover_text(tooltip).clicked() {
+                self.ask(7, EndFitAction::Repeat);
+            }
+        });
+        indented(ui, |ui| {
+            let left = figures::significant(report.residual, 4);
+            figure_pairs(
+                ui,
+                &[("Left over", left), ("Passes", report.passes.to_string())],
+            );
+            widgets::form_row(ui, "Tolerance", |ui| {
+                let shown = figures::significant(report.tolerance, 4);
+                let field = NumberField::new("tolerance", report.tolerance, shown)
+                    .range(0.0..=f64::MAX)
+                    .typed_only()
+                    .width(FIELD + 24.0);
+                if let FieldEvent::Typed(value) = field.show(ui).1 {
+                    self.ask(7, EndFitAction::SetTolerance(value));
+                }
+            });
+        });
+        self.outcome_ui(ui, 7);
+        overlap_ui(ui, report);
+    }
+
+    fn both_ui(&mut self, ui: &mut Ui) {
+        let report = self.report;
+        indented(ui, |ui| {
+            let size = vec2(ui.available_width(), ROW);
+            let button = Button::new("Both ends at once").min_size(size);
+            let response = ui.add_enabled(report.targets > 0, button);
+            let tooltip = "Meet all targets together by the least disturbance of the vertices";
+            if response.on_hover_text(tooltip).clicked() {
+                self.ask(8, EndFitAction::BothAtOnce);
+            }
+            if let Some((distance, vertex)) = report.largest_move {
+                let text = format!("{} at vertex {vertex}", figures::significant(distance, 4));
+                widgets::figure_row(ui, "Largest move", &text);
+            }
+        });
+        self.outcome_ui(ui, 8);
+    }
+
+    /// Tell what the last action came to, below the button that was pressed.
+    fn outcome_ui(&self, ui: &mut Ui, step: usize) {
+        let Some((text, failed)) = &self.report.outcome else {
+            return;
+        };
+        let place = self.step.unwrap_or(7);
+        if place != step {
+            return;
+        }
+        let tokens = Tokens::of(ui);
+        let (icon, colour) = if *failed {
+            (Icon::TriangleAlert, tokens.error)
+        } else {
+            (Icon::Check, tokens.good)
+        };
+        indented(ui, |ui| remark_ui(ui, icon, text, colour));
+    }
+}
+
+/// Where the groups of vertices overlap, say what that does to the loop.
+fn overlap_ui(ui: &mut Ui, report: &EndFitReport) {
+    let (count, degree) = (report.vertices, report.degree);
+    let text = match report.overlap {
+        EndOverlap::None => return,
+        EndOverlap::Partial { shared } => format!(
+            "N = {count} is less than 2n = {}: the two ends share {shared} vertices. Repeating \
+             converges slowly; “both ends at once” is exact.",
+            2 * degree
+        ),
+        EndOverlap::OneSegment => format!(
+            "N = {count} is n + 1: both ends share all but two vertices. Repeating does not \
+             converge; use “both ends at once”."
+        ),
+    };
+    let warning = Tokens::of(ui).warning;
+    indented(ui, |ui| remark_ui(ui, Icon::Info, &text, warning));
+}
+
+fn remark_ui(ui: &mut Ui, icon: Icon, text: &str, colour: Color32) {
+    ui.horizontal_top(|ui| {
+        ui.spacing_mut().item_spacing.x = 1.5 * STEP;
+        ui.label(icons::text(icon).color(colour));
+        ui.add(
+            Label::new(RichText::new(text).color(colour))
+                .wrap()
+                .selectable(true),
+        );
+    });
+}
+
+/// The button at the right end of a step's row.
+fn step_button(ui: &mut Ui, name: &str, enabled: bool, on: Option<bool>) -> Response {
+    let button = Button::new(name)
+        .min_size(vec2(BUTTON, ROW))
+        .selected(on == Some(true));
+    ui.add_enabled(enabled, button)
+}
+
+/// Figures in two columns.
+fn figure_pairs(ui: &mut Ui, pairs: &[(&str, String)]) {
+    let gap = 4.0 * STEP;
+    let width = 0.5 * (ui.available_width() - gap);
+    for row in pairs.chunks(2) {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = gap;
+            for (name, figures) in row {
+                ui.allocate_ui(vec2(width, 5.0 * STEP), |ui| {
+                    ui.set_width(width);
+                    widgets::figure_row(ui, name, figures);
+                });
+            }
+        });
+    }
+}
+
+fn field_width(ui: &Ui, fields: usize) -> f32 {
+    let free = ui.available_width() - 84.0 - 2.0 * STEP;
+    ((free - STEP * fields as f32) / fields as f32).clamp(40.0, 120.0)
+}
+
+fn angle_text(radians: f64) -> String {
+    let degrees = radians.to_degrees();
+    if degrees != 0.0 && degrees.abs() < 1e-3 {
+        figures::significant(degrees, 3) + "°"
+    } else {
+        figures::degrees(radians, 4)
+    }
+}
+
+/// One step's row: its number, its title with a check mark once it is done, and its button.
+fn step_ui(ui: &mut Ui, number: usize, title: &str, done: bool, button: impl FnOnce(&mut Ui)) {
+    ui.add_space(0.5 * STEP);
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 0.0;
+        ui.set_min_height(ROW);
+        let (rect, response) = ui.allocate_exact_size(vec2(INDENT, ROW), Sense::hover());
+        let tokens = Tokens::of(ui);
+        let badge = Rect::from_center_size(rect.left_center() + vec2(9.0, 0.0), vec2(18.0, 18.0));
+        let colour = if done { tokens.good } else { tokens.faint_text };
+        ui.painter()
+            .rect_stroke(badge, RADIUS, Stroke::new(1.0, colour), StrokeKind::Inside);
+        let font = theme::small_font();
+        let text = number.to_string();
+        ui.painter().text(
+            badge.center(),
+            Align2::CENTER_CENTER,
+            text,
+            font,
+            tokens.text,
+        );
+        response.widget_info(|| {
+            let state = if done { "done" } else { "open" };
+            WidgetInfo::labeled(Role::Label, true, format!("step {number}: {state}"))
+        });
+        ui.label(RichText::new(title).color(tokens.strong_text));
+        if done {
+            ui.add_space(1.5 * STEP);
+            ui.label(icons::text(Icon::Check).color(tokens.good));
+        }
+        widgets::at_right(ui, button);
+    });
+}
+
+fn indented(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
+    ui.horizontal_top(|ui| {
+        ui.spacing_mut().item_spacing.x = 0.0;
+        ui.add_space(INDENT);
+        ui.vertical(|ui| {
+            ui.spacing_mut().item_spacing = vec2(2.0 * STEP, 0.5 * STEP);
+            contents(ui);
+        });
+    });
+}

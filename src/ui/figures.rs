@@ -1,0 +1,115 @@
+//! Numbers as the screen shows them.
+
+/// Write a number with as many decimals as `resolution` needs, so that neighbours line up:
+/// the resolution is the smallest difference that matters. Numbers too large for that are
+/// written with an exponent.
+pub fn to_resolution(value: f64, resolution: f64) -> String {
+    if !value.is_finite() {
+        return "–".to_owned();
+    }
+    if value.abs() >= 1e9 || (value.abs() >= 1e6 && resolution >= value.abs() * 1e-3) {
+        return significant(value, 6);
+    }
+    let decimals = decimals(resolution);
+    if decimals > 9 {
+        return significant(value, 6);
+    }
+    without_negative_zero(format!("{value:.decimals$}"))
+}
+
+/// The number of decimals that tell values apart that differ by `resolution`.
+pub fn decimals(resolution: f64) -> usize {
+    if resolution > 0.0 && resolution.is_finite() {
+        (-resolution.log10()).ceil().clamp(0.0, 15.0) as usize
+    } else {
+        6
+    }
+}
+
+/// Write a number with some significant digits: plainly where that is short, otherwise with an
+/// exponent.
+pub fn significant(value: f64, digits: usize) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    if !value.is_finite() {
+        return "–".to_owned();
+    }
+    let exponent = value.abs().log10().floor() as i32;
+    if (-4..digits as i32).contains(&exponent) {
+        let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
+        without_negative_zero(format!("{value:.decimals$}"))
+    } else {
+        format!("{value:.*e}", digits.saturating_sub(1).min(3))
+    }
+}
+
+/// Write an angle given in radians as degrees.
+pub fn degrees(radians: f64, decimals: usize) -> String {
+    if radians.is_finite() {
+        without_negative_zero(format!("{:.decimals$}", radians.to_degrees())) + "°"
+    } else {
+        "–".to_owned()
+    }
+}
+
+/// Write a number so that reading it gives the very same number.
+pub fn exact(value: f64) -> String {
+    let magnitude = value.abs();
+    if magnitude != 0.0 && !(1e-6..1e15).contains(&magnitude) {
+        format!("{value:e}")
+    } else {
+        format!("{value}")
+    }
+}
+
+/// Read what was typed into a field: a number, with a decimal comma or point, any minus sign,
+/// and a unit that is passed over.
+pub fn read(text: &str) -> Option<f64> {
+    let plain: String = text
+        .chars()
+        .filter(|character| !character.is_whitespace() && *character != '°')
+        .map(|character| match character {
+            ',' => '.',
+            '−' | '–' => '-',
+            other => other,
+        })
+        .collect();
+    plain.parse().ok().filter(|value: &f64| value.is_finite())
+}
+
+fn without_negative_zero(text: String) -> String {
+    let is_zero = text.bytes().all(|byte| matches!(byte, b'-' | b'0' | b'.'));
+    match text.strip_prefix('-') {
+        Some(rest) if is_zero => rest.to_owned(),
+        _ => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_line_up_and_stay_short() {
+        assert_eq!(to_resolution(1.0 / 3.0, 0.001), "0.333");
+        assert_eq!(to_resolution(-0.0001, 0.01), "0.00");
+        assert_eq!(to_resolution(2.5e12, 1e9), "2.500e12");
+        assert_eq!(to_resolution(f64::NAN, 0.1), "–");
+        assert_eq!(significant(8.918_176, 4), "8.918");
+        assert_eq!(significant(-1.25e-9, 4), "-1.250e-9");
+        assert_eq!(significant(123_456.0, 4), "1.235e5");
+        assert_eq!(degrees(std::f64::consts::PI, 1), "180.0°");
+    }
+
+    #[test]
+    fn fields_show_numbers_exactly_and_read_what_people_type() {
+        for value in [0.1 + 0.2, -1e-300, 12.0, f64::MAX, 8.748_581_800_695_999] {
+            assert_eq!(read(&exact(value)), Some(value));
+        }
+        assert_eq!(read(" 3,5° "), Some(3.5));
+        assert_eq!(read("−2"), Some(-2.0));
+        assert_eq!(read("abc"), None);
+        assert_eq!(read("inf"), None);
+    }
+}

@@ -1,0 +1,313 @@
+//! Asking for files: the system's dialogs where there are any, otherwise a field for the path.
+
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::time::{Duration, Instant};
+
+use eframe::egui::{Align2, Context, Id, Key, Label, Modal, RichText, TextEdit, Ui, vec2};
+
+use super::theme::{ROW, STEP, Tokens};
+use super::widgets;
+use crate::editor::{AfterDiscard, Export};
+
+/// A dialog that answers "nothing" sooner than this was never shown.
+const UNAVAILABLE: Duration = Duration::from_millis(250);
+
+/// What a path is wanted for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Purpose {
+    /// To open in place of the document.
+    Open,
+    /// To add its curves.
+    Import,
+    /// To save under, and what goes on afterwards.
+    Save(Option<AfterDiscard>),
+    /// To export to.
+    Export(Export),
+}
+
+/// What came of asking.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chosen {
+    /// What the paths were wanted for.
+    pub purpose: Purpose,
+    /// The paths: at least one.
+    pub paths: Vec<PathBuf>,
+}
+
+/// The dialogs' state: at most one is open.
+pub struct FileDialogs {
+    /// Whether to try the system's dialogs at all.
+    native: bool,
+    waiting: Option<Waiting>,
+    prompt: Option<Prompt>,
+}
+
+struct Waiting {
+    purpose: Purpose,
+    proposal: PathBuf,
+    begun: Instant,
+    answer: Receiver<Vec<PathBuf>>,
+}
+
+struct Prompt {
+    purpose: Purpose,
+    text: String,
+    error: Option<String>,
+    fresh: bool,
+}
+
+impl FileDialogs {
+    /// Ask through the system's dialogs, or only through the window's own prompt.
+    pub fn new(native: bool) -> Self {
+        Self {
+            native,
+            waiting: None,
+            prompt: None,
+        }
+    }
+
+    /// Whether the system's dialogs are in use.
+    pub fn is_native(&self) -> bool {
+        self.native
+    }
+
+    /// Ask for a path; `proposal` is where to begin. An earlier question is forgotten.
+    pub fn ask(&mut self, context: &Context, purpose: Purpose, proposal: PathBuf) {
+        if !self.native {
+            self.open_prompt(purpose, &proposal);
+            return;
+        }
+        let (sender, answer) = channel();
+        let (kind, start, repaint) = (purpose.clone(), proposal.clone(), context.clone());
+        let show = move || {
+            // The window may have closed meanwhile; then nobody listens any more.
+            let _ = sender.send(native_dialog(&kind, &start));
+            repaint.request_repaint();
+        };
+        if cfg!(target_os = "macos") {
+            show();
+        } else {
+            std::thread::spawn(show);
+        }
+        self.waiting = Some(Waiting {
+            purpose,
+            proposal,
+            begun: Instant::now(),
+            answer,
+        });
+    }
+
+    /// Show the prompt again because the path could not be used.
+    pub fn ask_again(&mut self, purpose: Purpose, path: &Path, error: String) {
+        self.open_prompt(purpose, path);
+        if let Some(prompt) = &mut self.prompt {
+            prompt.error = Some(error);
+        }
+    }
+
+    fn open_prompt(&mut self, purpose: Purpose, path: &Path) {
+        let text = path.display().to_string();
+        self.prompt = Some(Prompt {
+            purpose,
+            text,
+            error: None,
+            fresh: true,
+        });
+    }
+
+    /// Take an answer, if one has come.
+    pub fn answer(&mut self) -> Option<Chosen> {
+        let waiting = self.waiting.as_ref()?;
+        let paths = match waiting.answer.try_recv() {
+            Err(TryRecvError::Empty) => return None,
+            Ok(paths) => paths,
+            Err(TryRecvError::Disconnected) => Vec::new(),
+        };
+        let Waiting {
+            purpose,
+            proposal,
+            begun,
+            ..
+        } = self.waiting.take()?;
+        if !paths.is_empty() {
+            return Some(Chosen { purpose, paths });
+        }
+        if begun.elapsed() < UNAVAILABLE {
+            self.native = false;
+            self.open_prompt(purpose, &proposal);
+        }
+        None
+    }
+
+    /// Show the window's own prompt, if it is open.
+    pub fn show(&mut self, context: &Context) -> Option<Chosen> {
+        let prompt = self.prompt.as_mut()?;
+        let frame = widgets::dialog_frame(&context.global_style());
+        let modal = Modal::new(Id::unique("path prompt")).frame(frame);
+        let modal = modal.show(context, |ui| prompt.show(ui));
+        let closes = modal.should_close();
+        let answer = modal.inner.or(closes.then_some(Answer::Cancel))?;
+        match answer {
+            Answer::Cancel => self.prompt = None,
+            Answer::Path(path) => match refused(&prompt.purpose, &path) {
+                Some(error) => prompt.error = Some(error),
+                None => {
+                    let purpose = self.prompt.take()?.purpose;
+                    return Some(Chosen {
+                        purpose,
+                        paths: vec![path],
+                    });
+                }
+            },
+        }
+        None
+    }
+}
+
+/// What was decided in the prompt.
+enum Answer {
+    Cancel,
+    Path(PathBuf),
+}
+
+impl Prompt {
+    fn show(&mut self, ui: &mut Ui) -> Option<Answer> {
+        ui.set_width(520.0);
+        ui.spacing_mut().item_spacing.y = 2.0 * STEP;
+        ui.strong(title(&self.purpose));
+        let field = TextEdit::singleline(&mut self.text)
+            .desired_width(f32::INFINITY)
+            .align(Align2::LEFT_CENTER)
+            .hint_text("Path of the file")
+            .min_size(vec2(0.0, 1.25 * ROW));
+        let response = ui.add(field).accessible_name("Path");
+        if std::mem::take(&mut self.fresh) {
+            response.request_focus();
+        }
+        if response.changed() {
+            self.error = None;
+        }
+        self.remark_ui(ui);
+        let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+        let mut answer = entered.then(|| self.path());
+        ui.horizontal(|ui| {
+            widgets::at_right(ui, |ui| {
+                if widgets::primary_button(ui, verb(&self.purpose)).clicked() {
+                    answer = Some(self.path());
+                }
+                if ui.button("Cancel").clicked() {
+                    answer = Some(Answer::Cancel);
+                }
+            });
+        });
+        if entered {
+            // Should the path be refused, it can be mended at once.
+            response.request_focus();
+        }
+        answer
+    }
+
+    fn path(&self) -> Answer {
+        Answer::Path(from_home(self.text.trim()))
+    }
+
+    /// Below the field: what was wrong, or what would happen.
+    fn remark_ui(&self, ui: &mut Ui) {
+        let tokens = Tokens::of(ui);
+        let writes = matches!(self.purpose, Purpose::Save(_) | Purpose::Export(_));
+        let (text, colour) = match &self.error {
+            Some(error) => (error.as_str(), tokens.error),
+            None if writes && from_home(self.text.trim()).is_file() => {
+                ("This file exists and will be replaced.", tokens.warning)
+            }
+            None => ("Enter confirms, Esc cancels.", tokens.faint_text),
+        };
+        ui.add(Label::new(RichText::new(text).color(colour)).wrap());
+    }
+}
+
+/// Read "~" as the home folder, as people type it.
+fn from_home(text: &str) -> PathBuf {
+    let home = std::env::var_os(if cfg!(windows) { "USERPROFILE" } else { "HOME" });
+    match (text.strip_prefix("~/"), home) {
+        (Some(rest), Some(home)) => PathBuf::from(home).join(rest),
+        _ => PathBuf::from(text),
+    }
+}
+
+/// Why a path cannot be used, if that can be told without trying.
+fn refused(purpose: &Purpose, path: &Path) -> Option<String> {
+    if path.as_os_str().is_empty() {
+        return Some("Type the path of a file.".to_owned());
+    }
+    if path.is_dir() {
+        return Some(format!(
+            "{} is a folder: add a file's name.",
+            path.display()
+        ));
+    }
+    match purpose {
+        Purpose::Open | Purpose::Import if !path.is_file() => {
+            Some(format!("There is no file {}.", path.display()))
+        }
+        Purpose::Save(_) | Purpose::Export(_) => {
+            let folder = path
+                .parent()
+                .filter(|folder| !folder.as_os_str().is_empty())?;
+            let missing = || format!("There is no folder {}.", folder.display());
+            (!folder.is_dir()).then(missing)
+        }
+        _ => None,
+    }
+}
+
+fn title(purpose: &Purpose) -> String {
+    match purpose {
+        Purpose::Open => "Open a file".to_owned(),
+        Purpose::Import => "Import curves from a file".to_owned(),
+        Purpose::Save(_) => "Save the document".to_owned(),
+        Purpose::Export(export) => format!("Export as {}", export.extension.to_uppercase()),
+    }
+}
+
+fn verb(purpose: &Purpose) -> &'static str {
+    match purpose {
+        Purpose::Open => "Open",
+        Purpose::Import => "Import",
+        Purpose::Save(_) => "Save",
+        Purpose::Export(_) => "Export",
+    }
+}
+
+fn native_dialog(purpose: &Purpose, proposal: &Path) -> Vec<PathBuf> {
+    let mut dialog = rfd::FileDialog::new().set_title(title(purpose));
+    if let Some(folder) = proposal.parent().filter(|folder| folder.is_dir()) {
+        dialog = dialog.set_directory(folder);
+    }
+    if let Some(name) = proposal.file_name() {
+        dialog = dialog.set_file_name(name.to_string_lossy());
+    }
+    let readable = ["batten", "csv"];
+    match purpose {
+        Purpose::Open => dialog
+            .add_filter("Curves", &readable)
+            .pick_file()
+            .into_iter()
+            .collect(),
+        Purpose::Import => dialog
+            .add_filter("Curves", &readable)
+            .pick_files()
+            .unwrap_or_default(),
+        Purpose::Save(_) => dialog
+            .add_filter("Batten project", &["batten"])
+            .save_file()
+            .into_iter()
+            .collect(),
+        Purpose::Export(export) => {
+            let name = export.extension.to_uppercase();
+            let dialog = dialog.add_filter(name, &[export.extension]);
+            dialog.save_file().into_iter().collect()
+        }
+    }
+}

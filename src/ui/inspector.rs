@@ -1,0 +1,210 @@
+//! The inspector: everything of the active curve, in numbers.
+
+use eframe::egui::{
+    Align2, Button, Color32, Key, Rect, RichText, Sense, Stroke, TextEdit, Ui, Vec2, vec2,
+};
+use lucide_icons::Icon;
+
+use super::curve_list::swatch_in;
+use super::figures;
+use super::number_field::{FieldEvent, NumberField};
+use super::theme::{self, RADIUS, ROW, STEP, Tokens};
+use super::vertex_table::VertexTable;
+use super::widgets::{self, IconButton};
+use crate::document::{Colour, Curve, CurveId, Edit};
+use crate::editor::{CurveReport, Editor};
+use crate::geometry::{MAX_DEGREE, Range};
+
+/// The inspector's own state.
+#[derive(Default)]
+pub struct Inspector {
+    /// The name that is being typed, for the curve that it belongs to.
+    name: Option<(CurveId, String)>,
+    table: VertexTable,
+}
+
+impl Inspector {
+    /// Show the inspector of the active curve.
+    pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor) {
+        let active = editor.active();
+        let found = active.and_then(|id| Some((id, editor.document().curve(id)?.clone())));
+        let Some((id, curve)) = found else {
+            ui.strong("Inspector");
+            widgets::note(
+                ui,
+                "Select a curve to see its degree, figures and coordinates.",
+            );
+            return;
+        };
+        widgets::section(ui, "Inspector", true, |ui| {
+            self.curve_ui(ui, editor, id, &curve)
+        });
+        widgets::section(ui, "Figures", true, |ui| {
+            if let Some(report) = editor.report() {
+                figures_ui(ui, &curve, &report);
+            }
+        });
+        let title = format!("Vertices ({})", curve.polygon.vertices().len());
+        let open = widgets::section_with_id(ui, "vertices", &title, true, |ui| {
+            self.table.show(ui, editor, id, &curve);
+        });
+        if open.is_none() {
+            ui.add_space(STEP);
+        }
+    }
+
+    fn curve_ui(&mut self, ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
+        widgets::form_row(ui, "Name", |ui| self.name_ui(ui, editor, id, curve));
+        widgets::form_row(ui, "Colour", |ui| colour_ui(ui, editor, id, curve));
+        ui.add_enabled_ui(!curve.locked, |ui| {
+            widgets::form_row(ui, "Degree", |ui| degree_ui(ui, editor, id, curve));
+            widgets::form_row(ui, "Ends", |ui| ends_ui(ui, editor, id, curve));
+        });
+        widgets::form_row(ui, "State", |ui| {
+            let mut visible = curve.visible;
+            if ui.checkbox(&mut visible, "Visible").clicked() {
+                let label = if visible { "Show curve" } else { "Hide curve" };
+                editor.apply(label, vec![Edit::SetVisible { curve: id, visible }]);
+            }
+            let mut locked = curve.locked;
+            if ui.checkbox(&mut locked, "Locked").clicked() {
+                let label = if locked { "Lock curve" } else { "Unlock curve" };
+                editor.apply(label, vec![Edit::SetLocked { curve: id, locked }]);
+            }
+        });
+    }
+
+    fn name_ui(&mut self, ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
+        let typed = self.name.take().filter(|(owner, _)| *owner == id);
+        let mut text = typed.map_or_else(|| curve.name.clone(), |(_, text)| text);
+        let field = TextEdit::singleline(&mut text)
+            .desired_width(f32::INFINITY)
+            .align(Align2::LEFT_CENTER)
+            .min_size(vec2(0.0, ROW));
+        let response = ui.add(field).accessible_name("Name");
+        if response.lost_focus() {
+            let called_off = ui.input(|input| input.key_pressed(Key::Escape));
+            if !called_off && text.trim() != curve.name {
+                editor.apply(
+                    "Rename curve",
+                    vec![Edit::Rename {
+                        curve: id,
+                        name: text,
+                    }],
+                );
+            }
+        } else if response.has_focus() {
+            self.name = Some((id, text));
+        }
+    }
+}
+
+fn degree_ui(ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
+    let degree = curve.polygon.degree();
+    ui.spacing_mut().item_spacing.x = STEP;
+    let lower = IconButton::new(Icon::Minus, "Lower degree").enabled(degree > 1);
+    if lower.show(ui).clicked() {
+        editor.set_degree(id, degree - 1);
+    }
+    let field = NumberField::new("Degree", degree as f64, degree.to_string())
+        .width(48.0)
+        .range(1.0..=MAX_DEGREE as f64)
+        .typed_only();
+    if let FieldEvent::Typed(value) = field.show(ui).1 {
+        editor.set_degree(id, value.round() as usize);
+    }
+    let raise = IconButton::new(Icon::Plus, "Raise degree").enabled(degree < MAX_DEGREE);
+    if raise.show(ui).clicked() {
+        editor.set_degree(id, degree + 1);
+    }
+    widgets::caption(ui, "the polygon is kept");
+}
+
+fn ends_ui(ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
+    let periodic = curve.polygon.is_periodic();
+    ui.spacing_mut().item_spacing.x = STEP;
+    for (name, wanted) in [("Open", false), ("Periodic", true)] {
+        let response = ui.add(Button::selectable(periodic == wanted, name));
+        if response.clicked() && periodic != wanted {
+            editor.set_periodic(id, wanted);
+        }
+    }
+}
+
+/// A swatch that opens a choice of colours.
+fn colour_ui(ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
+    let tokens = Tokens::of(ui);
+    let shown = curve.colour.map_or(tokens.curve, theme::of_document);
+    let name = if curve.colour.is_some() {
+        "Its own"
+    } else {
+        "Of the theme"
+    };
+    let swatch = RichText::new("      ").background_color(shown);
+    let button = ui.menu_button((swatch, name), |ui| {
+        let mut chosen = None;
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = STEP;
+            for (name, colour) in theme::CURVE_COLOURS {
+                if choice_ui(ui, name, theme::of_document(colour)).clicked() {
+                    chosen = Some(Some(colour));
+                }
+            }
+        });
+        if ui.button("Take the theme's colour").clicked() {
+            chosen = Some(None);
+        }
+        if let Some(colour) = chosen {
+            recolour(editor, id, colour);
+            ui.close();
+        }
+    });
+    button.response.accessible_name("Colour");
+}
+
+fn choice_ui(ui: &mut Ui, name: &str, colour: Color32) -> eframe::egui::Response {
+    let (rect, response) = ui.allocate_exact_size(Vec2::splat(ROW), Sense::click());
+    if response.hovered() || response.has_focus() {
+        let stroke = Stroke::new(1.5, Tokens::of(ui).accent);
+        ui.painter()
+            .rect_stroke(rect, RADIUS, stroke, eframe::egui::StrokeKind::Inside);
+    }
+    swatch_in(
+        ui,
+        Rect::from_center_size(rect.center(), Vec2::splat(4.0 * STEP)),
+        colour,
+    );
+    response
+        .widget_info(|| eframe::egui::WidgetInfo::labeled(eframe::egui::Role::Button, true, name));
+    response.on_hover_text(name)
+}
+
+fn recolour(editor: &mut Editor, curve: CurveId, colour: Option<Colour>) {
+    editor.apply("Recolour curve", vec![Edit::Recolour { curve, colour }]);
+}
+
+fn figures_ui(ui: &mut Ui, curve: &Curve, report: &CurveReport) {
+    ui.spacing_mut().item_spacing.y = 0.0;
+    let kind = match (report.planar, curve.polygon.weights().is_some()) {
+        (true, false) => "planar, polynomial",
+        (true, true) => "planar, rational",
+        (false, false) => "in space, polynomial",
+        (false, true) => "in space, rational",
+    };
+    widgets::figure_row(ui, "Kind", kind);
+    widgets::figure_row(ui, "Segments", &report.segments.to_string());
+    widgets::figure_row(ui, "Length", &figures::significant(report.length, 8));
+    let plain = |value: f64| figures::significant(value, 6);
+    widgets::figure_row(ui, "Curvature", &range(report.curvature, plain));
+    widgets::figure_row(ui, "Legs", &range(report.legs, plain));
+    let angle = |value: f64| figures::degrees(value, 3);
+    widgets::figure_row(ui, "Turning angles", &range(report.turns, angle));
+}
+
+/// Write a range as "low … high".
+pub fn range(range: Option<Range>, text: impl Fn(f64) -> String) -> String {
+    range.map_or_else(
+        || "–".to_owned(),
+        |range| format!("{} … {}", text(range.low), text(range.high)),
+    )
+}

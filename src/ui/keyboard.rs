@@ -1,0 +1,214 @@
+//! Keys: from egui's names to the editor's, and to the commands they stand for.
+
+use eframe::egui::{self, Context, Event};
+
+use crate::editor::{Command, Editor, Key, Modifiers, Shortcut};
+
+/// Translate modifier keys.
+pub fn modifiers(modifiers: egui::Modifiers) -> Modifiers {
+    Modifiers {
+        shift: modifiers.shift,
+        ctrl: modifiers.command,
+        alt: modifiers.alt,
+    }
+}
+
+/// Translate a key, if the editor knows it.
+pub fn key(key: egui::Key) -> Option<Key> {
+    use egui::Key as Theirs;
+    Some(match key {
+        Theirs::Enter => Key::Enter,
+        Theirs::Escape => Key::Escape,
+        Theirs::Delete => Key::Delete,
+        Theirs::Backspace => Key::Backspace,
+        Theirs::Tab => Key::Tab,
+        Theirs::Space => Key::Space,
+        Theirs::ArrowLeft => Key::Left,
+        Theirs::ArrowRight => Key::Right,
+        Theirs::ArrowUp => Key::Up,
+        Theirs::ArrowDown => Key::Down,
+        Theirs::Plus | Theirs::Equals => Key::Character('+'),
+        Theirs::Minus => Key::Character('-'),
+        other => return named_key(other.name()),
+    })
+}
+
+/// Letters, digits and function keys are known by their names.
+fn named_key(name: &str) -> Option<Key> {
+    if let Some(number) = name.strip_prefix('F').and_then(|rest| rest.parse().ok()) {
+        return Some(Key::Function(number));
+    }
+    let mut characters = name.chars();
+    match (characters.next(), characters.next()) {
+        (Some(one), None) if one.is_ascii_alphanumeric() => {
+            Some(Key::Character(one.to_ascii_lowercase()))
+        }
+        _ => None,
+    }
+}
+
+/// Write a shortcut as menus show it.
+pub fn shortcut_text(shortcut: Shortcut) -> String {
+    let mut parts: Vec<String> = Vec::new();
+    let is_mac = cfg!(target_os = "macos");
+    if shortcut.modifiers.ctrl {
+        parts.push(if is_mac { "Cmd" } else { "Ctrl" }.to_owned());
+    }
+    if shortcut.modifiers.alt {
+        parts.push("Alt".to_owned());
+    }
+    if shortcut.modifiers.shift {
+        parts.push("Shift".to_owned());
+    }
+    parts.push(match shortcut.key {
+        Key::Character(character) => character.to_uppercase().to_string(),
+        Key::Function(number) => format!("F{number}"),
+        Key::Delete => "Del".to_owned(),
+        Key::Enter => "Enter".to_owned(),
+        Key::Escape => "Esc".to_owned(),
+        Key::Backspace => "Backspace".to_owned(),
+        Key::Tab => "Tab".to_owned(),
+        Key::Space => "Space".to_owned(),
+        Key::Left => "Left".to_owned(),
+        Key::Right => "Right".to_owned(),
+        Key::Up => "Up".to_owned(),
+        Key::Down => "Down".to_owned(),
+    });
+    parts.join("+")
+}
+
+/// Whether a text field has the keyboard, which then owns plain keys and the clipboard's.
+pub fn is_typing(context: &Context) -> bool {
+    context.text_edit_focused()
+}
+
+/// Whether a dialog or menu is open, so that keys are not for the window behind it.
+pub fn is_covered(context: &Context) -> bool {
+    egui::Popup::is_any_open(context) || context.memory(|memory| memory.top_modal_layer().is_some())
+}
+
+/// What this frame's keys ask for.
+pub enum Asked {
+    /// A command of the table.
+    Command(Command),
+    /// The clipboard's text, already at hand.
+    Paste(String),
+}
+
+/// Take the events out of this frame that stand for commands.
+pub fn asked(context: &Context, editor: &Editor) -> Vec<Asked> {
+    if is_covered(context) {
+        return Vec::new();
+    }
+    let typing = is_typing(context);
+    let table: Vec<(Shortcut, Command)> = Command::all(editor.examples())
+        .into_iter()
+        .filter_map(|command| Some((command.shortcut()?, command)))
+        .collect();
+    let mut asked = Vec::new();
+    context.input_mut(|input| {
+        input
+            .events
+            .retain(|event| match command_of(event, &table, typing) {
+                Some(found) => {
+                    asked.push(found);
+                    false
+                }
+                None => true,
+            });
+    });
+    asked
+}
+
+fn command_of(event: &Event, table: &[(Shortcut, Command)], typing: bool) -> Option<Asked> {
+    match event {
+        Event::Copy if !typing => Some(Asked::Command(Command::Copy)),
+        Event::Cut if !typing => Some(Asked::Command(Command::Cut)),
+        Event::Paste(text) if !typing => Some(Asked::Paste(text.clone())),
+        Event::Key {
+            key: pressed,
+            pressed: true,
+            repeat,
+            modifiers: held,
+            ..
+        } => {
+            let shortcut = pressed_shortcut(*pressed, *held)?;
+            let found = table
+                .iter()
+                .find(|(keys, _)| *keys == shortcut)
+                .map(|(_, command)| *command);
+            let command = found.or_else(|| alias(shortcut))?;
+            let repeats = matches!(
+                command,
+                Command::Undo | Command::Redo | Command::ZoomIn | Command::ZoomOut
+            );
+            let is_mine = !typing || !belongs_to_text(shortcut);
+            (is_mine && (repeats || !repeat)).then_some(Asked::Command(command))
+        }
+        _ => None,
+    }
+}
+
+fn pressed_shortcut(pressed: egui::Key, held: egui::Modifiers) -> Option<Shortcut> {
+    let mut shortcut = Shortcut {
+        modifiers: modifiers(held),
+        key: key(pressed)?,
+    };
+    if shortcut.key == Key::Character('+') {
+        // Plus needs shift on many keyboards.
+        shortcut.modifiers.shift = false;
+    }
+    Some(shortcut)
+}
+
+/// Keys that people know from elsewhere.
+fn alias(shortcut: Shortcut) -> Option<Command> {
+    let redo = Shortcut {
+        modifiers: Modifiers::CTRL,
+        key: Key::Character('y'),
+    };
+    (shortcut == redo).then_some(Command::Redo)
+}
+
+/// Whether a text field needs the key for itself.
+fn belongs_to_text(shortcut: Shortcut) -> bool {
+    let edits = matches!(
+        shortcut.key,
+        Key::Character('z' | 'y' | 'x' | 'c' | 'v' | 'a')
+    );
+    match shortcut.key {
+        Key::Function(_) => false,
+        _ => !shortcut.modifiers.ctrl || edits,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_have_the_editors_names() {
+        assert_eq!(key(egui::Key::A), Some(Key::Character('a')));
+        assert_eq!(key(egui::Key::Num7), Some(Key::Character('7')));
+        assert_eq!(key(egui::Key::F9), Some(Key::Function(9)));
+        assert_eq!(key(egui::Key::F), Some(Key::Character('f')));
+        assert_eq!(key(egui::Key::Equals), Some(Key::Character('+')));
+        assert_eq!(key(egui::Key::Home), None);
+    }
+
+    #[test]
+    fn every_command_has_a_key_of_its_own() {
+        let commands = Command::all(0);
+        let keys: Vec<Shortcut> = commands
+            .iter()
+            .filter_map(|command| command.shortcut())
+            .collect();
+        for (index, shortcut) in keys.iter().enumerate() {
+            assert!(
+                !keys[..index].contains(shortcut),
+                "{}",
+                shortcut_text(*shortcut)
+            );
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! The editor's message, in the canvas's corner above the status bar.
+
+use eframe::egui::{Align2, Area, Context, Frame, Id, Label, Order, Rect, RichText, Stroke, vec2};
+use lucide_icons::Icon;
+
+use super::icons;
+use super::theme::{STEP, Tokens};
+use super::widgets::IconButton;
+use crate::editor::Editor;
+
+/// The widest that a message gets before it wraps.
+const WIDTH: f32 = 460.0;
+
+/// Show the message, if there is one, until it is dismissed or something else is done.
+pub fn message_ui(context: &Context, canvas: Rect, editor: &mut Editor) {
+    let Some(message) = editor.message().cloned() else {
+        return;
+    };
+    let corner = canvas.left_bottom() + vec2(2.0 * STEP, -6.0 * STEP);
+    let area = Area::new(Id::unique("message"))
+        .order(Order::Middle)
+        .pivot(Align2::LEFT_BOTTOM)
+        .fixed_pos(corner)
+        .constrain(false);
+    let dismissed = area.show(context, |ui| {
+        let tokens = Tokens::of(ui);
+        let (icon, colour) = if message.is_error {
+            (Icon::TriangleAlert, tokens.error)
+        } else {
+            (Icon::Info, tokens.faint_text)
+        };
+        let outline = if message.is_error {
+            tokens.error
+        } else {
+            tokens.outline
+        };
+        let frame = Frame::popup(ui.style()).stroke(Stroke::new(1.0, outline));
+        let shown = frame.inner_margin(2.0 * STEP).show(ui, |ui| {
+            let width = WIDTH.min(canvas.width() - 8.0 * STEP).max(120.0);
+            ui.set_max_width(width);
+            ui.horizontal_top(|ui| {
+                ui.spacing_mut().item_spacing.x = 2.0 * STEP;
+                ui.add_space(0.0);
+                ui.label(icons::text(icon).color(colour));
+                ui.vertical(|ui| {
+                    ui.set_max_width(width - 18.0 * STEP);
+                    let text = RichText::new(&message.text).color(tokens.text);
+                    ui.add(Label::new(text).wrap().selectable(true));
+                });
+                IconButton::new(Icon::X, "Dismiss message")
+                    .size(5.0 * STEP)
+                    .show(ui)
+                    .clicked()
+            })
+            .inner
+        });
+        shown.inner
+    });
+    if dismissed.inner {
+        editor.dismiss_message();
+    }
+}

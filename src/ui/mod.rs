@@ -1,0 +1,88 @@
+//! The window: egui only. It shows what the editor says and sends what the hand does; it
+//! computes no geometry.
+
+mod app;
+mod canvas;
+mod chains;
+mod curve_list;
+mod dialogs;
+mod end_fit_panel;
+mod end_marks;
+mod figures;
+mod file_dialogs;
+mod grid;
+mod icons;
+mod inspector;
+mod keyboard;
+mod labels;
+mod layer_list;
+mod menu;
+mod message;
+mod number_field;
+mod overlays;
+mod painting;
+mod palette;
+mod plots;
+mod status_bar;
+mod theme;
+mod tool_rail;
+mod vertex_table;
+mod widgets;
+
+use std::path::PathBuf;
+
+use anyhow::{anyhow, bail};
+use eframe::egui::{IconData, ViewportBuilder};
+
+pub use app::App;
+
+/// The window's size at first.
+const SIZE: [f32; 2] = [1440.0, 900.0];
+
+/// The smallest size at which nothing is cut off.
+const LEAST: [f32; 2] = [960.0, 640.0];
+
+/// Open the editor with some files, and return when its window is closed.
+///
+/// # Errors
+/// If there is no display, or no window can be opened on it.
+pub fn run(files: Vec<PathBuf>) -> anyhow::Result<()> {
+    check_display()?;
+    let mut viewport = ViewportBuilder::default()
+        .with_title("Batten")
+        .with_app_id("batten")
+        .with_inner_size(SIZE)
+        .with_min_inner_size(LEAST)
+        .with_drag_and_drop(true);
+    if let Some(icon) = icon() {
+        viewport = viewport.with_icon(icon);
+    }
+    let options = eframe::NativeOptions {
+        viewport,
+        ..Default::default()
+    };
+    let create: eframe::AppCreator<'_> = Box::new(move |creation| {
+        let mut app = App::new(&creation.egui_ctx, creation.storage, true);
+        app.open_files(&files);
+        Ok(Box::new(app))
+    });
+    eframe::run_native("Batten", options, create)
+        .map_err(|error| anyhow!("the window cannot be opened: {error}"))
+}
+
+/// On Linux and its like, say what is missing instead of failing deep inside.
+fn check_display() -> anyhow::Result<()> {
+    let names = ["WAYLAND_DISPLAY", "WAYLAND_SOCKET", "DISPLAY"];
+    let is_set = |name: &&str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    if cfg!(target_os = "linux") && !names.iter().any(|name| is_set(name)) {
+        bail!(
+            "there is no display to open the window on: neither WAYLAND_DISPLAY nor DISPLAY is \
+             set. Start Batten from a desktop session, or use its commands (batten --help)."
+        );
+    }
+    Ok(())
+}
+
+fn icon() -> Option<IconData> {
+    eframe::icon_data::from_png_bytes(include_bytes!("../../assets/icon.png")).ok()
+}

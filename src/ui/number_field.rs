@@ -1,0 +1,334 @@
+//! A field for a number: typed exactly, or dragged.
+
+use std::ops::RangeInclusive;
+
+use eframe::egui::{
+    Align2, CursorIcon, Id, Key, Rect, Response, Sense, Stroke, StrokeKind, TextEdit, Ui, Vec2,
+    WidgetInfo, accesskit::Action, accesskit::ActionData, pos2, text::CCursorRange,
+    text_edit::TextEditState,
+};
+
+use super::figures;
+use super::theme::{self, RADIUS, ROW, STEP, Tokens};
+
+/// What the hand did to a field.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FieldEvent {
+    /// Nothing.
+    Idle,
+    /// It is being dragged and shows this now.
+    Preview(f64),
+    /// The drag ended.
+    Commit,
+    /// The drag was called off.
+    Abort,
+    /// A number was typed.
+    Typed(f64),
+}
+
+/// A number that can be typed (click, type, Enter) and dragged sideways (shift: finer).
+pub struct NumberField<'a> {
+    name: &'a str,
+    value: f64,
+    shown: String,
+    speed: f64,
+    width: f32,
+    range: RangeInclusive<f64>,
+    flat: bool,
+    typed_only: bool,
+}
+
+/// What is being typed into the field that has the keyboard.
+#[derive(Clone, Default)]
+struct Typing {
+    text: String,
+    before: String,
+}
+
+/// The drag that is going on.
+#[derive(Clone, Copy, Default)]
+struct Drag {
+    start: f64,
+    points: f64,
+    called_off: bool,
+}
+
+impl<'a> NumberField<'a> {
+    /// A field that shows `shown` for `value`; `name` is what a screen reader calls it.
+    pub fn new(name: &'a str, value: f64, shown: String) -> Self {
+        Self {
+            name,
+            value,
+            shown,
+            speed: 1.0,
+            width: 80.0,
+            range: f64::NEG_INFINITY..=f64::INFINITY,
+            flat: false,
+            typed_only: false,
+        }
+    }
+
+    /// By how much the value changes when the pointer is dragged by one point.
+    pub fn speed(mut self, speed: f64) -> Self {
+        self.speed = speed;
+        self
+    }
+
+    /// The field's width in points.
+    pub fn width(mut self, width: f32) -> Self {
+        self.width = width;
+        self
+    }
+
+    /// The values that dragging and typing keep to.
+    pub fn range(mut self, range: RangeInclusive<f64>) -> Self {
+        self.range = range;
+        self
+    }
+
+    /// Without a frame until it is hovered: for tables.
+    pub fn flat(mut self) -> Self {
+        self.flat = true;
+        self
+    }
+
+    /// Not to be dragged.
+    pub fn typed_only(mut self) -> Self {
+        self.typed_only = true;
+        self
+    }
+
+    /// Show the field.
+    pub fn show(self, ui: &mut Ui) -> (Response, FieldEvent) {
+        let (_, rect) = ui.allocate_space(Vec2::new(self.width, ROW));
+        let id = ui.make_persistent_id(self.name);
+        if ui.memory(|memory| memory.has_focus(id)) && ui.is_enabled() {
+            self.typing_ui(ui, rect, id)
+        } else {
+            let typed = self.typed_before_leaving(ui, id);
+            let (response, event) = self.resting_ui(ui, rect, id);
+            (response, typed.map_or(event, FieldEvent::Typed))
+        }
+    }
+
+    /// The field has the keyboard: it is a text field with the exact number.
+    fn typing_ui(&self, ui: &mut Ui, rect: Rect, id: Id) -> (Response, FieldEvent) {
+        let kept: Option<Typing> = ui.data_mut(|data| data.remove_temp(id));
+        let is_new = kept.is_none();
+        let mut typing = kept.unwrap_or_else(|| {
+            let text = figures::exact(self.value);
+            Typing {
+                before: text.clone(),
+                text,
+            }
+        });
+        let tokens = Tokens::of(ui);
+        let is_readable = figures::read(&typing.text).is_some();
+        let edit = TextEdit::singleline(&mut typing.text)
+            .id(id)
+            .font(theme::number_font())
+            .align(Align2::RIGHT_CENTER)
+            .text_color(if is_readable {
+                tokens.strong_text
+            } else {
+                tokens.error
+            })
+            .min_size(rect.size())
+            .desired_width(rect.width());
+        let response = ui.put(rect, edit);
+        ui.ctx()
+            .accesskit_node_builder(id, |node| node.set_label(self.name));
+        if is_new {
+            select_all(ui, id, &typing.text);
+        }
+        if !is_readable {
+            response.show_tooltip_text("Type a number, such as 12.5");
+        }
+        if response.lost_focus() {
+            let event = self
+                .finished(&typing)
+                .map_or(FieldEvent::Idle, FieldEvent::Typed);
+            return (response, event);
+        }
+        ui.data_mut(|data| data.insert_temp(id, typing));
+        (response, FieldEvent::Idle)
+    }
+
+    /// The number that was being typed when the keyboard went elsewhere, if it counts.
+    fn typed_before_leaving(&self, ui: &Ui, id: Id) -> Option<f64> {
+        let typing: Typing = ui.data_mut(|data| data.remove_temp(id))?;
+        let called_off = ui.input(|input| input.key_pressed(Key::Escape));
+        if called_off {
+            None
+        } else {
+            self.finished(&typing)
+        }
+    }
+
+    fn finished(&self, typing: &Typing) -> Option<f64> {
+        let value = figures::read(&typing.text)?;
+        (typing.text != typing.before).then(|| self.clamped(value))
+    }
+
+    fn clamped(&self, value: f64) -> f64 {
+        value.clamp(*self.range.start(), *self.range.end())
+    }
+
+    fn resting_ui(&self, ui: &mut Ui, rect: Rect, id: Id) -> (Response, FieldEvent) {
+        let sense = if self.typed_only {
+            Sense::click()
+        } else {
+            Sense::click_and_drag()
+        };
+        let response = ui.interact(rect, id, sense);
+        if ui.is_rect_visible(rect) {
+            self.paint(ui, rect, &response);
+        }
+        self.describe(ui, &response);
+        if response.clicked() {
+            response.request_focus();
+        }
+        let event = self
+            .requested_value(ui, id)
+            .unwrap_or_else(|| self.drag(ui, &response));
+        let response = if ui.is_enabled() {
+            let drags = CursorIcon::ResizeHorizontal;
+            response.on_hover_and_drag_cursor(if self.typed_only {
+                CursorIcon::Text
+            } else {
+                drags
+            })
+        } else {
+            response
+        };
+        (response, event)
+    }
+
+    fn paint(&self, ui: &Ui, rect: Rect, response: &Response) {
+        let tokens = Tokens::of(ui);
+        let is_hot = response.hovered() || response.dragged();
+        let visible = ui.visuals().widgets.style(response);
+        if !self.flat || is_hot {
+            let outline = if is_hot {
+                tokens.accent
+            } else {
+                tokens.outline
+            };
+            ui.painter().rect(
+                rect,
+                RADIUS,
+                tokens.inset,
+                Stroke::new(1.0, outline),
+                StrokeKind::Inside,
+            );
+        }
+        let at = pos2(rect.right() - 1.5 * STEP, rect.center().y);
+        let painter = ui.painter_at(rect);
+        let colour = if is_hot {
+            tokens.strong_text
+        } else {
+            visible.text_color()
+        };
+        painter.text(
+            at,
+            Align2::RIGHT_CENTER,
+            &self.shown,
+            theme::number_font(),
+            colour,
+        );
+    }
+
+    fn describe(&self, ui: &Ui, response: &Response) {
+        response.widget_info(|| WidgetInfo {
+            label: Some(self.name.to_owned()),
+            ..WidgetInfo::drag_value(ui.is_enabled(), self.value)
+        });
+        ui.ctx().accesskit_node_builder(response.id, |node| {
+            node.add_action(Action::SetValue);
+            node.set_value(self.shown.clone());
+        });
+    }
+
+    /// A number that a screen reader, or a test, sets.
+    fn requested_value(&self, ui: &Ui, id: Id) -> Option<FieldEvent> {
+        ui.input(|input| {
+            let mut requests = input.accesskit_action_requests(id, Action::SetValue);
+            requests.find_map(|request| match &request.data {
+                Some(ActionData::NumericValue(value)) if value.is_finite() => {
+                    Some(FieldEvent::Typed(self.clamped(*value)))
+                }
+                Some(ActionData::Value(text)) => {
+                    figures::read(text).map(|value| FieldEvent::Typed(self.clamped(value)))
+                }
+                _ => None,
+            })
+        })
+    }
+
+    fn drag(&self, ui: &Ui, response: &Response) -> FieldEvent {
+        let memory = response.id.with("drag");
+        if response.drag_started() {
+            let drag = Drag {
+                start: self.value,
+                points: 0.0,
+                called_off: false,
+            };
+            ui.data_mut(|data| data.insert_temp(memory, drag));
+        }
+        let Some(mut drag) = ui.data(|data| data.get_temp::<Drag>(memory)) else {
+            return FieldEvent::Idle;
+        };
+        if response.drag_stopped() || !response.dragged() {
+            ui.data_mut(|data| data.remove_temp::<Drag>(memory));
+            return if drag.called_off {
+                FieldEvent::Idle
+            } else {
+                FieldEvent::Commit
+            };
+        }
+        if drag.called_off {
+            return FieldEvent::Idle;
+        }
+        let event = if ui.input(|input| input.key_pressed(Key::Escape)) {
+            drag.called_off = true;
+            FieldEvent::Abort
+        } else {
+            let fine = if ui.input(|input| input.modifiers.shift) {
+                0.1
+            } else {
+                1.0
+            };
+            let moved = f64::from(response.drag_delta().x) * fine;
+            drag.points += moved;
+            if moved == 0.0 {
+                FieldEvent::Idle
+            } else {
+                FieldEvent::Preview(self.dragged_to(&drag, fine))
+            }
+        };
+        ui.data_mut(|data| data.insert_temp(memory, drag));
+        event
+    }
+
+    /// The value under the hand, rounded to what one point of the drag can tell apart.
+    fn dragged_to(&self, drag: &Drag, fine: f64) -> f64 {
+        let value = drag.start + drag.points * self.speed;
+        let step = 10f64.powf((self.speed * fine).log10().floor());
+        let rounded = (value / step).round() * step;
+        // Dividing by the inverse keeps decimal fractions short: 0.3, not 0.30000000000000004.
+        let short = if step < 1.0 {
+            (value / step).round() / (1.0 / step).round()
+        } else {
+            rounded
+        };
+        self.clamped(if short.is_finite() { short } else { value })
+    }
+}
+
+fn select_all(ui: &Ui, id: Id, text: &str) {
+    let mut state = TextEditState::load(ui.ctx(), id).unwrap_or_default();
+    state
+        .cursor
+        .set_char_range(Some(CCursorRange::select_all_str(text)));
+    state.store(ui.ctx(), id);
+}

@@ -1,0 +1,50 @@
+//! What lies over the canvas for a moment: an empty document's advice, and files about to drop.
+
+use eframe::egui::{Align2, Area, Context, Id, LayerId, Order, Rect, RichText, Stroke, StrokeKind};
+
+use super::theme::{RADIUS, STEP, Tokens};
+
+/// Tell what to do with an empty document.
+pub fn empty_ui(context: &Context, canvas: Rect) {
+    let area = Area::new(Id::unique("empty document"))
+        .order(Order::Background)
+        .pivot(Align2::CENTER_CENTER)
+        .fixed_pos(canvas.center())
+        .interactable(false);
+    area.show(context, |ui| {
+        let tokens = Tokens::of(ui);
+        ui.spacing_mut().item_spacing.y = STEP;
+        ui.vertical_centered(|ui| {
+            ui.label(RichText::new("Nothing here yet").color(tokens.strong_text));
+            for line in [
+                "D draws a float S-polygon, click by click",
+                "Ctrl+O opens a file; files can also be dropped here",
+                "File, Examples has curves to begin with",
+            ] {
+                ui.label(RichText::new(line).color(tokens.faint_text));
+            }
+        });
+    });
+}
+
+/// While files hover over the window, say what dropping them does.
+pub fn drop_ui(context: &Context, canvas: Rect) {
+    if context.input(|input| input.raw.hovered_files.is_empty()) {
+        return;
+    }
+    let tokens = Tokens::of_theme(context.global_style().visuals.dark_mode);
+    let layer = LayerId::new(Order::Foreground, Id::unique("drop"));
+    let painter = context.layer_painter(layer);
+    let rect = canvas.shrink(2.0 * STEP);
+    let stroke = Stroke::new(2.0, tokens.accent);
+    painter.rect(rect, 2 * RADIUS, tokens.veil, stroke, StrokeKind::Inside);
+    let font = eframe::egui::FontId::proportional(13.0);
+    let text = "Drop a project to open it, or tables to add their curves";
+    painter.text(
+        rect.center(),
+        Align2::CENTER_CENTER,
+        text,
+        font,
+        tokens.strong_text,
+    );
+}

@@ -1,0 +1,334 @@
+//! The scene on the canvas, by the table of colours and forms.
+
+use std::f64::consts::{PI, TAU};
+
+use eframe::egui::{
+    Color32, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, pos2, vec2,
+};
+use glam::DVec2;
+
+use super::chains::Screen;
+use super::theme::{self, Tokens};
+use super::{end_marks, labels};
+use crate::editor::{CurveScene, HoverScene, Mark, Scene, VertexMark, Viewport};
+
+/// Half the length of the tick across a joint, in points.
+const TICK: f32 = 5.0;
+
+/// Half the side of the closed polygon's squares.
+const SQUARE: f32 = 3.5;
+
+/// Paint everything that lies on the grid, from back to front.
+pub fn paint(painter: &Painter, rect: Rect, viewport: &Viewport, scene: &Scene, tokens: &Tokens) {
+    let brush = Brush {
+        painter,
+        screen: Screen::new(viewport, rect),
+        rect,
+        tokens,
+    };
+    let (active, others): (Vec<_>, Vec<_>) = scene.curves.iter().partition(|curve| curve.active);
+    for curve in others.iter().chain(&active) {
+        brush.derived(curve);
+    }
+    brush.chain(
+        &scene.ghost,
+        Stroke::new(1.5, tokens.curve.gamma_multiply(0.35)),
+    );
+    for curve in others.iter().chain(&active) {
+        brush.curve(curve);
+    }
+    for curve in others.iter().chain(&active) {
+        brush.handles(curve);
+    }
+    for marks in &scene.ends {
+        end_marks::paint(&brush, marks);
+    }
+    for mark in &scene.marks {
+        brush.mark(mark);
+    }
+    if let Some(hover) = &scene.hover {
+        brush.hover(hover);
+    }
+}
+
+/// What the parts of the scene are painted with.
+pub struct Brush<'a> {
+    /// The painter, clipped to the canvas.
+    pub painter: &'a Painter,
+    /// From the model to the screen.
+    pub screen: Screen<'a>,
+    /// The canvas.
+    pub rect: Rect,
+    /// The colours.
+    pub tokens: &'a Tokens,
+}
+
+impl Brush<'_> {
+    /// Paint a chain as a line, one for each of its pieces.
+    pub fn chain(&self, chain: &[DVec2], stroke: Stroke) {
+        for line in self.screen.lines(chain) {
+            self.painter.add(Shape::line(line, stroke));
+        }
+    }
+
+    fn dashed_chain(&self, chain: &[DVec2], stroke: Stroke) {
+        for line in self.screen.lines(chain) {
+            self.painter
+                .extend(Shape::dashed_line(&line, stroke, 5.0, 4.0));
+        }
+    }
+
+    /// Paint a dashed line between two model points.
+    pub fn dashed(&self, segment: [DVec2; 2], stroke: Stroke) {
+        self.dashed_chain(&segment, stroke);
+    }
+
+    /// Paint an arrow between two model points, its head at the second.
+    pub fn arrow(&self, [from, to]: [DVec2; 2], stroke: Stroke) {
+        let Some([tail, tip]) = self.screen.segment([from, to]) else {
+            return;
+        };
+        self.painter.line_segment([tail, tip], stroke);
+        if self.screen.point(to).is_some() && tail.distance(tip) > 1.0 {
+            let along = (tip - tail).normalized();
+            let side = along.rot90();
+            let head = |sign: f32| tip - along * 9.0 + side * (4.0 * sign);
+            let points = vec![tip, head(1.0), head(-1.0)];
+            self.painter
+                .add(Shape::convex_polygon(points, stroke.color, Stroke::NONE));
+        }
+    }
+
+    /// Comb, evolute and closed polygon: what is derived from the curve, behind it.
+    fn derived(&self, curve: &CurveScene) {
+        let fade = fading(curve);
+        let tokens = self.tokens;
+        self.hairs(&curve.teeth, fade(tokens.comb_teeth));
+        self.chain(&curve.comb, Stroke::new(1.0, fade(tokens.comb)));
+        self.chain(&curve.evolute, Stroke::new(1.0, fade(tokens.evolute)));
+        self.dashed_chain(&curve.clamped, Stroke::new(1.0, fade(tokens.clamped)));
+        self.chain(&curve.float, Stroke::new(1.25, fade(tokens.float)));
+    }
+
+    fn curve(&self, curve: &CurveScene) {
+        let fade = fading(curve);
+        let own = curve.colour.map(theme::of_document);
+        let colour = fade(own.unwrap_or(self.tokens.curve));
+        let width = if curve.active { 2.0 } else { 1.5 };
+        self.chain(&curve.curve, Stroke::new(width, colour));
+        let tick = Stroke::new(1.5, fade(self.tokens.joints));
+        for [point, normal] in &curve.joints {
+            if let Some(at) = self.screen.point(*point) {
+                let across = vec2(normal.x as f32, -normal.y as f32) * TICK;
+                self.painter.line_segment([at - across, at + across], tick);
+            }
+        }
+    }
+
+    fn handles(&self, curve: &CurveScene) {
+        let fade = fading(curve);
+        let square = Stroke::new(1.25, fade(self.tokens.clamped));
+        for vertex in &curve.clamped_vertices {
+            if let Some(at) = self.screen.point(*vertex) {
+                let rect = Rect::from_center_size(at, Vec2::splat(2.0 * SQUARE));
+                self.painter
+                    .rect_stroke(rect, 0, square, StrokeKind::Middle);
+            }
+        }
+        let colour = fade(self.tokens.float);
+        for vertex in &curve.vertices {
+            self.vertex(vertex, colour, curve.locked);
+        }
+    }
+
+    fn vertex(&self, vertex: &VertexMark, colour: Color32, locked: bool) {
+        let Some(at) = self.screen.point(vertex.at) else {
+            return;
+        };
+        if vertex.selected {
+            self.painter.circle_filled(at, 5.0, colour);
+            self.painter
+                .circle_stroke(at, 8.0, Stroke::new(1.5, self.tokens.strong_text));
+        } else if locked {
+            let stroke = Stroke::new(1.25, colour);
+            self.painter.circle(at, 3.5, self.tokens.background, stroke);
+        } else {
+            self.painter.circle_filled(at, 4.0, colour);
+        }
+    }
+
+    /// Paint many hair lines as one mesh: a shape for each would cost half the frame rate.
+    fn hairs(&self, segments: &[[DVec2; 2]], colour: Color32) {
+        let mut mesh = Mesh::default();
+        let feather = 1.0 / self.painter.pixels_per_point();
+        for segment in segments {
+            if let Some([from, to]) = self.screen.segment(*segment) {
+                hair(&mut mesh, from, to, feather, colour);
+            }
+        }
+        if !mesh.is_empty() {
+            self.painter.add(Shape::mesh(mesh));
+        }
+    }
+
+    fn mark(&self, mark: &Mark) {
+        let tokens = self.tokens;
+        let accent = Stroke::new(1.5, tokens.accent);
+        match mark {
+            Mark::Guide(segment) => self.dashed(*segment, Stroke::new(1.0, tokens.float)),
+            Mark::Ruler(segment) => self.ruler(*segment),
+            Mark::SelectionBox([a, b]) => self.selection_box(*a, *b),
+            Mark::NewVertex(at) => {
+                if let Some(at) = self.screen.point(*at) {
+                    let stroke = Stroke::new(1.5, tokens.float);
+                    self.painter.circle(at, 4.5, tokens.background, stroke);
+                }
+            }
+            Mark::Pivot(at) => self.pivot(*at),
+            Mark::Arm([pivot, handle]) => {
+                if let Some(line) = self.screen.segment([*pivot, *handle]) {
+                    self.painter
+                        .line_segment(line, Stroke::new(1.0, tokens.accent));
+                }
+                if let Some(at) = self.screen.point(*handle) {
+                    self.painter.circle(at, 6.0, tokens.background, accent);
+                }
+            }
+            Mark::Snap(at) => {
+                if let Some(at) = self.screen.point(*at) {
+                    let rect = Rect::from_center_size(at, Vec2::splat(14.0));
+                    self.painter
+                        .rect_stroke(rect, 0, accent, StrokeKind::Middle);
+                }
+            }
+            Mark::Label(at, text) => {
+                if let Some(at) = self.screen.point(*at) {
+                    labels::tooltip(self.painter, self.rect, at, text, tokens);
+                }
+            }
+        }
+    }
+
+    fn ruler(&self, segment: [DVec2; 2]) {
+        let stroke = Stroke::new(1.5, self.tokens.accent);
+        let Some([from, to]) = self.screen.segment(segment) else {
+            return;
+        };
+        self.painter.line_segment([from, to], stroke);
+        let across = (to - from).normalized().rot90() * 6.0;
+        for end in [from, to] {
+            self.painter
+                .line_segment([end - across, end + across], stroke);
+        }
+    }
+
+    fn selection_box(&self, a: DVec2, b: DVec2) {
+        let corner = |point: DVec2| {
+            let place = self.screen.exact(point);
+            pos2(place.x as f32, place.y as f32)
+        };
+        let rect = Rect::from_two_pos(corner(a), corner(b));
+        let accent = self.tokens.accent;
+        let stroke = Stroke::new(1.0, accent);
+        self.painter.rect(
+            rect,
+            0,
+            accent.gamma_multiply(0.12),
+            stroke,
+            StrokeKind::Middle,
+        );
+    }
+
+    fn pivot(&self, at: DVec2) {
+        let Some(at) = self.screen.point(at) else {
+            return;
+        };
+        let stroke = Stroke::new(1.5, self.tokens.accent);
+        self.painter.circle(at, 6.0, self.tokens.background, stroke);
+        for arm in [vec2(10.0, 0.0), vec2(0.0, 10.0)] {
+            self.painter.line_segment([at - arm, at + arm], stroke);
+        }
+    }
+
+    fn hover(&self, hover: &HoverScene) {
+        let tokens = self.tokens;
+        let ring = Stroke::new(1.5, tokens.accent);
+        match hover {
+            HoverScene::Vertex { at, text } | HoverScene::Handle { at, text } => {
+                if let Some(at) = self.screen.point(*at) {
+                    self.painter.circle_stroke(at, 8.0, ring);
+                    labels::tooltip(self.painter, self.rect, at, text, tokens);
+                }
+            }
+            HoverScene::Curve {
+                at, centre, text, ..
+            } => {
+                if let Some(centre) = centre {
+                    self.osculating_circle(*at, *centre);
+                }
+                if let Some(at) = self.screen.point(*at) {
+                    self.painter.circle(at, 4.0, tokens.background, ring);
+                    labels::tooltip(self.painter, self.rect, at, text, tokens);
+                }
+            }
+        }
+    }
+
+    /// Paint the circle of curvature; of a large one only the part near its point.
+    fn osculating_circle(&self, at: DVec2, centre: DVec2) {
+        let radius = at.distance(centre);
+        let reach = 4.0 * f64::from(self.rect.width() + self.rect.height()) / self.screen.scale();
+        let half = (reach / radius).min(PI);
+        if !(radius > 0.0 && half > 0.0) {
+            return;
+        }
+        let start = (at - centre).to_angle();
+        let steps = if half < PI { 256 } else { 128 };
+        let chain: Vec<DVec2> = (0..=steps)
+            .map(|step| start + half * (2.0 * f64::from(step) / f64::from(steps) - 1.0))
+            .map(|angle| centre + radius * DVec2::from_angle(angle % TAU))
+            .collect();
+        let faint = self.tokens.evolute.gamma_multiply(0.6);
+        self.chain(&chain, Stroke::new(1.0, faint));
+        self.dashed([at, centre], Stroke::new(1.0, faint));
+        if let Some(centre) = self.screen.point(centre) {
+            self.painter.circle_filled(centre, 2.5, self.tokens.evolute);
+        }
+    }
+}
+
+/// How a curve steps back: inactive ones most, locked ones too.
+fn fading(curve: &CurveScene) -> impl Fn(Color32) -> Color32 {
+    let strength = match (curve.active, curve.locked) {
+        (true, false) => 1.0,
+        (true, true) => 0.65,
+        (false, _) => 0.4,
+    };
+    move |colour| {
+        if strength < 1.0 {
+            colour.gamma_multiply(strength)
+        } else {
+            colour
+        }
+    }
+}
+
+/// Append a line one pixel wide with soft edges.
+fn hair(mesh: &mut Mesh, from: Pos2, to: Pos2, feather: f32, colour: Color32) {
+    let along = to - from;
+    if along.length_sq() < 0.01 {
+        return;
+    }
+    let side = along.normalized().rot90() * feather;
+    let first = mesh.vertices.len() as u32;
+    for end in [from, to] {
+        mesh.colored_vertex(end - side, Color32::TRANSPARENT);
+        mesh.colored_vertex(end, colour);
+        mesh.colored_vertex(end + side, Color32::TRANSPARENT);
+    }
+    for strip in [0, 1] {
+        let [a, b, c, d] = [strip, strip + 1, strip + 3, strip + 4].map(|corner| first + corner);
+        mesh.add_triangle(a, b, c);
+        mesh.add_triangle(b, d, c);
+    }
+}

@@ -1,0 +1,215 @@
+//! The command palette: find a command by typing a part of its name.
+
+use eframe::egui::{
+    Align2, Area, Context, Event, Frame, Id, Key, Order, Role, ScrollArea, Sense, TextEdit, Ui,
+    Vec2, WidgetInfo,
+};
+use nucleo_matcher::pattern::{CaseMatching, Normalization, Pattern};
+use nucleo_matcher::{Config, Matcher, Utf32Str};
+
+use super::theme::{self, RADIUS, ROW, STEP, Tokens};
+use super::{icons, keyboard, widgets};
+use crate::editor::{Command, Editor};
+
+const WIDTH: f32 = 440.0;
+
+/// The palette, when it is open.
+#[derive(Default)]
+pub struct Palette {
+    open: bool,
+    /// Whether it was opened in this frame, so that the field takes the keyboard.
+    fresh: bool,
+    typed: String,
+    chosen: usize,
+}
+
+impl Palette {
+    /// Open it, empty.
+    pub fn open(&mut self) {
+        *self = Self {
+            open: true,
+            fresh: true,
+            ..Self::default()
+        };
+    }
+
+    /// Whether it is open.
+    pub fn is_open(&self) -> bool {
+        self.open
+    }
+
+    /// Show it over the canvas, if it is open.
+    pub fn show(&mut self, context: &Context, editor: &Editor, commands: &mut Vec<Command>) {
+        if !self.open {
+            return;
+        }
+        let area = Area::new(Id::unique("palette"))
+            .order(Order::Foreground)
+            .anchor(Align2::CENTER_TOP, Vec2::new(0.0, 72.0));
+        let shown = area.show(context, |ui| {
+            Frame::popup(ui.style())
+                .inner_margin(2.0 * STEP)
+                .show(ui, |ui| {
+                    ui.set_width(WIDTH);
+                    self.contents_ui(ui, editor)
+                })
+        });
+        let chosen = shown.inner.inner;
+        if let Some(command) = chosen {
+            commands.push(command);
+            self.open = false;
+        } else if shown.response.clicked_elsewhere() && !self.fresh {
+            self.open = false;
+        }
+        self.fresh = false;
+    }
+
+    fn contents_ui(&mut self, ui: &mut Ui, editor: &Editor) -> Option<Command> {
+        let keys = self.take_keys(ui);
+        let field = ui.add(
+            TextEdit::singleline(&mut self.typed)
+                .hint_text("Find a command")
+                .desired_width(f32::INFINITY)
+                .min_size(Vec2::new(0.0, 32.0))
+                .align(Align2::LEFT_CENTER),
+        );
+        let field = field.accessible_name("Find a command");
+        field.request_focus();
+        if field.changed() {
+            self.chosen = 0;
+        }
+        let found = matches(&self.typed, editor);
+        if keys.escape {
+            self.open = false;
+        }
+        let moved = self.chosen as i64 + keys.steps;
+        self.chosen = moved.clamp(0, found.len().max(1) as i64 - 1) as usize;
+        let by_key = (keys.enter)
+            .then(|| found.get(self.chosen).copied())
+            .flatten();
+        let by_hand = self.list_ui(ui, editor, &found, keys.steps != 0);
+        by_key
+            .or(by_hand)
+            .filter(|command| editor.is_enabled(*command))
+    }
+
+    fn list_ui(
+        &mut self,
+        ui: &mut Ui,
+        editor: &Editor,
+        found: &[Command],
+        follow: bool,
+    ) -> Option<Command> {
+        if found.is_empty() {
+            widgets::note(ui, "No command is called that. Try another word.");
+        }
+        let mut clicked = None;
+        ScrollArea::vertical()
+            .max_height(12.0 * ROW)
+            .show(ui, |ui| {
+                ui.spacing_mut().item_spacing.y = 0.0;
+                for (index, command) in found.iter().enumerate() {
+                    let response = row_ui(ui, editor, *command, index == self.chosen);
+                    if index == self.chosen && follow {
+                        response.scroll_to_me(None);
+                    }
+                    if response.clicked() {
+                        clicked = Some(*command);
+                    }
+                }
+            });
+        clicked
+    }
+
+    fn take_keys(&self, ui: &Ui) -> Keys {
+        let mut keys = Keys::default();
+        ui.input_mut(|input| {
+            input.events.retain(|event| {
+                let Event::Key {
+                    key, pressed: true, ..
+                } = event
+                else {
+                    return true;
+                };
+                match key {
+                    Key::ArrowDown => keys.steps += 1,
+                    Key::ArrowUp => keys.steps -= 1,
+                    Key::Enter => keys.enter = true,
+                    Key::Escape => keys.escape = true,
+                    _ => return true,
+                }
+                false
+            });
+        });
+        keys
+    }
+}
+
+#[derive(Default)]
+struct Keys {
+    steps: i64,
+    enter: bool,
+    escape: bool,
+}
+
+fn row_ui(ui: &mut Ui, editor: &Editor, command: Command, chosen: bool) -> eframe::egui::Response {
+    let width = ui.available_width();
+    let enabled = editor.is_enabled(command);
+    let (rect, response) = ui.allocate_exact_size(Vec2::new(width, ROW), Sense::click());
+    let tokens = Tokens::of(ui);
+    if chosen || response.hovered() {
+        let fill = if chosen {
+            tokens.selection
+        } else {
+            tokens.button[0]
+        };
+        ui.painter().rect_filled(rect, RADIUS, fill);
+    }
+    let label = editor.label(command);
+    let colour = match (enabled, chosen) {
+        (false, _) => tokens.faint_text,
+        (true, true) => tokens.strong_text,
+        (true, false) => tokens.text,
+    };
+    let inner = rect.shrink2(Vec2::new(2.0 * STEP, 0.0));
+    if let Some(icon) = icons::of_command(command) {
+        let place = inner.with_max_x(inner.left() + theme::ICON);
+        widgets::icon(ui, place, icon, colour);
+    }
+    widgets::label_in(
+        ui,
+        inner.with_min_x(inner.left() + 7.0 * STEP),
+        &label,
+        colour,
+    );
+    if let Some(shortcut) = command.shortcut() {
+        let text = keyboard::shortcut_text(shortcut);
+        let at = inner.right_center();
+        let font = theme::small_font();
+        ui.painter()
+            .text(at, Align2::RIGHT_CENTER, text, font, tokens.faint_text);
+    }
+    response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, enabled, chosen, &label));
+    response.on_hover_text(command.tooltip())
+}
+
+/// The commands whose names resemble what was typed, best first; all of them if nothing was.
+fn matches(typed: &str, editor: &Editor) -> Vec<Command> {
+    let all = Command::all(editor.examples());
+    if typed.trim().is_empty() {
+        return all;
+    }
+    let mut matcher = Matcher::new(Config::DEFAULT);
+    let pattern = Pattern::parse(typed, CaseMatching::Ignore, Normalization::Smart);
+    let mut buffer = Vec::new();
+    let mut scored: Vec<(u32, Command)> = all
+        .into_iter()
+        .filter_map(|command| {
+            let label = command.label();
+            let score = pattern.score(Utf32Str::new(&label, &mut buffer), &mut matcher)?;
+            Some((score, command))
+        })
+        .collect();
+    scored.sort_by_key(|(score, _)| std::cmp::Reverse(*score));
+    scored.into_iter().map(|(_, command)| command).collect()
+}

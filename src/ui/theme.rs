@@ -1,0 +1,322 @@
+//! Colours, sizes and fonts: the only file that names a colour.
+
+use std::sync::Arc;
+
+use eframe::egui::{
+    Color32, Context, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Margin, Shadow,
+    Stroke, Style, TextStyle, Theme, Ui, Vec2, Visuals, style::Selection, style::TextCursorStyle,
+    style::WidgetVisuals, style::Widgets,
+};
+
+use crate::document::Colour;
+
+/// The step that all distances are multiples of, in points.
+pub const STEP: f32 = 4.0;
+
+/// The radius of rounded corners.
+pub const RADIUS: u8 = 4;
+
+/// The height of a row: buttons, fields, lines of a list.
+pub const ROW: f32 = 24.0;
+
+/// The size of an icon.
+pub const ICON: f32 = 16.0;
+
+/// The name of the icons' font family.
+const ICON_FAMILY: &str = "icons";
+
+/// The colours of one theme, by what they are for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tokens {
+    /// The canvas.
+    pub background: Color32,
+    /// Panels, menus and bars.
+    pub panel: Color32,
+    /// Text fields and plots, set into a panel.
+    pub inset: Color32,
+    /// Lines between panels, outlines of fields.
+    pub outline: Color32,
+    /// Text.
+    pub text: Color32,
+    /// Captions, hints and units.
+    pub faint_text: Color32,
+    /// Headings and what is selected.
+    pub strong_text: Color32,
+    /// A button at rest, hovered and pressed.
+    pub button: [Color32; 3],
+    /// Behind what is selected.
+    pub selection: Color32,
+    /// What has the keyboard, links.
+    pub accent: Color32,
+    /// The grid's minor lines.
+    pub grid_minor: Color32,
+    /// The grid's major lines.
+    pub grid_major: Color32,
+    /// The axes.
+    pub axes: Color32,
+    /// The curve.
+    pub curve: Color32,
+    /// The float S-polygon.
+    pub float: Color32,
+    /// The closed S-polygon.
+    pub clamped: Color32,
+    /// The joints between segments.
+    pub joints: Color32,
+    /// The evolute.
+    pub evolute: Color32,
+    /// The curvature comb, its envelope.
+    pub comb: Color32,
+    /// The comb's teeth.
+    pub comb_teeth: Color32,
+    /// Target points and directions.
+    pub target: Color32,
+    /// What is within its tolerance.
+    pub good: Color32,
+    /// What is not yet.
+    pub warning: Color32,
+    /// What failed.
+    pub error: Color32,
+    /// Behind a dialog.
+    pub veil: Color32,
+    /// Under a popup.
+    pub shadow: Color32,
+}
+
+/// The colours that are offered for curves: apart for the colour-blind too, legible on both
+/// backgrounds.
+pub const CURVE_COLOURS: [(&str, Colour); 8] = [
+    ("Blue", Colour([0x3B, 0x82, 0xD6])),
+    ("Sky", Colour([0x2C, 0x9F, 0xC4])),
+    ("Green", Colour([0x1F, 0x9D, 0x6E])),
+    ("Olive", Colour([0x8A, 0x8F, 0x1E])),
+    ("Ochre", Colour([0xB9, 0x82, 0x0F])),
+    ("Vermilion", Colour([0xD5, 0x5E, 0x2A])),
+    ("Rose", Colour([0xCF, 0x4F, 0x8F])),
+    ("Violet", Colour([0x8B, 0x6F, 0xDB])),
+];
+
+const fn rgb(hex: u32) -> Color32 {
+    Color32::from_rgb((hex >> 16) as u8, (hex >> 8) as u8, hex as u8)
+}
+
+/// A colour at 35 per cent; egui's colours are premultiplied.
+const fn at_35_percent(hex: u32) -> Color32 {
+    const fn share(channel: u32) -> u8 {
+        ((channel & 0xFF) * 35 / 100) as u8
+    }
+    Color32::from_rgba_premultiplied(share(hex >> 16), share(hex >> 8), share(hex), 89)
+}
+
+static DARK: Tokens = Tokens {
+    background: rgb(0x14161A),
+    panel: rgb(0x1B1E24),
+    inset: rgb(0x14161A),
+    outline: rgb(0x2E333D),
+    text: rgb(0xD3D8E2),
+    faint_text: rgb(0x98A1B0),
+    strong_text: rgb(0xF4F6FA),
+    button: [rgb(0x282D36), rgb(0x333945), rgb(0x3D4452)],
+    selection: rgb(0x23406A),
+    accent: rgb(0x5B9BF5),
+    grid_minor: rgb(0x1E2127),
+    grid_major: rgb(0x272B33),
+    axes: rgb(0x3A404B),
+    curve: rgb(0xF4F6FA),
+    float: rgb(0xF5A524),
+    clamped: rgb(0x2DD4BF),
+    joints: rgb(0x94A3B8),
+    evolute: rgb(0xA78BFA),
+    comb: rgb(0x5B9BF5),
+    comb_teeth: at_35_percent(0x5B9BF5),
+    target: rgb(0xF472B6),
+    good: rgb(0x34D399),
+    warning: rgb(0xFB923C),
+    error: rgb(0xF87171),
+    veil: Color32::from_black_alpha(120),
+    shadow: Color32::from_black_alpha(96),
+};
+
+static LIGHT: Tokens = Tokens {
+    background: rgb(0xFBFBFA),
+    panel: rgb(0xF1F1EF),
+    inset: rgb(0xFBFBFA),
+    outline: rgb(0xD3D3CE),
+    text: rgb(0x2A2E35),
+    faint_text: rgb(0x5A616D),
+    strong_text: rgb(0x0C0E11),
+    button: [rgb(0xE3E3DF), rgb(0xD8D8D3), rgb(0xCBCBC5)],
+    selection: rgb(0xCBDDF8),
+    accent: rgb(0x2F6FD0),
+    grid_minor: rgb(0xEFEFEC),
+    grid_major: rgb(0xE2E2DE),
+    axes: rgb(0xC9C9C3),
+    curve: rgb(0x14161A),
+    float: rgb(0xC27803),
+    clamped: rgb(0x0F8F80),
+    joints: rgb(0x64748B),
+    evolute: rgb(0x6D4AE0),
+    comb: rgb(0x2F6FD0),
+    comb_teeth: at_35_percent(0x2F6FD0),
+    target: rgb(0xC2257A),
+    good: rgb(0x0E7A55),
+    warning: rgb(0xB04E08),
+    error: rgb(0xC81E1E),
+    veil: Color32::from_black_alpha(70),
+    shadow: Color32::from_black_alpha(28),
+};
+
+impl Tokens {
+    /// The colours of the theme that a panel is painted in.
+    pub fn of(ui: &Ui) -> &'static Self {
+        Self::of_theme(ui.visuals().dark_mode)
+    }
+
+    /// The colours of the dark or the light theme.
+    pub fn of_theme(dark: bool) -> &'static Self {
+        if dark { &DARK } else { &LIGHT }
+    }
+
+    fn visuals(&self, dark: bool) -> Visuals {
+        let base = if dark {
+            Visuals::dark()
+        } else {
+            Visuals::light()
+        };
+        Visuals {
+            widgets: self.widgets(),
+            selection: Selection {
+                bg_fill: self.selection,
+                stroke: Stroke::new(1.0, self.strong_text),
+            },
+            weak_text_color: Some(self.faint_text),
+            hyperlink_color: self.accent,
+            faint_bg_color: self.button[0].gamma_multiply(0.4),
+            extreme_bg_color: self.inset,
+            code_bg_color: self.inset,
+            warn_fg_color: self.warning,
+            error_fg_color: self.error,
+            window_corner_radius: CornerRadius::same(2 * RADIUS),
+            menu_corner_radius: CornerRadius::same(RADIUS),
+            window_fill: self.panel,
+            panel_fill: self.panel,
+            window_stroke: Stroke::new(1.0, self.outline),
+            window_shadow: self.drop_shadow(),
+            popup_shadow: self.drop_shadow(),
+            text_cursor: TextCursorStyle {
+                stroke: Stroke::new(1.5, self.accent),
+                blink: false,
+                ..TextCursorStyle::default()
+            },
+            slider_trailing_fill: true,
+            disabled_alpha: 0.45,
+            ..base
+        }
+    }
+
+    fn drop_shadow(&self) -> Shadow {
+        Shadow {
+            offset: [0, 4],
+            blur: 16,
+            spread: 0,
+            color: self.shadow,
+        }
+    }
+
+    fn widgets(&self) -> Widgets {
+        let [rest, hovered, pressed] = self.button;
+        let look = |fill: Color32, outline: Stroke, text: Color32| WidgetVisuals {
+            bg_fill: fill,
+            weak_bg_fill: fill,
+            bg_stroke: outline,
+            corner_radius: CornerRadius::same(RADIUS),
+            fg_stroke: Stroke::new(1.0, text),
+            expansion: 0.0,
+        };
+        let outline = Stroke::new(1.0, self.outline);
+        Widgets {
+            noninteractive: look(self.panel, outline, self.text),
+            inactive: look(rest, Stroke::NONE, self.text),
+            hovered: look(hovered, Stroke::NONE, self.strong_text),
+            active: look(pressed, Stroke::new(1.0, self.accent), self.strong_text),
+            open: look(hovered, Stroke::NONE, self.strong_text),
+        }
+    }
+}
+
+/// Give a context the fonts and both themes.
+pub fn install(context: &Context) {
+    context.set_fonts(fonts());
+    for theme in [Theme::Dark, Theme::Light] {
+        context.set_style_of(theme, style(theme == Theme::Dark));
+    }
+}
+
+/// Choose the dark or the light theme.
+pub fn choose(context: &Context, dark: bool) {
+    context.set_theme(if dark { Theme::Dark } else { Theme::Light });
+}
+
+/// A colour that the user gave to a curve.
+pub fn of_document(colour: Colour) -> Color32 {
+    let [red, green, blue] = colour.0;
+    Color32::from_rgb(red, green, blue)
+}
+
+/// The font of icons.
+pub fn icon_font(size: f32) -> FontId {
+    FontId::new(size, FontFamily::Name(ICON_FAMILY.into()))
+}
+
+/// The font of numbers: every figure as wide as the next.
+pub fn number_font() -> FontId {
+    FontId::monospace(12.0)
+}
+
+/// The font of small captions.
+pub fn small_font() -> FontId {
+    FontId::proportional(11.0)
+}
+
+fn fonts() -> FontDefinitions {
+    let mut fonts = FontDefinitions::default();
+    let lucide = FontData::from_static(lucide_icons::LUCIDE_FONT_BYTES);
+    fonts
+        .font_data
+        .insert(ICON_FAMILY.to_owned(), Arc::new(lucide));
+    fonts.families.insert(
+        FontFamily::Name(ICON_FAMILY.into()),
+        vec![ICON_FAMILY.to_owned()],
+    );
+    fonts
+}
+
+fn style(dark: bool) -> Style {
+    let mut style = Style {
+        visuals: Tokens::of_theme(dark).visuals(dark),
+        animation_time: 0.1,
+        drag_value_text_style: TextStyle::Monospace,
+        ..Style::default()
+    };
+    style.text_styles = [
+        (TextStyle::Small, small_font()),
+        (TextStyle::Body, FontId::proportional(13.0)),
+        (TextStyle::Button, FontId::proportional(13.0)),
+        (TextStyle::Heading, FontId::proportional(13.0)),
+        (TextStyle::Monospace, number_font()),
+    ]
+    .into();
+    let spacing = &mut style.spacing;
+    spacing.item_spacing = Vec2::new(2.0 * STEP, STEP);
+    spacing.button_padding = Vec2::new(2.0 * STEP, STEP);
+    spacing.interact_size = Vec2::new(10.0 * STEP, ROW);
+    spacing.window_margin = Margin::same(16);
+    spacing.menu_margin = Margin::same(4);
+    spacing.menu_spacing = STEP;
+    spacing.icon_width = 16.0;
+    spacing.icon_spacing = 6.0;
+    spacing.tooltip_width = 320.0;
+    spacing.combo_height = 320.0;
+    style.interaction.selectable_labels = false;
+    style.interaction.tooltip_delay = 0.4;
+    style
+}

@@ -1,0 +1,207 @@
+//! Small pieces that the panels share.
+
+use eframe::egui::{
+    self, Align, Align2, Color32, FontId, InnerResponse, Layout, Rect, Response, RichText, Role,
+    Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo,
+};
+use lucide_icons::Icon;
+
+use super::theme::{self, RADIUS, ROW, STEP, Tokens};
+
+/// The width of the captions at the left of a form's rows.
+const CAPTION: f32 = 84.0;
+
+/// A square button that shows an icon.
+pub struct IconButton<'a> {
+    icon: Icon,
+    name: &'a str,
+    tooltip: String,
+    enabled: bool,
+    size: f32,
+    colour: Option<Color32>,
+}
+
+impl<'a> IconButton<'a> {
+    /// A button with an icon; `name` is what a screen reader calls it, and its tooltip.
+    pub fn new(icon: Icon, name: &'a str) -> Self {
+        Self {
+            icon,
+            name,
+            tooltip: name.to_owned(),
+            enabled: true,
+            size: ROW,
+            colour: None,
+        }
+    }
+
+    /// Say more on hover than the name.
+    pub fn tooltip(mut self, tooltip: impl Into<String>) -> Self {
+        self.tooltip = tooltip.into();
+        self
+    }
+
+    /// Whether it can be pressed.
+    pub fn enabled(mut self, enabled: bool) -> Self {
+        self.enabled = enabled;
+        self
+    }
+
+    /// The length of its sides.
+    pub fn size(mut self, size: f32) -> Self {
+        self.size = size;
+        self
+    }
+
+    /// The icon's colour at rest.
+    pub fn colour(mut self, colour: Color32) -> Self {
+        self.colour = Some(colour);
+        self
+    }
+
+    /// Show the button.
+    pub fn show(self, ui: &mut Ui) -> Response {
+        ui.add_enabled_ui(self.enabled, |ui| self.enabled_ui(ui))
+            .inner
+    }
+
+    fn enabled_ui(self, ui: &mut Ui) -> Response {
+        let (rect, response) = ui.allocate_exact_size(Vec2::splat(self.size), Sense::click());
+        let tokens = Tokens::of(ui);
+        let is_hot = response.hovered() || response.has_focus();
+        if is_hot {
+            ui.painter().rect_filled(rect, RADIUS, tokens.button[1]);
+        }
+        if response.has_focus() {
+            focus_ring(ui, rect);
+        }
+        let at_rest = self.colour.unwrap_or(tokens.text);
+        let colour = if is_hot { tokens.strong_text } else { at_rest };
+        icon(ui, rect, self.icon, colour);
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), self.name));
+        response.on_hover_text(self.tooltip)
+    }
+}
+
+/// Paint an icon into the middle of a box.
+pub fn icon(ui: &Ui, rect: Rect, icon: Icon, colour: Color32) {
+    ui.painter().text(
+        rect.center(),
+        Align2::CENTER_CENTER,
+        char::from(icon),
+        theme::icon_font(theme::ICON),
+        colour,
+    );
+}
+
+/// Outline what has the keyboard.
+pub fn focus_ring(ui: &Ui, rect: Rect) {
+    let stroke = Stroke::new(1.0, Tokens::of(ui).accent);
+    ui.painter()
+        .rect_stroke(rect, RADIUS, stroke, StrokeKind::Inside);
+}
+
+/// A caption in small, faint type.
+pub fn caption(ui: &mut Ui, text: &str) -> Response {
+    let tokens = Tokens::of(ui);
+    ui.label(
+        RichText::new(text)
+            .font(theme::small_font())
+            .color(tokens.faint_text),
+    )
+}
+
+/// A line of text that wraps, faint: hints and explanations.
+pub fn note(ui: &mut Ui, text: &str) -> Response {
+    let tokens = Tokens::of(ui);
+    ui.add(egui::Label::new(RichText::new(text).color(tokens.faint_text)).wrap())
+}
+
+/// A section that folds; whether it is open is remembered.
+pub fn section<R>(
+    ui: &mut Ui,
+    title: &str,
+    open: bool,
+    contents: impl FnOnce(&mut Ui) -> R,
+) -> Option<R> {
+    section_with_id(ui, title, title, open, contents)
+}
+
+/// A section whose title may change while it stays the same.
+pub fn section_with_id<R>(
+    ui: &mut Ui,
+    id: &str,
+    title: &str,
+    open: bool,
+    contents: impl FnOnce(&mut Ui) -> R,
+) -> Option<R> {
+    let strong = Tokens::of(ui).strong_text;
+    let header = egui::CollapsingHeader::new(RichText::new(title).color(strong))
+        .id_salt(id)
+        .default_open(open);
+    header.show_unindented(ui, contents).body_returned
+}
+
+/// One row of a form: a caption at the left, the contents beside it.
+pub fn form_row<R>(
+    ui: &mut Ui,
+    name: &str,
+    contents: impl FnOnce(&mut Ui) -> R,
+) -> InnerResponse<R> {
+    ui.horizontal(|ui| {
+        ui.set_min_height(ROW);
+        let tokens = Tokens::of(ui);
+        let (rect, _) = ui.allocate_exact_size(Vec2::new(CAPTION, ROW), Sense::hover());
+        label_in(ui, rect, name, tokens.faint_text);
+        contents(ui)
+    })
+}
+
+/// One row of figures: a caption at the left, numbers flush right in tabular figures.
+pub fn figure_row(ui: &mut Ui, name: &str, figures: &str) {
+    let tokens = Tokens::of(ui);
+    let width = ui.available_width();
+    let (rect, response) = ui.allocate_exact_size(Vec2::new(width, 5.0 * STEP), Sense::hover());
+    label_in(ui, rect, name, tokens.faint_text);
+    number_in(ui, rect, figures, tokens.text);
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{name}: {figures}")));
+}
+
+/// Write a text at the left of a box.
+pub fn label_in(ui: &Ui, rect: Rect, text: &str, colour: Color32) {
+    let font = egui::TextStyle::Body.resolve(ui.style());
+    ui.painter_at(rect)
+        .text(rect.left_center(), Align2::LEFT_CENTER, text, font, colour);
+}
+
+/// Write a number at the right of a box.
+pub fn number_in(ui: &Ui, rect: Rect, text: &str, colour: Color32) {
+    let at = rect.right_center();
+    ui.painter()
+        .text(at, Align2::RIGHT_CENTER, text, theme::number_font(), colour);
+}
+
+/// The width of a text in a font.
+pub fn text_width(ui: &Ui, text: &str, font: FontId) -> f32 {
+    let galley = ui
+        .painter()
+        .layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER);
+    galley.size().x
+}
+
+/// The frame of a dialog.
+pub fn dialog_frame(style: &egui::Style) -> egui::Frame {
+    egui::Frame::window(style).inner_margin(4.0 * STEP)
+}
+
+/// The button that Enter presses too.
+pub fn primary_button(ui: &mut Ui, name: &str) -> Response {
+    let tokens = Tokens::of(ui);
+    let text = RichText::new(name).color(tokens.strong_text);
+    ui.add(egui::Button::new(text).fill(tokens.selection))
+}
+
+/// Lay contents out from the right edge of the row.
+pub fn at_right<R>(ui: &mut Ui, contents: impl FnOnce(&mut Ui) -> R) -> R {
+    ui.with_layout(Layout::right_to_left(Align::Center), contents)
+        .inner
+}

@@ -1,0 +1,468 @@
+//! The real program from a shell.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command as Process, Output, Stdio};
+
+use assert_cmd::cargo::cargo_bin;
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+/// A folder of its own to run the program in.
+struct Folder(TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn with(self, name: &str, content: impl AsRef<[u8]>) -> Self {
+        fs::write(self.path(name), content).unwrap();
+        self
+    }
+
+    fn run(&self, arguments: &[&str]) -> Output {
+        let mut process = Process::new(cargo_bin!("batten"));
+        process.args(arguments).current_dir(self.0.path());
+        process.output().unwrap()
+    }
+
+    /// Run and expect success; returns what is printed, and what is printed as error.
+    fn done(&self, arguments: &[&str]) -> (String, String) {
+        let output = self.run(arguments);
+        let (out, err) = texts(&output);
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {err}");
+        (out, err)
+    }
+
+    /// Run and expect the one line of an error message.
+    fn refused(&self, arguments: &[&str], expected: &str) {
+        let output = self.run(arguments);
+        let (out, err) = texts(&output);
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}: {err}");
+        assert_eq!(err, format!("batten: {expected}\n"));
+        assert_eq!(out, "");
+    }
+
+    /// Run and expect that the usage is not understood.
+    fn misused(&self, arguments: &[&str], expected: &str) {
+        let output = self.run(arguments);
+        let (_, err) = texts(&output);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {err}");
+        assert!(err.contains(expected), "{arguments:?}: {err}");
+    }
+
+    fn inspect(&self, arguments: &[&str]) -> Value {
+        let arguments = [&["inspect"], arguments].concat();
+        serde_json::from_str(&self.done(&arguments).0).unwrap()
+    }
+}
+
+fn texts(output: &Output) -> (String, String) {
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
+    (text(&output.stdout), text(&output.stderr))
+}
+
+fn data(name: &str) -> Value {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/data")
+        .join(name);
+    serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
+}
+
+fn project(curves: Value) -> String {
+    json!({"format": "batten", "version": 1, "curves": curves}).to_string()
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    match value {
+        Value::Array(values) => values.iter().flat_map(numbers).collect(),
+        value => vec![
+            value
+                .as_f64()
+                .unwrap_or_else(|| panic!("{value} is no number")),
+        ],
+    }
+}
+
+/// Compare two nests of numbers of the same shape, relative to the largest number expected.
+fn check_near(found: &Value, expected: &Value, tolerance: f64, what: &str) {
+    if expected.is_null() {
+        assert!(found.is_null(), "{what}: {found} is not null");
+        return;
+    }
+    let (found, expected) = (numbers(found), numbers(expected));
+    assert_eq!(found.len(), expected.len(), "{what}");
+    let scale = expected
+        .iter()
+        .fold(1e-9, |scale: f64, value| scale.max(value.abs()));
+    for (a, b) in found.iter().zip(&expected) {
+        assert!((a - b).abs() <= tolerance * scale, "{what}: {a} is not {b}");
+    }
+}
+
+#[test]
+fn examples_are_listed_and_written() {
+    let folder = Folder::new();
+    let (list, _) = folder.done(&["example", "--list"]);
+    let names: Vec<&str> = list
+        .lines()
+        .filter_map(|line| line.split(' ').next())
+        .collect();
+    assert_eq!(
+        names,
+        [
+            "arc", "figure2", "hexagon", "s-curve", "periodic", "bottle", "hull"
+        ]
+    );
+    for name in names {
+        for extension in ["batten", "csv", "dxf"] {
+            let file = format!("{name}.{extension}");
+            folder.done(&["example", name, &file]);
+            assert!(
+                fs::metadata(folder.path(&file)).unwrap().len() > 80,
+                "{file}"
+            );
+        }
+        let [project, table] =
+            ["batten", "csv"].map(|extension| folder.inspect(&[&format!("{name}.{extension}")]));
+        assert_eq!(project, table, "{name}");
+    }
+    folder.misused(
+        &["example", "arch", "a.batten"],
+        "possible values: arc, figure2",
+    );
+    folder.misused(&["example"], "required");
+    folder.misused(&["example", "arc"], "required");
+    folder.refused(
+        &["example", "arc", "a.txt"],
+        "a.txt: “.txt” is not a format Batten knows: use one of .batten, .csv, .dxf",
+    );
+}
+
+#[test]
+fn the_arc_is_the_papers() {
+    let folder = Folder::new();
+    folder.done(&["example", "arc", "arc.batten"]);
+    let figure = &data("paper.json")["figure1"];
+    let arc = folder.inspect(&["arc.batten"])["curves"][0].clone();
+    assert_eq!(arc["float"], figure["float"], "to the last digit");
+    check_near(&arc["clamped"], &figure["closed"], 1e-14, "clamped");
+}
+
+#[test]
+fn table_1_is_recomputed() {
+    let folder = Folder::new();
+    let (text, _) = folder.done(&["table1", "--json"]);
+    let found: Value = serde_json::from_str(&text).unwrap();
+    let expected = data("paper.json")["table1"].clone();
+    let (found, expected) = (found.as_array().unwrap(), expected.as_array().unwrap());
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        let degree = &found["degree"];
+        assert_eq!(degree, &expected["degree"]);
+        let tolerance = if degree == 9 { 1e-5 } else { 1e-9 };
+        for (key, tolerance) in [("bspline", tolerance), ("bezier", 1e-9)] {
+            let (found, expected) = (
+                found[key].as_f64().unwrap(),
+                expected[key].as_f64().unwrap(),
+            );
+            assert!(
+                (found / expected - 1.0).abs() < tolerance,
+                "{degree} {key}: {found}"
+            );
+        }
+    }
+    let (text, _) = folder.done(&["table1"]);
+    assert!(text.contains("     9   5.90128"), "{text}");
+}
+
+#[test]
+fn inspect_agrees_with_the_reference_curves() {
+    let reference = data("curves.json");
+    for (index, curve) in reference["curves"].as_array().unwrap().iter().enumerate() {
+        let source = json!([{
+            "name": format!("curve {index}"),
+            "degree": curve["degree"],
+            "polygon": "float",
+            "vertices": curve["float"],
+            "weights": curve["weights"],
+        }]);
+        let folder = Folder::new().with("a.batten", project(source));
+        let at: Vec<String> = numbers(&curve["u"]).iter().map(f64::to_string).collect();
+        let found = folder.inspect(&["a.batten", "--at", &at.join(",")])["curves"][0].clone();
+        assert_eq!(found["dimension"], curve["dimension"]);
+        assert_eq!(found["float"], curve["float"]);
+        assert_eq!(found["weights"], curve["weights"]);
+        check_near(&found["clamped"], &curve["closed"], 1e-12, "clamped");
+        check_near(
+            &found["clamped_weights"],
+            &curve["closed_weights"],
+            1e-12,
+            "clamped weights",
+        );
+        let expected = curve["at_u"].as_array().unwrap();
+        assert_eq!(found["at"].as_array().unwrap().len(), expected.len());
+        for (place, (found, expected)) in found["at"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .zip(expected)
+            .enumerate()
+        {
+            let what = |key| format!("curve {index}, u {}: {key}", at[place]);
+            for key in ["point", "d1", "d2", "d3", "evolute"] {
+                check_near(&found[key], &expected[key], 1e-9, &what(key));
+            }
+            check_near(
+                &found["curvature"],
+                &json!([expected["curvature"][0]]),
+                1e-9,
+                &what("curvature"),
+            );
+        }
+    }
+}
+
+#[test]
+fn inspect_prints_the_described_shape() {
+    let curves = json!([
+        {"name": "line", "degree": 1, "vertices": [[0, 0], [0, 4]]},
+        {"name": "round", "degree": 2, "periodic": true, "weights": [1, 2, 1, 2],
+         "vertices": [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 1]]},
+    ]);
+    let folder = Folder::new().with("two.batten", project(curves));
+    let found = folder.inspect(&["two.batten", "--at", "0.5"]);
+    let line = json!({
+        "name": "line", "degree": 1, "dimension": 2, "periodic": false,
+        "float": [[0.0, 0.0], [0.0, 4.0]], "weights": null,
+        "clamped": [[0.0, 0.0], [0.0, 4.0]], "clamped_weights": null,
+        "domain": [0.0, 1.0], "length": null,
+        "ends": {
+            "start": {"point": [0.0, 0.0], "tangent": [0.0, 1.0], "curvature": 0.0},
+            "end": {"point": [0.0, 4.0], "tangent": [0.0, 1.0], "curvature": 0.0},
+        },
+        "at": [{
+            "u": 0.5, "point": [0.0, 2.0], "d1": [0.0, 4.0], "d2": [0.0, 0.0], "d3": [0.0, 0.0],
+            "curvature": [0.0], "evolute": null,
+        }],
+    });
+    let mut first = found["curves"][0].clone();
+    check_near(&first["length"].take(), &json!(4.0), 1e-13, "length");
+    assert_eq!(first, line);
+    let round = &found["curves"][1];
+    assert_eq!(round["ends"], Value::Null);
+    assert_eq!(round["dimension"], 3);
+    assert_eq!(round["domain"], json!([0.0, 4.0]));
+    let clamped = numbers(&round["clamped"]);
+    assert_eq!(
+        clamped.len(),
+        18,
+        "six vertices of the curve run round once"
+    );
+    assert_eq!(clamped[..3], clamped[15..]);
+    assert_eq!(numbers(&round["clamped_weights"]).len(), 6);
+    assert_eq!(
+        folder.inspect(&["two.batten"])["curves"][0]["at"],
+        json!([])
+    );
+}
+
+#[test]
+fn what_is_no_number_is_printed_as_null() {
+    let point = json!([{"name": "point", "degree": 1, "vertices": [[1, 1], [1, 1]]}]);
+    let folder = Folder::new().with("point.batten", project(point));
+    let found = folder.inspect(&["point.batten", "--at", "0"])["curves"][0].clone();
+    assert_eq!(found["at"][0]["curvature"], json!([null]));
+    assert_eq!(found["at"][0]["evolute"], Value::Null);
+    assert_eq!(found["ends"]["start"]["tangent"], Value::Null);
+    assert_eq!(found["ends"]["start"]["curvature"], Value::Null);
+    assert_eq!(found["length"], 0.0);
+}
+
+#[test]
+fn extreme_weights_do_not_hold_up_the_program() {
+    let curve = json!([{
+        "name": "extreme", "degree": 3, "weights": [1e-100, 1e100, 1e-100, 1e100],
+        "vertices": [[1e100, 0], [-1e100, 1], [1, 1e100], [1e100, -1e100]],
+    }]);
+    let folder = Folder::new().with("extreme.batten", project(curve));
+    let found = folder.inspect(&["extreme.batten", "--at", "0,0.5,1"]);
+    assert_eq!(found["curves"][0]["at"].as_array().unwrap().len(), 3);
+}
+
+#[test]
+fn parameters_outside_the_domain_are_refused() {
+    let folder = Folder::new();
+    folder.done(&["example", "hull", "hull.csv"]);
+    folder.refused(
+        &["inspect", "hull.csv", "--at", "0,10.5"],
+        "hull.csv: curve 1 “hull”: the parameter 10.5 of --at lies outside the curve's domain, 0 to 10",
+    );
+    folder.refused(
+        &["inspect", "hull.csv", "--at", "-1"],
+        "hull.csv: curve 1 “hull”: the parameter -1 of --at lies outside the curve's domain, 0 to 10",
+    );
+    for at in ["NaN", "1,inf", "one", "1,,2"] {
+        folder.misused(
+            &["inspect", "hull.csv", "--at", at],
+            "a finite number is needed",
+        );
+    }
+}
+
+#[test]
+fn convert_keeps_the_curve_by_every_polygon() {
+    let folder = Folder::new();
+    folder.done(&["example", "figure2", "a.batten"]);
+    let expected = folder.inspect(&["a.batten"])["curves"][0].clone();
+    for polygon in ["float", "clamped", "bezier"] {
+        for extension in ["batten", "csv"] {
+            let file = format!("{polygon}.{extension}");
+            folder.done(&["convert", "a.batten", &file, "--polygon", polygon]);
+            let text = fs::read_to_string(folder.path(&file)).unwrap();
+            assert!(text.contains(polygon), "{file}");
+            let found = folder.inspect(&[&file])["curves"][0].clone();
+            assert_eq!(found["name"], "figure2");
+            check_near(&found["float"], &expected["float"], 1e-12, &file);
+        }
+    }
+    folder.misused(
+        &["convert", "a.batten", "b.csv", "--polygon", "closed"],
+        "possible values: float, clamped, bezier",
+    );
+}
+
+#[test]
+fn convert_lists_what_is_lost() {
+    let curve = json!([{"name": "a/b", "degree": 2, "colour": "#102030", "periodic": true,
+        "vertices": [[0, 0], [1, 0], [1, 1], [0, 1]]}]);
+    let folder = Folder::new().with("a.batten", project(curve));
+    let check = |arguments: &[&str], expected: &str| {
+        let arguments = [&["convert", "a.batten"], arguments].concat();
+        let (out, err) = folder.done(&arguments);
+        assert_eq!((out.as_str(), err.as_str()), ("", expected));
+    };
+    check(&["b.batten"], "");
+    check(
+        &["b.csv"],
+        "batten: “a/b”: the CSV table does not hold its colour\n",
+    );
+    check(
+        &["b.dxf", "--polygon", "float"],
+        "batten: “a/b”: the name is written as “a_b”, which DXF allows\nbatten: “a/b”: the DXF does not hold its colour\nbatten: “a/b”: written as an open curve that ends where it begins, not as a periodic one\n",
+    );
+    check(
+        &["c.batten", "--polygon", "bezier"],
+        "batten: “a/b”: written as an open curve that ends where it begins, not as a periodic one\n",
+    );
+}
+
+#[test]
+fn bad_input_is_refused_with_file_and_place() {
+    let folder = Folder::new()
+        .with("empty.batten", "")
+        .with(
+            "cut.batten",
+            "{\"format\": \"batten\",\n \"version\": 1,\n \"curves\": [",
+        )
+        .with("plain.csv", "x,y\n0,0\n1,1\n")
+        .with(
+            "weight.batten",
+            project(json!([
+                {"name": "a", "degree": 1, "vertices": [[0, 0], [1, 1]]},
+                {"name": "hull", "degree": 1, "vertices": [[0, 0], [1, 1]], "weights": [1, -1]},
+            ])),
+        );
+    for command in ["inspect", "convert"] {
+        let check = |file: &str, expected: &str| {
+            let mut arguments = vec![command, file];
+            if command == "convert" {
+                arguments.push("out.csv");
+            }
+            folder.refused(&arguments, &format!("{file}: {expected}"));
+            assert!(!folder.path("out.csv").exists());
+        };
+        check("empty.batten", "the file is empty");
+        check("cut.batten", "line 3, column 12: EOF while parsing a list");
+        check(
+            "plain.csv",
+            "line 1: the table does not say which curve its vertices make: put a line like “# degree=3 polygon=float periodic=false name=curve” above the line with the column names",
+        );
+        check(
+            "weight.batten",
+            "curve 2 “hull”, vertex 1: weight -1.0 cannot be used: weights are positive numbers from 1e-100 to 1e100",
+        );
+        check(
+            "a.dxf",
+            "DXF files can be written but not read: the formats that can be read are .batten, .csv",
+        );
+        check(
+            "gone.csv",
+            "cannot read the file: No such file or directory (os error 2)",
+        );
+    }
+    folder.misused(&["inspect"], "Usage");
+    folder.misused(&["--no-such-option"], "Usage");
+}
+
+#[test]
+fn a_conversion_that_fails_leaves_the_old_file() {
+    let folder = Folder::new()
+        .with("none.batten", project(json!([])))
+        .with("old.csv", "old");
+    folder.refused(
+        &["convert", "none.batten", "old.csv"],
+        "old.csv: there is no curve to write: a CSV table file needs at least one",
+    );
+    assert_eq!(fs::read(folder.path("old.csv")).unwrap(), b"old");
+    assert_eq!(fs::read_dir(folder.0.path()).unwrap().count(), 2);
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_error() {
+    // More than a pipe holds, so that writing meets the closed end.
+    let vertices: Vec<[f64; 2]> = (0..20_000).map(|i| [f64::from(i), 0.1]).collect();
+    let curve = json!([{"name": "long", "degree": 3, "vertices": vertices}]);
+    let folder = Folder::new().with("long.batten", project(curve));
+    let mut process = Process::new(cargo_bin!("batten"));
+    process
+        .args(["inspect", "long.batten"])
+        .current_dir(folder.0.path());
+    let mut child = process
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(texts(&output).1, "");
+    assert_eq!(output.status.code(), Some(0));
+}
+
+#[test]
+fn help_says_what_there_is() {
+    let folder = Folder::new();
+    let (help, _) = folder.done(&["--help"]);
+    for word in [
+        "example",
+        "table1",
+        "convert",
+        "inspect",
+        "[FILE]...",
+        "Exit codes",
+    ] {
+        assert!(help.contains(word), "{word} in {help}");
+    }
+    let (help, _) = folder.done(&["convert", "--help"]);
+    assert!(
+        help.contains("[possible values: float, clamped, bezier]"),
+        "{help}"
+    );
+    let (version, _) = folder.done(&["--version"]);
+    assert_eq!(version, format!("batten {}\n", env!("CARGO_PKG_VERSION")));
+}

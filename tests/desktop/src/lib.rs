@@ -1,0 +1,283 @@
+//! A hand and an eye for the real window: starts Batten on a virtual display, finds widgets by
+//! their labels, presses, drags and types, and takes pictures.
+#![forbid(unsafe_code)]
+
+use std::io::{BufRead, BufReader};
+use std::net::{TcpListener, TcpStream};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result, anyhow, bail};
+use egui::accesskit::{Node, TreeUpdate};
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect};
+use egui_inspection::protocol::{Request, Response, read_handshake, read_message, write_message};
+
+/// How long the window may take to appear, and a widget to be found.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// A virtual display, taken down when dropped.
+pub struct Display {
+    server: Child,
+    name: String,
+}
+
+impl Display {
+    /// Start a virtual display of some size.
+    pub fn start(width: u32, height: u32) -> Result<Self> {
+        let mut server = Command::new("Xvfb")
+            .args(["-displayfd", "1", "-screen", "0"])
+            .arg(format!("{width}x{height}x24"))
+            .args(["-nolisten", "tcp"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .context("Xvfb does not start: is the package xvfb installed?")?;
+        let output = server.stdout.take().context("Xvfb has no output")?;
+        let mut number = String::new();
+        BufReader::new(output).read_line(&mut number)?;
+        let name = format!(":{}", number.trim());
+        Ok(Self { server, name })
+    }
+}
+
+impl Drop for Display {
+    fn drop(&mut self) {
+        let _ = self.server.kill();
+        let _ = self.server.wait();
+    }
+}
+
+/// The running program with its window.
+pub struct Window {
+    program: Child,
+    connection: TcpStream,
+    home: tempfile::TempDir,
+}
+
+impl Window {
+    /// Start the program on a display and wait for its window. The program is the one named by
+    /// `BATTEN`, or the debug build with the feature `inspection`.
+    pub fn open(display: &Display, arguments: &[&str], scale: f32) -> Result<Self> {
+        let program = std::env::var_os("BATTEN").map_or_else(
+            || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target/debug/batten"),
+            PathBuf::from,
+        );
+        let address = free_address()?;
+        let home = tempfile::tempdir()?;
+        let child = Command::new(&program)
+            .args(arguments)
+            .env("DISPLAY", &display.name)
+            .env_remove("WAYLAND_DISPLAY")
+            .env_remove("DBUS_SESSION_BUS_ADDRESS")
+            .env("WINIT_X11_SCALE_FACTOR", scale.to_string())
+            .env("LIBGL_ALWAYS_SOFTWARE", "1")
+            .env("HOME", home.path())
+            .env("XDG_DATA_HOME", home.path().join("data"))
+            .env("EGUI_INSPECTION", &address)
+            .stdin(Stdio::null())
+            .spawn()
+            .with_context(|| format!("{} does not start", program.display()))?;
+        let connection = connect(&address)?;
+        let mut window = Self { program: child, connection, home };
+        window.settle()?;
+        Ok(window)
+    }
+
+    /// A folder of the program's own, for files.
+    pub fn folder(&self) -> &Path {
+        self.home.path()
+    }
+
+    /// Wait until nothing changes any more.
+    pub fn settle(&mut self) -> Result<()> {
+        self.ask(Request::Settle { max_steps: 200 }).map(|_| ())
+    }
+
+    /// Find the place of the widget with this label.
+    pub fn find(&mut self, label: &str) -> Result<Rect> {
+        self.find_where(label, |node| node.label() == Some(label))
+    }
+
+    /// Find the place of a widget whose label or value begins so.
+    pub fn find_beginning(&mut self, beginning: &str) -> Result<Rect> {
+        self.find_where(beginning, |node| {
+            let texts = [node.label(), node.value()];
+            texts.into_iter().flatten().any(|text| text.starts_with(beginning))
+        })
+    }
+
+    /// Whether a widget with this label is there now.
+    pub fn has(&mut self, label: &str) -> Result<bool> {
+        let tree = self.tree()?;
+        Ok(tree.nodes.iter().any(|(_, node)| node.label() == Some(label)))
+    }
+
+    /// Collect all labels and values, for messages.
+    pub fn texts(&mut self) -> Result<Vec<String>> {
+        let tree = self.tree()?;
+        let texts = tree.nodes.iter().flat_map(|(_, node)| [node.label(), node.value()]);
+        Ok(texts.flatten().map(str::to_owned).collect())
+    }
+
+    /// Click the widget with this label.
+    pub fn click(&mut self, label: &str) -> Result<()> {
+        let place = self.find(label)?.center();
+        self.click_at(place)
+    }
+
+    /// Click a place.
+    pub fn click_at(&mut self, place: Pos2) -> Result<()> {
+        self.events(vec![Event::PointerMoved(place)])?;
+        self.events(vec![button(place, true)])?;
+        self.events(vec![button(place, false)])?;
+        self.settle()
+    }
+
+    /// Press at one place, move to another in steps, and release.
+    pub fn drag(&mut self, from: Pos2, to: Pos2) -> Result<()> {
+        self.events(vec![Event::PointerMoved(from)])?;
+        self.events(vec![button(from, true)])?;
+        for step in 1..=8 {
+            let share = step as f32 / 8.0;
+            self.events(vec![Event::PointerMoved(from + share * (to - from))])?;
+        }
+        self.events(vec![button(to, false)])?;
+        self.settle()
+    }
+
+    /// Move the pointer.
+    pub fn move_to(&mut self, place: Pos2) -> Result<()> {
+        self.events(vec![Event::PointerMoved(place)])?;
+        self.settle()
+    }
+
+    /// Press a key.
+    pub fn key(&mut self, key: Key, modifiers: Modifiers) -> Result<()> {
+        for pressed in [true, false] {
+            self.events(vec![Event::Key {
+                key,
+                physical_key: None,
+                pressed,
+                repeat: false,
+                modifiers,
+            }])?;
+        }
+        self.settle()
+    }
+
+    /// Type a text into the field that has the keyboard.
+    pub fn write(&mut self, text: &str) -> Result<()> {
+        self.events(vec![Event::Text(text.to_owned())])?;
+        self.settle()
+    }
+
+    /// Give the window another size, in screen points.
+    pub fn resize(&mut self, width: u32, height: u32) -> Result<()> {
+        self.ask(Request::Resize { width, height })?;
+        self.settle()
+    }
+
+    /// Take a picture, as a PNG file.
+    pub fn picture(&mut self, path: &Path) -> Result<()> {
+        self.settle()?;
+        match self.ask(Request::GetScreenshot { pixels_per_point: None })? {
+            Response::Screenshot(picture) => Ok(std::fs::write(path, picture.bytes)?),
+            other => bail!("no picture: {other:?}"),
+        }
+    }
+
+    /// Wait until the program has ended and tell whether it did so well.
+    pub fn wait(mut self) -> Result<bool> {
+        let begin = Instant::now();
+        while begin.elapsed() < PATIENCE {
+            if let Some(status) = self.program.try_wait()? {
+                return Ok(status.success());
+            }
+            std::thread::sleep(Duration::from_millis(50));
+        }
+        bail!("the program does not end")
+    }
+
+    /// Send events without waiting for what follows from them; the connection may end with them.
+    pub fn send_last(&mut self, events: Vec<Event>) {
+        let _ = self.events(events);
+    }
+
+    fn events(&mut self, events: Vec<Event>) -> Result<()> {
+        self.ask(Request::ApplyEvents { events }).map(|_| ())
+    }
+
+    fn find_where(&mut self, what: &str, fits: impl Fn(&Node) -> bool) -> Result<Rect> {
+        let begin = Instant::now();
+        loop {
+            let tree = self.tree()?;
+            let found = tree.nodes.iter().find(|(_, node)| fits(node));
+            if let Some(bounds) = found.and_then(|(_, node)| node.bounds()) {
+                return Ok(Rect::from_min_max(
+                    Pos2::new(bounds.x0 as f32, bounds.y0 as f32),
+                    Pos2::new(bounds.x1 as f32, bounds.y1 as f32),
+                ));
+            }
+            if begin.elapsed() > PATIENCE / 4 {
+                let texts = self.texts()?.join(" | ");
+                bail!("nothing is called “{what}” among: {texts}");
+            }
+            self.settle()?;
+        }
+    }
+
+    fn tree(&mut self) -> Result<TreeUpdate> {
+        match self.ask(Request::GetTree)? {
+            Response::Tree { accesskit: Some(tree), .. } => Ok(tree),
+            other => bail!("no widget tree: {other:?}"),
+        }
+    }
+
+    fn ask(&mut self, request: Request) -> Result<Response> {
+        write_message(&mut self.connection, &request)?;
+        match read_message(&mut self.connection)? {
+            Response::Error { message } => Err(anyhow!(message)),
+            response => Ok(response),
+        }
+    }
+}
+
+impl Drop for Window {
+    fn drop(&mut self) {
+        let _ = self.program.kill();
+        let _ = self.program.wait();
+    }
+}
+
+fn button(pos: Pos2, pressed: bool) -> Event {
+    Event::PointerButton {
+        pos,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    }
+}
+
+/// Find a port on the loopback that nobody uses.
+fn free_address() -> Result<String> {
+    let listener = TcpListener::bind("127.0.0.1:0")?;
+    Ok(listener.local_addr()?.to_string())
+}
+
+fn connect(address: &str) -> Result<TcpStream> {
+    let begin = Instant::now();
+    loop {
+        match TcpStream::connect(address) {
+            Ok(mut connection) => {
+                connection.set_read_timeout(Some(PATIENCE))?;
+                read_handshake(&mut connection)?;
+                return Ok(connection);
+            }
+            Err(error) if begin.elapsed() > PATIENCE => {
+                return Err(error).context("the window does not appear");
+            }
+            Err(_) => std::thread::sleep(Duration::from_millis(50)),
+        }
+    }
+}

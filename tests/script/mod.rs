@@ -1,0 +1,162 @@
+//! A hand that works the editor without a window: every step leaves a valid document.
+
+use batten::document::CurveId;
+use batten::editor::{Button, Command, Editor, Input, Key, Modifiers, ToolKind};
+use batten::geometry::FloatPolygon;
+use batten::io::examples::EXAMPLES;
+use glam::DVec2;
+
+/// Hold an editor with a canvas of 1000 by 700 screen points.
+pub struct Script {
+    /// The editor.
+    pub editor: Editor,
+}
+
+impl Script {
+    /// Begin with a built-in example.
+    pub fn example(name: &str) -> Self {
+        let index = EXAMPLES.iter().position(|example| example.name == name);
+        let mut editor = Editor::new();
+        editor.set_canvas_size(DVec2::new(1000.0, 700.0));
+        editor.execute(Command::OpenExample(index.expect("an example")));
+        let mut script = Self { editor };
+        script.check();
+        script
+    }
+
+    /// The active curve.
+    pub fn curve(&self) -> CurveId {
+        self.editor.active().expect("an active curve")
+    }
+
+    /// The active curve's polygon.
+    pub fn polygon(&self) -> FloatPolygon {
+        let curve = self.editor.document().curve(self.curve());
+        curve.expect("the active curve").polygon.clone()
+    }
+
+    /// The selected vertices of the active curve.
+    pub fn selected(&self) -> Vec<usize> {
+        self.editor.selected_vertices(self.curve())
+    }
+
+    /// The message's text; empty if there is none.
+    pub fn message(&self) -> String {
+        self.editor
+            .message()
+            .map(|message| message.text.clone())
+            .unwrap_or_default()
+    }
+
+    /// Where a vertex is on the canvas.
+    pub fn at_vertex(&self, index: usize) -> DVec2 {
+        self.editor
+            .viewport()
+            .to_screen(self.polygon().vertex(index).truncate())
+    }
+
+    /// Send one input.
+    pub fn input(&mut self, input: Input) {
+        self.editor.input(input);
+        self.check();
+    }
+
+    /// Move the pointer.
+    pub fn move_to(&mut self, at: DVec2) {
+        self.input(Input::Moved { at });
+    }
+
+    /// Move the pointer here and press the primary button.
+    pub fn press(&mut self, at: DVec2) {
+        self.move_to(at);
+        self.input(Input::Pressed {
+            button: Button::Primary,
+            at,
+        });
+    }
+
+    /// Release the primary button.
+    pub fn release(&mut self, at: DVec2) {
+        self.input(Input::Released {
+            button: Button::Primary,
+            at,
+        });
+    }
+
+    /// Press and release in one place.
+    pub fn click(&mut self, at: DVec2) {
+        self.press(at);
+        self.release(at);
+    }
+
+    /// Drag with the primary button.
+    pub fn drag(&mut self, from: DVec2, to: DVec2) {
+        self.drag_with(Button::Primary, from, to);
+    }
+
+    /// Drag with a button, by way of the middle.
+    pub fn drag_with(&mut self, button: Button, from: DVec2, to: DVec2) {
+        self.move_to(from);
+        self.input(Input::Pressed { button, at: from });
+        self.move_to(0.5 * (from + to));
+        self.move_to(to);
+        self.input(Input::Released { button, at: to });
+    }
+
+    /// Drag a vertex by some screen points.
+    pub fn drag_vertex(&mut self, index: usize, by: DVec2) {
+        let at = self.at_vertex(index);
+        self.drag(at, at + by);
+    }
+
+    /// Press a key.
+    pub fn key(&mut self, key: Key) {
+        self.input(Input::Key(key));
+    }
+
+    /// Hold these modifiers and no others.
+    pub fn modifiers(&mut self, modifiers: Modifiers) {
+        self.input(Input::Modifiers(modifiers));
+    }
+
+    /// Give a command; requests to the window are dropped.
+    pub fn command(&mut self, command: Command) {
+        self.editor.execute(command);
+        self.check();
+    }
+
+    /// Take a tool.
+    pub fn tool(&mut self, tool: ToolKind) {
+        self.command(Command::Tool(tool));
+    }
+
+    /// Check that all that panels and canvas read can be made, and that the document is valid.
+    pub fn check(&mut self) {
+        self.editor.scene();
+        self.editor.plots();
+        self.editor.leg_plots();
+        self.editor.report();
+        self.editor.end_fit();
+        self.editor.readout();
+        assert!(!self.editor.hint().is_empty());
+        for (_, curve) in self.editor.document().curves() {
+            let polygon = &curve.polygon;
+            let weights = polygon.weights().map(<[f64]>::to_vec);
+            let rebuilt = FloatPolygon::new(
+                polygon.degree(),
+                polygon.vertices().to_vec(),
+                weights,
+                polygon.is_periodic(),
+            );
+            assert_eq!(rebuilt.as_ref(), Ok(polygon));
+        }
+        for (curve, index) in self.editor.selection().vertices() {
+            let curve = self
+                .editor
+                .document()
+                .curve(curve)
+                .expect("a selected curve");
+            assert!(index < curve.polygon.vertices().len());
+        }
+    }
+}
