@@ -97,11 +97,17 @@ pub fn correct_jointly(
     if let Some((end, _)) = targets.iter().find(|(_, target)| zero(target)) {
         return Err(CorrectionError::NoDirection { end: *end });
     }
-    let free = solve(polygon, targets, TangentLength::Free)?;
-    if points_forward(&free.polygon, targets) {
-        return Ok(free);
+    let free = solve(polygon, targets, TangentLength::Free);
+    match free {
+        // A backward tangent is half a turn away from its target, so the target counts as missed.
+        Err(CorrectionError::NotSolvable { .. }) => {
+            solve(polygon, targets, TangentLength::Kept).or(free)
+        }
+        Ok(correction) if !points_forward(&correction.polygon, targets) => {
+            solve(polygon, targets, TangentLength::Kept)
+        }
+        other => other,
     }
-    solve(polygon, targets, TangentLength::Kept)
 }
 
 /// Whether the length of an end's derivative is free or kept.
