@@ -316,6 +316,8 @@ fn style(dark: bool) -> Style {
     spacing.icon_spacing = 6.0;
     spacing.tooltip_width = 320.0;
     spacing.combo_height = 320.0;
+    // A bar that floats over the panel would cover figures and buttons.
+    spacing.scroll.floating_allocated_width = 10.0;
     style.interaction.selectable_labels = false;
     style.interaction.tooltip_delay = 0.4;
     style

@@ -91,9 +91,8 @@ fn the_main_job_end_to_end() -> Result<()> {
 fn correct_an_end(window: &mut Window, canvas: Rect) -> Result<()> {
     window.click("End fit")?;
     let end = arc().end_jet(End::Finish).point.truncate();
-    let at = on_canvas(canvas, &fitted(canvas), end + DVec2::new(2.0, 1.0));
+    let at = on_canvas(canvas, &fitted(canvas), end + DVec2::new(0.75, 0.35));
     window.click_at(at)?;
-    take(window, "before-both")?;
     window.click("Both ends at once")?;
     window.find_beginning("Both ends are met")?;
     Ok(())
