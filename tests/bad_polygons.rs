@@ -81,8 +81,8 @@ fn coordinates() {
 #[test]
 fn weights() {
     for (weight, value) in [
-        (0.0, "0"),
-        (-1.0, "-1"),
+        (0.0, "0.0"),
+        (-1.0, "-1.0"),
         (f64::NAN, "NaN"),
         (f64::INFINITY, "inf"),
         (1e-101, "1e-101"),

@@ -301,7 +301,7 @@ fn failed_edits_change_nothing() {
         ),
         (
             weight,
-            "“first”: vertex 0: weight -1 cannot be used: weights are positive numbers from \
+            "“first”: vertex 0: weight -1.0 cannot be used: weights are positive numbers from \
              1e-100 to 1e100",
         ),
         (

@@ -33,8 +33,7 @@ pub enum PolygonError {
     },
     /// A coordinate is infinite or not a number.
     #[error(
-        "vertex {index}: coordinate {axis} is {}, and only finite numbers up to 1e100 can be used",
-        readable(*value)
+        "vertex {index}: coordinate {axis} is {value:?}, and only finite numbers up to 1e100 can be used"
     )]
     BadCoordinate {
         /// The vertex, counted from 0.
@@ -46,8 +45,7 @@ pub enum PolygonError {
     },
     /// A weight is zero, negative, infinite or not a number.
     #[error(
-        "vertex {index}: weight {} cannot be used: weights are positive numbers from 1e-100 to 1e100",
-        readable(*value)
+        "vertex {index}: weight {value:?} cannot be used: weights are positive numbers from 1e-100 to 1e100"
     )]
     BadWeight {
         /// The vertex, counted from 0.
@@ -111,13 +109,4 @@ pub enum PolygonError {
         /// The number of vertices.
         count: usize,
     },
-}
-
-/// Write a number so that it can be read: 2e100 rather than a hundred zeros.
-fn readable(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() || (1e-6..1e16).contains(&value.abs()) {
-        value.to_string()
-    } else {
-        format!("{value:e}")
-    }
 }

@@ -6,7 +6,6 @@
 //! conditions, δ = H⁻¹Aᵀλ, A H⁻¹Aᵀ λ = b.
 
 use glam::DVec3;
-use nalgebra::{DMatrix, DVector, SVD};
 use thiserror::Error;
 
 use super::banded::BandedCholesky;
@@ -14,6 +13,7 @@ use super::end::End;
 use super::end_correction::{EndDifference, EndTarget};
 use super::error::PolygonError;
 use super::float_polygon::FloatPolygon;
+use super::pivoted_cholesky::PivotedCholesky;
 use super::vector;
 
 /// The order k of the differences kept small: 1 moves the vertices least.
@@ -28,11 +28,8 @@ const REFINEMENTS: usize = 4;
 /// The residual, in units of the curve's size, above which the conditions count as not met.
 const MET: f64 = 1e-11;
 
-/// Singular values of the small system below this share of the largest count as zero.
+/// Pivots of the small system below this share of the largest count as zero.
 const RANK_TOLERANCE: f64 = 1e-13;
-
-/// Iterations of the singular value decomposition; a system of ten conditions takes some tens.
-const MOST_ITERATIONS: usize = 1000;
 
 /// Why both ends cannot be corrected at once.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -102,9 +99,14 @@ pub fn correct_jointly(
     }
     let free = solve(polygon, targets, TangentLength::Free);
     match free {
-        Ok(correction) if points_forward(&correction.polygon, targets) => Ok(correction),
-        Err(CorrectionError::Polygon(error)) => Err(error.into()),
-        _ => solve(polygon, targets, TangentLength::Kept),
+        // A backward tangent is half a turn away from its target, so the target counts as missed.
+        Err(CorrectionError::NotSolvable { .. }) => {
+            solve(polygon, targets, TangentLength::Kept).or(free)
+        }
+        Ok(correction) if !points_forward(&correction.polygon, targets) => {
+            solve(polygon, targets, TangentLength::Kept)
+        }
+        other => other,
     }
 }
 
@@ -228,32 +230,23 @@ fn minimise(
     let units: Vec<f64> = (0..conditions.len())
         .map(|row| entry(row, row).sqrt().recip())
         .collect();
-    let system = DMatrix::from_fn(conditions.len(), conditions.len(), |row, column| {
-        units[row] * entry(row, column) * units[column]
-    });
+    let gram = |row: usize, column: usize| units[row] * entry(row, column) * units[column];
+    let factor_of_gram = PivotedCholesky::new(conditions.len(), gram, RANK_TOLERANCE);
     let size = polygon.size();
     let mut corrected = polygon.clone();
-    // The iteration need not end where numbers overflowed.
-    let decomposition = system
-        .iter()
-        .all(|entry| entry.is_finite())
-        .then(|| SVD::try_new(system, true, true, f64::EPSILON, MOST_ITERATIONS))
-        .flatten();
-    let Some(decomposition) = decomposition else {
+    let Some(gram) = factor_of_gram else {
         return report(polygon, corrected, targets, size);
     };
-    let cutoff = RANK_TOLERANCE * decomposition.singular_values.max();
     for _ in 0..REFINEMENTS {
-        let missing = DVector::from_iterator(
-            conditions.len(),
-            conditions.iter().zip(&units).map(|(condition, unit)| {
+        let missing: Vec<f64> = conditions
+            .iter()
+            .zip(&units)
+            .map(|(condition, unit)| {
                 let stencil = &stencils[condition.stencil];
                 unit * (condition.value - functional(&corrected, stencil, condition.axis))
-            }),
-        );
-        let Ok(multipliers) = decomposition.solve(&missing, cutoff) else {
-            break;
-        };
+            })
+            .collect();
+        let multipliers = gram.solve(&missing);
         let mut moves = vec![DVec3::ZERO; count];
         let multipliers = multipliers
             .iter()

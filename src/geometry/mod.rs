@@ -17,6 +17,7 @@ mod jet;
 pub mod joint_correction;
 mod knots;
 mod nearest;
+mod pivoted_cholesky;
 pub mod polygon_figures;
 mod polygon_kind;
 mod sampler;

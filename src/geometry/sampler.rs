@@ -200,6 +200,8 @@ impl Sampler {
         self.coordinates(&vertices[..size], order, batch);
         if polygon.is_rational() && self.count > 0 {
             self.weights(polygon, segment, order, batch);
+            // Arms may lie in a plane z ≠ 0; their own z is 0 then, and so are its rows.
+            batch.flat &= origin.z == 0.0;
             project(batch, order, origin);
         }
     }
@@ -322,10 +324,10 @@ macro_rules! for_every_size {
 }
 
 /// The sums by the number of basis functions, less 1.
-const SUMS: [Sum; MAX_DEGREE + 1] = for_every_size!(sum);
+static SUMS: [Sum; MAX_DEGREE + 1] = for_every_size!(sum);
 
 /// The sums of vertices by degree.
-const POINTS: [PointSum; MAX_DEGREE + 1] = for_every_size!(point_sum);
+static POINTS: [PointSum; MAX_DEGREE + 1] = for_every_size!(point_sum);
 
 /// Divide a batch of homogeneous derivatives by the weight (Leibniz' rule) and move the points
 /// by `origin`.

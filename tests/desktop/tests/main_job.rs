@@ -93,6 +93,7 @@ fn correct_an_end(window: &mut Window, canvas: Rect) -> Result<()> {
     let end = arc().end_jet(End::Finish).point.truncate();
     let at = on_canvas(canvas, &fitted(canvas), end + DVec2::new(2.0, 1.0));
     window.click_at(at)?;
+    take(window, "before-both")?;
     window.click("Both ends at once")?;
     window.find_beginning("Both ends are met")?;
     Ok(())
