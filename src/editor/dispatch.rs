@@ -14,6 +14,10 @@ impl Editor {
         if let Input::Modifiers(modifiers) = input {
             self.modifiers = modifiers;
         }
+        if self.field && input == Input::Key(Key::Escape) {
+            self.abort_field();
+            return;
+        }
         if matches!(input, Input::Moved { .. }) && !self.gestures.is_dragging() {
             let moved = |at: DVec2| self.gestures.pointer().is_none_or(|old| old != at);
             if let Input::Moved { at } = input

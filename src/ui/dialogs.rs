@@ -99,10 +99,14 @@ const MOUSE: [(&str, &str); 12] = [
 ];
 
 fn keys_ui(ui: &mut Ui, editor: &Editor) -> Option<Decision> {
-    ui.set_width(680.0);
+    ui.set_width(880.0);
     ui.strong("Keys and mouse");
     let height = (ui.ctx().content_rect().height() - 200.0).clamp(200.0, 560.0);
-    ScrollArea::vertical().max_height(height).show(ui, |ui| {
+    // Without a least height the list would grow by a little each frame.
+    let area = ScrollArea::vertical()
+        .max_height(height)
+        .min_scrolled_height(height);
+    area.show(ui, |ui| {
         let keys: Vec<(String, String)> = Command::all(editor.examples())
             .into_iter()
             .filter_map(|command| {
@@ -117,12 +121,11 @@ fn keys_ui(ui: &mut Ui, editor: &Editor) -> Option<Decision> {
             .into();
         let half = keys.len().div_ceil(2);
         ui.horizontal_top(|ui| {
+            ui.spacing_mut().item_spacing.x = 8.0 * STEP;
             list_ui(ui, "keys", &keys[..half]);
-            ui.add_space(6.0 * STEP);
             list_ui(ui, "more keys", &keys[half..]);
+            list_ui(ui, "mouse", &mouse);
         });
-        ui.add_space(2.0 * STEP);
-        list_ui(ui, "mouse", &mouse);
     });
     close_ui(ui)
 }
@@ -131,7 +134,8 @@ fn list_ui(ui: &mut Ui, id: &str, rows: &[(String, String)]) {
     let tokens = Tokens::of(ui);
     Grid::new(id)
         .num_columns(2)
-        .spacing(vec2(4.0 * STEP, STEP))
+        .min_row_height(5.0 * STEP)
+        .spacing(vec2(4.0 * STEP, 0.0))
         .show(ui, |ui| {
             for (keys, what) in rows {
                 ui.label(

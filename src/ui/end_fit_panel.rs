@@ -125,7 +125,6 @@ impl Panel<'_> {
         self.translate_ui(ui);
         self.rotate_ui(ui);
         self.repeat_ui(ui);
-        self.both_ui(ui);
     }
 
     fn ask(&mut self, step: usize, action: EndFitAction) {
@@ -334,7 +333,8 @@ impl Panel<'_> {
         let report = self.report;
         let title = format!("Move {} vertices", report.degree);
         step_ui(ui, 5, &title, self.is_in_place(), |ui| {
-            let response = step_button(ui, "Translate", report.target_point.is_some(), None);
+            let response = step_button(ui, "Translate", report.target_point.is_some(), None)
+                .accessible_name("Translate terminal vertices");
             let tooltip = "Translate the terminal vertices, as one body, by the difference vector";
             if response.on_hover_text(tooltip).clicked() {
                 self.ask(5, EndFitAction::Translate);
@@ -348,7 +348,8 @@ impl Panel<'_> {
         let has_target = report.target_direction.is_some() && report.tangent.is_some();
         let title = format!("Turn {} vertices", report.degree);
         step_ui(ui, 6, &title, has_target && self.is_aligned(), |ui| {
-            let response = step_button(ui, "Rotate", has_target, None);
+            let response = step_button(ui, "Rotate", has_target, None)
+                .accessible_name("Rotate terminal vertices");
             let tooltip = "Rotate them about the end point by the difference angle";
             if response.on_hover_text(tooltip).clicked() {
                 self.ask(6, EndFitAction::Rotate);
@@ -367,42 +368,42 @@ impl Panel<'_> {
             }
         });
         indented(ui, |ui| {
+            self.both_ui(ui);
             let left = figures::significant(report.residual, 4);
-            figure_pairs(
-                ui,
-                &[("Left over", left), ("Passes", report.passes.to_string())],
-            );
-            widgets::form_row(ui, "Tolerance", |ui| {
-                let shown = figures::significant(report.tolerance, 4);
-                let field = NumberField::new("tolerance", report.tolerance, shown)
-                    .range(0.0..=f64::MAX)
-                    .typed_only()
-                    .width(FIELD + 24.0);
-                if let FieldEvent::Typed(value) = field.show(ui).1 {
-                    self.ask(7, EndFitAction::SetTolerance(value));
-                }
-            });
+            let passes = report.passes.to_string();
+            figure_pairs(ui, &[("Left over", left), ("Passes", passes)]);
+            self.tolerance_ui(ui);
         });
         self.outcome_ui(ui, 7);
         overlap_ui(ui, report);
     }
 
-    fn both_ui(&mut self, ui: &mut Ui) {
-        let report = self.report;
-        indented(ui, |ui| {
-            let size = vec2(ui.available_width(), ROW);
-            let button = Button::new("Both ends at once").min_size(size);
-            let response = ui.add_enabled(report.targets > 0, button);
-            let tooltip = "Meet all targets together by the least disturbance of the vertices";
-            if response.on_hover_text(tooltip).clicked() {
-                self.ask(8, EndFitAction::BothAtOnce);
-            }
-            if let Some((distance, vertex)) = report.largest_move {
-                let text = format!("{} at vertex {vertex}", figures::significant(distance, 4));
-                widgets::figure_row(ui, "Largest move", &text);
+    fn tolerance_ui(&mut self, ui: &mut Ui) {
+        let tolerance = self.report.tolerance;
+        widgets::form_row(ui, "Tolerance", |ui| {
+            let field =
+                NumberField::new("tolerance", tolerance, figures::significant(tolerance, 4))
+                    .range(0.0..=f64::MAX)
+                    .typed_only()
+                    .width(FIELD + 24.0);
+            if let FieldEvent::Typed(value) = field.show(ui).1 {
+                self.ask(7, EndFitAction::SetTolerance(value));
             }
         });
-        self.outcome_ui(ui, 8);
+    }
+
+    fn both_ui(&mut self, ui: &mut Ui) {
+        let report = self.report;
+        let button = Button::new("Both ends at once").min_size(vec2(ui.available_width(), ROW));
+        let response = ui.add_enabled(report.targets > 0, button);
+        let tooltip = "Meet all targets together by the least disturbance of the vertices";
+        if response.on_hover_text(tooltip).clicked() {
+            self.ask(7, EndFitAction::BothAtOnce);
+        }
+        if let Some((distance, vertex)) = report.largest_move {
+            let text = format!("{} at vertex {vertex}", figures::significant(distance, 4));
+            widgets::figure_row(ui, "Largest move", &text);
+        }
     }
 
     /// Tell what the last action came to, below the button that was pressed.

@@ -278,36 +278,39 @@ impl<'a> NumberField<'a> {
         let Some(mut drag) = ui.data(|data| data.get_temp::<Drag>(memory)) else {
             return FieldEvent::Idle;
         };
-        if response.drag_stopped() || !response.dragged() {
-            ui.data_mut(|data| data.remove_temp::<Drag>(memory));
-            return if drag.called_off {
-                FieldEvent::Idle
-            } else {
-                FieldEvent::Commit
-            };
-        }
-        if drag.called_off {
-            return FieldEvent::Idle;
-        }
-        let event = if ui.input(|input| input.key_pressed(Key::Escape)) {
+        // Esc also ends egui's drag: look for it first.
+        let is_escape = ui.input(|input| input.key_pressed(Key::Escape));
+        let is_over = response.drag_stopped() || !response.dragged();
+        let event = if drag.called_off {
+            FieldEvent::Idle
+        } else if is_escape {
             drag.called_off = true;
             FieldEvent::Abort
+        } else if is_over {
+            FieldEvent::Commit
         } else {
-            let fine = if ui.input(|input| input.modifiers.shift) {
-                0.1
-            } else {
-                1.0
-            };
-            let moved = f64::from(response.drag_delta().x) * fine;
-            drag.points += moved;
-            if moved == 0.0 {
-                FieldEvent::Idle
-            } else {
-                FieldEvent::Preview(self.dragged_to(&drag, fine))
-            }
+            self.dragged_on(ui, response, &mut drag)
         };
-        ui.data_mut(|data| data.insert_temp(memory, drag));
+        ui.data_mut(|data| {
+            if is_over {
+                data.remove_temp::<Drag>(memory);
+            } else {
+                data.insert_temp(memory, drag);
+            }
+        });
         event
+    }
+
+    fn dragged_on(&self, ui: &Ui, response: &Response, drag: &mut Drag) -> FieldEvent {
+        let is_fine = ui.input(|input| input.modifiers.shift);
+        let fine = if is_fine { 0.1 } else { 1.0 };
+        let moved = f64::from(response.drag_delta().x) * fine;
+        drag.points += moved;
+        if moved == 0.0 {
+            FieldEvent::Idle
+        } else {
+            FieldEvent::Preview(self.dragged_to(drag, fine))
+        }
     }
 
     /// The value under the hand, rounded to what one point of the drag can tell apart.

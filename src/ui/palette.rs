@@ -104,8 +104,10 @@ impl Palette {
             widgets::note(ui, "No command is called that. Try another word.");
         }
         let mut clicked = None;
+        // A list in a window of its own would otherwise grow by a little each frame.
         ScrollArea::vertical()
             .max_height(12.0 * ROW)
+            .min_scrolled_height(12.0 * ROW)
             .show(ui, |ui| {
                 ui.spacing_mut().item_spacing.y = 0.0;
                 for (index, command) in found.iter().enumerate() {
@@ -202,14 +204,15 @@ fn matches(typed: &str, editor: &Editor) -> Vec<Command> {
     let mut matcher = Matcher::new(Config::DEFAULT);
     let pattern = Pattern::parse(typed, CaseMatching::Ignore, Normalization::Smart);
     let mut buffer = Vec::new();
-    let mut scored: Vec<(u32, Command)> = all
+    let mut scored: Vec<_> = all
         .into_iter()
         .filter_map(|command| {
             let label = command.label();
             let score = pattern.score(Utf32Str::new(&label, &mut buffer), &mut matcher)?;
-            Some((score, command))
+            // Of two that match as well, the shorter name is meant.
+            Some(((std::cmp::Reverse(score), label.len()), command))
         })
         .collect();
-    scored.sort_by_key(|(score, _)| std::cmp::Reverse(*score));
+    scored.sort_by_key(|(rank, _)| *rank);
     scored.into_iter().map(|(_, command)| command).collect()
 }

@@ -1,0 +1,469 @@
+//! The window, driven through the labels that a screen reader reads: no display, no renderer.
+#![cfg(feature = "gui")]
+
+use std::path::Path;
+
+use batten::document::Curve;
+use batten::editor::{Layer, ToolKind};
+use batten::geometry::End;
+use batten::io::disk;
+use batten::ui::App;
+use eframe::egui::{
+    Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhase, Vec2, vec2,
+};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use glam::DVec2;
+
+type Window = Harness<'static, App>;
+
+fn open_window() -> Window {
+    open_window_of(1480.0, 920.0)
+}
+
+fn open_window_of(width: f32, height: f32) -> Window {
+    let builder = Harness::builder()
+        .with_size(vec2(width, height))
+        .with_max_steps(64);
+    let mut window = builder.build_eframe(|creation| App::new(&creation.egui_ctx, None, false));
+    window.run();
+    window
+}
+
+fn click(window: &mut Window, label: &str) {
+    window.get_by_label(label).click();
+    window.run();
+}
+
+fn press(window: &mut Window, modifiers: Modifiers, key: Key) {
+    window.key_press_modifiers(modifiers, key);
+    window.run();
+}
+
+/// Open a menu and choose an entry, through a submenu if need be.
+fn choose(window: &mut Window, path: &[&str]) {
+    for label in path {
+        click(window, label);
+    }
+}
+
+fn curve(window: &Window) -> Curve {
+    let editor = window.state().editor();
+    let active = editor.active().expect("a curve is active");
+    Curve::clone(
+        editor
+            .document()
+            .curve(active)
+            .expect("the active curve is there"),
+    )
+}
+
+/// Where a point of the model is in the window.
+fn place(window: &Window, point: DVec2) -> Pos2 {
+    let canvas = window.state().canvas_rect().expect("the canvas was shown");
+    let at = window.state().editor().viewport().to_screen(point);
+    canvas.min + vec2(at.x as f32, at.y as f32)
+}
+
+fn vertex(window: &Window, index: usize) -> Pos2 {
+    place(window, curve(window).polygon.vertex(index).truncate())
+}
+
+fn drag(window: &mut Window, from: Pos2, to: Pos2) {
+    window.hover_at(from);
+    window.run();
+    window.drag_at(from);
+    window.step();
+    window.hover_at(to);
+    window.step();
+    window.drop_at(to);
+    window.run();
+}
+
+/// Put a text into the field that has the keyboard, in place of what it holds.
+fn type_over(window: &mut Window, text: &str) {
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.run();
+    window.event(Event::Text(text.to_owned()));
+    window.run();
+}
+
+/// Answer the window's own prompt for a path.
+fn answer(window: &mut Window, path: &Path) {
+    click(window, "Path");
+    type_over(window, &path.to_string_lossy());
+    press(window, Modifiers::NONE, Key::Enter);
+}
+
+#[test]
+fn everything_is_in_its_place() {
+    let window = open_window();
+    for label in [
+        "File",
+        "Edit",
+        "View",
+        "Tools",
+        "Help",
+        "Canvas",
+        "Curves",
+        "Inspector",
+        "Layers",
+        "Name",
+        "Degree",
+        "vertex 0",
+        "vertex 0 x",
+        "vertex 0 y",
+        "Legs and turning angles",
+    ] {
+        window.get_by_label(label);
+    }
+    for tool in ToolKind::ALL {
+        window.get_by_label(tool.label());
+    }
+    for layer in Layer::ALL {
+        assert!(
+            window.query_all_by_label(layer.label()).count() > 0,
+            "{layer:?}"
+        );
+    }
+}
+
+#[test]
+fn the_main_job_through_the_window() {
+    let mut window = open_window();
+    choose(&mut window, &["File", "Examples", "Ninth-degree arc"]);
+    let original = curve(&window);
+    assert_eq!(original.polygon.degree(), 9);
+
+    let from = vertex(&window, 5);
+    drag(&mut window, from, from + vec2(40.0, -30.0));
+    let dragged = curve(&window);
+    let scale = window.state().editor().viewport().scale;
+    let moved = dragged.polygon.vertex(5) - original.polygon.vertex(5);
+    let expected = DVec2::new(40.0, 30.0) / scale;
+    assert!(moved.truncate().distance(expected) < 1e-4, "{moved}");
+    assert!(window.state().editor().is_modified());
+
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(curve(&window), original, "undo is exact");
+    press(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    assert_eq!(curve(&window), dragged, "redo is exact");
+
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("dragged.batten");
+    press(&mut window, Modifiers::COMMAND, Key::S);
+    answer(&mut window, &path);
+    assert!(!window.state().editor().is_modified());
+    let saved = disk::read_file(&path).expect("the saved file");
+    assert_eq!(saved[0].polygon, dragged.polygon, "numbers survive exactly");
+
+    let path = folder.path().join("dragged.dxf");
+    choose(&mut window, &["File", "Export DXF…"]);
+    answer(&mut window, &path);
+    let drawing = std::fs::read_to_string(&path).expect("the export");
+    assert!(drawing.contains("SPLINE"));
+}
+
+#[test]
+fn an_end_is_corrected_by_the_panels_buttons() {
+    let mut window = open_window();
+    choose(&mut window, &["File", "Examples", "Waterline"]);
+    let original = curve(&window);
+    let count = original.polygon.vertices().len();
+    assert!(
+        count >= 2 * original.polygon.degree(),
+        "one pass is exact on the waterline"
+    );
+    click(&mut window, "End fit");
+    click(&mut window, "Take actual end");
+    let target = original.polygon.end_jet(End::Finish).point;
+    click(&mut window, "target y");
+    type_over(&mut window, &format!("{}", target.y + 3.0));
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    let wanted = curve(&window).targets.get(End::Finish).expect("a target");
+    assert_eq!(
+        wanted.point.y,
+        target.y + 3.0,
+        "a typed number is taken exactly"
+    );
+
+    click(&mut window, "Translate terminal vertices");
+    let corrected = curve(&window).polygon.end_jet(End::Finish).point;
+    assert!(corrected.distance(wanted.point) < 1e-12 * original.polygon.size());
+
+    click(&mut window, "target direction");
+    type_over(&mut window, "5");
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    click(&mut window, "Rotate terminal vertices");
+    let tangent = curve(&window)
+        .polygon
+        .end_jet(End::Finish)
+        .tangent()
+        .expect("a tangent");
+    let degrees = tangent.truncate().to_angle().to_degrees();
+    assert!((degrees - 5.0).abs() < 1e-9, "{degrees}");
+
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(curve(&window).polygon, original.polygon);
+}
+
+#[test]
+fn the_arc_is_corrected_at_both_ends_at_once() {
+    let mut window = open_window();
+    let original = curve(&window);
+    press(&mut window, Modifiers::NONE, Key::E);
+    click(&mut window, "Start");
+    click(&mut window, "Take actual end");
+    click(&mut window, "End");
+    click(&mut window, "Take actual end");
+    click(&mut window, "target x");
+    let target = original.polygon.end_jet(End::Finish).point;
+    type_over(&mut window, &format!("{}", target.x + 0.5));
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    click(&mut window, "Repeat");
+    assert_eq!(
+        curve(&window).polygon,
+        original.polygon,
+        "what does not converge changes nothing"
+    );
+    click(&mut window, "Both ends at once");
+    let end = curve(&window).polygon.end_jet(End::Finish).point;
+    assert!(
+        (end.x - target.x - 0.5).abs() < 1e-12 * original.polygon.size(),
+        "{end}"
+    );
+    assert!(window.query_all_by_label_contains("Largest move").count() > 0);
+}
+
+#[test]
+fn coordinates_are_typed_and_dragged_in_the_inspector() {
+    let mut window = open_window();
+    let original = curve(&window);
+    click(&mut window, "vertex 3 x");
+    type_over(&mut window, "1.25");
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    assert_eq!(curve(&window).polygon.vertex(3).x, 1.25);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(curve(&window), original);
+
+    // Leaving a field as it was changes nothing, though it shows fewer digits than there are.
+    click(&mut window, "vertex 3 x");
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    assert!(!window.state().editor().is_modified());
+
+    // What cannot be read changes nothing either.
+    click(&mut window, "vertex 3 x");
+    type_over(&mut window, "one");
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    assert!(!window.state().editor().is_modified());
+
+    let field = window.get_by_label("vertex 3 y").rect().center();
+    drag(&mut window, field, field + vec2(30.0, 0.0));
+    let dragged = curve(&window).polygon.vertex(3).y;
+    assert!(dragged > original.polygon.vertex(3).y, "{dragged}");
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(curve(&window), original, "a dragged field is one step");
+}
+
+#[test]
+fn escape_calls_a_dragged_field_off() {
+    let mut window = open_window();
+    let original = curve(&window);
+    let field = window.get_by_label("vertex 3 y").rect().center();
+    window.hover_at(field);
+    window.run();
+    window.drag_at(field);
+    window.step();
+    window.hover_at(field + vec2(30.0, 0.0));
+    window.step();
+    assert_ne!(curve(&window), original, "the drag is previewed");
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    window.hover_at(field + vec2(60.0, 0.0));
+    window.step();
+    window.drop_at(field + vec2(60.0, 0.0));
+    window.run();
+    assert_eq!(curve(&window), original);
+    assert!(!window.state().editor().is_modified());
+}
+
+#[test]
+fn degree_name_and_ends_are_changed_in_the_inspector() {
+    let mut window = open_window();
+    let polygon = curve(&window).polygon;
+    window
+        .get_all_by_label("Lower degree")
+        .next()
+        .expect("the button")
+        .click();
+    window.run();
+    assert_eq!(curve(&window).polygon.degree(), 8);
+    assert_eq!(
+        curve(&window).polygon.vertices(),
+        polygon.vertices(),
+        "the polygon is kept"
+    );
+    click(&mut window, "Name");
+    type_over(&mut window, "sheer");
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    assert_eq!(curve(&window).name, "sheer");
+    click(&mut window, "Periodic");
+    assert!(curve(&window).polygon.is_periodic());
+    click(&mut window, "Locked");
+    assert!(curve(&window).locked);
+}
+
+#[test]
+fn letters_are_typed_into_fields_and_are_commands_elsewhere() {
+    let mut window = open_window();
+    click(&mut window, "Name");
+    press(&mut window, Modifiers::NONE, Key::D);
+    assert_eq!(window.state().editor().tool(), ToolKind::Select);
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    press(&mut window, Modifiers::NONE, Key::D);
+    assert_eq!(window.state().editor().tool(), ToolKind::Draw);
+}
+
+#[test]
+fn the_wheel_zooms_to_the_pointer_and_the_middle_button_pans() {
+    let mut window = open_window();
+    let at = vertex(&window, 2);
+    let before = window.state().editor().viewport().scale;
+    window.hover_at(at);
+    window.run();
+    window.event(Event::MouseWheel {
+        unit: MouseWheelUnit::Line,
+        delta: vec2(0.0, 2.0),
+        phase: TouchPhase::Move,
+        source: eframe::egui::MouseWheelSource::Wheel,
+        modifiers: Modifiers::NONE,
+    });
+    window.run();
+    assert!(window.state().editor().viewport().scale > 1.2 * before);
+    assert!(
+        vertex(&window, 2).distance(at) < 0.1,
+        "the place under the pointer stays"
+    );
+
+    let from = at + vec2(60.0, 90.0);
+    let by = vec2(25.0, 10.0);
+    for (pos, pressed) in [(from, true), (from + by, false)] {
+        window.event(Event::PointerMoved(pos));
+        let button = PointerButton::Middle;
+        window.event(Event::PointerButton {
+            pos,
+            button,
+            pressed,
+            modifiers: Modifiers::NONE,
+        });
+        window.run();
+    }
+    assert!(vertex(&window, 2).distance(at + by) < 0.1);
+}
+
+#[test]
+fn the_palette_finds_commands() {
+    let mut window = open_window();
+    press(&mut window, Modifiers::COMMAND, Key::P);
+    window.event(Event::Text("comb".to_owned()));
+    window.run();
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    assert!(window.state().editor().layers().shows(Layer::Comb));
+    window.get_by_label("Comb scale");
+    window.get_by_label("Comb density");
+}
+
+#[test]
+fn unsaved_changes_are_asked_about() {
+    let mut window = open_window();
+    let from = vertex(&window, 4);
+    drag(&mut window, from, from + Vec2::splat(30.0));
+    let changed = curve(&window);
+    choose(&mut window, &["File", "New"]);
+    click(&mut window, "Cancel");
+    assert_eq!(curve(&window), changed);
+    choose(&mut window, &["File", "New"]);
+    click(&mut window, "Save");
+    let folder = tempfile::tempdir().expect("a folder");
+    answer(
+        &mut window,
+        &folder.path().join("no such folder").join("curve.batten"),
+    );
+    assert_eq!(curve(&window), changed, "nothing is lost by a bad path");
+    window.get_by_label_contains("There is no folder");
+    let path = folder.path().join("curve.batten");
+    answer(&mut window, &path);
+    assert!(
+        window.state().editor().document().is_empty(),
+        "saved, then gone on"
+    );
+    assert_eq!(
+        disk::read_file(&path).expect("the file")[0].polygon,
+        changed.polygon
+    );
+}
+
+#[test]
+fn a_file_that_cannot_be_read_is_told_where_it_was_asked_for() {
+    let mut window = open_window();
+    let original = curve(&window);
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("broken.batten");
+    std::fs::write(&path, "{ this is no project").expect("the file");
+    press(&mut window, Modifiers::COMMAND, Key::O);
+    answer(&mut window, &path);
+    window.get_by_label_contains("broken.batten");
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert_eq!(curve(&window), original);
+}
+
+#[test]
+fn every_panel_and_dialog_has_names_in_both_themes_and_when_it_is_small() {
+    for size in [(1480.0, 920.0), (960.0, 640.0)] {
+        let mut window = open_window_of(size.0, size.1);
+        for _ in 0..2 {
+            for tool in ToolKind::ALL {
+                let letter = Key::from_name(&tool.letter().to_uppercase().to_string());
+                press(&mut window, Modifiers::NONE, letter.expect("a letter"));
+                assert_eq!(window.state().editor().tool(), tool);
+            }
+            click(&mut window, "Take actual end");
+            press(&mut window, Modifiers::NONE, Key::V);
+            click(&mut window, "Legs and turning angles");
+            click(&mut window, "Curvature");
+            press(&mut window, Modifiers::NONE, Key::F8);
+            press(&mut window, Modifiers::NONE, Key::F8);
+            press(&mut window, Modifiers::NONE, Key::F1);
+            click(&mut window, "Close");
+            click(&mut window, "Help");
+            click(&mut window, "About Batten");
+            click(&mut window, "Close");
+            for menu in ["File", "Edit", "View", "Tools", "Help"] {
+                click(&mut window, menu);
+                press(&mut window, Modifiers::NONE, Key::Escape);
+            }
+            press(&mut window, Modifiers::NONE, Key::F9);
+        }
+    }
+}
+
+#[test]
+fn an_empty_document_says_what_to_do() {
+    let mut window = open_window();
+    choose(&mut window, &["File", "New"]);
+    window.get_by_label("Nothing here yet");
+    for tool in ToolKind::ALL {
+        let letter = Key::from_name(&tool.letter().to_uppercase().to_string());
+        press(&mut window, Modifiers::NONE, letter.expect("a letter"));
+    }
+}
+
+#[test]
+fn nothing_is_painted_anew_when_nothing_happens() {
+    let mut window = open_window();
+    window.hover_at(vertex(&window, 4));
+    window.run();
+    let steps = window.run();
+    assert!(steps <= 2, "{steps} frames for nothing");
+}
