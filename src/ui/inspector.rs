@@ -9,6 +9,7 @@ use super::curve_list::swatch_in;
 use super::figures;
 use super::number_field::{FieldEvent, NumberField};
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
+use super::transform_panel::TransformPanel;
 use super::vertex_table::VertexTable;
 use super::widgets::{self, IconButton};
 use crate::document::{Colour, Curve, CurveId, Edit};
@@ -21,11 +22,13 @@ pub struct Inspector {
     /// The name that is being typed, for the curve that it belongs to.
     name: Option<(CurveId, String)>,
     table: VertexTable,
+    transform: TransformPanel,
 }
 
 impl Inspector {
     /// Show the inspector of the active curve.
     pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor) {
+        self.transform.show(ui, editor);
         let active = editor.active();
         let found = active.and_then(|id| Some((id, editor.document().curve(id)?.clone())));
         let Some((id, curve)) = found else {

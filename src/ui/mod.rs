@@ -26,6 +26,7 @@ mod plots;
 mod status_bar;
 mod theme;
 mod tool_rail;
+mod transform_panel;
 mod vertex_table;
 mod widgets;
 

@@ -1,0 +1,93 @@
+//! The rotate and the scale tool in figures: the pivot, and an angle or a factor to apply.
+
+use eframe::egui::{Button, Ui};
+use glam::DVec2;
+
+use super::figures;
+use super::number_field::{FieldEvent, NumberField};
+use super::widgets;
+use crate::editor::{Editor, ToolKind, Transformation};
+
+/// What is typed into the fields, until it is applied.
+pub struct TransformPanel {
+    degrees: f64,
+    factor: f64,
+}
+
+impl Default for TransformPanel {
+    fn default() -> Self {
+        Self {
+            degrees: 90.0,
+            factor: 2.0,
+        }
+    }
+}
+
+impl TransformPanel {
+    /// Show the panel, if one of its tools is in the hand.
+    pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor) {
+        match editor.tool() {
+            ToolKind::Rotate => widgets::section(ui, "Rotate", true, |ui| {
+                pivot_ui(ui, editor);
+                widgets::form_row(ui, "Angle", |ui| self.angle_ui(ui, editor));
+            }),
+            ToolKind::Scale => widgets::section(ui, "Scale", true, |ui| {
+                pivot_ui(ui, editor);
+                widgets::form_row(ui, "Factor", |ui| self.factor_ui(ui, editor));
+            }),
+            _ => None,
+        };
+    }
+
+    fn angle_ui(&mut self, ui: &mut Ui, editor: &mut Editor) {
+        let shown = format!("{}°", figures::significant(self.degrees, 6));
+        let field = NumberField::new("rotation angle", self.degrees, shown);
+        keep(&mut self.degrees, field.speed(0.5).show(ui).1);
+        if apply_ui(ui, editor, "Apply rotation") {
+            editor.transform(Transformation::Rotate(self.degrees.to_radians()));
+        }
+    }
+
+    fn factor_ui(&mut self, ui: &mut Ui, editor: &mut Editor) {
+        let shown = figures::significant(self.factor, 6);
+        let field = NumberField::new("scale factor", self.factor, shown);
+        keep(&mut self.factor, field.speed(0.01).show(ui).1);
+        if apply_ui(ui, editor, "Apply scaling") {
+            editor.transform(Transformation::Scale(self.factor));
+        }
+    }
+}
+
+fn pivot_ui(ui: &mut Ui, editor: &mut Editor) {
+    let Some(pivot) = editor.pivot() else {
+        widgets::note(ui, "Select vertices, or a curve that is not locked.");
+        return;
+    };
+    widgets::form_row(ui, "Pivot", |ui| {
+        let pixel = editor.viewport().pixel();
+        let axes = [("pivot x", DVec2::X), ("pivot y", DVec2::Y)];
+        for (name, axis) in axes {
+            let value = pivot.dot(axis);
+            let shown = figures::significant(value, 6);
+            let mut changed = value;
+            let field = NumberField::new(name, value, shown).speed(pixel);
+            keep(&mut changed, field.show(ui).1);
+            if changed != value {
+                editor.set_pivot(Some(pivot + axis * (changed - value)));
+            }
+        }
+    });
+}
+
+/// Take over what a field was typed or dragged to: nothing of it is in the document yet.
+fn keep(value: &mut f64, event: FieldEvent) {
+    if let FieldEvent::Preview(new) | FieldEvent::Typed(new) = event {
+        *value = new;
+    }
+}
+
+fn apply_ui(ui: &mut Ui, editor: &Editor, name: &str) -> bool {
+    let button = Button::new("Apply");
+    let response = ui.add_enabled(editor.pivot().is_some(), button);
+    response.accessible_name(name).clicked()
+}
