@@ -96,6 +96,10 @@ impl<'a> Screen<'a> {
         if !from.is_finite() || !to.is_finite() {
             return None;
         }
+        if self.holds(to) {
+            // Measured from the far end, the near one would be lost to rounding.
+            return self.clip(to, from).map(|(to, from)| (from, to));
+        }
         let along = to - from;
         let (mut enter, mut leave) = (0.0f64, 1.0f64);
         for axis in 0..2 {
