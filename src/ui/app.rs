@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use eframe::egui::{
     self, CentralPanel, Context, Frame, Margin, Panel, ScrollArea, Ui, ViewportCommand,
 };
-use serde::{Deserialize, Serialize};
 
 use super::canvas::Canvas;
 use super::curve_list::CurveList;
@@ -19,6 +18,7 @@ use super::menu::menu_ui;
 use super::message::message_ui;
 use super::palette::Palette;
 use super::plots::{self, Plots, Tab};
+use super::shell::Shell;
 use super::status_bar::{self, status_bar_ui};
 use super::theme::{self, Tokens};
 use super::tool_rail::{self, tool_rail_ui};
@@ -31,39 +31,6 @@ const SETTINGS: &str = "window";
 /// The height, below the list of curves, from which on the layers stay in sight beside the
 /// inspector, and beside the taller end-fit panel.
 const PINNED: [f32; 2] = [600.0, 920.0];
-
-/// What the window shows beside the document, kept from run to run.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct Shell {
-    dark: bool,
-    plots: bool,
-    legs: bool,
-    /// The layers that are hidden, by their place in the list.
-    hidden: Option<Vec<usize>>,
-}
-
-impl Default for Shell {
-    fn default() -> Self {
-        Self {
-            dark: true,
-            plots: true,
-            legs: false,
-            hidden: None,
-        }
-    }
-}
-
-impl Shell {
-    /// Whether a switch is on, the window's own switches included.
-    pub fn is_checked(&self, editor: &Editor, command: Command) -> Option<bool> {
-        match command {
-            Command::ToggleTheme => Some(!self.dark),
-            Command::TogglePlots => Some(self.plots),
-            _ => editor.is_checked(command),
-        }
-    }
-}
 
 /// The application: the editor, and what only a window has.
 pub struct App {
@@ -498,14 +465,6 @@ impl eframe::App for App {
     }
 }
 
-fn hide_layers(editor: &mut Editor, hidden: &[usize]) {
-    for (place, layer) in Layer::ALL.into_iter().enumerate() {
-        if editor.layers().shows(layer) == hidden.contains(&place) {
-            editor.execute(layer.command());
-        }
-    }
-}
-
 fn is_project(path: &Path) -> bool {
     path.extension()
         .is_some_and(|extension| extension.eq_ignore_ascii_case("batten"))
@@ -520,4 +479,12 @@ fn move_keyboard(context: &Context) {
             memory.request_focus(canvas::id());
         }
     });
+}
+
+fn hide_layers(editor: &mut Editor, hidden: &[usize]) {
+    for (place, layer) in Layer::ALL.into_iter().enumerate() {
+        if editor.layers().shows(layer) == hidden.contains(&place) {
+            editor.execute(layer.command());
+        }
+    }
 }

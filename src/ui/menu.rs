@@ -3,7 +3,7 @@
 use eframe::egui::{Button, Color32, MenuBar, RichText, Ui};
 use lucide_icons::Icon;
 
-use super::app::Shell;
+use super::shell::Shell;
 use super::theme::Tokens;
 use super::{icons, keyboard};
 use crate::editor::{Command, Editor, Layer, ToolKind};

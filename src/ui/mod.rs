@@ -23,6 +23,7 @@ mod overlays;
 mod painting;
 mod palette;
 mod plots;
+mod shell;
 mod status_bar;
 mod theme;
 mod tool_rail;
