@@ -72,8 +72,8 @@ impl<const SIZE: usize> PowerKernel<SIZE> {
             for (order, out) in out.iter_mut().enumerate().take(orders) {
                 let mut sums = [0.0; PARAMETERS];
                 for power in (0..SIZE.saturating_sub(order)).rev() {
-                    for lane in 0..PARAMETERS {
-                        sums[lane] = sums[lane] * self.offsets[lane] + coefficients[power];
+                    for (sum, offset) in sums.iter_mut().zip(&self.offsets) {
+                        *sum = *sum * offset + coefficients[power];
                     }
                 }
                 out[axis] = sums;

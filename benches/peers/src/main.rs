@@ -59,9 +59,9 @@ fn main() -> ExitCode {
     ways.extend(curvo_ways(&points, &parameters));
     ways.extend(truck_ways(&points, &parameters));
 
-    let expected = collect(&mut *ways[0].1);
+    let expected = collect(&mut ways[0].1);
     for (name, way) in &mut ways {
-        let found = collect(&mut **way);
+        let found = collect(way);
         assert_eq!(found.len(), expected.len(), "{name}");
         for (found, expected) in found.iter().flatten().zip(expected.iter().flatten()) {
             let error = (found[0] - expected[0]).hypot(found[1] - expected[1]);
@@ -72,7 +72,7 @@ fn main() -> ExitCode {
     let mut best: Vec<(&str, f64)> = Vec::new();
     println!("degree {DEGREE}, {VERTICES} vertices, three derivatives: nanoseconds a parameter");
     for (name, way) in &mut ways {
-        let (fastest, middle) = measure(&mut **way);
+        let (fastest, middle) = measure(way);
         println!("{name:36} {fastest:9.1} fastest {middle:9.1} middle");
         let library = name.split(':').next().unwrap_or(name);
         match best.iter_mut().find(|(other, _)| *other == library) {
@@ -100,7 +100,7 @@ fn from_batch(batch: &Batch, index: usize) -> Jet {
     [jet.point, jet.first, jet.second, jet.third].map(|v| [v.x, v.y])
 }
 
-fn collect(way: &mut dyn FnMut(&mut dyn FnMut(Computed))) -> Vec<Jet> {
+fn collect(way: &mut Way) -> Vec<Jet> {
     let mut all = Vec::new();
     way(&mut |computed| match computed {
         Computed::One(jet) => all.push(jet),
@@ -110,7 +110,7 @@ fn collect(way: &mut dyn FnMut(&mut dyn FnMut(Computed))) -> Vec<Jet> {
 }
 
 /// Run one way over the whole curve repeatedly, without looking at the results.
-fn measure(way: &mut dyn FnMut(&mut dyn FnMut(Computed))) -> (f64, f64) {
+fn measure(way: &mut Way) -> (f64, f64) {
     let mut times: Vec<f64> = (0..ROUNDS)
         .map(|_| {
             let start = Instant::now();
