@@ -5,6 +5,7 @@ mod script;
 use batten::document::Edit;
 use batten::editor::{
     Button, Command, EndFitAction, HoverScene, Input, Key, Layer, Modifiers, ToolKind,
+    Transformation,
 };
 use batten::geometry::end_correction::EndOverlap;
 use batten::geometry::{End, FloatPolygon};
@@ -379,6 +380,41 @@ fn scaling_takes_only_the_selection_and_its_pivot_can_be_moved() {
         after.vertex(1).distance(after.vertex(0)) / before.vertex(1).distance(before.vertex(0));
     assert!((ratio - 2.0).abs() < 1e-9, "{ratio}");
     assert_eq!(after.vertex(2), before.vertex(2));
+}
+
+#[test]
+fn typed_figures_rotate_and_scale_as_dragging_does() {
+    let mut script = Script::example("s-curve");
+    let before = script.polygon();
+    script.tool(ToolKind::Rotate);
+    script.editor.set_pivot(Some(DVec2::ZERO));
+    script
+        .editor
+        .transform(Transformation::Rotate(0.5_f64.to_radians()));
+    let turn = DVec2::from_angle(0.5_f64.to_radians());
+    for (index, vertex) in script.polygon().vertices().iter().enumerate() {
+        let expected = turn.rotate(before.vertex(index).truncate());
+        assert!(vertex.truncate().distance(expected) < 1e-12 * before.size());
+    }
+    script.tool(ToolKind::Scale);
+    let pivot = script.editor.pivot().expect("a pivot");
+    let turned = script.polygon();
+    script.editor.transform(Transformation::Scale(2.0));
+    for (index, vertex) in script.polygon().vertices().iter().enumerate() {
+        let expected = pivot + 2.0 * (turned.vertex(index).truncate() - pivot);
+        assert!(vertex.truncate().distance(expected) < 1e-12 * before.size());
+    }
+    assert_eq!(script.editor.history().undo_steps(), 2);
+    // What cannot be used changes nothing.
+    let scaled = script.polygon();
+    script.editor.transform(Transformation::Scale(f64::NAN));
+    script.editor.transform(Transformation::Scale(1e300));
+    assert_eq!(script.polygon(), scaled);
+    assert!(
+        script.message().contains("finite numbers"),
+        "{}",
+        script.message()
+    );
 }
 
 #[test]

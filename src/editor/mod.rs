@@ -22,6 +22,7 @@ mod scene;
 mod selection;
 mod snapping;
 mod tools;
+mod transforming;
 mod viewport;
 
 use std::path::{Path, PathBuf};
@@ -37,7 +38,7 @@ pub use layers::{Layer, Layers};
 pub use report::{AfterDiscard, CurveReport, Export, Message, Readout, Request};
 pub use scene::{CurveScene, HoverScene, Mark, PlotScene, Scene, VertexMark};
 pub use selection::{Selection, VertexId};
-pub use tools::{Cursor, ToolKind};
+pub use tools::{Cursor, ToolKind, Transformation};
 pub use viewport::Viewport;
 
 use crate::analysis::{AnalysisCache, CombSettings};

@@ -61,25 +61,28 @@ impl FloatPolygon {
             halvings: 0,
         };
         let whole = measurement.quadrature(from, to);
-        let rounding = ROUNDINGS * self.greatest_leg(segment) * (to - from).abs();
+        let rounding = ROUNDINGS * self.greatest_term(segment) * (to - from).abs();
         measurement.allowed = rounding.max(tolerance * whole);
         measurement.halved(from, to, whole, 0)
     }
 
-    /// Find the longest leg of a segment's polygon, which bounds the speed of a polynomial curve
-    /// and what rounding does to it. For a rational curve, the same of its homogeneous polygon.
-    fn greatest_leg(&self, segment: usize) -> f64 {
+    /// Bound the speed of a polynomial curve on a segment, and with it what rounding does to it,
+    /// by the longest leg of the segment's polygon. The speed of a rational curve is a
+    /// difference in which the coordinates themselves cancel as far as the weights differ.
+    fn greatest_term(&self, segment: usize) -> f64 {
         let vertices = segment..segment + self.degree();
         let legs =
             vertices.map(|index| vector::length(self.vertex(index + 1) - self.vertex(index)));
-        let weights = (segment..=segment + self.degree()).map(|index| self.weight(index));
-        let range = Range::of(weights).map_or(1.0, |range| range.high / range.low);
-        let greatest = legs.fold(0.0, f64::max);
-        if self.is_rational() {
-            greatest * range * self.degree() as f64
-        } else {
-            greatest
+        let greatest_leg = legs.fold(0.0, f64::max);
+        if !self.is_rational() {
+            return greatest_leg;
         }
+        let window = segment..=segment + self.degree();
+        let weights = window.clone().map(|index| self.weight(index));
+        let ratio = Range::of(weights).map_or(1.0, |range| range.high / range.low);
+        let farthest = window.map(|index| vector::length(self.vertex(index)));
+        let cancelled = (ratio - 1.0) * farthest.fold(0.0, f64::max);
+        (greatest_leg * ratio + cancelled) * self.degree() as f64
     }
 }
 
@@ -107,5 +110,40 @@ impl Measurement<'_> {
             weight * (speed(middle - half * node) + speed(middle + half * node))
         });
         half * sum.sum::<f64>()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+
+    #[test]
+    fn a_rational_curve_far_from_the_origin_is_not_halved_for_its_rounding() {
+        let measured = |far: f64| {
+            let vertices =
+                (0..8).map(|i| DVec3::new(far + 10.0 * f64::from(i), f64::from(i * i), 0.0));
+            let weights = (0..8).map(|i| 1.0 + 0.3 * f64::from(i % 3)).collect();
+            let polygon = FloatPolygon::new(3, vertices.collect(), Some(weights), false).unwrap();
+            let mut measurement = Measurement {
+                polygon: &polygon,
+                segment: 0,
+                allowed: ROUNDINGS * polygon.greatest_term(0),
+                halvings: 0,
+            };
+            let whole = measurement.quadrature(0.0, 1.0);
+            let length = measurement.halved(0.0, 1.0, whole, 0);
+            (length, measurement.halvings)
+        };
+        let (near, _) = measured(0.0);
+        for far in [1e3, 1e6, 1e9] {
+            let (length, halvings) = measured(far);
+            assert!(
+                (length - near).abs() < 1e-14 * far * near,
+                "{far}: {length} is not {near}"
+            );
+            assert!(halvings < 10, "{far}: {halvings} halvings");
+        }
     }
 }

@@ -46,7 +46,7 @@ pub const EXAMPLES: [Example; 7] = [
     Example {
         name: "periodic",
         title: "Egg",
-        description: "A periodic curve of degree 5 on twelve vertices, with the four curvature extrema that no closed curve can do without.",
+        description: "A periodic curve of degree 5 on twelve vertices, with four curvature extrema, the fewest that an oval can have.",
         text: include_str!("../../assets/examples/periodic.batten"),
     },
     Example {

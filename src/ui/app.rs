@@ -28,6 +28,10 @@ use crate::editor::{AfterDiscard, Command, Editor, Layer, Request, ToolKind};
 /// Under which name the settings are kept.
 const SETTINGS: &str = "window";
 
+/// The height, below the list of curves, from which on the layers stay in sight beside the
+/// inspector, and beside the taller end-fit panel.
+const PINNED: [f32; 2] = [600.0, 920.0];
+
 /// What the window shows beside the document, kept from run to run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -251,15 +255,15 @@ impl App {
             .show(ui, |ui| {
                 self.curves.show(ui, &mut self.editor, &mut self.commands);
             });
-        let layers = Panel::bottom("layers").frame(pad).resizable(false);
-        layers.show(ui, |ui| {
-            widgets::section(ui, "Layers", true, |ui| {
-                layer_list_ui(ui, &mut self.editor, &mut self.commands);
-            });
-        });
+        // In a low window the layers scroll with the rest, so that nothing is squeezed out.
+        let is_end_fit = self.editor.tool() == ToolKind::EndFit;
+        let pinned = ui.available_height() >= PINNED[usize::from(is_end_fit)];
+        if pinned {
+            let layers = Panel::bottom("layers").frame(pad).resizable(false);
+            layers.show(ui, |ui| self.layers_ui(ui));
+        }
         CentralPanel::default().frame(pad).show(ui, |ui| {
             // Each has its own place in its own scroll area.
-            let is_end_fit = self.editor.tool() == ToolKind::EndFit;
             let name = if is_end_fit { "end fit" } else { "inspector" };
             let area = ScrollArea::vertical()
                 .id_salt(name)
@@ -270,7 +274,16 @@ impl App {
                 } else {
                     self.inspector.show(ui, &mut self.editor);
                 }
+                if !pinned {
+                    self.layers_ui(ui);
+                }
             });
+        });
+    }
+
+    fn layers_ui(&mut self, ui: &mut Ui) {
+        widgets::section(ui, "Layers", true, |ui| {
+            layer_list_ui(ui, &mut self.editor, &mut self.commands);
         });
     }
 

@@ -15,8 +15,10 @@ pub fn layer_list_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Comman
     for layer in Layer::ALL {
         row_ui(ui, editor, layer, commands);
     }
-    ui.add_space(STEP);
-    comb_ui(ui, editor, commands);
+    if editor.layers().shows(Layer::Comb) {
+        ui.add_space(STEP);
+        comb_ui(ui, editor, commands);
+    }
 }
 
 /// The colour of a layer.
@@ -95,6 +97,7 @@ fn row_ui(ui: &mut Ui, editor: &Editor, layer: Layer, commands: &mut Vec<Command
     }
 }
 
+/// The comb's scale and density, while there is a comb.
 fn comb_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Command>) {
     let mut comb = editor.comb();
     widgets::form_row(ui, "Comb scale", |ui| {

@@ -74,7 +74,7 @@ pub fn run(files: Vec<PathBuf>) -> anyhow::Result<()> {
 fn check_display() -> anyhow::Result<()> {
     let names = ["WAYLAND_DISPLAY", "WAYLAND_SOCKET", "DISPLAY"];
     let is_set = |name: &&str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
-    if cfg!(target_os = "linux") && !names.iter().any(|name| is_set(name)) {
+    if cfg!(target_os = "linux") && !names.iter().any(is_set) {
         bail!(
             "there is no display to open the window on: neither WAYLAND_DISPLAY nor DISPLAY is \
              set. Start Batten from a desktop session, or use its commands (batten --help)."

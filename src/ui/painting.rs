@@ -18,6 +18,9 @@ const TICK: f32 = 5.0;
 /// Half the side of the closed polygon's squares.
 const SQUARE: f32 = 3.5;
 
+/// An evolute smaller than this, in points, is marked by a disc.
+const SMALL_EVOLUTE: f32 = 4.0;
+
 /// Paint everything that lies on the grid, from back to front.
 pub fn paint(painter: &Painter, rect: Rect, viewport: &Viewport, scene: &Scene, tokens: &Tokens) {
     let brush = Brush {
@@ -105,9 +108,23 @@ impl Brush<'_> {
         let tokens = self.tokens;
         self.hairs(&curve.teeth, fade(tokens.comb_teeth));
         self.chain(&curve.comb, Stroke::new(1.0, fade(tokens.comb)));
-        self.chain(&curve.evolute, Stroke::new(1.0, fade(tokens.evolute)));
+        self.evolute(&curve.evolute, fade(tokens.evolute));
         self.dashed_chain(&curve.clamped, Stroke::new(1.0, fade(tokens.clamped)));
         self.chain(&curve.float, Stroke::new(1.25, fade(tokens.float)));
+    }
+
+    /// The evolute of an arc of nearly constant curvature is hardly more than a point: it gets a
+    /// disc, so that it is seen where it lies.
+    fn evolute(&self, evolute: &[DVec2], colour: Color32) {
+        for line in self.screen.lines(evolute) {
+            let around = Rect::from_points(&line);
+            if around.size().max_elem() < SMALL_EVOLUTE {
+                self.painter
+                    .circle_filled(around.center(), 0.75 * SMALL_EVOLUTE, colour);
+            }
+            self.painter
+                .add(Shape::line(line, Stroke::new(1.0, colour)));
+        }
     }
 
     fn curve(&self, curve: &CurveScene) {

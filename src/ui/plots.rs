@@ -220,6 +220,7 @@ impl Plots {
         let scene = editor.leg_plots();
         let count = scene.legs.len().max(scene.turns.len()) as f64;
         let width = (0.5 * (ui.available_width() - 2.0 * STEP)).max(80.0);
+        let height = ui.available_height();
         let mut hovered = None;
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 2.0 * STEP;
@@ -237,7 +238,9 @@ impl Plots {
                 wanted.0.x = wanted.0.x.min(0.0);
                 wanted.1.x = wanted.1.x.max(count - 1.0);
                 let bounds = frame.settle(padded(wanted), dragging);
-                let plot = plot(name, "vertex", axis, bounds, tokens).width(width);
+                let plot = plot(name, "vertex", axis, bounds, tokens)
+                    .width(width)
+                    .height(height);
                 let found = plot.label_formatter(vertex_label).show(ui, |plot| {
                     plot.set_plot_bounds(bounds);
                     zero_line(plot, tokens);
@@ -297,7 +300,7 @@ fn plot<'a>(id: &'a str, x: &'a str, y: &'a str, bounds: PlotBounds, tokens: &To
         .x_axis_label(x)
         .y_axis_label(y)
         .y_axis_min_width(56.0)
-        .x_axis_formatter(|mark, range| axis_number(mark, range))
+        .x_axis_formatter(axis_number)
         .y_axis_formatter(move |mark, _| axis_figure(mark.value, mark.step_size.max(resolution)))
         .show_background(false)
 }

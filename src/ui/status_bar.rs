@@ -10,12 +10,16 @@ use crate::editor::{Editor, Readout};
 /// The bar's height in points.
 pub const HEIGHT: f32 = 28.0;
 
+/// The width from which on there is room for degree and zoom beside a long hint.
+const WIDE: f32 = 1180.0;
+
 /// Show the bar.
 pub fn status_bar_ui(ui: &mut Ui, editor: &Editor) {
     let readout = editor.readout();
+    let width = ui.available_width();
     widgets::at_right(ui, |ui| {
         ui.spacing_mut().item_spacing.x = 4.0 * STEP;
-        for (name, text, width) in cells(&readout).into_iter().rev() {
+        for (name, text, width) in cells(&readout, width).into_iter().rev() {
             cell_ui(ui, name, &text, width);
         }
         ui.with_layout(
@@ -30,36 +34,36 @@ pub fn status_bar_ui(ui: &mut Ui, editor: &Editor) {
 
 /// The cells from left to right: name, text and width. Widths are fixed, so that no number
 /// moves its neighbours.
-fn cells(readout: &Readout) -> Vec<(&'static str, String, f32)> {
+fn cells(readout: &Readout, width: f32) -> Vec<(&'static str, String, f32)> {
     let pixel = 1.0 / readout.scale.max(f64::MIN_POSITIVE);
     let coordinate = |value: Option<f64>| {
         value.map_or_else(blank, |value| figures::to_resolution(value, 0.5 * pixel))
     };
     let pointer = readout.pointer;
-    vec![
-        ("x", coordinate(pointer.map(|at| at.x)), 92.0),
-        ("y", coordinate(pointer.map(|at| at.y)), 92.0),
+    let mut cells = vec![
+        ("x", coordinate(pointer.map(|at| at.x)), 88.0),
+        ("y", coordinate(pointer.map(|at| at.y)), 88.0),
         (
             "u",
             readout.u.map_or_else(blank, |u| format!("{u:.3}")),
-            68.0,
+            64.0,
         ),
         (
             "κ",
             readout
                 .curvature
                 .map_or_else(blank, |k| figures::significant(k, 5)),
-            92.0,
+            88.0,
         ),
-        (
-            "degree",
-            readout
-                .degree
-                .map_or_else(blank, |degree| degree.to_string()),
-            64.0,
-        ),
-        ("1 unit", zoom(readout.scale), 108.0),
-    ]
+    ];
+    if width >= WIDE {
+        let degree = readout
+            .degree
+            .map_or_else(blank, |degree| degree.to_string());
+        cells.push(("degree", degree, 60.0));
+        cells.push(("1 unit", zoom(readout.scale), 104.0));
+    }
+    cells
 }
 
 fn blank() -> String {

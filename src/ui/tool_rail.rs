@@ -1,6 +1,7 @@
 //! The tools at the left edge: icon and key.
 
-use eframe::egui::{Align2, Role, Sense, Ui, Vec2, WidgetInfo};
+use eframe::egui::scroll_area::ScrollBarVisibility;
+use eframe::egui::{Align2, Role, ScrollArea, Sense, Ui, Vec2, WidgetInfo};
 
 use super::theme::{self, RADIUS, STEP, Tokens};
 use super::{icons, keyboard, widgets};
@@ -15,21 +16,26 @@ const SIDE: f32 = 40.0;
 /// Show the tools, and below them what acts on every tool.
 pub fn tool_rail_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing = Vec2::splat(STEP);
-    ui.vertical_centered(|ui| {
-        for tool in ToolKind::ALL {
-            let starts_group = matches!(
-                tool,
-                ToolKind::AddVertex | ToolKind::Rotate | ToolKind::Measure
-            );
-            if starts_group {
-                divider(ui);
-            }
-            button_ui(ui, editor, Command::Tool(tool), commands);
-        }
-        divider(ui);
-        button_ui(ui, editor, Command::ToggleSnapping, commands);
-        button_ui(ui, editor, Command::Fit, commands);
+    let area = ScrollArea::vertical().scroll_bar_visibility(ScrollBarVisibility::AlwaysHidden);
+    area.show(ui, |ui| {
+        ui.vertical_centered(|ui| tools_ui(ui, editor, commands));
     });
+}
+
+fn tools_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<Command>) {
+    for tool in ToolKind::ALL {
+        let starts_group = matches!(
+            tool,
+            ToolKind::AddVertex | ToolKind::Rotate | ToolKind::Measure
+        );
+        if starts_group {
+            divider(ui);
+        }
+        button_ui(ui, editor, Command::Tool(tool), commands);
+    }
+    divider(ui);
+    button_ui(ui, editor, Command::ToggleSnapping, commands);
+    button_ui(ui, editor, Command::Fit, commands);
 }
 
 fn divider(ui: &mut Ui) {

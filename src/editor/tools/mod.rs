@@ -9,7 +9,8 @@ mod tool;
 mod transform;
 mod vertices;
 
-pub use tool::{Context, Cursor, Effect, Tool};
+pub use tool::{Context, Cursor, Effect, Tool, count_vertices, move_edits};
+pub use transform::Action as Transformation;
 
 use transform::Transform;
 

@@ -96,6 +96,9 @@ pub trait Tool: std::fmt::Debug + Send {
     fn pivot(&self, _context: &Context) -> Option<DVec2> {
         None
     }
+
+    /// Put the pivot somewhere, or let it follow the selection again.
+    fn set_pivot(&mut self, _pivot: Option<DVec2>) {}
 }
 
 /// A shape of the pointer.

@@ -126,7 +126,7 @@ impl TransformTool {
     }
 }
 
-/// A transformation about a pivot.
+/// A transformation about a pivot, as it is dragged or typed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Action {
     /// Turn by an angle in radians, counterclockwise seen from above.
@@ -246,6 +246,10 @@ impl Tool for TransformTool {
 
     fn cursor(&self, _context: &Context) -> Cursor {
         Cursor::Crosshair
+    }
+
+    fn set_pivot(&mut self, pivot: Option<DVec2>) {
+        self.pivot = pivot;
     }
 
     fn pivot(&self, context: &Context) -> Option<DVec2> {

@@ -47,7 +47,14 @@ pub fn write(curves: &[&Curve], polygon: Option<PolygonKind>) -> Result<Export, 
     let mut entities = Writer::new();
     let mut reach = Reach::default();
     for curve in curves {
-        let most = MOST_KNOTS - 2 * curve.polygon.degree() - 1;
+        let degree = curve.polygon.degree();
+        // A periodic curve is written with its first vertices repeated.
+        let repeated = if curve.polygon.is_periodic() {
+            degree
+        } else {
+            0
+        };
+        let most = MOST_KNOTS - (degree + 1) - repeated;
         let vertices = curve.polygon.vertices().len();
         if vertices > most {
             return Err(WriteError::TooManyVertices {
@@ -186,3 +193,6 @@ fn polyline(writer: &mut Writer, curve: &Curve, kind: PolygonKind, layer: &str, 
     }
     writer.part("SEQEND", owner, layer);
 }
+
+#[cfg(test)]
+mod tests;

@@ -79,7 +79,11 @@ impl Window {
             .spawn()
             .with_context(|| format!("{} does not start", program.display()))?;
         let connection = connect(&address)?;
-        let mut window = Self { program: child, connection, home };
+        let mut window = Self {
+            program: child,
+            connection,
+            home,
+        };
         window.settle()?;
         Ok(window)
     }
@@ -103,20 +107,29 @@ impl Window {
     pub fn find_beginning(&mut self, beginning: &str) -> Result<Rect> {
         self.find_where(beginning, |node| {
             let texts = [node.label(), node.value()];
-            texts.into_iter().flatten().any(|text| text.starts_with(beginning))
+            texts
+                .into_iter()
+                .flatten()
+                .any(|text| text.starts_with(beginning))
         })
     }
 
     /// Whether a widget with this label is there now.
     pub fn has(&mut self, label: &str) -> Result<bool> {
         let tree = self.tree()?;
-        Ok(tree.nodes.iter().any(|(_, node)| node.label() == Some(label)))
+        Ok(tree
+            .nodes
+            .iter()
+            .any(|(_, node)| node.label() == Some(label)))
     }
 
     /// Collect all labels and values, for messages.
     pub fn texts(&mut self) -> Result<Vec<String>> {
         let tree = self.tree()?;
-        let texts = tree.nodes.iter().flat_map(|(_, node)| [node.label(), node.value()]);
+        let texts = tree
+            .nodes
+            .iter()
+            .flat_map(|(_, node)| [node.label(), node.value()]);
         Ok(texts.flatten().map(str::to_owned).collect())
     }
 
@@ -181,7 +194,9 @@ impl Window {
     /// Take a picture, as a PNG file.
     pub fn picture(&mut self, path: &Path) -> Result<()> {
         self.settle()?;
-        match self.ask(Request::GetScreenshot { pixels_per_point: None })? {
+        match self.ask(Request::GetScreenshot {
+            pixels_per_point: None,
+        })? {
             Response::Screenshot(picture) => Ok(std::fs::write(path, picture.bytes)?),
             other => bail!("no picture: {other:?}"),
         }
@@ -229,7 +244,10 @@ impl Window {
 
     fn tree(&mut self) -> Result<TreeUpdate> {
         match self.ask(Request::GetTree)? {
-            Response::Tree { accesskit: Some(tree), .. } => Ok(tree),
+            Response::Tree {
+                accesskit: Some(tree),
+                ..
+            } => Ok(tree),
             other => bail!("no widget tree: {other:?}"),
         }
     }

@@ -1,0 +1,41 @@
+//! Rotating and scaling by typed figures, about the pivot of the tool in the hand.
+
+use glam::DVec2;
+
+use super::Editor;
+use super::tools::{Transformation, count_vertices, move_edits};
+
+impl Editor {
+    /// The pivot of the rotate or the scale tool, if one of them is in the hand and there is
+    /// something to take.
+    pub fn pivot(&self) -> Option<DVec2> {
+        self.tool_state.pivot(&self.context())
+    }
+
+    /// Put the pivot somewhere, or let it follow the selection again.
+    pub fn set_pivot(&mut self, pivot: Option<DVec2>) {
+        if pivot.is_none_or(|pivot| pivot.is_finite()) {
+            self.tool_state.set_pivot(pivot);
+        }
+    }
+
+    /// Rotate or scale what is selected, or the active curve, about the pivot, as one step.
+    pub fn transform(&mut self, transformation: Transformation) {
+        let context = self.context();
+        let Some(pivot) = self.tool_state.pivot(&context) else {
+            self.fail("There is nothing to take: select vertices, or a curve that is not locked");
+            return;
+        };
+        let vertices = context.transformed();
+        let count = count_vertices(vertices.len());
+        let label = match transformation {
+            Transformation::Rotate(_) => format!("Rotate {count}"),
+            Transformation::Scale(_) => format!("Scale {count}"),
+        };
+        let moved = vertices
+            .into_iter()
+            .map(|(id, vertex)| (id, transformation.apply(pivot, vertex)));
+        let edits = move_edits(moved);
+        self.apply(&label, edits);
+    }
+}

@@ -1,0 +1,253 @@
+//! The drawing taken apart into its groups again. Whether other programs read it is asked of
+//! ezdxf by tests/exchange/check_dxf.py.
+
+use std::collections::HashSet;
+
+use glam::DVec3;
+
+use super::*;
+use crate::document::Colour;
+use crate::geometry::FloatPolygon;
+use crate::geometry::end_correction::EndTarget;
+
+type Group = (i32, String);
+
+fn curve(name: &str, degree: usize, vertices: &[[f64; 3]], weights: Option<Vec<f64>>) -> Curve {
+    let vertices = vertices.iter().map(|vertex| DVec3::from_array(*vertex));
+    let polygon = FloatPolygon::new(degree, vertices.collect(), weights, false);
+    Curve::new(name, polygon.unwrap())
+}
+
+fn planar(name: &str) -> Curve {
+    let vertices = [
+        [0.1, -0.0, 0.0],
+        [1.0, 1.0 / 3.0, 0.0],
+        [2.0, 1e-7, 0.0],
+        [3.0, 1e20, 0.0],
+    ];
+    curve(name, 2, &vertices, None)
+}
+
+fn spatial(name: &str) -> Curve {
+    let vertices = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 1.0],
+        [1.0, 1.0, 2.0],
+        [0.0, 1.0, 4.0],
+    ];
+    curve(name, 3, &vertices, Some(vec![1.0, 0.5, 2.0, 1.0]))
+}
+
+fn periodic() -> Curve {
+    let vertices = [
+        [1.0, 0.1, 0.0],
+        [0.1, 1.0, 0.0],
+        [-1.0, 0.3, 0.0],
+        [0.0, -1.0, 0.0],
+    ];
+    let open = curve("round", 3, &vertices, None).polygon;
+    let polygon = FloatPolygon::new(3, open.vertices().to_vec(), None, true).unwrap();
+    Curve::new("round", polygon)
+}
+
+/// Write a drawing and split it into its groups.
+fn groups(curves: &[&Curve], polygon: Option<PolygonKind>) -> Vec<Group> {
+    let text = String::from_utf8(write(curves, polygon).unwrap().bytes).unwrap();
+    assert!(text.is_ascii());
+    let lines: Vec<&str> = text.lines().collect();
+    let pairs = lines.chunks(2);
+    pairs
+        .map(|pair| (pair[0].trim().parse().unwrap(), pair[1].to_owned()))
+        .collect()
+}
+
+/// Take the groups of each entity of a kind: everything up to the next one.
+fn entities<'a>(groups: &'a [Group], kind: &str) -> Vec<&'a [Group]> {
+    let starts: Vec<usize> = (0..groups.len()).filter(|i| groups[*i].0 == 0).collect();
+    let spans = starts.windows(2).map(|span| &groups[span[0]..span[1]]);
+    spans.filter(|span| span[0].1 == kind).collect()
+}
+
+fn values(entity: &[Group], code: i32) -> Vec<&str> {
+    let found = entity.iter().filter(|group| group.0 == code);
+    found.map(|group| group.1.as_str()).collect()
+}
+
+fn numbers(entity: &[Group], code: i32) -> Vec<f64> {
+    let texts = values(entity, code).into_iter();
+    texts.map(|text| text.parse().unwrap()).collect()
+}
+
+#[test]
+fn a_spline_holds_the_clamped_polygon_to_the_last_digit() {
+    for curve in [planar("a"), spatial("a")] {
+        let groups = groups(&[&curve], None);
+        let splines = entities(&groups, "SPLINE");
+        let [spline] = splines[..] else {
+            panic!("{} splines", splines.len());
+        };
+        let clamped = ClampedPolygon::from_float(&curve.polygon);
+        let vertices = clamped.vertices();
+        let degree = clamped.degree();
+        assert_eq!(numbers(spline, 40), clamped.knots());
+        assert_eq!(numbers(spline, 40)[0], 0.0);
+        assert_eq!(numbers(spline, 41), clamped.weights().unwrap_or_default());
+        for (code, axis) in [(10, 0), (20, 1), (30, 2)] {
+            let expected: Vec<f64> = vertices.iter().map(|v| v.to_array()[axis]).collect();
+            assert_eq!(numbers(spline, code), expected);
+        }
+        let counts = [71, 72, 73].map(|code| numbers(spline, code)[0] as usize);
+        assert_eq!(counts, [degree, clamped.knots().len(), vertices.len()]);
+        let flags = if curve.polygon.is_planar() { "8" } else { "4" };
+        assert_eq!(values(spline, 70), [flags]);
+    }
+}
+
+#[test]
+fn polygons_are_polylines_on_layers_of_their_own() {
+    let (flat, space) = (planar("flat"), spatial("space"));
+    let all = groups(&[&flat, &space], None);
+    let flat_polylines = entities(&all, "LWPOLYLINE");
+    let layers: Vec<&str> = flat_polylines.iter().map(|e| values(e, 8)[0]).collect();
+    assert_eq!(layers, ["flat float polygon", "flat closed polygon"]);
+    assert_eq!(numbers(flat_polylines[0], 20), [0.0, 1.0 / 3.0, 1e-7, 1e20]);
+    assert_eq!(values(flat_polylines[0], 20)[0], "0.0", "not −0");
+    let space_polylines = entities(&all, "POLYLINE");
+    let layers: Vec<&str> = space_polylines.iter().map(|e| values(e, 8)[0]).collect();
+    assert_eq!(layers, ["space float polygon", "space closed polygon"]);
+    let vertices = entities(&all, "VERTEX");
+    assert_eq!(vertices.len(), 8);
+    assert_eq!(numbers(vertices[3], 30), [4.0]);
+    assert_eq!(entities(&all, "SEQEND").len(), 2);
+    let defined = entities(&all, "LAYER").into_iter();
+    let defined: Vec<&str> = defined.map(|layer| values(layer, 2)[0]).collect();
+    assert_eq!(
+        defined,
+        [
+            "0",
+            "flat",
+            "flat float polygon",
+            "flat closed polygon",
+            "space",
+            "space float polygon",
+            "space closed polygon"
+        ]
+    );
+}
+
+#[test]
+fn one_polygon_can_be_chosen() {
+    for kind in PolygonKind::ALL {
+        let groups = groups(&[&planar("a")], Some(kind));
+        assert_eq!(entities(&groups, "SPLINE").len(), 1);
+        let polylines = entities(&groups, "LWPOLYLINE");
+        assert_eq!(polylines.len(), 1);
+        assert_eq!(values(polylines[0], 8), [format!("a{}", suffix(kind))]);
+    }
+}
+
+#[test]
+fn a_periodic_curve_ends_exactly_where_it_begins() {
+    let curve = periodic();
+    let groups = groups(&[&curve], None);
+    let spline = entities(&groups, "SPLINE")[0];
+    for code in [10, 20, 30] {
+        let values = values(spline, code);
+        assert_eq!(values.first(), values.last());
+    }
+    let closed: Vec<&str> = entities(&groups, "LWPOLYLINE")
+        .iter()
+        .map(|polyline| values(polyline, 70)[0])
+        .collect();
+    assert_eq!(
+        closed,
+        ["1", "0"],
+        "the float polygon is closed, the clamped one is open"
+    );
+}
+
+#[test]
+fn handles_are_unique_and_below_the_next_one() {
+    let groups = groups(&[&planar("a"), &spatial("b")], None);
+    let seed = groups
+        .iter()
+        .position(|group| group.1 == "$HANDSEED")
+        .unwrap();
+    let next = u64::from_str_radix(&groups[seed + 1].1, 16).unwrap();
+    let mut seen = HashSet::new();
+    for (index, (code, value)) in groups.iter().enumerate() {
+        if (*code == 5 && index != seed + 1) || *code == 105 {
+            let handle = u64::from_str_radix(value, 16).unwrap();
+            assert!(seen.insert(handle), "{value} is there twice");
+            assert!(handle < next, "{value} is not below {next:X}");
+        }
+    }
+    for (code, value) in &groups {
+        if [330, 340, 350].contains(code) && value != "0" {
+            let handle = u64::from_str_radix(value, 16).unwrap();
+            assert!(seen.contains(&handle), "{value} is not there");
+        }
+    }
+}
+
+#[test]
+fn names_are_written_in_ascii() {
+    let groups = groups(&[&planar("Rücken 曲")], Some(PolygonKind::Float));
+    let layer = values(entities(&groups, "SPLINE")[0], 8)[0];
+    assert_eq!(layer, "R\\U+00FCcken \\U+66F2");
+}
+
+#[test]
+fn hidden_and_locked_curves_are_on_such_layers() {
+    let mut curve = planar("a");
+    curve.visible = false;
+    curve.locked = true;
+    let groups = groups(&[&curve], Some(PolygonKind::Float));
+    for layer in &entities(&groups, "LAYER")[1..] {
+        assert!(numbers(layer, 62)[0] < 0.0);
+        assert_eq!(values(layer, 70), ["4"]);
+    }
+}
+
+#[test]
+fn losses_are_reported() {
+    let check = |curve: &Curve, expected: &[Loss]| {
+        let losses = write(&[curve], Some(PolygonKind::Float)).unwrap().losses;
+        let found: Vec<Loss> = losses.losses.into_iter().map(|(_, loss)| loss).collect();
+        assert_eq!(found, expected);
+    };
+    check(&planar("a"), &[]);
+    check(&periodic(), &[Loss::Periodic]);
+    let kind = PolygonKind::Float;
+    check(&spatial("a"), &[Loss::PolygonWeights { kind }]);
+    let mut curve = planar("a/b");
+    curve.colour = Some(Colour([1, 2, 3]));
+    curve.targets.finish = Some(EndTarget {
+        point: DVec3::X,
+        direction: None,
+    });
+    let written = "a_b".to_owned();
+    check(
+        &curve,
+        &[Loss::Name { written }, Loss::Colour, Loss::Targets],
+    );
+}
+
+#[test]
+fn what_cannot_be_counted_is_refused() {
+    let long = |count: usize| {
+        let vertices: Vec<[f64; 3]> = (0..count).map(|i| [i as f64, 0.0, 0.0]).collect();
+        curve("long", 3, &vertices, None)
+    };
+    let error = write(&[&long(32_764)], None).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "“long” has 32764 vertices, and a DXF file can hold 32763 a curve: split the curve"
+    );
+    let longest = groups(&[&long(32_763)], None);
+    let knots = entities(&longest, "SPLINE")
+        .pop()
+        .map(|spline| values(spline, 72));
+    assert_eq!(knots, Some(vec!["32767"]), "the largest number of 16 bits");
+    assert!(matches!(write(&[], None), Err(WriteError::NoCurves { .. })));
+}

@@ -1,0 +1,235 @@
+//! The main job in the real window: open the arc, drag a vertex, correct an end, undo, redo, save,
+//! export; the files are checked in numbers. With `BATTEN_PICTURES` set to a folder, pictures for
+//! the README are taken there.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, ensure};
+use batten::document::{Curve, CurveId};
+use batten::editor::Editor;
+use batten::geometry::end_correction::EndDifference;
+use batten::geometry::{ClampedPolygon, End, FloatPolygon};
+use batten::io::disk;
+use batten_desktop_tests::{Display, Window};
+use egui::{Key, Modifiers, Pos2, Rect, vec2};
+use glam::{DVec2, DVec3};
+
+/// A millionth of the curve: more than the canvas's single-precision places are off.
+const PLACE_TOLERANCE: f64 = 1e-5;
+
+/// What an end correction leaves, in units of the curve's size.
+const CORRECTION_TOLERANCE: f64 = 1e-12;
+
+#[test]
+fn the_main_job_end_to_end() -> Result<()> {
+    let display = Display::start(1600, 1000)?;
+    let mut window = Window::open(&display, &[], 1.0)?;
+    window.resize(1480, 920)?;
+    window.key(Key::H, Modifiers::NONE)?;
+    let canvas = window.find("Canvas")?;
+    let original = arc();
+
+    // Drag a vertex by 40 points to the right and 25 down.
+    let way = vec2(40.0, 25.0);
+    let from = place(canvas, &original, 9);
+    window.drag(from, from + way)?;
+    let dragged = saved(&mut window, "dragged")?;
+    let scale = fitted(canvas).viewport().scale;
+    let expected = original.vertex(9) + DVec3::new(40.0, -25.0, 0.0) / scale;
+    let off = dragged.polygon.vertex(9).distance(expected);
+    ensure!(
+        off < PLACE_TOLERANCE * original.size(),
+        "the vertex is {off} off"
+    );
+    for index in 0..9 {
+        ensure!(
+            dragged.polygon.vertex(index) == original.vertex(index),
+            "vertex {index} moved"
+        );
+    }
+
+    // Undo and redo are exact.
+    window.key(Key::Z, Modifiers::COMMAND)?;
+    let undone = saved(&mut window, "undone")?;
+    ensure!(undone.polygon == original, "undo is not exact");
+    window.key(Key::Z, Modifiers::COMMAND | Modifiers::SHIFT)?;
+    let redone = saved(&mut window, "redone")?;
+    ensure!(redone.polygon == dragged.polygon, "redo is not exact");
+    window.key(Key::Z, Modifiers::COMMAND)?;
+
+    correct_an_end(&mut window, canvas)?;
+    let corrected = saved(&mut window, "corrected")?;
+    let target = corrected
+        .targets
+        .get(End::Finish)
+        .context("the target is saved")?;
+    let difference = EndDifference::between(&corrected.polygon, End::Finish, &target);
+    let left = difference.residual(original.size());
+    ensure!(
+        left < CORRECTION_TOLERANCE * original.size(),
+        "{left} is left"
+    );
+    ensure!(corrected.polygon != original, "nothing was corrected");
+
+    // Undo takes the correction back, redo makes it again.
+    window.key(Key::Z, Modifiers::COMMAND)?;
+    ensure!(
+        saved(&mut window, "uncorrected")?.polygon == original,
+        "undo is not exact"
+    );
+    window.key(Key::Z, Modifiers::COMMAND | Modifiers::SHIFT)?;
+    ensure!(
+        saved(&mut window, "recorrected")?.polygon == corrected.polygon,
+        "redo is not exact"
+    );
+
+    export(&mut window, &corrected)?;
+    Ok(())
+}
+
+/// Set the target of the curve's end by a click, and meet both ends at once.
+fn correct_an_end(window: &mut Window, canvas: Rect) -> Result<()> {
+    window.click("End fit")?;
+    let end = arc().end_jet(End::Finish).point.truncate();
+    let at = on_canvas(canvas, &fitted(canvas), end + DVec2::new(2.0, 1.0));
+    window.click_at(at)?;
+    take(window, "before-both")?;
+    window.click("Both ends at once")?;
+    window.find_beginning("Both ends are met")?;
+    Ok(())
+}
+
+/// Export a drawing and look for the closed S-polygon's vertices in it, digit for digit.
+fn export(window: &mut Window, curve: &Curve) -> Result<()> {
+    let path = window.folder().join("arc.dxf");
+    window.key(Key::E, Modifiers::COMMAND)?;
+    answer_prompt(window, &path)?;
+    let drawing = std::fs::read_to_string(&path).context("the export")?;
+    let clamped = ClampedPolygon::from_float(&curve.polygon);
+    for vertex in clamped.vertices() {
+        let lines = drawing
+            .lines()
+            .map(str::trim)
+            .filter_map(|line| line.parse::<f64>().ok());
+        ensure!(
+            lines.into_iter().any(|number| number == vertex.x),
+            "{} is missing",
+            vertex.x
+        );
+    }
+    Ok(())
+}
+
+#[test]
+fn a_window_at_twice_the_scale_and_in_the_light_theme() -> Result<()> {
+    let display = Display::start(3200, 2000)?;
+    let mut window = Window::open(&display, &[], 2.0)?;
+    window.resize(1480, 920)?;
+    window.key(Key::H, Modifiers::NONE)?;
+    window.key(Key::F9, Modifiers::NONE)?;
+    let canvas = window.find("Canvas")?;
+    let polygon = arc();
+    window.move_to(place(canvas, &polygon, 4))?;
+    window.find_beginning("Drag a vertex")?;
+    take(&mut window, "light-2x")
+}
+
+#[test]
+fn quitting_asks_about_unsaved_changes() -> Result<()> {
+    let display = Display::start(1600, 1000)?;
+    let mut window = Window::open(&display, &[], 1.0)?;
+    let canvas = window.find("Canvas")?;
+    let from = place(canvas, &arc(), 5);
+    window.drag(from, from + vec2(30.0, 30.0))?;
+    window.key(Key::Q, Modifiers::COMMAND)?;
+    window.click("Cancel")?;
+    ensure!(window.has("Canvas")?, "the window is gone");
+    window.key(Key::Q, Modifiers::COMMAND)?;
+    let discard = window.find_beginning("Discard")?.center();
+    window.send_last(press_and_release(discard));
+    ensure!(window.wait()?, "the program failed");
+    Ok(())
+}
+
+#[test]
+fn pictures() -> Result<()> {
+    if std::env::var_os("BATTEN_PICTURES").is_none() {
+        return Ok(());
+    }
+    let display = Display::start(1600, 1000)?;
+    let mut window = Window::open(&display, &[], 1.0)?;
+    window.resize(1480, 920)?;
+    window.key(Key::H, Modifiers::NONE)?;
+    let canvas = window.find("Canvas")?;
+    take(&mut window, "dark")?;
+    correct_an_end(&mut window, canvas)?;
+    take(&mut window, "end-fit")?;
+    window.key(Key::F9, Modifiers::NONE)?;
+    take(&mut window, "end-fit-light")
+}
+
+/// Take a picture if pictures are wanted.
+fn take(window: &mut Window, name: &str) -> Result<()> {
+    match std::env::var_os("BATTEN_PICTURES") {
+        Some(folder) => window.picture(&PathBuf::from(folder).join(format!("{name}.png"))),
+        None => Ok(()),
+    }
+}
+
+/// Save under a new name and read the curve back.
+fn saved(window: &mut Window, name: &str) -> Result<Curve> {
+    let path = window.folder().join(format!("{name}.batten"));
+    window.key(Key::S, Modifiers::COMMAND | Modifiers::SHIFT)?;
+    answer_prompt(window, &path)?;
+    let curves = disk::read_file(&path)?;
+    curves.into_iter().next().context("the file has no curve")
+}
+
+/// Type a path into the prompt that takes over where no dialog service answers.
+fn answer_prompt(window: &mut Window, path: &Path) -> Result<()> {
+    let field = window.find("Path")?;
+    window.click_at(field.center())?;
+    window.key(Key::A, Modifiers::COMMAND)?;
+    window.write(&path.to_string_lossy())?;
+    window.key(Key::Enter, Modifiers::NONE)
+}
+
+fn press_and_release(place: Pos2) -> Vec<egui::Event> {
+    let button = |pressed| egui::Event::PointerButton {
+        pos: place,
+        button: egui::PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    };
+    vec![
+        egui::Event::PointerMoved(place),
+        button(true),
+        button(false),
+    ]
+}
+
+/// The built-in arc.
+fn arc() -> FloatPolygon {
+    let editor = Editor::new();
+    let curve = editor
+        .active()
+        .and_then(|id: CurveId| editor.document().curve(id).cloned());
+    curve.expect("the built-in arc").polygon.clone()
+}
+
+/// An editor whose canvas has the window's size: it fits the arc as the window did.
+fn fitted(canvas: Rect) -> Editor {
+    let mut editor = Editor::new();
+    editor.set_canvas_size(DVec2::new(canvas.width().into(), canvas.height().into()));
+    editor
+}
+
+/// The place of a vertex in the window, as long as the view is the fitted one.
+fn place(canvas: Rect, polygon: &FloatPolygon, vertex: usize) -> Pos2 {
+    on_canvas(canvas, &fitted(canvas), polygon.vertex(vertex).truncate())
+}
+
+fn on_canvas(canvas: Rect, editor: &Editor, point: DVec2) -> Pos2 {
+    let at = editor.viewport().to_screen(point);
+    canvas.min + vec2(at.x as f32, at.y as f32)
+}
