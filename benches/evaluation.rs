@@ -72,8 +72,8 @@ impl<const SIZE: usize> PowerKernel<SIZE> {
             for (order, out) in out.iter_mut().enumerate().take(orders) {
                 let mut sums = [0.0; PARAMETERS];
                 for power in (0..SIZE.saturating_sub(order)).rev() {
-                    for lane in 0..PARAMETERS {
-                        sums[lane] = sums[lane] * self.offsets[lane] + coefficients[power];
+                    for (sum, offset) in sums.iter_mut().zip(&self.offsets) {
+                        *sum = *sum * offset + coefficients[power];
                     }
                 }
                 out[axis] = sums;
@@ -147,8 +147,9 @@ fn batch_of_degree<const SIZE: usize>(group: &mut BenchmarkGroup<WallTime>, orde
         let mut batch = Batch::default();
         group.bench_function(BenchmarkId::new(name, degree), |bencher| {
             bencher.iter(|| {
+                let polygon = black_box(&polygon);
                 for segment in 0..segments {
-                    sampler.segment(black_box(&polygon), segment, order, &mut batch);
+                    sampler.segment(polygon, segment, order, &mut batch);
                     black_box(&batch);
                 }
             });

@@ -105,7 +105,7 @@ impl Measurement<'_> {
 
     fn quadrature(&self, from: f64, to: f64) -> f64 {
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-        let speed = |t: f64| self.polygon.segment_jet(self.segment, t).speed();
+        let speed = |t: f64| self.polygon.segment_speed(self.segment, t);
         let sum = NODES.iter().map(|(node, weight)| {
             weight * (speed(middle - half * node) + speed(middle + half * node))
         });

@@ -5,6 +5,7 @@ use glam::{DVec3, DVec4};
 use super::error::MAX_DEGREE;
 use super::float_polygon::FloatPolygon;
 use super::jet::Jet;
+use super::vector;
 
 impl FloatPolygon {
     /// Find the segment that holds u and the local parameter in it.
@@ -75,6 +76,13 @@ impl FloatPolygon {
             second,
             third,
         }
+    }
+
+    /// Compute the speed |C′| alone: all that arc length needs.
+    pub(super) fn segment_speed(&self, segment: usize, t: f64) -> f64 {
+        let mut values = [DVec4::ZERO; 2];
+        self.fill_derivatives(segment, t, &mut values);
+        vector::length(values[1].truncate())
     }
 
     /// Fill `values` with the point and as many derivatives as there is room for.

@@ -91,15 +91,21 @@ impl Batch {
     }
 
     /// Make room for so many parameters.
+    #[inline]
     fn prepare(&mut self, count: usize) {
         let stride = count.next_multiple_of(LANES);
         if self.stride != stride {
-            self.values = vec![0.0; (BATCH_ORDER + 1) * 4 * stride];
-            self.stride = stride;
-            self.flat = true;
-            self.order = 0;
+            self.resize(stride);
         }
         self.count = count;
+    }
+
+    #[cold]
+    fn resize(&mut self, stride: usize) {
+        self.values = vec![0.0; (BATCH_ORDER + 1) * 4 * stride];
+        self.stride = stride;
+        self.flat = true;
+        self.order = 0;
     }
 
     /// Clear what an earlier evaluation left in rows that this one skipped.
@@ -177,6 +183,7 @@ impl Sampler {
     ///
     /// # Panics
     /// If the degrees differ, `order` is above 3, or the curve has no such segment.
+    #[inline]
     pub fn segment(&self, polygon: &FloatPolygon, segment: usize, order: usize, batch: &mut Batch) {
         assert_eq!(self.degree, polygon.degree(), "the sampler's degree");
         assert!(order <= BATCH_ORDER, "derivatives up to the third");
@@ -185,9 +192,15 @@ impl Sampler {
         if let (Some(vertices), false) = (inside, polygon.is_rational()) {
             return self.coordinates(vertices, order, batch);
         }
-        // The segment runs over the joint of a periodic polygon, or is rational. A rational one
-        // counts its coordinates from one of its vertices: the division by the weight would
-        // otherwise lose what the distance from the origin takes.
+        self.gathered(polygon, segment, order, batch);
+    }
+
+    /// Evaluate a segment whose vertices do not stand in the polygon as they are needed: it runs
+    /// over the joint of a periodic polygon, or is rational.
+    fn gathered(&self, polygon: &FloatPolygon, segment: usize, order: usize, batch: &mut Batch) {
+        let size = self.degree + 1;
+        // A rational segment counts its coordinates from one of its vertices: the division by
+        // the weight would otherwise lose what the distance from the origin takes.
         let origin = if polygon.is_rational() {
             polygon.vertex(segment + self.degree / 2)
         } else {
@@ -207,6 +220,7 @@ impl Sampler {
     }
 
     /// Evaluate x, y and, if it is not 0 throughout, z.
+    #[inline]
     fn coordinates(&self, vertices: &[DVec3], order: usize, batch: &mut Batch) {
         batch.prepare(self.count);
         if self.count == 0 {

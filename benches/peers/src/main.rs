@@ -29,6 +29,19 @@ const ROUNDS: usize = 15;
 /// The point and three derivatives.
 type Jet = [[f64; 2]; 4];
 
+/// What a library computes in one go.
+enum Computed<'a> {
+    One(Jet),
+    Many(&'a Batch),
+}
+
+/// One way to evaluate the whole curve, handing on what it computes.
+type Way = Box<dyn FnMut(&mut dyn FnMut(Computed))>;
+
+fn one(take: &mut dyn FnMut(Computed), jet: Jet) {
+    take(Computed::One(jet));
+}
+
 fn main() -> ExitCode {
     let points: Vec<[f64; 2]> = (0..VERTICES)
         .map(|index| {
@@ -41,14 +54,14 @@ fn main() -> ExitCode {
         .map(|index| (index as f64 + 0.5) / PARAMETERS as f64)
         .collect();
 
-    let mut ways: Vec<(&str, Box<dyn FnMut(&mut dyn FnMut(Jet))>)> = Vec::new();
-    ways.push(("batten", batten_batches(&points, &parameters)));
+    let mut ways: Vec<(&str, Way)> = Vec::new();
+    ways.extend(batten_ways(&points, &parameters));
     ways.extend(curvo_ways(&points, &parameters));
     ways.extend(truck_ways(&points, &parameters));
 
-    let expected = collect(&mut *ways[0].1);
+    let expected = collect(&mut ways[0].1);
     for (name, way) in &mut ways {
-        let found = collect(&mut **way);
+        let found = collect(way);
         assert_eq!(found.len(), expected.len(), "{name}");
         for (found, expected) in found.iter().flatten().zip(expected.iter().flatten()) {
             let error = (found[0] - expected[0]).hypot(found[1] - expected[1]);
@@ -59,7 +72,7 @@ fn main() -> ExitCode {
     let mut best: Vec<(&str, f64)> = Vec::new();
     println!("degree {DEGREE}, {VERTICES} vertices, three derivatives: nanoseconds a parameter");
     for (name, way) in &mut ways {
-        let (fastest, middle) = measure(&mut **way);
+        let (fastest, middle) = measure(way);
         println!("{name:36} {fastest:9.1} fastest {middle:9.1} middle");
         let library = name.split(':').next().unwrap_or(name);
         match best.iter_mut().find(|(other, _)| *other == library) {
@@ -82,21 +95,34 @@ fn main() -> ExitCode {
     }
 }
 
-fn collect(way: &mut dyn FnMut(&mut dyn FnMut(Jet))) -> Vec<Jet> {
+fn from_batch(batch: &Batch, index: usize) -> Jet {
+    let jet = batch.jet(index);
+    [jet.point, jet.first, jet.second, jet.third].map(|v| [v.x, v.y])
+}
+
+fn collect(way: &mut Way) -> Vec<Jet> {
     let mut all = Vec::new();
-    way(&mut |jet| all.push(jet));
+    way(&mut |computed| match computed {
+        Computed::One(jet) => all.push(jet),
+        Computed::Many(batch) => all.extend((0..batch.len()).map(|i| from_batch(batch, i))),
+    });
     all
 }
 
 /// Run one way over the whole curve repeatedly, without looking at the results.
-fn measure(way: &mut dyn FnMut(&mut dyn FnMut(Jet))) -> (f64, f64) {
+fn measure(way: &mut Way) -> (f64, f64) {
     let mut times: Vec<f64> = (0..ROUNDS)
         .map(|_| {
             let start = Instant::now();
             let mut repeats = 0;
             while repeats < 2 || start.elapsed().as_millis() < 20 {
-                way(&mut |jet| {
-                    black_box(jet);
+                way(&mut |computed| match computed {
+                    Computed::One(jet) => {
+                        black_box(jet);
+                    }
+                    Computed::Many(batch) => {
+                        black_box(batch);
+                    }
                 });
                 repeats += 1;
             }
@@ -107,26 +133,43 @@ fn measure(way: &mut dyn FnMut(&mut dyn FnMut(Jet))) -> (f64, f64) {
     (times[0], times[ROUNDS / 2])
 }
 
-type Way = Box<dyn FnMut(&mut dyn FnMut(Jet))>;
-
-fn batten_batches(points: &[[f64; 2]], parameters: &[f64]) -> Way {
-    let vertices = points.iter().map(|[x, y]| DVec3::new(*x, *y, 0.0)).collect();
+fn batten_ways(points: &[[f64; 2]], parameters: &[f64]) -> Vec<(&'static str, Way)> {
+    let vertices = points
+        .iter()
+        .map(|[x, y]| DVec3::new(*x, *y, 0.0))
+        .collect();
     let polygon = FloatPolygon::new(DEGREE, vertices, None, false).expect("a valid polygon");
     let sampler = Sampler::new(DEGREE, parameters);
-    let mut batch = Batch::default();
-    Box::new(move |take| {
-        for segment in 0..SEGMENTS {
-            sampler.segment(black_box(&polygon), segment, 3, &mut batch);
-            for index in 0..PARAMETERS {
-                let jet = batch.jet(index);
-                take([jet.point, jet.first, jet.second, jet.third].map(|v| [v.x, v.y]));
-            }
-        }
-    })
+    let (other_polygon, other_sampler) = (polygon.clone(), sampler.clone());
+    let [mut batch, mut other_batch] = [Batch::default(), Batch::default()];
+    vec![
+        (
+            "batten: batches",
+            Box::new(move |take| {
+                for segment in 0..SEGMENTS {
+                    sampler.segment(black_box(&polygon), segment, 3, &mut batch);
+                    take(Computed::Many(&batch));
+                }
+            }),
+        ),
+        (
+            "batten: batches, taken apart",
+            Box::new(move |take| {
+                for segment in 0..SEGMENTS {
+                    other_sampler.segment(black_box(&other_polygon), segment, 3, &mut other_batch);
+                    for index in 0..PARAMETERS {
+                        one(take, from_batch(&other_batch, index));
+                    }
+                }
+            }),
+        ),
+    ]
 }
 
 fn curvo_curve(points: &[[f64; 2]], knots: Vec<f64>) -> NurbsCurve2D<f64> {
-    let homogeneous = points.iter().map(|[x, y]| nalgebra::Point3::new(*x, *y, 1.0));
+    let homogeneous = points
+        .iter()
+        .map(|[x, y]| nalgebra::Point3::new(*x, *y, 1.0));
     NurbsCurve2D::try_new(DEGREE, homogeneous.collect(), knots).expect("a valid curve")
 }
 
@@ -153,7 +196,7 @@ fn curvo_ways(points: &[[f64; 2]], parameters: &[f64]) -> Vec<(&'static str, Way
             Box::new(move |take| {
                 for segment in 0..SEGMENTS {
                     for t in &first {
-                        take(jet(whole.rational_derivatives(segment as f64 + t, 3)));
+                        one(take, jet(whole.rational_derivatives(segment as f64 + t, 3)));
                     }
                 }
             }),
@@ -164,7 +207,10 @@ fn curvo_ways(points: &[[f64; 2]], parameters: &[f64]) -> Vec<(&'static str, Way
                 let mut evaluator = with_evaluator.evaluator();
                 for segment in 0..SEGMENTS {
                     for t in &second {
-                        take(jet(evaluator.rational_derivatives(segment as f64 + t, 3)));
+                        one(
+                            take,
+                            jet(evaluator.rational_derivatives(segment as f64 + t, 3)),
+                        );
                     }
                 }
             }),
@@ -175,7 +221,10 @@ fn curvo_ways(points: &[[f64; 2]], parameters: &[f64]) -> Vec<(&'static str, Way
                 for (segment, piece) in pieces.iter().enumerate() {
                     let mut evaluator = piece.evaluator();
                     for t in &third {
-                        take(jet(evaluator.rational_derivatives(segment as f64 + t, 3)));
+                        one(
+                            take,
+                            jet(evaluator.rational_derivatives(segment as f64 + t, 3)),
+                        );
                     }
                 }
             }),
@@ -238,7 +287,7 @@ fn truck_ways(points: &[[f64; 2]], parameters: &[f64]) -> Vec<(&'static str, Way
         Box::new(move |take| {
             for segment in 0..SEGMENTS {
                 for t in &parameters {
-                    take(evaluate(&curve, segment as f64 + t));
+                    one(take, evaluate(&curve, segment as f64 + t));
                 }
             }
         })
@@ -251,7 +300,7 @@ fn truck_ways(points: &[[f64; 2]], parameters: &[f64]) -> Vec<(&'static str, Way
         Box::new(move |take| {
             for (segment, curve) in curves.iter().enumerate() {
                 for t in &parameters {
-                    take(evaluate(curve, segment as f64 + t));
+                    one(take, evaluate(curve, segment as f64 + t));
                 }
             }
         })
