@@ -4,8 +4,8 @@ use std::ops::RangeInclusive;
 
 use eframe::egui::{Button, Color32, Ui, Vec2};
 use egui_plot::{
-    GridMark, HoverPosition, Line, MarkerShape, Plot, PlotBounds, PlotPoint, PlotPoints, PlotUi,
-    Points, VLine,
+    GridInput, GridMark, HoverPosition, Line, MarkerShape, Plot, PlotBounds, PlotPoint, PlotPoints,
+    PlotUi, Points, VLine, uniform_grid_spacer,
 };
 use glam::DVec2;
 use lucide_icons::Icon;
@@ -300,9 +300,23 @@ fn plot<'a>(id: &'a str, x: &'a str, y: &'a str, bounds: PlotBounds, tokens: &To
         .x_axis_label(x)
         .y_axis_label(y)
         .y_axis_min_width(56.0)
+        .y_grid_spacer(uniform_grid_spacer(|input| grid_steps(&input)))
         .x_axis_formatter(axis_number)
         .y_axis_formatter(move |mark, _| axis_figure(mark.value, mark.step_size.max(resolution)))
         .show_background(false)
+}
+
+/// Steps of 1, 2 or 5 times a power of ten, the smallest wide enough for a label each: powers of
+/// ten alone would leave a low plot with a single number.
+fn grid_steps(input: &GridInput) -> [f64; 3] {
+    let narrowest = 3.0 * input.base_step_size;
+    let power = 10f64.powf(narrowest.log10().floor());
+    let factors = [1.0, 2.0, 5.0, 10.0].into_iter();
+    let factor = factors
+        .into_iter()
+        .find(|factor| factor * power >= narrowest);
+    let step = factor.unwrap_or(10.0) * power;
+    [step, 10.0 * step, 100.0 * step]
 }
 
 fn axis_number(mark: GridMark, _: &RangeInclusive<f64>) -> String {
