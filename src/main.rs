@@ -15,7 +15,7 @@ fn main() -> ExitCode {
 
 #[cfg(feature = "gui")]
 fn editor(files: Vec<PathBuf>) -> ExitCode {
-    match batten::ui::run(files) {
+    match batten::ui::run(&files) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("batten: {error:#}");

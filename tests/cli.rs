@@ -466,3 +466,17 @@ fn help_says_what_there_is() {
     let (version, _) = folder.done(&["--version"]);
     assert_eq!(version, format!("batten {}\n", env!("CARGO_PKG_VERSION")));
 }
+
+#[test]
+fn the_editor_does_not_open_on_files_that_cannot_be_read() {
+    let good = r#"{"format":"batten","version":1,"curves":[]}"#;
+    let folder = Folder::new()
+        .with("bad.batten", "{")
+        .with("good.batten", good);
+    for files in [&["bad.batten"][..], &["good.batten", "bad.batten"]] {
+        let output = folder.run(files);
+        let (_, err) = texts(&output);
+        assert_eq!(output.status.code(), Some(1), "{files:?}: {err}");
+        assert!(err.starts_with("batten: bad.batten: line 1"), "{err}");
+    }
+}

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use batten::document::Curve;
-use batten::editor::{Layer, ToolKind};
+use batten::editor::{Editor, Layer, ToolKind};
 use batten::geometry::End;
 use batten::io::disk;
 use batten::ui::App;
@@ -25,7 +25,8 @@ fn open_window_of(width: f32, height: f32) -> Window {
     let builder = Harness::builder()
         .with_size(vec2(width, height))
         .with_max_steps(64);
-    let mut window = builder.build_eframe(|creation| App::new(&creation.egui_ctx, None, false));
+    let mut window =
+        builder.build_eframe(|creation| App::new(&creation.egui_ctx, None, false, Editor::new()));
     window.run();
     window
 }
@@ -323,6 +324,15 @@ fn letters_are_typed_into_fields_and_are_commands_elsewhere() {
     press(&mut window, Modifiers::NONE, Key::Escape);
     press(&mut window, Modifiers::NONE, Key::D);
     assert_eq!(window.state().editor().tool(), ToolKind::Draw);
+
+    // Esc in a field is the field's alone: the tool stays in the hand.
+    press(&mut window, Modifiers::NONE, Key::M);
+    click(&mut window, "Name");
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert_eq!(window.state().editor().tool(), ToolKind::Measure);
+    press(&mut window, Modifiers::COMMAND, Key::P);
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert_eq!(window.state().editor().tool(), ToolKind::Measure);
 }
 
 #[test]

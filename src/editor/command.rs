@@ -229,7 +229,7 @@ impl Command {
             }
             Self::ToggleVisible => "Show or hide the active curve",
             Self::ToggleLocked => "Protect the active curve's shape from edits, or release it",
-            Self::Fit => "Show the selection, or everything if nothing is selected",
+            Self::Fit => "Show the selected vertices, or everything if fewer than two are selected",
             Self::FitAll => "Show everything",
             Self::ZoomIn => "Show less, larger",
             Self::ZoomOut => "Show more, smaller",

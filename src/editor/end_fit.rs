@@ -6,7 +6,7 @@ use super::viewport::Viewport;
 use crate::analysis::CurveAnalysis;
 use crate::document::{Curve, CurveId, Document};
 use crate::geometry::end_correction::{EndDifference, EndOverlap, EndTarget};
-use crate::geometry::{End, Range};
+use crate::geometry::{End, Jet, Range};
 
 /// The length of a target direction's arrow, in screen points.
 pub const ARROW: f64 = 64.0;
@@ -213,10 +213,7 @@ pub fn nearest_other_end(
     place: DVec2,
     reach: f64,
 ) -> Option<EndTarget> {
-    let others = document
-        .curves()
-        .filter(|(id, curve)| *id != own && curve.visible && !curve.polygon.is_periodic());
-    let ends = others.flat_map(|(_, curve)| End::BOTH.map(|end| curve.polygon.end_jet(end)));
+    let ends = other_ends(document, Some(own));
     let near = ends
         .map(|jet| (jet.point.truncate().distance(place), jet))
         .filter(|(distance, _)| *distance <= reach);
@@ -225,6 +222,14 @@ pub fn nearest_other_end(
         point: jet.point,
         direction: jet.tangent(),
     })
+}
+
+/// List the jets at the ends of the visible curves other than `own`.
+pub fn other_ends(document: &Document, own: Option<CurveId>) -> impl Iterator<Item = Jet> + '_ {
+    let others = document.curves().filter(move |(id, curve)| {
+        Some(*id) != own && curve.visible && !curve.polygon.is_periodic()
+    });
+    others.flat_map(|(_, curve)| End::BOTH.map(|end| curve.polygon.end_jet(end)))
 }
 
 /// Turn a picked direction round if the curve's own tangent points the other way: two curves

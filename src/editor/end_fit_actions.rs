@@ -127,7 +127,11 @@ impl Editor {
         let difference = EndDifference::between(&curve.polygon, end, &target);
         let label = format!("Translate {}", end.name());
         match translate_end(&curve.polygon, end, difference.vector) {
-            Ok(polygon) => self.corrected(id, curve, &label, polygon),
+            Ok(polygon) => {
+                self.corrected(id, curve, &label, polygon);
+                // Without a direction there is no step 6: this was a whole pass.
+                self.end_fit.passes += usize::from(target.direction.is_none());
+            }
             Err(error) => self.outcome(error.to_string(), true),
         }
     }
@@ -141,7 +145,10 @@ impl Editor {
         let end = self.end_fit.end;
         let label = format!("Rotate {}", end.name());
         match align_end(&curve.polygon, end, direction) {
-            Ok(polygon) => self.corrected(id, curve, &label, polygon),
+            Ok(polygon) => {
+                self.corrected(id, curve, &label, polygon);
+                self.end_fit.passes += 1;
+            }
             Err(error) => self.outcome(error.to_string(), true),
         }
     }

@@ -266,7 +266,8 @@ impl Editor {
 
     fn fit(&mut self) {
         self.analyses.update(self.history.document());
-        if self.selection.is_empty() {
+        // A single vertex has no extent that could be fitted.
+        if self.selection.vertices().len() < 2 {
             self.fit_all();
         } else {
             let mut bounds = Bounds::EMPTY;

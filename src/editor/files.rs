@@ -7,20 +7,34 @@ use super::examples;
 use super::report::{AfterDiscard, Export, Request};
 use crate::document::{Curve, Document, Edit, History};
 use crate::io::examples::EXAMPLES;
-use crate::io::{Format, disk};
+use crate::io::{FileError, Format, disk};
 
 impl Editor {
     /// Open a file in place of the document. An error becomes the message, and nothing is
     /// changed.
     pub fn open(&mut self, path: &Path) {
         match disk::read_file(path) {
-            Ok(curves) => {
-                // Only a project can be saved back to where it came from without a loss.
-                let own = Format::to_read(path).is_ok_and(|format| format == Format::Batten);
-                self.replace(curves, own.then(|| path.to_owned()));
-            }
+            Ok(curves) => self.replace(curves, own_path(path)),
             Err(error) => self.fail(error.to_string()),
         }
+    }
+
+    /// Open several files as one document in place of the present one. Only a single project is
+    /// saved back to where it came from.
+    ///
+    /// # Errors
+    /// [`FileError`] of the first file that cannot be read; nothing is changed then.
+    pub fn open_all(&mut self, paths: &[PathBuf]) -> Result<(), FileError> {
+        let mut curves = Vec::new();
+        for path in paths {
+            curves.extend(disk::read_file(path)?);
+        }
+        match paths {
+            [] => {}
+            [path] => self.replace(curves, own_path(path)),
+            _ => self.replace(curves, None),
+        }
+        Ok(())
     }
 
     /// Add the curves of some files to the document, as one step. An error becomes the message,
@@ -170,6 +184,12 @@ impl Editor {
             self.say(text);
         }
     }
+}
+
+/// The path that a document read from it is saved back to: only a project loses nothing there.
+fn own_path(path: &Path) -> Option<PathBuf> {
+    let is_project = Format::to_read(path).is_ok_and(|format| format == Format::Batten);
+    is_project.then(|| path.to_owned())
 }
 
 /// Say "1 curve" or "7 curves".

@@ -138,6 +138,9 @@ impl<'a> HitTest<'a> {
 
     /// List the vertices inside a box, by opposite corners on the canvas.
     pub fn vertices_in_box(&self, a: DVec2, b: DVec2) -> Vec<(CurveId, usize)> {
+        if !self.layers.shows(Layer::Float) {
+            return Vec::new();
+        }
         let (a, b) = (self.viewport.to_model(a), self.viewport.to_model(b));
         let (low, high) = (a.min(b), a.max(b));
         let mut found = Vec::new();

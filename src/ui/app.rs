@@ -53,19 +53,19 @@ pub struct App {
 }
 
 impl App {
-    /// Make the application. `storage` holds the settings of the last run; without
-    /// `native_dialogs` files are asked for in the window itself.
+    /// Make the application about an editor. `storage` holds the settings of the last run;
+    /// without `native_dialogs` files are asked for in the window itself.
     pub fn new(
         context: &Context,
         storage: Option<&dyn eframe::Storage>,
         native_dialogs: bool,
+        mut editor: Editor,
     ) -> Self {
         theme::install(context);
         context.options_mut(|options| options.quit_shortcuts.clear());
         let kept = storage.and_then(|storage| eframe::get_value(storage, SETTINGS));
         let shell: Shell = kept.unwrap_or_default();
         theme::choose(context, shell.dark);
-        let mut editor = Editor::new();
         if let Some(hidden) = &shell.hidden {
             hide_layers(&mut editor, hidden);
         }
@@ -89,20 +89,6 @@ impl App {
             commands: Vec::new(),
             title: String::new(),
             leaving: false,
-        }
-    }
-
-    /// Open the first file, and add the curves of the others.
-    pub fn open_files(&mut self, files: &[PathBuf]) {
-        if let Some((first, others)) = files.split_first() {
-            self.editor.open(first);
-            let failed = self
-                .editor
-                .message()
-                .is_some_and(|message| message.is_error);
-            if !others.is_empty() && !failed {
-                self.editor.import(others);
-            }
         }
     }
 
@@ -269,7 +255,7 @@ impl App {
         let panel = Panel::bottom("plots").frame(frame).resizable(true);
         panel
             .default_size(232.0)
-            .size_range(140.0..=640.0)
+            .size_range(168.0..=640.0)
             .show(ui, |ui| {
                 ui.allocate_ui(egui::vec2(ui.available_width(), plots::BAR), |ui| {
                     self.plots.bar_ui(ui, true, &mut self.commands);

@@ -211,11 +211,11 @@ impl Canvas {
         }
     }
 
-    /// Whether keys are the canvas's: it was given the keyboard, or nothing else has it.
+    /// Whether keys are the canvas's: it had the keyboard before this frame's events. What has it
+    /// now is no guide, for Esc has already taken it from the field that Esc was meant for.
     fn has_keyboard(&self, context: &Context) -> bool {
-        let focused = context.memory(|memory| memory.focused());
         let dragged = context.dragged_id();
-        focused.is_none_or(|focused| focused == id())
+        context.memory(|memory| memory.had_focus_last_frame(id()))
             && dragged.is_none_or(|dragged| dragged == id())
             && !keyboard::is_covered(context)
     }

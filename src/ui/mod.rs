@@ -38,6 +38,8 @@ use eframe::egui::{IconData, ViewportBuilder};
 
 pub use app::App;
 
+use crate::editor::Editor;
+
 /// The window's size at first.
 const SIZE: [f32; 2] = [1440.0, 900.0];
 
@@ -47,8 +49,10 @@ const LEAST: [f32; 2] = [960.0, 640.0];
 /// Open the editor with some files, and return when its window is closed.
 ///
 /// # Errors
-/// If there is no display, or no window can be opened on it.
-pub fn run(files: Vec<PathBuf>) -> anyhow::Result<()> {
+/// If a file cannot be read, there is no display, or no window can be opened on it.
+pub fn run(files: &[PathBuf]) -> anyhow::Result<()> {
+    let mut editor = Editor::new();
+    editor.open_all(files)?;
     check_display()?;
     let mut viewport = ViewportBuilder::default()
         .with_title("Batten")
@@ -64,12 +68,15 @@ pub fn run(files: Vec<PathBuf>) -> anyhow::Result<()> {
         ..Default::default()
     };
     let create: eframe::AppCreator<'_> = Box::new(move |creation| {
-        let mut app = App::new(&creation.egui_ctx, creation.storage, true);
-        app.open_files(&files);
+        let app = App::new(&creation.egui_ctx, creation.storage, true, editor);
         Ok(Box::new(app))
     });
-    eframe::run_native("Batten", options, create)
-        .map_err(|error| anyhow!("the window cannot be opened: {error}"))
+    eframe::run_native("Batten", options, create).map_err(|error| {
+        // The last part says what failed; what comes before is about the sources of libraries.
+        let text = error.to_string();
+        let cause = text.rsplit(": ").next().unwrap_or_default();
+        anyhow!("the window cannot be opened: {cause}. Is there a display that can be reached?")
+    })
 }
 
 /// On Linux and its like, say what is missing instead of failing deep inside.

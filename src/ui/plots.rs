@@ -146,6 +146,8 @@ impl Plots {
     pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor) {
         if editor.active().is_none() {
             widgets::note(ui, "Select a curve to see its plots.");
+            // The panel keeps its height.
+            ui.take_available_space();
             return;
         }
         match self.tab {
@@ -300,23 +302,23 @@ fn plot<'a>(id: &'a str, x: &'a str, y: &'a str, bounds: PlotBounds, tokens: &To
         .x_axis_label(x)
         .y_axis_label(y)
         .y_axis_min_width(56.0)
-        .y_grid_spacer(uniform_grid_spacer(|input| grid_steps(&input)))
+        .x_grid_spacer(uniform_grid_spacer(|input| steps(input, 10.0)))
+        .y_grid_spacer(uniform_grid_spacer(|input| steps(input, 4.0)))
         .x_axis_formatter(axis_number)
         .y_axis_formatter(move |mark, _| axis_figure(mark.value, mark.step_size.max(resolution)))
         .show_background(false)
 }
 
-/// Steps of 1, 2 or 5 times a power of ten, the smallest wide enough for a label each: powers of
-/// ten alone would leave a low plot with a single number.
-fn grid_steps(input: &GridInput) -> [f64; 3] {
-    let narrowest = 3.0 * input.base_step_size;
-    let power = 10f64.powf(narrowest.log10().floor());
+/// Choose the steps of an axis: one family of lines, each with its number, at 1, 2 or 5 times a
+/// power of ten and `times` the least spacing apart.
+fn steps(input: GridInput, times: f64) -> [f64; 3] {
+    let least = (times * input.base_step_size).max(f64::MIN_POSITIVE);
+    let power = 10f64.powf(least.log10().floor());
     let factors = [1.0, 2.0, 5.0, 10.0].into_iter();
-    let factor = factors
-        .into_iter()
-        .find(|factor| factor * power >= narrowest);
-    let step = factor.unwrap_or(10.0) * power;
-    [step, 10.0 * step, 100.0 * step]
+    let step = factors
+        .map(|factor| factor * power)
+        .find(|step| *step >= least);
+    [step.unwrap_or(10.0 * power); 3]
 }
 
 fn axis_number(mark: GridMark, _: &RangeInclusive<f64>) -> String {

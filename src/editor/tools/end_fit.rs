@@ -4,7 +4,7 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::tool::{Context, Cursor, Effect, Tool};
 use crate::document::{Curve, CurveId, Edit};
-use crate::editor::end_fit::{ARROW, EndFitAction, RING, nearest_other_end};
+use crate::editor::end_fit::{ARROW, EndFitAction, RING, nearest_other_end, other_ends};
 use crate::editor::gesture::Gesture;
 use crate::editor::hit::REACH;
 use crate::editor::input::Key;
@@ -106,22 +106,35 @@ impl<'a> Subject<'a> {
             .target
             .is_some_and(|target| near(target.point.truncate()))
         {
-            // On a target that is met, the target gives way to the end point with Alt held.
-            if !(context.modifiers.alt && near(self.point)) {
-                return Some(Handle::Target);
-            }
+            // Where the end has met its target it is the end that is taken, but for Alt.
+            let met = self.is_met(context);
+            return Some(if met && !context.modifiers.alt {
+                Handle::Body
+            } else {
+                Handle::Target
+            });
         }
-        let terminal = self.curve.polygon.terminal_vertices(self.end);
-        let mut vertices = self.curve.polygon.vertices()[terminal].iter();
-        if near(self.point) || vertices.any(|vertex| near(vertex.truncate())) {
+        if near(self.point) {
             return Some(Handle::Body);
         }
+        // The ring comes before the vertices that it crosses: there are others to take.
         let from_end = context.viewport.to_screen(self.point).distance(place);
         if (from_end - RING).abs() <= 0.75 * REACH {
             return Some(Handle::Ring);
         }
+        let terminal = self.curve.polygon.terminal_vertices(self.end);
+        let mut vertices = self.curve.polygon.vertices()[terminal].iter();
+        if vertices.any(|vertex| near(vertex.truncate())) {
+            return Some(Handle::Body);
+        }
         let other = self.end.other();
         near(self.curve.polygon.end_jet(other).point.truncate()).then_some(Handle::OtherEnd(other))
+    }
+
+    /// Whether the end lies on its target, as far as the eye can tell.
+    fn is_met(&self, context: &Context) -> bool {
+        let target = self.target.map(|target| target.point.truncate());
+        target.is_some_and(|target| target.distance(self.point) <= context.viewport.pixel())
     }
 
     fn with_target(&self, target: EndTarget) -> Effect {
@@ -188,6 +201,9 @@ impl Tool for EndFitTool {
                     Some(Handle::Target) => "Drag to move the target point".into(),
                     Some(Handle::Direction) => "Drag to turn the target direction".into(),
                     Some(Handle::Ring) => "Step 6: drag the ring to rotate the terminal vertices about the end point".into(),
+                    Some(Handle::Body) if subject.is_met(context) => {
+                        "Step 5: drag to translate the terminal vertices; Alt-drag takes the target".into()
+                    }
                     Some(Handle::Body) => "Step 5: drag to translate the terminal vertices as one body".into(),
                     Some(Handle::OtherEnd(end)) => format!("Click to work on the {}", end.name()),
                     None if subject.target.is_none() => format!("Click to set the target of the {name}, or use the panel"),
@@ -197,7 +213,12 @@ impl Tool for EndFitTool {
         }
     }
 
-    fn marks(&self, _context: &Context) -> Vec<Mark> {
+    fn marks(&self, context: &Context) -> Vec<Mark> {
+        if context.end_fit.picking {
+            let own = context.selection.active();
+            let ends = other_ends(context.document, own).map(|jet| jet.point.truncate());
+            return ends.map(Mark::Snap).collect();
+        }
         match &self.state {
             State::Body {
                 snapped: Some(place),
