@@ -323,6 +323,15 @@ fn letters_are_typed_into_fields_and_are_commands_elsewhere() {
     press(&mut window, Modifiers::NONE, Key::Escape);
     press(&mut window, Modifiers::NONE, Key::D);
     assert_eq!(window.state().editor().tool(), ToolKind::Draw);
+
+    // Esc in a field is the field's alone: the tool stays in the hand.
+    press(&mut window, Modifiers::NONE, Key::M);
+    click(&mut window, "Name");
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert_eq!(window.state().editor().tool(), ToolKind::Measure);
+    press(&mut window, Modifiers::COMMAND, Key::P);
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert_eq!(window.state().editor().tool(), ToolKind::Measure);
 }
 
 #[test]

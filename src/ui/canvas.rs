@@ -6,6 +6,8 @@ use eframe::egui::{
 };
 use glam::DVec2;
 
+use super::chains::Screen;
+use super::painting::Brush;
 use super::theme::Tokens;
 use super::{grid, keyboard, painting};
 use crate::editor::{Button, Cursor, Editor, Input, Key, Layer, Modifiers};
@@ -211,11 +213,11 @@ impl Canvas {
         }
     }
 
-    /// Whether keys are the canvas's: it was given the keyboard, or nothing else has it.
+    /// Whether keys are the canvas's: it had the keyboard before this frame's events. What has it
+    /// now is no guide, for Esc has already taken it from the field that Esc was meant for.
     fn has_keyboard(&self, context: &Context) -> bool {
-        let focused = context.memory(|memory| memory.focused());
         let dragged = context.dragged_id();
-        focused.is_none_or(|focused| focused == id())
+        context.memory(|memory| memory.had_focus_last_frame(id()))
             && dragged.is_none_or(|dragged| dragged == id())
             && !keyboard::is_covered(context)
     }
@@ -287,11 +289,23 @@ impl Canvas {
         let painter = ui.painter_at(rect);
         let tokens = Tokens::of(ui);
         painter.rect_filled(rect, 0, tokens.background);
-        if editor.layers().shows(Layer::Grid) {
-            grid::paint(&painter, rect, editor.viewport(), tokens);
-        }
+        let has_grid = editor.layers().shows(Layer::Grid);
         let viewport = *editor.viewport();
-        painting::paint(&painter, rect, &viewport, editor.scene(), tokens);
+        if has_grid {
+            grid::paint(&painter, rect, &viewport, tokens);
+        }
+        let brush = Brush {
+            painter: &painter,
+            screen: Screen::new(&viewport, rect),
+            rect,
+            tokens,
+        };
+        let scene = editor.scene();
+        painting::paint(&brush, scene);
+        if has_grid {
+            grid::paint_numbers(&painter, rect, &viewport, tokens);
+        }
+        painting::paint_hand(&brush, scene);
     }
 
     /// Give the canvas the keyboard whenever nothing else wants it, with Tab and arrow keys.

@@ -394,8 +394,11 @@ impl Panel<'_> {
 
     fn both_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
-        let button = Button::new("Both ends at once").min_size(vec2(ui.available_width(), ROW));
-        let response = ui.add_enabled(report.targets > 0, button);
+        let size = vec2(ui.available_width(), ROW);
+        let button = Button::new("Both ends at once");
+        let response = ui
+            .add_enabled_ui(report.targets > 0, |ui| ui.add_sized(size, button))
+            .inner;
         let tooltip = "Meet all targets together by the least disturbance of the vertices";
         if response.on_hover_text(tooltip).clicked() {
             self.ask(7, EndFitAction::BothAtOnce);

@@ -12,7 +12,7 @@ use super::theme::{self, RADIUS, ROW, STEP, Tokens};
 use super::vertex_table::VertexTable;
 use super::widgets::{self, IconButton};
 use crate::document::{Colour, Curve, CurveId, Edit};
-use crate::editor::{CurveReport, Editor};
+use crate::editor::{Command, CurveReport, Editor};
 use crate::geometry::{MAX_DEGREE, Range};
 
 /// The inspector's own state.
@@ -102,7 +102,9 @@ impl Inspector {
 fn degree_ui(ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
     let degree = curve.polygon.degree();
     ui.spacing_mut().item_spacing.x = STEP;
-    let lower = IconButton::new(Icon::Minus, "Lower degree").enabled(degree > 1);
+    let lower = IconButton::new(Icon::Minus, "Lower degree")
+        .tooltip(Command::LowerDegree.tooltip())
+        .enabled(degree > 1);
     if lower.show(ui).clicked() {
         editor.set_degree(id, degree - 1);
     }
@@ -113,11 +115,12 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
     if let FieldEvent::Typed(value) = field.show(ui).1 {
         editor.set_degree(id, value.round() as usize);
     }
-    let raise = IconButton::new(Icon::Plus, "Raise degree").enabled(degree < MAX_DEGREE);
+    let raise = IconButton::new(Icon::Plus, "Raise degree")
+        .tooltip(Command::RaiseDegree.tooltip())
+        .enabled(degree < MAX_DEGREE);
     if raise.show(ui).clicked() {
         editor.set_degree(id, degree + 1);
     }
-    widgets::caption(ui, "the polygon is kept");
 }
 
 fn ends_ui(ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
@@ -191,7 +194,7 @@ fn figures_ui(ui: &mut Ui, curve: &Curve, report: &CurveReport) {
         (false, false) => "in space, polynomial",
         (false, true) => "in space, rational",
     };
-    widgets::figure_row(ui, "Kind", kind);
+    widgets::fact_row(ui, "Kind", kind);
     widgets::figure_row(ui, "Segments", &report.segments.to_string());
     widgets::figure_row(ui, "Length", &figures::significant(report.length, 8));
     let plain = |value: f64| figures::significant(value, 6);

@@ -4,8 +4,8 @@ use std::ops::RangeInclusive;
 
 use eframe::egui::{Button, Color32, Ui, Vec2};
 use egui_plot::{
-    GridMark, HoverPosition, Line, MarkerShape, Plot, PlotBounds, PlotPoint, PlotPoints, PlotUi,
-    Points, VLine,
+    GridInput, GridMark, HoverPosition, Line, MarkerShape, Plot, PlotBounds, PlotPoint, PlotPoints,
+    PlotUi, Points, VLine, uniform_grid_spacer,
 };
 use glam::DVec2;
 use lucide_icons::Icon;
@@ -300,9 +300,23 @@ fn plot<'a>(id: &'a str, x: &'a str, y: &'a str, bounds: PlotBounds, tokens: &To
         .x_axis_label(x)
         .y_axis_label(y)
         .y_axis_min_width(56.0)
+        .x_grid_spacer(uniform_grid_spacer(|input| steps(input, 10.0)))
+        .y_grid_spacer(uniform_grid_spacer(|input| steps(input, 4.0)))
         .x_axis_formatter(axis_number)
         .y_axis_formatter(move |mark, _| axis_figure(mark.value, mark.step_size.max(resolution)))
         .show_background(false)
+}
+
+/// Choose the steps of an axis: one family of lines, each with its number, at 1, 2 or 5 times a
+/// power of ten and `times` the least spacing apart.
+fn steps(input: GridInput, times: f64) -> [f64; 3] {
+    let least = (times * input.base_step_size).max(f64::MIN_POSITIVE);
+    let power = 10f64.powf(least.log10().floor());
+    let factors = [1.0, 2.0, 5.0, 10.0].into_iter();
+    let step = factors
+        .map(|factor| factor * power)
+        .find(|step| *step >= least);
+    [step.unwrap_or(10.0 * power); 3]
 }
 
 fn axis_number(mark: GridMark, _: &RangeInclusive<f64>) -> String {

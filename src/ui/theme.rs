@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use eframe::egui::{
     Color32, Context, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Margin, Shadow,
-    Stroke, Style, TextStyle, Theme, Ui, Vec2, Visuals, style::Selection, style::TextCursorStyle,
-    style::WidgetVisuals, style::Widgets,
+    Stroke, Style, TextStyle, Theme, Ui, Vec2, Visuals, style::ScrollStyle, style::Selection,
+    style::TextCursorStyle, style::WidgetVisuals, style::Widgets,
 };
 
 use crate::document::Colour;
@@ -316,6 +316,13 @@ fn style(dark: bool) -> Style {
     spacing.icon_spacing = 6.0;
     spacing.tooltip_width = 320.0;
     spacing.combo_height = 320.0;
+    spacing.scroll = ScrollStyle {
+        bar_width: 8.0,
+        // Beside the contents, never over their numbers.
+        floating_allocated_width: 12.0,
+        bar_outer_margin: 2.0,
+        ..ScrollStyle::floating()
+    };
     style.interaction.selectable_labels = false;
     style.interaction.tooltip_delay = 0.4;
     style

@@ -166,6 +166,19 @@ pub fn figure_row(ui: &mut Ui, name: &str, figures: &str) {
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{name}: {figures}")));
 }
 
+/// One row of facts: a caption at the left, words flush right.
+pub fn fact_row(ui: &mut Ui, name: &str, fact: &str) {
+    let tokens = Tokens::of(ui);
+    let size = Vec2::new(ui.available_width(), 5.0 * STEP);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    label_in(ui, rect, name, tokens.faint_text);
+    let font = egui::TextStyle::Body.resolve(ui.style());
+    let at = rect.right_center();
+    ui.painter()
+        .text(at, Align2::RIGHT_CENTER, fact, font, tokens.text);
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{name}: {fact}")));
+}
+
 /// Write a text at the left of a box.
 pub fn label_in(ui: &Ui, rect: Rect, text: &str, colour: Color32) {
     let font = egui::TextStyle::Body.resolve(ui.style());
