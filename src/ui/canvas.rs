@@ -6,6 +6,8 @@ use eframe::egui::{
 };
 use glam::DVec2;
 
+use super::chains::Screen;
+use super::painting::Brush;
 use super::theme::Tokens;
 use super::{grid, keyboard, painting};
 use crate::editor::{Button, Cursor, Editor, Input, Key, Layer, Modifiers};
@@ -287,11 +289,23 @@ impl Canvas {
         let painter = ui.painter_at(rect);
         let tokens = Tokens::of(ui);
         painter.rect_filled(rect, 0, tokens.background);
-        if editor.layers().shows(Layer::Grid) {
-            grid::paint(&painter, rect, editor.viewport(), tokens);
-        }
+        let has_grid = editor.layers().shows(Layer::Grid);
         let viewport = *editor.viewport();
-        painting::paint(&painter, rect, &viewport, editor.scene(), tokens);
+        if has_grid {
+            grid::paint(&painter, rect, &viewport, tokens);
+        }
+        let brush = Brush {
+            painter: &painter,
+            screen: Screen::new(&viewport, rect),
+            rect,
+            tokens,
+        };
+        let scene = editor.scene();
+        painting::paint(&brush, scene);
+        if has_grid {
+            grid::paint_numbers(&painter, rect, &viewport, tokens);
+        }
+        painting::paint_hand(&brush, scene);
     }
 
     /// Give the canvas the keyboard whenever nothing else wants it, with Tab and arrow keys.

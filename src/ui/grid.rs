@@ -18,7 +18,7 @@ enum Axis {
     Y,
 }
 
-/// Paint the grid behind everything else.
+/// Paint the grid's lines and axes behind everything else.
 pub fn paint(painter: &Painter, rect: Rect, viewport: &Viewport, tokens: &Tokens) {
     let hair = 1.0 / painter.pixels_per_point();
     let (minor, major) = grid_steps(viewport);
@@ -43,7 +43,6 @@ pub fn paint(painter: &Painter, rect: Rect, viewport: &Viewport, tokens: &Tokens
             );
         }
     }
-    numbers(painter, rect, viewport, major, tokens);
 }
 
 /// The visible multiples of a step, each with its place on the screen.
@@ -91,9 +90,10 @@ fn line(painter: &Painter, rect: Rect, axis: Axis, place: f32, stroke: Stroke) {
     };
 }
 
-/// Write the numbers along the lower and the left edge. Where they would touch, only every
-/// second, fifth, tenth … is written.
-fn numbers(painter: &Painter, rect: Rect, viewport: &Viewport, major: f64, tokens: &Tokens) {
+/// Write the numbers along the lower and the left edge, over the curves that pass there. Where
+/// they would touch, only every second, fifth, tenth … is written.
+pub fn paint_numbers(painter: &Painter, rect: Rect, viewport: &Viewport, tokens: &Tokens) {
+    let (_, major) = grid_steps(viewport);
     let font = theme::small_font();
     let text = |value: f64| figures::to_resolution(value, major);
     let across = lines(Axis::X, major, viewport, rect);

@@ -10,7 +10,7 @@ use glam::DVec2;
 use super::chains::Screen;
 use super::theme::{self, Tokens};
 use super::{end_marks, labels};
-use crate::editor::{CurveScene, HoverScene, Mark, Scene, VertexMark, Viewport};
+use crate::editor::{CurveScene, HoverScene, Mark, Scene, VertexMark};
 
 /// Half the length of the tick across a joint, in points.
 const TICK: f32 = 5.0;
@@ -22,20 +22,14 @@ const SQUARE: f32 = 3.5;
 const SMALL_EVOLUTE: f32 = 4.0;
 
 /// Paint everything that lies on the grid, from back to front.
-pub fn paint(painter: &Painter, rect: Rect, viewport: &Viewport, scene: &Scene, tokens: &Tokens) {
-    let brush = Brush {
-        painter,
-        screen: Screen::new(viewport, rect),
-        rect,
-        tokens,
-    };
+pub fn paint(brush: &Brush<'_>, scene: &Scene) {
     let (active, others): (Vec<_>, Vec<_>) = scene.curves.iter().partition(|curve| curve.active);
     for curve in others.iter().chain(&active) {
         brush.derived(curve);
     }
     brush.chain(
         &scene.ghost,
-        Stroke::new(1.5, tokens.curve.gamma_multiply(0.35)),
+        Stroke::new(1.5, brush.tokens.curve.gamma_multiply(0.35)),
     );
     for curve in others.iter().chain(&active) {
         brush.curve(curve);
@@ -44,8 +38,12 @@ pub fn paint(painter: &Painter, rect: Rect, viewport: &Viewport, scene: &Scene, 
         brush.handles(curve);
     }
     for marks in &scene.ends {
-        end_marks::paint(&brush, marks);
+        end_marks::paint(brush, marks);
     }
+}
+
+/// Paint what belongs to the hand: marks of the tool and what is hovered.
+pub fn paint_hand(brush: &Brush<'_>, scene: &Scene) {
     for mark in &scene.marks {
         brush.mark(mark);
     }
