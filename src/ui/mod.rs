@@ -7,6 +7,7 @@ mod chains;
 mod curve_list;
 mod dialogs;
 mod end_fit_panel;
+mod end_fit_steps;
 mod end_marks;
 mod figures;
 mod file_dialogs;
