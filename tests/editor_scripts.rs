@@ -701,3 +701,85 @@ fn an_empty_document_says_what_to_do() {
         script.check();
     }
 }
+
+#[test]
+fn a_box_takes_nothing_of_a_hidden_polygon() {
+    let mut script = Script::example("arc");
+    script.command(Command::ToggleLayer(Layer::Float));
+    script.drag(DVec2::new(1.0, 1.0), DVec2::new(999.0, 699.0));
+    assert!(script.selected().is_empty());
+}
+
+#[test]
+fn steps_by_hand_count_as_passes_and_meet_the_target() {
+    let mut script = Script::example("hull");
+    script.tool(ToolKind::EndFit);
+    let jet = script.polygon().end_jet(End::Finish);
+    let size = script.polygon().size();
+    script.editor.end_fit_action(EndFitAction::SetPoint(
+        jet.point + DVec3::new(0.01 * size, 0.02 * size, 0.0),
+    ));
+    let direction = DVec2::from_angle(0.1)
+        .rotate(jet.first.truncate())
+        .extend(0.0);
+    script
+        .editor
+        .end_fit_action(EndFitAction::SetDirection(Some(direction)));
+    script.editor.end_fit_action(EndFitAction::Translate);
+    script.editor.end_fit_action(EndFitAction::Rotate);
+    let report = script.editor.end_fit().expect("figures");
+    assert_eq!(report.passes, 1);
+    assert!(
+        report.within && report.residual <= 1e-12 * size,
+        "{report:?}"
+    );
+    let corrected = script.polygon().end_jet(End::Finish);
+    let change = corrected.signed_curvature() / jet.signed_curvature() - 1.0;
+    assert!(
+        change.abs() < 1e-9,
+        "the end's curvature changed by {change}"
+    );
+}
+
+#[test]
+fn on_the_ring_the_ring_is_taken_although_a_vertex_lies_there() {
+    let mut script = Script::example("hull");
+    script.tool(ToolKind::EndFit);
+    let end = script.polygon().end_jet(End::Finish).point.truncate();
+    let centre = script.editor.viewport().to_screen(end);
+    // Zoom about the end until a terminal vertex lies on the ring.
+    let last = script.polygon().vertices().len() - 1;
+    let reach = script.at_vertex(last).distance(centre);
+    script.input(Input::Zoomed {
+        at: centre,
+        factor: 40.0 / reach,
+    });
+    script.move_to(script.at_vertex(last));
+    assert!(
+        script.editor.hint().contains("ring"),
+        "{}",
+        script.editor.hint()
+    );
+}
+
+#[test]
+fn several_files_open_as_one_document_and_a_bad_one_changes_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut script = Script::example("arc");
+    let paths = ["a", "b"].map(|name| folder.path().join(format!("{name}.batten")));
+    for path in &paths {
+        assert!(script.editor.save(path), "{}", script.message());
+    }
+    let mut editor = batten::editor::Editor::new();
+    editor.open_all(&paths).expect("two files");
+    assert_eq!(editor.document().len(), 2);
+    assert_eq!(editor.path(), None);
+    editor.open_all(&paths[..1]).expect("a file");
+    assert_eq!(editor.path(), Some(paths[0].as_path()));
+    let missing = folder.path().join("missing.batten");
+    let error = editor
+        .open_all(&[paths[1].clone(), missing])
+        .expect_err("a missing file");
+    assert!(error.to_string().contains("missing.batten"), "{error}");
+    assert_eq!(editor.path(), Some(paths[0].as_path()));
+}

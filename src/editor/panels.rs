@@ -3,6 +3,7 @@
 use super::Editor;
 use super::report::{CurveReport, Readout};
 use super::scene::{HoverScene, PlotScene};
+use crate::geometry::FloatPolygon;
 
 impl Editor {
     /// Bring the plots of the active curve up to date and return them.
@@ -18,6 +19,7 @@ impl Editor {
         plots.name.clear();
         if let Some((id, curve)) = self.active_curve() {
             plots.name.push_str(&curve.name);
+            plots.beyond_ends = vertices_beyond_ends(&curve.polygon);
             let hover = self.scene.hover.clone();
             if let Some(analysis) = self.analyses.get(id) {
                 plots.planar = analysis.is_planar();
@@ -115,4 +117,14 @@ impl Editor {
         let hit = self.context().hits.vertex(place)?;
         (hit.0 == id).then_some(hit.1)
     }
+}
+
+/// Count the inner vertices of an open polygon whose Greville abscissae lie beyond \[0, L\]: at
+/// either end those before number (n − 1)/2.
+fn vertices_beyond_ends(polygon: &FloatPolygon) -> usize {
+    if polygon.is_periodic() {
+        return 0;
+    }
+    let each = (polygon.degree() / 2).saturating_sub(1);
+    2 * each
 }

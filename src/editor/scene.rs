@@ -126,6 +126,9 @@ pub struct PlotScene {
     pub curvature: Vec<DVec2>,
     /// The polygon's discrete curvature at its vertices, over arc length, by vertex number.
     pub discrete: Vec<(usize, DVec2)>,
+    /// How many vertices with a discrete curvature have their Greville abscissae beyond the
+    /// curve's ends, and are therefore not among the dots.
+    pub beyond_ends: usize,
     /// Leg lengths over the number of the vertex where each begins.
     pub legs: Vec<DVec2>,
     /// Turning angles in degrees over the vertices' numbers.

@@ -109,10 +109,11 @@ fn angle(brush: &Brush<'_>, marks: &EndFitMarks, along: DVec2) {
         marks.actual + DVec2::from_angle(marks.angle).rotate(along) * marks.ring,
     ];
     brush.dashed(ray, Stroke::new(1.0, tokens.target));
-    let beyond = marks.actual
-        + DVec2::from_angle(0.5 * marks.angle).rotate(along)
-            * (marks.ring + 22.0 / brush.screen.scale());
-    if let Some(at) = brush.screen.point(beyond) {
+    // Beside the arc lie arrows and handles: the figure stands on the free side of the ring.
+    let behind = marks.actual
+        - DVec2::from_angle(0.5 * marks.angle).rotate(along)
+            * (marks.ring + 26.0 / brush.screen.scale());
+    if let Some(at) = brush.screen.point(behind) {
         let text = figures::degrees(marks.angle, 2);
         let font = theme::number_font();
         labels::paint(

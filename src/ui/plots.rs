@@ -44,6 +44,8 @@ pub struct Plots {
     turns: Frame,
     /// Whether a plot marks something on the canvas.
     hovering: bool,
+    /// What the curvature plot's dots are.
+    legend: String,
 }
 
 /// The bounds of one plot, kept from frame to frame.
@@ -63,6 +65,15 @@ impl Frame {
         };
         self.bounds = Some(settled);
         PlotBounds::from_min_max(settled.0.to_array(), settled.1.to_array())
+    }
+}
+
+/// Say what the dots are, and where those are that are missing.
+fn legend(beyond_ends: usize) -> String {
+    let dots = "Dots: discrete curvature of the float S-polygon";
+    match beyond_ends {
+        0 => dots.to_owned(),
+        count => format!("{dots}; {count} vertices lie beyond the ends"),
     }
 }
 
@@ -138,6 +149,9 @@ impl Plots {
                 if IconButton::new(icon, name).show(ui).clicked() {
                     commands.push(Command::TogglePlots);
                 }
+                if shown && self.tab == Tab::Curvature {
+                    widgets::caption(ui, &self.legend);
+                }
             });
         });
     }
@@ -160,6 +174,7 @@ impl Plots {
         let tokens = Tokens::of(ui);
         let dragging = editor.is_dragging();
         let scene = editor.plots();
+        self.legend = legend(scene.beyond_ends);
         let length = scene.length;
         let dots = scene.discrete.iter().map(|(_, point)| *point);
         let points = scene.curvature.iter().copied().chain(dots);

@@ -11,7 +11,7 @@ use crate::editor::{Editor, Readout};
 pub const HEIGHT: f32 = 28.0;
 
 /// The width from which on there is room for degree and zoom beside a long hint.
-const WIDE: f32 = 1180.0;
+const WIDE: f32 = 1212.0;
 
 /// Show the bar.
 pub fn status_bar_ui(ui: &mut Ui, editor: &Editor) {
@@ -61,7 +61,7 @@ fn cells(readout: &Readout, width: f32) -> Vec<(&'static str, String, f32)> {
             .degree
             .map_or_else(blank, |degree| degree.to_string());
         cells.push(("degree", degree, 60.0));
-        cells.push(("1 unit", zoom(readout.scale), 104.0));
+        cells.push(("1 unit", zoom(readout.scale), 136.0));
     }
     cells
 }
