@@ -368,7 +368,8 @@ impl Panel<'_> {
                 _ => figures::significant(report.residual, 4),
             };
             let passes = report.passes.to_string();
-            figure_pairs(ui, &[("Left over", left), ("Passes", passes)]);
+            widgets::figure_row(ui, "Left over, both ends", &left);
+            widgets::figure_row(ui, "Passes", &passes);
             self.tolerance_ui(ui);
         });
         self.outcome_ui(ui, 7);
