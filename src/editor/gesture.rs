@@ -134,7 +134,8 @@ impl GestureMachine {
 
     fn pressed(&mut self, button: Button, at: DVec2) -> Vec<Gesture> {
         self.pointer = Some(at);
-        if self.state != State::Idle {
+        // A release may be lost outside the window: a new press ends what was called off.
+        if !matches!(self.state, State::Idle | State::Spent) {
             return Vec::new();
         }
         let pans = button == Button::Middle || (self.space && button == Button::Primary);

@@ -15,7 +15,7 @@ const FINEST: usize = 256;
 
 impl CurveAnalysis {
     /// Append what is visible of the curve, thinned to the view's pixels. Gaps are
-    /// [`super::GAP`] points.
+    /// [`crate::analysis::GAP`] points.
     pub fn append_curve(&mut self, view: &ViewBox, out: &mut Vec<DVec2>) {
         let place = |sample: &Sample| sample.point.truncate();
         self.append(view, out, 0, |block| &mut block.curve, place);
