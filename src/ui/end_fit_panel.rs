@@ -143,6 +143,7 @@ impl Panel<'_> {
 
     fn target_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
+        self.actual_ui(ui);
         if let Some(point) = report.target_point {
             self.point_ui(ui, point);
             self.direction_ui(ui);
@@ -175,6 +176,24 @@ impl Panel<'_> {
             }
         });
         self.outcome_ui(ui, TARGET);
+    }
+
+    /// The end as it is: its point, and its tangent, the closed S-polygon's outermost leg.
+    fn actual_ui(&self, ui: &mut Ui) {
+        let report = self.report;
+        let axes = if report.planar { 2 } else { 3 };
+        let written = |vector: DVec3, resolution: f64| {
+            let figures = (0..axes).map(|axis| figures::to_resolution(vector[axis], resolution));
+            figures.collect::<Vec<String>>().join("  ")
+        };
+        let point = written(report.point, 0.01 * self.pixel);
+        widgets::figure_row(ui, "Actual end point", &point);
+        let tangent = match report.tangent {
+            Some(tangent) if report.planar => figures::degrees(tangent.truncate().to_angle(), 3),
+            Some(tangent) => written(tangent, 1e-4),
+            None => "none: a cusp".to_owned(),
+        };
+        widgets::figure_row(ui, "Actual tangent", &tangent);
     }
 
     fn point_ui(&mut self, ui: &mut Ui, point: DVec3) {
