@@ -42,7 +42,11 @@ struct Source {
 }
 
 fn sources() -> Vec<Source> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    sources_below("src")
+}
+
+fn sources_below(folder: &str) -> Vec<Source> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
     let mut folders = vec![root.clone()];
     let mut sources = Vec::new();
     while let Some(folder) = folders.pop() {
@@ -60,7 +64,7 @@ fn sources() -> Vec<Source> {
             }
         }
     }
-    assert!(!sources.is_empty(), "src holds no sources");
+    assert!(!sources.is_empty(), "{folder} holds no sources");
     sources
 }
 
@@ -297,6 +301,12 @@ fn nothing_is_unsafe_or_unfinished() {
 #[test]
 fn no_file_is_too_long_without_a_reason() {
     check_all(check_length);
+    for folder in ["tests", "benches"] {
+        for Source { path, text } in sources_below(folder) {
+            let lines = text.lines().count();
+            assert!(lines <= MOST_LINES, "{folder}/{path} has {lines} lines");
+        }
+    }
     for (path, _) in LONG_FILES {
         let source = sources().into_iter().find(|source| source.path == *path);
         let still_long = source.is_some_and(|source| source.text.lines().count() > MOST_LINES);

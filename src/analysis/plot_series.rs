@@ -3,9 +3,16 @@
 use glam::DVec2;
 
 use super::curve_analysis::CurveAnalysis;
+use crate::geometry::FloatPolygon;
 
 /// Points of a series kept for each bin of the horizontal axis: first, lowest, highest, last.
 const BINS: f64 = 1024.0;
+
+/// How far apart vertices beyond an end are drawn, as a share of the curve's length …
+const FLANK_STEP: f64 = 1.0 / 40.0;
+
+/// … and how wide they may be together.
+const WIDEST_FLANK: f64 = 1.0 / 6.0;
 
 /// The thinned plot of one block, from its own start.
 #[derive(Debug, Default)]
@@ -33,27 +40,42 @@ impl CurveAnalysis {
     }
 
     /// Append the polygon's discrete curvature at its vertices over the arc length at their
-    /// Greville abscissae, with the vertices' numbers; vertices whose abscissa lies outside the
-    /// curve are left out, and of vertices that share a bin only the outermost are kept.
-    pub fn append_discrete_curvature(&mut self, out: &mut Vec<(usize, DVec2)>) {
-        let polygon = self.curve().clone();
-        let polygon = &polygon.polygon;
+    /// Greville abscissae, with the vertices' numbers; of vertices that share a bin only the
+    /// outermost are kept.
+    ///
+    /// Vertices whose abscissae lie beyond an end of the curve, where there is no arc length,
+    /// stand evenly spaced in a flank beside it. Returns the flanks' width, 0 if there are none.
+    pub fn append_discrete_curvature(&mut self, out: &mut Vec<(usize, DVec2)>) -> f64 {
+        let curve = self.curve().clone();
+        let polygon = &curve.polygon;
         let end = polygon.segments() as f64;
+        let length = self.length();
+        let beyond = vertices_beyond_an_end(polygon);
+        let step = length * FLANK_STEP.min(WIDEST_FLANK / (beyond as f64 + 0.5));
         let mut cursor = LengthCursor::default();
         let mut extremes = Vec::new();
         self.float()
             .append_extreme_curvatures(BINS as usize, &mut extremes);
         for (index, value) in extremes {
-            let u = polygon.greville(index);
-            let inside = polygon.is_periodic() || (0.0..=end).contains(&u);
-            if value.is_finite() && inside {
-                let u = if polygon.is_periodic() {
-                    u.rem_euclid(end)
-                } else {
-                    u
-                };
-                out.push((index, DVec2::new(cursor.length_at(self, u), value)));
+            if !value.is_finite() {
+                continue;
             }
+            let u = polygon.greville(index);
+            let x = if polygon.is_periodic() {
+                cursor.length_at(self, u.rem_euclid(end))
+            } else if u < 0.0 {
+                u.floor() * step
+            } else if u > end {
+                length + (u - end).ceil() * step
+            } else {
+                cursor.length_at(self, u)
+            };
+            out.push((index, DVec2::new(x, value)));
+        }
+        if beyond > 0 {
+            (beyond as f64 + 0.5) * step
+        } else {
+            0.0
         }
     }
 
@@ -87,6 +109,16 @@ impl CurveAnalysis {
         let block = self.plot_block(index);
         block.points = points;
         block.level = Some(level);
+    }
+}
+
+/// Count the inner vertices of an open polygon whose Greville abscissae lie beyond one end:
+/// those before number (n − 1)/2, the very first excepted.
+fn vertices_beyond_an_end(polygon: &FloatPolygon) -> usize {
+    if polygon.is_periodic() {
+        0
+    } else {
+        (polygon.degree() / 2).saturating_sub(1)
     }
 }
 

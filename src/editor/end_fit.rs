@@ -1,12 +1,12 @@
 //! The end-fit tool's words and state: the paper's seven steps.
 
-use glam::{DVec2, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 
 use super::viewport::Viewport;
 use crate::analysis::CurveAnalysis;
 use crate::document::{Curve, CurveId, Document};
 use crate::geometry::end_correction::{EndDifference, EndOverlap, EndTarget};
-use crate::geometry::{End, Jet, Range};
+use crate::geometry::{End, Jet, Range, rotation_between};
 
 /// The length of a target direction's arrow, in screen points.
 pub const ARROW: f64 = 64.0;
@@ -14,8 +14,14 @@ pub const ARROW: f64 = 64.0;
 /// The radius of the ring that rotates the terminal vertices, in screen points.
 pub const RING: f64 = 40.0;
 
+/// Chords in the arc that shows the difference angle.
+const ARC_STEPS: u8 = 48;
+
 /// The loop's tolerance that is offered, in units of the polygon's size.
 const TOLERANCE: f64 = 1e-9;
+
+/// What evaluating an end point costs in accuracy, in units of its coordinates.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// What the seven steps say of one end, in figures.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +30,8 @@ pub struct EndFitReport {
     pub end: End,
     /// Whether the curve is planar: figures in z are left out then.
     pub planar: bool,
+    /// Whether the curve is locked: only its targets can be set then.
+    pub locked: bool,
     /// The degree n: the number of terminal vertices.
     pub degree: usize,
     /// The number of vertices N.
@@ -36,11 +44,15 @@ pub struct EndFitReport {
     pub point: DVec3,
     /// The actual unit tangent; `None` at a cusp.
     pub tangent: Option<DVec3>,
+    /// The angle of a planar curve's tangent from the x axis, in radians.
+    pub tangent_angle: Option<f64>,
     /// The target point; `None` until it is set.
     pub target_point: Option<DVec3>,
     /// The target direction.
     pub target_direction: Option<DVec3>,
-    /// Step 3: the difference vector.
+    /// The angle of a planar curve's target direction from the x axis, in radians.
+    pub target_angle: Option<f64>,
+    /// Step 3: the difference vector; what is mere rounding of it is 0.
     pub difference: DVec3,
     /// Step 3: the difference angle, in radians.
     pub angle: f64,
@@ -113,8 +125,10 @@ pub struct EndFitMarks {
     pub ring: f64,
     /// The terminal vertices.
     pub terminal: Vec<DVec2>,
-    /// The difference angle in radians, for the arc that shows it.
+    /// The difference angle in radians.
     pub angle: f64,
+    /// The way that the unit tangent takes through the difference angle, seen from above.
+    pub arc: Vec<DVec2>,
 }
 
 /// Hold what the end-fit tool remembers between actions.
@@ -172,6 +186,10 @@ impl EndFitState {
         let jet = polygon.end_jet(self.end);
         let target = curve.targets.get(self.end);
         let difference = target.map(|target| EndDifference::between(polygon, self.end, &target));
+        let target_direction = target.and_then(|target| target.direction);
+        let planar_angle = |direction: DVec3| {
+            Some(direction.truncate().to_angle()).filter(|_| analysis.is_planar())
+        };
         let size = polygon.size();
         let tolerance = self.tolerance_for(&curve);
         let targets = curve.targets.list();
@@ -182,15 +200,21 @@ impl EndFitState {
         EndFitReport {
             end: self.end,
             planar: analysis.is_planar(),
+            locked: curve.locked,
             degree: polygon.degree(),
             vertices: polygon.vertices().len(),
             legs: figures.legs,
             turns: figures.turns,
             point: jet.point,
             tangent: jet.tangent(),
+            tangent_angle: jet.tangent().and_then(planar_angle),
             target_point: target.map(|target| target.point),
-            target_direction: target.and_then(|target| target.direction),
-            difference: difference.map_or(DVec3::ZERO, |difference| difference.vector),
+            target_direction,
+            target_angle: target_direction.and_then(planar_angle),
+            difference: difference.map_or(DVec3::ZERO, |difference| {
+                let far = jet.point.abs().max_element().max(size);
+                above(difference.vector, ROUNDING * far)
+            }),
             angle: difference.map_or(0.0, |difference| difference.angle),
             residual,
             tolerance,
@@ -203,6 +227,17 @@ impl EndFitState {
             largest_move: self.largest_move,
         }
     }
+}
+
+/// Put components that are not above the rounding at 0.
+fn above(vector: DVec3, rounding: f64) -> DVec3 {
+    DVec3::from_array(vector.to_array().map(|component| {
+        if component.abs() > rounding {
+            component
+        } else {
+            0.0
+        }
+    }))
 }
 
 /// Find the end of another curve nearest to a place, within `reach`, as a target: its point, and
@@ -260,6 +295,8 @@ pub fn marks(curve: &Curve, end: End, chosen: bool, viewport: &Viewport) -> Opti
     let actual = jet.point.truncate();
     let terminal = polygon.terminal_vertices(end).filter(|_| chosen);
     let difference = target.map(|target| EndDifference::between(polygon, end, &target));
+    let direction = target.and_then(|target| target.direction);
+    let turn = jet.tangent().zip(direction.filter(|_| chosen));
     Some(EndFitMarks {
         chosen,
         actual,
@@ -272,5 +309,18 @@ pub fn marks(curve: &Curve, end: End, chosen: bool, viewport: &Viewport) -> Opti
             .map(|index| polygon.vertex(index).truncate())
             .collect(),
         angle: difference.map_or(0.0, |difference| difference.angle),
+        arc: turn.map_or(Vec::new(), |(from, to)| turning(from, to)),
     })
+}
+
+/// Follow a unit vector as it turns to a direction the shortest way, seen from above.
+fn turning(from: DVec3, to: DVec3) -> Vec<DVec2> {
+    let Some(rotation) = rotation_between(from, to) else {
+        return Vec::new();
+    };
+    let whole = DQuat::from_mat3(&rotation);
+    let steps = (0..=ARC_STEPS).map(|step| f64::from(step) / f64::from(ARC_STEPS));
+    steps
+        .map(|share| (DQuat::IDENTITY.slerp(whole, share) * from).truncate())
+        .collect()
 }

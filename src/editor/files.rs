@@ -201,7 +201,7 @@ pub(super) fn count_curves(count: usize) -> String {
 }
 
 /// Give a path the extension if it has none at all.
-fn with_extension(path: &Path, extension: &str) -> PathBuf {
+pub fn with_extension(path: &Path, extension: &str) -> PathBuf {
     if path.extension().is_some() {
         path.to_owned()
     } else {

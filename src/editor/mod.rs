@@ -31,6 +31,7 @@ use glam::DVec2;
 
 pub use command::{Command, Shortcut};
 pub use end_fit::{EndFitAction, EndFitMarks, EndFitReport};
+pub use files::with_extension;
 pub use grid::grid_steps;
 pub use hit::REACH;
 pub use input::{Button, Input, Key, Modifiers};

@@ -3,7 +3,7 @@
 use super::Editor;
 use super::report::{CurveReport, Readout};
 use super::scene::{HoverScene, PlotScene};
-use crate::geometry::FloatPolygon;
+use crate::document::Curve;
 
 impl Editor {
     /// Bring the plots of the active curve up to date and return them.
@@ -19,21 +19,15 @@ impl Editor {
         plots.name.clear();
         if let Some((id, curve)) = self.active_curve() {
             plots.name.push_str(&curve.name);
-            plots.beyond_ends = vertices_beyond_ends(&curve.polygon);
             let hover = self.scene.hover.clone();
             if let Some(analysis) = self.analyses.get(id) {
                 plots.planar = analysis.is_planar();
                 analysis.append_curvature(&mut plots.curvature);
-                analysis.append_discrete_curvature(&mut plots.discrete);
+                plots.flank = analysis.append_discrete_curvature(&mut plots.discrete);
                 plots.length = analysis.length();
                 plots.curvature_range = analysis.curvature();
                 if let Some(HoverScene::Curve { u, .. }) = hover {
-                    let jet = curve.polygon.jet(u);
-                    let curvature = if plots.planar {
-                        jet.signed_curvature()
-                    } else {
-                        jet.curvature()
-                    };
+                    let curvature = curvature_at(&curve, u, plots.planar);
                     plots.hovered = Some(glam::DVec2::new(analysis.length_at(u), curvature));
                 }
             }
@@ -69,13 +63,9 @@ impl Editor {
         };
         if let Some(HoverScene::Curve { u, .. }) = self.scene.hover {
             readout.u = Some(u);
-            readout.curvature = self.active_curve().map(|(_, curve)| {
-                let jet = curve.polygon.jet(u);
-                if curve.polygon.is_planar() {
-                    jet.signed_curvature()
-                } else {
-                    jet.curvature()
-                }
+            readout.curvature = self.active_curve().and_then(|(id, curve)| {
+                let planar = self.analyses.peek(id)?.is_planar();
+                Some(curvature_at(&curve, u, planar))
             });
         }
         readout
@@ -106,6 +96,7 @@ impl Editor {
     pub fn segments_redone(&self, curve: crate::document::CurveId) -> Option<usize> {
         Some(self.analyses.peek(curve)?.segments_redone())
     }
+
     fn vertex_hovered_on(&self, id: crate::document::CurveId) -> Option<usize> {
         if self.hovered.vertex.is_some() {
             return self.hovered.vertex;
@@ -119,12 +110,12 @@ impl Editor {
     }
 }
 
-/// Count the inner vertices of an open polygon whose Greville abscissae lie beyond \[0, L\]: at
-/// either end those before number (n − 1)/2.
-fn vertices_beyond_ends(polygon: &FloatPolygon) -> usize {
-    if polygon.is_periodic() {
-        return 0;
+/// The curvature at a parameter: signed for a planar curve, not negative in space.
+fn curvature_at(curve: &Curve, u: f64, planar: bool) -> f64 {
+    let jet = curve.polygon.jet(u);
+    if planar {
+        jet.signed_curvature()
+    } else {
+        jet.curvature()
     }
-    let each = (polygon.degree() / 2).saturating_sub(1);
-    2 * each
 }

@@ -125,10 +125,10 @@ pub struct PlotScene {
     /// Curvature over arc length; NaN points are gaps.
     pub curvature: Vec<DVec2>,
     /// The polygon's discrete curvature at its vertices, over arc length, by vertex number.
+    /// Vertices that lie beyond the curve's ends stand evenly spaced in a flank beside either.
     pub discrete: Vec<(usize, DVec2)>,
-    /// How many vertices with a discrete curvature have their Greville abscissae beyond the
-    /// curve's ends, and are therefore not among the dots.
-    pub beyond_ends: usize,
+    /// How wide the flank beside either end is; 0 if there is none.
+    pub flank: f64,
     /// Leg lengths over the number of the vertex where each begins.
     pub legs: Vec<DVec2>,
     /// Turning angles in degrees over the vertices' numbers.

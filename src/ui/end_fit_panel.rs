@@ -111,6 +111,10 @@ impl Panel<'_> {
     fn show(&mut self, ui: &mut Ui) {
         self.ends_ui(ui);
         self.target_ui(ui);
+        if self.report.locked {
+            let text = "This curve is locked: unlock it in the list of curves to correct its ends.";
+            widgets::note(ui, text);
+        }
         ui.add_space(STEP);
         self.shape_ui(ui);
         self.closed_ui(ui);
@@ -188,10 +192,10 @@ impl Panel<'_> {
         };
         let point = written(report.point, 0.01 * self.pixel);
         widgets::figure_row(ui, "Actual end point", &point);
-        let tangent = match report.tangent {
-            Some(tangent) if report.planar => figures::degrees(tangent.truncate().to_angle(), 3),
-            Some(tangent) => written(tangent, 1e-4),
-            None => "none: a cusp".to_owned(),
+        let tangent = match (report.tangent, report.tangent_angle) {
+            (_, Some(angle)) => figures::degrees(angle, 3),
+            (Some(tangent), None) => written(tangent, 1e-4),
+            (None, None) => "none: a cusp".to_owned(),
         };
         widgets::figure_row(ui, "Actual tangent", &tangent);
     }
@@ -222,10 +226,10 @@ impl Panel<'_> {
         let direction = self.report.target_direction;
         widgets::form_row(ui, "Direction", |ui| {
             ui.spacing_mut().item_spacing.x = STEP;
-            match direction {
-                Some(direction) if self.report.planar => self.angle_ui(ui, direction),
-                Some(direction) => self.components_ui(ui, direction),
-                None => {}
+            match (direction, self.report.target_angle) {
+                (_, Some(angle)) => self.angle_ui(ui, angle),
+                (Some(direction), None) => self.components_ui(ui, direction),
+                (None, None) => {}
             }
             let mut fixed = direction.is_some();
             let free = ui.add(Checkbox::new(&mut fixed, "Fixed"));
@@ -239,8 +243,8 @@ impl Panel<'_> {
         });
     }
 
-    fn angle_ui(&mut self, ui: &mut Ui, direction: DVec3) {
-        let degrees = direction.truncate().to_angle().to_degrees();
+    fn angle_ui(&mut self, ui: &mut Ui, angle: f64) {
+        let degrees = angle.to_degrees();
         let shown = format!("{degrees:.3}°");
         let field = NumberField::new("target direction", degrees, shown)
             .speed(0.25)
@@ -344,9 +348,10 @@ impl Panel<'_> {
 
     fn translate_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
+        let has_target = report.target_point.is_some() && !report.locked;
         let title = format!("Move {} vertices", report.degree);
         step_ui(ui, 5, &title, self.is_in_place(), |ui| {
-            let response = step_button(ui, "Translate", report.target_point.is_some(), None)
+            let response = step_button(ui, "Translate", has_target, None)
                 .accessible_name("Translate terminal vertices");
             let tooltip = "Translate the terminal vertices, as one body, by the difference vector";
             if response.on_hover_text(tooltip).clicked() {
@@ -361,7 +366,7 @@ impl Panel<'_> {
         let has_target = report.target_direction.is_some() && report.tangent.is_some();
         let title = format!("Turn {} vertices", report.degree);
         step_ui(ui, 6, &title, has_target && self.is_aligned(), |ui| {
-            let response = step_button(ui, "Rotate", has_target, None)
+            let response = step_button(ui, "Rotate", has_target && !report.locked, None)
                 .accessible_name("Rotate terminal vertices");
             let tooltip = "Rotate them about the end point by the difference angle";
             if response.on_hover_text(tooltip).clicked() {
@@ -374,7 +379,7 @@ impl Panel<'_> {
     fn repeat_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
         step_ui(ui, 7, "Edit on, and repeat", report.within, |ui| {
-            let response = step_button(ui, "Repeat", report.targets > 0, None);
+            let response = step_button(ui, "Repeat", report.targets > 0 && !report.locked, None);
             let tooltip = "Repeat steps 2 to 6 on both ends until within the tolerance";
             if response.on_hover_text(tooltip).clicked() {
                 self.ask(7, EndFitAction::Repeat);
@@ -418,7 +423,9 @@ impl Panel<'_> {
         let size = vec2(ui.available_width(), ROW);
         let button = Button::new("Both ends at once");
         let response = ui
-            .add_enabled_ui(report.targets > 0, |ui| ui.add_sized(size, button))
+            .add_enabled_ui(report.targets > 0 && !report.locked, |ui| {
+                ui.add_sized(size, button)
+            })
             .inner;
         let tooltip = "Meet all targets together by the least disturbance of the vertices";
         if response.on_hover_text(tooltip).clicked() {

@@ -88,7 +88,7 @@ fn ring(brush: &Brush<'_>, marks: &EndFitMarks, at: Pos2) {
         return;
     };
     if marks.angle.abs() > VISIBLE {
-        angle(brush, marks, along);
+        angle(brush, marks);
     }
     if let Some(handle) = brush.screen.point(marks.actual + along * marks.ring) {
         let stroke = Stroke::new(1.5, tokens.target);
@@ -96,23 +96,19 @@ fn ring(brush: &Brush<'_>, marks: &EndFitMarks, at: Pos2) {
     }
 }
 
-fn angle(brush: &Brush<'_>, marks: &EndFitMarks, along: DVec2) {
+fn angle(brush: &Brush<'_>, marks: &EndFitMarks) {
     let tokens = brush.tokens;
-    let radius = ARC * marks.ring;
-    let place = |angle: f64| marks.actual + DVec2::from_angle(angle).rotate(along) * radius;
-    let arc: Vec<DVec2> = (0..=48)
-        .map(|step| place(marks.angle * f64::from(step) / 48.0))
-        .collect();
+    let (Some(last), Some(middle)) = (marks.arc.last(), marks.arc.get(marks.arc.len() / 2)) else {
+        return;
+    };
+    let place = |along: &DVec2, share: f64| marks.actual + share * marks.ring * *along;
+    let arc: Vec<DVec2> = marks.arc.iter().map(|along| place(along, ARC)).collect();
     brush.chain(&arc, Stroke::new(2.0, tokens.target));
-    let ray = [
-        marks.actual,
-        marks.actual + DVec2::from_angle(marks.angle).rotate(along) * marks.ring,
-    ];
+    let ray = [marks.actual, place(last, 1.0)];
     brush.dashed(ray, Stroke::new(1.0, tokens.target));
     // Beside the arc lie arrows and handles: the figure stands on the free side of the ring.
-    let behind = marks.actual
-        - DVec2::from_angle(0.5 * marks.angle).rotate(along)
-            * (marks.ring + 26.0 / brush.screen.scale());
+    let outwards = middle.try_normalize().unwrap_or(DVec2::Y);
+    let behind = marks.actual - outwards * (marks.ring + 26.0 / brush.screen.scale());
     if let Some(at) = brush.screen.point(behind) {
         let text = figures::degrees(marks.angle, 2);
         let font = theme::number_font();

@@ -8,7 +8,8 @@ use eframe::egui::{Align2, Context, Id, Key, Label, Modal, RichText, TextEdit, U
 
 use super::theme::{ROW, STEP, Tokens};
 use super::widgets;
-use crate::editor::{AfterDiscard, Export};
+use crate::editor::{AfterDiscard, Export, with_extension};
+use crate::io::Format;
 
 /// A dialog that answers "nothing" sooner than this was never shown.
 const UNAVAILABLE: Duration = Duration::from_millis(250);
@@ -54,6 +55,8 @@ struct Prompt {
     purpose: Purpose,
     text: String,
     error: Option<String>,
+    /// The file that is written over if the path is confirmed once more.
+    replacing: Option<PathBuf>,
     fresh: bool,
 }
 
@@ -112,6 +115,7 @@ impl FileDialogs {
             purpose,
             text,
             error: None,
+            replacing: None,
             fresh: true,
         });
     }
@@ -130,6 +134,14 @@ impl FileDialogs {
             begun,
             ..
         } = self.waiting.take()?;
+        if let [path] = paths.as_slice() {
+            let complete = completed(&purpose, path);
+            // The system's dialog asked about the path as it was typed, without an extension.
+            if complete != *path && replaces(&purpose, &complete) {
+                self.open_prompt(purpose, &complete);
+                return None;
+            }
+        }
         if !paths.is_empty() {
             return Some(Chosen { purpose, paths });
         }
@@ -150,16 +162,12 @@ impl FileDialogs {
         let answer = modal.inner.or(closes.then_some(Answer::Cancel))?;
         match answer {
             Answer::Cancel => self.prompt = None,
-            Answer::Path(path) => match refused(&prompt.purpose, &path) {
-                Some(error) => prompt.error = Some(error),
-                None => {
-                    let purpose = self.prompt.take()?.purpose;
-                    return Some(Chosen {
-                        purpose,
-                        paths: vec![path],
-                    });
-                }
-            },
+            Answer::Path(path) if prompt.accepts(&path) => {
+                let purpose = self.prompt.take()?.purpose;
+                let paths = vec![path];
+                return Some(Chosen { purpose, paths });
+            }
+            Answer::Path(_) => {}
         }
         None
     }
@@ -187,13 +195,18 @@ impl Prompt {
         }
         if response.changed() {
             self.error = None;
+            self.replacing = None;
         }
         self.remark_ui(ui);
         let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         let mut answer = entered.then(|| self.path());
         ui.horizontal(|ui| {
             widgets::at_right(ui, |ui| {
-                if widgets::primary_button(ui, verb(&self.purpose)).clicked() {
+                let verb = match self.replacing {
+                    Some(_) => "Replace",
+                    None => verb(&self.purpose),
+                };
+                if widgets::primary_button(ui, verb).clicked() {
                     answer = Some(self.path());
                 }
                 if ui.button("Cancel").clicked() {
@@ -209,22 +222,54 @@ impl Prompt {
     }
 
     fn path(&self) -> Answer {
-        Answer::Path(from_home(self.text.trim()))
+        Answer::Path(completed(&self.purpose, &from_home(self.text.trim())))
+    }
+
+    /// Whether a path can be used as it is; otherwise the remark says what is the matter.
+    fn accepts(&mut self, path: &Path) -> bool {
+        self.error = refused(&self.purpose, path);
+        if self.error.is_some() {
+            return false;
+        }
+        if !replaces(&self.purpose, path) || self.replacing.as_deref() == Some(path) {
+            return true;
+        }
+        self.replacing = Some(path.to_owned());
+        false
     }
 
     /// Below the field: what was wrong, or what would happen.
     fn remark_ui(&self, ui: &mut Ui) {
         let tokens = Tokens::of(ui);
-        let writes = matches!(self.purpose, Purpose::Save(_) | Purpose::Export(_));
-        let (text, colour) = match &self.error {
-            Some(error) => (error.as_str(), tokens.error),
-            None if writes && from_home(self.text.trim()).is_file() => {
-                ("This file exists and will be replaced.", tokens.warning)
+        let (text, colour) = match (&self.error, &self.replacing) {
+            (Some(error), _) => (error.clone(), tokens.error),
+            (None, Some(path)) => {
+                let name = path.file_name().unwrap_or_default().display();
+                let text = format!("“{name}” exists. Enter once more replaces it, Esc cancels.");
+                (text, tokens.warning)
             }
-            None => ("Enter confirms, Esc cancels.", tokens.faint_text),
+            (None, None) => {
+                let text = "Enter confirms, Esc cancels.".to_owned();
+                (text, tokens.faint_text)
+            }
         };
         ui.add(Label::new(RichText::new(text).color(colour)).wrap());
     }
+}
+
+/// The path with the extension that what is written has.
+fn completed(purpose: &Purpose, path: &Path) -> PathBuf {
+    let is_name = path.file_name().is_some() && !path.is_dir();
+    match purpose {
+        Purpose::Save(_) if is_name => with_extension(path, Format::Batten.extension()),
+        Purpose::Export(export) if is_name => with_extension(path, export.extension),
+        _ => path.to_owned(),
+    }
+}
+
+/// Whether a file would be written over.
+fn replaces(purpose: &Purpose, path: &Path) -> bool {
+    matches!(purpose, Purpose::Save(_) | Purpose::Export(_)) && path.is_file()
 }
 
 /// Read "~" as the home folder, as people type it.

@@ -2,6 +2,8 @@
 //! their labels, presses, drags and types, and takes pictures.
 #![forbid(unsafe_code)]
 
+pub mod arc;
+
 use std::io::{BufRead, BufReader};
 use std::net::{TcpListener, TcpStream};
 use std::path::{Path, PathBuf};

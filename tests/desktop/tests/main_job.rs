@@ -1,18 +1,17 @@
 //! The main job in the real window: open the arc, drag a vertex, correct an end, undo, redo, save,
-//! export; the files are checked in numbers. With `BATTEN_PICTURES` set to a folder, pictures for
-//! the README are taken there.
+//! export; the files are checked in numbers.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
-use batten::document::{Curve, CurveId};
-use batten::editor::Editor;
+use batten::document::Curve;
 use batten::geometry::end_correction::EndDifference;
-use batten::geometry::{ClampedPolygon, End, FloatPolygon};
+use batten::geometry::{ClampedPolygon, End};
 use batten::io::disk;
+use batten_desktop_tests::arc::{arc, correct_an_end, fitted, place};
 use batten_desktop_tests::{Display, Window};
-use egui::{Key, Modifiers, Pos2, Rect, vec2};
-use glam::{DVec2, DVec3};
+use egui::{Key, Modifiers, Pos2, vec2};
+use glam::DVec3;
 
 /// A millionth of the curve: more than the canvas's single-precision places are off.
 const PLACE_TOLERANCE: f64 = 1e-5;
@@ -87,17 +86,6 @@ fn the_main_job_end_to_end() -> Result<()> {
     Ok(())
 }
 
-/// Set the target of the curve's end by a click, and meet both ends at once.
-fn correct_an_end(window: &mut Window, canvas: Rect) -> Result<()> {
-    window.click("End fit")?;
-    let end = arc().end_jet(End::Finish).point.truncate();
-    let at = on_canvas(canvas, &fitted(canvas), end + DVec2::new(0.75, 0.35));
-    window.click_at(at)?;
-    window.click("Both ends at once")?;
-    window.find_beginning("Both ends are met")?;
-    Ok(())
-}
-
 /// Export a drawing and look for the closed S-polygon's vertices in it, digit for digit.
 fn export(window: &mut Window, curve: &Curve) -> Result<()> {
     let path = window.folder().join("arc.dxf");
@@ -130,7 +118,7 @@ fn a_window_at_twice_the_scale_and_in_the_light_theme() -> Result<()> {
     let polygon = arc();
     window.move_to(place(canvas, &polygon, 4))?;
     window.find_beginning("Drag a vertex")?;
-    take(&mut window, "light-2x")
+    Ok(())
 }
 
 #[test]
@@ -148,31 +136,6 @@ fn quitting_asks_about_unsaved_changes() -> Result<()> {
     window.send_last(press_and_release(discard));
     ensure!(window.wait()?, "the program failed");
     Ok(())
-}
-
-#[test]
-fn pictures() -> Result<()> {
-    if std::env::var_os("BATTEN_PICTURES").is_none() {
-        return Ok(());
-    }
-    let display = Display::start(1600, 1000)?;
-    let mut window = Window::open(&display, &[], 1.0)?;
-    window.resize(1480, 920)?;
-    window.key(Key::H, Modifiers::NONE)?;
-    let canvas = window.find("Canvas")?;
-    take(&mut window, "dark")?;
-    correct_an_end(&mut window, canvas)?;
-    take(&mut window, "end-fit")?;
-    window.key(Key::F9, Modifiers::NONE)?;
-    take(&mut window, "end-fit-light")
-}
-
-/// Take a picture if pictures are wanted.
-fn take(window: &mut Window, name: &str) -> Result<()> {
-    match std::env::var_os("BATTEN_PICTURES") {
-        Some(folder) => window.picture(&PathBuf::from(folder).join(format!("{name}.png"))),
-        None => Ok(()),
-    }
 }
 
 /// Save under a new name and read the curve back.
@@ -205,30 +168,4 @@ fn press_and_release(place: Pos2) -> Vec<egui::Event> {
         button(true),
         button(false),
     ]
-}
-
-/// The built-in arc.
-fn arc() -> FloatPolygon {
-    let editor = Editor::new();
-    let curve = editor
-        .active()
-        .and_then(|id: CurveId| editor.document().curve(id).cloned());
-    curve.expect("the built-in arc").polygon.clone()
-}
-
-/// An editor whose canvas has the window's size: it fits the arc as the window did.
-fn fitted(canvas: Rect) -> Editor {
-    let mut editor = Editor::new();
-    editor.set_canvas_size(DVec2::new(canvas.width().into(), canvas.height().into()));
-    editor
-}
-
-/// The place of a vertex in the window, as long as the view is the fitted one.
-fn place(canvas: Rect, polygon: &FloatPolygon, vertex: usize) -> Pos2 {
-    on_canvas(canvas, &fitted(canvas), polygon.vertex(vertex).truncate())
-}
-
-fn on_canvas(canvas: Rect, editor: &Editor, point: DVec2) -> Pos2 {
-    let at = editor.viewport().to_screen(point);
-    canvas.min + vec2(at.x as f32, at.y as f32)
 }

@@ -1,0 +1,135 @@
+//! The plot of curvature over arc length, with the polygon's discrete curvature.
+
+use std::ops::RangeInclusive;
+
+use eframe::egui::{Stroke, Ui};
+use egui_plot::{GridMark, HoverPosition, PlotBounds, PlotPoints, PlotUi, Polygon};
+use glam::DVec2;
+
+use super::Plots;
+use super::drawing::*;
+use super::frame::{bounds_of, padded};
+use crate::editor::{Editor, PlotScene};
+use crate::ui::figures;
+use crate::ui::theme::Tokens;
+
+/// Say what the dots are, and what the shaded flanks hold.
+fn legend(flank: f64) -> &'static str {
+    if flank > 0.0 {
+        "Dots: discrete curvature of the float S-polygon; shaded: vertices beyond the ends, evenly spaced"
+    } else {
+        "Dots: discrete curvature of the float S-polygon"
+    }
+}
+
+impl Plots {
+    pub(super) fn curvature_ui(&mut self, ui: &mut Ui, editor: &mut Editor) {
+        let tokens = Tokens::of(ui);
+        let dragging = editor.is_dragging();
+        let scene = editor.plots();
+        self.legend = legend(scene.flank);
+        let length = scene.length;
+        let dots = scene.discrete.iter().map(|(_, point)| *point);
+        let points = scene.curvature.iter().copied().chain(dots);
+        let mut wanted = bounds_of(points, false);
+        wanted.0.x = wanted.0.x.min(-scene.flank);
+        wanted.1.x = wanted.1.x.max(length + scene.flank);
+        let bounds = self.curvature.settle(padded(wanted), dragging);
+        let signed = if scene.planar {
+            "signed curvature κ (1/unit)"
+        } else {
+            "curvature κ (1/unit)"
+        };
+        let numbers = move |mark: GridMark, range: &RangeInclusive<f64>| {
+            let on_curve = (-1e-9 * length..=length * (1.0 + 1e-9)).contains(&mark.value);
+            if on_curve {
+                axis_number(mark, range)
+            } else {
+                String::new()
+            }
+        };
+        let plot = plot("curvature", "arc length (units)", signed, bounds, tokens)
+            .x_axis_formatter(numbers)
+            .label_formatter(|hover| {
+                let HoverPosition::NearDataPoint {
+                    position,
+                    plot_name,
+                    index,
+                } = hover
+                else {
+                    return None;
+                };
+                let curvature = figures::significant(position.y, 6);
+                Some(match *plot_name {
+                    "discrete" => discrete_label(scene, *index, &curvature),
+                    _ => format!("κ {curvature}\nat {}", figures::significant(position.x, 5)),
+                })
+            });
+        let hovered = plot
+            .show(ui, |plot| {
+                plot.set_plot_bounds(bounds);
+                flanks(plot, scene, bounds, tokens);
+                zero_line(plot, tokens);
+                lines(plot, "curvature", &scene.curvature, tokens.comb);
+                let dots: Vec<DVec2> = scene.discrete.iter().map(|(_, point)| *point).collect();
+                plot.points(dots_of("discrete", &dots, tokens.float));
+                if let Some(at) = scene.hovered {
+                    cursor(plot, at, tokens);
+                }
+                if let Some(vertex) = scene.hovered_vertex {
+                    let found = scene.discrete.iter().find(|(index, _)| *index == vertex);
+                    if let Some((_, at)) = found {
+                        plot.points(ring(*at, tokens));
+                    }
+                }
+                hovered_x(plot)
+            })
+            .inner;
+        let beyond = hovered.filter(|x| !(0.0..=length).contains(x));
+        let vertex = beyond.and_then(|x| nearest_dot(scene, x));
+        let along = hovered.filter(|x| (0.0..=length).contains(x));
+        if hovered.is_some() || self.hovering {
+            editor.hover_length(along);
+            editor.hover_vertex(vertex);
+        }
+        self.hovering = hovered.is_some();
+    }
+}
+
+/// Say which vertex a dot belongs to.
+fn discrete_label(scene: &PlotScene, dot: usize, curvature: &str) -> String {
+    let Some((vertex, at)) = scene.discrete.get(dot) else {
+        return format!("discrete κ {curvature}");
+    };
+    let place = if at.x < 0.0 {
+        "beyond the start".to_owned()
+    } else if at.x > scene.length {
+        "beyond the end".to_owned()
+    } else {
+        format!("at {}", figures::significant(at.x, 5))
+    };
+    format!("vertex {vertex}, {place}\ndiscrete κ {curvature}")
+}
+
+/// The vertex whose dot is nearest along the axis.
+fn nearest_dot(scene: &PlotScene, x: f64) -> Option<usize> {
+    let distance = |dot: &&(usize, DVec2)| (dot.1.x - x).abs();
+    let nearest = |a: &&(usize, DVec2), b: &&(usize, DVec2)| distance(a).total_cmp(&distance(b));
+    scene.discrete.iter().min_by(nearest).map(|dot| dot.0)
+}
+
+/// Shade what lies beyond the curve's ends.
+fn flanks(plot: &mut PlotUi<'_>, scene: &PlotScene, bounds: PlotBounds, tokens: &Tokens) {
+    if !(scene.flank > 0.0) {
+        return;
+    }
+    let ([left, bottom], [right, top]) = (bounds.min(), bounds.max());
+    for (from, to) in [(left, 0.0), (scene.length, right)] {
+        let corners = [[from, bottom], [to, bottom], [to, top], [from, top]];
+        let shade = Polygon::new("flank", PlotPoints::from_iter(corners))
+            .fill_color(tokens.grid_major.gamma_multiply(0.35))
+            .stroke(Stroke::NONE)
+            .allow_hover(false);
+        plot.polygon(shade);
+    }
+}

@@ -1,0 +1,47 @@
+//! The window as it opens, with the built-in arc fitted into its canvas.
+
+use anyhow::Result;
+use batten::editor::Editor;
+use batten::geometry::{End, FloatPolygon};
+use egui::{Pos2, Rect, vec2};
+use glam::DVec2;
+
+use crate::Window;
+
+/// The built-in arc.
+pub fn arc() -> FloatPolygon {
+    let editor = Editor::new();
+    let curve = editor
+        .active()
+        .and_then(|id| editor.document().curve(id).cloned());
+    curve.expect("the built-in arc").polygon.clone()
+}
+
+/// An editor whose canvas has the window's size: it fits the arc as the window did.
+pub fn fitted(canvas: Rect) -> Editor {
+    let mut editor = Editor::new();
+    editor.set_canvas_size(DVec2::new(canvas.width().into(), canvas.height().into()));
+    editor
+}
+
+/// The place of a vertex in the window, as long as the view is the fitted one.
+pub fn place(canvas: Rect, polygon: &FloatPolygon, vertex: usize) -> Pos2 {
+    on_canvas(canvas, &fitted(canvas), polygon.vertex(vertex).truncate())
+}
+
+/// The place of a point of the model in the window, as an editor's view shows it.
+pub fn on_canvas(canvas: Rect, editor: &Editor, point: DVec2) -> Pos2 {
+    let at = editor.viewport().to_screen(point);
+    canvas.min + vec2(at.x as f32, at.y as f32)
+}
+
+/// Set the target of the curve's end by a click, and meet both ends at once.
+pub fn correct_an_end(window: &mut Window, canvas: Rect) -> Result<()> {
+    window.click("End fit")?;
+    let end = arc().end_jet(End::Finish).point.truncate();
+    let at = on_canvas(canvas, &fitted(canvas), end + DVec2::new(0.75, 0.35));
+    window.click_at(at)?;
+    window.click("Both ends at once")?;
+    window.find_beginning("Both ends are met")?;
+    Ok(())
+}

@@ -1,0 +1,113 @@
+//! Commands, files and the clipboard.
+
+use batten::editor::{Command, Key, ToolKind};
+use glam::DVec2;
+
+use super::script::Script;
+
+#[test]
+fn copy_and_paste_add_a_curve_aside_as_one_step() {
+    let mut script = Script::example("arc");
+    let Some(batten::editor::Request::CopyText(text)) = script.editor.execute(Command::Copy) else {
+        panic!("no text was copied");
+    };
+    script.editor.paste_text(&text);
+    assert_eq!(script.editor.document().len(), 2);
+    let names: Vec<String> = script
+        .editor
+        .document()
+        .curves()
+        .map(|(_, c)| c.name.clone())
+        .collect();
+    assert_ne!(names[0], names[1]);
+    script.command(Command::Undo);
+    assert_eq!(script.editor.document().len(), 1);
+    script.editor.paste_text("no curve at all");
+    assert_eq!(script.editor.document().len(), 1);
+    assert!(
+        script
+            .editor
+            .message()
+            .is_some_and(|message| message.is_error)
+    );
+}
+
+#[test]
+fn every_command_can_be_given_at_any_time() {
+    for example in ["arc", "periodic"] {
+        for command in Command::all(7) {
+            let mut script = Script::example(example);
+            script.command(command);
+            script.check();
+            // Also in the middle of a drag.
+            let mut script = Script::example(example);
+            let at = script.at_vertex(1);
+            script.press(at);
+            script.move_to(at + 30.0);
+            script.command(command);
+            script.move_to(at + 60.0);
+            script.release(at + 60.0);
+            script.check();
+        }
+    }
+}
+
+#[test]
+fn commands_have_names_and_keys_of_their_own() {
+    let commands = Command::all(7);
+    for (index, command) in commands.iter().enumerate() {
+        assert!(!command.label().is_empty() && !command.tooltip().is_empty());
+        for other in &commands[index + 1..] {
+            assert_ne!(command.label(), other.label());
+            if let Some(shortcut) = command.shortcut() {
+                assert_ne!(
+                    Some(shortcut),
+                    other.shortcut(),
+                    "{command:?} and {other:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn an_empty_document_says_what_to_do() {
+    let mut script = Script::example("arc");
+    script.editor.execute(Command::New);
+    assert!(script.editor.document().is_empty());
+    assert!(
+        script.editor.hint().contains("draw"),
+        "{}",
+        script.editor.hint()
+    );
+    for tool in ToolKind::ALL {
+        script.tool(tool);
+        script.click(DVec2::new(300.0, 300.0));
+        script.drag(DVec2::new(100.0, 100.0), DVec2::new(200.0, 200.0));
+        script.key(Key::Enter);
+        script.key(Key::Escape);
+        script.check();
+    }
+}
+
+#[test]
+fn several_files_open_as_one_document_and_a_bad_one_changes_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut script = Script::example("arc");
+    let paths = ["a", "b"].map(|name| folder.path().join(format!("{name}.batten")));
+    for path in &paths {
+        assert!(script.editor.save(path), "{}", script.message());
+    }
+    let mut editor = batten::editor::Editor::new();
+    editor.open_all(&paths).expect("two files");
+    assert_eq!(editor.document().len(), 2);
+    assert_eq!(editor.path(), None);
+    editor.open_all(&paths[..1]).expect("a file");
+    assert_eq!(editor.path(), Some(paths[0].as_path()));
+    let missing = folder.path().join("missing.batten");
+    let error = editor
+        .open_all(&[paths[1].clone(), missing])
+        .expect_err("a missing file");
+    assert!(error.to_string().contains("missing.batten"), "{error}");
+    assert_eq!(editor.path(), Some(paths[0].as_path()));
+}

@@ -1,0 +1,165 @@
+//! The end-fit tool.
+
+use batten::editor::{Command, EndFitAction, Input, ToolKind};
+use batten::geometry::End;
+use batten::geometry::end_correction::EndOverlap;
+use glam::{DVec2, DVec3};
+
+use super::script::Script;
+
+#[test]
+fn the_end_follows_its_target_by_dragging_the_body_and_the_ring() {
+    let mut script = Script::example("s-curve");
+    script.tool(ToolKind::EndFit);
+    let end = script.polygon().end_jet(End::Finish);
+    let goal = end.point + DVec3::new(0.5, 0.25, 0.0) * script.polygon().size() * 0.1;
+    let direction = DVec2::from_angle(0.2)
+        .rotate(end.first.truncate())
+        .extend(0.0);
+    script.editor.end_fit_action(EndFitAction::SetPoint(goal));
+    script
+        .editor
+        .end_fit_action(EndFitAction::SetDirection(Some(direction)));
+    let steps = script.editor.history().undo_steps();
+    let viewport = *script.editor.viewport();
+    // The body is taken by a terminal vertex and let go a few points beside the target.
+    let last = script.polygon().vertices().len() - 1;
+    let way = (goal - end.point).truncate() * viewport.scale;
+    let from = script.at_vertex(last);
+    script.drag(from, from + DVec2::new(way.x, -way.y) + 3.0);
+    let report = script.editor.end_fit().expect("figures");
+    assert!(
+        report.difference.length() < 1e-12 * script.polygon().size(),
+        "{}",
+        report.difference
+    );
+    // The ring is turned to about the missing angle and snaps.
+    let now = script.polygon().end_jet(End::Finish).point.truncate();
+    let centre = viewport.to_screen(now);
+    let on_ring = |angle: f64| centre + 40.0 * DVec2::new(angle.cos(), -angle.sin());
+    let start = clear_of_handles(&mut script, &on_ring);
+    script.drag(on_ring(start), on_ring(start + report.angle + 0.01));
+    let report = script.editor.end_fit().expect("figures");
+    assert!(report.angle.abs() < 1e-12, "{}", report.angle);
+    assert!(report.difference.length() < 1e-12 * script.polygon().size());
+    assert_eq!(script.editor.history().undo_steps(), steps + 2);
+}
+
+/// Find an angle at which the ring is not covered by another handle.
+fn clear_of_handles(script: &mut Script, on_ring: &dyn Fn(f64) -> DVec2) -> f64 {
+    let angles = (0..72).map(|step| f64::from(step).to_radians() * 5.0);
+    let mut free = angles.filter(|angle| {
+        script.move_to(on_ring(*angle));
+        script.editor.hint().contains("ring")
+    });
+    free.next().expect("a free place on the ring")
+}
+
+#[test]
+fn the_loop_stops_on_the_papers_arc_and_both_ends_at_once_correct_it() {
+    let mut script = Script::example("arc");
+    script.tool(ToolKind::EndFit);
+    for end in End::BOTH {
+        script.editor.end_fit_action(EndFitAction::Choose(end));
+        let jet = script.polygon().end_jet(end);
+        let point = jet.point + DVec3::new(0.3, -0.2, 0.0);
+        script.editor.end_fit_action(EndFitAction::SetPoint(point));
+        let direction = DVec2::from_angle(0.1)
+            .rotate(jet.first.truncate())
+            .extend(0.0);
+        script
+            .editor
+            .end_fit_action(EndFitAction::SetDirection(Some(direction)));
+    }
+    let before = script.polygon();
+    script.editor.end_fit_action(EndFitAction::Repeat);
+    assert_eq!(script.polygon(), before);
+    let report = script.editor.end_fit().expect("figures");
+    assert_eq!(report.overlap, EndOverlap::OneSegment);
+    let (text, failed) = report.outcome.expect("an outcome");
+    assert!(failed && text.contains("Nothing was changed"), "{text}");
+    script.editor.end_fit_action(EndFitAction::BothAtOnce);
+    let report = script.editor.end_fit().expect("figures");
+    assert!(report.within, "{report:?}");
+    assert!(
+        report.residual <= 1e-12 * before.size(),
+        "{}",
+        report.residual
+    );
+    assert!(report.largest_move.is_some_and(|(length, _)| length > 0.0));
+    assert!(!script.editor.scene().ghost.is_empty());
+    script.command(Command::Undo);
+    assert_eq!(script.polygon(), before);
+    assert!(script.editor.scene().ghost.is_empty());
+}
+
+#[test]
+fn a_target_is_picked_from_another_curves_end() {
+    let mut script = Script::example("arc");
+    script.command(Command::Duplicate);
+    let curves: Vec<_> = script.editor.document().ids().collect();
+    let other = script.polygon().end_jet(End::Start);
+    script.editor.activate(curves[0]);
+    script.tool(ToolKind::EndFit);
+    script
+        .editor
+        .end_fit_action(EndFitAction::Choose(End::Start));
+    script.editor.end_fit_action(EndFitAction::PickFromCurve);
+    let place = script.editor.viewport().to_screen(other.point.truncate());
+    script.click(place);
+    let report = script.editor.end_fit().expect("figures");
+    assert_eq!(report.target_point, Some(other.point));
+    assert!(!report.picking);
+}
+
+#[test]
+fn steps_by_hand_count_as_passes_and_meet_the_target() {
+    let mut script = Script::example("hull");
+    script.tool(ToolKind::EndFit);
+    let jet = script.polygon().end_jet(End::Finish);
+    let size = script.polygon().size();
+    script.editor.end_fit_action(EndFitAction::SetPoint(
+        jet.point + DVec3::new(0.01 * size, 0.02 * size, 0.0),
+    ));
+    let direction = DVec2::from_angle(0.1)
+        .rotate(jet.first.truncate())
+        .extend(0.0);
+    script
+        .editor
+        .end_fit_action(EndFitAction::SetDirection(Some(direction)));
+    script.editor.end_fit_action(EndFitAction::Translate);
+    script.editor.end_fit_action(EndFitAction::Rotate);
+    let report = script.editor.end_fit().expect("figures");
+    assert_eq!(report.passes, 1);
+    assert!(
+        report.within && report.residual <= 1e-12 * size,
+        "{report:?}"
+    );
+    let corrected = script.polygon().end_jet(End::Finish);
+    let change = corrected.signed_curvature() / jet.signed_curvature() - 1.0;
+    assert!(
+        change.abs() < 1e-9,
+        "the end's curvature changed by {change}"
+    );
+}
+
+#[test]
+fn on_the_ring_the_ring_is_taken_although_a_vertex_lies_there() {
+    let mut script = Script::example("hull");
+    script.tool(ToolKind::EndFit);
+    let end = script.polygon().end_jet(End::Finish).point.truncate();
+    let centre = script.editor.viewport().to_screen(end);
+    // Zoom about the end until a terminal vertex lies on the ring.
+    let last = script.polygon().vertices().len() - 1;
+    let reach = script.at_vertex(last).distance(centre);
+    script.input(Input::Zoomed {
+        at: centre,
+        factor: 40.0 / reach,
+    });
+    script.move_to(script.at_vertex(last));
+    assert!(
+        script.editor.hint().contains("ring"),
+        "{}",
+        script.editor.hint()
+    );
+}

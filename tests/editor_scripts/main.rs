@@ -1,0 +1,9 @@
+//! The editor without a window, driven by scripts of pointer and key events.
+
+mod commands;
+mod end_fit;
+mod script;
+mod selecting;
+mod transforming;
+mod vertices;
+mod view;

@@ -1,0 +1,133 @@
+//! The view and what it shows: zoom, pan, hovering, the comb, what is redone.
+
+use batten::document::Edit;
+use batten::editor::{Button, Command, HoverScene, Input, Layer};
+use batten::geometry::FloatPolygon;
+use glam::{DVec2, DVec3};
+
+use super::script::Script;
+
+#[test]
+fn a_drag_does_the_same_zoomed_and_panned() {
+    let way = DVec2::new(0.75, -0.5);
+    let moved = |prepare: &dyn Fn(&mut Script)| {
+        let mut script = Script::example("arc");
+        prepare(&mut script);
+        let at = script.at_vertex(5);
+        let to = at + DVec2::new(way.x, -way.y) * script.editor.viewport().scale;
+        script.drag(at, to);
+        script.polygon().vertex(5)
+    };
+    let plain = moved(&|_| {});
+    let zoomed = moved(&|script| {
+        let at = script.at_vertex(5);
+        script.input(Input::Zoomed { at, factor: 3.7 });
+        script.input(Input::Panned {
+            by: DVec2::new(-40.0, 13.0),
+        });
+    });
+    assert!(plain.distance(zoomed) <= 1e-12, "{plain} against {zoomed}");
+}
+
+#[test]
+fn zooming_keeps_the_place_under_the_pointer() {
+    let mut script = Script::example("arc");
+    let at = DVec2::new(200.0, 300.0);
+    let before = script.editor.viewport().to_model(at);
+    for factor in [1.7, 0.2, 40.0] {
+        script.input(Input::Zoomed { at, factor });
+        assert!(script.editor.viewport().to_model(at).distance(before) < 1e-10);
+    }
+    let scale = script.editor.viewport().scale;
+    script.input(Input::Zoomed {
+        at,
+        factor: f64::NAN,
+    });
+    script.input(Input::Zoomed { at, factor: 0.0 });
+    assert_eq!(script.editor.viewport().scale, scale);
+}
+
+#[test]
+fn the_middle_button_and_space_push_the_view_and_change_nothing() {
+    let mut script = Script::example("arc");
+    let before = (script.polygon(), script.editor.viewport().centre);
+    let at = script.at_vertex(4);
+    script.input(Input::SpaceHeld(true));
+    script.drag(at, at + DVec2::new(50.0, 0.0));
+    script.input(Input::SpaceHeld(false));
+    assert_eq!(script.polygon(), before.0);
+    let moved = before.1 - script.editor.viewport().centre;
+    assert!((moved.x * script.editor.viewport().scale - 50.0).abs() < 1e-9);
+    script.drag_with(Button::Middle, at, at - DVec2::new(50.0, 0.0));
+    assert!(script.editor.viewport().centre.distance(before.1) < 1e-9);
+    assert_eq!(script.polygon(), before.0);
+}
+
+#[test]
+fn hovering_tells_of_vertices_and_of_the_curve() {
+    let mut script = Script::example("arc");
+    script.move_to(script.at_vertex(6));
+    match script.editor.scene().hover.clone() {
+        Some(HoverScene::Vertex { text, .. }) => assert!(text.starts_with("vertex 6\n"), "{text}"),
+        other => panic!("{other:?}"),
+    }
+    let middle = script.polygon().point(0.5).truncate();
+    script.move_to(script.editor.viewport().to_screen(middle));
+    match script.editor.scene().hover.clone() {
+        Some(HoverScene::Curve {
+            u, centre, text, ..
+        }) => {
+            assert!((u - 0.5).abs() < 1e-6, "{u}");
+            assert!(centre.expect("a centre").length() < 1e-6);
+            assert!(text.contains("κ -0.112"), "{text}");
+        }
+        other => panic!("{other:?}"),
+    }
+    let readout = script.editor.readout();
+    assert!((readout.u.expect("u") - 0.5).abs() < 1e-6);
+}
+
+#[test]
+fn the_comb_is_scaled_by_the_tip_of_a_tooth() {
+    let mut script = Script::example("arc");
+    script.command(Command::ToggleLayer(Layer::Comb));
+    let scene = script.editor.scene().clone();
+    let teeth = &scene.curves[0].teeth;
+    let tooth = teeth[teeth.len() / 2];
+    let viewport = *script.editor.viewport();
+    let before = script.editor.comb().scale;
+    let longer = tooth[0] + 1.5 * (tooth[1] - tooth[0]);
+    script.drag(viewport.to_screen(tooth[1]), viewport.to_screen(longer));
+    let after = script.editor.comb().scale;
+    assert!(
+        (after / before - 1.5).abs() < 0.01,
+        "{after} against {before}"
+    );
+    assert_eq!(script.editor.history().undo_steps(), 0);
+}
+
+#[test]
+fn only_segments_that_depend_on_a_vertex_are_redone() {
+    let mut script = Script::example("arc");
+    let points: Vec<DVec3> = (0..200)
+        .map(|i| {
+            let i = f64::from(i);
+            DVec3::new(i, (0.1 * i).sin(), 0.0)
+        })
+        .collect();
+    let polygon = FloatPolygon::new(9, points, None, false).expect("a polygon");
+    let curve = script.curve();
+    script
+        .editor
+        .apply("long", vec![Edit::SetPolygon { curve, polygon }]);
+    script.editor.scene();
+    script.editor.apply(
+        "move",
+        vec![Edit::MoveVertices {
+            curve,
+            moves: vec![(100, DVec3::new(100.0, 3.0, 0.0))],
+        }],
+    );
+    script.editor.scene();
+    assert_eq!(script.editor.segments_redone(curve), Some(10));
+}
