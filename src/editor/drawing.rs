@@ -261,9 +261,14 @@ impl Editor {
         };
         let radius = 1.0 / curvature.abs();
         let text = format!(
-            "u {u:.4}\nx {}\ny {}\nκ {}\nR {}",
+            "u {u:.4}\nx {}\ny {}{}\nκ {}\nR {}",
             figure(jet.point.x),
             figure(jet.point.y),
+            if planar {
+                String::new()
+            } else {
+                format!("\nz {}", figure(jet.point.z))
+            },
             figure(curvature),
             if radius.is_finite() {
                 figure(radius)

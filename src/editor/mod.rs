@@ -347,6 +347,14 @@ impl Editor {
         self.tool_state = self.tool.take();
         self.gestures.reset();
         if self.placed {
+            if self.document().is_empty() {
+                // An empty document has no size: it begins at the usual scale.
+                let size = self.viewport.size;
+                self.viewport = Viewport {
+                    size,
+                    ..Viewport::default()
+                };
+            }
             self.fit_all();
             self.reset_comb();
         }

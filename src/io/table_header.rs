@@ -109,6 +109,10 @@ fn name_value(text: &str) -> Result<(String, &str), Problem> {
         .map(|(index, character)| index + character.len_utf8())
         .find(|index| key_at(&text[*index..]).is_some());
     let (name, rest) = text.split_at(next_key.unwrap_or(text.len()));
+    // A name with "=" is written in quotation marks: without them it is a key misspelled.
+    if let Some(word) = name.split(is_separator).find(|word| word.contains('=')) {
+        return Err(Problem::UnknownKey(word.to_owned()));
+    }
     Ok((name.trim_matches(is_separator).to_owned(), rest))
 }
 

@@ -15,6 +15,8 @@ use crate::editor::{Command, Editor};
 #[derive(Default)]
 pub struct CurveList {
     renaming: Option<Renaming>,
+    /// The active curve whose row was brought into sight.
+    in_sight: Option<CurveId>,
 }
 
 struct Renaming {
@@ -63,6 +65,7 @@ impl CurveList {
                         asked = Some(more);
                     }
                 }
+                self.in_sight = active;
             });
         match asked {
             Some(Asked::Activate(curve)) => editor.activate(curve),
@@ -88,6 +91,9 @@ impl CurveList {
         let (rect, response) =
             ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click_and_drag());
         row.paint(ui, rect, &response);
+        if row.active && self.in_sight != Some(row.id) {
+            ui.scroll_to_rect(rect, None);
+        }
         let mut asked = row.reorder(ui, rect, &response);
         if response.clicked() {
             asked = Some(Asked::Activate(row.id));

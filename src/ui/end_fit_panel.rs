@@ -224,23 +224,30 @@ impl Panel<'_> {
 
     fn direction_ui(&mut self, ui: &mut Ui) {
         let direction = self.report.target_direction;
+        let width = field_width(ui, 3);
         widgets::form_row(ui, "Direction", |ui| {
             ui.spacing_mut().item_spacing.x = STEP;
             match (direction, self.report.target_angle) {
                 (_, Some(angle)) => self.angle_ui(ui, angle),
-                (Some(direction), None) => self.components_ui(ui, direction),
+                // Three components fill the row.
+                (Some(direction), None) => return self.components_ui(ui, direction, width),
                 (None, None) => {}
             }
-            let mut fixed = direction.is_some();
-            let free = ui.add(Checkbox::new(&mut fixed, "Fixed"));
-            if free
-                .on_hover_text("Whether the tangent is to have a direction")
-                .clicked()
-            {
-                let actual = self.report.tangent.unwrap_or(DVec3::X);
-                self.ask(TARGET, EndFitAction::SetDirection(fixed.then_some(actual)));
-            }
+            self.fixed_ui(ui);
         });
+        if direction.is_some() && !self.report.planar {
+            widgets::form_row(ui, "", |ui| self.fixed_ui(ui));
+        }
+    }
+
+    fn fixed_ui(&mut self, ui: &mut Ui) {
+        let mut fixed = self.report.target_direction.is_some();
+        let free = ui.add(Checkbox::new(&mut fixed, "Fixed"));
+        let tooltip = "Whether the tangent is to have a direction";
+        if free.on_hover_text(tooltip).clicked() {
+            let actual = self.report.tangent.unwrap_or(DVec3::X);
+            self.ask(TARGET, EndFitAction::SetDirection(fixed.then_some(actual)));
+        }
     }
 
     fn angle_ui(&mut self, ui: &mut Ui, angle: f64) {
@@ -256,8 +263,7 @@ impl Panel<'_> {
         });
     }
 
-    fn components_ui(&mut self, ui: &mut Ui, direction: DVec3) {
-        let width = 0.75 * field_width(ui, 3);
+    fn components_ui(&mut self, ui: &mut Ui, direction: DVec3, width: f32) {
         for axis in 0..3 {
             let value = direction[axis];
             let name = format!("target direction {}", ["x", "y", "z"][axis]);

@@ -1,17 +1,23 @@
 //! Numbers as the screen shows them.
 
+/// The most characters a number is written plainly with.
+const LONGEST: usize = 14;
+
 /// Write a number with as many decimals as `resolution` needs, so that neighbours line up:
-/// the resolution is the smallest difference that matters. Numbers too large for that are
-/// written with an exponent.
+/// the resolution is the smallest difference that matters. Numbers too long for that lose
+/// decimals first, and are then written with an exponent.
 pub fn to_resolution(value: f64, resolution: f64) -> String {
     if !value.is_finite() {
         return "–".to_owned();
     }
-    if value.abs() >= 1e9 || (value.abs() >= 1e6 && resolution >= value.abs() * 1e-3) {
+    let is_coarse = value.abs() >= 1e6 && resolution >= value.abs() * 1e-3;
+    let before_point = value.abs().max(1.0).log10() as usize + 3;
+    if is_coarse || before_point > LONGEST {
         return significant(value, 6);
     }
-    let decimals = decimals(resolution);
-    if decimals > 9 {
+    let needed = decimals(resolution);
+    let decimals = needed.min(LONGEST - before_point);
+    if needed > 9 && decimals < needed && value.abs() < 1.0 {
         return significant(value, 6);
     }
     without_negative_zero(format!("{value:.decimals$}"))
@@ -95,6 +101,9 @@ mod tests {
         assert_eq!(to_resolution(1.0 / 3.0, 0.001), "0.333");
         assert_eq!(to_resolution(-0.0001, 0.01), "0.00");
         assert_eq!(to_resolution(2.5e12, 1e9), "2.500e12");
+        assert_eq!(to_resolution(1e9 + 0.3, 1e-5), "1000000000.30");
+        assert_eq!(to_resolution(-2e9, 0.2), "-2000000000.0");
+        assert_eq!(to_resolution(1.5e-13, 1e-14), "1.500e-13");
         assert_eq!(to_resolution(f64::NAN, 0.1), "–");
         assert_eq!(significant(8.918_176, 4), "8.918");
         assert_eq!(significant(-1.25e-9, 4), "-1.250e-9");

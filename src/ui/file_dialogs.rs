@@ -139,6 +139,9 @@ impl FileDialogs {
             // The system's dialog asked about the path as it was typed, without an extension.
             if complete != *path && replaces(&purpose, &complete) {
                 self.open_prompt(purpose, &complete);
+                if let Some(prompt) = &mut self.prompt {
+                    prompt.replacing = Some(complete);
+                }
                 return None;
             }
         }

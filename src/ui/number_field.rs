@@ -3,13 +3,13 @@
 use std::ops::RangeInclusive;
 
 use eframe::egui::{
-    Align2, CursorIcon, Id, Key, Rect, Response, Sense, Stroke, StrokeKind, TextEdit, Ui, Vec2,
-    WidgetInfo, accesskit::Action, accesskit::ActionData, pos2, text::CCursorRange,
+    Align2, CursorIcon, Id, Key, Painter, Rect, Response, Sense, Stroke, StrokeKind, TextEdit, Ui,
+    Vec2, WidgetInfo, accesskit::Action, accesskit::ActionData, pos2, text::CCursorRange,
     text_edit::TextEditState,
 };
 
-use super::figures;
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
+use super::{figures, labels};
 
 /// What the hand did to a field.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -144,7 +144,11 @@ impl<'a> NumberField<'a> {
         if !is_readable {
             response.show_tooltip_text("Type a number, such as 12.5");
         }
-        if response.lost_focus() {
+        let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+        if entered && !is_readable {
+            // What was typed stays, to be mended.
+            response.request_focus();
+        } else if response.lost_focus() {
             let event = self
                 .finished(&typing)
                 .map_or(FieldEvent::Idle, FieldEvent::Typed);
@@ -229,13 +233,19 @@ impl<'a> NumberField<'a> {
         } else {
             visible.text_color()
         };
-        painter.text(
-            at,
-            Align2::RIGHT_CENTER,
-            &self.shown,
-            theme::number_font(),
-            colour,
-        );
+        let text = self.fitting(&painter, rect.width() - 2.0 * STEP);
+        painter.text(at, Align2::RIGHT_CENTER, text, theme::number_font(), colour);
+    }
+
+    /// What is shown; of a number too long for the field its end, and that something is missing.
+    fn fitting(&self, painter: &Painter, width: f32) -> String {
+        let is_too_long = |text: &str| labels::size(painter, text, theme::number_font()).x > width;
+        let mut text = self.shown.clone();
+        while is_too_long(&text) && text.chars().count() > 2 {
+            let left = text.chars().skip(2);
+            text = std::iter::once('…').chain(left).collect();
+        }
+        text
     }
 
     fn describe(&self, ui: &Ui, response: &Response) {
@@ -274,6 +284,12 @@ impl<'a> NumberField<'a> {
                 called_off: false,
             };
             ui.data_mut(|data| data.insert_temp(memory, drag));
+            // Whatever had the keyboard is left, as it is by a click.
+            ui.memory_mut(|memory| {
+                if let Some(focused) = memory.focused() {
+                    memory.surrender_focus(focused);
+                }
+            });
         }
         let Some(mut drag) = ui.data(|data| data.get_temp::<Drag>(memory)) else {
             return FieldEvent::Idle;

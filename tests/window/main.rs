@@ -1,100 +1,17 @@
 //! The window, driven through the labels that a screen reader reads: no display, no renderer.
 #![cfg(feature = "gui")]
 
-use std::path::Path;
+mod files;
+mod hand;
 
-use batten::document::Curve;
-use batten::editor::{Editor, Layer, ToolKind};
+use batten::editor::{Layer, ToolKind};
 use batten::geometry::End;
 use batten::io::disk;
-use batten::ui::App;
-use eframe::egui::{
-    Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhase, Vec2, vec2,
-};
-use egui_kittest::Harness;
+use eframe::egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, TouchPhase, vec2};
 use egui_kittest::kittest::Queryable;
 use glam::DVec2;
 
-type Window = Harness<'static, App>;
-
-fn open_window() -> Window {
-    open_window_of(1480.0, 920.0)
-}
-
-fn open_window_of(width: f32, height: f32) -> Window {
-    let builder = Harness::builder()
-        .with_size(vec2(width, height))
-        .with_max_steps(64);
-    let mut window =
-        builder.build_eframe(|creation| App::new(&creation.egui_ctx, None, false, Editor::new()));
-    window.run();
-    window
-}
-
-fn click(window: &mut Window, label: &str) {
-    window.get_by_label(label).click();
-    window.run();
-}
-
-fn press(window: &mut Window, modifiers: Modifiers, key: Key) {
-    window.key_press_modifiers(modifiers, key);
-    window.run();
-}
-
-/// Open a menu and choose an entry, through a submenu if need be.
-fn choose(window: &mut Window, path: &[&str]) {
-    for label in path {
-        click(window, label);
-    }
-}
-
-fn curve(window: &Window) -> Curve {
-    let editor = window.state().editor();
-    let active = editor.active().expect("a curve is active");
-    Curve::clone(
-        editor
-            .document()
-            .curve(active)
-            .expect("the active curve is there"),
-    )
-}
-
-/// Where a point of the model is in the window.
-fn place(window: &Window, point: DVec2) -> Pos2 {
-    let canvas = window.state().canvas_rect().expect("the canvas was shown");
-    let at = window.state().editor().viewport().to_screen(point);
-    canvas.min + vec2(at.x as f32, at.y as f32)
-}
-
-fn vertex(window: &Window, index: usize) -> Pos2 {
-    place(window, curve(window).polygon.vertex(index).truncate())
-}
-
-fn drag(window: &mut Window, from: Pos2, to: Pos2) {
-    window.hover_at(from);
-    window.run();
-    window.drag_at(from);
-    window.step();
-    window.hover_at(to);
-    window.step();
-    window.drop_at(to);
-    window.run();
-}
-
-/// Put a text into the field that has the keyboard, in place of what it holds.
-fn type_over(window: &mut Window, text: &str) {
-    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
-    window.run();
-    window.event(Event::Text(text.to_owned()));
-    window.run();
-}
-
-/// Answer the window's own prompt for a path.
-fn answer(window: &mut Window, path: &Path) {
-    click(window, "Path");
-    type_over(window, &path.to_string_lossy());
-    press(window, Modifiers::NONE, Key::Enter);
-}
+use crate::hand::*;
 
 #[test]
 fn everything_is_in_its_place() {
@@ -382,50 +299,6 @@ fn the_palette_finds_commands() {
     assert!(window.state().editor().layers().shows(Layer::Comb));
     window.get_by_label("Comb scale");
     window.get_by_label("Comb density");
-}
-
-#[test]
-fn unsaved_changes_are_asked_about() {
-    let mut window = open_window();
-    let from = vertex(&window, 4);
-    drag(&mut window, from, from + Vec2::splat(30.0));
-    let changed = curve(&window);
-    choose(&mut window, &["File", "New"]);
-    click(&mut window, "Cancel");
-    assert_eq!(curve(&window), changed);
-    choose(&mut window, &["File", "New"]);
-    click(&mut window, "Save");
-    let folder = tempfile::tempdir().expect("a folder");
-    answer(
-        &mut window,
-        &folder.path().join("no such folder").join("curve.batten"),
-    );
-    assert_eq!(curve(&window), changed, "nothing is lost by a bad path");
-    window.get_by_label_contains("There is no folder");
-    let path = folder.path().join("curve.batten");
-    answer(&mut window, &path);
-    assert!(
-        window.state().editor().document().is_empty(),
-        "saved, then gone on"
-    );
-    assert_eq!(
-        disk::read_file(&path).expect("the file")[0].polygon,
-        changed.polygon
-    );
-}
-
-#[test]
-fn a_file_that_cannot_be_read_is_told_where_it_was_asked_for() {
-    let mut window = open_window();
-    let original = curve(&window);
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("broken.batten");
-    std::fs::write(&path, "{ this is no project").expect("the file");
-    press(&mut window, Modifiers::COMMAND, Key::O);
-    answer(&mut window, &path);
-    window.get_by_label_contains("broken.batten");
-    press(&mut window, Modifiers::NONE, Key::Escape);
-    assert_eq!(curve(&window), original);
 }
 
 #[test]
