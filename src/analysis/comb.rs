@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::orientation::Orientation;
 use super::outline::{Bounds, ViewBox};
 use super::sample::Sample;
 
@@ -28,6 +29,7 @@ impl Teeth {
         &mut self,
         key: (i32, u64, usize),
         spacing: f64,
+        view: &Orientation,
         samples: impl FnOnce() -> I,
     ) {
         if self.key == Some(key) {
@@ -39,7 +41,10 @@ impl Teeth {
         let mut bounds = Bounds::EMPTY;
         let mut kept: Option<DVec2> = None;
         for sample in samples() {
-            let (foot, tip) = (sample.point.truncate(), sample.comb_tip(scale).truncate());
+            let (foot, tip) = (
+                view.flatten(sample.point),
+                view.flatten(sample.comb_tip(scale)),
+            );
             if !tip.is_finite() || kept.is_some_and(|kept| kept.distance(foot) < spacing) {
                 continue;
             }

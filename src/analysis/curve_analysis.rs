@@ -5,9 +5,10 @@ mod drawn;
 use std::ops::Range;
 use std::sync::Arc;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::comb::Teeth;
+use super::orientation::Orientation;
 use super::outline::{Bounds, Outline};
 use super::plot_series::PlotBlock;
 use super::sample::{Sample, SegmentSampler};
@@ -29,6 +30,7 @@ const SAMPLES_PER_SEGMENT: Range<usize> = 4..256;
 pub struct CurveAnalysis {
     curve: Arc<Curve>,
     planar: bool,
+    orientation: Orientation,
     /// Steps that each segment is sampled with; it has one sample more.
     steps: usize,
     samples: Vec<Sample>,
@@ -64,14 +66,15 @@ pub(super) struct BlockSummary {
 }
 
 impl CurveAnalysis {
-    /// Analyse a curve.
-    pub fn new(curve: Arc<Curve>) -> Self {
+    /// Analyse a curve that is seen from somewhere.
+    pub fn new(curve: Arc<Curve>, orientation: Orientation) -> Self {
         let polygon = &curve.polygon;
         let share = (SAMPLES / polygon.segments()).next_power_of_two();
         let steps = share.clamp(SAMPLES_PER_SEGMENT.start, SAMPLES_PER_SEGMENT.end);
         let blank = Sample::of(&Default::default(), true);
         let mut analysis = Self {
             planar: polygon.is_planar(),
+            orientation,
             steps,
             samples: vec![blank; (steps + 1) * polygon.segments()],
             sampler: SegmentSampler::new(polygon.degree(), steps),
@@ -82,6 +85,8 @@ impl CurveAnalysis {
             redone: 0,
             curve,
         };
+        analysis.float.set_orientation(orientation);
+        analysis.clamped.set_orientation(orientation);
         let blocks = analysis.curve.polygon.segments().div_ceil(BLOCK);
         analysis.blocks.resize_with(blocks, Block::default);
         analysis.sample(0..analysis.curve.polygon.segments());
@@ -109,7 +114,7 @@ impl CurveAnalysis {
             .then(|| self.float.update(new.vertices(), new.is_periodic()))
             .flatten();
         let Some(changed) = changed else {
-            *self = Self::new(curve.clone());
+            *self = Self::new(curve.clone(), self.orientation);
             return;
         };
         self.curve = curve.clone();
@@ -125,13 +130,27 @@ impl CurveAnalysis {
             new.is_planar()
         };
         if planar != self.planar {
-            *self = Self::new(curve.clone());
+            *self = Self::new(curve.clone(), self.orientation);
             return;
         }
         for range in dependent_segments(new, &changed) {
             self.sample(range);
         }
         self.update_clamped(changed);
+    }
+
+    /// Choose from where the curve is seen; what is drawn of it is made anew.
+    pub fn set_orientation(&mut self, orientation: Orientation) {
+        if self.orientation == orientation {
+            return;
+        }
+        self.orientation = orientation;
+        self.float.set_orientation(orientation);
+        self.clamped.set_orientation(orientation);
+        for index in 0..self.blocks.len() {
+            self.blocks[index] = Block::default();
+            self.summarise(index);
+        }
     }
 
     /// The curve as it was last analysed.
@@ -218,7 +237,7 @@ impl CurveAnalysis {
         spans.reduce(Span::union)
     }
 
-    /// The box around the curve, seen from above.
+    /// The box around the curve, as it is seen.
     pub fn bounds(&self) -> Bounds {
         let mut all = Bounds::EMPTY;
         for index in 0..self.blocks.len() {
@@ -227,7 +246,7 @@ impl CurveAnalysis {
         all
     }
 
-    /// Find the point of the curve that is nearest to `target`, seen from above, if it is at most
+    /// Find the point of the curve that is seen nearest to `target`, if it is at most
     /// `reach` away: its parameter, place and distance. Sampled chords lead to it and Newton's
     /// method refines it.
     pub fn nearest(&self, target: DVec2, reach: f64) -> Option<(f64, DVec2, f64)> {
@@ -243,7 +262,7 @@ impl CurveAnalysis {
             for segment in self.block_segments(index) {
                 let samples = &self.samples[segment * size..(segment + 1) * size];
                 for (step, pair) in samples.windows(2).enumerate() {
-                    let (from, to) = (pair[0].point.truncate(), pair[1].point.truncate());
+                    let (from, to) = (self.seen(pair[0].point), self.seen(pair[1].point));
                     let chord = to - from;
                     let share =
                         ((target - from).dot(chord) / chord.length_squared()).clamp(0.0, 1.0);
@@ -258,20 +277,20 @@ impl CurveAnalysis {
         }
         let (_, u) = best?;
         let u = self.refined(u, target);
-        let point = self.curve.polygon.point(u).truncate();
+        let point = self.seen(self.curve.polygon.point(u));
         let distance = point.distance(target);
         (distance <= reach).then_some((u, point, distance))
     }
 
-    /// Refine the parameter of the point nearest to `target`, seen from above.
+    /// Refine the parameter of the point that is seen nearest to `target`.
     fn refined(&self, start: f64, target: DVec2) -> f64 {
         let end = self.curve.polygon.segments() as f64;
         let step = 1.0 / self.steps as f64;
         let mut u = start;
         for _ in 0..8 {
             let jet = self.curve.polygon.jet(u);
-            let away = jet.point.truncate() - target;
-            let (first, second) = (jet.first.truncate(), jet.second.truncate());
+            let away = self.seen(jet.point) - target;
+            let (first, second) = (self.seen(jet.first), self.seen(jet.second));
             let slope = first.length_squared() + away.dot(second);
             if !(slope > 0.0) {
                 break;
@@ -281,6 +300,10 @@ impl CurveAnalysis {
                 .clamp(0.0, end);
         }
         u
+    }
+
+    fn seen(&self, point: DVec3) -> DVec2 {
+        self.orientation.flatten(point)
     }
 
     pub(super) fn blocks(&self) -> usize {
@@ -308,7 +331,7 @@ impl CurveAnalysis {
             longest = longest.max(pair[0].point.distance_squared(pair[1].point));
         }
         for sample in samples {
-            bounds.add(sample.point.truncate());
+            bounds.add(self.orientation.flatten(sample.point));
         }
         let mut length = 0.0;
         let mut starts = [0.0; BLOCK];

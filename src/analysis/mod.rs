@@ -4,6 +4,7 @@
 mod cache;
 mod comb;
 mod curve_analysis;
+mod orientation;
 mod outline;
 mod plot_series;
 mod sample;
@@ -12,6 +13,7 @@ mod vertex_chain;
 pub use cache::AnalysisCache;
 pub use comb::CombSettings;
 pub use curve_analysis::CurveAnalysis;
+pub use orientation::Orientation;
 pub use outline::{Bounds, GAP, ViewBox};
 pub use sample::Sample;
 pub use vertex_chain::{ChainFigures, VertexChain};

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use glam::{DVec2, DVec3};
 
+use super::orientation::Orientation;
 use super::outline::{Bounds, Outline, OutlineKey, ViewBox};
 use super::plot_series::Bins;
 use crate::geometry::Range as Span;
@@ -20,6 +21,7 @@ const HANDLE_SPACING: f64 = 7.0;
 pub struct VertexChain {
     vertices: Vec<DVec3>,
     closed: bool,
+    orientation: Orientation,
     blocks: Vec<Block>,
 }
 
@@ -53,7 +55,7 @@ pub struct ChainFigures {
     pub legs: Option<Span>,
     /// The turning angles in radians; `None` for fewer than three vertices.
     pub turns: Option<Span>,
-    /// The box around the vertices, seen from above.
+    /// The box around the vertices, as they are seen.
     pub bounds: Bounds,
 }
 
@@ -66,6 +68,14 @@ impl VertexChain {
     /// Whether the last vertex is joined to the first.
     pub fn is_closed(&self) -> bool {
         self.closed
+    }
+
+    /// Choose from where the polygon is seen.
+    pub(super) fn set_orientation(&mut self, orientation: Orientation) {
+        if self.orientation != orientation {
+            self.orientation = orientation;
+            self.blocks.fill(Block::default());
+        }
     }
 
     /// Take other vertices; only blocks in which something changed are redone. Returns the range
@@ -111,7 +121,7 @@ impl VertexChain {
             level: Some(view.level()),
             shape: 0,
         };
-        let count = self.vertices.len();
+        let (count, eye) = (self.vertices.len(), self.orientation);
         for (index, block) in self.blocks.iter_mut().enumerate() {
             let first = index * BLOCK;
             // One vertex more than the block has, so that neighbouring blocks join.
@@ -119,8 +129,9 @@ impl VertexChain {
             let closing = self.closed && end == count && first + BLOCK >= count;
             let vertices = &self.vertices;
             block.legs.refresh(key, || {
-                let wrap = closing.then(|| vertices[0].truncate());
-                let own = vertices[first..end].iter().map(|vertex| vertex.truncate());
+                let wrap = closing.then(|| eye.flatten(vertices[0]));
+                let own = vertices[first..end].iter();
+                let own = own.map(move |vertex| eye.flatten(*vertex));
                 own.chain(wrap)
             });
             block.legs.append(view, out);
@@ -132,14 +143,15 @@ impl VertexChain {
         let view = view.grown(HANDLE_SPACING * view.pixel);
         let level = view.level();
         let spacing = HANDLE_SPACING * 2f64.powi(level + 1);
+        let eye = self.orientation;
         for (index, block) in self.blocks.iter_mut().enumerate() {
             let first = index * BLOCK;
             let end = (first + BLOCK).min(self.vertices.len());
             block
                 .handles
-                .refresh(level, spacing, &self.vertices, first..end);
+                .refresh(level, spacing, &eye, &self.vertices, first..end);
             let visible = |index: &usize| {
-                let at = self.vertices[*index].truncate();
+                let at = eye.flatten(self.vertices[*index]);
                 at.cmpge(view.low).all() && at.cmple(view.high).all()
             };
             out.extend(block.handles.indices.iter().copied().filter(visible));
@@ -279,7 +291,7 @@ impl VertexChain {
         let range = index * BLOCK..((index + 1) * BLOCK).min(self.vertices.len());
         let mut bounds = Bounds::EMPTY;
         for vertex in &self.vertices[range.clone()] {
-            bounds.add(vertex.truncate());
+            bounds.add(self.orientation.flatten(*vertex));
         }
         let figures = BlockFigures {
             legs: Span::of(range.clone().filter_map(|i| self.leg(i))),
@@ -292,7 +304,14 @@ impl VertexChain {
 }
 
 impl Handles {
-    fn refresh(&mut self, level: i32, spacing: f64, vertices: &[DVec3], range: Range<usize>) {
+    fn refresh(
+        &mut self,
+        level: i32,
+        spacing: f64,
+        eye: &Orientation,
+        vertices: &[DVec3],
+        range: Range<usize>,
+    ) {
         if self.level == Some(level) {
             return;
         }
@@ -302,7 +321,7 @@ impl Handles {
         // Vertices in a handful of legs are all kept: only crowds are thinned.
         let crowded = 0.5 * spacing;
         for index in range {
-            let at = vertices[index].truncate();
+            let at = eye.flatten(vertices[index]);
             if kept.is_none_or(|kept| kept.distance(at) >= crowded) {
                 self.indices.push(index);
                 kept = Some(at);

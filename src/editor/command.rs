@@ -2,6 +2,7 @@
 
 use super::input::{Key, Modifiers};
 use super::layers::Layer;
+use super::orbit::NamedView;
 use super::tools::ToolKind;
 use crate::geometry::PolygonKind;
 
@@ -66,6 +67,8 @@ pub enum Command {
     ZoomIn,
     /// Zoom out about the middle.
     ZoomOut,
+    /// See the model from a certain side.
+    View(NamedView),
     /// Give the comb a legible scale.
     ResetComb,
     /// Show or hide a layer.
@@ -131,8 +134,9 @@ impl Command {
             Self::FitAll,
             Self::ZoomIn,
             Self::ZoomOut,
-            Self::ResetComb,
         ]);
+        all.extend(NamedView::ALL.map(Self::View));
+        all.push(Self::ResetComb);
         all.extend(Layer::ALL.map(Self::ToggleLayer));
         all.push(Self::ToggleSnapping);
         all.extend(ToolKind::ALL.map(Self::Tool));
@@ -180,6 +184,7 @@ impl Command {
             Self::FitAll => "Fit all",
             Self::ZoomIn => "Zoom in",
             Self::ZoomOut => "Zoom out",
+            Self::View(view) => view.label(),
             Self::ResetComb => "Reset comb scale",
             Self::ToggleLayer(layer) => layer.label(),
             Self::ToggleSnapping => "Snapping",
@@ -233,6 +238,7 @@ impl Command {
             Self::FitAll => "Show everything",
             Self::ZoomIn => "Show less, larger",
             Self::ZoomOut => "Show more, smaller",
+            Self::View(_) => "See the model from this side; drag with the right button to orbit",
             Self::ResetComb => "Give the curvature comb a legible scale",
             Self::ToggleLayer(_) => "Show or hide this layer",
             Self::ToggleSnapping => {
@@ -289,6 +295,7 @@ impl Command {
             Self::FitAll => plain(Key::Character('h')),
             Self::ZoomIn => plain(Key::Character('+')),
             Self::ZoomOut => plain(Key::Character('-')),
+            Self::View(view) => plain(Key::Function(2 + view as u8)),
             Self::ToggleLayer(layer) => plain(Key::Character(char::from(b'1' + layer as u8))),
             Self::ToggleSnapping => plain(Key::Character('g')),
             Self::Tool(tool) => plain(Key::Character(tool.letter())),

@@ -14,6 +14,9 @@ impl Editor {
         if let Input::Modifiers(modifiers) = input {
             self.modifiers = modifiers;
         }
+        if let Input::AxisHeld(axis) = input {
+            self.axis = axis;
+        }
         if self.field && input == Input::Key(Key::Escape) {
             self.abort_field();
             return;
@@ -33,6 +36,7 @@ impl Editor {
         for gesture in self.gestures.input(input) {
             match gesture {
                 Gesture::Pan(by) => self.viewport.pan(by),
+                Gesture::Orbit(by) => self.orbit(by),
                 Gesture::Zoom(at, factor) => self.viewport.zoom(at, factor),
                 Gesture::Key(Key::Tab) => self.cycle = self.cycle.wrapping_add(1),
                 Gesture::Hover(_) | Gesture::Leave => {}
@@ -46,6 +50,9 @@ impl Editor {
         if self.gestures.is_panning() {
             return "Drag to push the view".into();
         }
+        if self.gestures.is_orbiting() {
+            return "Drag to turn the view; F2, F3, F4 look along the axes again".into();
+        }
         self.tool_state.hint(&self.context())
     }
 
@@ -53,6 +60,9 @@ impl Editor {
     pub fn cursor(&self) -> Cursor {
         if self.gestures.is_panning() {
             return Cursor::Grab;
+        }
+        if self.gestures.is_orbiting() {
+            return Cursor::Grabbing;
         }
         self.tool_state.cursor(&self.context())
     }
@@ -85,6 +95,7 @@ impl Editor {
                 cycle: self.cycle,
             },
             modifiers: self.modifiers,
+            axis: self.axis,
             snapping: self.snapping,
             comb: self.comb,
             teeth: shown.map_or(&[], |curve| &curve.teeth),

@@ -1,20 +1,24 @@
 //! Making the scene: what the canvas shows for this frame.
 
+use std::f64::consts::PI;
 use std::sync::Arc;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::Editor;
 use super::end_fit;
 use super::layers::Layer;
 use super::scene::{CurveScene, HoverScene, Scene, VertexMark};
 use super::tools::ToolKind;
-use crate::analysis::{CurveAnalysis, GAP, ViewBox};
+use crate::analysis::{CurveAnalysis, GAP, Orientation, ViewBox};
 use crate::document::{Curve, CurveId};
-use crate::geometry::{End, FloatPolygon};
+use crate::geometry::{End, FloatPolygon, Jet};
 
 /// Screen points around the canvas that are drawn too, so that strokes run off it.
 const BORDER: f64 = 16.0;
+
+/// Chords in half of the osculating circle.
+const CIRCLE_STEPS: i32 = 64;
 
 /// Joints nearer together than this, in screen points, are not drawn.
 const JOINT_SPACING: f64 = 12.0;
@@ -26,10 +30,17 @@ pub(super) struct Ghost {
 }
 
 impl Ghost {
-    fn append(&mut self, curve: &Arc<Curve>, view: &ViewBox, out: &mut Vec<DVec2>) {
+    fn append(
+        &mut self,
+        curve: &Arc<Curve>,
+        orientation: Orientation,
+        view: &ViewBox,
+        out: &mut Vec<DVec2>,
+    ) {
         let analysis = self
             .analysis
-            .get_or_insert_with(|| CurveAnalysis::new(curve.clone()));
+            .get_or_insert_with(|| CurveAnalysis::new(curve.clone(), orientation));
+        analysis.set_orientation(orientation);
         analysis.update(curve);
         analysis.append_curve(view, out);
     }
@@ -91,12 +102,13 @@ impl Editor {
         scene: &mut CurveScene,
     ) {
         let (layers, comb, active) = (self.layers, self.comb, scene.active);
+        let orientation = self.viewport.orientation;
         let Some(analysis) = self.analyses.get(id) else {
             return;
         };
         if layers.shows(Layer::Curve) {
             analysis.append_curve(view, &mut scene.curve);
-            append_joints(analysis, view, &mut scene.joints);
+            append_joints(analysis, &orientation, view, &mut scene.joints);
         }
         if layers.shows(Layer::Float) {
             let chain = analysis.float();
@@ -115,7 +127,7 @@ impl Editor {
                 .vertices
                 .extend(handles.into_iter().map(|index| VertexMark {
                     index,
-                    at: polygon.vertex(index).truncate(),
+                    at: self.viewport.flatten(polygon.vertex(index)),
                     selected: selection.contains((id, index)),
                 }));
         }
@@ -133,7 +145,7 @@ impl Editor {
                 handles
                     .iter()
                     .filter_map(|index| vertices.get(*index))
-                    .map(|v| v.truncate()),
+                    .map(|vertex| self.viewport.flatten(*vertex)),
             );
         }
         if layers.shows(Layer::Evolute) {
@@ -162,7 +174,8 @@ impl Editor {
                 .map(|(_, curve)| curve.clone())
         };
         if let Some(before) = before {
-            self.ghost.append(&before, view, out);
+            self.ghost
+                .append(&before, self.viewport.orientation, view, out);
         }
     }
 
@@ -245,7 +258,7 @@ impl Editor {
             text += &format!("\nw {}", figure(*weights.get(index)?));
         }
         Some(HoverScene::Vertex {
-            at: vertex.truncate(),
+            at: self.viewport.flatten(vertex),
             text,
         })
     }
@@ -276,16 +289,31 @@ impl Editor {
                 "∞".into()
             },
         );
+        let centre = jet.centre_of_curvature();
+        let seen_as_it_is = planar && self.viewport.orientation.is_from_above();
+        let circle = centre.filter(|_| !seen_as_it_is);
         Some(HoverScene::Curve {
             u,
-            at: jet.point.truncate(),
-            // Seen from above, only a planar curve's osculating circle is a circle.
-            centre: jet
-                .centre_of_curvature()
-                .filter(|_| planar)
-                .map(|centre| centre.truncate()),
+            at: self.viewport.flatten(jet.point),
+            centre: centre
+                .filter(|_| seen_as_it_is)
+                .map(|centre| self.viewport.flatten(centre)),
+            circle: circle.map_or(Vec::new(), |centre| self.circle(&jet, centre)),
             text,
         })
+    }
+
+    /// The osculating circle as it is seen; of a large one only the part near its point.
+    fn circle(&self, jet: &Jet, centre: DVec3) -> Vec<DVec2> {
+        let arm = jet.point - centre;
+        let reach = 4.0 * (self.viewport.size.x + self.viewport.size.y) * self.viewport.pixel();
+        let half = (reach / arm.length()).min(PI);
+        let across = jet.tangent().unwrap_or_default() * arm.length();
+        let angle = |step: i32| half * f64::from(step) / f64::from(CIRCLE_STEPS);
+        let place = |angle: f64| centre + angle.cos() * arm + angle.sin() * across;
+        let steps = -CIRCLE_STEPS..=CIRCLE_STEPS;
+        let points = steps.map(|step| self.viewport.flatten(place(angle(step))));
+        points.collect()
     }
 }
 
@@ -321,7 +349,12 @@ pub(super) fn figure(value: f64) -> String {
 }
 
 /// Append the joints between segments, with the curve's unit normals, unless they crowd.
-fn append_joints(analysis: &CurveAnalysis, view: &ViewBox, out: &mut Vec<[DVec2; 2]>) {
+fn append_joints(
+    analysis: &CurveAnalysis,
+    eye: &Orientation,
+    view: &ViewBox,
+    out: &mut Vec<[DVec2; 2]>,
+) {
     let polygon = &analysis.curve().polygon;
     let segments = polygon.segments();
     let joint = |segment: usize| analysis.segment_samples(segment).first();
@@ -332,10 +365,10 @@ fn append_joints(analysis: &CurveAnalysis, view: &ViewBox, out: &mut Vec<[DVec2;
     }
     let from = usize::from(!polygon.is_periodic());
     for sample in (from..segments).filter_map(joint) {
-        let at = sample.point.truncate();
+        let at = eye.flatten(sample.point);
         let apart = kept.is_nan() || at.distance(kept) >= JOINT_SPACING * view.pixel;
         if apart && at.cmpge(view.low).all() && at.cmple(view.high).all() {
-            out.push([at, sample.normal.truncate()]);
+            out.push([at, eye.flatten(sample.normal)]);
             kept = at;
         }
     }

@@ -2,6 +2,7 @@
 
 use glam::{DQuat, DVec2, DVec3};
 
+use super::hit::REACH;
 use super::viewport::Viewport;
 use crate::analysis::CurveAnalysis;
 use crate::document::{Curve, CurveId, Document};
@@ -127,7 +128,7 @@ pub struct EndFitMarks {
     pub terminal: Vec<DVec2>,
     /// The difference angle in radians.
     pub angle: f64,
-    /// The way that the unit tangent takes through the difference angle, seen from above.
+    /// The way that the unit tangent takes through the difference angle, as it is seen.
     pub arc: Vec<DVec2>,
 }
 
@@ -240,18 +241,18 @@ fn above(vector: DVec3, rounding: f64) -> DVec3 {
     }))
 }
 
-/// Find the end of another curve nearest to a place, within `reach`, as a target: its point, and
+/// Find the end of another curve seen nearest to a place of the view plane, as a target: its point, and
 /// its direction so that the tangents continue each other.
 pub fn nearest_other_end(
     document: &Document,
     own: CurveId,
     place: DVec2,
-    reach: f64,
+    viewport: &Viewport,
 ) -> Option<EndTarget> {
     let ends = other_ends(document, Some(own));
     let near = ends
-        .map(|jet| (jet.point.truncate().distance(place), jet))
-        .filter(|(distance, _)| *distance <= reach);
+        .map(|jet| (viewport.flatten(jet.point).distance(place), jet))
+        .filter(|(distance, _)| *distance <= 2.0 * REACH * viewport.pixel());
     let (_, jet) = near.min_by(|a, b| a.0.total_cmp(&b.0))?;
     Some(EndTarget {
         point: jet.point,
@@ -291,8 +292,13 @@ pub fn marks(curve: &Curve, end: End, chosen: bool, viewport: &Viewport) -> Opti
     let polygon = &curve.polygon;
     let jet = polygon.end_jet(end);
     let arrow = ARROW * viewport.pixel();
-    let along = |direction: DVec3| direction.truncate().try_normalize().map(|d| arrow * d);
-    let actual = jet.point.truncate();
+    let along = |direction: DVec3| {
+        viewport
+            .flatten(direction)
+            .try_normalize()
+            .map(|d| arrow * d)
+    };
+    let actual = viewport.flatten(jet.point);
     let terminal = polygon.terminal_vertices(end).filter(|_| chosen);
     let difference = target.map(|target| EndDifference::between(polygon, end, &target));
     let direction = target.and_then(|target| target.direction);
@@ -301,26 +307,26 @@ pub fn marks(curve: &Curve, end: End, chosen: bool, viewport: &Viewport) -> Opti
         chosen,
         actual,
         tangent_tip: jet.tangent().and_then(along).map(|arm| actual + arm),
-        target: target.map(|target| target.point.truncate()),
+        target: target.map(|target| viewport.flatten(target.point)),
         target_tip: target
-            .and_then(|target| Some(target.point.truncate() + along(target.direction?)?)),
+            .and_then(|target| Some(viewport.flatten(target.point) + along(target.direction?)?)),
         ring: RING * viewport.pixel(),
         terminal: terminal
-            .map(|index| polygon.vertex(index).truncate())
+            .map(|index| viewport.flatten(polygon.vertex(index)))
             .collect(),
         angle: difference.map_or(0.0, |difference| difference.angle),
-        arc: turn.map_or(Vec::new(), |(from, to)| turning(from, to)),
+        arc: turn.map_or(Vec::new(), |(from, to)| turning(from, to, viewport)),
     })
 }
 
-/// Follow a unit vector as it turns to a direction the shortest way, seen from above.
-fn turning(from: DVec3, to: DVec3) -> Vec<DVec2> {
+/// Follow a unit vector as it turns to a direction the shortest way, as it is seen.
+fn turning(from: DVec3, to: DVec3, viewport: &Viewport) -> Vec<DVec2> {
     let Some(rotation) = rotation_between(from, to) else {
         return Vec::new();
     };
     let whole = DQuat::from_mat3(&rotation);
     let steps = (0..=ARC_STEPS).map(|step| f64::from(step) / f64::from(ARC_STEPS));
     steps
-        .map(|share| (DQuat::IDENTITY.slerp(whole, share) * from).truncate())
+        .map(|share| viewport.flatten(DQuat::IDENTITY.slerp(whole, share) * from))
         .collect()
 }

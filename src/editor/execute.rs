@@ -76,6 +76,7 @@ impl Editor {
             Command::ToggleLayer(layer) => Some(self.layers.shows(layer)),
             Command::ToggleSnapping => Some(self.snapping),
             Command::Tool(tool) => Some(self.tool == tool),
+            Command::View(view) => Some(self.viewport.orientation == view.orientation()),
             Command::TogglePeriodic => Some(curve.is_some_and(|c| c.polygon.is_periodic())),
             Command::ToggleVisible => Some(curve.is_some_and(|c| c.visible)),
             Command::ToggleLocked => Some(curve.is_some_and(|c| c.locked)),
@@ -228,6 +229,7 @@ impl Editor {
             Command::FitAll => self.fit_all(),
             Command::ZoomIn => self.viewport.zoom(0.5 * self.viewport.size, ZOOM),
             Command::ZoomOut => self.viewport.zoom(0.5 * self.viewport.size, 1.0 / ZOOM),
+            Command::View(view) => self.set_orientation(view.orientation()),
             Command::ResetComb => self.reset_comb(),
             Command::ToggleLayer(layer) => self.toggle_layer(layer),
             Command::ToggleSnapping => self.snapping = !self.snapping,
@@ -273,7 +275,7 @@ impl Editor {
             let mut bounds = Bounds::EMPTY;
             for (curve, index) in self.selection.vertices() {
                 if let Some(curve) = self.document().curve(curve) {
-                    bounds.add(curve.polygon.vertex(index).truncate());
+                    bounds.add(self.viewport.flatten(curve.polygon.vertex(index)));
                 }
             }
             self.viewport = self.viewport.fitted(&bounds);

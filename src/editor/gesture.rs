@@ -30,6 +30,8 @@ pub enum Gesture {
     Key(Key),
     /// The view is pushed by some screen points.
     Pan(DVec2),
+    /// The view is turned by a drag of some screen points.
+    Orbit(DVec2),
     /// The view is scaled about a place.
     Zoom(DVec2, f64),
     /// The pointer is no longer on the canvas.
@@ -57,6 +59,11 @@ enum State {
         last: DVec2,
         button: Button,
     },
+    /// The second button is held: a drag turns the view, otherwise it is a click.
+    Orbiting {
+        last: DVec2,
+        turned: bool,
+    },
     /// A drag was called off; nothing happens until the button is released.
     Spent,
 }
@@ -75,6 +82,11 @@ impl GestureMachine {
     /// Whether the view is being pushed, or would be by a press.
     pub fn is_panning(&self) -> bool {
         self.space || matches!(self.state, State::Panning { .. })
+    }
+
+    /// Whether the view is being turned.
+    pub fn is_orbiting(&self) -> bool {
+        matches!(self.state, State::Orbiting { turned: true, .. })
     }
 
     /// Forget a press or drag, as when the tool changes under it.
@@ -106,7 +118,7 @@ impl GestureMachine {
                 self.space = held;
                 Vec::new()
             }
-            Input::Modifiers(_) => match (self.state, self.pointer) {
+            Input::Modifiers(_) | Input::AxisHeld(_) => match (self.state, self.pointer) {
                 // A constraint came or went: the drag is seen anew under the resting pointer.
                 (State::Dragging, Some(at)) => vec![Gesture::Drag(at)],
                 _ => Vec::new(),
@@ -128,6 +140,17 @@ impl GestureMachine {
                 self.state = State::Panning { last: at, button };
                 vec![Gesture::Pan(at - last)]
             }
+            State::Orbiting {
+                last,
+                turned: false,
+            } if last.distance(at) < THRESHOLD => Vec::new(),
+            State::Orbiting { last, .. } => {
+                self.state = State::Orbiting {
+                    last: at,
+                    turned: true,
+                };
+                vec![Gesture::Orbit(at - last)]
+            }
             State::Spent => Vec::new(),
         }
     }
@@ -143,6 +166,11 @@ impl GestureMachine {
             self.state = State::Panning { last: at, button };
         } else if button == Button::Primary {
             self.state = State::Pressed { origin: at };
+        } else if button == Button::Secondary {
+            self.state = State::Orbiting {
+                last: at,
+                turned: false,
+            };
         }
         Vec::new()
     }
@@ -166,7 +194,14 @@ impl GestureMachine {
                 self.state = State::Idle;
                 vec![Gesture::Hover(at)]
             }
-            (State::Idle, Button::Secondary) => vec![Gesture::SecondaryClick(at)],
+            (State::Orbiting { turned, .. }, Button::Secondary) => {
+                self.state = State::Idle;
+                if turned {
+                    vec![Gesture::Hover(at)]
+                } else {
+                    vec![Gesture::SecondaryClick(at)]
+                }
+            }
             _ => Vec::new(),
         }
     }

@@ -62,7 +62,7 @@ impl<'a> HitTest<'a> {
         let mut found: Vec<(f64, bool, (CurveId, usize))> = Vec::new();
         for (id, curve) in self.shown() {
             for (index, vertex) in curve.polygon.vertices().iter().enumerate() {
-                let distance = vertex.truncate().distance(model);
+                let distance = self.viewport.flatten(*vertex).distance(model);
                 if distance <= reach {
                     found.push((distance, self.active != Some(id), (id, index)));
                 }
@@ -111,8 +111,11 @@ impl<'a> HitTest<'a> {
                 count - 1
             };
             for index in 0..legs {
-                let from = polygon.vertices()[index].truncate();
-                let leg = polygon.vertices()[(index + 1) % count].truncate() - from;
+                let from = self.viewport.flatten(polygon.vertices()[index]);
+                let leg = self
+                    .viewport
+                    .flatten(polygon.vertices()[(index + 1) % count])
+                    - from;
                 let along = (model - from).dot(leg) / leg.length_squared();
                 let share = if along.is_nan() {
                     0.5
@@ -146,7 +149,7 @@ impl<'a> HitTest<'a> {
         let mut found = Vec::new();
         for (id, curve) in self.shown().filter(|(_, curve)| !curve.locked) {
             for (index, vertex) in curve.polygon.vertices().iter().enumerate() {
-                let at = vertex.truncate();
+                let at = self.viewport.flatten(*vertex);
                 if at.cmpge(low).all() && at.cmple(high).all() {
                     found.push((id, index));
                 }

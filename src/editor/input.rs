@@ -7,7 +7,7 @@ use glam::DVec2;
 pub enum Button {
     /// The first button: picks and drags.
     Primary,
-    /// The second button: ends what is being drawn.
+    /// The second button: turns the view; a click ends what is being drawn.
     Secondary,
     /// The middle button: pans.
     Middle,
@@ -127,6 +127,8 @@ pub enum Input {
     Key(Key),
     /// The space bar went down or up.
     SpaceHeld(bool),
+    /// The key of an axis of the model (0 x, 1 y, 2 z) went down, or none is held any more.
+    AxisHeld(Option<usize>),
     /// The modifier keys that are held have changed.
     Modifiers(Modifiers),
 }

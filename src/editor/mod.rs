@@ -15,6 +15,7 @@ mod grid;
 mod hit;
 mod input;
 mod layers;
+mod orbit;
 mod panels;
 mod polygon_edits;
 mod report;
@@ -36,6 +37,7 @@ pub use grid::grid_steps;
 pub use hit::REACH;
 pub use input::{Button, Input, Key, Modifiers};
 pub use layers::{Layer, Layers};
+pub use orbit::NamedView;
 pub use report::{AfterDiscard, CurveReport, Export, Message, Readout, Request};
 pub use scene::{CurveScene, HoverScene, Mark, PlotScene, Scene, VertexMark};
 pub use selection::{Selection, VertexId};
@@ -61,6 +63,8 @@ pub struct Editor {
     tool_state: Box<dyn Tool>,
     gestures: GestureMachine,
     modifiers: Modifiers,
+    /// The axis of the model (0 x, 1 y, 2 z) whose key is held.
+    axis: Option<usize>,
     snapping: bool,
     viewport: Viewport,
     /// Whether the canvas has been given its size and the document fitted into it.
@@ -111,6 +115,7 @@ impl Editor {
             tool_state: ToolKind::default().take(),
             gestures: GestureMachine::default(),
             modifiers: Modifiers::NONE,
+            axis: None,
             snapping: false,
             viewport: Viewport::default(),
             placed: false,
@@ -349,11 +354,8 @@ impl Editor {
         if self.placed {
             if self.document().is_empty() {
                 // An empty document has no size: it begins at the usual scale.
-                let size = self.viewport.size;
-                self.viewport = Viewport {
-                    size,
-                    ..Viewport::default()
-                };
+                self.viewport.centre = DVec2::ZERO;
+                self.viewport.scale = Viewport::default().scale;
             }
             self.fit_all();
             self.reset_comb();

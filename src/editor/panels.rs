@@ -57,6 +57,7 @@ impl Editor {
     pub fn readout(&self) -> Readout {
         let mut readout = Readout {
             pointer: self.gestures.pointer().map(|at| self.viewport.to_model(at)),
+            axes: self.axis_names(),
             scale: self.viewport.scale,
             degree: self.active_curve().map(|(_, curve)| curve.polygon.degree()),
             ..Readout::default()

@@ -75,8 +75,11 @@ pub struct Message {
 /// What the status bar reads.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Readout {
-    /// Where the pointer is, in the model.
+    /// Where the pointer is, in the view plane.
     pub pointer: Option<DVec2>,
+    /// What the view plane's coordinates are called: the model's, or "right" and "up" in a view
+    /// that is turned against it.
+    pub axes: [&'static str; 2],
     /// The parameter of the hovered place on the curve.
     pub u: Option<f64>,
     /// The curvature there.

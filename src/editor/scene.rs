@@ -101,8 +101,11 @@ pub enum HoverScene {
         u: f64,
         /// The point.
         at: DVec2,
-        /// The centre of the osculating circle; `None` where the curve is straight.
+        /// The centre of the osculating circle of a planar curve seen from above; `None` where it
+        /// is straight, or seen otherwise.
         centre: Option<DVec2>,
+        /// The osculating circle of a curve in space, or seen from elsewhere, as a chain.
+        circle: Vec<DVec2>,
         /// u, point, curvature and radius, in words, a line each.
         text: String,
     },

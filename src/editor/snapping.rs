@@ -17,7 +17,7 @@ const GRID_REACH: f64 = 5.0;
 /// Find the place that a dragged point snaps to, or `None` if nothing is near.
 ///
 /// Vertices that move along (`moving`) do not attract. Vertices, end points and targets come
-/// before the grid's minor crossings.
+/// before the grid's minor crossings. Places are in the view plane.
 pub fn snap(
     point: DVec2,
     document: &Document,
@@ -35,23 +35,25 @@ pub fn snap(
     for (id, curve) in document.curves().filter(|(_, curve)| curve.visible) {
         let polygon = &curve.polygon;
         for (index, vertex) in polygon.vertices().iter().enumerate() {
-            let at = vertex.truncate();
+            let at = viewport.flatten(*vertex);
             if at.distance(point) <= reach && !moving.contains(&(id, index)) {
                 consider(at);
             }
         }
         for end in End::BOTH {
             if let Some(target) = curve.targets.get(end) {
-                consider(target.point.truncate());
+                consider(viewport.flatten(target.point));
             }
             let feels = |index| moving.contains(&(id, index));
             if !polygon.is_periodic() && !polygon.terminal_vertices(end).any(feels) {
-                consider(polygon.end_jet(end).point.truncate());
+                consider(viewport.flatten(polygon.end_jet(end).point));
             }
         }
     }
     consider(DVec2::ZERO);
     best.map(|(_, place)| place).or_else(|| {
+        // Only a view along an axis of the model shows the grid.
+        viewport.orientation.axes()?;
         let (minor, _) = grid_steps(viewport);
         let crossing = (point / minor).round() * minor;
         let near = crossing.distance(point) <= GRID_REACH * viewport.pixel();

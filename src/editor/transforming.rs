@@ -34,7 +34,7 @@ impl Editor {
         };
         let moved = vertices
             .into_iter()
-            .map(|(id, vertex)| (id, transformation.apply(pivot, vertex)));
+            .map(|(id, vertex)| (id, transformation.apply(pivot, vertex, context.viewport)));
         let edits = move_edits(moved);
         self.apply(&label, edits);
     }

@@ -1,19 +1,26 @@
-//! The part of the plane that the canvas shows.
+//! From where the model is seen, and the part of the view plane that the canvas shows.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
-use crate::analysis::{Bounds, ViewBox};
+use crate::analysis::{Bounds, Orientation, ViewBox};
 
 /// Screen points left free around what is fitted.
 const MARGIN: f64 = 56.0;
 
+/// A view that looks along a plane more than this (the sine of its elevation) shows the plane as
+/// hardly more than a line: nothing can be placed in it by hand.
+const EDGE_ON: f64 = 0.1;
+
 /// The smallest and largest scale, in screen points a unit.
 const SCALES: (f64, f64) = (1e-12, 1e12);
 
-/// Map the model's plane (y up) to the canvas (screen points, y down).
+/// Map the model to the view plane, and the view plane (y up) to the canvas (screen points, y
+/// down).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viewport {
-    /// The model point in the middle of the canvas.
+    /// From where the model is seen.
+    pub orientation: Orientation,
+    /// The view plane's point in the middle of the canvas.
     pub centre: DVec2,
     /// Screen points a unit of the model.
     pub scale: f64,
@@ -24,6 +31,7 @@ pub struct Viewport {
 impl Default for Viewport {
     fn default() -> Self {
         Self {
+            orientation: Orientation::default(),
             centre: DVec2::ZERO,
             scale: 20.0,
             size: DVec2::new(800.0, 600.0),
@@ -32,13 +40,53 @@ impl Default for Viewport {
 }
 
 impl Viewport {
-    /// Map a model point to the canvas.
+    /// Map a point of the model to the view plane.
+    pub fn flatten(&self, point: DVec3) -> DVec2 {
+        self.orientation.flatten(point)
+    }
+
+    /// The point of the model seen at a place of the view plane. Along an axis of the model it
+    /// lies in the plane of the other two; otherwise in the plane z = 0, unless that is seen from
+    /// its edge.
+    pub fn grounded(&self, place: DVec2) -> DVec3 {
+        self.movement(place, true)
+    }
+
+    /// The vector of space by which a vertex moves that is pushed by a vector of the view plane:
+    /// within the view plane, the third coordinate is kept. With `keeps_plane`, a view that is
+    /// turned against the model keeps z instead, so that planar curves stay planar.
+    pub fn movement(&self, by: DVec2, keeps_plane: bool) -> DVec3 {
+        let view = &self.orientation;
+        if !keeps_plane || view.axes().is_some() || view.towards().z.abs() < EDGE_ON {
+            return view.lift(by);
+        }
+        let (right, up) = (view.right().truncate(), view.up().truncate());
+        let determinant = right.perp_dot(up);
+        let x = (by.x * up.y - by.y * right.y) / determinant;
+        let y = (by.y * right.x - by.x * up.x) / determinant;
+        DVec3::new(x, y, 0.0)
+    }
+
+    /// The movement along one axis of the model (0 x, 1 y, 2 z) that a push shows; none along an
+    /// axis that points to the eye.
+    pub fn movement_along(&self, axis: usize, by: DVec2) -> DVec3 {
+        let Some(direction) = DVec3::AXES.get(axis).copied() else {
+            return DVec3::ZERO;
+        };
+        let seen = self.flatten(direction);
+        if seen.length() < EDGE_ON {
+            return DVec3::ZERO;
+        }
+        direction * (by.dot(seen) / seen.length_squared())
+    }
+
+    /// Map a point of the view plane to the canvas.
     pub fn to_screen(&self, point: DVec2) -> DVec2 {
         let offset = (point - self.centre) * self.scale;
         0.5 * self.size + DVec2::new(offset.x, -offset.y)
     }
 
-    /// Map a place on the canvas to the model.
+    /// Map a place on the canvas to the view plane.
     pub fn to_model(&self, place: DVec2) -> DVec2 {
         let offset = (place - 0.5 * self.size) / self.scale;
         self.centre + DVec2::new(offset.x, -offset.y)
@@ -94,7 +142,7 @@ impl Viewport {
         Self {
             centre: 0.5 * (bounds.low + bounds.high),
             scale: scale.clamp(SCALES.0, SCALES.1),
-            size: self.size,
+            ..*self
         }
     }
 }

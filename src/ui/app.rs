@@ -11,6 +11,7 @@ use super::curve_list::CurveList;
 use super::dialogs::{self, Decision, Dialog};
 use super::end_fit_panel::EndFitPanel;
 use super::file_dialogs::{Chosen, FileDialogs, Purpose};
+use super::gizmo::gizmo_ui;
 use super::inspector::Inspector;
 use super::keyboard::{self, Asked};
 use super::layer_list::layer_list_ui;
@@ -196,6 +197,9 @@ impl App {
             .frame(Frame::NONE.fill(tokens.background))
             .show(ui, |ui| {
                 self.canvas.show(ui, &mut self.editor);
+                if let Some(rect) = self.canvas.rect() {
+                    gizmo_ui(ui, rect, &mut self.editor, &mut self.commands);
+                }
             });
     }
 

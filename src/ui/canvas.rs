@@ -9,7 +9,7 @@ use glam::DVec2;
 use super::chains::Screen;
 use super::painting::Brush;
 use super::theme::Tokens;
-use super::{grid, keyboard, painting};
+use super::{gizmo, grid, keyboard, painting};
 use crate::editor::{Button, Cursor, Editor, Input, Key, Layer, Modifiers};
 
 /// Points of the wheel that scale by the factor e.
@@ -26,6 +26,8 @@ pub struct Canvas {
     inside: bool,
     /// Whether the space bar is held.
     space: bool,
+    /// The axis whose key is held.
+    axis: Option<usize>,
     /// The modifiers the editor knows of.
     modifiers: Modifiers,
     /// Whether the last wheel event came from fingers on a touchpad: they push, wheels zoom.
@@ -60,6 +62,9 @@ impl Canvas {
     }
 
     fn send_event(&mut self, context: &Context, editor: &mut Editor, rect: Rect, event: &Event) {
+        if let Some((axis, pressed)) = keyboard::axis_of(event) {
+            self.hold_axis(editor, axis, pressed);
+        }
         match event {
             Event::PointerMoved(pos) => self.moved(context, editor, rect, *pos),
             Event::PointerButton {
@@ -92,6 +97,9 @@ impl Canvas {
             Event::WindowFocused(false) => {
                 self.send_modifiers(editor, Modifiers::NONE);
                 self.hold_space(editor, false);
+                if let Some(axis) = self.axis {
+                    self.hold_axis(editor, axis, false);
+                }
             }
             _ => {}
         }
@@ -182,7 +190,8 @@ impl Canvas {
         let is_behind = context
             .layer_id_at(pos)
             .is_some_and(|layer| layer.order != egui::Order::Background);
-        rect.contains(pos) && !is_behind
+        let is_gizmo = gizmo::place(rect).is_some_and(|place| place.contains(pos));
+        rect.contains(pos) && !is_behind && !is_gizmo
     }
 
     fn send_modifiers(&mut self, editor: &mut Editor, modifiers: Modifiers) {
@@ -196,6 +205,19 @@ impl Canvas {
         if held != self.space {
             self.space = held;
             editor.input(Input::SpaceHeld(held));
+        }
+    }
+
+    /// An axis's key steers a drag while it is held.
+    fn hold_axis(&mut self, editor: &mut Editor, axis: usize, pressed: bool) {
+        let wanted = match (pressed, self.axis) {
+            (true, _) if editor.is_dragging() => Some(axis),
+            (false, Some(held)) if held == axis => None,
+            (_, held) => held,
+        };
+        if wanted != self.axis {
+            self.axis = wanted;
+            editor.input(Input::AxisHeld(wanted));
         }
     }
 

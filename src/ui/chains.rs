@@ -145,6 +145,7 @@ mod tests {
             centre: DVec2::ZERO,
             scale: 1.0,
             size: DVec2::new(200.0, 100.0),
+            ..Viewport::default()
         };
         let screen = Screen::new(
             &viewport,

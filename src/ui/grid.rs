@@ -1,8 +1,9 @@
 //! The grid, its axes and their numbers.
 
 use eframe::egui::{Align2, Painter, Rect, Stroke, pos2};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
+use super::chains::Screen;
 use super::figures;
 use super::labels;
 use super::theme::{self, STEP, Tokens};
@@ -18,8 +19,13 @@ enum Axis {
     Y,
 }
 
-/// Paint the grid's lines and axes behind everything else.
+/// Paint the grid's lines and axes behind everything else. A view that is turned against the
+/// model shows the model's three axes alone.
 pub fn paint(painter: &Painter, rect: Rect, viewport: &Viewport, tokens: &Tokens) {
+    if viewport.orientation.axes().is_none() {
+        paint_model_axes(painter, rect, viewport, tokens);
+        return;
+    }
     let hair = 1.0 / painter.pixels_per_point();
     let (minor, major) = grid_steps(viewport);
     for (step, colour) in [(minor, tokens.grid_minor), (major, tokens.grid_major)] {
@@ -41,6 +47,24 @@ pub fn paint(painter: &Painter, rect: Rect, viewport: &Viewport, tokens: &Tokens
                 place as f32,
                 Stroke::new(hair.max(1.0), tokens.axes),
             );
+        }
+    }
+}
+
+fn paint_model_axes(painter: &Painter, rect: Rect, viewport: &Viewport, tokens: &Tokens) {
+    let screen = Screen::new(viewport, rect);
+    let view = viewport.view_box();
+    // Long enough to leave the canvas, wherever the origin is.
+    let far = view.low.abs().max(view.high.abs()).length() * 4.0;
+    for (direction, colour) in DVec3::AXES.into_iter().zip(tokens.model_axes) {
+        let seen = viewport.flatten(direction);
+        let along = far * seen / seen.length().max(1e-3);
+        let faint = Stroke::new(1.0, colour.gamma_multiply(0.35));
+        if let Some(negative) = screen.segment([DVec2::ZERO, -along]) {
+            painter.line_segment(negative, Stroke::new(1.0, colour.gamma_multiply(0.15)));
+        }
+        if let Some(positive) = screen.segment([DVec2::ZERO, along]) {
+            painter.line_segment(positive, faint);
         }
     }
 }
@@ -93,6 +117,9 @@ fn line(painter: &Painter, rect: Rect, axis: Axis, place: f32, stroke: Stroke) {
 /// Write the numbers along the lower and the left edge, over the curves that pass there. Where
 /// they would touch, only every second, fifth, tenth … is written.
 pub fn paint_numbers(painter: &Painter, rect: Rect, viewport: &Viewport, tokens: &Tokens) {
+    if viewport.orientation.axes().is_none() {
+        return;
+    }
     let (_, major) = grid_steps(viewport);
     let font = theme::small_font();
     let text = |value: f64| figures::to_resolution(value, major);

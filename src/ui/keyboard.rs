@@ -101,6 +101,7 @@ pub fn asked(context: &Context, editor: &Editor) -> Vec<Asked> {
         return Vec::new();
     }
     let typing = is_typing(context);
+    let dragging = editor.is_dragging();
     let table: Vec<(Shortcut, Command)> = Command::all(editor.examples())
         .into_iter()
         .filter_map(|command| Some((command.shortcut()?, command)))
@@ -110,6 +111,8 @@ pub fn asked(context: &Context, editor: &Editor) -> Vec<Asked> {
         input
             .events
             .retain(|event| match command_of(event, &table, typing) {
+                // The axes' keys steer a drag.
+                Some(_) if dragging && axis_of(event).is_some() => true,
                 Some(found) => {
                     asked.push(found);
                     false
@@ -118,6 +121,25 @@ pub fn asked(context: &Context, editor: &Editor) -> Vec<Asked> {
             });
     });
     asked
+}
+
+/// The axis of the model (0 x, 1 y, 2 z) whose key an event is about, and whether it is held.
+pub fn axis_of(event: &Event) -> Option<(usize, bool)> {
+    let Event::Key {
+        key,
+        pressed,
+        modifiers,
+        ..
+    } = event
+    else {
+        return None;
+    };
+    if *pressed && modifiers.command {
+        return None;
+    }
+    let axes = [egui::Key::X, egui::Key::Y, egui::Key::Z];
+    let axis = axes.iter().position(|axis| axis == key)?;
+    Some((axis, *pressed))
 }
 
 fn command_of(event: &Event, table: &[(Shortcut, Command)], typing: bool) -> Option<Asked> {

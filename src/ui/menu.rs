@@ -6,7 +6,7 @@ use lucide_icons::Icon;
 use super::shell::Shell;
 use super::theme::Tokens;
 use super::{icons, keyboard};
-use crate::editor::{Command, Editor, Layer, ToolKind};
+use crate::editor::{Command, Editor, Layer, NamedView, ToolKind};
 use crate::geometry::PolygonKind;
 
 /// The least width of an open menu.
@@ -91,7 +91,10 @@ fn menus() -> [(&'static str, Vec<Entry>); 6] {
         Divider,
     ];
     view.extend(Layer::ALL.map(|layer| Item(layer.command())));
+    view.push(Divider);
+    view.extend(NamedView::ALL.map(|view| Item(Command::View(view))));
     view.extend([
+        Divider,
         Item(Command::ResetComb),
         Divider,
         Item(Command::TogglePlots),

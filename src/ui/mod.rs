@@ -11,6 +11,7 @@ mod end_fit_steps;
 mod end_marks;
 mod figures;
 mod file_dialogs;
+mod gizmo;
 mod grid;
 mod icons;
 mod inspector;

@@ -276,8 +276,14 @@ impl Brush<'_> {
                 }
             }
             HoverScene::Curve {
-                at, centre, text, ..
+                at,
+                centre,
+                circle,
+                text,
+                ..
             } => {
+                let hair = Stroke::new(1.0, tokens.evolute.gamma_multiply(0.7));
+                self.chain(circle, hair);
                 if let Some(centre) = centre {
                     self.osculating_circle(*at, *centre);
                 }

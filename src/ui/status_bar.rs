@@ -41,8 +41,8 @@ fn cells(readout: &Readout, width: f32) -> Vec<(&'static str, String, f32)> {
     };
     let pointer = readout.pointer;
     let mut cells = vec![
-        ("x", coordinate(pointer.map(|at| at.x)), 88.0),
-        ("y", coordinate(pointer.map(|at| at.y)), 88.0),
+        (readout.axes[0], coordinate(pointer.map(|at| at.x)), 96.0),
+        (readout.axes[1], coordinate(pointer.map(|at| at.y)), 96.0),
         (
             "u",
             readout.u.map_or_else(blank, |u| format!("{u:.3}")),

@@ -54,8 +54,16 @@ pub struct Tokens {
     pub grid_major: Color32,
     /// The axes.
     pub axes: Color32,
+    /// The axes of the model: x, y, z.
+    pub model_axes: [Color32; 3],
     /// The curve.
     pub curve: Color32,
+    /// Pieces of the curve on which curvature is proved to rise.
+    pub rising: Color32,
+    /// Pieces of the curve on which curvature is proved to fall.
+    pub falling: Color32,
+    /// Pieces of the curve of which nothing is proved.
+    pub undecided: Color32,
     /// The float S-polygon.
     pub float: Color32,
     /// The closed S-polygon.
@@ -121,7 +129,11 @@ static DARK: Tokens = Tokens {
     grid_minor: rgb(0x1E2127),
     grid_major: rgb(0x272B33),
     axes: rgb(0x3A404B),
+    model_axes: [rgb(0xE5716B), rgb(0x6CBF5B), rgb(0x6A9CF0)],
     curve: rgb(0xF4F6FA),
+    rising: rgb(0xA3E635),
+    falling: rgb(0x38BDF8),
+    undecided: rgb(0xFACC15),
     float: rgb(0xF5A524),
     clamped: rgb(0x2DD4BF),
     joints: rgb(0x94A3B8),
@@ -150,7 +162,11 @@ static LIGHT: Tokens = Tokens {
     grid_minor: rgb(0xEFEFEC),
     grid_major: rgb(0xE2E2DE),
     axes: rgb(0xC9C9C3),
+    model_axes: [rgb(0xBF3B34), rgb(0x3D8A2B), rgb(0x2F62C4)],
     curve: rgb(0x14161A),
+    rising: rgb(0x4D7C0F),
+    falling: rgb(0x0369A1),
+    undecided: rgb(0xA16207),
     float: rgb(0xC27803),
     clamped: rgb(0x0F8F80),
     joints: rgb(0x64748B),

@@ -17,20 +17,22 @@ impl CurveAnalysis {
     /// Append what is visible of the curve, thinned to the view's pixels. Gaps are
     /// [`crate::analysis::GAP`] points.
     pub fn append_curve(&mut self, view: &ViewBox, out: &mut Vec<DVec2>) {
-        let place = |sample: &Sample| sample.point.truncate();
+        let eye = self.orientation;
+        let place = move |sample: &Sample| eye.flatten(sample.point);
         self.append(view, out, 0, |block| &mut block.curve, place);
     }
 
     /// Append what is visible of the evolute; it breaks where it passes through infinity.
     pub fn append_evolute(&mut self, view: &ViewBox, out: &mut Vec<DVec2>) {
-        let place = |sample: &Sample| finite(sample.centre().truncate());
+        let eye = self.orientation;
+        let place = move |sample: &Sample| finite(eye.flatten(sample.centre()));
         self.append(view, out, 0, |block| &mut block.evolute, place);
     }
 
     /// Append what is visible of the comb's envelope.
     pub fn append_comb(&mut self, view: &ViewBox, comb: &CombSettings, out: &mut Vec<DVec2>) {
-        let scale = comb.scale;
-        let place = move |sample: &Sample| finite(sample.comb_tip(scale).truncate());
+        let (scale, eye) = (comb.scale, self.orientation);
+        let place = move |sample: &Sample| finite(eye.flatten(sample.comb_tip(scale)));
         self.append(view, out, scale.to_bits(), |block| &mut block.comb, place);
     }
 
@@ -45,7 +47,7 @@ impl CurveAnalysis {
             let (steps, samples) = (self.steps, &self.samples);
             let teeth = &mut self.blocks[index].teeth;
             let key = (level, comb.scale.to_bits(), stride);
-            teeth.refresh(key, spacing, || {
+            teeth.refresh(key, spacing, &self.orientation, || {
                 range.flat_map(move |segment| {
                     let own = &samples[segment * (steps + 1)..(segment + 1) * (steps + 1)];
                     own.iter().step_by(stride)

@@ -19,7 +19,7 @@ const DEGREE: usize = 5;
 /// The draw tool's state: the vertices so far.
 #[derive(Debug, Default)]
 pub struct DrawTool {
-    points: Vec<DVec2>,
+    points: Vec<DVec3>,
 }
 
 impl DrawTool {
@@ -29,18 +29,22 @@ impl DrawTool {
         let Some(last) = last else {
             return context.snapped(at, &BTreeSet::new());
         };
-        let leg = at - *last;
+        let last = context.viewport.flatten(*last);
+        let leg = at - last;
         let angle = by_fifteen_degrees(leg.to_angle());
         let constrained = DVec2::from_angle(angle);
         if constrained.abs().min_element() < 1e-9 {
-            return *last + along_axis(leg);
+            return last + along_axis(leg);
         }
-        *last + leg.dot(constrained) * constrained
+        last + leg.dot(constrained) * constrained
     }
 
     fn closes(&self, place: DVec2, context: &Context) -> bool {
         let first = self.points.first().filter(|_| self.points.len() >= 3);
-        first.is_some_and(|first| context.viewport.to_screen(*first).distance(place) <= REACH)
+        first.is_some_and(|first| {
+            let first = context.viewport.flatten(*first);
+            context.viewport.to_screen(first).distance(place) <= REACH
+        })
     }
 
     fn finish(&mut self, periodic: bool, context: &Context) -> Vec<Effect> {
@@ -51,8 +55,7 @@ impl DrawTool {
             .and_then(|id| context.document.curve(id))
             .map_or(DEGREE, |curve| curve.polygon.degree());
         let degree = wanted.min(points.len().saturating_sub(1)).max(1);
-        let vertices: Vec<DVec3> = points.iter().map(|point| point.extend(0.0)).collect();
-        match FloatPolygon::new(degree, vertices, None, periodic) {
+        match FloatPolygon::new(degree, points.clone(), None, periodic) {
             Ok(polygon) => {
                 let id = context.document.next_id();
                 let curve = Curve::new(free_name(context), polygon);
@@ -99,7 +102,8 @@ impl Tool for DrawTool {
             Gesture::Click(place) if self.closes(place, context) => self.finish(true, context),
             // A hasty click is a short drag: the vertex goes where the button is released.
             Gesture::Click(place) | Gesture::DragEnd(place) => {
-                let point = self.next(context.model(place), context);
+                let place = self.next(context.model(place), context);
+                let point = context.viewport.grounded(place);
                 // The second press of a double click sets no vertex of its own.
                 let apart = 2.0 * context.viewport.pixel();
                 if self
@@ -141,17 +145,19 @@ impl Tool for DrawTool {
 
     fn marks(&self, context: &Context) -> Vec<Mark> {
         let mut marks: Vec<Mark> = Vec::new();
-        marks.extend(
-            self.points
-                .windows(2)
-                .map(|leg| Mark::Guide([leg[0], leg[1]])),
-        );
+        let view = context.viewport;
+        let points: Vec<DVec2> = self
+            .points
+            .iter()
+            .map(|point| view.flatten(*point))
+            .collect();
+        marks.extend(points.windows(2).map(|leg| Mark::Guide([leg[0], leg[1]])));
         if let Some(pointer) = context.pointer {
             let next = self.next(pointer, context);
-            marks.extend(self.points.last().map(|last| Mark::Guide([*last, next])));
+            marks.extend(points.last().map(|last| Mark::Guide([*last, next])));
             marks.push(Mark::NewVertex(next));
         }
-        marks.extend(self.points.iter().map(|point| Mark::NewVertex(*point)));
+        marks.extend(points.into_iter().map(Mark::NewVertex));
         marks
     }
 }

@@ -85,7 +85,7 @@ impl<'a> Subject<'a> {
             id,
             curve,
             end,
-            point: curve.polygon.end_jet(end).point.truncate(),
+            point: context.viewport.flatten(curve.polygon.end_jet(end).point),
             target: curve.targets.get(end),
         })
     }
@@ -93,8 +93,9 @@ impl<'a> Subject<'a> {
     /// The place of the target direction's handle.
     fn direction_tip(&self, context: &Context) -> Option<DVec2> {
         let target = self.target?;
-        let direction = target.direction?.truncate().try_normalize()?;
-        Some(target.point.truncate() + ARROW * context.viewport.pixel() * direction)
+        let view = context.viewport;
+        let direction = view.flatten(target.direction?).try_normalize()?;
+        Some(view.flatten(target.point) + ARROW * context.viewport.pixel() * direction)
     }
 
     fn handle(&self, place: DVec2, context: &Context) -> Option<Handle> {
@@ -104,7 +105,7 @@ impl<'a> Subject<'a> {
         }
         if self
             .target
-            .is_some_and(|target| near(target.point.truncate()))
+            .is_some_and(|target| near(context.viewport.flatten(target.point)))
         {
             // Where the end has met its target it is the end that is taken, but for Alt.
             let met = self.is_met(context);
@@ -124,17 +125,24 @@ impl<'a> Subject<'a> {
         }
         let terminal = self.curve.polygon.terminal_vertices(self.end);
         let mut vertices = self.curve.polygon.vertices()[terminal].iter();
-        if vertices.any(|vertex| near(vertex.truncate())) {
+        if vertices.any(|vertex| near(context.viewport.flatten(*vertex))) {
             return Some(Handle::Body);
         }
         let other = self.end.other();
-        near(self.curve.polygon.end_jet(other).point.truncate()).then_some(Handle::OtherEnd(other))
+        let other_end = self.curve.polygon.end_jet(other).point;
+        near(context.viewport.flatten(other_end)).then_some(Handle::OtherEnd(other))
     }
 
     /// Whether the end lies on its target, as far as the eye can tell.
     fn is_met(&self, context: &Context) -> bool {
-        let target = self.target.map(|target| target.point.truncate());
+        let target = self
+            .target
+            .map(|target| context.viewport.flatten(target.point));
         target.is_some_and(|target| target.distance(self.point) <= context.viewport.pixel())
+    }
+
+    fn is_planar(&self) -> bool {
+        self.curve.polygon.is_planar()
     }
 
     fn with_target(&self, target: EndTarget) -> Effect {
@@ -216,7 +224,8 @@ impl Tool for EndFitTool {
     fn marks(&self, context: &Context) -> Vec<Mark> {
         if context.end_fit.picking {
             let own = context.selection.active();
-            let ends = other_ends(context.document, own).map(|jet| jet.point.truncate());
+            let ends =
+                other_ends(context.document, own).map(|jet| context.viewport.flatten(jet.point));
             return ends.map(Mark::Snap).collect();
         }
         match &self.state {
@@ -261,7 +270,7 @@ fn click(place: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
             context.document,
             subject.id,
             context.model(place),
-            2.0 * REACH * context.viewport.pixel(),
+            context.viewport,
         ) {
             Some(target) => vec![Effect::EndFit(EndFitAction::Picked(target))],
             None => vec![Effect::Say(
@@ -274,20 +283,16 @@ fn click(place: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
         Some(_) => Vec::new(),
         None if subject.target.is_none() => {
             let at = context.snapped(context.model(place), &own_vertices(subject));
-            vec![Effect::EndFit(EndFitAction::SetPoint(
-                at.extend(subject_height(subject)),
-            ))]
+            let end = subject.curve.polygon.end_jet(subject.end).point;
+            let by = at - context.viewport.flatten(end);
+            let point = end + context.movement(by, subject.is_planar());
+            vec![Effect::EndFit(EndFitAction::SetPoint(point))]
         }
         None => match context.hits.curve(place) {
             Some(hit) if hit.curve != subject.id => vec![Effect::Activate(hit.curve)],
             _ => Vec::new(),
         },
     }
-}
-
-/// The height at which a target clicked in the plane lies: that of the actual end.
-fn subject_height(subject: &Subject) -> f64 {
-    subject.curve.polygon.end_jet(subject.end).point.z
 }
 
 fn own_vertices(subject: &Subject) -> std::collections::BTreeSet<(CurveId, usize)> {
@@ -303,7 +308,7 @@ impl EndFitTool {
             Some(Handle::Target) => {
                 let target = subject
                     .target
-                    .map_or(origin, |target| target.point.truncate());
+                    .map_or(origin, |target| context.viewport.flatten(target.point));
                 let offset = target - origin;
                 (State::Target { offset }, format!("Move target of {name}"))
             }
@@ -339,32 +344,37 @@ impl EndFitTool {
                 let Some(target) = subject.target else {
                     return Vec::new();
                 };
-                let from = target.point.truncate();
+                let from = context.viewport.flatten(target.point);
                 let wanted = at + *offset;
                 let to = if context.modifiers.shift {
                     from + along_axis(wanted - from)
                 } else {
                     context.snapped(wanted, &own_vertices(subject))
                 };
-                let point = to.extend(target.point.z);
+                let movement = context.movement(to - from, subject.is_planar());
+                let point = target.point + movement;
                 vec![subject.with_target(EndTarget { point, ..target })]
             }
             State::Direction => {
                 let Some(target) = subject.target else {
                     return Vec::new();
                 };
-                let free = (at - target.point.truncate()).to_angle();
+                let view = &context.viewport.orientation;
+                let free = (at - view.flatten(target.point)).to_angle();
                 let angle = if context.modifiers.shift {
                     by_fifteen_degrees(free)
                 } else {
                     free
                 };
-                let height = target
-                    .direction
-                    .and_then(DVec3::try_normalize)
-                    .map_or(0.0, |d| d.z);
-                let flat = DVec2::from_angle(angle) * (1.0 - height * height).max(0.0).sqrt();
-                let direction = Some(flat.extend(height));
+                let push = DVec2::from_angle(angle);
+                let direction = Some(if subject.is_planar() {
+                    context.viewport.movement(push, true).normalize_or(DVec3::X)
+                } else {
+                    let before = target.direction.and_then(DVec3::try_normalize);
+                    let height = before.map_or(0.0, |d| view.depth(d));
+                    let flat = push * (1.0 - height * height).max(0.0).sqrt();
+                    view.lift(flat) + height * view.towards()
+                });
                 vec![subject.with_target(EndTarget {
                     direction,
                     ..target
@@ -373,7 +383,9 @@ impl EndFitTool {
             State::Body { origin, snapped } => {
                 let free = at - *origin;
                 let wanted = subject.point + free;
-                let target = subject.target.map(|target| target.point.truncate());
+                let target = subject
+                    .target
+                    .map(|target| context.viewport.flatten(target.point));
                 let near =
                     |target: &DVec2| target.distance(wanted) <= REACH * context.viewport.pixel();
                 let snaps = !context.modifiers.ctrl;
@@ -383,8 +395,10 @@ impl EndFitTool {
                     Some(target) => {
                         EndDifference::between(&subject.curve.polygon, subject.end, &target).vector
                     }
-                    None if context.modifiers.shift => along_axis(free).extend(0.0),
-                    None => free.extend(0.0),
+                    None if context.modifiers.shift => {
+                        context.movement(along_axis(free), subject.is_planar())
+                    }
+                    None => context.movement(free, subject.is_planar()),
                 };
                 shaped(
                     subject,
@@ -406,7 +420,8 @@ impl EndFitTool {
                 let close = |missing: &f64| (missing - free).abs() < SNAP_ANGLE.to_radians();
                 let exact = missing
                     .filter(close)
-                    .filter(|_| snaps && polygon.is_planar());
+                    .filter(|_| snaps && context.viewport.orientation.is_from_above())
+                    .filter(|_| polygon.is_planar());
                 *angle = exact.unwrap_or(free);
                 let direction = wanted.and_then(|target| target.direction);
                 match (exact, direction) {
@@ -415,11 +430,22 @@ impl EndFitTool {
                     }
                     _ => shaped(
                         subject,
-                        rotate_end(polygon, subject.end, DMat3::from_rotation_z(*angle)),
+                        rotate_end(polygon, subject.end, turned_by(*angle, subject, context)),
                     ),
                 }
             }
         }
+    }
+}
+
+/// The rotation that turns what is seen by an angle: of a planar curve within its plane.
+fn turned_by(angle: f64, subject: &Subject, context: &Context) -> DMat3 {
+    let towards = context.viewport.orientation.towards();
+    if subject.is_planar() {
+        let seen_from_below = towards.z < 0.0;
+        DMat3::from_rotation_z(if seen_from_below { -angle } else { angle })
+    } else {
+        DMat3::from_axis_angle(towards, angle)
     }
 }
 

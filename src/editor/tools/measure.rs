@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use glam::DVec2;
 
 use super::tool::{Context, Effect, Tool};
+use crate::analysis::Orientation;
 use crate::editor::gesture::Gesture;
 use crate::editor::input::Key;
 use crate::editor::scene::Mark;
@@ -49,11 +50,15 @@ impl MeasureTool {
     }
 }
 
-/// Say a distance, its parts and its direction.
-fn figures(from: DVec2, to: DVec2) -> String {
+/// Say a distance as it is seen, its parts and its direction.
+fn figures(from: DVec2, to: DVec2, view: &Orientation) -> String {
     let span = to - from;
+    let names = view.axes().map_or([" right", " up"], |axes| {
+        axes.map(|axis| ["x", "y", "z"][axis])
+    });
+    let [across, upwards] = names;
     format!(
-        "{:.6}   dx {:.6}   dy {:.6}   {:.3}°",
+        "{:.6}   d{across} {:.6}   d{upwards} {:.6}   {:.3}°",
         span.length(),
         span.x,
         span.y,
@@ -79,11 +84,12 @@ impl Tool for MeasureTool {
     }
 
     fn hint(&self, context: &Context) -> String {
+        let view = &context.viewport.orientation;
         match (self.state, self.line(context)) {
             (State::From(_), Some((from, to))) => {
-                format!("{}   Shift keeps to an axis", figures(from, to))
+                format!("{}   Shift keeps to an axis", figures(from, to, view))
             }
-            (State::Between(..), Some((from, to))) => figures(from, to),
+            (State::Between(..), Some((from, to))) => figures(from, to, view),
             _ => "Click two points, or drag, to measure between them; Esc ends".into(),
         }
     }

@@ -28,12 +28,14 @@ pub struct SelectTool {
 enum State {
     #[default]
     Idle,
-    /// Vertices are dragged; `held` is where the vertex under the hand was.
+    /// Vertices are dragged; `held` is where the vertex under the hand was seen, `planar` are the
+    /// curves that lie in the plane z = 0.
     Moving {
         origin: DVec2,
         held: DVec2,
         vertices: Vec<(VertexId, DVec3)>,
         moving: BTreeSet<VertexId>,
+        planar: BTreeSet<CurveId>,
         snap: Option<DVec2>,
     },
     /// A box is drawn, by its corners on the canvas.
@@ -55,20 +57,23 @@ impl Tool for SelectTool {
                     held,
                     vertices,
                     moving,
+                    planar,
                     ..
                 },
                 Gesture::Drag(place),
             ) => {
                 let (movement, snap) = movement(origin, held, place, &moving, context);
-                let places = vertices
-                    .iter()
-                    .map(|(id, at)| (*id, *at + movement.extend(0.0)));
+                let places = vertices.iter().map(|(id, at)| {
+                    let by = context.movement(movement, planar.contains(&id.0));
+                    (*id, *at + by)
+                });
                 let effects = vec![Effect::Preview(move_edits(places))];
                 self.state = State::Moving {
                     origin,
                     held,
                     vertices,
                     moving,
+                    planar,
                     snap,
                 };
                 effects
@@ -111,7 +116,7 @@ impl Tool for SelectTool {
     fn hint(&self, context: &Context) -> String {
         match &self.state {
             State::Moving { vertices, .. } => format!(
-                "Moving {}: Shift keeps to an axis, Ctrl turns snapping {}, Alt shows before, Esc cancels",
+                "Moving {}: Shift keeps to an axis, X, Y, Z to the model's, Ctrl turns snapping {}, Alt shows before, Esc cancels",
                 count_vertices(vertices.len()),
                 if context.snapping { "off" } else { "on" },
             ),
@@ -197,7 +202,9 @@ impl SelectTool {
         } else {
             vec![hit]
         };
-        let held = context.places([hit]).first().map(|(_, at)| at.truncate());
+        let places = context.places([hit]);
+        let held = places.first();
+        let held = held.map(|(_, at)| context.viewport.flatten(*at));
         let Some(held) = held else {
             return vec![locked(hit.0, context)];
         };
@@ -229,6 +236,7 @@ impl SelectTool {
             origin: context.model(place),
             held,
             moving: taken.into_iter().collect(),
+            planar: context.planar_curves(&vertices),
             vertices,
             snap: None,
         };
@@ -292,6 +300,9 @@ fn movement(
     context: &Context,
 ) -> (DVec2, Option<DVec2>) {
     let free = context.model(place) - origin;
+    if context.axis.is_some() {
+        return (free, None);
+    }
     if context.modifiers.shift {
         return (along_axis(free), None);
     }
@@ -331,8 +342,8 @@ fn nudge(key: Key, context: &Context) -> Vec<Effect> {
     } else {
         0.1 * minor
     };
-    let movement = (direction * step).extend(0.0);
     let vertices = context.places(context.selection.vertices());
+    let planar = context.planar_curves(&vertices);
     let Some(((curve, _), _)) = vertices.first() else {
         return context
             .selection
@@ -343,7 +354,10 @@ fn nudge(key: Key, context: &Context) -> Vec<Effect> {
             .collect();
     };
     let label = format!("Nudge {}", count_vertices(vertices.len()));
-    let places = vertices.iter().map(|(id, at)| (*id, *at + movement));
+    let places = vertices.iter().map(|(id, at)| {
+        let by = context.movement(direction * step, planar.contains(&id.0));
+        (*id, *at + by)
+    });
     vec![
         Effect::Activate(*curve),
         Effect::Apply(label, move_edits(places)),

@@ -29,6 +29,8 @@ pub struct Context<'a> {
     pub hits: HitTest<'a>,
     /// The modifier keys that are held.
     pub modifiers: Modifiers,
+    /// The axis of the model (0 x, 1 y, 2 z) whose key is held: drags keep to it.
+    pub axis: Option<usize>,
     /// Whether snapping is on; Ctrl turns it round.
     pub snapping: bool,
     /// The comb's settings.
@@ -37,7 +39,7 @@ pub struct Context<'a> {
     pub teeth: &'a [[DVec2; 2]],
     /// The state of the end-fit tool.
     pub end_fit: &'a EndFitState,
-    /// Where the pointer is, in the model.
+    /// Where the pointer is, in the view plane.
     pub pointer: Option<DVec2>,
 }
 
@@ -118,7 +120,27 @@ pub enum Cursor {
 }
 
 impl Context<'_> {
-    /// Map a place on the canvas to the model.
+    /// The movement in space of what is pushed by a vector of the view plane: along the axis
+    /// whose key is held; otherwise within the view plane or, for a planar curve in a view turned
+    /// against the model, within the curve's plane.
+    pub fn movement(&self, by: DVec2, planar: bool) -> DVec3 {
+        match self.axis {
+            Some(axis) => self.viewport.movement_along(axis, by),
+            None => self.viewport.movement(by, planar),
+        }
+    }
+
+    /// The curves, of those that some vertices belong to, that lie in the plane z = 0.
+    pub fn planar_curves(&self, vertices: &[(VertexId, DVec3)]) -> BTreeSet<CurveId> {
+        let curves: BTreeSet<CurveId> = vertices.iter().map(|((curve, _), _)| *curve).collect();
+        let is_planar = |id: &CurveId| {
+            let curve = self.before.curve(*id);
+            curve.is_some_and(|curve| curve.polygon.is_planar())
+        };
+        curves.into_iter().filter(is_planar).collect()
+    }
+
+    /// Map a place on the canvas to the view plane.
     pub fn model(&self, place: DVec2) -> DVec2 {
         self.viewport.to_model(place)
     }

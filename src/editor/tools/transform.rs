@@ -12,6 +12,7 @@ use crate::editor::input::Key;
 use crate::editor::scene::Mark;
 use crate::editor::selection::VertexId;
 use crate::editor::snapping::by_fifteen_degrees;
+use crate::editor::viewport::Viewport;
 
 /// Drags that begin nearer to the pivot than this, in screen points, have no direction.
 const SHORTEST_ARM: f64 = 4.0;
@@ -129,19 +130,26 @@ impl TransformTool {
 /// A transformation about a pivot, as it is dragged or typed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Action {
-    /// Turn by an angle in radians, counterclockwise seen from above.
+    /// Turn by an angle in radians, counterclockwise as it is seen.
     Rotate(f64),
     /// Scale by a factor, in all directions.
     Scale(f64),
 }
 
 impl Action {
-    /// Carry one vertex along; heights scale about 0.
-    pub fn apply(self, pivot: DVec2, vertex: DVec3) -> DVec3 {
-        let arm = vertex.truncate() - pivot;
+    /// Carry one vertex along, about a pivot of the view plane: turned in the view plane, or
+    /// scaled about the pivot's place on the ground.
+    pub fn apply(self, pivot: DVec2, vertex: DVec3, viewport: &Viewport) -> DVec3 {
         match self {
-            Self::Rotate(angle) => (pivot + DVec2::from_angle(angle).rotate(arm)).extend(vertex.z),
-            Self::Scale(factor) => (pivot + factor * arm).extend(vertex.z * factor),
+            Self::Rotate(angle) => {
+                let arm = viewport.flatten(vertex) - pivot;
+                let turned = pivot + DVec2::from_angle(angle).rotate(arm);
+                viewport.orientation.point_at(turned, vertex)
+            }
+            Self::Scale(factor) => {
+                let pivot = viewport.grounded(pivot);
+                pivot + factor * (vertex - pivot)
+            }
         }
     }
 }
@@ -182,7 +190,7 @@ impl Tool for TransformTool {
                 let (action, label) = self.action(pivot, origin, now, context);
                 let moved = vertices
                     .iter()
-                    .map(|(id, at)| (*id, action.apply(pivot, *at)));
+                    .map(|(id, at)| (*id, action.apply(pivot, *at, context.viewport)));
                 let effects = vec![Effect::Preview(move_edits(moved))];
                 self.state = State::Turning {
                     pivot,
@@ -258,7 +266,7 @@ impl Tool for TransformTool {
         }
         let mut bounds = Bounds::EMPTY;
         for (_, vertex) in context.transformed() {
-            bounds.add(vertex.truncate());
+            bounds.add(context.viewport.flatten(vertex));
         }
         (!bounds.is_empty()).then(|| 0.5 * (bounds.low + bounds.high))
     }

@@ -27,11 +27,14 @@ struct Adding {
     curve: CurveId,
     polygon: FloatPolygon,
     index: usize,
+    /// A point as far from the eye as the new vertex will be.
+    like: DVec3,
 }
 
 impl Adding {
-    fn preview(&self, at: DVec2) -> Effect {
-        let vertex = DVec3::new(at.x, at.y, neighbour_height(&self.polygon, self.index));
+    fn preview(&self, at: DVec2, context: &Context) -> Effect {
+        let by = at - context.viewport.flatten(self.like);
+        let vertex = self.like + context.movement(by, self.polygon.is_planar());
         match inserted(&self.polygon, self.index, vertex) {
             Ok(polygon) => Effect::Preview(vec![Edit::SetPolygon {
                 curve: self.curve,
@@ -42,18 +45,18 @@ impl Adding {
     }
 
     /// All effects of a gesture that places one vertex.
-    fn once(&self, label: &str, at: DVec2) -> Vec<Effect> {
+    fn once(&self, label: &str, at: DVec2, context: &Context) -> Vec<Effect> {
         vec![
             Effect::Activate(self.curve),
             Effect::Begin(label.to_owned()),
-            self.preview(at),
+            self.preview(at, context),
             Effect::Select(vec![(self.curve, self.index)]),
             Effect::Commit,
         ]
     }
 
-    fn start(&self, label: &str, at: DVec2) -> Vec<Effect> {
-        let mut effects = self.once(label, at);
+    fn start(&self, label: &str, at: DVec2, context: &Context) -> Vec<Effect> {
+        let mut effects = self.once(label, at, context);
         effects.pop();
         effects
     }
@@ -62,7 +65,8 @@ impl Adding {
         match (gesture, slot.as_ref()) {
             (Gesture::Drag(place), Some(adding)) => {
                 let own = BTreeSet::from([(adding.curve, adding.index)]);
-                vec![adding.preview(context.snapped(context.model(place), &own))]
+                let at = context.snapped(context.model(place), &own);
+                vec![adding.preview(at, context)]
             }
             (Gesture::DragEnd(_), Some(_)) => {
                 *slot = None;
@@ -76,15 +80,6 @@ impl Adding {
             _ => Vec::new(),
         }
     }
-}
-
-/// The height of the vertex beside which another is put: a new vertex keeps it.
-fn neighbour_height(polygon: &FloatPolygon, index: usize) -> f64 {
-    let last = polygon.vertices().len() - 1;
-    polygon
-        .vertices()
-        .get(index.min(last))
-        .map_or(0.0, |vertex| vertex.z)
 }
 
 impl AddVertexTool {
@@ -108,7 +103,7 @@ impl AddVertexTool {
         }
         let polygon = found.polygon.clone();
         let count = polygon.vertices().len();
-        let distance = |index: usize| polygon.vertex(index).truncate().distance(at);
+        let distance = |index: usize| context.viewport.flatten(polygon.vertex(index)).distance(at);
         let end = if distance(0) < distance(count - 1) {
             End::Start
         } else {
@@ -118,14 +113,14 @@ impl AddVertexTool {
             End::Start => 0,
             End::Finish => count,
         };
-        Ok((
-            Adding {
-                curve,
-                polygon,
-                index,
-            },
-            end,
-        ))
+        let like = polygon.vertex(index.saturating_sub(1));
+        let adding = Adding {
+            curve,
+            polygon,
+            index,
+            like,
+        };
+        Ok((adding, end))
     }
 }
 
@@ -138,10 +133,10 @@ impl Tool for AddVertexTool {
         match self.plan(at, context) {
             Err(reason) => vec![Effect::Say(reason)],
             Ok((adding, _)) if matches!(gesture, Gesture::Click(_)) => {
-                adding.once("Add vertex", at)
+                adding.once("Add vertex", at, context)
             }
             Ok((adding, _)) => {
-                let effects = adding.start("Add vertex", at);
+                let effects = adding.start("Add vertex", at, context);
                 self.adding = Some(adding);
                 effects
             }
@@ -170,7 +165,7 @@ impl Tool for AddVertexTool {
             return Vec::new();
         };
         let beside = adding.index.saturating_sub(1);
-        let from = adding.polygon.vertex(beside).truncate();
+        let from = context.viewport.flatten(adding.polygon.vertex(beside));
         vec![Mark::Guide([from, at]), Mark::NewVertex(at)]
     }
 }
@@ -192,10 +187,18 @@ impl InsertTool {
                 found.name
             ));
         }
+        let vertices = found.polygon.vertices();
+        let ends = vertices
+            .get(hit.index)
+            .zip(vertices.iter().cycle().nth(hit.index + 1));
+        let Some((from, to)) = ends else {
+            return Err(String::new());
+        };
         Ok(Adding {
             curve: hit.curve,
             polygon: found.polygon.clone(),
             index: hit.index + 1,
+            like: from.lerp(*to, hit.share),
         })
     }
 }
@@ -213,10 +216,10 @@ impl Tool for InsertTool {
         match Self::plan(hit, context) {
             Err(reason) => vec![Effect::Say(reason)],
             Ok(adding) if matches!(gesture, Gesture::Click(_)) => {
-                adding.once("Insert vertex", hit.point)
+                adding.once("Insert vertex", hit.point, context)
             }
             Ok(adding) => {
-                let effects = adding.start("Insert vertex", hit.point);
+                let effects = adding.start("Insert vertex", hit.point, context);
                 self.adding = Some(adding);
                 effects
             }
