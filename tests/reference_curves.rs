@@ -13,6 +13,10 @@ const RELATIVE: f64 = 1e-9;
 /// The accuracy of points, in units of the largest coordinate: a few roundings.
 const POINTS: f64 = 8.0 * f64::EPSILON;
 
+/// The accuracy of curvature and torsion levels, relative to the value itself: rounding errs by
+/// 1e-14, and one third level is 1e-4 of the terms that cancel in it.
+const LEVELS: f64 = 1e-11;
+
 struct Curve {
     value: Value,
     float: FloatPolygon,
@@ -74,6 +78,36 @@ fn points_derivatives_curvature_and_evolute_at_single_parameters() {
             let what = format!("curve {index} at {u}");
             check(&what, curve, &curve.float.jet(u), expected);
         }
+    }
+}
+
+#[test]
+fn curvature_and_torsion_levels() {
+    for (index, curve) in curves().iter().enumerate() {
+        for (u, expected) in numbers(&curve.value["u"])
+            .into_iter()
+            .zip(list(&curve.value["at_u"]))
+        {
+            let what = format!("curve {index} at {u}");
+            let found = curve.float.curvature_levels(u, 1.0);
+            assert_levels_near(&what, &found.curvature, &expected["curvature"]);
+            assert_eq!(found.torsion.is_some(), !curve.float.is_planar());
+            if let Some(torsion) = found.torsion {
+                assert_levels_near(&what, &torsion, &expected["torsion"]);
+            }
+            let slope = number(&expected["curvature_per_arclength"]);
+            assert_near(&what, found.curvature_slope, slope, LEVELS, slope.abs());
+        }
+    }
+}
+
+#[track_caller]
+fn assert_levels_near(what: &str, found: &[f64], expected: &Value) {
+    let expected = numbers(expected);
+    assert_eq!(expected.len(), 3);
+    for (level, (found, expected)) in found.iter().zip(expected).enumerate() {
+        let what = format!("{what}: level {}", level + 1);
+        assert_near(&what, *found, expected, LEVELS, expected.abs());
     }
 }
 
