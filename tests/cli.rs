@@ -338,6 +338,18 @@ fn convert_keeps_the_curve_by_every_polygon() {
 }
 
 #[test]
+fn a_file_is_not_converted_into_itself() {
+    let folder = Folder::new();
+    folder.done(&["example", "arc", "a.batten"]);
+    let before = fs::read(folder.path("a.batten")).unwrap();
+    folder.refused(
+        &["convert", "a.batten", "./a.batten"],
+        "./a.batten: a file is not converted into itself",
+    );
+    assert_eq!(fs::read(folder.path("a.batten")).unwrap(), before);
+}
+
+#[test]
 fn convert_lists_what_is_lost() {
     let curve = json!([{"name": "a/b", "degree": 2, "colour": "#102030", "periodic": true,
         "vertices": [[0, 0], [1, 0], [1, 1], [0, 1]]}]);

@@ -1,6 +1,7 @@
 //! All that is shown of one curve, kept up to date segment by segment.
 
 mod drawn;
+mod evolute;
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -8,6 +9,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::comb::Teeth;
+use super::level_series::LevelSeries;
 use super::orientation::Orientation;
 use super::outline::{Bounds, Outline};
 use super::plot_series::PlotBlock;
@@ -39,6 +41,7 @@ pub struct CurveAnalysis {
     blocks: Vec<Block>,
     float: VertexChain,
     clamped: VertexChain,
+    levels: LevelSeries,
     redone: usize,
 }
 
@@ -82,6 +85,7 @@ impl CurveAnalysis {
             blocks: Vec::new(),
             float: VertexChain::default(),
             clamped: VertexChain::default(),
+            levels: LevelSeries::default(),
             redone: 0,
             curve,
         };
@@ -318,6 +322,10 @@ impl CurveAnalysis {
         &mut self.blocks[index].plot
     }
 
+    pub(super) fn level_series(&mut self) -> &mut LevelSeries {
+        &mut self.levels
+    }
+
     pub(super) fn summary(&self, index: usize) -> &BlockSummary {
         &self.blocks[index].summary
     }
@@ -359,6 +367,7 @@ impl CurveAnalysis {
         }
         for block in blocks {
             self.blocks[block] = Block::default();
+            self.levels.forget(block);
             self.summarise(block);
         }
     }

@@ -4,6 +4,7 @@
 mod cache;
 mod comb;
 mod curve_analysis;
+mod level_series;
 mod orientation;
 mod outline;
 mod plot_series;
@@ -13,6 +14,7 @@ mod vertex_chain;
 pub use cache::AnalysisCache;
 pub use comb::CombSettings;
 pub use curve_analysis::CurveAnalysis;
+pub use level_series::LevelPlot;
 pub use orientation::Orientation;
 pub use outline::{Bounds, GAP, ViewBox};
 pub use sample::Sample;

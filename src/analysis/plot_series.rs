@@ -3,10 +3,11 @@
 use glam::DVec2;
 
 use super::curve_analysis::CurveAnalysis;
+use super::level_series::{LevelPlot, bin_level};
 use crate::geometry::FloatPolygon;
 
 /// Points of a series kept for each bin of the horizontal axis: first, lowest, highest, last.
-const BINS: f64 = 1024.0;
+pub(super) const BINS: f64 = 1024.0;
 
 /// How far apart vertices beyond an end are drawn, as a share of the curve's length …
 const FLANK_STEP: f64 = 1.0 / 40.0;
@@ -97,6 +98,9 @@ impl CurveAnalysis {
         points.clear();
         let mut bins = Bins::new(2f64.powi(level));
         let mut start = 0.0;
+        let polygon = &self.curve().polygon;
+        let few = (polygon.segments() as f64) < BINS;
+        let gaps = few && LevelPlot::Curvature(1).jumps(polygon.degree());
         for segment in self.block_segments(index) {
             let samples = self.segment_samples(segment);
             for sample in samples {
@@ -104,6 +108,9 @@ impl CurveAnalysis {
                 bins.add(point, &mut points);
             }
             start += samples.last().map_or(0.0, |sample| sample.arc_length);
+            if gaps {
+                bins.add(DVec2::new(start, f64::NAN), &mut points);
+            }
         }
         bins.finish(&mut points);
         let block = self.plot_block(index);
@@ -120,11 +127,6 @@ fn vertices_beyond_an_end(polygon: &FloatPolygon) -> usize {
     } else {
         (polygon.degree() / 2).saturating_sub(1)
     }
-}
-
-/// The level of detail of a plot: bins are 2^level wide.
-fn bin_level(extent: f64) -> i32 {
-    (extent / BINS).log2().floor().clamp(-1000.0, 1000.0) as i32
 }
 
 /// Remember the arc length where the last question ended, so that questions in rising order

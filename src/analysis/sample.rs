@@ -131,18 +131,21 @@ pub(super) fn chain(
     samples.iter().flat_map(move |sample| {
         let point = place(sample);
         let gap = before.is_some_and(|before| {
-            let turned =
-                before.curvature * sample.curvature < 0.0 || before.normal.dot(sample.normal) < 0.0;
-            turned && leaps(place(before), point, before, sample)
+            turned(before, sample) && leaps(place(before), point, before, sample)
         });
         before = Some(sample);
         gap.then_some(GAP).into_iter().chain([point])
     })
 }
 
+/// Whether the curve turns to its other side between two samples.
+pub(super) fn turned(a: &Sample, b: &Sample) -> bool {
+    a.curvature * b.curvature < 0.0 || a.normal.dot(b.normal) < 0.0
+}
+
 /// Whether a layer's points leap between two samples: it moves farther than the curve itself by
 /// an order of magnitude.
-fn leaps(from: DVec2, to: DVec2, a: &Sample, b: &Sample) -> bool {
+pub(super) fn leaps(from: DVec2, to: DVec2, a: &Sample, b: &Sample) -> bool {
     from.distance_squared(to) > 400.0 * a.point.distance_squared(b.point)
 }
 

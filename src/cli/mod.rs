@@ -106,6 +106,9 @@ fn table1(json: bool) -> anyhow::Result<()> {
 
 fn convert(input: &Path, out: &Path, polygon: Option<PolygonKind>) -> anyhow::Result<()> {
     let curves = disk::read_file(input)?;
+    if disk::is_same_file(input, out) {
+        anyhow::bail!("{}: a file is not converted into itself", out.display());
+    }
     report(&disk::write_file(out, &curves, polygon)?);
     Ok(())
 }

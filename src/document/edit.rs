@@ -106,6 +106,9 @@ pub enum EditError {
         /// What is wrong with it.
         error: PolygonError,
     },
+    /// A target has a number that cannot be used.
+    #[error("a target needs numbers up to 1e100, and a direction that is not 0")]
+    BadTarget,
     /// A name is empty.
     #[error("a curve needs a name: type at least one character")]
     EmptyName,
@@ -142,6 +145,9 @@ impl Document {
                 self.change(curve, |curve| curve.visible = visible)
             }
             Edit::SetLocked { curve, locked } => self.change(curve, |curve| curve.locked = locked),
+            Edit::SetTarget { target, .. } if target.is_some_and(|target| !target.is_usable()) => {
+                Err(EditError::BadTarget)
+            }
             Edit::SetTarget { curve, end, target } => {
                 self.change(curve, |curve| curve.targets.set(end, target))
             }

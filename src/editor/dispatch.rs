@@ -90,7 +90,7 @@ impl Editor {
                 document: self.history.document(),
                 analyses: &self.analyses,
                 viewport: &self.viewport,
-                layers: self.layers,
+                layers: self.layers(),
                 active,
                 cycle: self.cycle,
             },

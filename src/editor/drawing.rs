@@ -58,7 +58,7 @@ impl Editor {
         self.draw_curves(&view, &mut scene.curves);
         self.draw_ghost(&view, &mut scene.ghost);
         scene.ends.clear();
-        if self.layers.shows(Layer::Targets) || self.tool == ToolKind::EndFit {
+        if self.layers().shows(Layer::Targets) || self.tool == ToolKind::EndFit {
             self.draw_ends(&mut scene);
         }
         // Tools look at the scene's teeth, so it is put back before they draw.
@@ -101,7 +101,7 @@ impl Editor {
         view: &ViewBox,
         scene: &mut CurveScene,
     ) {
-        let (layers, comb, active) = (self.layers, self.comb, scene.active);
+        let (layers, comb, active) = (self.layers(), self.comb, scene.active);
         let orientation = self.viewport.orientation;
         let Some(analysis) = self.analyses.get(id) else {
             return;
@@ -188,9 +188,13 @@ impl Editor {
             }
             for end in End::BOTH {
                 let chosen = fitting && Some(id) == active && end == self.end_fit.end;
-                scene
-                    .ends
-                    .extend(end_fit::marks(curve, end, chosen, &self.viewport));
+                let marks = end_fit::marks(curve, end, chosen, &self.viewport);
+                scene.ends.extend(marks.map(|mut marks| {
+                    if !self.layers().shows(Layer::Float) {
+                        marks.terminal.clear();
+                    }
+                    marks
+                }));
             }
         }
     }

@@ -95,6 +95,8 @@ pub enum EndFitAction {
     ClearTarget,
     /// Pick the target from another curve's end by the next click.
     PickFromCurve,
+    /// Turn the target direction round.
+    TurnRound,
     /// Take this target, picked from another curve's end.
     Picked(EndTarget),
     /// Translate the terminal vertices by the difference vector (step 5).
@@ -139,6 +141,8 @@ pub struct EndFitState {
     pub end: End,
     /// Whether the next click picks a target from another curve.
     pub picking: bool,
+    /// Whether the closed S-polygon stands in for the float one, as in steps 2 and 3.
+    pub closed: bool,
     /// The tolerance that was typed; `None` offers one by the curve's size.
     pub tolerance: Option<f64>,
     /// Passes made by "repeat" since the targets last changed.
@@ -156,6 +160,7 @@ impl Default for EndFitState {
         Self {
             end: End::Finish,
             picking: false,
+            closed: false,
             tolerance: None,
             passes: 0,
             outcome: None,
@@ -241,46 +246,38 @@ fn above(vector: DVec3, rounding: f64) -> DVec3 {
     }))
 }
 
-/// Find the end of another curve seen nearest to a place of the view plane, as a target: its point, and
+/// Find the end of another curve seen nearest to a place of the view plane, as a target for an
+/// end of one's own: its point, and
 /// its direction so that the tangents continue each other.
 pub fn nearest_other_end(
     document: &Document,
     own: CurveId,
+    end: End,
     place: DVec2,
     viewport: &Viewport,
 ) -> Option<EndTarget> {
     let ends = other_ends(document, Some(own));
     let near = ends
-        .map(|jet| (viewport.flatten(jet.point).distance(place), jet))
-        .filter(|(distance, _)| *distance <= 2.0 * REACH * viewport.pixel());
-    let (_, jet) = near.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        .map(|(end, jet)| (viewport.flatten(jet.point).distance(place), end, jet))
+        .filter(|(distance, ..)| *distance <= 2.0 * REACH * viewport.pixel());
+    let (_, picked, jet) = near.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    // An end goes on into a start; two ends, or two starts, run towards each other.
+    let direction = jet.tangent();
     Some(EndTarget {
         point: jet.point,
-        direction: jet.tangent(),
+        direction: direction.map(|along| if picked == end { -along } else { along }),
     })
 }
 
-/// List the jets at the ends of the visible curves other than `own`.
-pub fn other_ends(document: &Document, own: Option<CurveId>) -> impl Iterator<Item = Jet> + '_ {
+/// List the ends of the visible curves other than `own`, with their jets.
+pub fn other_ends(
+    document: &Document,
+    own: Option<CurveId>,
+) -> impl Iterator<Item = (End, Jet)> + '_ {
     let others = document.curves().filter(move |(id, curve)| {
         Some(*id) != own && curve.visible && !curve.polygon.is_periodic()
     });
-    others.flat_map(|(_, curve)| End::BOTH.map(|end| curve.polygon.end_jet(end)))
-}
-
-/// Turn a picked direction round if the curve's own tangent points the other way: two curves
-/// that meet may run towards each other.
-pub fn oriented(target: EndTarget, tangent: Option<DVec3>) -> EndTarget {
-    let against = target
-        .direction
-        .zip(tangent)
-        .is_some_and(|(a, b)| a.dot(b) < 0.0);
-    EndTarget {
-        direction: target
-            .direction
-            .map(|direction| if against { -direction } else { direction }),
-        ..target
-    }
+    others.flat_map(|(_, curve)| End::BOTH.map(|end| (end, curve.polygon.end_jet(end))))
 }
 
 /// Make the marks of one end.

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::Editor;
-use super::end_fit::{EndFitAction, EndFitReport, oriented};
+use super::drawing::figure;
+use super::end_fit::{EndFitAction, EndFitReport};
 use super::layers::Layer;
 use super::tools::ToolKind;
 use crate::document::{Curve, CurveId, Edit};
@@ -50,8 +51,10 @@ impl Editor {
                 self.end_fit.picking = false;
             }
             EndFitAction::ShowClosed(closed) => {
-                self.layers.set(Layer::Clamped, true);
-                self.layers.set(Layer::Float, !closed);
+                self.end_fit.closed = closed;
+                if !closed {
+                    self.layers.set(Layer::Float, true);
+                }
             }
             EndFitAction::TargetActual => {
                 let target = EndTarget {
@@ -77,8 +80,14 @@ impl Editor {
             EndFitAction::PickFromCurve => self.end_fit.picking = !self.end_fit.picking,
             EndFitAction::Picked(picked) => {
                 self.end_fit.picking = false;
-                let target = oriented(picked, jet.tangent());
-                self.set_target(id, "Pick target", Some(target));
+                self.set_target(id, "Pick target", Some(picked));
+            }
+            EndFitAction::TurnRound => {
+                let turned = target.map(|target| EndTarget {
+                    direction: target.direction.map(|direction| -direction),
+                    ..target
+                });
+                self.set_target(id, "Turn target round", turned);
             }
             EndFitAction::Translate => self.translate(id, &curve, target),
             EndFitAction::Rotate => self.rotate(id, &curve, target),
@@ -97,24 +106,11 @@ impl Editor {
     fn set_target(&mut self, curve: CurveId, label: &str, target: Option<EndTarget>) {
         self.end_fit.begin_anew();
         let end = self.end_fit.end;
-        let finite = target.is_none_or(|target| {
-            target.point.is_finite() && target.direction.is_none_or(|d| d.is_finite())
-        });
-        let directed = target.is_none_or(|target| {
-            target
-                .direction
-                .is_none_or(|direction| direction.try_normalize().is_some())
-        });
-        if !finite {
-            self.outcome("A target needs finite numbers", true);
-        } else if !directed {
-            self.outcome(
-                "A target direction needs a length: type one that is not 0",
-                true,
-            );
-        } else {
-            self.apply(label, vec![Edit::SetTarget { curve, end, target }]);
+        let edit = Edit::SetTarget { curve, end, target };
+        if let Err(error) = self.history.apply(label, vec![edit]) {
+            self.outcome(error.to_string(), true);
         }
+        self.document_changed();
     }
 
     /// Step 5: translate the terminal vertices by the difference vector.
@@ -204,10 +200,9 @@ impl Editor {
         match correct_jointly(&curve.polygon, &targets) {
             Ok(correction) => {
                 let (moved, at) = (correction.largest_move, correction.largest_at);
-                let residual = correction.residual;
                 self.corrected(id, curve, "Correct both ends", correction.polygon);
                 self.end_fit.largest_move = Some((moved, at));
-                self.outcome(format!("Both ends are met: {residual:.1e} is left"), false);
+                self.outcome("Both ends are met", false);
             }
             Err(error) => self.outcome(error.to_string(), true),
         }
@@ -235,7 +230,7 @@ impl Editor {
 /// Say why the loop was given up.
 fn why_not(polygon: &FloatPolygon, outcome: &LoopOutcome) -> String {
     let passes = outcome.passes();
-    let left = outcome.residuals.last().copied().unwrap_or_default();
+    let left = figure(outcome.residuals.last().copied().unwrap_or_default());
     let reason = match EndOverlap::of(polygon) {
         EndOverlap::None => "the ends do not settle".to_owned(),
         EndOverlap::Partial { shared } => {
@@ -246,6 +241,6 @@ fn why_not(polygon: &FloatPolygon, outcome: &LoopOutcome) -> String {
         }
     };
     format!(
-        "Stopped after {passes} passes with {left:.1e} left: {reason}. Nothing was changed. Use “both ends at once”."
+        "Stopped after {passes} passes, {left} off: {reason}. Nothing was changed. Use “both ends at once”."
     )
 }

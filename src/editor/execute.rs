@@ -73,7 +73,7 @@ impl Editor {
     pub fn is_checked(&self, command: Command) -> Option<bool> {
         let curve = self.active_curve().map(|(_, curve)| curve);
         match command {
-            Command::ToggleLayer(layer) => Some(self.layers.shows(layer)),
+            Command::ToggleLayer(layer) => Some(self.layers().shows(layer)),
             Command::ToggleSnapping => Some(self.snapping),
             Command::Tool(tool) => Some(self.tool == tool),
             Command::View(view) => Some(self.viewport.orientation == view.orientation()),
@@ -256,11 +256,12 @@ impl Editor {
     }
 
     fn bounds_of(&mut self, id: CurveId) -> Bounds {
+        let layers = self.layers();
         let Some(analysis) = self.analyses.get(id) else {
             return Bounds::EMPTY;
         };
         let mut bounds = analysis.bounds();
-        if self.layers.shows(Layer::Float) {
+        if layers.shows(Layer::Float) {
             bounds.unite(&analysis.float().figures().bounds);
         }
         bounds
@@ -284,7 +285,11 @@ impl Editor {
     }
 
     fn toggle_layer(&mut self, layer: Layer) {
-        self.layers.toggle(layer);
+        let shown = self.layers().shows(layer);
+        if matches!(layer, Layer::Float | Layer::Clamped) {
+            self.end_fit.closed = false;
+        }
+        self.layers.set(layer, !shown);
     }
 
     fn toggle_flag(&mut self, command: Command) {

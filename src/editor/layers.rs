@@ -79,9 +79,4 @@ impl Layers {
     pub fn set(&mut self, layer: Layer, shown: bool) {
         self.shown[layer as usize] = shown;
     }
-
-    /// Switch a layer.
-    pub fn toggle(&mut self, layer: Layer) {
-        self.set(layer, !self.shows(layer));
-    }
 }

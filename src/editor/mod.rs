@@ -204,6 +204,7 @@ impl Editor {
         self.tool = tool;
         self.tool_state = tool.take();
         self.end_fit.picking = false;
+        self.end_fit.closed = false;
         self.end_fit.ghost = None;
     }
 
@@ -251,8 +252,18 @@ impl Editor {
         }
     }
 
-    /// Which layers are shown.
+    /// Which layers are shown now.
     pub fn layers(&self) -> Layers {
+        let mut layers = self.layers;
+        if self.tool == ToolKind::EndFit && self.end_fit.closed {
+            layers.set(Layer::Clamped, true);
+            layers.set(Layer::Float, false);
+        }
+        layers
+    }
+
+    /// Which layers the user has chosen, whatever the tool in the hand makes of them.
+    pub fn chosen_layers(&self) -> Layers {
         self.layers
     }
 
@@ -269,6 +280,7 @@ impl Editor {
     /// Make edits as one step. An error becomes the message, and nothing is changed.
     pub fn apply(&mut self, label: &str, edits: Vec<Edit>) {
         self.commit_field();
+        self.message = None;
         if let Err(error) = self.history.apply(label, edits) {
             self.fail(error.to_string());
         }

@@ -1,8 +1,11 @@
 //! What panels and plots read, made anew each frame.
 
+use glam::DVec2;
+
 use super::Editor;
 use super::report::{CurveReport, Readout};
 use super::scene::{HoverScene, PlotScene};
+use crate::analysis::LevelPlot;
 use crate::document::Curve;
 
 impl Editor {
@@ -28,13 +31,40 @@ impl Editor {
                 plots.curvature_range = analysis.curvature();
                 if let Some(HoverScene::Curve { u, .. }) = hover {
                     let curvature = curvature_at(&curve, u, plots.planar);
-                    plots.hovered = Some(glam::DVec2::new(analysis.length_at(u), curvature));
+                    plots.hovered = Some(DVec2::new(analysis.length_at(u), curvature));
                 }
             }
             plots.hovered_vertex = self.vertex_hovered_on(id);
         }
         self.plots = plots;
         &self.plots
+    }
+
+    /// Bring a plot of levels of the active curve up to date and return it with the others;
+    /// `normalised` scales the curve to length 1.
+    pub fn level_plot(&mut self, plot: LevelPlot, normalised: bool) -> &PlotScene {
+        self.plots();
+        let hovered = match self.scene.hover {
+            Some(HoverScene::Curve { u, .. }) => Some(u),
+            _ => None,
+        };
+        let scene = &mut self.plots;
+        scene.levels.clear();
+        scene.hovered_level = None;
+        scene.slope = None;
+        if let Some(analysis) = self.selection.active().and_then(|id| self.analyses.get(id)) {
+            analysis.append_levels(plot, normalised, &mut scene.levels);
+            scene.hovered_level = hovered.map(|u| analysis.level_at(plot, normalised, u));
+            scene.slope = (plot == LevelPlot::Logarithmic)
+                .then(|| straight_slope(&scene.levels))
+                .flatten();
+        }
+        scene
+    }
+
+    /// Whether the active curve is planar, if there is one.
+    pub fn active_is_planar(&self) -> Option<bool> {
+        Some(self.analyses.peek(self.selection.active()?)?.is_planar())
     }
 
     /// Bring the plot of legs and turning angles up to date and return it with the others.
@@ -109,6 +139,20 @@ impl Editor {
         let hit = self.context().hits.vertex(place)?;
         (hit.0 == id).then_some(hit.1)
     }
+}
+
+/// The slope of the straight line nearest to some points, measured upwards (least squares);
+/// `None` if they lie over one place.
+fn straight_slope(points: &[DVec2]) -> Option<f64> {
+    let finite = || points.iter().filter(|point| point.is_finite());
+    let count = finite().count() as f64;
+    let mean = finite().sum::<DVec2>() / count;
+    let (across, along) = finite().fold((0.0, 0.0), |(across, along), point| {
+        let arm = *point - mean;
+        (across + arm.x * arm.x, along + arm.x * arm.y)
+    });
+    let slope = along / across;
+    slope.is_finite().then_some(slope)
 }
 
 /// The curvature at a parameter: signed for a planar curve, not negative in space.

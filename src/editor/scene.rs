@@ -132,6 +132,12 @@ pub struct PlotScene {
     pub discrete: Vec<(usize, DVec2)>,
     /// How wide the flank beside either end is; 0 if there is none.
     pub flank: f64,
+    /// The plot of levels that was asked for; NaN points are gaps.
+    pub levels: Vec<DVec2>,
+    /// The place on it of what is hovered on the canvas.
+    pub hovered_level: Option<DVec2>,
+    /// The slope of the straight line through the logarithmic graph.
+    pub slope: Option<f64>,
     /// Leg lengths over the number of the vertex where each begins.
     pub legs: Vec<DVec2>,
     /// Turning angles in degrees over the vertices' numbers.

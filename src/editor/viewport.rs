@@ -12,7 +12,7 @@ const MARGIN: f64 = 56.0;
 const EDGE_ON: f64 = 0.1;
 
 /// The smallest and largest scale, in screen points a unit.
-const SCALES: (f64, f64) = (1e-12, 1e12);
+const SCALES: (f64, f64) = (1e-102, 1e102);
 
 /// Map the model to the view plane, and the view plane (y up) to the canvas (screen points, y
 /// down).

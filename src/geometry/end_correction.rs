@@ -12,7 +12,7 @@ use glam::{DMat3, DVec3};
 
 use super::end::{End, rotation_between};
 use super::error::PolygonError;
-use super::float_polygon::FloatPolygon;
+use super::float_polygon::{FloatPolygon, MAX_MAGNITUDE};
 use super::vector;
 
 /// Passes without halving of the residual after which the loop is taken not to converge.
@@ -29,6 +29,16 @@ pub struct EndTarget {
     /// The direction that the tangent shall have, along rising u; of any length but 0. `None`
     /// leaves the direction free.
     pub direction: Option<DVec3>,
+}
+
+impl EndTarget {
+    /// Whether every number of the target can be used: the point's coordinates up to 1e100 in
+    /// magnitude, the direction's too, and not all of these 0.
+    pub fn is_usable(&self) -> bool {
+        let usable = |vector: DVec3| vector.abs().max_element() <= MAX_MAGNITUDE;
+        let directed = |direction: DVec3| usable(direction) && direction != DVec3::ZERO;
+        !self.point.is_nan() && usable(self.point) && self.direction.is_none_or(directed)
+    }
 }
 
 /// What an end of the curve lacks of its target: the paper's third step.

@@ -18,7 +18,8 @@ pub enum PolygonError {
     },
     /// There are fewer vertices than a curve of this degree has.
     #[error(
-        "{found} vertices are too few: {} curve of degree {degree} needs at least {needed}",
+        "{} too few: {} curve of degree {degree} needs at least {needed}",
+        if *found == 1 { "1 vertex is".to_owned() } else { format!("{found} vertices are") },
         if *periodic { "a periodic" } else { "an open" }
     )]
     TooFewVertices {

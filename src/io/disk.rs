@@ -36,6 +36,12 @@ pub fn read_file(path: &Path) -> Result<Vec<Curve>, FileError> {
     })
 }
 
+/// Whether two paths lead to one file that exists.
+pub fn is_same_file(a: &Path, b: &Path) -> bool {
+    let canonical = |path: &Path| std::fs::canonicalize(path).ok();
+    canonical(a).is_some_and(|a| canonical(b) == Some(a))
+}
+
 /// Write curves to a file; its extension tells the format, and `polygon` means what it does to
 /// [`Format::write`]. Returns what the format could not hold.
 ///

@@ -225,7 +225,10 @@ impl App {
             let area = ScrollArea::vertical()
                 .id_salt(name)
                 .auto_shrink([false, false]);
+            // Room for the bar is always kept, so that nothing moves when it appears.
+            let width = ui.available_width() - ui.spacing().scroll.allocated_width();
             area.show(ui, |ui| {
+                ui.set_max_width(width);
                 if is_end_fit {
                     self.end_fit.show(ui, &mut self.editor);
                 } else {
@@ -252,7 +255,8 @@ impl App {
         if !self.shell.plots {
             let bar = Panel::bottom("plots folded").frame(frame).resizable(false);
             bar.exact_size(plots::BAR).show(ui, |ui| {
-                self.plots.bar_ui(ui, false, &mut self.commands);
+                self.plots
+                    .bar_ui(ui, &self.editor, false, &mut self.commands);
             });
             return;
         }
@@ -262,7 +266,8 @@ impl App {
             .size_range(168.0..=640.0)
             .show(ui, |ui| {
                 ui.allocate_ui(egui::vec2(ui.available_width(), plots::BAR), |ui| {
-                    self.plots.bar_ui(ui, true, &mut self.commands);
+                    self.plots
+                        .bar_ui(ui, &self.editor, true, &mut self.commands);
                 });
                 self.plots.show(ui, &mut self.editor);
             });
@@ -428,7 +433,7 @@ impl App {
     }
 
     fn settings(&self) -> Shell {
-        let layers = self.editor.layers();
+        let layers = self.editor.chosen_layers();
         let hidden = Layer::ALL
             .into_iter()
             .enumerate()

@@ -99,11 +99,13 @@ const MOUSE: [(&str, &str); 12] = [
 ];
 
 fn keys_ui(ui: &mut Ui, editor: &Editor) -> Option<Decision> {
-    ui.set_width(880.0);
+    let window = ui.ctx().content_rect().size();
+    ui.set_width((window.x - 80.0).clamp(200.0, 880.0));
     ui.strong("Keys and mouse");
-    let height = (ui.ctx().content_rect().height() - 200.0).clamp(200.0, 560.0);
+    let height = (window.y - 200.0).clamp(120.0, 560.0);
     // Without a least height the list would grow by a little each frame.
-    let area = ScrollArea::vertical()
+    let area = ScrollArea::both()
+        .auto_shrink([false, true])
         .max_height(height)
         .min_scrolled_height(height);
     area.show(ui, |ui| {

@@ -10,6 +10,7 @@ use super::end_fit_steps::{
 use super::inspector::range;
 use super::number_field::{FieldEvent, NumberField};
 use super::theme::{ROW, STEP, Tokens};
+use super::widgets::IconButton;
 use super::{figures, widgets};
 use crate::document::Edit;
 use crate::editor::{Editor, EndFitAction, EndFitReport, Layer};
@@ -190,7 +191,8 @@ impl Panel<'_> {
             let figures = (0..axes).map(|axis| figures::to_resolution(vector[axis], resolution));
             figures.collect::<Vec<String>>().join("  ")
         };
-        let point = written(report.point, 0.01 * self.pixel);
+        let digits = if axes == 2 { 0.01 } else { 0.1 };
+        let point = written(report.point, digits * self.pixel);
         widgets::figure_row(ui, "Actual end point", &point);
         let tangent = match (report.tangent, report.tangent_angle) {
             (_, Some(angle)) => figures::degrees(angle, 3),
@@ -233,10 +235,22 @@ impl Panel<'_> {
                 (Some(direction), None) => return self.components_ui(ui, direction, width),
                 (None, None) => {}
             }
+            self.turn_round_ui(ui);
             self.fixed_ui(ui);
         });
         if direction.is_some() && !self.report.planar {
-            widgets::form_row(ui, "", |ui| self.fixed_ui(ui));
+            widgets::form_row(ui, "", |ui| {
+                self.turn_round_ui(ui);
+                self.fixed_ui(ui);
+            });
+        }
+    }
+
+    fn turn_round_ui(&mut self, ui: &mut Ui) {
+        let button = IconButton::new(Icon::ArrowLeftRight, "Turn target direction round");
+        let enabled = self.report.target_direction.is_some();
+        if button.enabled(enabled).show(ui).clicked() {
+            self.ask(TARGET, EndFitAction::TurnRound);
         }
     }
 
@@ -398,7 +412,9 @@ impl Panel<'_> {
                 _ => figures::significant(report.residual, 4),
             };
             let passes = report.passes.to_string();
-            widgets::figure_row(ui, "Left over, both ends", &left);
+            let tooltip = "The larger of the position difference and of the arc that the polygon's \
+                           size sweeps through the difference angle";
+            widgets::figure_row(ui, "Left over, both ends", &left).on_hover_text(tooltip);
             widgets::figure_row(ui, "Passes", &passes);
             self.tolerance_ui(ui);
         });

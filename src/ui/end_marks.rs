@@ -106,9 +106,7 @@ fn angle(brush: &Brush<'_>, marks: &EndFitMarks) {
     brush.chain(&arc, Stroke::new(2.0, tokens.target));
     let ray = [marks.actual, place(last, 1.0)];
     brush.dashed(ray, Stroke::new(1.0, tokens.target));
-    // Beside the arc lie arrows and handles: the figure stands on the free side of the ring.
-    let outwards = middle.try_normalize().unwrap_or(DVec2::Y);
-    let behind = marks.actual - outwards * (marks.ring + 26.0 / brush.screen.scale());
+    let behind = free_place(brush, marks, *middle);
     if let Some(at) = brush.screen.point(behind) {
         let text = figures::degrees(marks.angle, 2);
         let font = theme::number_font();
@@ -122,4 +120,32 @@ fn angle(brush: &Brush<'_>, marks: &EndFitMarks) {
             tokens,
         );
     }
+}
+
+/// Where around the ring a figure is farthest from arrows, handles and vertices; of places about
+/// as good, the one opposite to the arc.
+fn free_place(brush: &Brush<'_>, marks: &EndFitMarks, middle: DVec2) -> DVec2 {
+    /// Directions that are tried.
+    const TRIED: u8 = 16;
+    let pixel = 1.0 / brush.screen.scale();
+    let radius = marks.ring + 28.0 * pixel;
+    let taken: Vec<DVec2> = [marks.target, marks.target_tip, marks.tangent_tip]
+        .into_iter()
+        .flatten()
+        .chain(marks.terminal.iter().copied())
+        .collect();
+    let opposite = -middle.try_normalize().unwrap_or(DVec2::NEG_Y);
+    let place = |step: u8| {
+        let turn = std::f64::consts::TAU * f64::from(step) / f64::from(TRIED);
+        marks.actual + radius * DVec2::from_angle(turn).rotate(opposite)
+    };
+    let free = |place: DVec2| {
+        let nearest = taken.iter().map(|other| other.distance(place));
+        // Farther than this from everything is free enough.
+        nearest.fold(60.0 * pixel, f64::min)
+    };
+    (0..TRIED)
+        .map(place)
+        .reduce(|best, next| if free(next) > free(best) { next } else { best })
+        .unwrap_or(marks.actual)
 }

@@ -113,7 +113,7 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
     }
     let field = NumberField::new("Degree", degree as f64, degree.to_string())
         .width(48.0)
-        .range(1.0..=MAX_DEGREE as f64)
+        .range(0.0..=999.0)
         .typed_only();
     if let FieldEvent::Typed(value) = field.show(ui).1 {
         editor.set_degree(id, value.round() as usize);

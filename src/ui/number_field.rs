@@ -237,15 +237,39 @@ impl<'a> NumberField<'a> {
         painter.text(at, Align2::RIGHT_CENTER, text, theme::number_font(), colour);
     }
 
-    /// What is shown; of a number too long for the field its end, and that something is missing.
+    /// What is shown: of a number too long for the field fewer digits, and if that is not enough
+    /// its end, and that something is missing.
     fn fitting(&self, painter: &Painter, width: f32) -> String {
-        let is_too_long = |text: &str| labels::size(painter, text, theme::number_font()).x > width;
+        let fits = |text: &str| labels::size(painter, text, theme::number_font()).x <= width;
+        if fits(&self.shown) {
+            return self.shown.clone();
+        }
+        if let Some(shorter) = self.shorter().find(|text| fits(text)) {
+            return shorter;
+        }
         let mut text = self.shown.clone();
-        while is_too_long(&text) && text.chars().count() > 2 {
+        while !fits(&text) && text.chars().count() > 2 {
             let left = text.chars().skip(2);
             text = std::iter::once('…').chain(left).collect();
         }
         text
+    }
+
+    /// The number with fewer and fewer digits, while they tell it from 0; without its unit there
+    /// is nothing to write anew.
+    fn shorter(&self) -> impl Iterator<Item = String> {
+        let value = self.value;
+        let is_plain = self.shown.ends_with(|last: char| last.is_ascii_digit());
+        let plain = (1..=9).rev().map(move |decimals| (decimals, value));
+        let plain = plain.filter(|(decimals, value)| value.abs() >= 0.1_f64.powi(*decimals));
+        let plain = plain.map(|(decimals, value)| {
+            let decimals = decimals as usize;
+            format!("{value:.decimals$}")
+        });
+        let short = (1..=4)
+            .rev()
+            .map(move |digits| figures::significant(value, digits));
+        plain.chain(short).filter(move |_| is_plain)
     }
 
     fn describe(&self, ui: &Ui, response: &Response) {

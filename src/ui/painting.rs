@@ -18,6 +18,9 @@ const TICK: f32 = 5.0;
 /// Half the side of the closed polygon's squares.
 const SQUARE: f32 = 3.5;
 
+/// More vertices than this are marked by smaller discs.
+const CROWD: usize = 200;
+
 /// An evolute smaller than this, in points, is marked by a disc.
 const SMALL_EVOLUTE: f32 = 4.0;
 
@@ -151,12 +154,17 @@ impl Brush<'_> {
             }
         }
         let colour = fade(self.tokens.float);
+        let radius = if curve.vertices.len() > CROWD {
+            2.0
+        } else {
+            4.0
+        };
         for vertex in &curve.vertices {
-            self.vertex(vertex, colour, curve.locked);
+            self.vertex(vertex, colour, curve.locked, radius);
         }
     }
 
-    fn vertex(&self, vertex: &VertexMark, colour: Color32, locked: bool) {
+    fn vertex(&self, vertex: &VertexMark, colour: Color32, locked: bool, radius: f32) {
         let Some(at) = self.screen.point(vertex.at) else {
             return;
         };
@@ -166,9 +174,10 @@ impl Brush<'_> {
                 .circle_stroke(at, 8.0, Stroke::new(1.5, self.tokens.strong_text));
         } else if locked {
             let stroke = Stroke::new(1.25, colour);
-            self.painter.circle(at, 3.5, self.tokens.background, stroke);
+            self.painter
+                .circle(at, radius - 0.5, self.tokens.background, stroke);
         } else {
-            self.painter.circle_filled(at, 4.0, colour);
+            self.painter.circle_filled(at, radius, colour);
         }
     }
 

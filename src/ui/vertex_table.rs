@@ -215,9 +215,8 @@ impl Row<'_> {
                 figures::to_resolution(value, 0.01 * self.speed.max(1e-300)),
                 self.speed,
             ),
-            Column::Weight => (figures::significant(value, 6), 0.01),
+            Column::Weight => (figures::to_resolution(value, 1e-5), 0.01),
         };
-        let shown = fitting(ui, shown, value, self.width - 3.0 * STEP);
         let name = format!("vertex {} {}", self.vertex, column.name());
         let field = NumberField::new(&name, value, shown)
             .speed(speed)
@@ -225,22 +224,6 @@ impl Row<'_> {
             .flat();
         field.show(ui).1
     }
-}
-
-/// Write a number shorter if it is too wide for its column.
-fn fitting(ui: &Ui, shown: String, value: f64, width: f32) -> String {
-    let digit = widgets::text_width(ui, "0", theme::number_font());
-    let most = (width / digit).floor().max(4.0) as usize;
-    if shown.len() <= most {
-        return shown;
-    }
-    let longest = (1..=most)
-        .rev()
-        .map(|digits| figures::significant(value, digits));
-    longest
-        .into_iter()
-        .find(|text| text.len() <= most)
-        .unwrap_or(shown)
 }
 
 fn value(curve: &Curve, column: Column, vertex: usize) -> f64 {

@@ -1,8 +1,8 @@
 //! Small pieces that the panels share.
 
 use eframe::egui::{
-    self, Align, Align2, Color32, FontId, InnerResponse, Layout, Rect, Response, RichText, Role,
-    Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo,
+    self, Align, Align2, Color32, InnerResponse, Layout, Rect, Response, RichText, Role, Sense,
+    Stroke, StrokeKind, Ui, Vec2, WidgetInfo,
 };
 use lucide_icons::Icon;
 
@@ -157,13 +157,14 @@ pub fn form_row<R>(
 }
 
 /// One row of figures: a caption at the left, numbers flush right in tabular figures.
-pub fn figure_row(ui: &mut Ui, name: &str, figures: &str) {
+pub fn figure_row(ui: &mut Ui, name: &str, figures: &str) -> Response {
     let tokens = Tokens::of(ui);
     let width = ui.available_width();
     let (rect, response) = ui.allocate_exact_size(Vec2::new(width, 5.0 * STEP), Sense::hover());
     label_in(ui, rect, name, tokens.faint_text);
     number_in(ui, rect, figures, tokens.text);
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{name}: {figures}")));
+    response
 }
 
 /// One row of facts: a caption at the left, words flush right.
@@ -191,14 +192,6 @@ pub fn number_in(ui: &Ui, rect: Rect, text: &str, colour: Color32) {
     let at = rect.right_center();
     ui.painter()
         .text(at, Align2::RIGHT_CENTER, text, theme::number_font(), colour);
-}
-
-/// The width of a text in a font.
-pub fn text_width(ui: &Ui, text: &str, font: FontId) -> f32 {
-    let galley = ui
-        .painter()
-        .layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER);
-    galley.size().x
 }
 
 /// The frame of a dialog.

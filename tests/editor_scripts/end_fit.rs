@@ -1,6 +1,6 @@
 //! The end-fit tool.
 
-use batten::editor::{Command, EndFitAction, Input, ToolKind};
+use batten::editor::{Command, EndFitAction, Input, Layer, ToolKind};
 use batten::geometry::End;
 use batten::geometry::end_correction::EndOverlap;
 use glam::{DVec2, DVec3};
@@ -109,7 +109,38 @@ fn a_target_is_picked_from_another_curves_end() {
     script.click(place);
     let report = script.editor.end_fit().expect("figures");
     assert_eq!(report.target_point, Some(other.point));
+    // Two starts run towards each other: this one is to leave where the other arrives.
+    let along = other.tangent().expect("a tangent");
+    assert_eq!(report.target_direction, Some(-along));
     assert!(!report.picking);
+    script.editor.end_fit_action(EndFitAction::TurnRound);
+    let report = script.editor.end_fit().expect("figures");
+    assert_eq!(report.target_direction, Some(along));
+}
+
+#[test]
+fn showing_the_closed_polygon_ends_with_the_tool() {
+    let mut script = Script::example("arc");
+    script.tool(ToolKind::EndFit);
+    script.editor.end_fit_action(EndFitAction::ShowClosed(true));
+    assert!(!script.editor.layers().shows(Layer::Float));
+    assert!(script.editor.chosen_layers().shows(Layer::Float));
+    script.tool(ToolKind::Select);
+    assert!(script.editor.layers().shows(Layer::Float));
+}
+
+#[test]
+fn a_target_that_no_file_could_hold_is_refused() {
+    let mut script = Script::example("arc");
+    script.tool(ToolKind::EndFit);
+    for point in [DVec3::new(1e300, 0.0, 0.0), DVec3::new(0.0, f64::NAN, 0.0)] {
+        script.editor.end_fit_action(EndFitAction::SetPoint(point));
+        let report = script.editor.end_fit().expect("figures");
+        assert_eq!(report.target_point, None);
+        let (text, failed) = report.outcome.expect("an outcome");
+        assert!(failed && text.contains("up to 1e100"), "{text}");
+    }
+    assert!(!script.editor.is_modified());
 }
 
 #[test]

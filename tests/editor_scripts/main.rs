@@ -4,6 +4,7 @@ mod commands;
 mod end_fit;
 mod script;
 mod selecting;
+mod space;
 mod transforming;
 mod vertices;
 mod view;

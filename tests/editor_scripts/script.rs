@@ -50,9 +50,8 @@ impl Script {
 
     /// Where a vertex is on the canvas.
     pub fn at_vertex(&self, index: usize) -> DVec2 {
-        self.editor
-            .viewport()
-            .to_screen(self.polygon().vertex(index).truncate())
+        let viewport = self.editor.viewport();
+        viewport.to_screen(viewport.flatten(self.polygon().vertex(index)))
     }
 
     /// Send one input.

@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::evolute::Evolute;
 use super::{BLOCK, Block, CurveAnalysis};
 use crate::analysis::comb::CombSettings;
 use crate::analysis::outline::{Bounds, Outline, OutlineKey, ViewBox, append_gap, thin};
@@ -9,6 +10,10 @@ use crate::analysis::sample::{Sample, SegmentSampler, chain, finite};
 
 /// A segment is sampled anew when its samples are farther apart than this, in screen points.
 const COARSE: f64 = 8.0;
+
+/// The evolute is followed closely within this distance from the curve, in units of the curve's
+/// extent.
+const REACH: f64 = 4.0;
 
 /// The most samples of a segment that is sampled anew for a close view.
 const FINEST: usize = 256;
@@ -19,21 +24,37 @@ impl CurveAnalysis {
     pub fn append_curve(&mut self, view: &ViewBox, out: &mut Vec<DVec2>) {
         let eye = self.orientation;
         let place = move |sample: &Sample| eye.flatten(sample.point);
-        self.append(view, out, 0, |block| &mut block.curve, place);
+        let points = move |_, samples: &[Sample], out: &mut Vec<DVec2>| {
+            out.extend(chain(samples, place));
+        };
+        self.append(view, out, 0, |block| &mut block.curve, points);
     }
 
-    /// Append what is visible of the evolute; it breaks where it passes through infinity.
+    /// Append what is visible of the evolute; it breaks where it passes through infinity, and is
+    /// followed more closely where it runs much faster than the curve.
     pub fn append_evolute(&mut self, view: &ViewBox, out: &mut Vec<DVec2>) {
-        let eye = self.orientation;
-        let place = move |sample: &Sample| finite(eye.flatten(sample.centre()));
-        self.append(view, out, 0, |block| &mut block.evolute, place);
+        let bounds = self.bounds();
+        let evolute = Evolute {
+            curve: self.curve.clone(),
+            planar: self.planar,
+            eye: self.orientation,
+            longest_chord: COARSE * view.pixel,
+            reach: REACH * (bounds.high - bounds.low).max_element(),
+        };
+        let points = |segment, samples: &[Sample], out: &mut Vec<DVec2>| {
+            evolute.append(segment, samples, out);
+        };
+        self.append(view, out, 0, |block| &mut block.evolute, points);
     }
 
     /// Append what is visible of the comb's envelope.
     pub fn append_comb(&mut self, view: &ViewBox, comb: &CombSettings, out: &mut Vec<DVec2>) {
         let (scale, eye) = (comb.scale, self.orientation);
         let place = move |sample: &Sample| finite(eye.flatten(sample.comb_tip(scale)));
-        self.append(view, out, scale.to_bits(), |block| &mut block.comb, place);
+        let points = move |_, samples: &[Sample], out: &mut Vec<DVec2>| {
+            out.extend(chain(samples, place));
+        };
+        self.append(view, out, scale.to_bits(), |block| &mut block.comb, points);
     }
 
     /// Append the comb's visible teeth, each from its foot on the curve to its tip; where they
@@ -57,15 +78,15 @@ impl CurveAnalysis {
         }
     }
 
-    /// Append one layer that is a chain of points made of the samples; `shape` is whatever else
-    /// the points depend on.
+    /// Append one layer that is a chain of points, made of the samples segment by segment;
+    /// `shape` is whatever else the points depend on.
     fn append(
         &mut self,
         view: &ViewBox,
         out: &mut Vec<DVec2>,
         shape: u64,
         layer: impl Fn(&mut Block) -> &mut Outline,
-        place: impl Fn(&Sample) -> DVec2 + Copy,
+        points: impl Fn(usize, &[Sample], &mut Vec<DVec2>),
     ) {
         for index in 0..self.blocks.len() {
             let longest = self.summary(index).longest;
@@ -73,13 +94,19 @@ impl CurveAnalysis {
             let level = (!coarse).then(|| view.level());
             let range = self.block_segments(index);
             let size = self.steps + 1;
-            let samples = &self.samples[range.start * size..range.end * size];
+            let samples = &self.samples;
             let outline = layer(&mut self.blocks[index]);
-            outline.refresh(OutlineKey { level, shape }, || chain(samples, place));
+            outline.refresh(OutlineKey { level, shape }, || {
+                let mut chained = Vec::new();
+                for segment in range {
+                    points(segment, &samples[segment * size..][..size], &mut chained);
+                }
+                chained.into_iter()
+            });
             if !coarse {
                 outline.append(view, out);
             } else if outline.bounds().may_meet(view) {
-                self.append_fine(index, view, out, place);
+                self.append_fine(index, view, out, &points);
             } else {
                 append_gap(out);
             }
@@ -93,7 +120,7 @@ impl CurveAnalysis {
         index: usize,
         view: &ViewBox,
         out: &mut Vec<DVec2>,
-        place: impl Fn(&Sample) -> DVec2 + Copy,
+        points: &impl Fn(usize, &[Sample], &mut Vec<DVec2>),
     ) {
         let needed = self.steps as f64 * self.summary(index).longest / (COARSE * view.pixel);
         let steps = (needed.min(FINEST as f64) as usize).next_power_of_two();
@@ -105,14 +132,19 @@ impl CurveAnalysis {
         };
         let size = self.steps + 1;
         let mut samples = vec![self.samples[0]; steps + 1];
+        let mut chained = Vec::new();
         for segment in index * BLOCK..((index + 1) * BLOCK).min(self.curve.polygon.segments()) {
             let coarse = &self.samples[segment * size..(segment + 1) * size];
+            chained.clear();
+            points(segment, coarse, &mut chained);
             let mut bounds = Bounds::EMPTY;
-            chain(coarse, place).for_each(|point| bounds.add(point));
+            chained.iter().for_each(|point| bounds.add(*point));
             if bounds.may_meet(view) {
                 fine.fill(&self.curve.polygon, segment, self.planar, &mut samples);
+                chained.clear();
+                points(segment, &samples, &mut chained);
                 let spacing = 2f64.powi(view.level());
-                thin(chain(&samples, place), spacing, out, &mut bounds);
+                thin(chained.iter().copied(), spacing, out, &mut bounds);
             } else {
                 append_gap(out);
             }

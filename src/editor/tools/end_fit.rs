@@ -224,8 +224,8 @@ impl Tool for EndFitTool {
     fn marks(&self, context: &Context) -> Vec<Mark> {
         if context.end_fit.picking {
             let own = context.selection.active();
-            let ends =
-                other_ends(context.document, own).map(|jet| context.viewport.flatten(jet.point));
+            let ends = other_ends(context.document, own)
+                .map(|(_, jet)| context.viewport.flatten(jet.point));
             return ends.map(Mark::Snap).collect();
         }
         match &self.state {
@@ -269,6 +269,7 @@ fn click(place: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
         return match nearest_other_end(
             context.document,
             subject.id,
+            subject.end,
             context.model(place),
             context.viewport,
         ) {

@@ -53,7 +53,13 @@ pub fn bounds_of(points: impl Iterator<Item = DVec2>, from_zero: bool) -> (DVec2
         low.y = low.y.min(0.0);
         high.y = high.y.max(0.0);
     }
-    let size = low.y.abs().max(high.y.abs()).max(1e-300);
+    let size = low.y.abs().max(high.y.abs());
+    // Nothing but zeros has no size of its own.
+    let size = if size < f64::MIN_POSITIVE {
+        0.5 / FLAT
+    } else {
+        size
+    };
     let short = (20.0 * FLAT * size - (high.y - low.y)).max(0.0);
     let margin = 0.5 * short + MARGIN * (high.y - low.y + short);
     if high.x == low.x {
@@ -63,6 +69,34 @@ pub fn bounds_of(points: impl Iterator<Item = DVec2>, from_zero: bool) -> (DVec2
         low - DVec2::new(0.0, margin),
         high + DVec2::new(0.0, margin),
     )
+}
+
+/// The share of the values, at either end, that a plot may cut off if they are far beyond the
+/// others.
+const PEAKS: f64 = 0.02;
+
+/// How far beyond the others a peak may reach and still be shown, in units of their extent.
+const TALLEST: f64 = 4.0;
+
+/// The bounds that hold a series but for narrow peaks that would flatten all the rest; if peaks
+/// are cut off, also how far they reach.
+pub fn within_reason(points: &[DVec2]) -> ((DVec2, DVec2), Option<(f64, f64)>) {
+    let mut values: Vec<f64> = points.iter().map(|point| point.y).collect();
+    values.retain(|value| value.is_finite());
+    values.sort_by(f64::total_cmp);
+    let beyond = (PEAKS * values.len() as f64) as usize;
+    let whole = values.first().zip(values.last());
+    let most = values.get(beyond).zip(values.iter().nth_back(beyond));
+    let (Some((low, high)), Some((from, to))) = (whole, most) else {
+        return (bounds_of(points.iter().copied(), false), None);
+    };
+    let reach = TALLEST * (to - from);
+    let (bottom, top) = (low.max(from - reach), high.min(to + reach));
+    let shown = points
+        .iter()
+        .map(|point| DVec2::new(point.x, point.y.clamp(bottom, top)));
+    let is_cut = bottom > *low || top < *high;
+    (bounds_of(shown, false), is_cut.then_some((*low, *high)))
 }
 
 /// A little room at the left and right, so that the outermost dots are whole.
@@ -90,6 +124,17 @@ mod tests {
         check((0.0, 10.0), (2.0, 14.0), true, (0.0, 14.0));
         check((0.0, 10.0), (2.0, 4.0), false, (2.0, 4.0));
         check((0.0, 10.0), (0.5, 9.8), false, (0.0, 10.0));
+    }
+
+    #[test]
+    fn narrow_peaks_are_cut_off_and_told() {
+        let wave = |x: f64| DVec2::new(x, x.sin());
+        let mut points: Vec<DVec2> = (0..200).map(|index| wave(0.1 * f64::from(index))).collect();
+        assert_eq!(within_reason(&points).1, None);
+        points[77].y = -1e14;
+        let ((low, high), cut) = within_reason(&points);
+        assert!(low.y > -20.0 && high.y > 0.9, "{low} {high}");
+        assert_eq!(cut.map(|cut| cut.0), Some(-1e14));
     }
 
     #[test]

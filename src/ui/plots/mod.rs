@@ -4,14 +4,20 @@ mod curvature;
 mod drawing;
 mod frame;
 mod legs;
+mod levels;
+
+use std::collections::HashMap;
 
 use eframe::egui::{Button, Ui};
 use lucide_icons::Icon;
 
 use super::theme::STEP;
 use super::widgets::{self, IconButton};
+use crate::analysis::LevelPlot;
 use crate::editor::{Command, Editor};
+use crate::geometry::LEVELS;
 use frame::Frame;
+use levels::tab_name;
 
 /// The height of the bar with the tabs.
 pub const BAR: f32 = 32.0;
@@ -22,6 +28,8 @@ pub enum Tab {
     /// Curvature over arc length.
     #[default]
     Curvature,
+    /// A level of curvature or torsion, or the logarithmic graph.
+    Levels(LevelPlot),
     /// Leg lengths and turning angles over the vertices.
     Legs,
 }
@@ -37,6 +45,11 @@ pub struct Plots {
     hovering: bool,
     /// What the curvature plot's dots are.
     legend: &'static str,
+    /// What a plot of levels has to say.
+    remark: String,
+    /// Whether levels are those of the curve scaled to length 1.
+    normalised: bool,
+    levels: HashMap<(LevelPlot, bool), Frame>,
 }
 
 impl Plots {
@@ -50,15 +63,36 @@ impl Plots {
         self.tab = tab;
     }
 
+    /// The tabs that the active curve has: a planar one has no torsion.
+    fn tabs(&self, editor: &Editor) -> Vec<Tab> {
+        let mut tabs = vec![Tab::Legs, Tab::Curvature];
+        tabs.extend((2..=LEVELS).map(|level| Tab::Levels(LevelPlot::Curvature(level))));
+        let is_own = |tab: &Tab| self.tab == *tab;
+        let torsion = (1..=LEVELS).map(|level| Tab::Levels(LevelPlot::Torsion(level)));
+        let has_torsion = editor.active_is_planar() == Some(false);
+        tabs.extend(torsion.filter(|tab| has_torsion || is_own(tab)));
+        tabs.push(Tab::Levels(LevelPlot::Logarithmic));
+        // The polygon's own plots come last.
+        tabs.rotate_left(1);
+        tabs
+    }
+
     /// Show the bar with the tabs and the button that folds the plots.
-    pub fn bar_ui(&mut self, ui: &mut Ui, shown: bool, commands: &mut Vec<Command>) {
+    pub fn bar_ui(
+        &mut self,
+        ui: &mut Ui,
+        editor: &Editor,
+        shown: bool,
+        commands: &mut Vec<Command>,
+    ) {
         ui.horizontal_centered(|ui| {
             ui.spacing_mut().item_spacing.x = STEP;
-            let tabs = [
-                (Tab::Curvature, "Curvature"),
-                (Tab::Legs, "Legs and turning angles"),
-            ];
-            for (tab, name) in tabs {
+            for tab in self.tabs(editor) {
+                let name = match tab {
+                    Tab::Curvature => "Curvature".to_owned(),
+                    Tab::Levels(plot) => tab_name(plot),
+                    Tab::Legs => "Legs and turning angles".to_owned(),
+                };
                 let response = ui.add(Button::selectable(shown && self.tab == tab, name));
                 if response.clicked() {
                     self.tab = tab;
@@ -76,8 +110,13 @@ impl Plots {
                 if IconButton::new(icon, name).show(ui).clicked() {
                     commands.push(Command::TogglePlots);
                 }
-                if shown && self.tab == Tab::Curvature {
-                    widgets::caption(ui, self.legend);
+                match self.tab {
+                    _ if !shown => {}
+                    Tab::Curvature => {
+                        widgets::caption(ui, self.legend);
+                    }
+                    Tab::Levels(plot) => self.level_bar_ui(ui, plot),
+                    Tab::Legs => {}
                 }
             });
         });
@@ -93,6 +132,7 @@ impl Plots {
         }
         match self.tab {
             Tab::Curvature => self.curvature_ui(ui, editor),
+            Tab::Levels(plot) => self.levels_ui(ui, editor, plot),
             Tab::Legs => self.legs_ui(ui, editor),
         }
     }

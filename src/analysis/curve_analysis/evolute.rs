@@ -1,0 +1,102 @@
+//! The evolute as a chain of points, however fast it runs.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use crate::analysis::orientation::Orientation;
+use crate::analysis::outline::GAP;
+use crate::analysis::sample::{Sample, finite, leaps, turned};
+use crate::document::Curve;
+
+/// How often a step between two samples is halved at most.
+const DEEPEST: u32 = 7;
+
+/// What the evolute of a curve is followed with.
+pub(super) struct Evolute {
+    pub curve: Arc<Curve>,
+    pub planar: bool,
+    pub eye: Orientation,
+    /// Steps whose ends are seen farther apart than this are halved …
+    pub longest_chord: f64,
+    /// … if one of them is nearer to the curve than this.
+    pub reach: f64,
+}
+
+/// A step along one segment, by the samples at its ends and their parameters.
+struct Step<'a> {
+    segment: usize,
+    from: (f64, &'a Sample),
+    to: (f64, &'a Sample),
+    depth: u32,
+}
+
+impl Evolute {
+    /// Append the evolute of one segment that is sampled at even parameters.
+    pub fn append(&self, segment: usize, samples: &[Sample], out: &mut Vec<DVec2>) {
+        let steps = samples.len().saturating_sub(1).max(1) as f64;
+        let Some(first) = samples.first() else {
+            return;
+        };
+        let start = self.place(first);
+        // Where the curvature jumps at a knot, so does the evolute.
+        let jumps = |last: &DVec2| last.distance(start) > self.longest_chord;
+        if out.last().is_some_and(jumps) {
+            out.push(GAP);
+        }
+        out.push(start);
+        for (number, pair) in samples.windows(2).enumerate() {
+            let at = |offset: usize| (number + offset) as f64 / steps;
+            self.follow(
+                Step {
+                    segment,
+                    from: (at(0), &pair[0]),
+                    to: (at(1), &pair[1]),
+                    depth: 0,
+                },
+                out,
+            );
+            out.push(self.place(&pair[1]));
+        }
+    }
+
+    /// Append what lies between the ends of a step.
+    fn follow(&self, step: Step<'_>, out: &mut Vec<DVec2>) {
+        let (from, to) = (self.place(step.from.1), self.place(step.to.1));
+        let turns = turned(step.from.1, step.to.1);
+        let is_short = from.distance(to) <= self.longest_chord;
+        let is_far = |sample: &Sample| !(sample.curvature.abs() * self.reach >= 1.0);
+        let leaves = is_far(step.from.1) && is_far(step.to.1);
+        if (is_short && !turns) || leaves || step.depth == DEEPEST {
+            if turns && leaps(from, to, step.from.1, step.to.1) {
+                out.push(GAP);
+            }
+            return;
+        }
+        let t = 0.5 * (step.from.0 + step.to.0);
+        let jet = self.curve.polygon.segment_jet(step.segment, t);
+        let middle = Sample::of(&jet, self.planar);
+        let depth = step.depth + 1;
+        self.follow(
+            Step {
+                to: (t, &middle),
+                depth,
+                ..step
+            },
+            out,
+        );
+        out.push(self.place(&middle));
+        self.follow(
+            Step {
+                from: (t, &middle),
+                depth,
+                ..step
+            },
+            out,
+        );
+    }
+
+    fn place(&self, sample: &Sample) -> DVec2 {
+        finite(self.eye.flatten(sample.centre()))
+    }
+}

@@ -1,0 +1,141 @@
+//! The plots of curvature and torsion levels, and the logarithmic curvature graph.
+
+use eframe::egui::{Checkbox, Ui};
+use egui_plot::{HoverPosition, Plot};
+use glam::DVec2;
+
+use super::Plots;
+use super::drawing::*;
+use super::frame::{bounds_of, padded, within_reason};
+use crate::analysis::LevelPlot;
+use crate::editor::Editor;
+use crate::ui::figures;
+use crate::ui::theme::{STEP, Tokens};
+use crate::ui::widgets;
+
+/// What the tab of a plot is called.
+pub fn tab_name(plot: LevelPlot) -> String {
+    match plot {
+        LevelPlot::Curvature(level) => format!("κ level {level}"),
+        LevelPlot::Torsion(1) => "Torsion".to_owned(),
+        LevelPlot::Torsion(level) => format!("τ level {level}"),
+        LevelPlot::Logarithmic => "Log graph".to_owned(),
+    }
+}
+
+/// What the vertical axis is called.
+fn axis_name(plot: LevelPlot, normalised: bool) -> String {
+    let unit = match (plot, normalised) {
+        (_, true) => " of the curve at length 1",
+        (LevelPlot::Torsion(1), _) => " (1/unit)",
+        _ => "",
+    };
+    match plot {
+        LevelPlot::Curvature(level) => format!("level {level} of curvature{unit}"),
+        LevelPlot::Torsion(1) => format!("torsion τ{unit}"),
+        LevelPlot::Torsion(level) => format!("level {level} of torsion{unit}"),
+        LevelPlot::Logarithmic => "log₁₀ |ρ ds/dρ|".to_owned(),
+    }
+}
+
+impl Plots {
+    /// What the bar says of a plot of levels: the switch that normalises, and what is cut off.
+    pub(super) fn level_bar_ui(&mut self, ui: &mut Ui, plot: LevelPlot) {
+        if plot == LevelPlot::Logarithmic {
+            widgets::caption(ui, &self.remark);
+            return;
+        }
+        ui.spacing_mut().item_spacing.x = 2.0 * STEP;
+        let tooltip = "Show the levels of the curve scaled to length 1, over shares of its length";
+        ui.add(Checkbox::new(&mut self.normalised, "By curve length"))
+            .on_hover_text(tooltip);
+        widgets::caption(ui, &self.remark);
+    }
+
+    pub(super) fn levels_ui(&mut self, ui: &mut Ui, editor: &mut Editor, which: LevelPlot) {
+        let tokens = Tokens::of(ui);
+        let dragging = editor.is_dragging();
+        let normalised = self.normalised && which != LevelPlot::Logarithmic;
+        let scene = editor.level_plot(which, normalised);
+        let is_graph = which == LevelPlot::Logarithmic;
+        let length = scene.length;
+        let extent = if normalised { 1.0 } else { length };
+        if scene.levels.iter().all(|point| point.is_nan()) {
+            self.remark.clear();
+            let text = match which {
+                LevelPlot::Torsion(_) if scene.planar => "A planar curve has no torsion.",
+                LevelPlot::Logarithmic => "The curvature does not change: there is no graph.",
+                _ => "This level is nowhere a number.",
+            };
+            widgets::note(ui, text);
+            ui.take_available_space();
+            return;
+        }
+        let (wanted, cut) = if is_graph {
+            (bounds_of(scene.levels.iter().copied(), false), None)
+        } else {
+            within_reason(&scene.levels)
+        };
+        self.remark = match (scene.slope, cut) {
+            (Some(slope), _) if is_graph => {
+                let slope = figures::significant(slope, 4);
+                format!("Slope of the straight line through it: α ≈ {slope}")
+            }
+            (_, Some((low, high))) => format!(
+                "Peaks beyond the plot: {} … {}",
+                figures::significant(low, 4),
+                figures::significant(high, 4)
+            ),
+            _ => String::new(),
+        };
+        let mut wanted = wanted;
+        if !is_graph {
+            wanted.0.x = wanted.0.x.min(0.0);
+            wanted.1.x = wanted.1.x.max(extent);
+        }
+        let frame = self.levels.entry((which, normalised)).or_default();
+        let bounds = frame.settle(padded(wanted), dragging);
+        let across = match (is_graph, normalised) {
+            (true, _) => "log₁₀ ρ",
+            (_, true) => "share of the arc length",
+            _ => "arc length (units)",
+        };
+        let upwards = axis_name(which, normalised);
+        let hovered = self::labelled(plot("levels", across, &upwards, bounds, tokens), is_graph)
+            .show(ui, |plot| {
+                plot.set_plot_bounds(bounds);
+                if !is_graph {
+                    zero_line(plot, tokens);
+                }
+                lines(plot, "level", &scene.levels, tokens.comb);
+                if let Some(at) = scene.hovered_level {
+                    cursor(plot, at, tokens);
+                }
+                hovered_x(plot)
+            })
+            .inner;
+        let along = hovered
+            .filter(|x| !is_graph && (0.0..=extent).contains(x))
+            .map(|x| x * length / extent);
+        if along.is_some() || self.hovering {
+            editor.hover_length(along);
+        }
+        self.hovering = along.is_some();
+    }
+}
+
+/// Let a plot tell the figures under the pointer.
+fn labelled(plot: Plot<'_>, is_graph: bool) -> Plot<'_> {
+    plot.label_formatter(move |hover| {
+        let HoverPosition::NearDataPoint { position, .. } = hover else {
+            return None;
+        };
+        let at = DVec2::new(position.x, position.y);
+        let (x, y) = (figures::significant(at.x, 5), figures::significant(at.y, 6));
+        Some(if is_graph {
+            format!("log ρ {x}\nlog |ρ ds/dρ| {y}")
+        } else {
+            format!("{y}\nat {x}")
+        })
+    })
+}
