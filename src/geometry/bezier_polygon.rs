@@ -2,20 +2,14 @@
 
 use glam::{DVec3, DVec4};
 
-use super::clamped_polygon::{float_from_homogeneous, projected};
+use super::bezier_matrix::{blossom_row, float_to_bezier, middle_segment};
+use super::clamped_polygon::weighted;
+use super::closing::{smoothness_tolerance, worst_difference};
 use super::error::PolygonError;
-use super::float_polygon::{FloatPolygon, check_degree, check_vertices, check_weights};
-use super::knots::{clamp_end, clamp_start, float_knots, unclamp_end, unclamp_start};
-use super::vector;
-
-/// How far, in units of the curve's size, the Bézier polygons read from a file may lie from a
-/// curve of smoothness n − 1: what single-precision writers leave is refused, decimal rounding
-/// to ten digits is not.
-const SMOOTHNESS_TOLERANCE: f64 = 1e-9;
-
-/// The same where the conversion itself amplifies the rounding of the vertices beyond that, as
-/// it does from degree 12 on.
-const WORST_TOLERANCE: f64 = 1e-6;
+use super::exact_polygon::{ExactPolygon, chain};
+use super::exact_vertices::ExactVertices;
+use super::float_polygon::{FloatPolygon, check_polygon};
+use super::knots::clamp;
 
 /// Hold a curve by the Bézier polygons of its L segments in one chain of n·L + 1 vertices,
 /// neighbours sharing the vertex at their joint.
@@ -37,21 +31,11 @@ impl BezierPolygon {
         vertices: Vec<DVec3>,
         weights: Option<Vec<f64>>,
     ) -> Result<Self, PolygonError> {
-        check_degree(degree)?;
+        check_polygon(degree, &vertices, weights.as_deref(), false)?;
         let found = vertices.len();
-        if found < degree + 1 {
-            return Err(PolygonError::TooFewVertices {
-                found,
-                needed: degree + 1,
-                degree,
-                periodic: false,
-            });
-        }
         if !(found - 1).is_multiple_of(degree) {
             return Err(PolygonError::BezierCount { found, degree });
         }
-        check_vertices(&vertices)?;
-        check_weights(weights.as_deref(), found)?;
         Ok(Self {
             degree,
             vertices,
@@ -59,16 +43,18 @@ impl BezierPolygon {
         })
     }
 
-    /// Convert a float polygon, segment by segment (the paper's SB and NSB): interpolation only.
+    /// Convert a float polygon, segment by segment (the paper's SB and NSB): interpolation only,
+    /// in double-double arithmetic, so each number is the exact one rounded. A periodic curve
+    /// runs round once from u = 0.
     pub fn from_float(float: &FloatPolygon) -> Self {
         let degree = float.degree();
-        let mut chain: Vec<DVec4> = Vec::with_capacity(degree * float.segments() + 1);
-        for segment in 0..float.segments() {
-            let polygon = segment_bezier(float, segment);
-            let shared = usize::from(segment > 0);
-            chain.extend_from_slice(&polygon[shared..]);
-        }
-        let (vertices, weights) = projected(&chain, float.is_rational());
+        let count = float.segments() + degree;
+        let vertices = (0..count).map(|index| (float.vertex(index), float.weight(index)));
+        let vertices = ExactVertices::new(vertices, float.is_rational());
+        let matrix = float_to_bezier::<2>(degree);
+        let (vertices, weights) = vertices
+            .map(|axis| chain(degree, &matrix, axis))
+            .all_rounded();
         Self {
             degree,
             vertices,
@@ -76,26 +62,20 @@ impl BezierPolygon {
         }
     }
 
-    /// Convert to the float polygon of the same curve (the paper's BS and NBS).
+    /// Convert to the float polygon of the same curve (the paper's BS and NBS), within one
+    /// rounding of the exact one: the matrix holds integers, the products three doubles a number.
     ///
     /// Each float vertex is extrapolated from the segment nearest to the middle of its knots,
-    /// where the rounding of the Bézier vertices grows least.
+    /// where the errors that the Bézier vertices already have grow least.
     ///
     /// # Errors
     /// [`PolygonError::NotSmooth`] if the segments are not one curve of smoothness n − 1 on
     /// uniform knots, within 1e-9 of its size or what the conversion makes of rounding (at most
-    /// 1e-6); [`PolygonError::WeightLost`] and
+    /// 1e-6); [`PolygonError::DigitsLost`] if the float polygon of a single segment is so large
+    /// that doubles do not hold the curve to 1e-6 of its size; [`PolygonError::WeightLost`] and
     /// [`PolygonError::Overflow`] as in [`super::ClampedPolygon::to_float`].
     pub fn to_float(&self) -> Result<FloatPolygon, PolygonError> {
-        let segments = self.segments();
-        let pieces: Vec<Vec<DVec4>> = (0..segments).map(|k| self.segment_float(k)).collect();
-        let chain: Vec<DVec4> = (0..segments + self.degree)
-            .map(|index| {
-                let nearest = self.nearest_segment(index);
-                pieces[nearest][index - nearest]
-            })
-            .collect();
-        let float = float_from_homogeneous(self.degree, &chain, self.weights.is_some())?;
+        let float = ExactPolygon::from_bezier(self).to_float()?;
         self.check_smooth(&float)?;
         Ok(float)
     }
@@ -120,78 +100,47 @@ impl BezierPolygon {
         (self.vertices.len() - 1) / self.degree
     }
 
-    /// The segment whose knots lie in the middle of those of a float vertex, as far as there is
-    /// one.
-    fn nearest_segment(&self, index: usize) -> usize {
-        let middle = index.saturating_sub(self.degree / 2);
-        middle.min(self.segments() - 1)
+    /// The vertices with their weights, which are 1 for a polynomial curve.
+    pub(super) fn weighted_vertices(&self) -> impl Iterator<Item = (DVec3, f64)> + Clone + '_ {
+        weighted(&self.vertices, self.weights.as_deref())
     }
 
-    fn segment_float(&self, segment: usize) -> Vec<DVec4> {
-        let first = segment * self.degree;
-        let mut window: Vec<DVec4> = (first..=first + self.degree)
-            .map(|index| {
-                let weight = self.weights.as_ref().map_or(1.0, |weights| weights[index]);
-                (self.vertices[index] * weight).extend(weight)
-            })
-            .collect();
-        unclamp_segment(self.degree, &mut window);
-        window
+    /// Bound what an error of 1 in every vertex does to the float vertex `offset` of a segment.
+    pub(super) fn vertex_norm(degree: usize, offset: usize) -> f64 {
+        let first = offset as i64 + 1 - degree as i64;
+        let row = blossom_row(first..=offset as i64);
+        row.into_iter().map(|entry| entry.abs() as f64).sum()
     }
 
     fn check_smooth(&self, float: &FloatPolygon) -> Result<(), PolygonError> {
         let exact = Self::from_float(float);
-        let reach = self.vertices.iter().map(|v| v.abs().max_element());
-        let scale = reach.fold(0.0, f64::max);
-        let worst = self
-            .vertices
-            .iter()
-            .zip(&exact.vertices)
-            .zip(self.amplifications()?)
-            .map(|((given, exact), amplification)| {
-                let rounding = 2.0 * f64::EPSILON * amplification;
-                let tolerance = rounding.clamp(SMOOTHNESS_TOLERANCE, WORST_TOLERANCE) * scale;
-                let distance = vector::length(*given - *exact);
-                (distance, distance - tolerance)
-            })
-            .enumerate()
-            .max_by(|a, b| a.1.1.total_cmp(&b.1.1));
-        match worst {
-            Some((index, (distance, excess))) if excess > 0.0 => {
-                Err(PolygonError::NotSmooth { index, distance })
+        let norms = self.norms_there_and_back()?;
+        let tolerance = |index: usize| smoothness_tolerance(norms[index]);
+        let given = (self.vertices(), self.weights());
+        match worst_difference(given, (exact.vertices(), exact.weights()), tolerance) {
+            Some((index, distance)) if self.segments() == 1 => {
+                Err(PolygonError::DigitsLost { index, distance })
             }
-            _ => Ok(()),
+            Some((index, distance)) => Err(PolygonError::NotSmooth { index, distance }),
+            None => Ok(()),
         }
     }
 
     /// Bound what an error of 1 in every vertex does to each vertex on the way to the float
     /// polygon and back.
-    fn amplifications(&self) -> Result<Vec<f64>, PolygonError> {
-        // The sums of the absolute values of each row of the matrix of one segment.
-        let mut rows = vec![0.0; self.degree + 1];
-        for column in 0..=self.degree {
-            let mut unit = vec![DVec4::ZERO; self.degree + 1];
-            unit[column].x = 1.0;
-            unclamp_segment(self.degree, &mut unit);
-            for (row, vertex) in rows.iter_mut().zip(unit) {
-                *row += vertex.x.abs();
-            }
-        }
-        let bounds = (0..self.segments() + self.degree).map(|index| {
-            let bound: f64 = rows[index - self.nearest_segment(index)];
-            DVec3::new(bound, 0.0, 0.0)
+    fn norms_there_and_back(&self) -> Result<Vec<f64>, PolygonError> {
+        let (degree, segments) = (self.degree, self.segments());
+        let norms: Vec<f64> = (0..=degree)
+            .map(|offset| Self::vertex_norm(degree, offset))
+            .collect();
+        let bounds = (0..segments + degree).map(|index| {
+            let offset = index - middle_segment(degree, segments, index);
+            DVec3::new(norms[offset], 0.0, 0.0)
         });
-        let bounds = FloatPolygon::new(self.degree, bounds.collect(), None, false)?;
+        let bounds = FloatPolygon::new(degree, bounds.collect(), None, false)?;
         let back = Self::from_float(&bounds).vertices;
         Ok(back.into_iter().map(|vertex| vertex.x).collect())
     }
-}
-
-/// Take the Bézier vertices of one segment to the float vertices, in place.
-fn unclamp_segment(degree: usize, window: &mut [DVec4]) {
-    let knots = float_knots(degree, window.len());
-    unclamp_end(degree, &knots, window);
-    unclamp_start(degree, &knots, window);
 }
 
 /// Convert one segment of a float polygon to its n + 1 homogeneous Bézier vertices.
@@ -203,8 +152,6 @@ pub fn segment_bezier(float: &FloatPolygon, segment: usize) -> Vec<DVec4> {
     let mut window: Vec<DVec4> = (segment..=segment + degree)
         .map(|index| float.homogeneous(index))
         .collect();
-    let mut knots = float_knots(degree, window.len());
-    clamp_start(degree, &mut knots, &mut window);
-    clamp_end(degree, &mut knots, &mut window);
+    clamp(degree, &mut window);
     window
 }

@@ -1,10 +1,14 @@
 //! The clamped polygon: the same curve on knots that are n + 1 fold at both ends.
 
-use glam::{DVec3, DVec4};
+use glam::DVec3;
 
+use super::amplification::Amplification;
+use super::end_conversion::ConvertedEnds;
 use super::error::PolygonError;
-use super::float_polygon::{FloatPolygon, check_degree, check_vertices, check_weights};
-use super::knots::{clamp_end, clamp_start, float_knots, unclamp_end, unclamp_start};
+use super::exact_vertices::{check_weight, converted_error, weight_loss};
+use super::expansion::Expansion;
+use super::float_polygon::{FloatPolygon, check_polygon};
+use super::knots::{clamp, unclamp};
 use super::polygon_kind::PolygonKind;
 
 /// Hold a curve of degree n by its vertices on the knots 0 (n + 1 times), 1 … L − 1,
@@ -27,17 +31,7 @@ impl ClampedPolygon {
         vertices: Vec<DVec3>,
         weights: Option<Vec<f64>>,
     ) -> Result<Self, PolygonError> {
-        check_degree(degree)?;
-        if vertices.len() < degree + 1 {
-            return Err(PolygonError::TooFewVertices {
-                found: vertices.len(),
-                needed: degree + 1,
-                degree,
-                periodic: false,
-            });
-        }
-        check_vertices(&vertices)?;
-        check_weights(weights.as_deref(), vertices.len())?;
+        check_polygon(degree, &vertices, weights.as_deref(), false)?;
         Ok(Self {
             degree,
             vertices,
@@ -45,20 +39,25 @@ impl ClampedPolygon {
         })
     }
 
-    /// Convert a float polygon. Every step interpolates between two vertices, so the result is
-    /// accurate to a few roundings, and its weights are positive.
+    /// Convert a float polygon. Every step interpolates between two vertices, in double-double
+    /// arithmetic, so each number is the exact one rounded, and the weights are positive. Vertices
+    /// that do not change stay as they are, bit for bit.
     ///
     /// A periodic curve is opened at u = 0 and runs round once.
     pub fn from_float(float: &FloatPolygon) -> Self {
-        let open = float.unrolled();
-        let degree = open.degree();
-        let mut vertices: Vec<DVec4> = (0..open.vertices().len())
-            .map(|index| open.homogeneous(index))
-            .collect();
-        let mut knots = float_knots(degree, vertices.len());
-        clamp_start(degree, &mut knots, &mut vertices);
-        clamp_end(degree, &mut knots, &mut vertices);
-        let (vertices, weights) = projected(&vertices, float.is_rational());
+        if float.is_periodic() {
+            return Self::from_float(&float.unrolled());
+        }
+        let degree = float.degree();
+        let ends = ConvertedEnds::new(
+            degree,
+            float.vertices(),
+            float.weights(),
+            clamp::<Expansion<2>>,
+        );
+        let mut vertices = float.vertices().to_vec();
+        let mut weights = float.weights().map(<[f64]>::to_vec);
+        replace(&mut vertices, weights.as_deref_mut(), ends.rounded());
         Self {
             degree,
             vertices,
@@ -66,20 +65,36 @@ impl ClampedPolygon {
         }
     }
 
-    /// Convert to the float polygon of the same curve (open, over the same segments).
+    /// Convert to the float polygon of the same curve (open, over the same segments), within one
+    /// rounding of the exact one: the steps carry three doubles a number. Vertices that do not
+    /// change stay as they are, bit for bit.
     ///
-    /// The conversion extrapolates: with one segment an error in a vertex grows by up to
-    /// (2n − 1)!!, which is 3.4e7 for degree 9; with N ≥ 2n by 1.8e6.
+    /// The conversion extrapolates: an error that the given vertices already have, be it half a
+    /// unit of their last digit, grows by up to [`ClampedPolygon::amplification`].
     ///
     /// # Errors
-    /// [`PolygonError::WeightLost`] if the exact float polygon has a weight that is not
-    /// positive, [`PolygonError::Overflow`] if it has a coordinate beyond the range of numbers.
+    /// [`PolygonError::WeightLost`] if the exact float polygon has a weight that is not positive
+    /// (by more than 2⁻¹⁵⁰ of what it is a difference of), [`PolygonError::Overflow`] if it has a
+    /// coordinate beyond the range of numbers.
     pub fn to_float(&self) -> Result<FloatPolygon, PolygonError> {
-        let mut vertices: Vec<DVec4> = self.homogeneous_vertices().collect();
-        let steps = float_knots(self.degree, vertices.len());
-        unclamp_end(self.degree, &steps, &mut vertices);
-        unclamp_start(self.degree, &steps, &mut vertices);
-        float_from_homogeneous(self.degree, &vertices, self.weights.is_some())
+        let (degree, to) = (self.degree, PolygonKind::Float);
+        let given = self.weights.as_deref();
+        let ends = ConvertedEnds::new(degree, &self.vertices, given, unclamp::<Expansion<3>>);
+        let converted: Vec<_> = ends.rounded().collect();
+        if given.is_some() {
+            let loses = weight_loss(ends.largest_weight() * self.amplification().norm);
+            let mut weights = converted.iter();
+            weights.try_for_each(|(index, _, weight)| check_weight(to, *index, *weight, loses))?;
+        }
+        let (mut vertices, mut weights) = (self.vertices.clone(), self.weights.clone());
+        replace(&mut vertices, weights.as_deref_mut(), converted);
+        FloatPolygon::new(degree, vertices, weights, false)
+            .map_err(|error| converted_error(to, error))
+    }
+
+    /// Compute how much errors in the vertices grow in [`ClampedPolygon::to_float`].
+    pub fn amplification(&self) -> Amplification {
+        Amplification::of_unclamping(self.degree, self.segments())
     }
 
     /// The degree n.
@@ -110,47 +125,32 @@ impl ClampedPolygon {
             .collect()
     }
 
-    fn homogeneous_vertices(&self) -> impl Iterator<Item = DVec4> + '_ {
-        self.vertices.iter().enumerate().map(|(index, vertex)| {
-            let weight = self.weights.as_ref().map_or(1.0, |weights| weights[index]);
-            (*vertex * weight).extend(weight)
-        })
+    /// The vertices with their weights, which are 1 for a polynomial curve.
+    pub(super) fn weighted_vertices(&self) -> impl Iterator<Item = (DVec3, f64)> + Clone + '_ {
+        weighted(&self.vertices, self.weights.as_deref())
     }
 }
 
-/// Split homogeneous vertices into points and, if the curve is rational, weights.
-pub(super) fn projected(homogeneous: &[DVec4], rational: bool) -> (Vec<DVec3>, Option<Vec<f64>>) {
-    if !rational {
-        return (
-            homogeneous.iter().map(|vertex| vertex.truncate()).collect(),
-            None,
-        );
-    }
-    let points = homogeneous.iter().map(|v| v.truncate() / v.w).collect();
-    (points, Some(homogeneous.iter().map(|v| v.w).collect()))
+/// Pair points and weights; a polynomial curve has weights 1.
+pub(super) fn weighted<'a>(
+    points: &'a [DVec3],
+    weights: Option<&'a [f64]>,
+) -> impl Iterator<Item = (DVec3, f64)> + Clone + 'a {
+    let weight = move |index| weights.map_or(1.0, |weights: &[f64]| weights[index]);
+    let numbered = points.iter().enumerate();
+    numbered.map(move |(index, point)| (*point, weight(index)))
 }
 
-/// Make a float polygon of converted vertices, refusing what it cannot hold.
-pub(super) fn float_from_homogeneous(
-    degree: usize,
-    homogeneous: &[DVec4],
-    rational: bool,
-) -> Result<FloatPolygon, PolygonError> {
-    let to = PolygonKind::Float;
-    if rational {
-        let mut numbered = homogeneous.iter().enumerate();
-        if let Some((index, vertex)) =
-            numbered.find(|(_, vertex)| vertex.w.is_nan() || vertex.w <= 0.0)
-        {
-            let weight = vertex.w;
-            return Err(PolygonError::WeightLost { to, index, weight });
+/// Put converted vertices in their places.
+fn replace(
+    points: &mut [DVec3],
+    mut weights: Option<&mut [f64]>,
+    converted: impl IntoIterator<Item = (usize, DVec3, f64)>,
+) {
+    for (index, point, weight) in converted {
+        points[index] = point;
+        if let Some(weights) = &mut weights {
+            weights[index] = weight;
         }
     }
-    let (vertices, weights) = projected(homogeneous, rational);
-    FloatPolygon::new(degree, vertices, weights, false).map_err(|error| match error {
-        PolygonError::BadCoordinate { index, .. } | PolygonError::BadWeight { index, .. } => {
-            PolygonError::Overflow { to, index }
-        }
-        other => other,
-    })
 }

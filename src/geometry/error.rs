@@ -82,6 +82,28 @@ pub enum PolygonError {
         /// How far it is from the curve's own Bézier vertex.
         distance: f64,
     },
+    /// The float polygon of a Bézier polygon is too large for its size.
+    #[error(
+        "the float polygon is so much larger than the Bézier polygon that its last digits move vertex {index} by {distance:.3e}: a curve like this needs a lower degree"
+    )]
+    DigitsLost {
+        /// The worst Bézier vertex, counted from 0.
+        index: usize,
+        /// How far it would move.
+        distance: f64,
+    },
+    /// A polygon does not close as a periodic curve does.
+    #[error(
+        "the curve does not close smoothly: vertex {index} of the {from} polygon is {distance:.3e} away from the periodic curve nearest to it; keep the curve open"
+    )]
+    NotPeriodic {
+        /// The polygon given.
+        from: PolygonKind,
+        /// The worst vertex, counted from 0.
+        index: usize,
+        /// How far it is from the periodic curve's own vertex.
+        distance: f64,
+    },
     /// A conversion gives a vertex without a positive weight.
     #[error(
         "the {to} polygon would have weight {weight:e} at vertex {index}: a curve with these weights has no {to} polygon with positive weights"
@@ -109,5 +131,41 @@ pub enum PolygonError {
         index: usize,
         /// The number of vertices.
         count: usize,
+    },
+    /// Two polygons have different knots, so their curves cannot be compared.
+    #[error(
+        "curves of {segments} and {other} segments cannot be compared parameter by parameter: their degree or knots differ"
+    )]
+    DifferentKnots {
+        /// The number of segments of the one curve.
+        segments: usize,
+        /// That of the other.
+        other: usize,
+    },
+    /// A part of a curve that the curve does not have.
+    #[error(
+        "there is no part from u = {from} to u = {to}: the curve runs from 0 to {segments}, and a part from a smaller to a larger parameter in it"
+    )]
+    NoSuchPart {
+        /// Where the part should begin.
+        from: f64,
+        /// Where it should end.
+        to: f64,
+        /// The number of segments of the curve.
+        segments: usize,
+    },
+    /// An extension would be too long.
+    #[error("{segments} segments are too many to add at once: at most {most} can be")]
+    TooManySegments {
+        /// The number of segments asked for.
+        segments: usize,
+        /// The largest number.
+        most: usize,
+    },
+    /// A periodic curve was given to what needs ends.
+    #[error("a periodic curve has no ends and cannot be {done}: open it first")]
+    PeriodicCurve {
+        /// What was to be done.
+        done: &'static str,
     },
 }

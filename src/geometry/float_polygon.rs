@@ -37,18 +37,7 @@ impl FloatPolygon {
         weights: Option<Vec<f64>>,
         periodic: bool,
     ) -> Result<Self, PolygonError> {
-        check_degree(degree)?;
-        let needed = degree + 1;
-        if vertices.len() < needed {
-            return Err(PolygonError::TooFewVertices {
-                found: vertices.len(),
-                needed,
-                degree,
-                periodic,
-            });
-        }
-        check_vertices(&vertices)?;
-        check_weights(weights.as_deref(), vertices.len())?;
+        check_polygon(degree, &vertices, weights.as_deref(), periodic)?;
         Ok(Self {
             degree,
             vertices,
@@ -222,6 +211,27 @@ impl FloatPolygon {
     }
 }
 
+/// Refuse what does not make a polygon, whatever its knots.
+pub(super) fn check_polygon(
+    degree: usize,
+    vertices: &[DVec3],
+    weights: Option<&[f64]>,
+    periodic: bool,
+) -> Result<(), PolygonError> {
+    check_degree(degree)?;
+    let (found, needed) = (vertices.len(), degree + 1);
+    if found < needed {
+        return Err(PolygonError::TooFewVertices {
+            found,
+            needed,
+            degree,
+            periodic,
+        });
+    }
+    check_vertices(vertices)?;
+    check_weights(weights, found)
+}
+
 pub(super) fn check_degree(degree: usize) -> Result<(), PolygonError> {
     if (1..=MAX_DEGREE).contains(&degree) {
         Ok(())
@@ -230,7 +240,7 @@ pub(super) fn check_degree(degree: usize) -> Result<(), PolygonError> {
     }
 }
 
-pub(super) fn check_vertices(vertices: &[DVec3]) -> Result<(), PolygonError> {
+fn check_vertices(vertices: &[DVec3]) -> Result<(), PolygonError> {
     let mut numbered = vertices.iter().enumerate();
     numbered.try_for_each(|(index, vertex)| check_vertex(index, *vertex))
 }
@@ -244,7 +254,7 @@ fn check_vertex(index: usize, vertex: DVec3) -> Result<(), PolygonError> {
     Ok(())
 }
 
-pub(super) fn check_weights(weights: Option<&[f64]>, vertices: usize) -> Result<(), PolygonError> {
+fn check_weights(weights: Option<&[f64]>, vertices: usize) -> Result<(), PolygonError> {
     let Some(weights) = weights else {
         return Ok(());
     };

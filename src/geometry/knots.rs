@@ -7,20 +7,52 @@
 
 use glam::DVec4;
 
+/// What the steps work on: points, coordinates, and coordinates of many digits.
+pub trait Blend: Copy {
+    /// Compute (p·a + q·b) / divisor.
+    fn blend(p: f64, a: Self, q: f64, b: Self, divisor: f64) -> Self;
+}
+
+impl Blend for f64 {
+    fn blend(p: f64, a: Self, q: f64, b: Self, divisor: f64) -> Self {
+        (p * a + q * b) / divisor
+    }
+}
+
+impl Blend for DVec4 {
+    fn blend(p: f64, a: Self, q: f64, b: Self, divisor: f64) -> Self {
+        (p * a + q * b) / divisor
+    }
+}
+
+/// Take the vertices of a float polygon to those of the clamped one, in place.
+pub fn clamp<T: Blend>(degree: usize, vertices: &mut [T]) {
+    let mut knots = float_knots(degree, vertices.len());
+    clamp_start(degree, &mut knots, vertices);
+    clamp_end(degree, &mut knots, vertices);
+}
+
+/// Undo [`clamp`].
+pub fn unclamp<T: Blend>(degree: usize, vertices: &mut [T]) {
+    let knots = float_knots(degree, vertices.len());
+    unclamp_end(degree, &knots, vertices);
+    unclamp_start(degree, &knots, vertices);
+}
+
 /// List the N + n − 1 inner knots 1 − n, 2 − n, … of a float polygon.
-pub fn float_knots(degree: usize, vertices: usize) -> Vec<f64> {
+fn float_knots(degree: usize, vertices: usize) -> Vec<f64> {
     (0..vertices + degree - 1)
         .map(|index| index as f64 - (degree as f64 - 1.0))
         .collect()
 }
 
 /// Clamp the curve's start at u = 0; only the first n − 1 vertices change.
-pub fn clamp_start(degree: usize, knots: &mut [f64], vertices: &mut [DVec4]) {
+fn clamp_start<T: Blend>(degree: usize, knots: &mut [f64], vertices: &mut [T]) {
     for outside in (1..degree).rev() {
         for index in 0..outside {
             let (left, right) = (knots[index], knots[index + degree]);
             let inner = vertices[index + 1];
-            vertices[index] = (right * vertices[index] - left * inner) / (right - left);
+            vertices[index] = T::blend(right, vertices[index], -left, inner, right - left);
         }
         knots.copy_within(1..outside, 0);
         knots[outside - 1] = 0.0;
@@ -28,7 +60,7 @@ pub fn clamp_start(degree: usize, knots: &mut [f64], vertices: &mut [DVec4]) {
 }
 
 /// Clamp the curve's end at u = L; only the last n − 1 vertices change.
-pub fn clamp_end(degree: usize, knots: &mut [f64], vertices: &mut [DVec4]) {
+fn clamp_end<T: Blend>(degree: usize, knots: &mut [f64], vertices: &mut [T]) {
     let end = (vertices.len() - degree) as f64;
     let (last_knot, last_vertex) = (knots.len() - 1, vertices.len() - 1);
     for outside in (1..degree).rev() {
@@ -36,8 +68,13 @@ pub fn clamp_end(degree: usize, knots: &mut [f64], vertices: &mut [DVec4]) {
             let index = last_vertex - step;
             let (left, right) = (knots[index - 1], knots[index + degree - 1]);
             let inner = vertices[index - 1];
-            vertices[index] =
-                ((right - end) * inner + (end - left) * vertices[index]) / (right - left);
+            vertices[index] = T::blend(
+                right - end,
+                inner,
+                end - left,
+                vertices[index],
+                right - left,
+            );
         }
         let first = last_knot + 1 - outside;
         knots.copy_within(first..last_knot, first + 1);
@@ -46,7 +83,7 @@ pub fn clamp_end(degree: usize, knots: &mut [f64], vertices: &mut [DVec4]) {
 }
 
 /// Undo [`clamp_start`]; `knots` are the float knots.
-pub fn unclamp_start(degree: usize, knots: &[f64], vertices: &mut [DVec4]) {
+fn unclamp_start<T: Blend>(degree: usize, knots: &[f64], vertices: &mut [T]) {
     for outside in 1..degree {
         // When this step was taken, 0 was (n − outside) fold and the knots left of it were
         // −outside … −1, so knot `index` was index − outside.
@@ -54,13 +91,13 @@ pub fn unclamp_start(degree: usize, knots: &[f64], vertices: &mut [DVec4]) {
             let left = index as f64 - outside as f64;
             let right = knots[index + degree];
             let inner = vertices[index + 1];
-            vertices[index] = ((right - left) * vertices[index] + left * inner) / right;
+            vertices[index] = T::blend(right - left, vertices[index], left, inner, right);
         }
     }
 }
 
 /// Undo [`clamp_end`] on a polygon whose start is clamped; `knots` are the float knots.
-pub fn unclamp_end(degree: usize, knots: &[f64], vertices: &mut [DVec4]) {
+fn unclamp_end<T: Blend>(degree: usize, knots: &[f64], vertices: &mut [T]) {
     let last = vertices.len() - 1;
     let end = (vertices.len() - degree) as f64;
     for outside in 1..degree {
@@ -69,8 +106,8 @@ pub fn unclamp_end(degree: usize, knots: &[f64], vertices: &mut [DVec4]) {
             let left = knots[index - 1].max(0.0);
             let right = end + (outside - step) as f64;
             let inner = vertices[index - 1];
-            vertices[index] =
-                ((right - left) * vertices[index] - (right - end) * inner) / (end - left);
+            let (here, there) = (right - left, end - right);
+            vertices[index] = T::blend(here, vertices[index], there, inner, end - left);
         }
     }
 }

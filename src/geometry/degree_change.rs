@@ -1,0 +1,63 @@
+//! Raising and lowering the degree.
+
+use super::approximation::Approximation;
+use super::bezier_polygon::BezierPolygon;
+use super::deviation::between_chains;
+use super::error::PolygonError;
+use super::exact_polygon::ExactPolygon;
+use super::float_polygon::{FloatPolygon, check_degree};
+use super::quasi_interpolation::{NewKnots, quasi_interpolated};
+
+impl FloatPolygon {
+    /// Raise or lower the degree, keeping the segments and their parameters.
+    ///
+    /// Raising one segment is exact. A curve of more segments has fewer continuous derivatives
+    /// at its knots than a uniform curve of higher degree: raising it exactly would double the
+    /// knots, so it can only be approximated. So can lowering, unless the curve happens to be of
+    /// the lower degree, which then is found again. The approximation is a local one, each vertex
+    /// taken from the curve's derivatives in the middle of its knots; it commutes with affine maps
+    /// and reversal and keeps smooth polygons smooth, but not the end points, which move by no
+    /// more than the deviation. Rational curves are changed in homogeneous coordinates.
+    ///
+    /// # Errors
+    /// [`PolygonError::DegreeOutOfRange`] if `degree` is not 1 … 25;
+    /// [`PolygonError::TooFewVertices`] if a periodic curve has fewer than `degree` + 1 segments;
+    /// [`PolygonError::WeightLost`] if the result has a weight that is not positive;
+    /// [`PolygonError::Overflow`] if it leaves the range of numbers.
+    pub fn with_degree(&self, degree: usize) -> Result<Approximation, PolygonError> {
+        check_degree(degree)?;
+        if degree == self.degree() {
+            return Ok(Approximation::exact(self.clone()));
+        }
+        if degree > self.degree() && self.segments() == 1 && !self.is_periodic() {
+            return Ok(Approximation::exact(self.raised_segment(degree)?));
+        }
+        let polygon = quasi_interpolated(
+            self,
+            &NewKnots {
+                degree,
+                start: 0.0,
+                step: 1.0,
+                segments: self.segments(),
+                periodic: self.is_periodic(),
+            },
+        )?;
+        let (before, after) = (
+            BezierPolygon::from_float(self),
+            BezierPolygon::from_float(&polygon),
+        );
+        Ok(Approximation {
+            polygon,
+            deviation: between_chains(&before, &after),
+            exact: false,
+        })
+    }
+
+    fn raised_segment(&self, degree: usize) -> Result<Self, PolygonError> {
+        let mut raised = ExactPolygon::from_float(self);
+        while raised.degree() < degree {
+            raised = raised.raised()?;
+        }
+        raised.to_float()
+    }
+}

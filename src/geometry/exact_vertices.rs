@@ -1,0 +1,131 @@
+//! Homogeneous vertices with more digits than doubles hold, coordinate by coordinate.
+
+use glam::DVec3;
+
+use super::error::PolygonError;
+use super::expansion::Expansion;
+use super::polygon_kind::PolygonKind;
+
+/// What K = 3 parts may lose of the numbers that entered a vertex, in their units: a weight
+/// smaller than this cannot be told from 0.
+const LOST: f64 = 1.0 / (1u128 << 75) as f64 / (1u128 << 75) as f64;
+
+/// Hold the homogeneous coordinates w·x, w·y, w·z and w of some vertices.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct ExactVertices<const K: usize> {
+    /// The coordinates; z is left out of a planar polygon, w of a polynomial one.
+    axes: [Option<Vec<Expansion<K>>>; 4],
+}
+
+impl<const K: usize> ExactVertices<K> {
+    /// Take vertices and weights without error.
+    pub(super) fn new(
+        vertices: impl Iterator<Item = (DVec3, f64)> + Clone,
+        rational: bool,
+    ) -> Self {
+        let planar = vertices.clone().all(|(vertex, _)| vertex.z == 0.0);
+        let coordinate = |axis: usize| {
+            let numbers = vertices.clone();
+            let numbers = numbers.map(|(vertex, weight)| {
+                if axis == 3 {
+                    Expansion::from(weight)
+                } else if rational {
+                    Expansion::product(vertex[axis], weight)
+                } else {
+                    Expansion::from(vertex[axis])
+                }
+            });
+            numbers.collect()
+        };
+        let used = [true, true, !planar, rational];
+        Self {
+            axes: std::array::from_fn(|axis| used[axis].then(|| coordinate(axis))),
+        }
+    }
+
+    /// Whether there are weights.
+    pub(super) fn is_rational(&self) -> bool {
+        self.axes[3].is_some()
+    }
+
+    /// The number of vertices.
+    pub(super) fn len(&self) -> usize {
+        self.axes[0].as_ref().map_or(0, Vec::len)
+    }
+
+    /// Change each coordinate's list of numbers in place.
+    pub(super) fn change(&mut self, change: impl Fn(&mut [Expansion<K>])) {
+        self.axes.iter_mut().flatten().for_each(|axis| change(axis));
+    }
+
+    /// Make vertices whose coordinates are lists made of the present ones.
+    pub(super) fn map(&self, make: impl Fn(&[Expansion<K>]) -> Vec<Expansion<K>>) -> Self {
+        let axes = self.axes.each_ref();
+        Self {
+            axes: axes.map(|axis| axis.as_ref().map(|axis| make(axis))),
+        }
+    }
+
+    /// Find the largest weight; 1 for a polynomial curve.
+    pub(super) fn largest_weight(&self) -> f64 {
+        let Some(weights) = &self.axes[3] else {
+            return 1.0;
+        };
+        weights
+            .iter()
+            .fold(0.0, |largest, w| w.value().max(largest))
+    }
+
+    /// Round a vertex to doubles: the point and its weight.
+    pub(super) fn rounded(&self, index: usize) -> (DVec3, f64) {
+        let coordinate = |axis: usize| self.axes[axis].as_ref().map(|axis| axis[index]);
+        let weight = coordinate(3);
+        let point = [0, 1, 2].map(|axis| match (coordinate(axis), weight) {
+            (Some(number), Some(weight)) => (number / weight).value(),
+            (Some(number), None) => number.value(),
+            (None, _) => 0.0,
+        });
+        (DVec3::from(point), weight.map_or(1.0, Expansion::value))
+    }
+
+    /// Round all vertices to doubles: points and, of a rational curve, weights.
+    pub(super) fn all_rounded(&self) -> (Vec<DVec3>, Option<Vec<f64>>) {
+        let all = (0..self.len()).map(|index| self.rounded(index));
+        let (points, weights): (Vec<DVec3>, Vec<f64>) = all.unzip();
+        (points, self.is_rational().then_some(weights))
+    }
+}
+
+/// Bound what computing a weight of numbers whose magnitudes sum up to `total` loses.
+pub(super) fn weight_loss(total: f64) -> f64 {
+    total * LOST
+}
+
+/// Refuse a weight that is not positive, or not by more than its computation `loses`.
+///
+/// # Errors
+/// [`PolygonError::WeightLost`].
+pub(super) fn check_weight(
+    to: PolygonKind,
+    index: usize,
+    weight: f64,
+    loses: f64,
+) -> Result<(), PolygonError> {
+    // Written so that a weight that is not a number is refused too.
+    if weight > loses {
+        Ok(())
+    } else {
+        Err(PolygonError::WeightLost { to, index, weight })
+    }
+}
+
+/// Name the vertex that a converted polygon cannot hold, in place of the constructor's complaint
+/// about a number that the user never gave.
+pub(super) fn converted_error(to: PolygonKind, error: PolygonError) -> PolygonError {
+    match error {
+        PolygonError::BadCoordinate { index, .. } | PolygonError::BadWeight { index, .. } => {
+            PolygonError::Overflow { to, index }
+        }
+        other => other,
+    }
+}

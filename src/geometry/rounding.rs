@@ -1,0 +1,101 @@
+//! Coordinates rounded to a number of decimal digits.
+
+use glam::DVec3;
+
+use super::clamped_polygon::ClampedPolygon;
+use super::error::PolygonError;
+use super::float_polygon::FloatPolygon;
+use super::vector;
+
+/// Hold a polygon with rounded coordinates, and what rounding did.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rounded<P> {
+    /// The polygon; its weights are those of the polygon given.
+    pub polygon: P,
+    /// The largest distance that a vertex moved.
+    pub moved: f64,
+    /// A bound of the largest distance that a point of the curve moved, at most 0.1 % above it.
+    /// It is never larger than `moved`, but for rounding.
+    pub deviation: f64,
+}
+
+impl FloatPolygon {
+    /// Round every coordinate to so many digits behind the decimal point, halves to even.
+    ///
+    /// # Errors
+    /// [`PolygonError::BadCoordinate`] if a coordinate at the very end of the range of numbers
+    /// leaves it.
+    pub fn rounded(&self, digits: usize) -> Result<Rounded<Self>, PolygonError> {
+        let vertices = rounded(self.vertices(), digits);
+        let moved = moved(self.vertices(), &vertices);
+        let weights = self.weights().map(<[f64]>::to_vec);
+        let polygon = Self::new(self.degree(), vertices, weights, self.is_periodic())?;
+        Ok(Rounded {
+            deviation: self.deviation(&polygon)?,
+            moved,
+            polygon,
+        })
+    }
+}
+
+impl ClampedPolygon {
+    /// Round every coordinate to so many digits behind the decimal point, halves to even. The
+    /// float polygon of the curve moves by up to [`ClampedPolygon::amplification`] times as much
+    /// as the vertices do, the curve by no more than they.
+    ///
+    /// # Errors
+    /// As [`FloatPolygon::rounded`], and [`PolygonError::WeightLost`] if the weights differ by
+    /// more than the bound's arithmetic can tell: by 1e14 for one segment of degree 25.
+    pub fn rounded(&self, digits: usize) -> Result<Rounded<Self>, PolygonError> {
+        let vertices = rounded(self.vertices(), digits);
+        let moved = moved(self.vertices(), &vertices);
+        let weights = self.weights().map(<[f64]>::to_vec);
+        let polygon = Self::new(self.degree(), vertices, weights)?;
+        Ok(Rounded {
+            deviation: self.deviation(&polygon)?,
+            moved,
+            polygon,
+        })
+    }
+}
+
+fn rounded(vertices: &[DVec3], digits: usize) -> Vec<DVec3> {
+    let round = |vertex: &DVec3| DVec3::from(vertex.to_array().map(|value| decimal(value, digits)));
+    vertices.iter().map(round).collect()
+}
+
+/// Round a number as it is written with so many digits: the decimal nearest to the exact double,
+/// then the double nearest to that.
+fn decimal(value: f64, digits: usize) -> f64 {
+    // A double has at most 1074 digits behind the point; so many leave it as it is.
+    let written = format!("{value:.digits$}", digits = digits.min(1074));
+    written.parse().unwrap_or(value)
+}
+
+fn moved(before: &[DVec3], after: &[DVec3]) -> f64 {
+    let pairs = before.iter().zip(after);
+    pairs
+        .map(|(a, b)| vector::length(*b - *a))
+        .fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::decimal;
+
+    #[test]
+    fn decimals_are_the_nearest_to_the_exact_double() {
+        let cases = [
+            (2.675, 2, 2.67),
+            (0.125, 2, 0.12),
+            (-1.807_42, 3, -1.807),
+            (1e100, 3, 1e100),
+        ];
+        for (value, digits, expected) in cases {
+            assert_eq!(decimal(value, digits), expected);
+        }
+        for value in [0.1, 1.0 / 3.0, 5e-324, -1e-300] {
+            assert_eq!(decimal(value, 2000), value);
+        }
+    }
+}

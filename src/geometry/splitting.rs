@@ -1,0 +1,150 @@
+//! Parts of a curve.
+
+use std::ops::Range;
+
+use super::approximation::Approximation;
+use super::deviation::from_part;
+use super::error::PolygonError;
+use super::float_polygon::FloatPolygon;
+use super::quasi_interpolation::{NewKnots, quasi_interpolated};
+
+/// How often a curve is subdivided at most to bring a knot to where it is cut.
+pub const MAX_SUBDIVISIONS: u32 = 12;
+
+impl FloatPolygon {
+    /// Take the part of the curve between two knots, u = `knots.start` … `knots.end`: a window of
+    /// the vertices, bit for bit. The part is open; of a periodic curve it may run across the
+    /// joint, from a knot below L to one up to L further on.
+    ///
+    /// # Errors
+    /// [`PolygonError::NoSuchPart`] if the range is empty or leaves the curve.
+    pub fn trimmed_at_knots(&self, knots: Range<usize>) -> Result<Self, PolygonError> {
+        self.check_part(knots.start as f64, knots.end as f64)?;
+        self.window(knots)
+    }
+
+    /// Take the vertices of the segments between two knots, across the joint as often as needed.
+    fn window(&self, knots: Range<usize>) -> Result<Self, PolygonError> {
+        let window = knots.start..knots.end + self.degree();
+        let vertices = window.clone().map(|index| self.vertex(index)).collect();
+        let weights = window.map(|index| self.weight(index)).collect();
+        let weights = Some(weights).filter(|_| self.is_rational());
+        Self::new(self.degree(), vertices, weights, false)
+    }
+
+    /// Cut an open curve at a knot, exactly, into the parts before and behind it.
+    ///
+    /// # Errors
+    /// [`PolygonError::NoSuchPart`] if the knot is not an inner one, 1 … L − 1;
+    /// [`PolygonError::PeriodicCurve`] if the curve is periodic, which a single cut does not
+    /// part: see [`FloatPolygon::trimmed_at_knots`].
+    pub fn split_at_knot(&self, knot: usize) -> Result<(Self, Self), PolygonError> {
+        self.check_open("cut in two at one place")?;
+        let before = self.trimmed_at_knots(0..knot)?;
+        Ok((before, self.trimmed_at_knots(knot..self.segments())?))
+    }
+
+    /// Take the part of the curve between any two parameters, as an open curve.
+    ///
+    /// If up to `subdivisions` halvings of the segments (never more than [`MAX_SUBDIVISIONS`])
+    /// bring knots to both places, they are made and the part is exact. Otherwise it is a uniform
+    /// curve over (`to` − `from`) · 2^`subdivisions` segments, rounded up, near the curve: exact
+    /// but for rounding where no knot lies between, else with an error that falls with the
+    /// (n + 1)-th power of the length of its segments.
+    ///
+    /// # Errors
+    /// [`PolygonError::NoSuchPart`] as in [`FloatPolygon::trimmed_at_knots`], also for what is
+    /// not a number; [`PolygonError::WeightLost`] or [`PolygonError::Overflow`] if the part cannot
+    /// be held.
+    pub fn trimmed(
+        &self,
+        from: f64,
+        to: f64,
+        subdivisions: u32,
+    ) -> Result<Approximation, PolygonError> {
+        self.check_part(from, to)?;
+        let most = subdivisions.min(MAX_SUBDIVISIONS);
+        let factor = |halvings: u32| f64::from(1_u32 << halvings);
+        let is_knot = |u: f64, halvings| (u * factor(halvings)).fract() == 0.0;
+        let needed = (0..=most).find(|halvings| is_knot(from, *halvings) && is_knot(to, *halvings));
+        let Some(halvings) = needed else {
+            return self.trimmed_near(from, to, ((to - from) * factor(most)).ceil());
+        };
+        // Only the segments that the part touches are subdivided.
+        let (first, last) = (from.floor(), to.ceil());
+        let mut part = self.window(first as usize..last as usize)?;
+        for _ in 0..halvings {
+            part = part.subdivided()?;
+        }
+        let knot = |u: f64| ((u - first) * factor(halvings)) as usize;
+        let part = part.window(knot(from)..knot(to))?;
+        Ok(Approximation::exact(part))
+    }
+
+    /// Cut an open curve at any parameter into the parts before and behind it, each as
+    /// [`FloatPolygon::trimmed`] takes it.
+    ///
+    /// # Errors
+    /// As [`FloatPolygon::trimmed`], and [`PolygonError::PeriodicCurve`] for a periodic curve.
+    pub fn split(
+        &self,
+        at: f64,
+        subdivisions: u32,
+    ) -> Result<(Approximation, Approximation), PolygonError> {
+        self.check_open("cut in two at one place")?;
+        let before = self.trimmed(0.0, at, subdivisions)?;
+        Ok((
+            before,
+            self.trimmed(at, self.segments() as f64, subdivisions)?,
+        ))
+    }
+
+    fn trimmed_near(
+        &self,
+        from: f64,
+        to: f64,
+        segments: f64,
+    ) -> Result<Approximation, PolygonError> {
+        let step = (to - from) / segments;
+        let knots = NewKnots {
+            degree: self.degree(),
+            start: from,
+            step,
+            segments: segments as usize,
+            periodic: false,
+        };
+        let polygon = quasi_interpolated(self, &knots)?;
+        Ok(Approximation {
+            deviation: from_part(self, from, step, &polygon),
+            polygon,
+            exact: false,
+        })
+    }
+
+    fn check_part(&self, from: f64, to: f64) -> Result<(), PolygonError> {
+        let segments = self.segments();
+        let last = segments as f64;
+        let inside = if self.is_periodic() {
+            (0.0..last).contains(&from) && to - from <= last
+        } else {
+            from >= 0.0 && to <= last
+        };
+        if inside && from < to {
+            Ok(())
+        } else {
+            Err(PolygonError::NoSuchPart { from, to, segments })
+        }
+    }
+
+    /// Refuse a periodic curve.
+    ///
+    /// # Errors
+    /// [`PolygonError::PeriodicCurve`], which says that it cannot be `done`.
+    pub(super) fn check_open(&self, done: &'static str) -> Result<(), PolygonError> {
+        if self.is_periodic() {
+            Err(PolygonError::PeriodicCurve { done })
+        } else {
+            Ok(())
+        }
+    }
+}

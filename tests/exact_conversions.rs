@@ -1,0 +1,329 @@
+//! Conversions between the three polygons against exact rational arithmetic.
+
+mod common;
+mod exact_witness;
+
+use batten::geometry::{
+    Amplification, BezierPolygon, ClampedPolygon, ExactPolygon, FloatPolygon, PolygonError,
+    PolygonKind,
+};
+use common::Random;
+use exact_witness::{
+    Exact, Kind, Knots, Vertices, assert_exact, bezier_chain, converted, exact, homogeneous,
+    integer, kinds, ulp,
+};
+use glam::DVec3;
+use num_traits::{Signed, ToPrimitive};
+
+/// What there and back may lose while the digits are kept, in units of the size: the rounding of
+/// the result, and less than a tenth of that.
+const THERE_AND_BACK: f64 = 1e-15;
+
+/// What Σ|entries| may lose in double arithmetic.
+const NORM_ROUNDINGS: f64 = 1e-13;
+
+#[test]
+fn the_witness_is_right() {
+    let vertices = [0.0, 0.0, 6.0, 0.0].map(|x| DVec3::new(x, 0.0, 0.0));
+    let vertices = homogeneous(&vertices, None);
+    let knots = Knots::float(3);
+    for (at, expected) in [(0, 1), (1, 4)] {
+        let point = knots.blossom(&vertices, 0, &[0; 3].map(|_| integer(at)));
+        assert_eq!(point[0], integer(expected));
+    }
+    assert_eq!(converted(&vertices, knots, knots), vertices);
+}
+
+#[test]
+fn float_to_clamped_and_bezier_is_exact_but_for_one_rounding() {
+    let mut random = Random(1);
+    for kind in kinds(1..=25) {
+        if kind.degree > 15 && kind.count > kind.degree + 2 {
+            continue;
+        }
+        let (points, weights) = (kind.points(&mut random), kind.weights(&mut random));
+        let (degree, segments) = (kind.degree, kind.count - kind.degree);
+        let given = homogeneous(&points, weights.as_deref());
+        let float = FloatPolygon::new(degree, points, weights, false).expect("valid");
+        let knots = Knots::float(degree);
+
+        let clamped = ClampedPolygon::from_float(&float);
+        let expected = converted(&given, knots, Knots::clamped(degree, segments));
+        assert_exact(
+            &format!("{kind:?}"),
+            clamped.vertices(),
+            clamped.weights(),
+            &expected,
+        );
+
+        if segments > 1 && degree > 6 {
+            continue;
+        }
+        let bezier = BezierPolygon::from_float(&float);
+        let expected = bezier_chain(&given, knots);
+        assert_exact(
+            &format!("{kind:?}"),
+            bezier.vertices(),
+            bezier.weights(),
+            &expected,
+        );
+    }
+}
+
+#[test]
+fn clamped_to_float_is_exact_but_for_one_rounding() {
+    let mut random = Random(2);
+    for kind in kinds(1..=25) {
+        if kind.degree > 15 && kind.count > kind.degree + 2 {
+            continue;
+        }
+        let (degree, segments) = (kind.degree, kind.count - kind.degree);
+        let knots = Knots::clamped(degree, segments);
+        let (points, weights) = (kind.points(&mut random), kind.linear_weights(knots));
+        let given = homogeneous(&points, weights.as_deref());
+        let expected = converted(&given, knots, Knots::float(degree));
+        let clamped = ClampedPolygon::new(degree, points, weights).expect("valid");
+        match clamped.to_float() {
+            Ok(float) => {
+                assert_exact(
+                    &format!("{kind:?}"),
+                    float.vertices(),
+                    float.weights(),
+                    &expected,
+                );
+            }
+            // 5.8e30 times 1e99 is beyond what a polygon may hold.
+            Err(error) => {
+                assert!(
+                    matches!(error, PolygonError::Overflow { .. }),
+                    "{kind:?}: {error}"
+                );
+                assert!(kind.scale > 1e90);
+            }
+        }
+    }
+}
+
+#[test]
+fn bezier_to_float_and_clamped_is_exact_but_for_one_rounding() {
+    let mut random = Random(3);
+    for kind in kinds(1..=25) {
+        if kind.count > kind.degree + 2 && kind.degree > 6 {
+            continue;
+        }
+        // One segment may have any vertices; several must join, as far as doubles allow.
+        let (degree, segments) = (kind.degree, kind.count - kind.degree);
+        let one = Knots::clamped(degree, 1);
+        let bezier = if segments == 1 {
+            let weights = kind.linear_weights(one);
+            BezierPolygon::new(degree, kind.points(&mut random), weights).expect("valid")
+        } else {
+            let weights = kind.linear_weights(Knots::float(degree));
+            let points = kind.points(&mut random);
+            let float = FloatPolygon::new(degree, points, weights, false).expect("valid");
+            BezierPolygon::from_float(&float)
+        };
+        let chain = homogeneous(bezier.vertices(), bezier.weights());
+        for (to, knots) in [
+            (PolygonKind::Float, Knots::float(degree)),
+            (PolygonKind::Clamped, Knots::clamped(degree, segments)),
+        ] {
+            // Each vertex from the polynomial of the segment in the middle of its knots.
+            let vertex = |index: usize| {
+                let segment = index.saturating_sub(degree / 2).min(segments - 1);
+                let knots = knots.of_vertex(index).into_iter();
+                let local: Vec<Exact> = knots.map(|k| k - integer(segment as i64)).collect();
+                one.blossom(&chain[segment * degree..], 0, &local)
+            };
+            let expected: Vertices = (0..kind.count).map(vertex).collect();
+            let polygon = ExactPolygon::from_bezier(&bezier).converted(to);
+            let (points, weights) = match to {
+                PolygonKind::Float => match polygon.to_float() {
+                    Ok(float) => (
+                        float.vertices().to_vec(),
+                        float.weights().map(<[f64]>::to_vec),
+                    ),
+                    Err(error) => {
+                        assert_refusal_is_right(&format!("{kind:?}"), &error, &expected);
+                        continue;
+                    }
+                },
+                _ => {
+                    let clamped = polygon.to_clamped().expect("interpolated");
+                    (
+                        clamped.vertices().to_vec(),
+                        clamped.weights().map(<[f64]>::to_vec),
+                    )
+                }
+            };
+            assert_exact(
+                &format!("{kind:?} {to}"),
+                &points,
+                weights.as_deref(),
+                &expected,
+            );
+        }
+        match bezier.to_float() {
+            Ok(direct) => assert_eq!(Ok(direct), ExactPolygon::from_bezier(&bezier).to_float()),
+            Err(error) => assert!(degree > 9 || kind.scale > 1e90, "{kind:?}: {error}"),
+        }
+    }
+}
+
+/// Assert that a conversion was refused for the first vertex that has no positive weight, or for
+/// one too large to hold.
+#[track_caller]
+fn assert_refusal_is_right(what: &str, error: &PolygonError, expected: &Vertices) {
+    match error {
+        PolygonError::WeightLost { index, .. } => {
+            let first = expected.iter().position(|v| !v[3].is_positive());
+            assert_eq!(first, Some(*index), "{what}");
+        }
+        PolygonError::Overflow { index, .. } => {
+            let vertex = &expected[*index];
+            let limit = exact(1e100);
+            let beyond = vertex[..3]
+                .iter()
+                .any(|axis| (axis / &vertex[3]).abs() > limit);
+            assert!(beyond || vertex[3] > limit, "{what}");
+        }
+        other => panic!("{what}: {other}"),
+    }
+}
+
+#[test]
+fn weights_are_refused_exactly_where_the_exact_ones_are_not_positive() {
+    let mut random = Random(4);
+    let (mut refused, mut accepted) = (0, 0);
+    for round in 0..400 {
+        let degree = 2 + round % 8;
+        let (count, spread) = (degree + 1 + round % 5, 0.6 / f64::from(1 << (round % 24)));
+        let segments = count - degree;
+        let points = (0..count).map(|_| random.vector(10.0, true)).collect();
+        let weights: Vec<f64> = (0..count)
+            .map(|_| 1.0 + random.between(-spread, spread))
+            .collect();
+        let clamped = ClampedPolygon::new(degree, points, Some(weights)).expect("valid");
+        let given = homogeneous(clamped.vertices(), clamped.weights());
+        let knots = Knots::clamped(degree, segments);
+        let expected = converted(&given, knots, Knots::float(degree));
+        match clamped.to_float() {
+            Ok(float) => {
+                accepted += 1;
+                assert!(expected.iter().all(|v| v[3].is_positive()));
+                assert_exact("accepted", float.vertices(), float.weights(), &expected);
+            }
+            Err(error) => {
+                refused += 1;
+                assert_refusal_is_right("refused", &error, &expected);
+            }
+        }
+    }
+    assert!(
+        refused > 50 && accepted > 50,
+        "{refused} refused, {accepted} accepted"
+    );
+}
+
+#[test]
+fn a_weight_of_exactly_zero_is_refused() {
+    for degree in 2..=25_usize {
+        // The weight u + degree(degree − 1)/2/degree vanishes at the first float vertex; times
+        // the degree it is an integer everywhere.
+        let knots = Knots::clamped(degree, 1);
+        let shift = (degree * (degree - 1) / 2) as i64;
+        let weight = |index: usize| {
+            let sum: i64 = (index + 1..=index + degree).map(|k| knots.at(k)).sum();
+            (sum + shift) as f64
+        };
+        let weights: Vec<f64> = (0..=degree).map(weight).collect();
+        let points: Vec<DVec3> = (0..=degree).map(|i| DVec3::splat(i as f64)).collect();
+        let clamped = ClampedPolygon::new(degree, points.clone(), Some(weights.clone()));
+        let bezier = BezierPolygon::new(degree, points, Some(weights));
+        let floats = [
+            clamped.expect("valid").to_float(),
+            bezier.expect("valid").to_float(),
+        ];
+        for float in floats {
+            let error = float.expect_err("a weight of 0");
+            let message = error.to_string();
+            assert!(
+                matches!(error, PolygonError::WeightLost { index: 0, .. }),
+                "{message}"
+            );
+            assert!(message.contains("at vertex 0"), "{message}");
+        }
+    }
+}
+
+#[test]
+fn there_and_back_loses_nothing_while_the_digits_are_kept() {
+    let mut random = Random(5);
+    for kind in kinds(1..=25) {
+        let (points, weights) = (kind.points(&mut random), kind.weights(&mut random));
+        let float = FloatPolygon::new(kind.degree, points, weights, false).expect("valid");
+        for through in [PolygonKind::Clamped, PolygonKind::Bezier] {
+            let exact = ExactPolygon::from_float(&float).converted(through);
+            assert_eq!((exact.kind(), exact.degree()), (through, kind.degree));
+            assert_eq!(exact.segments(), float.segments());
+            let back = exact.to_float().expect("the same polygon");
+            for (found, expected) in back.vertices().iter().zip(float.vertices()) {
+                let error = (*found - *expected).abs().max_element();
+                assert!(error <= THERE_AND_BACK * kind.scale, "{kind:?}: {error:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn there_and_back_through_doubles_costs_the_amplification_times_a_digit() {
+    let mut random = Random(6);
+    for kind in kinds(2..=15) {
+        let kind = Kind {
+            rational: false,
+            ..kind
+        };
+        let points = kind.points(&mut random);
+        let float = FloatPolygon::new(kind.degree, points, None, false).expect("valid");
+        let clamped = ClampedPolygon::from_float(&float);
+        let back = clamped.to_float().expect("polynomial");
+        let digit = ulp(common::reach(clamped.vertices()));
+        let allowed = clamped.amplification().norm * digit;
+        for (found, expected) in back.vertices().iter().zip(float.vertices()) {
+            let error = (*found - *expected).abs().max_element();
+            assert!(error <= allowed, "{kind:?}: {error:e} > {allowed:e}");
+        }
+    }
+}
+
+#[test]
+fn the_amplification_is_that_of_the_exact_matrix() {
+    for degree in 1..=12 {
+        for segments in [1, 2, 3, degree, degree + 3] {
+            let count = segments + degree;
+            let (clamped, float) = (Knots::clamped(degree, segments), Knots::float(degree));
+            let mut rows = vec![integer(0); count];
+            let mut largest = integer(0);
+            for column in 0..count {
+                let mut points = vec![DVec3::ZERO; count];
+                points[column].x = 1.0;
+                let columns = converted(&homogeneous(&points, None), clamped, float);
+                for (row, vertex) in rows.iter_mut().zip(columns) {
+                    *row += vertex[0].abs();
+                    largest = largest.max(vertex[0].abs());
+                }
+            }
+            let norm = rows.into_iter().max().expect("rows");
+            let found =
+                Amplification::of(PolygonKind::Clamped, PolygonKind::Float, degree, segments);
+            let found = found.expect("valid");
+            for (found, expected) in [(found.norm, norm), (found.largest, largest)] {
+                let expected = expected.to_f64().expect("a number");
+                assert!(
+                    (found / expected - 1.0).abs() <= NORM_ROUNDINGS,
+                    "degree {degree}, L {segments}: {found} {expected}"
+                );
+            }
+        }
+    }
+}
