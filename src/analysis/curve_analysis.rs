@@ -177,6 +177,11 @@ impl CurveAnalysis {
         &mut self.clamped
     }
 
+    /// The closed S-polygon's vertices.
+    pub fn clamped_vertices(&self) -> &[DVec3] {
+        self.clamped.vertices()
+    }
+
     /// The number of segments that the last update sampled.
     pub fn segments_redone(&self) -> usize {
         self.redone

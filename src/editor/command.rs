@@ -4,7 +4,7 @@ use super::input::{Key, Modifiers};
 use super::layers::Layer;
 use super::orbit::NamedView;
 use super::tools::ToolKind;
-use crate::geometry::PolygonKind;
+use crate::geometry::{End, PolygonKind};
 
 /// Something that the user can ask for by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -55,6 +55,18 @@ pub enum Command {
     RaiseDegree,
     /// Lower the active curve's degree by one; the polygon stays.
     LowerDegree,
+    /// Raise the active curve's degree by one; the curve stays, as nearly as it can.
+    RaiseCurveDegree,
+    /// Lower the active curve's degree by one; the curve stays, as nearly as it can.
+    LowerCurveDegree,
+    /// Halve every segment of the active curve.
+    Subdivide,
+    /// Continue the active curve at one end by a segment.
+    Extend(End),
+    /// Divide the active curve: split it or trim it.
+    Divide,
+    /// Round the coordinates of one of the active curve's polygons.
+    Round,
     /// Show or hide the active curve.
     ToggleVisible,
     /// Lock or unlock the active curve.
@@ -128,6 +140,13 @@ impl Command {
             Self::TogglePeriodic,
             Self::RaiseDegree,
             Self::LowerDegree,
+            Self::RaiseCurveDegree,
+            Self::LowerCurveDegree,
+            Self::Subdivide,
+            Self::Extend(End::Start),
+            Self::Extend(End::Finish),
+            Self::Divide,
+            Self::Round,
             Self::ToggleVisible,
             Self::ToggleLocked,
             Self::Fit,
@@ -178,6 +197,13 @@ impl Command {
             Self::TogglePeriodic => "Periodic",
             Self::RaiseDegree => "Raise degree",
             Self::LowerDegree => "Lower degree",
+            Self::RaiseCurveDegree => "Raise degree, keep curve",
+            Self::LowerCurveDegree => "Lower degree, keep curve",
+            Self::Subdivide => "Subdivide",
+            Self::Extend(End::Start) => "Extend start",
+            Self::Extend(End::Finish) => "Extend end",
+            Self::Divide => "Split or trim…",
+            Self::Round => "Round coordinates…",
             Self::ToggleVisible => "Visible",
             Self::ToggleLocked => "Locked",
             Self::Fit => "Fit selection",
@@ -231,6 +257,18 @@ impl Command {
             }
             Self::LowerDegree => {
                 "Lower the degree by one; the polygon stays, the curve follows it closer"
+            }
+            Self::RaiseCurveDegree => {
+                "Raise the degree by one; the curve stays, exactly if it is one segment"
+            }
+            Self::LowerCurveDegree => {
+                "Lower the degree by one; the curve stays as nearly as it can, and the error is told"
+            }
+            Self::Subdivide => "Halve every segment; the curve stays",
+            Self::Extend(_) => "Continue the curve's end by one segment, exactly as it runs",
+            Self::Divide => "Split the curve at a parameter, or keep a part of it",
+            Self::Round => {
+                "Round the float or the closed S-polygon to some digits, and tell what that does to the curve"
             }
             Self::ToggleVisible => "Show or hide the active curve",
             Self::ToggleLocked => "Protect the active curve's shape from edits, or release it",

@@ -8,6 +8,7 @@ use glam::{DVec2, DVec3};
 use super::Editor;
 use super::end_fit;
 use super::layers::Layer;
+use super::reshaping::clamped_amplification;
 use super::scene::{CurveScene, HoverScene, Scene, VertexMark};
 use super::tools::ToolKind;
 use crate::analysis::{CurveAnalysis, GAP, Orientation, ViewBox};
@@ -224,6 +225,11 @@ impl Editor {
         if let Some(vertex) = context.hits.vertex(place) {
             return self.vertex_hover(vertex);
         }
+        if let (ToolKind::Select, Some((id, index))) =
+            (self.tool, context.hits.clamped_vertex(place))
+        {
+            return self.clamped_hover(id, index);
+        }
         let hit = context.hits.curve(place)?;
         self.curve_hover(hit.curve, hit.u)
     }
@@ -262,6 +268,26 @@ impl Editor {
             text += &format!("\nw {}", figure(*weights.get(index)?));
         }
         Some(HoverScene::Vertex {
+            at: self.viewport.flatten(vertex),
+            text,
+        })
+    }
+
+    fn clamped_hover(&self, id: CurveId, index: usize) -> Option<HoverScene> {
+        let analysis = self.analyses.peek(id)?;
+        let vertex = *analysis.clamped_vertices().get(index)?;
+        let mut text = format!(
+            "closed vertex {index}\nx {}\ny {}",
+            figure(vertex.x),
+            figure(vertex.y)
+        );
+        if !analysis.is_planar() {
+            text += &format!("\nz {}", figure(vertex.z));
+        }
+        if let Some(amplification) = clamped_amplification(&analysis.curve().polygon) {
+            text += &format!("\nfloat × {}", figure(amplification.largest));
+        }
+        Some(HoverScene::Handle {
             at: self.viewport.flatten(vertex),
             text,
         })

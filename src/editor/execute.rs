@@ -62,6 +62,12 @@ impl Editor {
             Command::TogglePeriodic => unlocked,
             Command::RaiseDegree => unlocked && self.can_have_degree(1),
             Command::LowerDegree => unlocked && self.can_have_degree(-1),
+            Command::RaiseCurveDegree => unlocked && self.can_change_degree(true),
+            Command::LowerCurveDegree => unlocked && self.can_change_degree(false),
+            Command::Subdivide | Command::Divide | Command::Round => unlocked,
+            Command::Extend(_) => {
+                unlocked && curve.is_some_and(|(_, curve)| !curve.polygon.is_periodic())
+            }
             Command::SelectAll | Command::Fit | Command::FitAll => !self.document().is_empty(),
             Command::SelectNone => !self.selection.is_empty(),
             Command::ExportDxf | Command::ExportCsv(_) => !self.document().is_empty(),
@@ -224,6 +230,12 @@ impl Editor {
                     self.set_degree(id, if raised { degree + 1 } else { degree - 1 });
                 }
             }
+            Command::RaiseCurveDegree => self.change_degree(true),
+            Command::LowerCurveDegree => self.change_degree(false),
+            Command::Subdivide => self.subdivide(),
+            Command::Extend(end) => self.extend(end),
+            Command::Divide => return Some(Request::Divide),
+            Command::Round => return Some(Request::Round),
             Command::ToggleVisible | Command::ToggleLocked => self.toggle_flag(command),
             Command::Fit => self.fit(),
             Command::FitAll => self.fit_all(),

@@ -1,6 +1,6 @@
 //! What lies under a place on the canvas.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::layers::{Layer, Layers};
 use super::viewport::Viewport;
@@ -72,6 +72,21 @@ impl<'a> HitTest<'a> {
         found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(b.2.cmp(&a.2)));
         let chosen = self.cycle.checked_rem(found.len())?;
         found.get(chosen).map(|hit| hit.2)
+    }
+
+    /// Find the vertex of the active curve's closed S-polygon under a place, if it is shown.
+    pub fn clamped_vertex(&self, place: DVec2) -> Option<(CurveId, usize)> {
+        if !self.layers.shows(Layer::Clamped) {
+            return None;
+        }
+        let id = self.active?;
+        self.document.curve(id).filter(|curve| curve.visible)?;
+        let model = self.viewport.to_model(place);
+        let vertices = self.analyses.peek(id)?.clamped_vertices();
+        let distance = |vertex: &DVec3| self.viewport.flatten(*vertex).distance(model);
+        let distances = vertices.iter().map(distance).enumerate();
+        let (index, nearest) = distances.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        (nearest <= REACH * self.viewport.pixel()).then_some((id, index))
     }
 
     /// Find the place on a curve under a place on the canvas.

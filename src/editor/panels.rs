@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::Editor;
 use super::report::{CurveReport, Readout};
+use super::reshaping::clamped_amplification;
 use super::scene::{HoverScene, PlotScene};
 use crate::analysis::LevelPlot;
 use crate::document::Curve;
@@ -115,6 +116,7 @@ impl Editor {
             curvature: analysis.curvature(),
             legs: figures.legs,
             turns: figures.turns,
+            amplification: clamped_amplification(&analysis.curve().polygon),
         })
     }
 

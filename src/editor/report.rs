@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use glam::DVec2;
 
-use crate::geometry::Range;
+use crate::geometry::{Amplification, Range};
 
 /// Something that the editor cannot do itself and asks the window for.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,6 +31,10 @@ pub enum Request {
     TogglePlots,
     /// Open the command palette.
     Palette,
+    /// Ask where the curve shall be divided.
+    Divide,
+    /// Ask how coordinates shall be rounded.
+    Round,
     /// Show the list of keys.
     Keys,
     /// Show what this program is.
@@ -105,4 +109,6 @@ pub struct CurveReport {
     pub legs: Option<Range>,
     /// Its smallest and largest turning angle, in radians.
     pub turns: Option<Range>,
+    /// How much errors in the closed S-polygon grow in the float S-polygon.
+    pub amplification: Option<Amplification>,
 }

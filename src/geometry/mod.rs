@@ -10,6 +10,7 @@ pub mod basis;
 mod bezier_matrix;
 mod bezier_polygon;
 pub mod circle_comparison;
+mod clamped_editing;
 mod clamped_polygon;
 mod closing;
 mod curvature_levels;

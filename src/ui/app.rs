@@ -19,6 +19,7 @@ use super::menu::menu_ui;
 use super::message::message_ui;
 use super::palette::Palette;
 use super::plots::{self, Plots, Tab};
+use super::reshaping_dialogs::{DivisionDialog, RoundingDialog};
 use super::shell::Shell;
 use super::status_bar::{self, status_bar_ui};
 use super::theme::{self, Tokens};
@@ -287,7 +288,7 @@ impl App {
         }
         let decided = self
             .dialog
-            .as_ref()
+            .as_mut()
             .and_then(|dialog| dialogs::dialog_ui(context, dialog, &self.editor));
         if let Some(decision) = decided {
             self.dialog = None;
@@ -326,6 +327,10 @@ impl App {
             }
             Request::TogglePlots => self.shell.plots = !self.shell.plots,
             Request::Palette => self.palette.open(),
+            Request::Divide => {
+                self.dialog = Some(Dialog::Divide(DivisionDialog::new(&self.editor)));
+            }
+            Request::Round => self.dialog = Some(Dialog::Round(RoundingDialog::default())),
             Request::Keys => self.dialog = Some(Dialog::Keys),
             Request::About => self.dialog = Some(Dialog::About),
         }
@@ -355,6 +360,8 @@ impl App {
     fn decide(&mut self, context: &Context, decision: Decision) {
         match decision {
             Decision::Close => {}
+            Decision::Divide(division, subdivisions) => self.editor.divide(division, subdivisions),
+            Decision::Round(kind, digits) => self.editor.round(kind, digits),
             Decision::Discard(after) => {
                 let request = self.editor.discard_and(after);
                 self.grant(context, request);

@@ -2,15 +2,21 @@
 
 use eframe::egui::{Context, Grid, Id, Key, Modal, RichText, ScrollArea, Ui, vec2};
 
+use super::reshaping_dialogs::{DivisionDialog, RoundingDialog};
 use super::theme::{self, STEP, Tokens};
 use super::{keyboard, widgets};
-use crate::editor::{AfterDiscard, Command, Editor};
+use crate::editor::{AfterDiscard, Command, Division, Editor};
+use crate::geometry::PolygonKind;
 
 /// What is asked or told.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Dialog {
     /// Save, discard or go back, before something replaces the document.
     Unsaved(AfterDiscard),
+    /// Split or trim the active curve.
+    Divide(DivisionDialog),
+    /// Round coordinates.
+    Round(RoundingDialog),
     /// What keys and mouse do.
     Keys,
     /// What this program is.
@@ -24,12 +30,16 @@ pub enum Decision {
     Save(AfterDiscard),
     /// Go on without saving.
     Discard(AfterDiscard),
+    /// Divide the active curve.
+    Divide(Division, u32),
+    /// Round the coordinates of one of the active curve's polygons.
+    Round(PolygonKind, usize),
     /// Close the dialog.
     Close,
 }
 
 /// Show a dialog; returns what was decided, once something is.
-pub fn dialog_ui(context: &Context, dialog: &Dialog, editor: &Editor) -> Option<Decision> {
+pub fn dialog_ui(context: &Context, dialog: &mut Dialog, editor: &Editor) -> Option<Decision> {
     let frame = widgets::dialog_frame(&context.global_style());
     let modal = Modal::new(Id::unique("dialog"))
         .frame(frame)
@@ -37,6 +47,8 @@ pub fn dialog_ui(context: &Context, dialog: &Dialog, editor: &Editor) -> Option<
             ui.spacing_mut().item_spacing.y = 2.0 * STEP;
             match dialog {
                 Dialog::Unsaved(after) => unsaved_ui(ui, after, editor),
+                Dialog::Divide(dialog) => dialog.show(ui, editor),
+                Dialog::Round(dialog) => dialog.show(ui, editor),
                 Dialog::Keys => keys_ui(ui, editor),
                 Dialog::About => about_ui(ui),
             }

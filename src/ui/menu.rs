@@ -7,7 +7,7 @@ use super::shell::Shell;
 use super::theme::Tokens;
 use super::{icons, keyboard};
 use crate::editor::{Command, Editor, Layer, NamedView, ToolKind};
-use crate::geometry::PolygonKind;
+use crate::geometry::{End, PolygonKind};
 
 /// The least width of an open menu.
 const WIDTH: f32 = 240.0;
@@ -79,6 +79,14 @@ fn menus() -> [(&'static str, Vec<Entry>); 6] {
         Item(Command::LowerDegree),
         Item(Command::TogglePeriodic),
         Item(Command::Reverse),
+        Divider,
+        Item(Command::RaiseCurveDegree),
+        Item(Command::LowerCurveDegree),
+        Item(Command::Subdivide),
+        Item(Command::Extend(End::Start)),
+        Item(Command::Extend(End::Finish)),
+        Item(Command::Divide),
+        Item(Command::Round),
         Divider,
         Item(Command::ToggleVisible),
         Item(Command::ToggleLocked),

@@ -25,6 +25,7 @@ mod overlays;
 mod painting;
 mod palette;
 mod plots;
+mod reshaping_dialogs;
 mod shell;
 mod status_bar;
 mod theme;

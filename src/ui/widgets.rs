@@ -100,6 +100,14 @@ pub fn focus_ring(ui: &Ui, rect: Rect) {
         .rect_stroke(rect, RADIUS, stroke, StrokeKind::Inside);
 }
 
+/// A caption that is cut short where there is too little room; all of it is told on hovering.
+pub fn remark(ui: &mut Ui, text: &str) {
+    let text = RichText::new(text)
+        .font(theme::small_font())
+        .color(Tokens::of(ui).faint_text);
+    ui.add(egui::Label::new(text).truncate());
+}
+
 /// A caption in small, faint type.
 pub fn caption(ui: &mut Ui, text: &str) -> Response {
     let tokens = Tokens::of(ui);

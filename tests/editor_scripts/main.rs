@@ -2,6 +2,7 @@
 
 mod commands;
 mod end_fit;
+mod reshaping;
 mod script;
 mod selecting;
 mod space;

@@ -5,12 +5,14 @@ use std::collections::BTreeSet;
 use glam::{DVec2, DVec3};
 
 use super::tool::{Context, Cursor, Effect, Tool, count_vertices, move_edits};
-use crate::document::CurveId;
+use crate::document::{CurveId, Edit};
+use crate::editor::drawing::figure;
 use crate::editor::gesture::Gesture;
 use crate::editor::grid::grid_steps;
 use crate::editor::hit::REACH;
 use crate::editor::input::Key;
 use crate::editor::layers::Layer;
+use crate::editor::reshaping::clamped_amplification;
 use crate::editor::scene::Mark;
 use crate::editor::selection::VertexId;
 use crate::editor::snapping::along_axis;
@@ -37,6 +39,13 @@ enum State {
         moving: BTreeSet<VertexId>,
         planar: BTreeSet<CurveId>,
         snap: Option<DVec2>,
+    },
+    /// A vertex of the closed S-polygon is dragged; `held` is where it was.
+    MovingClamped {
+        origin: DVec2,
+        held: DVec3,
+        vertex: VertexId,
+        planar: bool,
     },
     /// A box is drawn, by its corners on the canvas.
     Boxing { from: DVec2, to: DVec2 },
@@ -78,8 +87,35 @@ impl Tool for SelectTool {
                 };
                 effects
             }
-            (State::Moving { .. }, Gesture::DragEnd(_)) => vec![Effect::Commit],
-            (State::Moving { .. }, Gesture::Cancel) => vec![Effect::Abort],
+            (
+                State::MovingClamped {
+                    origin,
+                    held,
+                    vertex,
+                    planar,
+                },
+                Gesture::Drag(place),
+            ) => {
+                self.state = State::MovingClamped {
+                    origin,
+                    held,
+                    vertex,
+                    planar,
+                };
+                let seen = context.viewport.flatten(held);
+                let (movement, _) = movement(origin, seen, place, &BTreeSet::new(), context);
+                vec![move_clamped(
+                    vertex,
+                    held + context.movement(movement, planar),
+                    context,
+                )]
+            }
+            (State::Moving { .. } | State::MovingClamped { .. }, Gesture::DragEnd(_)) => {
+                vec![Effect::Commit]
+            }
+            (State::Moving { .. } | State::MovingClamped { .. }, Gesture::Cancel) => {
+                vec![Effect::Abort]
+            }
             (State::Boxing { from, .. }, Gesture::Drag(to)) => {
                 self.state = State::Boxing { from, to };
                 Vec::new()
@@ -119,6 +155,11 @@ impl Tool for SelectTool {
                 "Moving {}: Shift keeps to an axis, X, Y, Z to the model's, Ctrl turns snapping {}, Alt shows before, Esc cancels",
                 count_vertices(vertices.len()),
                 if context.snapping { "off" } else { "on" },
+            ),
+            State::MovingClamped { vertex, .. } => format!(
+                "Moving vertex {} of the closed S-polygon: {}; Esc cancels",
+                vertex.1,
+                amplified(vertex.0, context)
             ),
             State::Boxing { .. } => {
                 "Release to select what is in the box; Shift adds to the selection".into()
@@ -161,10 +202,10 @@ impl Tool for SelectTool {
             .pointer
             .map(|pointer| context.viewport.to_screen(pointer));
         match self.state {
-            State::Moving { .. } | State::Scaling { .. } => Cursor::Move,
-            State::Idle if place.is_some_and(|place| context.hits.vertex(place).is_some()) => {
+            State::Moving { .. } | State::MovingClamped { .. } | State::Scaling { .. } => {
                 Cursor::Move
             }
+            State::Idle if place.is_some_and(|place| takes_vertex(place, context)) => Cursor::Move,
             _ => Cursor::Default,
         }
     }
@@ -174,6 +215,9 @@ impl SelectTool {
     fn start(&mut self, place: DVec2, context: &Context) -> Vec<Effect> {
         if let Some(vertex) = context.hits.vertex(place) {
             return self.start_moving(place, vertex, context);
+        }
+        if let Some(vertex) = context.hits.clamped_vertex(place) {
+            return self.start_moving_clamped(place, vertex, context);
         }
         if let Some(([foot, tip], scale)) = tooth(place, context) {
             self.state = State::Scaling { foot, tip, scale };
@@ -215,6 +259,31 @@ impl SelectTool {
         effects
     }
 
+    fn start_moving_clamped(
+        &mut self,
+        place: DVec2,
+        vertex: VertexId,
+        context: &Context,
+    ) -> Vec<Effect> {
+        let (id, index) = vertex;
+        let analysis = context.hits.analyses.peek(id);
+        let held = analysis.and_then(|analysis| analysis.clamped_vertices().get(index));
+        let (Some(held), Some(curve)) = (held, context.before.curve(id)) else {
+            return Vec::new();
+        };
+        if curve.locked {
+            return vec![locked(id, context)];
+        }
+        self.state = State::MovingClamped {
+            origin: context.model(place),
+            held: *held,
+            vertex,
+            planar: curve.polygon.is_planar(),
+        };
+        let label = format!("Move vertex {index} of closed S-polygon");
+        vec![Effect::Select(Vec::new()), Effect::Begin(label)]
+    }
+
     fn move_these(
         &mut self,
         place: DVec2,
@@ -242,6 +311,33 @@ impl SelectTool {
         };
         effects
     }
+}
+
+fn takes_vertex(place: DVec2, context: &Context) -> bool {
+    context.hits.vertex(place).is_some() || context.hits.clamped_vertex(place).is_some()
+}
+
+/// Put a vertex of the closed S-polygon somewhere else: the float S-polygon follows.
+fn move_clamped((id, index): VertexId, place: DVec3, context: &Context) -> Effect {
+    let Some(curve) = context.before.curve(id) else {
+        return Effect::Preview(Vec::new());
+    };
+    match curve.polygon.with_clamped_vertex(index, place) {
+        Ok(polygon) => Effect::Preview(vec![Edit::SetPolygon { curve: id, polygon }]),
+        Err(error) => Effect::Say(format!("“{}”: {error}", curve.name)),
+    }
+}
+
+/// Say how much an error in a vertex of the closed S-polygon grows.
+fn amplified(id: CurveId, context: &Context) -> String {
+    let polygon = context.document.curve(id).map(|curve| &curve.polygon);
+    let amplification = polygon.and_then(clamped_amplification);
+    amplification.map_or(String::new(), |amplification| {
+        format!(
+            "the float S-polygon moves up to {} times as far",
+            figure(amplification.largest)
+        )
+    })
 }
 
 fn vertex_count(curve: CurveId, context: &Context) -> usize {

@@ -42,14 +42,14 @@ impl Plots {
     /// What the bar says of a plot of levels: the switch that normalises, and what is cut off.
     pub(super) fn level_bar_ui(&mut self, ui: &mut Ui, plot: LevelPlot) {
         if plot == LevelPlot::Logarithmic {
-            widgets::caption(ui, &self.remark);
+            widgets::remark(ui, &self.remark);
             return;
         }
         ui.spacing_mut().item_spacing.x = 2.0 * STEP;
         let tooltip = "Show the levels of the curve scaled to length 1, over shares of its length";
         ui.add(Checkbox::new(&mut self.normalised, "By curve length"))
             .on_hover_text(tooltip);
-        widgets::caption(ui, &self.remark);
+        widgets::remark(ui, &self.remark);
     }
 
     pub(super) fn levels_ui(&mut self, ui: &mut Ui, editor: &mut Editor, which: LevelPlot) {

@@ -112,9 +112,7 @@ impl Plots {
                 }
                 match self.tab {
                     _ if !shown => {}
-                    Tab::Curvature => {
-                        widgets::caption(ui, self.legend);
-                    }
+                    Tab::Curvature => widgets::remark(ui, self.legend),
                     Tab::Levels(plot) => self.level_bar_ui(ui, plot),
                     Tab::Legs => {}
                 }

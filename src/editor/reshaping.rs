@@ -1,0 +1,282 @@
+//! Operations that take a curve as it is and give it another polygon: degrees, subdivision,
+//! extension, division, rounding. Each says how far the curve moved.
+
+use super::Editor;
+use super::drawing::figure;
+use crate::document::{Curve, CurveId, Edit};
+use crate::geometry::{
+    Amplification, Approximation, ClampedPolygon, End, FloatPolygon, MAX_DEGREE, PolygonError,
+    PolygonKind,
+};
+
+/// Where a curve is divided.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Division {
+    /// Into the parts before and behind a parameter.
+    Split(f64),
+    /// Keep what lies between two parameters.
+    Trim(f64, f64),
+}
+
+/// What dividing a curve would come to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DivisionReport {
+    /// The parts: one or two.
+    pub parts: Vec<Approximation>,
+}
+
+impl DivisionReport {
+    /// Whether every part is the curve itself.
+    pub fn is_exact(&self) -> bool {
+        self.parts.iter().all(|part| part.exact)
+    }
+
+    /// How far the parts are off the curve at most.
+    pub fn deviation(&self) -> f64 {
+        let parts = self.parts.iter().map(|part| part.deviation);
+        parts.fold(0.0, f64::max)
+    }
+}
+
+/// What rounding a polygon's coordinates would come to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RoundingReport {
+    /// The float polygon afterwards.
+    pub polygon: FloatPolygon,
+    /// The largest move of a vertex of the polygon that is rounded.
+    pub moved: f64,
+    /// The largest move of a vertex of the float polygon.
+    pub float_moved: f64,
+    /// How far the curve moves at most.
+    pub deviation: f64,
+}
+
+impl Editor {
+    /// Try to divide the active curve; `subdivisions` tells how often its segments may be halved
+    /// so that the cuts fall on knots.
+    ///
+    /// # Errors
+    /// What is wrong with it, in words.
+    pub fn try_division(
+        &self,
+        division: Division,
+        subdivisions: u32,
+    ) -> Result<DivisionReport, String> {
+        let (_, curve) = self.active_curve().ok_or("There is no curve")?;
+        let polygon = &curve.polygon;
+        let parts = match division {
+            Division::Split(at) => polygon.split(at, subdivisions).map(|(a, b)| vec![a, b]),
+            Division::Trim(from, to) => polygon
+                .trimmed(from, to, subdivisions)
+                .map(|part| vec![part]),
+        };
+        let parts = parts.map_err(|error| error.to_string())?;
+        Ok(DivisionReport { parts })
+    }
+
+    /// Divide the active curve as one step. An error becomes the message.
+    pub fn divide(&mut self, division: Division, subdivisions: u32) {
+        let Some((id, curve)) = self.active_curve() else {
+            return;
+        };
+        let report = match self.try_division(division, subdivisions) {
+            Ok(report) => report,
+            Err(reason) => return self.fail(reason),
+        };
+        let label = match division {
+            Division::Split(_) => "Split curve",
+            Division::Trim(..) => "Trim curve",
+        };
+        let text = off(label, report.is_exact(), report.deviation());
+        let mut edits = Vec::new();
+        for (number, part) in report.parts.into_iter().enumerate() {
+            if number == 0 {
+                // The new ends have no targets of their own.
+                edits.extend(forgotten_targets(id, &curve, division));
+                let polygon = part.polygon;
+                edits.push(Edit::SetPolygon { curve: id, polygon });
+            } else {
+                let mut second = Curve::new(format!("{} (2)", curve.name), part.polygon);
+                second.colour = curve.colour;
+                second.targets.finish = curve.targets.finish;
+                edits.push(Edit::Add(Box::new(second)));
+            }
+        }
+        self.selection.clear();
+        self.reshaped(label, edits, text);
+    }
+
+    /// Try to round the coordinates of one of the active curve's polygons to some digits behind
+    /// the decimal point.
+    ///
+    /// # Errors
+    /// What is wrong with it, in words.
+    pub fn try_rounding(&self, kind: PolygonKind, digits: usize) -> Result<RoundingReport, String> {
+        let (_, curve) = self.active_curve().ok_or("There is no curve")?;
+        rounding(&curve.polygon, kind, digits).map_err(|error| error.to_string())
+    }
+
+    /// Round the coordinates of one of the active curve's polygons as one step. An error becomes
+    /// the message.
+    pub fn round(&mut self, kind: PolygonKind, digits: usize) {
+        let Some((curve, _)) = self.active_curve() else {
+            return;
+        };
+        match self.try_rounding(kind, digits) {
+            Ok(report) => {
+                let text = format!(
+                    "Rounded to {digits} digits: vertices moved by at most {}, the curve by at most {}",
+                    figure(report.moved),
+                    figure(report.deviation)
+                );
+                let polygon = report.polygon;
+                let edits = vec![Edit::SetPolygon { curve, polygon }];
+                self.reshaped("Round coordinates", edits, text);
+            }
+            Err(reason) => self.fail(reason),
+        }
+    }
+
+    /// Raise or lower the active curve's degree so that the curve stays as nearly as it can.
+    pub(super) fn change_degree(&mut self, raise: bool) {
+        let Some((curve, found)) = self.active_curve() else {
+            return;
+        };
+        let degree = found.polygon.degree();
+        let degree = if raise { degree + 1 } else { degree - 1 };
+        match found.polygon.with_degree(degree) {
+            Ok(changed) => {
+                let mut text = off(
+                    &format!("Degree {degree}"),
+                    changed.exact,
+                    changed.deviation,
+                );
+                if raise && !changed.exact {
+                    text += ". With more than one segment, raising the degree would double the \
+                             knots: a uniform curve can only come near";
+                }
+                let polygon = changed.polygon;
+                let edits = vec![Edit::SetPolygon { curve, polygon }];
+                self.reshaped("Change degree", edits, text);
+            }
+            Err(error) => self.fail(error.to_string()),
+        }
+    }
+
+    /// Halve every segment of the active curve.
+    pub(super) fn subdivide(&mut self) {
+        let Some((curve, found)) = self.active_curve() else {
+            return;
+        };
+        match found.polygon.subdivided() {
+            Ok(polygon) => {
+                let count = polygon.segments();
+                let edits = vec![Edit::SetPolygon { curve, polygon }];
+                self.reshaped(
+                    "Subdivide",
+                    edits,
+                    format!("{count} segments, the same curve"),
+                );
+            }
+            Err(error) => self.fail(error.to_string()),
+        }
+    }
+
+    /// Extend the active curve by a segment that continues its end.
+    pub(super) fn extend(&mut self, end: End) {
+        let Some((curve, found)) = self.active_curve() else {
+            return;
+        };
+        match found.polygon.extended(end, 1) {
+            Ok(polygon) => {
+                let edits = vec![Edit::SetPolygon { curve, polygon }];
+                let text = format!("Extended by a segment at the {}", end.name());
+                self.reshaped(&format!("Extend {}", end.name()), edits, text);
+            }
+            Err(error) => self.fail(error.to_string()),
+        }
+    }
+
+    /// Whether the active curve's degree can be changed by one while the curve stays.
+    pub(super) fn can_change_degree(&self, raise: bool) -> bool {
+        let degree = self.active_curve().map(|(_, curve)| curve.polygon.degree());
+        degree.is_some_and(|degree| {
+            if raise {
+                degree < MAX_DEGREE
+            } else {
+                degree > 1
+            }
+        })
+    }
+
+    fn reshaped(&mut self, label: &str, edits: Vec<Edit>, text: String) {
+        self.apply(label, edits);
+        if self.message.is_none() {
+            self.say(text);
+        }
+    }
+}
+
+/// How much an error in a vertex of the closed S-polygon grows in the float S-polygon.
+pub(super) fn clamped_amplification(polygon: &FloatPolygon) -> Option<Amplification> {
+    let (degree, segments) = (polygon.degree(), polygon.segments());
+    Amplification::of(PolygonKind::Clamped, PolygonKind::Float, degree, segments).ok()
+}
+
+fn rounding(
+    polygon: &FloatPolygon,
+    kind: PolygonKind,
+    digits: usize,
+) -> Result<RoundingReport, PolygonError> {
+    let (rounded, moved, deviation) = match kind {
+        PolygonKind::Float | PolygonKind::Bezier => {
+            let rounded = polygon.rounded(digits)?;
+            (rounded.polygon, rounded.moved, rounded.deviation)
+        }
+        PolygonKind::Clamped => {
+            let rounded = ClampedPolygon::from_float(polygon).rounded(digits)?;
+            let float = if polygon.is_periodic() {
+                rounded.polygon.to_periodic_float()?
+            } else {
+                rounded.polygon.to_float()?
+            };
+            (float, rounded.moved, rounded.deviation)
+        }
+    };
+    let pairs = polygon.vertices().iter().zip(rounded.vertices());
+    let float_moved = pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+    Ok(RoundingReport {
+        polygon: rounded,
+        moved,
+        float_moved,
+        deviation,
+    })
+}
+
+/// Say whether what was done is exact, or how far the curve is off.
+fn off(what: &str, exact: bool, deviation: f64) -> String {
+    if exact {
+        format!("{what}: the curve is the same")
+    } else {
+        format!("{what}: off the curve by at most {}", figure(deviation))
+    }
+}
+
+/// The edits that take away the targets of ends that a division cuts off.
+fn forgotten_targets(id: CurveId, curve: &Curve, division: Division) -> Vec<Edit> {
+    let last = curve.polygon.segments() as f64;
+    let is_cut = |end: End| match (division, end) {
+        (Division::Split(_), End::Start) => false,
+        (Division::Split(_), End::Finish) => true,
+        (Division::Trim(from, _), End::Start) => from > 0.0,
+        (Division::Trim(_, to), End::Finish) => to < last,
+    };
+    let cut = End::BOTH.into_iter();
+    let cut = cut.filter(|end| is_cut(*end) && curve.targets.get(*end).is_some());
+    cut.map(|end| Edit::SetTarget {
+        curve: id,
+        end,
+        target: None,
+    })
+    .collect()
+}
