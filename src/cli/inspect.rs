@@ -11,6 +11,9 @@ use crate::document::Curve;
 use crate::geometry::{ClampedPolygon, End, FloatPolygon, Jet};
 use crate::io::{Place, disk, json_layout};
 
+/// Levels of curvature and torsion that are printed.
+const LEVELS: usize = 3;
+
 /// The relative error allowed in lengths.
 const LENGTH_TOLERANCE: f64 = 1e-13;
 
@@ -73,7 +76,10 @@ struct At {
     d2: Vec<f64>,
     d3: Vec<f64>,
     /// By level; numbers that are infinite or none become null.
-    curvature: [f64; 1],
+    curvature: [f64; LEVELS],
+    /// By level, in space.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    torsion: Option<[f64; LEVELS]>,
     evolute: Option<Vec<f64>>,
 }
 
@@ -137,15 +143,22 @@ fn inspected(curve: &Curve, at: &[f64]) -> Inspected {
     }
 }
 
+/// The levels that are printed.
+fn lowest(levels: [f64; 4]) -> [f64; LEVELS] {
+    std::array::from_fn(|level| levels[level])
+}
+
 fn evaluated(polygon: &FloatPolygon, space: &Space, u: f64) -> At {
     let jet = polygon.jet(u);
+    let levels = polygon.curvature_levels(u, 1.0);
     At {
         u,
         point: space.vector(jet.point),
         d1: space.vector(jet.first),
         d2: space.vector(jet.second),
         d3: space.vector(jet.third),
-        curvature: [space.curvature(&jet)],
+        curvature: lowest(levels.curvature),
+        torsion: levels.torsion.map(lowest),
         evolute: jet.centre_of_curvature().map(|centre| space.vector(centre)),
     }
 }

@@ -25,6 +25,7 @@ mod exact_polygon;
 mod exact_vertices;
 mod expansion;
 mod extension;
+pub mod features;
 mod float_polygon;
 mod homogeneous;
 mod jet;

@@ -30,7 +30,11 @@ impl DivisionDialog {
         let segments = active_segments(editor);
         Self {
             trims: false,
-            from: (0.5 * segments).round().max(0.5),
+            from: if segments > 1.0 {
+                (0.5 * segments).floor()
+            } else {
+                0.5
+            },
             to: segments,
             subdivisions: 0,
         }

@@ -1,0 +1,81 @@
+//! Measures the proofs of single segments and putting a curve's features together.
+
+use std::f64::consts::TAU;
+use std::hint::black_box;
+use std::time::Duration;
+
+use batten::geometry::FloatPolygon;
+use batten::geometry::features::{Features, SegmentProver};
+use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use glam::DVec3;
+
+/// Vertices of the curves that are put together.
+const VERTICES: usize = 1000;
+
+/// A closed wavy line with many inflections and extrema.
+fn wavy(vertices: usize, degree: usize, height: f64, rational: bool) -> FloatPolygon {
+    let points = (0..vertices).map(|index| {
+        let turn = index as f64 / vertices as f64 * TAU;
+        let radius = 10.0 + (7.0 * turn).sin();
+        DVec3::new(
+            radius * turn.cos(),
+            radius * turn.sin(),
+            height * (3.0 * turn).sin(),
+        )
+    });
+    let weights = (0..vertices).map(|index| 1.0 + 0.3 * (index as f64).sin());
+    let weights = rational.then(|| weights.collect());
+    FloatPolygon::new(degree, points.collect(), weights, false).expect("a valid polygon")
+}
+
+fn segments(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("features of one segment");
+    group
+        .measurement_time(Duration::from_secs(2))
+        .warm_up_time(Duration::from_millis(500));
+    for (name, height, rational) in [
+        ("planar", 0.0, false),
+        ("planar rational", 0.0, true),
+        ("space", 3.0, false),
+        ("space rational", 3.0, true),
+    ] {
+        for degree in [3, 5, 9] {
+            let polygon = wavy(60, degree, height, rational);
+            let mut prover = SegmentProver::new(polygon.is_planar());
+            // One segment after the other, so that this is the mean over all of them.
+            let mut segment = 0;
+            group.bench_function(BenchmarkId::new(name, degree), |bencher| {
+                bencher.iter(|| {
+                    segment = (segment + 1) % polygon.segments();
+                    prover.segment(black_box(&polygon), segment)
+                });
+            });
+        }
+    }
+    group.finish();
+}
+
+fn assembly(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("features of a curve");
+    group
+        .measurement_time(Duration::from_secs(3))
+        .warm_up_time(Duration::from_millis(500));
+    let polygon = wavy(VERTICES, 9, 0.0, false);
+    let mut prover = SegmentProver::new(true);
+    let mut segments: Vec<_> = (0..polygon.segments())
+        .map(|segment| prover.segment(&polygon, segment))
+        .collect();
+    group.bench_function("assembled, one segment of 991 redone", |bencher| {
+        bencher.iter(|| {
+            segments[500] = prover.segment(&polygon, 500);
+            Features::assemble(black_box(&polygon), &segments)
+        });
+    });
+    group.bench_function("all 991 segments", |bencher| {
+        bencher.iter(|| Features::new(black_box(&polygon)));
+    });
+    group.finish();
+}
+
+criterion_group!(benches, segments, assembly);
+criterion_main!(benches);

@@ -1,0 +1,119 @@
+//! What can be told of a whole curve.
+
+/// Hold the proved features of a curve, each list in the order of u.
+///
+/// An interval `u` = \[lo, hi\] is part of the domain \[0, L\], lo ≤ hi; on a periodic curve one
+/// that reaches over the joint has hi > L. A feature's interval holds exactly one. It is at
+/// most 1e-12 wide (and one rounding of u) unless rounding hides the signs in more; a single
+/// point at a knot where curvature or its slope jumps; or the whole of a piece on which the
+/// function is exactly 0 between two different signs.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Features {
+    /// Where the signed curvature of a planar curve changes its sign.
+    pub inflections: Vec<[f64; 2]>,
+    /// Where the curvature — signed in the plane, ≥ 0 in space — turns from rising to falling
+    /// or back. In space that may be a point where it is 0.
+    pub curvature_extrema: Vec<Extremum>,
+    /// Where the torsion of a space curve changes its sign.
+    pub torsion_zeros: Vec<[f64; 2]>,
+    /// Where the torsion of a space curve turns from rising to falling or back.
+    pub torsion_extrema: Vec<Extremum>,
+    /// Where the tangent vanishes or may vanish, so that curvature is not defined.
+    pub cusps: Vec<Cusp>,
+    /// Where a function may have roots or not; all of them are counted elsewhere.
+    pub undecided: Vec<Undecided>,
+    /// Pieces of the domain on which the curvature is proved to rise, to fall or to be
+    /// constant. What they leave out are the intervals of extrema and undecided pieces.
+    pub trends: Vec<TrendPiece>,
+    /// Whether the curvature is monotone: without an extremum inside the domain.
+    pub monotone: Verdict,
+}
+
+/// Hold an extremum of curvature or torsion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extremum {
+    /// The interval that holds it.
+    pub u: [f64; 2],
+    /// Whether it is a maximum or a minimum.
+    pub kind: ExtremumKind,
+    /// The curvature or torsion there, rounded; at a jump the greater side of a maximum.
+    pub value: f64,
+}
+
+/// Tell maxima from minima.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ExtremumKind {
+    /// Rising before, falling behind.
+    Maximum,
+    /// Falling before, rising behind.
+    Minimum,
+}
+
+/// Hold a place where the tangent vanishes or may vanish.
+///
+/// Zeros of both x′ and y′ coincide by chance only, and rounded numbers cannot prove it but
+/// where a motion along a straight line turns back or vertices coincide. Others are reported
+/// with `proved` false: the tangent is too small there for its sign to be told.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cusp {
+    /// The interval that holds it.
+    pub u: [f64; 2],
+    /// Whether the tangent vanishes somewhere in it for certain.
+    pub proved: bool,
+}
+
+/// Hold a piece on which features may lie that could not be counted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Undecided {
+    /// The piece.
+    pub u: [f64; 2],
+    /// Which features may lie in it.
+    pub quantity: Quantity,
+    /// Whether there is at least one for certain: the signs on both sides differ.
+    pub certain: bool,
+}
+
+/// Name a kind of feature.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// Inflections of a planar curve.
+    Inflection,
+    /// Extrema of the curvature.
+    CurvatureExtremum,
+    /// Zeros of the torsion.
+    TorsionZero,
+    /// Extrema of the torsion.
+    TorsionExtremum,
+}
+
+/// Hold a piece of the domain on which the curvature does one thing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrendPiece {
+    /// The piece.
+    pub u: [f64; 2],
+    /// What the curvature does in it.
+    pub trend: Trend,
+}
+
+/// Say what the curvature does as u grows: signed in the plane, ≥ 0 in space.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Trend {
+    /// It falls strictly.
+    Falling,
+    /// It is the same throughout.
+    Constant,
+    /// It rises strictly.
+    Rising,
+}
+
+/// Answer a question about the given doubles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Verdict {
+    /// Proved to be so.
+    Proved,
+    /// Proved not to be so.
+    Disproved,
+    /// Not proved either way.
+    #[default]
+    Undecided,
+}

@@ -1,0 +1,77 @@
+//! What the polynomial arithmetic needs of a number type.
+
+use std::ops::{Add, Div, Mul};
+
+use super::double_double::DoubleDouble;
+
+/// A type of floating-point number whose operations have a known relative error.
+pub(super) trait Scalar:
+    Copy + Default + Add<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+{
+    /// A bound of the relative error of one operation.
+    const UNIT: f64;
+
+    /// Convert from the wide type, rounding.
+    fn from_wide(value: DoubleDouble) -> Self;
+
+    /// The rounding error of that conversion.
+    fn conversion_error(value: DoubleDouble) -> f64;
+
+    /// Bound the relative error of a table entry that took so many operations on wide numbers.
+    fn table_error(operations: f64) -> f64;
+
+    /// The nearest double.
+    fn rounded(self) -> f64;
+
+    /// Bound the absolute value from above, up to a relative 2⁻⁵⁰.
+    fn magnitude(self) -> f64 {
+        self.rounded().abs()
+    }
+}
+
+impl Scalar for f64 {
+    const UNIT: f64 = f64::EPSILON / 2.0;
+
+    #[inline]
+    fn from_wide(value: DoubleDouble) -> Self {
+        value.high
+    }
+
+    #[inline]
+    fn conversion_error(value: DoubleDouble) -> f64 {
+        value.low.abs()
+    }
+
+    fn table_error(operations: f64) -> f64 {
+        Self::UNIT + DoubleDouble::table_error(operations)
+    }
+
+    #[inline]
+    fn rounded(self) -> f64 {
+        self
+    }
+}
+
+impl Scalar for DoubleDouble {
+    // 2⁻¹⁰².
+    const UNIT: f64 = f64::EPSILON * f64::EPSILON * 4.0;
+
+    #[inline]
+    fn from_wide(value: DoubleDouble) -> Self {
+        value
+    }
+
+    #[inline]
+    fn conversion_error(_: DoubleDouble) -> f64 {
+        0.0
+    }
+
+    fn table_error(operations: f64) -> f64 {
+        operations * Self::UNIT
+    }
+
+    #[inline]
+    fn rounded(self) -> f64 {
+        self.high
+    }
+}

@@ -1,0 +1,68 @@
+//! What is proved of a function's sign on a piece of a segment.
+
+/// Say what a function does on a piece of a segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Sign {
+    /// It is above 0.
+    Positive,
+    /// It is below 0.
+    Negative,
+    /// It is 0 throughout, exactly.
+    Zero,
+    /// It has one root, a simple one, where its sign changes.
+    Root {
+        /// The curvature or torsion in the middle of the piece; 0 where the root is one of the
+        /// curvature or torsion itself.
+        value: f64,
+    },
+    /// The piece lies at an end of the segment, and the sign at that end is not known: there is
+    /// no root, or there is one and it is simple.
+    Edge,
+    /// Nothing is known: the piece is too small, or the function lies within rounding of 0.
+    Unknown,
+}
+
+impl Sign {
+    /// 1 or −1 where the sign is known and not 0.
+    pub(super) fn direction(self) -> Option<i8> {
+        match self {
+            Self::Positive => Some(1),
+            Self::Negative => Some(-1),
+            _ => None,
+        }
+    }
+
+    pub(super) fn from_direction(direction: i8) -> Self {
+        if direction > 0 {
+            Self::Positive
+        } else {
+            Self::Negative
+        }
+    }
+}
+
+/// Hold one piece of a segment: it begins where the piece before it ends, the first one at
+/// t = 0, and the last ends at t = 1. A piece may be a single point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SignPiece {
+    /// What the function does inside the piece.
+    pub sign: Sign,
+    /// The local parameter, in \[0, 1\], where the piece ends.
+    pub until: f64,
+}
+
+/// List pieces with the local parameters where they begin.
+pub(super) fn with_starts(pieces: &[SignPiece]) -> impl Iterator<Item = (f64, SignPiece)> + '_ {
+    let starts = std::iter::once(0.0).chain(pieces.iter().map(|piece| piece.until));
+    starts.zip(pieces.iter().copied())
+}
+
+/// Append a piece, or lengthen the last one if it says the same.
+pub(super) fn append(pieces: &mut Vec<SignPiece>, sign: Sign, until: f64) {
+    match pieces.last_mut() {
+        Some(last) if last.sign == sign && !matches!(sign, Sign::Root { .. } | Sign::Edge) => {
+            last.until = until;
+        }
+        _ => pieces.push(SignPiece { sign, until }),
+    }
+}

@@ -1,0 +1,383 @@
+//! The changes of one function's sign along a whole curve, knots included.
+
+use super::sign_piece::{Sign, SignPiece, with_starts};
+
+/// Hold a place on the curve exactly: a segment and a local parameter. A knot has two such
+/// places, one a side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Place {
+    pub(super) segment: usize,
+    pub(super) t: f64,
+}
+
+impl Place {
+    /// The curve's parameter, rounded down where it must be.
+    pub(super) fn rounded_down(self) -> f64 {
+        self.rounded(|sum, error| if error < 0.0 { sum.next_down() } else { sum })
+    }
+
+    /// The curve's parameter, rounded up where it must be.
+    pub(super) fn rounded_up(self) -> f64 {
+        self.rounded(|sum, error| if error > 0.0 { sum.next_up() } else { sum })
+    }
+
+    /// Whether this is the same point of the curve as another place, or the knot before it.
+    fn meets(self, next: Self) -> bool {
+        let knot = self.t == 1.0 && next.t == 0.0 && self.segment + 1 == next.segment;
+        self == next || knot
+    }
+
+    fn rounded(self, correct: impl Fn(f64, f64) -> f64) -> f64 {
+        let whole = self.segment as f64;
+        let sum = whole + self.t;
+        // Exact, as 0 ≤ t ≤ 1 and the number of the segment is 0 or at least 1.
+        let error = if whole == 0.0 {
+            0.0
+        } else {
+            self.t - (sum - whole)
+        };
+        correct(sum, error)
+    }
+}
+
+/// Hold a proved change of sign: it lies between the places, at the only root of the function
+/// between them, at a knot where the function jumps, or all along a piece where it is 0.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Change {
+    pub(super) places: [Place; 2],
+    /// The sign before the change.
+    pub(super) from: i8,
+    /// The value that came with the root.
+    pub(super) value: Option<f64>,
+}
+
+/// Hold a piece on which the number of changes is not known.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Doubt {
+    pub(super) places: [Place; 2],
+    /// Whether the signs before and behind it differ.
+    pub(super) changed: bool,
+}
+
+/// Hold a piece on which the sign is known.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Run {
+    pub(super) places: [Place; 2],
+    /// The sign: −1, 0 or 1.
+    pub(super) sign: i8,
+}
+
+/// Say what a function does at knots.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct KnotRule {
+    /// Whether the function is continuous at knots.
+    pub(super) continuous: bool,
+    /// Whether the quantity whose derivative it is jumps at knots; the jump counts as a slope.
+    pub(super) jumps: bool,
+}
+
+/// Collect the changes of sign along a curve, segment after segment.
+#[derive(Debug)]
+pub(super) struct SignWalk {
+    rule: KnotRule,
+    periodic: bool,
+    sign: Option<i8>,
+    gap: Gap,
+    pub(super) changes: Vec<Change>,
+    pub(super) doubts: Vec<Doubt>,
+    pub(super) runs: Vec<Run>,
+}
+
+/// What lies between the last piece with a sign and the next one.
+#[derive(Clone, Copy, Debug)]
+struct Gap {
+    start: Place,
+    unknown: bool,
+    edges: u32,
+    unknown_jumps: u32,
+    value: Option<f64>,
+}
+
+impl Gap {
+    fn from(start: Place) -> Self {
+        Self {
+            start,
+            unknown: false,
+            edges: 0,
+            unknown_jumps: 0,
+            value: None,
+        }
+    }
+
+    fn is_doubtful(&self) -> bool {
+        self.unknown || self.edges + self.unknown_jumps > 0
+    }
+}
+
+impl SignWalk {
+    /// Walk along all segments of a curve.
+    ///
+    /// `pieces` gives those of a segment; `jump` the sign of the jump of the quantity at the
+    /// start of a segment, `None` if it cannot be told.
+    pub(super) fn new<'a>(
+        rule: KnotRule,
+        (segments, periodic): (usize, bool),
+        pieces: impl Fn(usize) -> &'a [SignPiece],
+        jump: impl Fn(usize) -> Option<i8>,
+    ) -> Self {
+        let start = Place { segment: 0, t: 0.0 };
+        let mut walk = Self {
+            rule,
+            periodic,
+            sign: None,
+            gap: Gap::from(start),
+            changes: Vec::new(),
+            doubts: Vec::new(),
+            runs: Vec::new(),
+        };
+        for segment in 0..segments {
+            if segment > 0 {
+                walk.knot(segment, &jump);
+            }
+            for (from, piece) in with_starts(pieces(segment)) {
+                walk.piece(segment, from, piece);
+            }
+        }
+        if periodic && walk.sign.is_some() {
+            walk.go_round(segments, pieces, jump);
+        } else if walk.gap.is_doubtful() {
+            walk.doubt(
+                Place {
+                    segment: segments - 1,
+                    t: 1.0,
+                },
+                false,
+            );
+        }
+        walk
+    }
+
+    /// Go on from the end of a periodic curve to the first piece with a sign.
+    fn go_round<'a>(
+        &mut self,
+        segments: usize,
+        pieces: impl Fn(usize) -> &'a [SignPiece],
+        jump: impl Fn(usize) -> Option<i8>,
+    ) {
+        let runs = std::mem::take(&mut self.runs);
+        'round: for segment in 0..segments {
+            self.knot(segments + segment, &|_| jump(segment));
+            for (from, piece) in with_starts(pieces(segment)) {
+                self.piece(segments + segment, from, piece);
+                if piece.sign.direction().is_some() {
+                    break 'round;
+                }
+            }
+        }
+        // All pieces were seen before.
+        self.runs = runs;
+    }
+
+    fn doubt(&mut self, until: Place, changed: bool) {
+        let places = [self.gap.start, until];
+        self.doubts.push(Doubt { places, changed });
+    }
+
+    fn knot(&mut self, segment: usize, jump: &impl Fn(usize) -> Option<i8>) {
+        if !self.rule.jumps {
+            return;
+        }
+        match jump(segment) {
+            Some(0) => {}
+            // A periodic walk ends at the first piece with a sign, so it begins there too.
+            Some(_) if self.periodic && self.sign.is_none() => {}
+            Some(sign) => {
+                let before = Place {
+                    segment: segment - 1,
+                    t: 1.0,
+                };
+                self.sign_piece(sign, [before, Place { segment, t: 0.0 }]);
+            }
+            None => self.gap.unknown_jumps += 1,
+        }
+    }
+
+    fn piece(&mut self, segment: usize, from: f64, piece: SignPiece) {
+        let places = [from, piece.until].map(|t| Place { segment, t });
+        match piece.sign {
+            Sign::Positive => self.sign_piece(1, places),
+            Sign::Negative => self.sign_piece(-1, places),
+            Sign::Zero => {
+                let last = self.runs.last();
+                let continues = last.is_some_and(|last| last.places[1].meets(places[0]));
+                self.run(0, places, continues);
+            }
+            Sign::Root { value } => self.gap.value = Some(value),
+            Sign::Edge => self.gap.edges += 1,
+            Sign::Unknown => self.gap.unknown = true,
+        }
+    }
+
+    fn sign_piece(&mut self, sign: i8, places: [Place; 2]) {
+        let changed = self.sign.is_some_and(|before| before != sign);
+        let certain = match self.sign {
+            Some(_) => self.is_certain(changed),
+            // The part of a periodic curve before its first sign is seen again at the end.
+            None => self.periodic || !self.gap.is_doubtful(),
+        };
+        if !certain {
+            self.doubt(places[0], changed);
+        } else if changed {
+            self.changes.push(Change {
+                places: [self.gap.start, places[0]],
+                from: -sign,
+                value: self.gap.value,
+            });
+        }
+        self.run(sign, places, certain && !changed);
+        self.sign = Some(sign);
+        self.gap = Gap::from(places[1]);
+    }
+
+    /// Decide whether the gap behind the last sign holds exactly one change if the next sign
+    /// is another, and none if it is the same.
+    ///
+    /// An edge is a piece next to a knot that holds at most one root, as the sign at the knot
+    /// tells. A continuous function has one sign there for both sides: a single edge, whose
+    /// other side knows the sign, has no doubt left, and of two edges exactly one holds the
+    /// root, or the knot does, if the signs beyond them differ. If the function jumps, one
+    /// doubt leaves a single change between different signs, two may leave three.
+    fn is_certain(&self, changed: bool) -> bool {
+        let doubts = self.gap.edges + self.gap.unknown_jumps;
+        let settled = if self.rule.continuous { 2 } else { 1 };
+        let unchanged = if self.rule.continuous { 1 } else { 0 };
+        !self.gap.unknown && doubts <= if changed { settled } else { unchanged }
+    }
+
+    fn run(&mut self, sign: i8, places: [Place; 2], continues: bool) {
+        match self.runs.last_mut() {
+            Some(last) if last.sign == sign && continues => last.places[1] = places[1],
+            _ if places[0] != places[1] => self.runs.push(Run { places, sign }),
+            _ => {}
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CONTINUOUS: KnotRule = KnotRule {
+        continuous: true,
+        jumps: false,
+    };
+    const BROKEN: KnotRule = KnotRule {
+        continuous: false,
+        jumps: false,
+    };
+    const JUMPS: KnotRule = KnotRule {
+        continuous: false,
+        jumps: true,
+    };
+
+    /// Read a segment written as + − 0, r for a root, e for an edge and ? for unknown.
+    fn segment(signs: &str) -> Vec<SignPiece> {
+        let count = signs.len() as f64;
+        let sign = |letter| match letter {
+            '+' => Sign::Positive,
+            '-' => Sign::Negative,
+            '0' => Sign::Zero,
+            'r' => Sign::Root { value: 0.0 },
+            'e' => Sign::Edge,
+            _ => Sign::Unknown,
+        };
+        let until = (1..).map(|index| f64::from(index) / count);
+        let pieces = signs.chars().map(sign).zip(until);
+        pieces
+            .map(|(sign, until)| SignPiece { sign, until })
+            .collect()
+    }
+
+    /// The numbers of changes and of doubts, with all jumps the same.
+    fn counts(
+        rule: KnotRule,
+        periodic: bool,
+        segments: &[&str],
+        jump: Option<i8>,
+    ) -> (usize, usize) {
+        let segments: Vec<_> = segments.iter().map(|signs| segment(signs)).collect();
+        let size = (segments.len(), periodic);
+        let walk = SignWalk::new(rule, size, |k| &segments[k], |_| jump);
+        (walk.changes.len(), walk.doubts.len())
+    }
+
+    #[test]
+    fn knots_are_counted_once() {
+        for (rule, segments, expected) in [
+            (CONTINUOUS, ["+r-", "-r+"], (2, 0)),
+            // A root at the knot, in sight from both sides, or a value known from one.
+            (CONTINUOUS, ["-e", "e+"], (1, 0)),
+            (CONTINUOUS, ["+e", "e+"], (0, 1)),
+            (CONTINUOUS, ["+e", "+"], (0, 0)),
+            (CONTINUOUS, ["+", "e-"], (1, 0)),
+            // Two sides that need not agree may hold one more change each.
+            (BROKEN, ["-e", "e+"], (0, 1)),
+            (BROKEN, ["+e", "+"], (0, 1)),
+            (BROKEN, ["+", "e-"], (1, 0)),
+            (BROKEN, ["+", "-"], (1, 0)),
+            // Exact zeros between different signs are one change.
+            (BROKEN, ["+0", "0-"], (1, 0)),
+            (BROKEN, ["+0", "0+"], (0, 0)),
+            (CONTINUOUS, ["+?-", "-"], (0, 1)),
+            // At the ends nothing changes, as far as is known.
+            (CONTINUOUS, ["e+", "+e"], (0, 2)),
+            (CONTINUOUS, ["0+", "+0"], (0, 0)),
+            (CONTINUOUS, ["?", "?"], (0, 1)),
+        ] {
+            assert_eq!(
+                counts(rule, false, &segments, Some(0)),
+                expected,
+                "{segments:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn jumps_are_slopes() {
+        for (jump, segments, expected) in [
+            (Some(1), ["+", "+"], (0, 0)),
+            (Some(-1), ["+", "+"], (2, 0)),
+            (Some(-1), ["+", "-"], (1, 0)),
+            (None, ["+", "-"], (1, 0)),
+            (None, ["+", "+"], (0, 1)),
+            (Some(1), ["0", "+"], (0, 0)),
+            (Some(-1), ["0", "+"], (1, 0)),
+        ] {
+            assert_eq!(
+                counts(JUMPS, false, &segments, jump),
+                expected,
+                "{jump:?} {segments:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_periodic_curve_has_no_ends() {
+        for (segments, expected) in [
+            (["e+", "r-e"], (2, 0)),
+            (["+", "r-"], (2, 0)),
+            (["0+", "+0"], (0, 0)),
+            (["?+", "+"], (0, 1)),
+            (["?", "?"], (0, 1)),
+            (["?", "+r-"], (1, 1)),
+        ] {
+            assert_eq!(
+                counts(CONTINUOUS, true, &segments, Some(0)),
+                expected,
+                "{segments:?}"
+            );
+        }
+        let jumping = ["+", "+"];
+        assert_eq!(counts(JUMPS, true, &jumping, Some(-1)), (4, 0));
+    }
+}

@@ -1,0 +1,125 @@
+//! `batten inspect`.
+
+use serde_json::{Value, json};
+
+use super::folder::*;
+
+#[test]
+fn inspect_agrees_with_the_reference_curves() {
+    let reference = data("curves.json");
+    for (index, curve) in reference["curves"].as_array().unwrap().iter().enumerate() {
+        let source = json!([{
+            "name": format!("curve {index}"),
+            "degree": curve["degree"],
+            "polygon": "float",
+            "vertices": curve["float"],
+            "weights": curve["weights"],
+        }]);
+        let folder = Folder::new().with("a.batten", project(source));
+        let at: Vec<String> = numbers(&curve["u"]).iter().map(f64::to_string).collect();
+        let found = folder.inspect(&["a.batten", "--at", &at.join(",")])["curves"][0].clone();
+        assert_eq!(found["dimension"], curve["dimension"]);
+        assert_eq!(found["float"], curve["float"]);
+        assert_eq!(found["weights"], curve["weights"]);
+        check_near(&found["clamped"], &curve["closed"], 1e-12, "clamped");
+        check_near(
+            &found["clamped_weights"],
+            &curve["closed_weights"],
+            1e-12,
+            "clamped weights",
+        );
+        let expected = curve["at_u"].as_array().unwrap();
+        assert_eq!(found["at"].as_array().unwrap().len(), expected.len());
+        for (place, (found, expected)) in found["at"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .zip(expected)
+            .enumerate()
+        {
+            let what = |key| format!("curve {index}, u {}: {key}", at[place]);
+            for key in ["point", "d1", "d2", "d3", "evolute"] {
+                check_near(&found[key], &expected[key], 1e-9, &what(key));
+            }
+            check_near(
+                &found["curvature"],
+                &expected["curvature"],
+                1e-9,
+                &what("curvature"),
+            );
+            if curve["dimension"] == 3 {
+                let torsion = &expected["torsion"];
+                check_near(&found["torsion"], torsion, 1e-9, &what("torsion"));
+            } else {
+                assert_eq!(found.get("torsion"), None);
+            }
+        }
+    }
+}
+
+#[test]
+fn inspect_prints_the_described_shape() {
+    let curves = json!([
+        {"name": "line", "degree": 1, "vertices": [[0, 0], [0, 4]]},
+        {"name": "round", "degree": 2, "periodic": true, "weights": [1, 2, 1, 2],
+         "vertices": [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 1]]},
+    ]);
+    let folder = Folder::new().with("two.batten", project(curves));
+    let found = folder.inspect(&["two.batten", "--at", "0.5"]);
+    let line = json!({
+        "name": "line", "degree": 1, "dimension": 2, "periodic": false,
+        "float": [[0.0, 0.0], [0.0, 4.0]], "weights": null,
+        "clamped": [[0.0, 0.0], [0.0, 4.0]], "clamped_weights": null,
+        "domain": [0.0, 1.0], "length": null,
+        "ends": {
+            "start": {"point": [0.0, 0.0], "tangent": [0.0, 1.0], "curvature": 0.0},
+            "end": {"point": [0.0, 4.0], "tangent": [0.0, 1.0], "curvature": 0.0},
+        },
+        "at": [{
+            "u": 0.5, "point": [0.0, 2.0], "d1": [0.0, 4.0], "d2": [0.0, 0.0], "d3": [0.0, 0.0],
+            "curvature": [0.0, 0.0, 0.0], "evolute": null,
+        }],
+    });
+    let mut first = found["curves"][0].clone();
+    check_near(&first["length"].take(), &json!(4.0), 1e-13, "length");
+    assert_eq!(first, line);
+    let round = &found["curves"][1];
+    assert_eq!(round["ends"], Value::Null);
+    assert_eq!(round["dimension"], 3);
+    assert_eq!(round["domain"], json!([0.0, 4.0]));
+    let clamped = numbers(&round["clamped"]);
+    assert_eq!(
+        clamped.len(),
+        18,
+        "six vertices of the curve run round once"
+    );
+    assert_eq!(clamped[..3], clamped[15..]);
+    assert_eq!(numbers(&round["clamped_weights"]).len(), 6);
+    assert_eq!(
+        folder.inspect(&["two.batten"])["curves"][0]["at"],
+        json!([])
+    );
+}
+
+#[test]
+fn what_is_no_number_is_printed_as_null() {
+    let point = json!([{"name": "point", "degree": 1, "vertices": [[1, 1], [1, 1]]}]);
+    let folder = Folder::new().with("point.batten", project(point));
+    let found = folder.inspect(&["point.batten", "--at", "0"])["curves"][0].clone();
+    assert_eq!(found["at"][0]["curvature"], json!([null, null, null]));
+    assert_eq!(found["at"][0]["evolute"], Value::Null);
+    assert_eq!(found["ends"]["start"]["tangent"], Value::Null);
+    assert_eq!(found["ends"]["start"]["curvature"], Value::Null);
+    assert_eq!(found["length"], 0.0);
+}
+
+#[test]
+fn extreme_weights_do_not_hold_up_the_program() {
+    let curve = json!([{
+        "name": "extreme", "degree": 3, "weights": [1e-100, 1e100, 1e-100, 1e100],
+        "vertices": [[1e100, 0], [-1e100, 1], [1, 1e100], [1e100, -1e100]],
+    }]);
+    let folder = Folder::new().with("extreme.batten", project(curve));
+    let found = folder.inspect(&["extreme.batten", "--at", "0,0.5,1"]);
+    assert_eq!(found["curves"][0]["at"].as_array().unwrap().len(), 3);
+}

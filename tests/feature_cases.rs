@@ -1,0 +1,344 @@
+//! Proved features where they are known: degenerate and symmetrical curves, knots at low
+//! degrees, the paper's arc.
+
+mod common;
+mod witness;
+
+use std::f64::consts::TAU;
+
+use batten::geometry::FloatPolygon;
+use batten::geometry::circle_comparison::regular_polygon;
+use batten::geometry::features::{ExtremumKind, Features, Quantity, Trend, Verdict};
+use common::{Random, assert_near};
+use glam::DVec3;
+use witness::ExactSegment;
+
+/// The width of the interval of a root: what it is narrowed to, and one rounding of u.
+const ROOT_WIDTH: f64 = 1.1e-12;
+
+/// What rounding may do to a curvature that is well determined.
+const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
+
+fn planar(degree: usize, points: &[(f64, f64)]) -> FloatPolygon {
+    FloatPolygon::planar(degree, points).expect("a valid polygon")
+}
+
+fn features(degree: usize, points: &[(f64, f64)]) -> Features {
+    Features::new(&planar(degree, points))
+}
+
+/// The numbers of inflections, curvature extrema, torsion zeros, torsion extrema, and whatever
+/// is in doubt.
+fn counts(features: &Features) -> [usize; 5] {
+    [
+        features.inflections.len(),
+        features.curvature_extrema.len(),
+        features.torsion_zeros.len(),
+        features.torsion_extrema.len(),
+        features.undecided.len() + features.cusps.len(),
+    ]
+}
+
+#[test]
+fn the_ripple_of_the_papers_arc_is_proved() {
+    let arc = regular_polygon(9, 12, 10.0).expect("a valid arc");
+    let features = Features::new(&arc);
+    assert_eq!(counts(&features), [0, 1, 0, 0, 0]);
+    let extremum = features.curvature_extrema[0];
+    assert!(extremum.u[0] <= 0.5 && 0.5 <= extremum.u[1], "{extremum:?}");
+    assert!(extremum.u[1] - extremum.u[0] <= ROOT_WIDTH);
+    assert_eq!(features.monotone, Verdict::Disproved);
+    // The arc runs clockwise: the flattest place is the maximum of the signed curvature.
+    assert_eq!(extremum.kind, ExtremumKind::Maximum);
+    let trends: Vec<Trend> = features.trends.iter().map(|piece| piece.trend).collect();
+    assert_eq!(trends, [Trend::Rising, Trend::Falling]);
+    // Exact arithmetic with the same doubles finds the same one root, and none at the ends.
+    let exact = &ExactSegment::all(&arc)[0];
+    let slope = exact.curvature_slope();
+    assert_eq!(slope.roots_inside(), 1);
+    assert_eq!(extremum.u.map(|u| slope.sign_at(u)), [1, -1]);
+    // The ripple is 1.31e-8 of the curvature.
+    let ends = arc.jet(0.0).signed_curvature();
+    let ripple = (ends / extremum.value - 1.0).abs();
+    assert_near("ripple", ripple, 1.31e-8, 0.01, 1.31e-8);
+}
+
+#[test]
+fn the_ends_of_the_papers_arc_are_decided_as_its_rounding_has_it() {
+    let arc = regular_polygon(9, 12, 10.0).expect("a valid arc");
+    // Moving one coordinate by some units in the last place moves the roots next to the ends
+    // in or out of the domain: the proof follows the doubles given.
+    let mut found = [0; 4];
+    for vertex in 0..10 {
+        for steps in [-40_i64, -3, 3, 40] {
+            let mut vertices = arc.vertices().to_vec();
+            let bits = vertices[vertex].x.to_bits() as i64 + steps;
+            vertices[vertex].x = f64::from_bits(bits as u64);
+            let moved = FloatPolygon::new(9, vertices, None, false).expect("a valid arc");
+            let features = Features::new(&moved);
+            let exact = ExactSegment::all(&moved)[0]
+                .curvature_slope()
+                .roots_inside();
+            assert_eq!(
+                counts(&features),
+                [0, exact, 0, 0, 0],
+                "vertex {vertex}, {steps}"
+            );
+            found[exact] += 1;
+        }
+    }
+    assert!(found[1] > 0 && found[2] + found[3] > 0, "{found:?}");
+}
+
+#[test]
+fn straight_lines_are_constant() {
+    for direction in [(1.0, 0.0), (0.0, 1.0), (1.0, 3.0), (-7.0, 11.0)] {
+        for degree in 1..=25 {
+            let points: Vec<_> = (0..degree + 4)
+                .map(|i| (direction.0 * i as f64, direction.1 * i as f64))
+                .collect();
+            let features = features(degree, &points);
+            assert_eq!(counts(&features), [0; 5], "degree {degree}");
+            assert_eq!(features.monotone, Verdict::Proved);
+            assert_eq!(features.trends.len(), 1);
+            assert_eq!(features.trends[0].trend, Trend::Constant);
+            assert_eq!(features.trends[0].u, [0.0, 4.0]);
+        }
+    }
+    let line = (0..12)
+        .map(|i| DVec3::new(1.0, -2.0, 5.0) * f64::from(i))
+        .collect();
+    let weights = (1..13).map(f64::from).collect();
+    let line = FloatPolygon::new(5, line, Some(weights), true).expect("a valid polygon");
+    let features = Features::new(&line);
+    assert!(features.undecided.is_empty() && features.curvature_extrema.is_empty());
+    // A periodic line turns back twice.
+    assert_eq!(features.cusps.len(), 2);
+    assert!(features.cusps.iter().all(|cusp| cusp.proved));
+    assert_eq!(features.monotone, Verdict::Undecided);
+}
+
+#[test]
+fn polylines_have_no_features() {
+    let features = features(1, &[(0.0, 0.0), (3.0, 1.0), (4.0, 5.0), (0.0, 6.0)]);
+    assert_eq!(counts(&features), [0; 5]);
+    assert_eq!(features.monotone, Verdict::Proved);
+}
+
+#[test]
+fn a_straight_piece_next_to_a_bend_leaves_no_doubt() {
+    for direction in [(1.0, 0.0), (1.0, 3.0)] {
+        for degree in 3..=9 {
+            let mut points: Vec<_> = (0..degree + 3)
+                .map(|i| (direction.0 * i as f64, direction.1 * i as f64))
+                .collect();
+            let last = degree as f64 + 2.0;
+            let [x, y] = [direction.0 * last, direction.1 * last];
+            points.push((x + direction.0 - direction.1, y + direction.1 + direction.0));
+            let features = features(degree, &points);
+            assert_eq!(features.undecided, [], "degree {degree}");
+            assert_eq!(features.trends[0].trend, Trend::Constant);
+            assert_eq!(features.trends[0].u, [0.0, 3.0]);
+            assert!(features.inflections.is_empty());
+        }
+    }
+}
+
+#[test]
+fn a_straight_piece_between_opposite_bends_is_one_inflection() {
+    let mut points = vec![(-1.0, 2.0), (0.0, 0.0)];
+    points.extend((1..7).map(|i| (f64::from(i), 0.0)));
+    points.extend([(7.0, 0.0), (8.0, -2.0)]);
+    let features = features(4, &points);
+    // Vertices 1 … 8 lie on the line: segments 1 … 4.
+    assert_eq!(features.inflections, [[1.0, 5.0]]);
+    assert_eq!(features.undecided, []);
+}
+
+#[test]
+fn coincident_vertices_are_cusps() {
+    for degree in 2..=9 {
+        let features = features(degree, &vec![(3.0, 4.0); degree + 3]);
+        assert_eq!(features.curvature_extrema, []);
+        assert_eq!(features.monotone, Verdict::Undecided);
+        assert_eq!(features.cusps.len(), 1);
+        assert!(features.cusps[0].proved);
+        assert_eq!(features.cusps[0].u, [0.0, 3.0]);
+    }
+    // n coincident vertices stop the curve at one knot.
+    let points = [
+        (0.0, 0.0),
+        (1.0, 2.0),
+        (3.0, 3.0),
+        (3.0, 3.0),
+        (3.0, 3.0),
+        (5.0, 2.0),
+        (6.0, 0.0),
+    ];
+    let features = features(3, &points);
+    assert_eq!(features.cusps.len(), 1);
+    assert!(features.cusps[0].proved);
+    assert_eq!(features.cusps[0].u, [2.0, 2.0]);
+}
+
+#[test]
+fn the_cusp_of_a_cubic_is_found_and_nothing_is_claimed_there() {
+    // C′ = (2 s, 3 s²) with s = t − ½.
+    let features = features(3, &[(0.0, 0.0), (-2.0, 2.25), (-2.0, 1.5), (0.0, 3.75)]);
+    assert_eq!(features.cusps.len(), 1);
+    let cusp = features.cusps[0];
+    assert!(!cusp.proved && cusp.u[0] <= 0.5 && 0.5 <= cusp.u[1]);
+    assert!(cusp.u[1] - cusp.u[0] <= 1e-9);
+    assert_eq!(features.curvature_extrema, []);
+    assert!(features.inflections.is_empty());
+    assert_eq!(features.monotone, Verdict::Undecided);
+}
+
+#[test]
+fn turning_back_on_a_line_is_a_proved_cusp() {
+    let features = features(
+        3,
+        &[(0.0, 0.0), (1.0, 2.0), (3.0, 6.0), (1.0, 2.0), (0.0, 0.0)],
+    );
+    assert_eq!(features.cusps.len(), 1, "{:?}", features.cusps);
+    assert!(features.cusps[0].u[0] <= 1.0 && 1.0 <= features.cusps[0].u[1]);
+    assert_eq!(features.undecided, []);
+    assert_eq!(features.monotone, Verdict::Undecided);
+}
+
+#[test]
+fn symmetrical_curves_have_their_extremum_in_the_middle() {
+    for degree in 3..=25 {
+        for extra in 0..4 {
+            let last = (degree + extra) as i32;
+            let points: Vec<_> = (0..=last)
+                .map(|i| f64::from(2 * i - last))
+                .map(|x| (x, (x * x * (1.0 + x * x / 64.0)).round()))
+                .collect();
+            let features = features(degree, &points);
+            let middle = (extra as f64 + 1.0) / 2.0;
+            let holds = |u: [f64; 2]| u[0] <= middle && middle <= u[1];
+            let found: Vec<_> = features
+                .curvature_extrema
+                .iter()
+                .filter(|extremum| holds(extremum.u))
+                .collect();
+            assert_eq!(found.len(), 1, "degree {degree}, {extra}: {features:?}");
+            assert!(found[0].u[1] - found[0].u[0] <= 3.0 * ROOT_WIDTH);
+            assert_eq!(features.undecided, [], "degree {degree}");
+        }
+    }
+}
+
+#[test]
+fn a_quadratic_jumps_at_its_knots_by_the_stated_rule() {
+    // With the legs a, b, c the curvature is a × b / |b|³ before the knot and b × c / |b|³ behind.
+    // It rises up to the knot and from it on, and has a maximum in the second segment.
+    let up = features(2, &[(-9.0, 0.0), (0.0, 0.0), (3.0, 3.0), (-5.0, 5.0)]);
+    assert_eq!(counts(&up), [0, 1, 0, 0, 0]);
+    assert!(up.curvature_extrema[0].u[0] > 1.0);
+    let down = features(2, &[(-9.0, 0.0), (0.0, 0.0), (3.0, 3.0), (2.0, 5.0)]);
+    assert_eq!(counts(&down), [0, 3, 0, 0, 0]);
+    let [before, behind, inside] = down.curvature_extrema[..] else {
+        panic!("three extrema");
+    };
+    let kinds = [before, behind, inside].map(|extremum| extremum.kind == ExtremumKind::Maximum);
+    assert_eq!(kinds, [true, false, true]);
+    assert_eq!([before.u, behind.u], [[1.0, 1.0]; 2]);
+    let cube = 18.0_f64.powf(1.5);
+    assert_near("before", before.value, 27.0 / cube, ROUNDINGS, 1.0);
+    assert_near("behind", behind.value, 9.0 / cube, ROUNDINGS, 1.0);
+    // A zigzag changes its sense at the knot: κ jumps from one sign to the other.
+    let zigzag = features(2, &[(0.0, 0.0), (1.0, 3.0), (4.0, 4.0), (5.0, 7.0)]);
+    assert_eq!(zigzag.inflections, [[1.0, 1.0]]);
+}
+
+#[test]
+fn a_symmetrical_cubic_has_an_extremum_on_its_knot() {
+    let features = features(
+        3,
+        &[(-6.0, 0.0), (-3.0, 4.0), (0.0, 5.0), (3.0, 4.0), (6.0, 0.0)],
+    );
+    let mut extrema = features.curvature_extrema.iter();
+    let on_knot = extrema
+        .find(|extremum| extremum.u == [1.0, 1.0])
+        .expect("an extremum");
+    assert_eq!(features.undecided, []);
+    // C″ = P₁ − 2 P₂ + P₃ = (0, −2) and C′ = (P₃ − P₁) / 2 = (3, 0) at the knot.
+    assert_near("curvature", on_knot.value, -2.0 / 9.0, ROUNDINGS, 1.0);
+}
+
+#[test]
+fn a_rational_circle_is_undecided_at_once() {
+    // (1 − t², 2 t) / (1 + t²) times 3: the curvature is 1/3 throughout.
+    let vertices = [(3.0, -3.0), (3.0, 3.0), (-1.0, 3.0)].map(|(x, y)| DVec3::new(x, y, 0.0));
+    let weights = Some(vec![1.0, 1.0, 3.0]);
+    let circle = FloatPolygon::new(2, vertices.to_vec(), weights, false).expect("valid");
+    let features = Features::new(&circle);
+    assert_eq!(features.curvature_extrema, []);
+    assert!(features.inflections.is_empty());
+    assert_eq!(features.cusps, []);
+    assert_eq!(features.monotone, Verdict::Undecided);
+    assert_eq!(features.undecided.len(), 1);
+    assert_eq!(features.undecided[0].u, [0.0, 1.0]);
+}
+
+#[test]
+fn the_torsion_of_a_tilted_plane_is_undecided_at_once() {
+    let mut random = Random(3);
+    let mut whole = || random.between(-50.0, 50.0).round();
+    let vertices = (0..30).map(|_| {
+        let (x, y) = (whole(), whole());
+        DVec3::new(x, y, 2.0 * x - 3.0 * y)
+    });
+    let curve = FloatPolygon::new(5, vertices.collect(), None, true).expect("valid");
+    let features = Features::new(&curve);
+    assert_eq!(counts(&features)[2..4], [0, 0]);
+    let torsion = |doubt: &&batten::geometry::features::Undecided| {
+        matches!(
+            doubt.quantity,
+            Quantity::TorsionZero | Quantity::TorsionExtremum
+        )
+    };
+    let doubts: Vec<_> = features.undecided.iter().filter(torsion).collect();
+    assert_eq!(doubts.len(), 2);
+    assert!(doubts.iter().all(|doubt| doubt.u == [0.0, 30.0]));
+    // In a plane z = constant it is exactly 0.
+    let raised = curve
+        .vertices()
+        .iter()
+        .map(|vertex| DVec3::new(vertex.x, vertex.y, 7.0));
+    let raised = FloatPolygon::new(5, raised.collect(), None, true).expect("valid");
+    assert_eq!(Features::new(&raised).undecided, []);
+}
+
+#[test]
+fn an_ellipse_like_curve_has_four_vertices_wherever_its_joint_is() {
+    for degree in [3, 4, 5, 8] {
+        let vertices: Vec<_> = (0..16)
+            .map(|i| f64::from(i) / 16.0 * TAU)
+            .map(|angle| DVec3::new(9.0 * angle.cos(), 5.0 * angle.sin(), 0.0))
+            .collect();
+        for by in 0..4 {
+            let mut vertices = vertices.clone();
+            vertices.rotate_left(by);
+            let curve = FloatPolygon::new(degree, vertices, None, true).expect("valid");
+            let features = Features::new(&curve);
+            assert_eq!(features.undecided, [], "degree {degree}");
+            let kinds: Vec<_> = features.curvature_extrema.iter().map(|e| e.kind).collect();
+            let maxima = kinds
+                .iter()
+                .filter(|kind| **kind == ExtremumKind::Maximum)
+                .count();
+            // A cubic's slope jumps at the knots, which adds small extrema in pairs.
+            if degree > 3 {
+                assert_eq!(
+                    (kinds.len(), maxima),
+                    (4, 2),
+                    "degree {degree}: {features:?}"
+                );
+            }
+            assert_eq!(kinds.len(), 2 * maxima);
+        }
+    }
+}
