@@ -72,6 +72,7 @@ fn frame(editor: &mut Editor, at: DVec2) {
     // The leg plots come with the curvature plot.
     black_box(editor.leg_plots());
     black_box(editor.report());
+    black_box(editor.features());
     black_box(editor.readout());
     black_box(editor.hint());
 }

@@ -9,6 +9,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::comb::Teeth;
+use super::curve_features::{CurveFeatures, PieceTrend};
 use super::level_series::LevelSeries;
 use super::orientation::Orientation;
 use super::outline::{Bounds, Outline};
@@ -42,6 +43,7 @@ pub struct CurveAnalysis {
     float: VertexChain,
     clamped: VertexChain,
     levels: LevelSeries,
+    features: CurveFeatures,
     redone: usize,
 }
 
@@ -52,8 +54,15 @@ pub(super) struct Block {
     evolute: Outline,
     comb: Outline,
     teeth: Teeth,
+    pieces: [Outline; PieceTrend::ALL.len()],
     summary: BlockSummary,
     pub(super) plot: PlotBlock,
+}
+
+impl Block {
+    pub(super) fn pieces(&mut self, trend: PieceTrend) -> &mut Outline {
+        &mut self.pieces[trend as usize]
+    }
 }
 
 /// Figures of one block's samples.
@@ -86,6 +95,7 @@ impl CurveAnalysis {
             float: VertexChain::default(),
             clamped: VertexChain::default(),
             levels: LevelSeries::default(),
+            features: CurveFeatures::new(polygon.is_planar()),
             redone: 0,
             curve,
         };
@@ -327,6 +337,15 @@ impl CurveAnalysis {
         &mut self.blocks[index].plot
     }
 
+    /// From where the curve is seen.
+    pub fn orientation(&self) -> Orientation {
+        self.orientation
+    }
+
+    pub(super) fn curve_features(&mut self) -> &mut CurveFeatures {
+        &mut self.features
+    }
+
     pub(super) fn level_series(&mut self) -> &mut LevelSeries {
         &mut self.levels
     }
@@ -369,6 +388,7 @@ impl CurveAnalysis {
             let samples = &mut self.samples[segment * size..(segment + 1) * size];
             self.sampler
                 .fill(&self.curve.polygon, segment, self.planar, samples);
+            self.features.forget(segment);
         }
         for block in blocks {
             self.blocks[block] = Block::default();

@@ -4,6 +4,7 @@
 mod cache;
 mod comb;
 mod curve_analysis;
+mod curve_features;
 mod level_series;
 mod orientation;
 mod outline;
@@ -14,6 +15,7 @@ mod vertex_chain;
 pub use cache::AnalysisCache;
 pub use comb::CombSettings;
 pub use curve_analysis::CurveAnalysis;
+pub use curve_features::PieceTrend;
 pub use level_series::LevelPlot;
 pub use orientation::Orientation;
 pub use outline::{Bounds, GAP, ViewBox};

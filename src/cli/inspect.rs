@@ -6,8 +6,10 @@ use anyhow::bail;
 use glam::DVec3;
 use serde::Serialize;
 
+use super::feature_lists::FeatureLists;
 use super::output;
 use crate::document::Curve;
+use crate::geometry::features::Features;
 use crate::geometry::{ClampedPolygon, End, FloatPolygon, Jet};
 use crate::io::{Place, disk, json_layout};
 
@@ -53,6 +55,7 @@ struct Inspected {
     length: f64,
     ends: Option<Ends>,
     at: Vec<At>,
+    features: FeatureLists,
 }
 
 #[derive(Serialize)]
@@ -140,6 +143,7 @@ fn inspected(curve: &Curve, at: &[f64]) -> Inspected {
             end: end(End::Finish),
         }),
         at: at.iter().map(|u| evaluated(polygon, &space, *u)).collect(),
+        features: FeatureLists::of(&Features::new(polygon)),
     }
 }
 

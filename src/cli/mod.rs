@@ -2,6 +2,7 @@
 //! holds no logic of its own.
 
 mod arguments;
+mod feature_lists;
 mod inspect;
 mod output;
 

@@ -7,11 +7,13 @@ use glam::{DVec2, DVec3};
 
 use super::Editor;
 use super::end_fit;
+use super::feature_report::append_marks;
+use super::hit::REACH;
 use super::layers::Layer;
 use super::reshaping::clamped_amplification;
 use super::scene::{CurveScene, HoverScene, Scene, VertexMark};
 use super::tools::ToolKind;
-use crate::analysis::{CurveAnalysis, GAP, Orientation, ViewBox};
+use crate::analysis::{CurveAnalysis, GAP, Orientation, PieceTrend, ViewBox};
 use crate::document::{Curve, CurveId};
 use crate::geometry::{End, FloatPolygon, Jet};
 
@@ -136,6 +138,12 @@ impl Editor {
         if !active {
             return;
         }
+        if layers.shows(Layer::Features) {
+            for (trend, chain) in PieceTrend::ALL.into_iter().zip(&mut scene.pieces) {
+                analysis.append_pieces(view, trend, chain);
+            }
+            append_marks(analysis, view, &mut scene.features);
+        }
         if layers.shows(Layer::Clamped) {
             let chain = analysis.clamped();
             chain.append_legs(view, &mut scene.clamped);
@@ -229,6 +237,12 @@ impl Editor {
             (self.tool, context.hits.clamped_vertex(place))
         {
             return self.clamped_hover(id, index);
+        }
+        if let Some(mark) = self.feature_mark(place, REACH) {
+            return Some(HoverScene::Handle {
+                at: mark.at,
+                text: mark.text(),
+            });
         }
         let hit = context.hits.curve(place)?;
         self.curve_hover(hit.curve, hit.u)
@@ -352,6 +366,8 @@ impl CurveScene {
         self.teeth.clear();
         self.joints.clear();
         self.vertices.clear();
+        self.features.clear();
+        self.pieces.iter_mut().for_each(Vec::clear);
         for chain in [
             &mut self.comb,
             &mut self.evolute,

@@ -19,11 +19,13 @@ pub enum Layer {
     Targets,
     /// The grid and its axes.
     Grid,
+    /// Proved monotone pieces and features.
+    Features,
 }
 
 impl Layer {
-    /// Every layer, in the order of its switches: keys 1 to 7.
-    pub const ALL: [Self; 7] = [
+    /// Every layer, in the order of its switches: keys 1 to 8.
+    pub const ALL: [Self; 8] = [
         Self::Float,
         Self::Clamped,
         Self::Curve,
@@ -31,6 +33,7 @@ impl Layer {
         Self::Comb,
         Self::Targets,
         Self::Grid,
+        Self::Features,
     ];
 
     /// What the layer is called on screen.
@@ -43,6 +46,7 @@ impl Layer {
             Self::Comb => "Curvature comb",
             Self::Targets => "End targets",
             Self::Grid => "Grid and axes",
+            Self::Features => "Proved features",
         }
     }
 

@@ -9,6 +9,7 @@ pub mod end_fit;
 mod end_fit_actions;
 mod examples;
 mod execute;
+mod feature_report;
 mod files;
 mod gesture;
 mod grid;
@@ -33,6 +34,7 @@ use glam::DVec2;
 
 pub use command::{Command, Shortcut};
 pub use end_fit::{EndFitAction, EndFitMarks, EndFitReport};
+pub use feature_report::{FeatureKind, FeatureMark, FeatureReport, FeatureRow};
 pub use files::with_extension;
 pub use grid::grid_steps;
 pub use hit::REACH;

@@ -4,6 +4,7 @@
 use super::Editor;
 use super::drawing::figure;
 use crate::document::{Curve, CurveId, Edit};
+use crate::geometry::features::{Features, Quantity, Undecided};
 use crate::geometry::{
     Amplification, Approximation, ClampedPolygon, End, FloatPolygon, MAX_DEGREE, PolygonError,
     PolygonKind,
@@ -49,6 +50,10 @@ pub struct RoundingReport {
     pub float_moved: f64,
     /// How far the curve moves at most.
     pub deviation: f64,
+    /// The curvature extrema that are proved, before and afterwards.
+    pub extrema: [usize; 2],
+    /// The pieces on which their number is undecided, before and afterwards.
+    pub undecided: [usize; 2],
 }
 
 impl Editor {
@@ -124,8 +129,10 @@ impl Editor {
         };
         match self.try_rounding(kind, digits) {
             Ok(report) => {
+                let [before, after] = report.extrema;
                 let text = format!(
-                    "Rounded to {digits} digits: vertices moved by at most {}, the curve by at most {}",
+                    "Rounded to {digits} digits: vertices moved by at most {}, the curve by at most \
+                     {}; {before} curvature extrema became {after}",
                     figure(report.moved),
                     figure(report.deviation)
                 );
@@ -245,7 +252,17 @@ fn rounding(
     };
     let pairs = polygon.vertices().iter().zip(rounded.vertices());
     let float_moved = pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+    let features = [polygon, &rounded].map(Features::new);
+    let undecided = |features: &Features| {
+        let doubts = features.undecided.iter();
+        let own = |doubt: &&Undecided| doubt.quantity == Quantity::CurvatureExtremum;
+        doubts.filter(own).count()
+    };
     Ok(RoundingReport {
+        extrema: features
+            .each_ref()
+            .map(|features| features.curvature_extrema.len()),
+        undecided: features.each_ref().map(undecided),
         polygon: rounded,
         moved,
         float_moved,

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::end_fit::EndFitMarks;
+use super::feature_report::FeatureMark;
 use crate::document::{Colour, CurveId};
 use crate::geometry::Range;
 
@@ -49,6 +50,11 @@ pub struct CurveScene {
     pub vertices: Vec<VertexMark>,
     /// The curve itself.
     pub curve: Vec<DVec2>,
+    /// Its pieces of rising, falling and undecided curvature, in the order of
+    /// [`crate::analysis::PieceTrend::ALL`].
+    pub pieces: [Vec<DVec2>; 3],
+    /// Its proved features.
+    pub features: Vec<FeatureMark>,
     /// The joints between segments: points with the curve's unit normals.
     pub joints: Vec<[DVec2; 2]>,
 }

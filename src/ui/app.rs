@@ -179,7 +179,7 @@ impl App {
             .frame(bar(4, 2))
             .resizable(false)
             .show(ui, |ui| {
-                menu_ui(ui, &self.editor, &self.shell, &mut self.commands);
+                menu_ui(ui, &mut self.editor, &self.shell, &mut self.commands);
             });
         let status = Panel::bottom("status").frame(bar(12, 0)).resizable(false);
         status

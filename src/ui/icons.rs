@@ -31,6 +31,7 @@ pub fn of_layer(layer: Layer) -> Icon {
         Layer::Comb => Icon::ChartNoAxesColumn,
         Layer::Targets => Icon::Goal,
         Layer::Grid => Icon::Grid3x3,
+        Layer::Features => Icon::BadgeCheck,
     }
 }
 

@@ -6,6 +6,7 @@ use eframe::egui::{
 use lucide_icons::Icon;
 
 use super::curve_list::swatch_in;
+use super::feature_list::feature_list_ui;
 use super::figures;
 use super::number_field::{FieldEvent, NumberField};
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
@@ -47,6 +48,7 @@ impl Inspector {
                 figures_ui(ui, &curve, &report);
             }
         });
+        widgets::section(ui, "Features", true, |ui| feature_list_ui(ui, editor));
         let title = format!("Vertices ({})", curve.polygon.vertices().len());
         let open = widgets::section_with_id(ui, "vertices", &title, true, |ui| {
             self.table.show(ui, editor, id, &curve);

@@ -31,6 +31,7 @@ fn colour(tokens: &Tokens, layer: Layer) -> Color32 {
         Layer::Comb => tokens.comb,
         Layer::Targets => tokens.target,
         Layer::Grid => tokens.joints,
+        Layer::Features => tokens.rising,
     }
 }
 

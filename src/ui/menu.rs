@@ -3,9 +3,10 @@
 use eframe::egui::{Button, Color32, MenuBar, RichText, Ui};
 use lucide_icons::Icon;
 
+use super::feature_list::chip_ui;
 use super::shell::Shell;
 use super::theme::Tokens;
-use super::{icons, keyboard};
+use super::{icons, keyboard, widgets};
 use crate::editor::{Command, Editor, Layer, NamedView, ToolKind};
 use crate::geometry::{End, PolygonKind};
 
@@ -21,8 +22,8 @@ enum Entry {
 
 use Entry::{Command as Item, Divider};
 
-/// Show the menu bar.
-pub fn menu_ui(ui: &mut Ui, editor: &Editor, shell: &Shell, commands: &mut Vec<Command>) {
+/// Show the menu bar, and the verdict on the active curve at its right end.
+pub fn menu_ui(ui: &mut Ui, editor: &mut Editor, shell: &Shell, commands: &mut Vec<Command>) {
     MenuBar::new().ui(ui, |ui| {
         for (title, entries) in menus() {
             ui.menu_button(title, |ui| {
@@ -40,6 +41,13 @@ pub fn menu_ui(ui: &mut Ui, editor: &Editor, shell: &Shell, commands: &mut Vec<C
                 }
             });
         }
+        widgets::at_right(ui, |ui| {
+            let chip = chip_ui(ui, editor);
+            let shown = editor.layers().shows(Layer::Features);
+            if chip.is_some_and(|chip| chip.clicked()) && !shown {
+                commands.push(Layer::Features.command());
+            }
+        });
     });
 }
 

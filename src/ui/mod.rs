@@ -9,6 +9,8 @@ mod dialogs;
 mod end_fit_panel;
 mod end_fit_steps;
 mod end_marks;
+mod feature_list;
+mod feature_marks;
 mod figures;
 mod file_dialogs;
 mod gizmo;

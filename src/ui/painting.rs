@@ -9,11 +9,14 @@ use glam::DVec2;
 
 use super::chains::Screen;
 use super::theme::{self, Tokens};
-use super::{end_marks, labels};
+use super::{end_marks, feature_marks, labels};
 use crate::editor::{CurveScene, HoverScene, Mark, Scene, VertexMark};
 
 /// Half the length of the tick across a joint, in points.
 const TICK: f32 = 5.0;
+
+/// The width of the bands that tell what the curvature does.
+const BAND: f32 = 7.0;
 
 /// Half the side of the closed polygon's squares.
 const SQUARE: f32 = 3.5;
@@ -133,6 +136,12 @@ impl Brush<'_> {
         let own = curve.colour.map(theme::of_document);
         let colour = fade(own.unwrap_or(self.tokens.curve));
         let width = if curve.active { 2.0 } else { 1.5 };
+        let tokens = self.tokens;
+        let trends = [tokens.rising, tokens.falling, tokens.undecided];
+        for (chain, trend) in curve.pieces.iter().zip(trends) {
+            // Bands under the curve, which keeps its own colour.
+            self.chain(chain, Stroke::new(BAND, trend.gamma_multiply(0.6)));
+        }
         self.chain(&curve.curve, Stroke::new(width, colour));
         let tick = Stroke::new(1.5, fade(self.tokens.joints));
         for [point, normal] in &curve.joints {
@@ -152,6 +161,9 @@ impl Brush<'_> {
                 self.painter
                     .rect_stroke(rect, 0, square, StrokeKind::Middle);
             }
+        }
+        for mark in &curve.features {
+            feature_marks::paint(self, mark);
         }
         let colour = fade(self.tokens.float);
         let radius = if curve.vertices.len() > CROWD {

@@ -7,7 +7,7 @@ use super::dialogs::Decision;
 use super::number_field::{FieldEvent, NumberField};
 use super::theme::{ROW, STEP, Tokens};
 use super::{figures, widgets};
-use crate::editor::{Division, Editor};
+use crate::editor::{Division, Editor, RoundingReport};
 use crate::geometry::{MAX_SUBDIVISIONS, PolygonKind};
 
 /// The width of these dialogs.
@@ -109,6 +109,8 @@ impl DivisionDialog {
 pub struct RoundingDialog {
     kind: PolygonKind,
     digits: usize,
+    /// What would come of it, for the kind and the digits that were last looked at.
+    tried: Option<(PolygonKind, usize, Result<RoundingReport, String>)>,
 }
 
 impl Default for RoundingDialog {
@@ -116,6 +118,7 @@ impl Default for RoundingDialog {
         Self {
             kind: PolygonKind::Float,
             digits: 3,
+            tried: None,
         }
     }
 }
@@ -139,7 +142,12 @@ impl RoundingDialog {
             }
             widgets::caption(ui, "behind the decimal point");
         });
-        let tried = editor.try_rounding(self.kind, self.digits);
+        let (kind, digits) = (self.kind, self.digits);
+        let tried = self.tried.take();
+        let tried = tried.filter(|tried| (tried.0, tried.1) == (kind, digits));
+        let (_, _, tried) = self
+            .tried
+            .insert(tried.unwrap_or_else(|| (kind, digits, editor.try_rounding(kind, digits))));
         let is_good = tried.is_ok();
         match tried {
             Ok(report) => {
@@ -151,15 +159,25 @@ impl RoundingDialog {
                         "Largest move of the curve, at most",
                         length(report.deviation),
                     ),
+                    ("Curvature extrema before", extrema(report, 0)),
+                    ("Curvature extrema afterwards", extrema(report, 1)),
                 ];
                 for (name, figure) in rows {
                     widgets::figure_row(ui, name, &figure);
                 }
             }
-            Err(reason) => outcome_ui(ui, &reason, Tokens::of(ui).error),
+            Err(reason) => outcome_ui(ui, reason, Tokens::of(ui).error),
         }
         let decided = Decision::Round(self.kind, self.digits);
         buttons_ui(ui, "Round", is_good, decided)
+    }
+}
+
+/// How many curvature extrema are proved, and how many pieces are undecided.
+fn extrema(report: &RoundingReport, when: usize) -> String {
+    match report.undecided[when] {
+        0 => report.extrema[when].to_string(),
+        doubts => format!("{}, {doubts} pieces undecided", report.extrema[when]),
     }
 }
 

@@ -79,6 +79,10 @@ fn inspect_prints_the_described_shape() {
             "u": 0.5, "point": [0.0, 2.0], "d1": [0.0, 4.0], "d2": [0.0, 0.0], "d3": [0.0, 0.0],
             "curvature": [0.0, 0.0, 0.0], "evolute": null,
         }],
+        "features": {
+            "inflections": [], "curvature_extrema": [], "torsion_zeros": [], "torsion_extrema": [],
+            "cusps": [], "undecided": [], "monotone": "proved",
+        },
     });
     let mut first = found["curves"][0].clone();
     check_near(&first["length"].take(), &json!(4.0), 1e-13, "length");
@@ -122,4 +126,54 @@ fn extreme_weights_do_not_hold_up_the_program() {
     let folder = Folder::new().with("extreme.batten", project(curve));
     let found = folder.inspect(&["extreme.batten", "--at", "0,0.5,1"]);
     assert_eq!(found["curves"][0]["at"].as_array().unwrap().len(), 3);
+}
+
+#[test]
+fn inspect_lists_proved_features() {
+    let folder = Folder::new();
+    let features = |name: &str| {
+        let file = format!("{name}.batten");
+        folder.done(&["example", name, &file]);
+        folder.inspect(&[&file])["curves"][0]["features"].clone()
+    };
+    // The arc's ripple is a hundred-millionth of its curvature, with one extremum in the middle.
+    let arc = features("arc");
+    assert_eq!(arc["monotone"], "disproved");
+    let extrema = arc["curvature_extrema"].as_array().unwrap();
+    assert_eq!(extrema.len(), 1);
+    let [low, high] = numbers(&extrema[0]["u"])[..] else {
+        panic!("an interval: {}", extrema[0]);
+    };
+    assert!(
+        low <= 0.5 && 0.5 <= high && high - low <= 1e-12,
+        "{low} … {high}"
+    );
+    assert_eq!(extrema[0]["kind"], "max");
+    check_near(
+        &json!([extrema[0]["curvature"]]),
+        &json!([-0.112_130_6]),
+        1e-6,
+        "curvature",
+    );
+    assert_eq!(features("figure2")["monotone"], "proved");
+    let wave = features("s-curve");
+    assert_eq!(wave["inflections"].as_array().unwrap().len(), 1);
+    assert_eq!(wave["undecided"], json!([]));
+}
+
+#[test]
+fn a_possible_cusp_is_told_and_nothing_claimed_there() {
+    // Two legs that lie on each other: the curve turns back on a line.
+    let back = json!([{"name": "back", "degree": 2, "vertices": [[0, 0], [4, 0], [0, 0]]}]);
+    let folder = Folder::new().with("back.batten", project(back));
+    let features = folder.inspect(&["back.batten"])["curves"][0]["features"].clone();
+    let cusps = features["cusps"].as_array().unwrap();
+    assert_eq!(cusps.len(), 1);
+    assert_eq!(cusps[0]["proved"], true);
+    let [low, high] = numbers(&cusps[0]["u"])[..] else {
+        panic!("an interval: {}", cusps[0]);
+    };
+    assert!(low <= 0.5 && 0.5 <= high, "{low} … {high}");
+    assert_eq!(features["curvature_extrema"], json!([]));
+    assert_ne!(features["monotone"], "proved");
 }

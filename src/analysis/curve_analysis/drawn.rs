@@ -80,7 +80,7 @@ impl CurveAnalysis {
 
     /// Append one layer that is a chain of points, made of the samples segment by segment;
     /// `shape` is whatever else the points depend on.
-    fn append(
+    pub(in crate::analysis) fn append(
         &mut self,
         view: &ViewBox,
         out: &mut Vec<DVec2>,

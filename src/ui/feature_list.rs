@@ -1,0 +1,145 @@
+//! The list of proved features in the inspector, and the chip that tells the verdict.
+
+use eframe::egui::{
+    Button, Response, RichText, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2,
+};
+use lucide_icons::Icon;
+
+use super::feature_marks::glyph;
+use super::theme::{self, RADIUS, ROW, STEP, Tokens};
+use super::{figures, icons, widgets};
+use crate::editor::{Editor, FeatureKind, FeatureReport, FeatureRow};
+use crate::geometry::features::Verdict;
+
+/// The most rows that are in sight at once.
+const MOST_ROWS: usize = 7;
+
+/// Show the verdict and the features of the active curve; choosing one goes to it.
+pub fn feature_list_ui(ui: &mut Ui, editor: &mut Editor) {
+    let Some(report) = editor.features() else {
+        return;
+    };
+    verdict_ui(ui, &report);
+    if report.rows.is_empty() {
+        return;
+    }
+    let rows = report.rows.len();
+    let height = rows.min(MOST_ROWS) as f32 * ROW;
+    let area = ScrollArea::vertical()
+        .id_salt("features")
+        .max_height(height)
+        .min_scrolled_height(height)
+        .auto_shrink([false, true]);
+    ui.spacing_mut().item_spacing.y = 0.0;
+    let mut chosen = None;
+    area.show_rows(ui, ROW, rows, |ui, range| {
+        for row in report.rows.get(range).unwrap_or_default() {
+            if row_ui(ui, row).clicked() {
+                chosen = Some(row.middle());
+            }
+        }
+    });
+    if let Some(u) = chosen {
+        editor.go_to(u);
+    }
+}
+
+fn verdict_ui(ui: &mut Ui, report: &FeatureReport) {
+    let (icon, text) = verdict(report);
+    let colour = colour_of(report, Tokens::of(ui));
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 1.5 * STEP;
+        ui.label(icons::text(icon).color(colour));
+        ui.label(RichText::new(text).color(colour));
+    });
+}
+
+/// The verdict's icon and words.
+fn verdict(report: &FeatureReport) -> (Icon, String) {
+    let extrema = report.count(&[FeatureKind::CurvatureMaximum, FeatureKind::CurvatureMinimum]);
+    match report.monotone {
+        Verdict::Proved => (Icon::Check, "Curvature monotone: proved".to_owned()),
+        Verdict::Disproved if extrema == 1 => (Icon::Spline, "1 curvature extremum".to_owned()),
+        Verdict::Disproved => (Icon::Spline, format!("{extrema} curvature extrema")),
+        Verdict::Undecided => (
+            Icon::CircleQuestionMark,
+            "Curvature monotone: undecided".to_owned(),
+        ),
+    }
+}
+
+fn colour_of(report: &FeatureReport, tokens: &Tokens) -> eframe::egui::Color32 {
+    match report.monotone {
+        Verdict::Proved => tokens.good,
+        Verdict::Disproved => tokens.warning,
+        Verdict::Undecided => tokens.undecided,
+    }
+}
+
+/// Show the verdict as a chip; pressing it shows the features.
+pub fn chip_ui(ui: &mut Ui, editor: &mut Editor) -> Option<Response> {
+    let report = editor.features()?;
+    let (icon, text) = verdict(&report);
+    let colour = colour_of(&report, Tokens::of(ui));
+    let button = Button::new((
+        icons::text(icon).color(colour),
+        RichText::new(text).font(theme::small_font()).color(colour),
+    ));
+    let response = ui.add(button).accessible_name("Verdict");
+    let inflections = report.count(&[FeatureKind::Inflection]);
+    let undecided = report.count(&[FeatureKind::Undecided]);
+    let tooltip = format!(
+        "Proved for the numbers as they are: {inflections} inflections, {undecided} pieces \
+         undecided. The inspector lists them all."
+    );
+    Some(response.on_hover_text(tooltip))
+}
+
+/// What a feature is called where there is little room.
+fn short_name(kind: FeatureKind) -> &'static str {
+    match kind {
+        FeatureKind::CurvatureMaximum => "κ maximum",
+        FeatureKind::CurvatureMinimum => "κ minimum",
+        FeatureKind::TorsionMaximum => "τ maximum",
+        FeatureKind::TorsionMinimum => "τ minimum",
+        FeatureKind::TorsionZero => "τ zero",
+        FeatureKind::Inflection => "inflection",
+        FeatureKind::Cusp => "cusp",
+        FeatureKind::Undecided => "undecided",
+    }
+}
+
+fn row_ui(ui: &mut Ui, row: &FeatureRow) -> Response {
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
+    let tokens = Tokens::of(ui);
+    if response.hovered() {
+        ui.painter().rect_filled(rect, RADIUS, tokens.button[0]);
+    }
+    if response.has_focus() {
+        widgets::focus_ring(ui, rect);
+    }
+    let at = pos2(rect.left() + 3.0 * STEP, rect.center().y);
+    glyph(ui.painter(), at, row.kind, tokens);
+    let name = match row.remark {
+        "" => short_name(row.kind).to_owned(),
+        remark => remark.to_owned(),
+    };
+    let mut left = rect.with_min_x(rect.left() + 6.0 * STEP);
+    left.max.x -= 38.0 * STEP;
+    widgets::label_in(ui, left, &name, tokens.text);
+    let inner = rect.with_max_x(rect.right() - STEP);
+    let place = inner.with_max_x(inner.right() - 19.0 * STEP);
+    let u = format!("u {}", figures::to_resolution(row.middle(), 1e-5));
+    widgets::number_in(ui, place, &u, tokens.text);
+    let value = row
+        .value
+        .map_or(String::new(), |value| figures::significant(value, 5));
+    widgets::number_in(ui, inner, &value, tokens.text);
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{name} at {u}")));
+    let [low, high] = row.u;
+    let width = figures::significant(high - low, 2);
+    response.on_hover_text(format!(
+        "{}\nu from {low}\nto {high}\n{width} wide. Click to go there.",
+        row.kind.label()
+    ))
+}
