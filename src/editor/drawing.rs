@@ -238,11 +238,12 @@ impl Editor {
         {
             return self.clamped_hover(id, index);
         }
-        if let Some(mark) = self.feature_mark(place, REACH) {
-            return Some(HoverScene::Handle {
-                at: mark.at,
-                text: mark.text(),
-            });
+        if let Some((id, mark)) = self.selection.active().zip(self.feature_mark(place, REACH)) {
+            let mut hover = self.curve_hover(id, mark.u);
+            if let Some(HoverScene::Curve { text, .. }) = &mut hover {
+                *text = format!("{}\n{text}", mark.kind.label());
+            }
+            return hover;
         }
         let hit = context.hits.curve(place)?;
         self.curve_hover(hit.curve, hit.u)

@@ -3,7 +3,6 @@
 use glam::DVec2;
 
 use super::Editor;
-use super::drawing::figure;
 use super::layers::Layer;
 use crate::analysis::{Bounds, CurveAnalysis, ViewBox};
 use crate::geometry::features::{ExtremumKind, Features, Quantity, Verdict};
@@ -166,24 +165,6 @@ pub struct FeatureMark {
     pub at: DVec2,
     /// The parameter.
     pub u: f64,
-    /// The curvature or torsion of an extremum.
-    pub value: Option<f64>,
-}
-
-impl FeatureMark {
-    /// What it is, in words, a line each.
-    pub(super) fn text(&self) -> String {
-        let mut text = format!("{}\nu {:.6}", self.kind.label(), self.u);
-        if let Some(value) = self.value {
-            let is_torsion = matches!(
-                self.kind,
-                FeatureKind::TorsionMaximum | FeatureKind::TorsionMinimum
-            );
-            let name = if is_torsion { "τ" } else { "κ" };
-            text += &format!("\n{name} {}", figure(value));
-        }
-        text
-    }
 }
 
 impl Editor {
@@ -252,7 +233,6 @@ pub(super) fn append_marks(
                 kind: row.kind,
                 at,
                 u,
-                value: row.value,
             });
         }
     }

@@ -2,6 +2,7 @@
 
 mod commands;
 mod end_fit;
+mod features;
 mod reshaping;
 mod script;
 mod selecting;
