@@ -2,14 +2,14 @@
 
 use glam::{DVec3, DVec4};
 
-use super::bezier_matrix::{blossom_row, float_to_bezier, middle_segment};
 use super::clamped_polygon::weighted;
-use super::closing::{smoothness_tolerance, worst_difference};
+use super::conversion::bezier_matrix::{blossom_row, float_to_bezier, middle_segment};
+use super::conversion::closing::{smoothness_tolerance, worst_difference};
+use super::conversion::exact_polygon::{ExactPolygon, chain};
+use super::conversion::exact_vertices::ExactVertices;
+use super::conversion::knots::clamp;
 use super::error::PolygonError;
-use super::exact_polygon::{ExactPolygon, chain};
-use super::exact_vertices::ExactVertices;
 use super::float_polygon::{FloatPolygon, check_polygon};
-use super::knots::clamp;
 
 /// Hold a curve by the Bézier polygons of its L segments in one chain of n·L + 1 vertices,
 /// neighbours sharing the vertex at their joint.

@@ -2,13 +2,13 @@
 
 use glam::DVec3;
 
-use super::amplification::Amplification;
-use super::end_conversion::ConvertedEnds;
+use super::conversion::amplification::Amplification;
+use super::conversion::end_conversion::ConvertedEnds;
+use super::conversion::exact_vertices::{check_weight, converted_error, weight_loss};
+use super::conversion::expansion::Expansion;
+use super::conversion::knots::{clamp, unclamp};
 use super::error::PolygonError;
-use super::exact_vertices::{check_weight, converted_error, weight_loss};
-use super::expansion::Expansion;
 use super::float_polygon::{FloatPolygon, check_polygon};
-use super::knots::{clamp, unclamp};
 use super::polygon_kind::PolygonKind;
 
 /// Hold a curve of degree n by its vertices on the knots 0 (n + 1 times), 1 … L − 1,

@@ -2,63 +2,40 @@
 //! corrections. Nothing in here knows of documents, files or windows, and nothing panics on
 //! finite input.
 
-mod amplification;
-mod approximation;
 mod arc_length;
 mod banded;
 pub mod basis;
-mod bezier_matrix;
 mod bezier_polygon;
 pub mod circle_comparison;
-mod clamped_editing;
 mod clamped_polygon;
-mod closing;
-mod curvature_levels;
-mod degree_change;
-mod deviation;
+mod conversion;
 mod end;
-mod end_conversion;
 pub mod end_correction;
 mod error;
 mod evaluation;
-mod exact_polygon;
-mod exact_vertices;
-mod expansion;
-mod extension;
 pub mod features;
 mod float_polygon;
-mod homogeneous;
 mod jet;
 pub mod joint_correction;
-mod knots;
+mod levels;
 mod nearest;
 mod pivoted_cholesky;
 pub mod polygon_figures;
 mod polygon_kind;
-mod quasi_interpolation;
-mod rounding;
 mod sampler;
-mod segment_expansion;
-mod splitting;
-mod subdivision;
-mod taylor_series;
 mod vector;
 
-pub use amplification::Amplification;
-pub use approximation::Approximation;
 pub use bezier_polygon::{BezierPolygon, segment_bezier};
 pub use clamped_polygon::ClampedPolygon;
-pub use curvature_levels::{CurvatureLevels, LEVELS};
+pub use conversion::{
+    Amplification, Approximation, ExactPolygon, MAX_ADDED_SEGMENTS, MAX_SUBDIVISIONS, Rounded,
+};
 pub use end::{End, rotation_between};
 pub use error::{MAX_DEGREE, PolygonError};
-pub use exact_polygon::ExactPolygon;
-pub use extension::MAX_ADDED_SEGMENTS;
 pub use float_polygon::{FloatPolygon, MAX_MAGNITUDE};
 pub use jet::Jet;
+pub use levels::{CurvatureLevels, LEVELS, SegmentExpansion};
 pub use nearest::Nearest;
 pub use polygon_figures::Range;
 pub use polygon_kind::PolygonKind;
-pub use rounding::Rounded;
 pub use sampler::{BATCH_ORDER, Batch, Sampler};
-pub use segment_expansion::SegmentExpansion;
-pub use splitting::MAX_SUBDIVISIONS;

@@ -1,13 +1,13 @@
 //! The features of a whole curve, put together from those of its segments.
 
-use super::super::float_polygon::FloatPolygon;
-use super::super::jet::Jet;
 use super::feature::{
     Cusp, Extremum, ExtremumKind, Features, Quantity, Trend, TrendPiece, Undecided, Verdict,
 };
 use super::segment_features::{SegmentFeatures, SegmentProver};
 use super::sign_piece::SignPiece;
 use super::sign_walk::{Change, KnotRule, Place, SignWalk};
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::jet::Jet;
 
 impl Features {
     /// Prove the features of a whole curve.

@@ -1,6 +1,5 @@
 //! The features inside one segment.
 
-use super::super::float_polygon::FloatPolygon;
 use super::arena::{Arena, Polynomial};
 use super::double_double::DoubleDouble;
 use super::enclosure::at_ends;
@@ -9,6 +8,7 @@ use super::numerators::Numerators;
 use super::segment_shape::SegmentShape;
 use super::sign_piece::{Sign, SignPiece, append, with_starts};
 use super::variations::certain_sign;
+use crate::geometry::float_polygon::FloatPolygon;
 
 /// Hold what is proved of one segment, its two ends included as far as they can be seen from
 /// this side. It depends on the segment's n + 1 vertices and weights alone, so it stays valid

@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use super::super::error::MAX_DEGREE;
-use super::super::float_polygon::FloatPolygon;
 use super::arena::FLOOR;
 use super::double_double::DoubleDouble;
+use crate::geometry::error::MAX_DEGREE;
+use crate::geometry::float_polygon::FloatPolygon;
 
 /// What the arithmetic of wide numbers adds to a product or a sum of three: 2⁻⁹⁸.
 const WIDE_ROUNDING: f64 = f64::EPSILON * f64::EPSILON * 64.0;

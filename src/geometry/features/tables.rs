@@ -2,8 +2,8 @@
 
 use std::sync::OnceLock;
 
-use super::super::error::MAX_DEGREE;
 use super::double_double::DoubleDouble;
+use crate::geometry::error::MAX_DEGREE;
 
 /// The highest degree of a product: the torsion or curvature numerator of a rational space
 /// curve has at most 11 n.

@@ -1,10 +1,10 @@
 //! Uniform subdivision: the same curve by twice as many segments.
 
-use super::error::PolygonError;
 use super::exact_vertices::{ExactVertices, converted_error};
 use super::expansion::Expansion;
-use super::float_polygon::FloatPolygon;
-use super::polygon_kind::PolygonKind;
+use crate::geometry::error::PolygonError;
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::polygon_kind::PolygonKind;
 
 impl FloatPolygon {
     /// Halve every segment: the same curve by 2L segments, its parameter running twice as fast

@@ -1,11 +1,11 @@
 //! Longer curves: the end segment's polynomial continued.
 
-use super::end::End;
-use super::error::PolygonError;
 use super::exact_vertices::{ExactVertices, check_weight, converted_error, weight_loss};
 use super::expansion::Expansion;
-use super::float_polygon::FloatPolygon;
-use super::polygon_kind::PolygonKind;
+use crate::geometry::end::End;
+use crate::geometry::error::PolygonError;
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::polygon_kind::PolygonKind;
 
 /// The most segments that one extension adds: the vertices would long be out of proportion.
 pub const MAX_ADDED_SEGMENTS: usize = 10_000;

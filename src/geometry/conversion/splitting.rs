@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use super::approximation::Approximation;
 use super::deviation::from_part;
-use super::error::PolygonError;
-use super::float_polygon::FloatPolygon;
 use super::quasi_interpolation::{NewKnots, quasi_interpolated};
+use crate::geometry::error::PolygonError;
+use crate::geometry::float_polygon::FloatPolygon;
 
 /// How often a curve is subdivided at most to bring a knot to where it is cut.
 pub const MAX_SUBDIVISIONS: u32 = 12;
@@ -140,7 +140,7 @@ impl FloatPolygon {
     ///
     /// # Errors
     /// [`PolygonError::PeriodicCurve`], which says that it cannot be `done`.
-    pub(super) fn check_open(&self, done: &'static str) -> Result<(), PolygonError> {
+    pub(in crate::geometry) fn check_open(&self, done: &'static str) -> Result<(), PolygonError> {
         if self.is_periodic() {
             Err(PolygonError::PeriodicCurve { done })
         } else {

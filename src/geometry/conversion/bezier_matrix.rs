@@ -5,7 +5,7 @@ use super::knots::clamp;
 
 /// Fill the (n + 1)² matrix, row by row, that takes the float vertices of a segment to its
 /// Bézier vertices (SB). Its entries are not negative and each row sums to 1.
-pub(super) fn float_to_bezier<const K: usize>(degree: usize) -> Vec<Expansion<K>> {
+pub(in crate::geometry) fn float_to_bezier<const K: usize>(degree: usize) -> Vec<Expansion<K>> {
     let size = degree + 1;
     let mut matrix = vec![Expansion::ZERO; size * size];
     for column in 0..size {
@@ -23,7 +23,7 @@ pub(super) fn float_to_bezier<const K: usize>(degree: usize) -> Vec<Expansion<K>
 /// at integers, counted from the segment's start (BS): the coefficients of the powers of x in
 /// ∏ ((1 − k) + k x), which are integers. At the knots of a float vertex their magnitudes sum up
 /// to (2n − 1)!! at most, which is 5.8e30 for degree 25.
-pub(super) fn blossom_row(arguments: impl Iterator<Item = i64>) -> Vec<i128> {
+pub(in crate::geometry) fn blossom_row(arguments: impl Iterator<Item = i64>) -> Vec<i128> {
     let mut row = vec![1];
     for argument in arguments.map(i128::from) {
         row.push(0);
@@ -37,7 +37,7 @@ pub(super) fn blossom_row(arguments: impl Iterator<Item = i64>) -> Vec<i128> {
 
 /// Find the segment whose knots lie in the middle of those of a vertex of an open polygon, as far
 /// as there is one: from there an error in the Bézier vertices grows least.
-pub(super) fn middle_segment(degree: usize, segments: usize, index: usize) -> usize {
+pub(in crate::geometry) fn middle_segment(degree: usize, segments: usize, index: usize) -> usize {
     index.saturating_sub(degree / 2).min(segments - 1)
 }
 

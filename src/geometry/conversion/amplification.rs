@@ -1,11 +1,11 @@
 //! How much an error in one vertex grows on the way to another polygon.
 
 use super::bezier_matrix::{blossom_row, float_to_bezier, middle_segment};
-use super::error::PolygonError;
 use super::exact_polygon::vertex_knots;
-use super::float_polygon::check_degree;
 use super::knots::{clamp, unclamp};
-use super::polygon_kind::PolygonKind;
+use crate::geometry::error::PolygonError;
+use crate::geometry::float_polygon::check_degree;
+use crate::geometry::polygon_kind::PolygonKind;
 
 /// Say how much errors in the vertices grow in a conversion. For a rational curve it holds for
 /// the homogeneous vertices.
@@ -63,7 +63,7 @@ impl Amplification {
     }
 
     /// The amplification from the clamped to the float polygon, of a valid degree.
-    pub(super) fn of_unclamping(degree: usize, segments: usize) -> Self {
+    pub(in crate::geometry) fn of_unclamping(degree: usize, segments: usize) -> Self {
         Self::of_columns(degree, segments, unclamp)
     }
 

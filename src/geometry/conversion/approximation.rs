@@ -1,6 +1,6 @@
 //! A polygon in place of another.
 
-use super::float_polygon::FloatPolygon;
+use crate::geometry::float_polygon::FloatPolygon;
 
 /// Hold a polygon that stands for another, and how well it does.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,7 +16,7 @@ pub struct Approximation {
 
 impl Approximation {
     /// Say that a polygon is exact.
-    pub(super) fn exact(polygon: FloatPolygon) -> Self {
+    pub(in crate::geometry) fn exact(polygon: FloatPolygon) -> Self {
         Self {
             polygon,
             deviation: 0.0,

@@ -4,14 +4,14 @@ use glam::DVec3;
 
 use super::amplification::Amplification;
 use super::bezier_matrix::{blossom_row, float_to_bezier, middle_segment};
-use super::bezier_polygon::BezierPolygon;
-use super::clamped_polygon::ClampedPolygon;
-use super::error::{MAX_DEGREE, PolygonError};
 use super::exact_vertices::{ExactVertices, check_weight, converted_error, weight_loss};
 use super::expansion::Expansion;
-use super::float_polygon::FloatPolygon;
 use super::knots::{Blend, clamp, unclamp};
-use super::polygon_kind::PolygonKind;
+use crate::geometry::bezier_polygon::BezierPolygon;
+use crate::geometry::clamped_polygon::ClampedPolygon;
+use crate::geometry::error::{MAX_DEGREE, PolygonError};
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::polygon_kind::PolygonKind;
 
 /// Hold a float, clamped or Bézier polygon of an open curve by homogeneous vertices of three
 /// doubles a number (159 bits), so that converting there and back loses nothing: the way back
@@ -131,7 +131,7 @@ impl ExactPolygon {
     ///
     /// # Errors
     /// [`PolygonError::DegreeOutOfRange`] beyond degree 25.
-    pub(super) fn raised(&self) -> Result<Self, PolygonError> {
+    pub(in crate::geometry) fn raised(&self) -> Result<Self, PolygonError> {
         let degree = self.degree + 1;
         if degree > MAX_DEGREE {
             return Err(PolygonError::DegreeOutOfRange { degree });
@@ -144,7 +144,7 @@ impl ExactPolygon {
 
     /// Convert Bézier polygons that close into one curve to the vertices of a periodic float
     /// polygon, without looking whether they do.
-    pub(super) fn periodic_blossoms(&self) -> Self {
+    pub(in crate::geometry) fn periodic_blossoms(&self) -> Self {
         let (degree, segments) = (self.degree, self.segments());
         self.blossoms_at(PolygonKind::Float, segments, |index| {
             let first = index as i64 + 1 - degree as i64;
@@ -160,7 +160,7 @@ impl ExactPolygon {
 
     /// Keep one of the two copies of the first n vertices that a float polygon has whose curve
     /// closes: of each that from the end where it is the more accurate.
-    pub(super) fn folded(&self) -> Self {
+    pub(in crate::geometry) fn folded(&self) -> Self {
         let (half, segments) = (self.degree / 2, self.segments());
         let place = |index| {
             if index < half {
@@ -247,7 +247,10 @@ impl ExactPolygon {
     ///
     /// # Errors
     /// [`PolygonError::WeightLost`] as in [`ExactPolygon::to_float`].
-    pub(super) fn rounded(&self, to: PolygonKind) -> Result<RoundedVertices, PolygonError> {
+    pub(in crate::geometry) fn rounded(
+        &self,
+        to: PolygonKind,
+    ) -> Result<RoundedVertices, PolygonError> {
         if self.kind != to {
             return self.converted(to).rounded(to);
         }
@@ -260,10 +263,10 @@ impl ExactPolygon {
 }
 
 /// Points and, of a rational curve, weights.
-pub(super) type RoundedVertices = (Vec<DVec3>, Option<Vec<f64>>);
+pub(in crate::geometry) type RoundedVertices = (Vec<DVec3>, Option<Vec<f64>>);
 
 /// The n knots of a vertex of an open float or clamped polygon.
-pub(super) fn vertex_knots(
+pub(in crate::geometry) fn vertex_knots(
     kind: PolygonKind,
     degree: usize,
     segments: usize,
@@ -278,13 +281,16 @@ pub(super) fn vertex_knots(
 }
 
 /// Sum up the products of a row and as many numbers.
-pub(super) fn dot<const K: usize>(row: &[Expansion<K>], numbers: &[Expansion<K>]) -> Expansion<K> {
+pub(in crate::geometry) fn dot<const K: usize>(
+    row: &[Expansion<K>],
+    numbers: &[Expansion<K>],
+) -> Expansion<K> {
     let products = row.iter().zip(numbers);
     products.fold(Expansion::ZERO, |sum, (a, b)| sum.plus_product(*a, *b))
 }
 
 /// Convert one coordinate of a float polygon to that of the chain of Bézier polygons.
-pub(super) fn chain<const K: usize>(
+pub(in crate::geometry) fn chain<const K: usize>(
     degree: usize,
     matrix: &[Expansion<K>],
     axis: &[Expansion<K>],

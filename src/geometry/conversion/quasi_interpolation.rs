@@ -11,28 +11,28 @@
 //! smooth, and has an error of order h^{m+1}. Where ξ is a knot of the curve the mean of both
 //! sides is taken; beyond the ends their polynomials are continued.
 
-use super::error::PolygonError;
 use super::exact_polygon::dot;
 use super::exact_vertices::{ExactVertices, check_weight, converted_error, weight_loss};
 use super::expansion::Expansion;
-use super::float_polygon::FloatPolygon;
 use super::knots::Blend;
-use super::polygon_kind::PolygonKind;
+use crate::geometry::error::PolygonError;
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::polygon_kind::PolygonKind;
 
 type Number = Expansion<3>;
 
 /// The knots of a new spline on an old curve.
-pub(super) struct NewKnots {
+pub(in crate::geometry) struct NewKnots {
     /// The degree of the spline.
-    pub(super) degree: usize,
+    pub(in crate::geometry) degree: usize,
     /// The old parameter u of its knot 0.
-    pub(super) start: f64,
+    pub(in crate::geometry) start: f64,
     /// The distance of its knots in u.
-    pub(super) step: f64,
+    pub(in crate::geometry) step: f64,
     /// The number of its segments.
-    pub(super) segments: usize,
+    pub(in crate::geometry) segments: usize,
     /// Whether it is periodic; the curve must be, and the knots must run round it once.
-    pub(super) periodic: bool,
+    pub(in crate::geometry) periodic: bool,
 }
 
 /// Compute the polygon on new knots.
@@ -40,7 +40,7 @@ pub(super) struct NewKnots {
 /// # Errors
 /// [`PolygonError::WeightLost`] and [`PolygonError::Overflow`] as for conversions,
 /// [`PolygonError::TooFewVertices`] if a periodic spline of that degree needs more segments.
-pub(super) fn quasi_interpolated(
+pub(in crate::geometry) fn quasi_interpolated(
     curve: &FloatPolygon,
     knots: &NewKnots,
 ) -> Result<FloatPolygon, PolygonError> {

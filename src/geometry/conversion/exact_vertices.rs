@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::error::PolygonError;
 use super::expansion::Expansion;
-use super::polygon_kind::PolygonKind;
+use crate::geometry::error::PolygonError;
+use crate::geometry::polygon_kind::PolygonKind;
 
 /// What K = 3 parts may lose of the numbers that entered a vertex, in their units: a weight
 /// smaller than this cannot be told from 0.
@@ -12,14 +12,14 @@ const LOST: f64 = 1.0 / (1u128 << 75) as f64 / (1u128 << 75) as f64;
 
 /// Hold the homogeneous coordinates w·x, w·y, w·z and w of some vertices.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct ExactVertices<const K: usize> {
+pub(in crate::geometry) struct ExactVertices<const K: usize> {
     /// The coordinates; z is left out of a planar polygon, w of a polynomial one.
     axes: [Option<Vec<Expansion<K>>>; 4],
 }
 
 impl<const K: usize> ExactVertices<K> {
     /// Take vertices and weights without error.
-    pub(super) fn new(
+    pub(in crate::geometry) fn new(
         vertices: impl Iterator<Item = (DVec3, f64)> + Clone,
         rational: bool,
     ) -> Self {
@@ -44,22 +44,25 @@ impl<const K: usize> ExactVertices<K> {
     }
 
     /// Whether there are weights.
-    pub(super) fn is_rational(&self) -> bool {
+    pub(in crate::geometry) fn is_rational(&self) -> bool {
         self.axes[3].is_some()
     }
 
     /// The number of vertices.
-    pub(super) fn len(&self) -> usize {
+    pub(in crate::geometry) fn len(&self) -> usize {
         self.axes[0].as_ref().map_or(0, Vec::len)
     }
 
     /// Change each coordinate's list of numbers in place.
-    pub(super) fn change(&mut self, change: impl Fn(&mut [Expansion<K>])) {
+    pub(in crate::geometry) fn change(&mut self, change: impl Fn(&mut [Expansion<K>])) {
         self.axes.iter_mut().flatten().for_each(|axis| change(axis));
     }
 
     /// Make vertices whose coordinates are lists made of the present ones.
-    pub(super) fn map(&self, make: impl Fn(&[Expansion<K>]) -> Vec<Expansion<K>>) -> Self {
+    pub(in crate::geometry) fn map(
+        &self,
+        make: impl Fn(&[Expansion<K>]) -> Vec<Expansion<K>>,
+    ) -> Self {
         let axes = self.axes.each_ref();
         Self {
             axes: axes.map(|axis| axis.as_ref().map(|axis| make(axis))),
@@ -67,7 +70,7 @@ impl<const K: usize> ExactVertices<K> {
     }
 
     /// Find the largest weight; 1 for a polynomial curve.
-    pub(super) fn largest_weight(&self) -> f64 {
+    pub(in crate::geometry) fn largest_weight(&self) -> f64 {
         let Some(weights) = &self.axes[3] else {
             return 1.0;
         };
@@ -77,7 +80,7 @@ impl<const K: usize> ExactVertices<K> {
     }
 
     /// Round a vertex to doubles: the point and its weight.
-    pub(super) fn rounded(&self, index: usize) -> (DVec3, f64) {
+    pub(in crate::geometry) fn rounded(&self, index: usize) -> (DVec3, f64) {
         let coordinate = |axis: usize| self.axes[axis].as_ref().map(|axis| axis[index]);
         let weight = coordinate(3);
         let point = [0, 1, 2].map(|axis| match (coordinate(axis), weight) {
@@ -89,7 +92,7 @@ impl<const K: usize> ExactVertices<K> {
     }
 
     /// Round all vertices to doubles: points and, of a rational curve, weights.
-    pub(super) fn all_rounded(&self) -> (Vec<DVec3>, Option<Vec<f64>>) {
+    pub(in crate::geometry) fn all_rounded(&self) -> (Vec<DVec3>, Option<Vec<f64>>) {
         let all = (0..self.len()).map(|index| self.rounded(index));
         let (points, weights): (Vec<DVec3>, Vec<f64>) = all.unzip();
         (points, self.is_rational().then_some(weights))
@@ -97,7 +100,7 @@ impl<const K: usize> ExactVertices<K> {
 }
 
 /// Bound what computing a weight of numbers whose magnitudes sum up to `total` loses.
-pub(super) fn weight_loss(total: f64) -> f64 {
+pub(in crate::geometry) fn weight_loss(total: f64) -> f64 {
     total * LOST
 }
 
@@ -105,7 +108,7 @@ pub(super) fn weight_loss(total: f64) -> f64 {
 ///
 /// # Errors
 /// [`PolygonError::WeightLost`].
-pub(super) fn check_weight(
+pub(in crate::geometry) fn check_weight(
     to: PolygonKind,
     index: usize,
     weight: f64,
@@ -121,7 +124,7 @@ pub(super) fn check_weight(
 
 /// Name the vertex that a converted polygon cannot hold, in place of the constructor's complaint
 /// about a number that the user never gave.
-pub(super) fn converted_error(to: PolygonKind, error: PolygonError) -> PolygonError {
+pub(in crate::geometry) fn converted_error(to: PolygonKind, error: PolygonError) -> PolygonError {
     match error {
         PolygonError::BadCoordinate { index, .. } | PolygonError::BadWeight { index, .. } => {
             PolygonError::Overflow { to, index }

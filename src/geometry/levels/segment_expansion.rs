@@ -2,9 +2,9 @@
 
 use glam::DVec4;
 
-use super::basis::uniform_basis_step;
-use super::error::MAX_DEGREE;
-use super::float_polygon::FloatPolygon;
+use crate::geometry::basis::uniform_basis_step;
+use crate::geometry::error::MAX_DEGREE;
+use crate::geometry::float_polygon::FloatPolygon;
 
 /// Hold one segment of a curve by its Taylor polynomial about the middle of the segment, t = ½.
 ///
@@ -67,7 +67,7 @@ impl SegmentExpansion {
     /// are the k-th derivatives over k!. They fit the derivatives; the point itself counts from
     /// a vertex of the segment if the curve is rational.
     #[inline(always)]
-    pub(super) fn about<const LENGTH: usize>(&self, t: f64) -> [DVec4; LENGTH] {
+    pub(in crate::geometry) fn about<const LENGTH: usize>(&self, t: f64) -> [DVec4; LENGTH] {
         let step = t - 0.5;
         let mut shifted = self.coefficients;
         let shifted = &mut shifted[..=self.degree];

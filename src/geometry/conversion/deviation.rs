@@ -6,12 +6,12 @@
 
 use glam::{DVec3, DVec4};
 
-use super::bezier_polygon::{BezierPolygon, segment_bezier};
-use super::clamped_polygon::ClampedPolygon;
-use super::error::PolygonError;
 use super::exact_polygon::ExactPolygon;
-use super::float_polygon::FloatPolygon;
-use super::vector;
+use crate::geometry::bezier_polygon::{BezierPolygon, segment_bezier};
+use crate::geometry::clamped_polygon::ClampedPolygon;
+use crate::geometry::error::PolygonError;
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::vector;
 
 /// How far, relatively, a bound may lie above what is attained.
 const GAP: f64 = 1e-3;
@@ -81,7 +81,12 @@ impl ClampedPolygon {
 
 /// Bound the distance between a curve from u = `start` on, u growing by `step` a segment of
 /// `part`, and that polygon's whole curve.
-pub(super) fn from_part(curve: &FloatPolygon, start: f64, step: f64, part: &FloatPolygon) -> f64 {
+pub(in crate::geometry) fn from_part(
+    curve: &FloatPolygon,
+    start: f64,
+    step: f64,
+    part: &FloatPolygon,
+) -> f64 {
     let pieces = (0..part.segments()).flat_map(|segment| {
         let polygon = segment_bezier(part, segment);
         let from = start + step * segment as f64;
@@ -100,7 +105,7 @@ pub(super) fn from_part(curve: &FloatPolygon, start: f64, step: f64, part: &Floa
 }
 
 /// Bound the distance between two chains of as many Bézier polygons.
-pub(super) fn between_chains(a: &BezierPolygon, b: &BezierPolygon) -> f64 {
+pub(in crate::geometry) fn between_chains(a: &BezierPolygon, b: &BezierPolygon) -> f64 {
     let pairs = pieces(a).zip(pieces(b));
     let allowance = ROUNDINGS * largest(a.vertices()).max(largest(b.vertices()));
     largest_norm(pairs.map(|(a, b)| difference(&a, &b)), allowance) + allowance

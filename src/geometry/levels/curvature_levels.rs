@@ -7,9 +7,9 @@
 
 use glam::DVec4;
 
-use super::float_polygon::FloatPolygon;
 use super::segment_expansion::SegmentExpansion;
 use super::taylor_series::TaylorSeries;
+use crate::geometry::float_polygon::FloatPolygon;
 
 /// The number of levels.
 pub const LEVELS: usize = 4;

@@ -2,10 +2,10 @@
 
 use glam::DVec4;
 
-use super::error::PolygonError;
 use super::exact_vertices::{check_weight, converted_error};
-use super::float_polygon::FloatPolygon;
-use super::polygon_kind::PolygonKind;
+use crate::geometry::error::PolygonError;
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::polygon_kind::PolygonKind;
 
 impl FloatPolygon {
     /// List the homogeneous vertices (w·x, w·y, w·z, w), the products rounded; w is 1 for a

@@ -10,7 +10,7 @@ use std::ops::{Add, Mul, Sub};
 /// Sums and products are those of the truncated series, so all coefficients of a result are
 /// exact up to rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct TaylorSeries<const LENGTH: usize>(pub [f64; LENGTH]);
+pub(in crate::geometry) struct TaylorSeries<const LENGTH: usize>(pub [f64; LENGTH]);
 
 impl<const LENGTH: usize> TaylorSeries<LENGTH> {
     /// The series of the constant 0.

@@ -7,7 +7,7 @@ use super::expansion::Expansion;
 
 /// Hold the vertices near the ends, the only ones that differ between the float and the clamped
 /// polygon of a curve: the first and the last n − 1.
-pub(super) struct ConvertedEnds<const K: usize> {
+pub(in crate::geometry) struct ConvertedEnds<const K: usize> {
     degree: usize,
     /// The number of vertices of the whole polygon.
     count: usize,
@@ -20,7 +20,7 @@ pub(super) struct ConvertedEnds<const K: usize> {
 
 impl<const K: usize> ConvertedEnds<K> {
     /// Convert the ends of a polygon of degree n; `convert` works on the n and n vertices.
-    pub(super) fn new(
+    pub(in crate::geometry) fn new(
         degree: usize,
         points: &[DVec3],
         weights: Option<&[f64]>,
@@ -46,7 +46,7 @@ impl<const K: usize> ConvertedEnds<K> {
     }
 
     /// List the converted vertices, rounded: their numbers in the whole polygon, points, weights.
-    pub(super) fn rounded(&self) -> impl Iterator<Item = (usize, DVec3, f64)> + '_ {
+    pub(in crate::geometry) fn rounded(&self) -> impl Iterator<Item = (usize, DVec3, f64)> + '_ {
         let kept = self.vertices.len();
         let changed = self.degree - 1;
         let ends = (0..kept).filter(move |index| *index < changed || index + changed >= kept);
@@ -57,7 +57,7 @@ impl<const K: usize> ConvertedEnds<K> {
     }
 
     /// The largest weight that entered the conversion.
-    pub(super) fn largest_weight(&self) -> f64 {
+    pub(in crate::geometry) fn largest_weight(&self) -> f64 {
         self.largest_weight
     }
 }

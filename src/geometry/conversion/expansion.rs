@@ -21,14 +21,14 @@ const MOST_TERMS: usize = 12;
 
 /// Hold a number as the sum of K doubles, the largest first. K is 2 or 3.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Expansion<const K: usize>([f64; K]);
+pub(in crate::geometry) struct Expansion<const K: usize>([f64; K]);
 
 impl<const K: usize> Expansion<K> {
     /// The number 0.
-    pub(super) const ZERO: Self = Self([0.0; K]);
+    pub(in crate::geometry) const ZERO: Self = Self([0.0; K]);
 
     /// Multiply two doubles without error, unless the product leaves the range of numbers.
-    pub(super) fn product(a: f64, b: f64) -> Self {
+    pub(in crate::geometry) fn product(a: f64, b: f64) -> Self {
         let mut parts = [0.0; K];
         (parts[0], parts[1]) = two_product(a, b);
         Self(parts)
@@ -36,7 +36,7 @@ impl<const K: usize> Expansion<K> {
 
     /// Add a product of two numbers.
     #[inline(always)]
-    pub(super) fn plus_product(self, a: Self, b: Self) -> Self {
+    pub(in crate::geometry) fn plus_product(self, a: Self, b: Self) -> Self {
         let mut terms = [0.0; MOST_TERMS];
         let mut count = 0;
         for order in 0..K {
@@ -58,7 +58,7 @@ impl<const K: usize> Expansion<K> {
     }
 
     /// Round to the nearest double.
-    pub(super) fn value(self) -> f64 {
+    pub(in crate::geometry) fn value(self) -> f64 {
         self.0.iter().rev().fold(0.0, |sum, part| part + sum)
     }
 

@@ -1,12 +1,12 @@
 //! Raising and lowering the degree.
 
 use super::approximation::Approximation;
-use super::bezier_polygon::BezierPolygon;
 use super::deviation::between_chains;
-use super::error::PolygonError;
 use super::exact_polygon::ExactPolygon;
-use super::float_polygon::{FloatPolygon, check_degree};
 use super::quasi_interpolation::{NewKnots, quasi_interpolated};
+use crate::geometry::bezier_polygon::BezierPolygon;
+use crate::geometry::error::PolygonError;
+use crate::geometry::float_polygon::{FloatPolygon, check_degree};
 
 impl FloatPolygon {
     /// Raise or lower the degree, keeping the segments and their parameters.

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::clamped_polygon::ClampedPolygon;
-use super::error::PolygonError;
-use super::float_polygon::FloatPolygon;
+use crate::geometry::clamped_polygon::ClampedPolygon;
+use crate::geometry::error::PolygonError;
+use crate::geometry::float_polygon::FloatPolygon;
 
 impl FloatPolygon {
     /// Move one vertex of the curve's clamped polygon to a place and return the float polygon of

@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use super::clamped_polygon::ClampedPolygon;
-use super::error::PolygonError;
-use super::float_polygon::FloatPolygon;
-use super::vector;
+use crate::geometry::clamped_polygon::ClampedPolygon;
+use crate::geometry::error::PolygonError;
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::vector;
 
 /// Hold a polygon with rounded coordinates, and what rounding did.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,14 +2,14 @@
 
 use glam::DVec3;
 
-use super::bezier_polygon::BezierPolygon;
-use super::clamped_polygon::ClampedPolygon;
-use super::error::PolygonError;
 use super::exact_polygon::ExactPolygon;
 use super::exact_vertices::converted_error;
-use super::float_polygon::FloatPolygon;
-use super::polygon_kind::PolygonKind;
-use super::vector;
+use crate::geometry::bezier_polygon::BezierPolygon;
+use crate::geometry::clamped_polygon::ClampedPolygon;
+use crate::geometry::error::PolygonError;
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::polygon_kind::PolygonKind;
+use crate::geometry::vector;
 
 /// How far, in units of the curve's size, polygons read from a file may lie from a curve of
 /// smoothness n − 1: what single-precision writers leave is refused, decimal rounding to ten
@@ -82,7 +82,7 @@ fn periodic(degree: usize, exact: &ExactPolygon) -> Result<FloatPolygon, Polygon
 
 /// How far a smooth curve's vertices may be off, in units of its size, if the way to the float
 /// polygon and back amplifies by `norm`.
-pub(super) fn smoothness_tolerance(norm: f64) -> f64 {
+pub(in crate::geometry) fn smoothness_tolerance(norm: f64) -> f64 {
     (2.0 * f64::EPSILON * norm).clamp(SMOOTHNESS_TOLERANCE, WORST_TOLERANCE)
 }
 
@@ -91,7 +91,7 @@ type Vertices<'a> = (&'a [DVec3], Option<&'a [f64]>);
 
 /// Find the vertex that lies farthest beyond its tolerance, a number in units of the largest
 /// coordinate, and its distance; `None` if all lie within. Weights differ by their quotient.
-pub(super) fn worst_difference(
+pub(in crate::geometry) fn worst_difference(
     given: Vertices,
     exact: Vertices,
     tolerance: impl Fn(usize) -> f64,

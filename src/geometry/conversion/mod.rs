@@ -1,0 +1,28 @@
+//! From one polygon of a curve to another, exactly or with a bound of the error: conversions between
+//! knots, degrees, subdivision, parts, extension, rounding.
+
+pub(in crate::geometry) mod amplification;
+pub(in crate::geometry) mod approximation;
+pub(in crate::geometry) mod bezier_matrix;
+pub(in crate::geometry) mod clamped_editing;
+pub(in crate::geometry) mod closing;
+pub(in crate::geometry) mod degree_change;
+pub(in crate::geometry) mod deviation;
+pub(in crate::geometry) mod end_conversion;
+pub(in crate::geometry) mod exact_polygon;
+pub(in crate::geometry) mod exact_vertices;
+pub(in crate::geometry) mod expansion;
+pub(in crate::geometry) mod extension;
+pub(in crate::geometry) mod homogeneous;
+pub(in crate::geometry) mod knots;
+pub(in crate::geometry) mod quasi_interpolation;
+pub(in crate::geometry) mod rounding;
+pub(in crate::geometry) mod splitting;
+pub(in crate::geometry) mod subdivision;
+
+pub use amplification::Amplification;
+pub use approximation::Approximation;
+pub use exact_polygon::ExactPolygon;
+pub use extension::MAX_ADDED_SEGMENTS;
+pub use rounding::Rounded;
+pub use splitting::MAX_SUBDIVISIONS;
