@@ -3,6 +3,8 @@
 mod drawn;
 mod evolute;
 
+pub(super) use drawn::{Drawn, Kept};
+
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -60,8 +62,13 @@ pub(super) struct Block {
 }
 
 impl Block {
-    pub(super) fn pieces(&mut self, trend: PieceTrend) -> &mut Outline {
-        &mut self.pieces[trend as usize]
+    fn outline(&mut self, kept: Kept) -> &mut Outline {
+        match kept {
+            Kept::Curve => &mut self.curve,
+            Kept::Evolute => &mut self.evolute,
+            Kept::Comb => &mut self.comb,
+            Kept::Pieces(trend) => &mut self.pieces[trend as usize],
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::curve_analysis::CurveAnalysis;
+use super::curve_analysis::{CurveAnalysis, Drawn, Kept};
 use super::outline::{GAP, ViewBox};
 use super::sample::Sample;
 use crate::geometry::FloatPolygon;
@@ -96,32 +96,35 @@ impl CurveAnalysis {
         self.prove();
         let segments = std::mem::take(&mut self.curve_features().segments);
         let (curve, eye) = (self.curve().clone(), self.orientation());
-        let points = |segment: usize, samples: &[Sample], out: &mut Vec<DVec2>| {
-            let Some(features) = segments.get(segment) else {
-                return;
-            };
-            let at = |t: f64| eye.flatten(curve.polygon.segment_jet(segment, t).point);
-            let steps = samples.len().saturating_sub(1).max(1) as f64;
-            let mut start = 0.0;
-            for piece in &features.curvature_slope {
-                let end = piece.until;
-                if trend.is_of(piece) {
-                    // A piece that begins a segment goes on from the one before.
-                    if start > 0.0 {
+        let points =
+            |segment: usize, samples: &[Sample], _: Option<&ViewBox>, out: &mut Vec<DVec2>| {
+                let Some(features) = segments.get(segment) else {
+                    return;
+                };
+                let at = |t: f64| eye.flatten(curve.polygon.segment_jet(segment, t).point);
+                let steps = samples.len().saturating_sub(1).max(1) as f64;
+                let mut start = 0.0;
+                for piece in &features.curvature_slope {
+                    let end = piece.until;
+                    if trend.is_of(piece) {
+                        out.push(at(start));
+                        let inner = ((start * steps) as usize + 1)..samples.len();
+                        let inner = inner.take_while(|index| (*index as f64) < end * steps);
+                        out.extend(inner.map(|index| eye.flatten(samples[index].point)));
+                        out.push(at(end));
+                    } else {
                         out.push(GAP);
                     }
-                    out.push(at(start));
-                    let inner = ((start * steps) as usize + 1)..samples.len();
-                    let inner = inner.take_while(|index| (*index as f64) < end * steps);
-                    out.extend(inner.map(|index| eye.flatten(samples[index].point)));
-                    out.push(at(end));
-                } else if start == 0.0 {
-                    out.push(GAP);
+                    start = end;
                 }
-                start = end;
-            }
+            };
+        let layer = Drawn {
+            shape: 0,
+            outline: Kept::Pieces(trend),
+            place: |sample: &Sample| eye.flatten(sample.point),
+            points,
         };
-        self.append(view, out, 0, |block| block.pieces(trend), points);
+        self.append(view, out, layer);
         self.curve_features().segments = segments;
     }
 

@@ -159,7 +159,8 @@ pub(super) fn thin(
     for point in source {
         if point.is_nan() {
             out.extend(skipped.take());
-            if !kept.is_nan() {
+            // A gap at the very beginning counts: what came before must not be joined.
+            if out.last().is_none_or(|last| !last.is_nan()) {
                 out.push(GAP);
             }
             kept = GAP;
@@ -203,6 +204,7 @@ mod tests {
             0.5,
             &[at(0.0), at(0.1), GAP, at(0.2), at(0.9)],
         );
-        check_thin(&[GAP], 0.5, &[]);
+        check_thin(&[GAP, GAP], 0.5, &[GAP]);
+        check_thin(&[GAP, at(0.0)], 0.5, &[GAP, at(0.0)]);
     }
 }

@@ -10,7 +10,6 @@ use super::end_fit;
 use super::feature_report::append_marks;
 use super::hit::REACH;
 use super::layers::Layer;
-use super::reshaping::clamped_amplification;
 use super::scene::{CurveScene, HoverScene, Scene, VertexMark};
 use super::tools::ToolKind;
 use crate::analysis::{CurveAnalysis, GAP, Orientation, PieceTrend, ViewBox};
@@ -299,8 +298,9 @@ impl Editor {
         if !analysis.is_planar() {
             text += &format!("\nz {}", figure(vertex.z));
         }
-        if let Some(amplification) = clamped_amplification(&analysis.curve().polygon) {
-            text += &format!("\nfloat × {}", figure(amplification.largest));
+        let polygon = &analysis.curve().polygon;
+        if let Some(times) = polygon.clamped_vertex_amplification(index) {
+            text += &format!("\nfloat × {}", figure(times));
         }
         Some(HoverScene::Handle {
             at: self.viewport.flatten(vertex),

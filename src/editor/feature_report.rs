@@ -75,6 +75,10 @@ impl FeatureRow {
 pub struct FeatureReport {
     /// Whether the curvature is proved to be monotone.
     pub monotone: Verdict,
+    /// Whether there are pieces on which curvature extrema could not be counted.
+    pub has_doubts: bool,
+    /// Whether the curve is of degree 1: its corners have no curvature.
+    pub polyline: bool,
     /// The features in the order of u.
     pub rows: Vec<FeatureRow>,
 }
@@ -135,7 +139,7 @@ impl FeatureReport {
             kind: FeatureKind::Cusp,
             u: cusp.u,
             value: None,
-            remark: if cusp.proved { "" } else { "possible" },
+            remark: if cusp.proved { "" } else { "cusp?" },
         }));
         rows.extend(features.undecided.iter().map(|doubt| FeatureRow {
             kind: FeatureKind::Undecided,
@@ -143,14 +147,19 @@ impl FeatureReport {
             value: None,
             remark: match doubt.quantity {
                 Quantity::Inflection => "inflections?",
-                Quantity::CurvatureExtremum => "curvature extrema?",
-                Quantity::TorsionZero => "torsion zeros?",
-                Quantity::TorsionExtremum => "torsion extrema?",
+                Quantity::CurvatureExtremum => "κ extrema?",
+                Quantity::TorsionZero => "τ zeros?",
+                Quantity::TorsionExtremum => "τ extrema?",
             },
         }));
         rows.sort_by(|a, b| a.u[0].total_cmp(&b.u[0]));
         Self {
             monotone: features.monotone,
+            has_doubts: features
+                .undecided
+                .iter()
+                .any(|doubt| doubt.quantity == Quantity::CurvatureExtremum),
+            polyline: false,
             rows,
         }
     }
@@ -172,7 +181,11 @@ impl Editor {
     pub fn features(&mut self) -> Option<FeatureReport> {
         self.analyses.update(self.history.document());
         let analysis = self.analyses.get(self.selection.active()?)?;
-        Some(FeatureReport::of(analysis.features()))
+        let polyline = analysis.curve().polygon.degree() == 1;
+        Some(FeatureReport {
+            polyline,
+            ..FeatureReport::of(analysis.features())
+        })
     }
 
     /// Show the surroundings of a parameter of the active curve, and the layer of its features.

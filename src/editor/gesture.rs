@@ -79,6 +79,11 @@ impl GestureMachine {
         self.state == State::Dragging
     }
 
+    /// Whether the primary button is held: a drag goes on, or may begin.
+    pub fn is_holding(&self) -> bool {
+        matches!(self.state, State::Pressed { .. } | State::Dragging)
+    }
+
     /// Whether the view is being pushed, or would be by a press.
     pub fn is_panning(&self) -> bool {
         self.space || matches!(self.state, State::Panning { .. })

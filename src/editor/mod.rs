@@ -281,6 +281,11 @@ impl Editor {
         self.gestures.is_dragging()
     }
 
+    /// Whether the primary button is held on the canvas: a drag goes on, or may begin.
+    pub fn is_holding(&self) -> bool {
+        self.gestures.is_holding()
+    }
+
     /// Make edits as one step. An error becomes the message, and nothing is changed.
     pub fn apply(&mut self, label: &str, edits: Vec<Edit>) {
         self.commit_field();

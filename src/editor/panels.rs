@@ -143,18 +143,34 @@ impl Editor {
     }
 }
 
-/// The slope of the straight line nearest to some points, measured upwards (least squares);
-/// `None` if they lie over one place.
-fn straight_slope(points: &[DVec2]) -> Option<f64> {
-    let finite = || points.iter().filter(|point| point.is_finite());
-    let count = finite().count() as f64;
-    let mean = finite().sum::<DVec2>() / count;
-    let (across, along) = finite().fold((0.0, 0.0), |(across, along), point| {
+/// The share of a graph's points, at either end in either direction, that run off to infinity
+/// and are left out when a straight line is put through it.
+const RUNS_OFF: f64 = 0.1;
+
+/// The slope of the straight line nearest to the middle of a graph, measured upwards (least
+/// squares), and how well it fits: r², 1 for a straight graph. `None` if it lies over one place.
+fn straight_slope(points: &[DVec2]) -> Option<(f64, f64)> {
+    let finite: Vec<DVec2> = points
+        .iter()
+        .copied()
+        .filter(|point| point.is_finite())
+        .collect();
+    let inner = |value: fn(&DVec2) -> f64| {
+        let mut values: Vec<f64> = finite.iter().map(value).collect();
+        values.sort_by(f64::total_cmp);
+        let beyond = (RUNS_OFF * values.len() as f64) as usize;
+        Some(*values.get(beyond)?..=*values.iter().nth_back(beyond)?)
+    };
+    let (across, along) = (inner(|point| point.x)?, inner(|point| point.y)?);
+    let is_inner = |point: &&DVec2| across.contains(&point.x) && along.contains(&point.y);
+    let inner = || finite.iter().filter(is_inner);
+    let mean = inner().sum::<DVec2>() / inner().count() as f64;
+    let (xx, xy, yy) = inner().fold((0.0, 0.0, 0.0), |(xx, xy, yy), point| {
         let arm = *point - mean;
-        (across + arm.x * arm.x, along + arm.x * arm.y)
+        (xx + arm.x * arm.x, xy + arm.x * arm.y, yy + arm.y * arm.y)
     });
-    let slope = along / across;
-    slope.is_finite().then_some(slope)
+    let (slope, fit) = (xy / xx, xy * xy / (xx * yy));
+    (slope.is_finite() && fit.is_finite()).then_some((slope, fit))
 }
 
 /// The curvature at a parameter: signed for a planar curve, not negative in space.

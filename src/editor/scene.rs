@@ -142,8 +142,8 @@ pub struct PlotScene {
     pub levels: Vec<DVec2>,
     /// The place on it of what is hovered on the canvas.
     pub hovered_level: Option<DVec2>,
-    /// The slope of the straight line through the logarithmic graph.
-    pub slope: Option<f64>,
+    /// The slope of the straight line through the logarithmic graph, and how well it fits: r².
+    pub slope: Option<(f64, f64)>,
     /// Leg lengths over the number of the vertex where each begins.
     pub legs: Vec<DVec2>,
     /// Turning angles in degrees over the vertices' numbers.

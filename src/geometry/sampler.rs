@@ -41,9 +41,6 @@ pub struct Batch {
     flat: bool,
     /// The highest derivative that is not 0 throughout.
     order: usize,
-    /// The differences of the segment's vertices, coordinate by coordinate: kept here because
-    /// clearing room for them for every segment would take as long as evaluating it.
-    differences: [[f64; MAX_DEGREE + 1]; 4],
 }
 
 impl Batch {
@@ -226,72 +223,46 @@ impl Sampler {
         if self.count == 0 {
             return;
         }
-        let flat = POINTS[self.degree](&self.tables[0], vertices, &mut batch.values);
+        // Without derivatives to think of, the compiler makes a better loop of the points.
+        let functions = if order == 0 { &POINTS } else { &VERTICES };
+        let evaluate = functions[self.degree - 1];
+        let flat = evaluate(&self.tables, vertices, order, &mut batch.values);
         if flat != batch.flat || order != batch.order {
             batch.clear_skipped(order, flat);
-        }
-        if order == 0 {
-            return;
-        }
-        let axes = if flat { 2 } else { 3 };
-        let [x, y, z, _] = &mut batch.differences;
-        for (j, leg) in vertices.windows(2).enumerate() {
-            let difference = leg[1] - leg[0];
-            (x[j], y[j], z[j]) = (difference.x, difference.y, difference.z);
-        }
-        for axis in 0..axes {
-            self.derivatives(axis, order, batch);
         }
     }
 
     /// Evaluate the weight as a fourth coordinate.
     fn weights(&self, polygon: &FloatPolygon, segment: usize, order: usize, batch: &mut Batch) {
-        let weights = &mut batch.differences[3];
+        let mut weights = [0.0; MAX_DEGREE + 1];
         for (weight, index) in weights[..=self.degree].iter_mut().zip(segment..) {
             *weight = polygon.weight(index);
         }
-        let out = &mut batch.values[3 * batch.stride..4 * batch.stride];
-        SUMS[self.degree](&self.tables[0], weights, out);
-        for j in 0..self.degree {
-            weights[j] = weights[j + 1] - weights[j];
-        }
-        self.derivatives(3, order, batch);
-    }
-
-    /// Evaluate the derivatives of one coordinate from the first differences of its vertices,
-    /// which higher differences replace.
-    fn derivatives(&self, axis: usize, order: usize, batch: &mut Batch) {
-        let differences = &mut batch.differences[axis];
-        for derivative in 1..=order {
-            let first = (derivative * 4 + axis) * batch.stride;
-            let out = &mut batch.values[first..first + batch.stride];
-            let Some(table) = self.tables.get(derivative) else {
-                out.fill(0.0);
-                continue;
-            };
-            let last = self.degree - derivative;
-            SUMS[last](table, differences, out);
-            for j in 0..last {
-                differences[j] = differences[j + 1] - differences[j];
-            }
-        }
+        let evaluate = NUMBERS[self.degree - 1];
+        evaluate(
+            &self.tables,
+            &weights,
+            order,
+            &mut batch.values[3 * batch.stride..],
+        );
     }
 }
 
-/// Adds up the coordinates of vertices times basis functions at all parameters of a table.
-type Sum = fn(&[[f64; LANES]], &[f64], &mut [f64]);
+/// The basis functions of each derivative, for every pass.
+type Tables = [Vec<[f64; LANES]>];
 
-/// Adds up the vertices themselves, into one row a coordinate. Returns whether z is 0 throughout,
-/// in which case its row is left as it is.
-type PointSum = fn(&[[f64; LANES]], &[DVec3], &mut [f64]) -> bool;
+/// Evaluates one coordinate and its derivatives, given by a number a vertex, into rows that are
+/// four rows apart.
+type OfNumbers = fn(&Tables, &[f64], usize, &mut [f64]);
+
+/// Evaluates x, y and z with their derivatives. Returns whether z is 0 throughout, in which case
+/// its rows are left as they are.
+type OfVertices = fn(&Tables, &[DVec3], usize, &mut [f64]) -> bool;
 
 /// The sum of `SIZE` products. With their number known to the compiler the sums of all lanes stay
 /// in registers, which is worth a factor of two.
 #[inline(always)]
-fn sum<const SIZE: usize>(table: &[[f64; LANES]], values: &[f64], out: &mut [f64]) {
-    let Some(values) = values.first_chunk::<SIZE>() else {
-        return;
-    };
+fn sum<const SIZE: usize>(table: &[[f64; LANES]], values: &[f64; SIZE], out: &mut [f64]) {
     let passes = table.as_chunks::<SIZE>().0;
     for (rows, out) in passes.iter().zip(out.as_chunks_mut::<LANES>().0) {
         let mut sums = [0.0; LANES];
@@ -304,44 +275,149 @@ fn sum<const SIZE: usize>(table: &[[f64; LANES]], values: &[f64], out: &mut [f64
     }
 }
 
-/// The sums of `SIZE` vertices, coordinate by coordinate.
-fn point_sum<const SIZE: usize>(
-    table: &[[f64; LANES]],
+/// The differences of neighbours.
+#[inline(always)]
+fn differences<const SIZE: usize, const LESS: usize>(values: &[f64; SIZE]) -> [f64; LESS] {
+    std::array::from_fn(|j| {
+        if j + 1 < SIZE {
+            values[j + 1] - values[j]
+        } else {
+            0.0
+        }
+    })
+}
+
+/// Evaluate one coordinate: `S0` … `S3` are the numbers of basis functions of the derivatives.
+#[inline(always)]
+fn rows<const S0: usize, const S1: usize, const S2: usize, const S3: usize>(
+    tables: &Tables,
+    values: &[f64; S0],
+    order: usize,
+    out: &mut [f64],
+) {
+    let Some(points) = tables.first() else {
+        return;
+    };
+    let stride = points.len() / S0 * LANES;
+    sum(points, values, out);
+    if order == 0 {
+        return;
+    }
+    let row = |order: usize| 4 * order * stride..(4 * order + 1) * stride;
+    let first: [f64; S1] = differences(values);
+    derivative(tables.get(1), &first, &mut out[row(1)]);
+    if order == 1 {
+        return;
+    }
+    let second: [f64; S2] = differences(&first);
+    derivative(tables.get(2), &second, &mut out[row(2)]);
+    if order == 2 {
+        return;
+    }
+    let third: [f64; S3] = differences(&second);
+    derivative(tables.get(3), &third, &mut out[row(3)]);
+}
+
+/// Evaluate one derivative. Of those above the degree there is no table: they are 0.
+#[inline(always)]
+fn derivative<const SIZE: usize>(
+    table: Option<&Vec<[f64; LANES]>>,
+    values: &[f64; SIZE],
+    out: &mut [f64],
+) {
+    match table {
+        Some(table) => sum(table, values, out),
+        None => out.fill(0.0),
+    }
+}
+
+fn of_numbers<const S0: usize, const S1: usize, const S2: usize, const S3: usize>(
+    tables: &Tables,
+    values: &[f64],
+    order: usize,
+    out: &mut [f64],
+) {
+    if let Some(values) = values.first_chunk::<S0>() {
+        rows::<S0, S1, S2, S3>(tables, values, order, out);
+    }
+}
+
+fn of_vertices<const S0: usize, const S1: usize, const S2: usize, const S3: usize>(
+    tables: &Tables,
     vertices: &[DVec3],
+    order: usize,
     out: &mut [f64],
 ) -> bool {
-    let Some(vertices) = vertices.first_chunk::<SIZE>() else {
+    let (Some(vertices), Some(points)) = (vertices.first_chunk::<S0>(), tables.first()) else {
         return true;
     };
-    let stride = table.len() / SIZE * LANES;
-    let (x, rest) = out.split_at_mut(stride);
-    let (y, rest) = rest.split_at_mut(stride);
-    sum::<SIZE>(table, &vertices.map(|vertex| vertex.x), x);
-    sum::<SIZE>(table, &vertices.map(|vertex| vertex.y), y);
+    let stride = points.len() / S0 * LANES;
+    rows::<S0, S1, S2, S3>(tables, &vertices.map(|vertex| vertex.x), order, out);
+    let y = vertices.map(|vertex| vertex.y);
+    rows::<S0, S1, S2, S3>(tables, &y, order, &mut out[stride..]);
     let z = vertices.map(|vertex| vertex.z);
     let flat = z.iter().fold(true, |flat, z| flat & (*z == 0.0));
     if !flat {
-        sum::<SIZE>(table, &z, &mut rest[..stride]);
+        rows::<S0, S1, S2, S3>(tables, &z, order, &mut out[2 * stride..]);
     }
     flat
 }
 
-/// List a function for 1, 2, … 26 basis functions.
-macro_rules! for_every_size {
-    ($function:ident) => {
-        for_every_size!($function: 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24
-            25 26)
+fn points_alone<const S0: usize, const S1: usize, const S2: usize, const S3: usize>(
+    tables: &Tables,
+    vertices: &[DVec3],
+    _: usize,
+    out: &mut [f64],
+) -> bool {
+    let (Some(vertices), Some(points)) = (vertices.first_chunk::<S0>(), tables.first()) else {
+        return true;
     };
-    ($function:ident: $($size:literal)+) => {
-        [$($function::<$size>),+]
+    let stride = points.len() / S0 * LANES;
+    let (x, rest) = out.split_at_mut(stride);
+    let (y, rest) = rest.split_at_mut(stride);
+    sum(points, &vertices.map(|vertex| vertex.x), x);
+    sum(points, &vertices.map(|vertex| vertex.y), y);
+    let z = vertices.map(|vertex| vertex.z);
+    let flat = z.iter().fold(true, |flat, z| flat & (*z == 0.0));
+    if !flat {
+        sum(points, &z, &mut rest[..stride]);
+    }
+    flat
+}
+
+/// The number of basis functions of a derivative, at least 1.
+const fn size(degree: usize, derivative: usize) -> usize {
+    if degree > derivative {
+        degree + 1 - derivative
+    } else {
+        1
+    }
+}
+
+/// List a function for degrees 1, 2, … 25.
+macro_rules! for_every_degree {
+    ($function:ident) => {
+        for_every_degree!($function: 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24
+            25)
+    };
+    ($function:ident: $($degree:literal)+) => {
+        [$($function::<
+            { size($degree, 0) },
+            { size($degree, 1) },
+            { size($degree, 2) },
+            { size($degree, 3) },
+        >),+]
     };
 }
 
-/// The sums by the number of basis functions, less 1.
-static SUMS: [Sum; MAX_DEGREE + 1] = for_every_size!(sum);
+/// The evaluation of a number a vertex, by degree, less 1.
+static NUMBERS: [OfNumbers; MAX_DEGREE] = for_every_degree!(of_numbers);
 
-/// The sums of vertices by degree.
-static POINTS: [PointSum; MAX_DEGREE + 1] = for_every_size!(point_sum);
+/// The evaluation of points alone, by degree, less 1.
+static POINTS: [OfVertices; MAX_DEGREE] = for_every_degree!(points_alone);
+
+/// The evaluation of vertices, by degree, less 1.
+static VERTICES: [OfVertices; MAX_DEGREE] = for_every_degree!(of_vertices);
 
 /// Divide a batch of homogeneous derivatives by the weight (Leibniz' rule) and move the points
 /// by `origin`.

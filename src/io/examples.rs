@@ -40,7 +40,7 @@ pub const EXAMPLES: [Example; 7] = [
     Example {
         name: "s-curve",
         title: "S-curve",
-        description: "A symmetric S of degree 5 with one inflection, its curvature falling through 0 without a ripple.",
+        description: "A symmetric S of degree 5 with one inflection in the middle and a curvature extremum near either end.",
         text: include_str!("../../assets/examples/s-curve.batten"),
     },
     Example {

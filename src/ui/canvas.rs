@@ -211,7 +211,7 @@ impl Canvas {
     /// An axis's key steers a drag while it is held.
     fn hold_axis(&mut self, editor: &mut Editor, axis: usize, pressed: bool) {
         let wanted = match (pressed, self.axis) {
-            (true, _) if editor.is_dragging() => Some(axis),
+            (true, _) if editor.is_holding() => Some(axis),
             (false, Some(held)) if held == axis => None,
             (_, held) => held,
         };

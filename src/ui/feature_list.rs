@@ -11,6 +11,9 @@ use super::{figures, icons, widgets};
 use crate::editor::{Editor, FeatureKind, FeatureReport, FeatureRow};
 use crate::geometry::features::Verdict;
 
+/// An interval wider than this is shown by both of its ends.
+const WIDE: f64 = 1e-4;
+
 /// The most rows that are in sight at once.
 const MOST_ROWS: usize = 7;
 
@@ -57,7 +60,18 @@ fn verdict_ui(ui: &mut Ui, report: &FeatureReport) {
 /// The verdict's icon and words.
 fn verdict(report: &FeatureReport) -> (Icon, String) {
     let extrema = report.count(&[FeatureKind::CurvatureMaximum, FeatureKind::CurvatureMinimum]);
+    if report.polyline {
+        return (
+            Icon::Minus,
+            "A polyline: corners have no curvature".to_owned(),
+        );
+    }
     match report.monotone {
+        Verdict::Disproved if report.has_doubts => {
+            let least = extrema.max(1);
+            let noun = if least == 1 { "extremum" } else { "extrema" };
+            (Icon::Spline, format!("At least {least} curvature {noun}"))
+        }
         Verdict::Proved => (Icon::Check, "Curvature monotone: proved".to_owned()),
         Verdict::Disproved if extrema == 1 => (Icon::Spline, "1 curvature extremum".to_owned()),
         Verdict::Disproved => (Icon::Spline, format!("{extrema} curvature extrema")),
@@ -124,19 +138,29 @@ fn row_ui(ui: &mut Ui, row: &FeatureRow) -> Response {
         "" => short_name(row.kind).to_owned(),
         remark => remark.to_owned(),
     };
+    let [low, high] = row.u;
+    let figure = |u: f64| figures::to_resolution(u, 1e-4);
+    let u = if high - low > WIDE {
+        format!("u {} … {}", figure(low), figure(high))
+    } else {
+        format!("u {}", figure(row.middle()))
+    };
     let mut left = rect.with_min_x(rect.left() + 6.0 * STEP);
-    left.max.x -= 38.0 * STEP;
+    left.max.x -= if high - low > WIDE { 24.0 } else { 36.0 } * STEP;
     widgets::label_in(ui, left, &name, tokens.text);
     let inner = rect.with_max_x(rect.right() - STEP);
-    let place = inner.with_max_x(inner.right() - 19.0 * STEP);
-    let u = format!("u {}", figures::to_resolution(row.middle(), 1e-5));
+    let is_wide = row.value.is_none() && high - low > WIDE;
+    let place = if is_wide {
+        inner
+    } else {
+        inner.with_max_x(inner.right() - 20.0 * STEP)
+    };
     widgets::number_in(ui, place, &u, tokens.text);
     let value = row
         .value
-        .map_or(String::new(), |value| figures::significant(value, 5));
+        .map_or(String::new(), |value| figures::significant(value, 4));
     widgets::number_in(ui, inner, &value, tokens.text);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{name} at {u}")));
-    let [low, high] = row.u;
     let width = figures::significant(high - low, 2);
     response.on_hover_text(format!(
         "{}\nu from {low}\nto {high}\n{width} wide. Click to go there.",

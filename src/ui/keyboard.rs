@@ -101,7 +101,7 @@ pub fn asked(context: &Context, editor: &Editor) -> Vec<Asked> {
         return Vec::new();
     }
     let typing = is_typing(context);
-    let dragging = editor.is_dragging();
+    let holding = editor.is_holding();
     let table: Vec<(Shortcut, Command)> = Command::all(editor.examples())
         .into_iter()
         .filter_map(|command| Some((command.shortcut()?, command)))
@@ -112,7 +112,7 @@ pub fn asked(context: &Context, editor: &Editor) -> Vec<Asked> {
             .events
             .retain(|event| match command_of(event, &table, typing) {
                 // The axes' keys steer a drag.
-                Some(_) if dragging && axis_of(event).is_some() => true,
+                Some(_) if holding && axis_of(event).is_some() => true,
                 Some(found) => {
                     asked.push(found);
                     false

@@ -157,7 +157,7 @@ fn the_arc_is_corrected_at_both_ends_at_once() {
 
 #[test]
 fn coordinates_are_typed_and_dragged_in_the_inspector() {
-    let mut window = open_window();
+    let mut window = open_window_of(1480.0, 1080.0);
     let original = curve(&window);
     click(&mut window, "vertex 3 x");
     type_over(&mut window, "1.25");
@@ -187,7 +187,7 @@ fn coordinates_are_typed_and_dragged_in_the_inspector() {
 
 #[test]
 fn escape_calls_a_dragged_field_off() {
-    let mut window = open_window();
+    let mut window = open_window_of(1480.0, 1080.0);
     let original = curve(&window);
     let field = window.get_by_label("vertex 3 y").rect().center();
     window.hover_at(field);
@@ -313,8 +313,22 @@ fn every_panel_and_dialog_has_names_in_both_themes_and_when_it_is_small() {
             }
             click(&mut window, "Take actual end");
             press(&mut window, Modifiers::NONE, Key::V);
-            click(&mut window, "Legs and turning angles");
-            click(&mut window, "Curvature");
+            for tab in [
+                "Legs and turning angles",
+                "κ level 2",
+                "Log graph",
+                "Curvature",
+            ] {
+                click(&mut window, tab);
+            }
+            click(&mut window, "Verdict");
+            for dialog in ["Split or trim", "Round coordinates"] {
+                press(&mut window, Modifiers::COMMAND, Key::P);
+                window.event(Event::Text(dialog.to_owned()));
+                window.run();
+                press(&mut window, Modifiers::NONE, Key::Enter);
+                click(&mut window, "Cancel");
+            }
             press(&mut window, Modifiers::NONE, Key::F8);
             press(&mut window, Modifiers::NONE, Key::F8);
             press(&mut window, Modifiers::NONE, Key::F1);

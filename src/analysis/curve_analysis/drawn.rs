@@ -3,9 +3,10 @@
 use glam::DVec2;
 
 use super::evolute::Evolute;
-use super::{BLOCK, Block, CurveAnalysis};
+use super::{BLOCK, CurveAnalysis};
 use crate::analysis::comb::CombSettings;
-use crate::analysis::outline::{Bounds, Outline, OutlineKey, ViewBox, append_gap, thin};
+use crate::analysis::curve_features::PieceTrend;
+use crate::analysis::outline::{Bounds, OutlineKey, ViewBox, append_gap, thin};
 use crate::analysis::sample::{Sample, SegmentSampler, chain, finite};
 
 /// A segment is sampled anew when its samples are farther apart than this, in screen points.
@@ -13,7 +14,10 @@ const COARSE: f64 = 8.0;
 
 /// The evolute is followed closely within this distance from the curve, in units of the curve's
 /// extent.
-const REACH: f64 = 4.0;
+const REACH: f64 = 1.5;
+
+/// Chords of the evolute are no longer than this there, in screen points.
+const LONGEST_CHORD: f64 = 24.0;
 
 /// The most samples of a segment that is sampled anew for a close view.
 const FINEST: usize = 256;
@@ -24,10 +28,15 @@ impl CurveAnalysis {
     pub fn append_curve(&mut self, view: &ViewBox, out: &mut Vec<DVec2>) {
         let eye = self.orientation;
         let place = move |sample: &Sample| eye.flatten(sample.point);
-        let points = move |_, samples: &[Sample], out: &mut Vec<DVec2>| {
-            out.extend(chain(samples, place));
+        let layer = Drawn {
+            shape: 0,
+            outline: Kept::Curve,
+            place,
+            points: |_: usize, samples: &[Sample], _: Option<&ViewBox>, out: &mut Vec<DVec2>| {
+                out.extend(chain(samples, place));
+            },
         };
-        self.append(view, out, 0, |block| &mut block.curve, points);
+        self.append(view, out, layer);
     }
 
     /// Append what is visible of the evolute; it breaks where it passes through infinity, and is
@@ -38,23 +47,33 @@ impl CurveAnalysis {
             curve: self.curve.clone(),
             planar: self.planar,
             eye: self.orientation,
-            longest_chord: COARSE * view.pixel,
+            longest_chord: LONGEST_CHORD * view.pixel,
             reach: REACH * (bounds.high - bounds.low).max_element(),
         };
-        let points = |segment, samples: &[Sample], out: &mut Vec<DVec2>| {
-            evolute.append(segment, samples, out);
+        let layer = Drawn {
+            shape: 0,
+            outline: Kept::Evolute,
+            place: |sample: &Sample| evolute.place(sample),
+            points: |segment, samples: &[Sample], near: Option<&ViewBox>, out: &mut Vec<DVec2>| {
+                evolute.append(segment, samples, near, out);
+            },
         };
-        self.append(view, out, 0, |block| &mut block.evolute, points);
+        self.append(view, out, layer);
     }
 
     /// Append what is visible of the comb's envelope.
     pub fn append_comb(&mut self, view: &ViewBox, comb: &CombSettings, out: &mut Vec<DVec2>) {
         let (scale, eye) = (comb.scale, self.orientation);
         let place = move |sample: &Sample| finite(eye.flatten(sample.comb_tip(scale)));
-        let points = move |_, samples: &[Sample], out: &mut Vec<DVec2>| {
-            out.extend(chain(samples, place));
+        let layer = Drawn {
+            shape: scale.to_bits(),
+            outline: Kept::Comb,
+            place,
+            points: |_: usize, samples: &[Sample], _: Option<&ViewBox>, out: &mut Vec<DVec2>| {
+                out.extend(chain(samples, place));
+            },
         };
-        self.append(view, out, scale.to_bits(), |block| &mut block.comb, points);
+        self.append(view, out, layer);
     }
 
     /// Append the comb's visible teeth, each from its foot on the curve to its tip; where they
@@ -78,35 +97,44 @@ impl CurveAnalysis {
         }
     }
 
-    /// Append one layer that is a chain of points, made of the samples segment by segment;
-    /// `shape` is whatever else the points depend on.
-    pub(in crate::analysis) fn append(
+    /// Append what is visible of one layer, made of the samples segment by segment.
+    pub(in crate::analysis) fn append<P, C>(
         &mut self,
         view: &ViewBox,
         out: &mut Vec<DVec2>,
-        shape: u64,
-        layer: impl Fn(&mut Block) -> &mut Outline,
-        points: impl Fn(usize, &[Sample], &mut Vec<DVec2>),
-    ) {
+        layer: Drawn<P, C>,
+    ) where
+        P: Fn(&Sample) -> DVec2,
+        C: Fn(usize, &[Sample], Option<&ViewBox>, &mut Vec<DVec2>),
+    {
         for index in 0..self.blocks.len() {
             let longest = self.summary(index).longest;
             let coarse = longest > COARSE * view.pixel && self.steps < FINEST;
-            let level = (!coarse).then(|| view.level());
+            let key = OutlineKey {
+                level: (!coarse).then(|| view.level()),
+                shape: layer.shape,
+            };
             let range = self.block_segments(index);
             let size = self.steps + 1;
             let samples = &self.samples;
-            let outline = layer(&mut self.blocks[index]);
-            outline.refresh(OutlineKey { level, shape }, || {
+            let outline = self.blocks[index].outline(layer.outline);
+            outline.refresh(key, || {
                 let mut chained = Vec::new();
                 for segment in range {
-                    points(segment, &samples[segment * size..][..size], &mut chained);
+                    let samples = &samples[segment * size..][..size];
+                    if coarse {
+                        // Only the box around these is needed.
+                        chained.extend(samples.iter().map(&layer.place));
+                    } else {
+                        (layer.points)(segment, samples, None, &mut chained);
+                    }
                 }
                 chained.into_iter()
             });
             if !coarse {
                 outline.append(view, out);
             } else if outline.bounds().may_meet(view) {
-                self.append_fine(index, view, out, &points);
+                self.append_fine(index, view, out, &layer.place, &layer.points);
             } else {
                 append_gap(out);
             }
@@ -120,7 +148,8 @@ impl CurveAnalysis {
         index: usize,
         view: &ViewBox,
         out: &mut Vec<DVec2>,
-        points: &impl Fn(usize, &[Sample], &mut Vec<DVec2>),
+        place: &impl Fn(&Sample) -> DVec2,
+        points: &impl Fn(usize, &[Sample], Option<&ViewBox>, &mut Vec<DVec2>),
     ) {
         let needed = self.steps as f64 * self.summary(index).longest / (COARSE * view.pixel);
         let steps = (needed.min(FINEST as f64) as usize).next_power_of_two();
@@ -135,14 +164,12 @@ impl CurveAnalysis {
         let mut chained = Vec::new();
         for segment in index * BLOCK..((index + 1) * BLOCK).min(self.curve.polygon.segments()) {
             let coarse = &self.samples[segment * size..(segment + 1) * size];
-            chained.clear();
-            points(segment, coarse, &mut chained);
             let mut bounds = Bounds::EMPTY;
-            chained.iter().for_each(|point| bounds.add(*point));
+            coarse.iter().for_each(|sample| bounds.add(place(sample)));
             if bounds.may_meet(view) {
                 fine.fill(&self.curve.polygon, segment, self.planar, &mut samples);
                 chained.clear();
-                points(segment, &samples, &mut chained);
+                points(segment, &samples, Some(view), &mut chained);
                 let spacing = 2f64.powi(view.level());
                 thin(chained.iter().copied(), spacing, out, &mut bounds);
             } else {
@@ -150,4 +177,29 @@ impl CurveAnalysis {
             }
         }
     }
+}
+
+/// An outline that a block keeps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::analysis) enum Kept {
+    /// The curve.
+    Curve,
+    /// The evolute.
+    Evolute,
+    /// The comb's envelope.
+    Comb,
+    /// The pieces on which the curvature does one thing.
+    Pieces(PieceTrend),
+}
+
+/// How a layer that is a chain of points is drawn.
+pub(in crate::analysis) struct Drawn<P, C> {
+    /// Whatever else the points depend on.
+    pub shape: u64,
+    /// Where a block keeps them.
+    pub outline: Kept,
+    /// The point of one sample.
+    pub place: P,
+    /// Appends the points of one segment; with a view, only what is near it needs care.
+    pub points: C,
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::analysis::orientation::Orientation;
-use crate::analysis::outline::GAP;
+use crate::analysis::outline::{Bounds, GAP, ViewBox};
 use crate::analysis::sample::{Sample, finite, leaps, turned};
 use crate::document::Curve;
 
@@ -29,11 +29,19 @@ struct Step<'a> {
     from: (f64, &'a Sample),
     to: (f64, &'a Sample),
     depth: u32,
+    near: Option<&'a ViewBox>,
 }
 
 impl Evolute {
-    /// Append the evolute of one segment that is sampled at even parameters.
-    pub fn append(&self, segment: usize, samples: &[Sample], out: &mut Vec<DVec2>) {
+    /// Append the evolute of one segment that is sampled at even parameters; with a view, only
+    /// what is near it is followed closely.
+    pub fn append(
+        &self,
+        segment: usize,
+        samples: &[Sample],
+        near: Option<&ViewBox>,
+        out: &mut Vec<DVec2>,
+    ) {
         let steps = samples.len().saturating_sub(1).max(1) as f64;
         let Some(first) = samples.first() else {
             return;
@@ -53,6 +61,7 @@ impl Evolute {
                     from: (at(0), &pair[0]),
                     to: (at(1), &pair[1]),
                     depth: 0,
+                    near,
                 },
                 out,
             );
@@ -67,7 +76,13 @@ impl Evolute {
         let is_short = from.distance(to) <= self.longest_chord;
         let is_far = |sample: &Sample| !(sample.curvature.abs() * self.reach >= 1.0);
         let leaves = is_far(step.from.1) && is_far(step.to.1);
-        if (is_short && !turns) || leaves || step.depth == DEEPEST {
+        let is_aside = step.near.is_some_and(|view| {
+            let mut bounds = Bounds::EMPTY;
+            bounds.add(from);
+            bounds.add(to);
+            !bounds.may_meet(view)
+        });
+        if (is_short && !turns) || leaves || is_aside || step.depth == DEEPEST {
             if turns && leaps(from, to, step.from.1, step.to.1) {
                 out.push(GAP);
             }
@@ -96,7 +111,8 @@ impl Evolute {
         );
     }
 
-    fn place(&self, sample: &Sample) -> DVec2 {
+    /// The evolute's point that belongs to a sample; a gap where it is straight.
+    pub fn place(&self, sample: &Sample) -> DVec2 {
         finite(self.eye.flatten(sample.centre()))
     }
 }

@@ -12,7 +12,6 @@ use crate::editor::grid::grid_steps;
 use crate::editor::hit::REACH;
 use crate::editor::input::Key;
 use crate::editor::layers::Layer;
-use crate::editor::reshaping::clamped_amplification;
 use crate::editor::scene::Mark;
 use crate::editor::selection::VertexId;
 use crate::editor::snapping::along_axis;
@@ -159,7 +158,7 @@ impl Tool for SelectTool {
             State::MovingClamped { vertex, .. } => format!(
                 "Moving vertex {} of the closed S-polygon: {}; Esc cancels",
                 vertex.1,
-                amplified(vertex.0, context)
+                amplified(*vertex, context)
             ),
             State::Boxing { .. } => {
                 "Release to select what is in the box; Shift adds to the selection".into()
@@ -328,14 +327,14 @@ fn move_clamped((id, index): VertexId, place: DVec3, context: &Context) -> Effec
     }
 }
 
-/// Say how much an error in a vertex of the closed S-polygon grows.
-fn amplified(id: CurveId, context: &Context) -> String {
-    let polygon = context.document.curve(id).map(|curve| &curve.polygon);
-    let amplification = polygon.and_then(clamped_amplification);
-    amplification.map_or(String::new(), |amplification| {
+/// Say how much a move of a vertex of the closed S-polygon is amplified.
+fn amplified((id, index): VertexId, context: &Context) -> String {
+    let curve = context.document.curve(id);
+    let times = curve.and_then(|curve| curve.polygon.clamped_vertex_amplification(index));
+    times.map_or(String::new(), |times| {
         format!(
             "the float S-polygon moves up to {} times as far",
-            figure(amplification.largest)
+            figure(times)
         )
     })
 }

@@ -7,6 +7,19 @@ use crate::geometry::error::PolygonError;
 use crate::geometry::float_polygon::FloatPolygon;
 
 impl FloatPolygon {
+    /// Compute how much a move of one vertex of the clamped polygon is amplified: the largest
+    /// |∂P_i/∂C_j| for this vertex j. `None` if there is no such vertex.
+    pub fn clamped_vertex_amplification(&self, index: usize) -> Option<f64> {
+        let mut unit = vec![DVec3::ZERO; self.segments() + self.degree()];
+        unit.get_mut(index)?.x = 1.0;
+        let moves = ClampedPolygon::new(self.degree(), unit, None)
+            .ok()?
+            .to_float()
+            .ok()?;
+        let moves = moves.vertices().iter().map(|movement| movement.x.abs());
+        Some(moves.fold(0.0, f64::max))
+    }
+
     /// Move one vertex of the curve's clamped polygon to a place and return the float polygon of
     /// the curve that this makes.
     ///

@@ -80,7 +80,9 @@ const TALLEST: f64 = 4.0;
 
 /// The bounds that hold a series but for narrow peaks that would flatten all the rest; if peaks
 /// are cut off, also how far they reach.
-pub fn within_reason(points: &[DVec2]) -> ((DVec2, DVec2), Option<(f64, f64)>) {
+///
+/// Values that differ by less than `noise` look constant.
+pub fn within_reason(points: &[DVec2], noise: f64) -> ((DVec2, DVec2), Option<(f64, f64)>) {
     let mut values: Vec<f64> = points.iter().map(|point| point.y).collect();
     values.retain(|value| value.is_finite());
     values.sort_by(f64::total_cmp);
@@ -91,12 +93,41 @@ pub fn within_reason(points: &[DVec2]) -> ((DVec2, DVec2), Option<(f64, f64)>) {
         return (bounds_of(points.iter().copied(), false), None);
     };
     let reach = TALLEST * (to - from);
+    if high - low < noise {
+        let flat = points.iter().map(|point| DVec2::new(point.x, *low));
+        let (bottom, top) = bounds_of(flat, false);
+        return (
+            (
+                bottom - DVec2::new(0.0, noise),
+                top + DVec2::new(0.0, noise),
+            ),
+            None,
+        );
+    }
     let (bottom, top) = (low.max(from - reach), high.min(to + reach));
     let shown = points
         .iter()
         .map(|point| DVec2::new(point.x, point.y.clamp(bottom, top)));
     let is_cut = bottom > *low || top < *high;
     (bounds_of(shown, false), is_cut.then_some((*low, *high)))
+}
+
+/// The bounds that hold a graph but for the share of it that runs off to infinity, in either
+/// direction.
+pub fn most_of(points: &[DVec2]) -> (DVec2, DVec2) {
+    let inner = |values: &mut Vec<f64>| {
+        values.retain(|value| value.is_finite());
+        values.sort_by(f64::total_cmp);
+        let beyond = (PEAKS * values.len() as f64) as usize;
+        Some((*values.get(beyond)?, *values.iter().nth_back(beyond)?))
+    };
+    let mut across = points.iter().map(|point| point.x).collect();
+    let mut along = points.iter().map(|point| point.y).collect();
+    let (Some(across), Some(along)) = (inner(&mut across), inner(&mut along)) else {
+        return bounds_of(points.iter().copied(), false);
+    };
+    let corners = [DVec2::new(across.0, along.0), DVec2::new(across.1, along.1)];
+    bounds_of(corners.into_iter(), false)
 }
 
 /// A little room at the left and right, so that the outermost dots are whole.
@@ -130,9 +161,9 @@ mod tests {
     fn narrow_peaks_are_cut_off_and_told() {
         let wave = |x: f64| DVec2::new(x, x.sin());
         let mut points: Vec<DVec2> = (0..200).map(|index| wave(0.1 * f64::from(index))).collect();
-        assert_eq!(within_reason(&points).1, None);
+        assert_eq!(within_reason(&points, 0.0).1, None);
         points[77].y = -1e14;
-        let ((low, high), cut) = within_reason(&points);
+        let ((low, high), cut) = within_reason(&points, 0.0);
         assert!(low.y > -20.0 && high.y > 0.9, "{low} {high}");
         assert_eq!(cut.map(|cut| cut.0), Some(-1e14));
     }

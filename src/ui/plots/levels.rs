@@ -6,16 +6,20 @@ use glam::DVec2;
 
 use super::Plots;
 use super::drawing::*;
-use super::frame::{bounds_of, padded, within_reason};
+use super::frame::{most_of, padded, within_reason};
 use crate::analysis::LevelPlot;
 use crate::editor::Editor;
 use crate::ui::figures;
 use crate::ui::theme::{STEP, Tokens};
 use crate::ui::widgets;
 
-/// What the tab of a plot is called.
-pub fn tab_name(plot: LevelPlot) -> String {
+/// What the tab of a plot is called; `short` where there is little room.
+pub fn tab_name(plot: LevelPlot, short: bool) -> String {
     match plot {
+        LevelPlot::Curvature(level) if short => format!("κ {level}"),
+        LevelPlot::Torsion(1) if short => "τ".to_owned(),
+        LevelPlot::Torsion(level) if short => format!("τ {level}"),
+        LevelPlot::Logarithmic if short => "Log".to_owned(),
         LevelPlot::Curvature(level) => format!("κ level {level}"),
         LevelPlot::Torsion(1) => "Torsion".to_owned(),
         LevelPlot::Torsion(level) => format!("τ level {level}"),
@@ -23,17 +27,36 @@ pub fn tab_name(plot: LevelPlot) -> String {
     }
 }
 
+/// What a plot shows, in a sentence.
+pub fn explanation(plot: LevelPlot) -> String {
+    let graph_of = |quantity: &str, level: usize| {
+        format!(
+            "Level {level} of the {quantity}: the curvature g″/(1 + g′²)^(3/2) of the graph of \
+             level {} over arc length",
+            level - 1
+        )
+    };
+    match plot {
+        LevelPlot::Torsion(1) => "The torsion over arc length".to_owned(),
+        LevelPlot::Curvature(level) => graph_of("curvature", level.max(2)),
+        LevelPlot::Torsion(level) => graph_of("torsion", level),
+        LevelPlot::Logarithmic => "The logarithmic curvature graph, log |ρ ds/dρ| over log ρ: a \
+                                   straight line of slope α on a log-aesthetic curve"
+            .to_owned(),
+    }
+}
+
 /// What the vertical axis is called.
 fn axis_name(plot: LevelPlot, normalised: bool) -> String {
     let unit = match (plot, normalised) {
-        (_, true) => " of the curve at length 1",
+        (_, true) => ", length 1",
         (LevelPlot::Torsion(1), _) => " (1/unit)",
         _ => "",
     };
     match plot {
-        LevelPlot::Curvature(level) => format!("level {level} of curvature{unit}"),
+        LevelPlot::Curvature(level) => format!("κ level {level}{unit}"),
         LevelPlot::Torsion(1) => format!("torsion τ{unit}"),
-        LevelPlot::Torsion(level) => format!("level {level} of torsion{unit}"),
+        LevelPlot::Torsion(level) => format!("τ level {level}{unit}"),
         LevelPlot::Logarithmic => "log₁₀ |ρ ds/dρ|".to_owned(),
     }
 }
@@ -72,14 +95,14 @@ impl Plots {
             return;
         }
         let (wanted, cut) = if is_graph {
-            (bounds_of(scene.levels.iter().copied(), false), None)
+            (most_of(&scene.levels), None)
         } else {
-            within_reason(&scene.levels)
+            within_reason(&scene.levels, noise(which, extent))
         };
         self.remark = match (scene.slope, cut) {
-            (Some(slope), _) if is_graph => {
+            (Some((slope, fit)), _) if is_graph => {
                 let slope = figures::significant(slope, 4);
-                format!("Slope of the straight line through it: α ≈ {slope}")
+                format!("Straight line through it: slope α ≈ {slope}, r² = {fit:.3}")
             }
             (_, Some((low, high))) => format!(
                 "Peaks beyond the plot: {} … {}",
@@ -122,6 +145,15 @@ impl Plots {
         }
         self.hovering = along.is_some();
     }
+}
+
+/// Values below this are rounding: 1e-9 in the unit that the curve's length gives.
+fn noise(plot: LevelPlot, length: f64) -> f64 {
+    let power = match plot {
+        LevelPlot::Curvature(level) | LevelPlot::Torsion(level) => 2 * level as i32 - 1,
+        LevelPlot::Logarithmic => 0,
+    };
+    1e-9 * length.powi(-power)
 }
 
 /// Let a plot tell the figures under the pointer.

@@ -17,10 +17,13 @@ use crate::analysis::LevelPlot;
 use crate::editor::{Command, Editor};
 use crate::geometry::LEVELS;
 use frame::Frame;
-use levels::tab_name;
+use levels::{explanation, tab_name};
 
 /// The height of the bar with the tabs.
 pub const BAR: f32 = 32.0;
+
+/// A bar with less room than this for each tab gives them short names.
+const SHORT: f32 = 105.0;
 
 /// Which plots are shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -32,6 +35,16 @@ pub enum Tab {
     Levels(LevelPlot),
     /// Leg lengths and turning angles over the vertices.
     Legs,
+}
+
+/// What a tab is called; `short` where there is little room.
+fn name(tab: Tab, short: bool) -> String {
+    match tab {
+        Tab::Curvature => "Curvature".to_owned(),
+        Tab::Levels(plot) => tab_name(plot, short),
+        Tab::Legs if short => "Legs".to_owned(),
+        Tab::Legs => "Legs and turning angles".to_owned(),
+    }
 }
 
 /// The plots' own state: what they show now, so that they keep still while the curve is dragged.
@@ -87,13 +100,14 @@ impl Plots {
     ) {
         ui.horizontal_centered(|ui| {
             ui.spacing_mut().item_spacing.x = STEP;
-            for tab in self.tabs(editor) {
-                let name = match tab {
-                    Tab::Curvature => "Curvature".to_owned(),
-                    Tab::Levels(plot) => tab_name(plot),
-                    Tab::Legs => "Legs and turning angles".to_owned(),
-                };
-                let response = ui.add(Button::selectable(shown && self.tab == tab, name));
+            let tabs = self.tabs(editor);
+            let short = ui.available_width() < SHORT * tabs.len() as f32;
+            for tab in tabs {
+                let button = Button::selectable(shown && self.tab == tab, name(tab, short));
+                let mut response = ui.add(button).accessible_name(name(tab, false));
+                if let Tab::Levels(plot) = tab {
+                    response = response.on_hover_text(explanation(plot));
+                }
                 if response.clicked() {
                     self.tab = tab;
                     if !shown {
