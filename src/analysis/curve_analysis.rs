@@ -349,6 +349,10 @@ impl CurveAnalysis {
         self.orientation
     }
 
+    pub(super) fn curve_features_known(&self) -> &CurveFeatures {
+        &self.features
+    }
+
     pub(super) fn curve_features(&mut self) -> &mut CurveFeatures {
         &mut self.features
     }

@@ -16,6 +16,8 @@ pub(super) struct CurveFeatures {
     segments: Vec<SegmentFeatures>,
     /// The segments that have changed since.
     stale: Vec<usize>,
+    /// How many segments were proved when they were last asked for.
+    proved: usize,
     assembled: Option<Features>,
 }
 
@@ -26,6 +28,7 @@ impl CurveFeatures {
             prover: SegmentProver::new(planar),
             segments: Vec::new(),
             stale: Vec::new(),
+            proved: 0,
             assembled: None,
         }
     }
@@ -43,7 +46,13 @@ impl CurveFeatures {
             let all = 0..polygon.segments();
             let prove = |segment| self.prover.segment(polygon, segment);
             self.segments = all.map(prove).collect();
+            self.proved = self.segments.len();
             return;
+        }
+        if !self.stale.is_empty() {
+            self.stale.sort_unstable();
+            self.stale.dedup();
+            self.proved = self.stale.len();
         }
         for segment in self.stale.drain(..) {
             if let Some(known) = self.segments.get_mut(segment) {
@@ -88,6 +97,11 @@ impl CurveAnalysis {
         let segments = &features.segments;
         let assemble = || Features::assemble(&curve.polygon, segments);
         features.assembled.get_or_insert_with(assemble)
+    }
+
+    /// The number of segments that were proved anew when the features last changed.
+    pub fn segments_proved(&self) -> usize {
+        self.curve_features_known().proved
     }
 
     /// Append what is visible of the pieces of the curve on which its curvature does one thing;

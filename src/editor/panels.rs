@@ -130,6 +130,11 @@ impl Editor {
         Some(self.analyses.peek(curve)?.segments_redone())
     }
 
+    /// The number of segments of a curve whose features were proved when it last changed.
+    pub fn segments_proved(&self, curve: crate::document::CurveId) -> Option<usize> {
+        Some(self.analyses.peek(curve)?.segments_proved())
+    }
+
     fn vertex_hovered_on(&self, id: crate::document::CurveId) -> Option<usize> {
         if self.hovered.vertex.is_some() {
             return self.hovered.vertex;

@@ -124,6 +124,22 @@ pub enum HoverScene {
     },
 }
 
+impl PlotScene {
+    /// The plot of the curvature of the curve scaled to length 1, over shares of its length.
+    pub fn at_length_one(&self) -> Self {
+        let place = |point: &DVec2| DVec2::new(point.x / self.length, point.y * self.length);
+        let dots = self.discrete.iter();
+        Self {
+            curvature: self.curvature.iter().map(place).collect(),
+            discrete: dots.map(|(index, at)| (*index, place(at))).collect(),
+            hovered: self.hovered.as_ref().map(place),
+            flank: self.flank / self.length,
+            length: 1.0,
+            ..self.clone()
+        }
+    }
+}
+
 /// The plots of the active curve.
 #[derive(Clone, Debug, Default)]
 pub struct PlotScene {

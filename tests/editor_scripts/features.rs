@@ -1,7 +1,8 @@
 //! Proved features on the canvas and in the list.
 
-use batten::analysis::PieceTrend;
+use batten::analysis::{LevelPlot, PieceTrend};
 use batten::editor::{Command, FeatureKind, HoverScene, Layer};
+use batten::geometry::LEVELS;
 use batten::geometry::features::Verdict;
 use glam::DVec2;
 
@@ -76,4 +77,70 @@ fn features_follow_a_drag() {
     script.release(at + DVec2::new(0.0, 60.0));
     script.command(Command::Undo);
     assert_eq!(script.editor.features().expect("features"), before);
+}
+
+#[test]
+fn levels_are_plotted_over_arc_length_with_their_jumps() {
+    let mut script = Script::example("s-curve");
+    let polygon = script.polygon();
+    let length = script.editor.plots().length;
+    // Degree 5 has a continuous second level of the curvature, and a third that jumps.
+    for (level, gaps) in [(2, 0), (3, polygon.segments())] {
+        let plot = script.editor.level_plot(LevelPlot::Curvature(level), false);
+        let holes = plot.levels.iter().filter(|point| point.is_nan()).count();
+        assert_eq!(holes, gaps, "level {level}");
+        let last = plot.levels.iter().rfind(|point| !point.is_nan());
+        let last = last.expect("a point");
+        assert!((last.x - length).abs() <= 1e-9 * length);
+        let end = polygon.segment_curvature_levels(polygon.segments() - 1, 1.0, 1.0);
+        let expected = end.curvature[level - 1];
+        assert!(
+            (last.y - expected).abs() <= 1e-12 * expected.abs(),
+            "level {level}"
+        );
+    }
+    let plot = script.editor.level_plot(LevelPlot::Curvature(2), true);
+    let first = plot.levels[0];
+    let last = plot.levels[plot.levels.len() - 1];
+    assert!((last.x - 1.0).abs() <= 1e-9 && first.x == 0.0);
+    let scaled = polygon
+        .segment_curvature_levels(0, 0.0, 1.0 / length)
+        .curvature[1];
+    assert!(
+        (first.y - scaled).abs() <= 1e-9 * scaled.abs(),
+        "{first} {scaled}"
+    );
+    let plot = script.editor.level_plot(LevelPlot::Torsion(1), false);
+    assert!(
+        plot.levels.iter().all(|point| point.is_nan()),
+        "a planar curve"
+    );
+}
+
+#[test]
+fn the_curvature_of_the_curve_at_length_1_is_plotted_over_shares() {
+    let mut script = Script::example("s-curve");
+    let plot = script.editor.plots().clone();
+    let scaled = plot.at_length_one();
+    assert_eq!(scaled.curvature.len(), plot.curvature.len());
+    for (a, b) in plot.curvature.iter().zip(&scaled.curvature) {
+        assert!((a.x - b.x * plot.length).abs() <= 1e-12 * plot.length);
+        assert!((a.y * plot.length - b.y).abs() <= 1e-12 * b.y.abs());
+    }
+}
+
+#[test]
+fn every_example_has_every_plot() {
+    for example in 0..7 {
+        let mut script = Script::example("arc");
+        script.command(Command::OpenExample(example));
+        let planar = script.editor.active_is_planar();
+        assert_eq!(planar, Some(true));
+        for level in 1..=LEVELS {
+            let plot = LevelPlot::Curvature(level);
+            assert!(!script.editor.level_plot(plot, true).levels.is_empty());
+        }
+        let graph = script.editor.level_plot(LevelPlot::Logarithmic, false);
+        assert!(graph.levels.iter().any(|point| point.is_finite()));
+    }
 }

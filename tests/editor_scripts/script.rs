@@ -134,6 +134,7 @@ impl Script {
         self.editor.scene();
         self.editor.plots();
         self.editor.leg_plots();
+        self.editor.features();
         self.editor.report();
         self.editor.end_fit();
         self.editor.readout();

@@ -130,4 +130,5 @@ fn only_segments_that_depend_on_a_vertex_are_redone() {
     );
     script.editor.scene();
     assert_eq!(script.editor.segments_redone(curve), Some(10));
+    assert_eq!(script.editor.segments_proved(curve), Some(10));
 }

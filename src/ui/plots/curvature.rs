@@ -9,6 +9,7 @@ use glam::DVec2;
 use super::Plots;
 use super::drawing::*;
 use super::frame::{bounds_of, padded};
+use crate::analysis::LevelPlot;
 use crate::editor::{Editor, PlotScene};
 use crate::ui::figures;
 use crate::ui::theme::Tokens;
@@ -28,17 +29,28 @@ impl Plots {
         let dragging = editor.is_dragging();
         let scene = editor.plots();
         self.legend = legend(scene.flank);
+        let whole = scene.length;
+        let normalised = self.normalised && whole > 0.0;
+        let scaled = normalised.then(|| scene.at_length_one());
+        let scene = scaled.as_ref().unwrap_or(scene);
         let length = scene.length;
         let dots = scene.discrete.iter().map(|(_, point)| *point);
         let points = scene.curvature.iter().copied().chain(dots);
         let mut wanted = bounds_of(points, false);
         wanted.0.x = wanted.0.x.min(-scene.flank);
         wanted.1.x = wanted.1.x.max(length + scene.flank);
-        let bounds = self.curvature.settle(padded(wanted), dragging);
-        let signed = if scene.planar {
-            "signed curvature κ (1/unit)"
+        let frame = self.levels.entry((LevelPlot::Curvature(1), normalised));
+        let bounds = frame.or_default().settle(padded(wanted), dragging);
+        let signed = match (scene.planar, normalised) {
+            (true, false) => "signed curvature κ (1/unit)",
+            (false, false) => "curvature κ (1/unit)",
+            (true, true) => "signed curvature κ, length 1",
+            (false, true) => "curvature κ, length 1",
+        };
+        let across = if normalised {
+            "share of the arc length"
         } else {
-            "curvature κ (1/unit)"
+            "arc length (units)"
         };
         let numbers = move |mark: GridMark, range: &RangeInclusive<f64>| {
             let on_curve = (-1e-9 * length..=length * (1.0 + 1e-9)).contains(&mark.value);
@@ -48,7 +60,7 @@ impl Plots {
                 String::new()
             }
         };
-        let plot = plot("curvature", "arc length (units)", signed, bounds, tokens)
+        let plot = plot("curvature", across, signed, bounds, tokens)
             .x_axis_formatter(numbers)
             .label_formatter(|hover| {
                 let HoverPosition::NearDataPoint {
@@ -88,6 +100,7 @@ impl Plots {
         let beyond = hovered.filter(|x| !(0.0..=length).contains(x));
         let vertex = beyond.and_then(|x| nearest_dot(scene, x));
         let along = hovered.filter(|x| (0.0..=length).contains(x));
+        let along = along.map(|x| x * whole / length);
         if hovered.is_some() || self.hovering {
             editor.hover_length(along);
             editor.hover_vertex(vertex);

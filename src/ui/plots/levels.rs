@@ -68,11 +68,18 @@ impl Plots {
             widgets::remark(ui, &self.remark);
             return;
         }
+        let remark = std::mem::take(&mut self.remark);
+        self.normalised_ui(ui, &remark);
+        self.remark = remark;
+    }
+
+    /// The switch that scales the curve to length 1, and a remark beside it.
+    pub(super) fn normalised_ui(&mut self, ui: &mut Ui, remark: &str) {
         ui.spacing_mut().item_spacing.x = 2.0 * STEP;
         let tooltip = "Show the levels of the curve scaled to length 1, over shares of its length";
         ui.add(Checkbox::new(&mut self.normalised, "By curve length"))
             .on_hover_text(tooltip);
-        widgets::remark(ui, &self.remark);
+        widgets::remark(ui, remark);
     }
 
     pub(super) fn levels_ui(&mut self, ui: &mut Ui, editor: &mut Editor, which: LevelPlot) {

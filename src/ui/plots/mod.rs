@@ -51,7 +51,6 @@ fn name(tab: Tab, short: bool) -> String {
 #[derive(Default)]
 pub struct Plots {
     tab: Tab,
-    curvature: Frame,
     legs: Frame,
     turns: Frame,
     /// Whether a plot marks something on the canvas.
@@ -126,7 +125,7 @@ impl Plots {
                 }
                 match self.tab {
                     _ if !shown => {}
-                    Tab::Curvature => widgets::remark(ui, self.legend),
+                    Tab::Curvature => self.normalised_ui(ui, self.legend),
                     Tab::Levels(plot) => self.level_bar_ui(ui, plot),
                     Tab::Legs => {}
                 }
