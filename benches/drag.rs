@@ -68,11 +68,11 @@ fn dragging(count: usize, close: bool) -> (Editor, DVec2) {
 /// One frame of the drag.
 fn frame(editor: &mut Editor, at: DVec2) {
     editor.input(Input::Moved { at });
+    black_box(editor.features());
     black_box(editor.scene());
     // The leg plots come with the curvature plot.
     black_box(editor.leg_plots());
     black_box(editor.report());
-    black_box(editor.features());
     black_box(editor.readout());
     black_box(editor.hint());
 }

@@ -102,7 +102,7 @@ impl CurveAnalysis {
             float: VertexChain::default(),
             clamped: VertexChain::default(),
             levels: LevelSeries::default(),
-            features: CurveFeatures::new(polygon.is_planar()),
+            features: CurveFeatures::new(polygon.is_planar(), polygon.segments()),
             redone: 0,
             curve,
         };

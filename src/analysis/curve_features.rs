@@ -8,26 +8,34 @@ use super::sample::Sample;
 use crate::geometry::FloatPolygon;
 use crate::geometry::features::{Features, SegmentFeatures, SegmentProver, Sign, SignPiece};
 
+/// Segments of a planar polynomial curve that are proved at once: a few thousandths of a second.
+const AT_ONCE: usize = 1024;
+
+/// Segments of other curves, which take several times as long.
+const FEW_AT_ONCE: usize = 192;
+
 /// What is known of a curve's features.
 #[derive(Debug)]
 pub(super) struct CurveFeatures {
     prover: SegmentProver,
-    /// The features of each segment; empty before they are asked for.
     segments: Vec<SegmentFeatures>,
-    /// The segments that have changed since.
-    stale: Vec<usize>,
-    /// How many segments were proved when they were last asked for.
+    /// The segments that are to be proved.
+    pending: Vec<usize>,
+    /// Whether segments were added to these since they were last looked at.
+    changed: bool,
+    /// How many segments the last change made to be proved.
     proved: usize,
     assembled: Option<Features>,
 }
 
 impl CurveFeatures {
-    /// Prepare for a planar curve, or one in space.
-    pub(super) fn new(planar: bool) -> Self {
+    /// Prepare for a planar curve, or one in space, of so many segments.
+    pub(super) fn new(planar: bool, segments: usize) -> Self {
         Self {
             prover: SegmentProver::new(planar),
-            segments: Vec::new(),
-            stale: Vec::new(),
+            segments: vec![SegmentFeatures::default(); segments],
+            pending: Vec::new(),
+            changed: false,
             proved: 0,
             assembled: None,
         }
@@ -35,26 +43,23 @@ impl CurveFeatures {
 
     /// Forget what was proved of a segment.
     pub(super) fn forget(&mut self, segment: usize) {
-        if !self.segments.is_empty() {
-            self.stale.push(segment);
-        }
+        self.pending.push(segment);
+        self.changed = true;
         self.assembled = None;
     }
 
-    fn prove(&mut self, polygon: &FloatPolygon) {
-        if self.segments.is_empty() {
-            let all = 0..polygon.segments();
-            let prove = |segment| self.prover.segment(polygon, segment);
-            self.segments = all.map(prove).collect();
-            self.proved = self.segments.len();
-            return;
+    /// Go on proving, for a while.
+    fn advance(&mut self, polygon: &FloatPolygon, planar: bool) {
+        if std::mem::take(&mut self.changed) {
+            // The last is taken first.
+            self.pending.sort_unstable_by(|a, b| b.cmp(a));
+            self.pending.dedup();
+            self.proved = self.pending.len();
         }
-        if !self.stale.is_empty() {
-            self.stale.sort_unstable();
-            self.stale.dedup();
-            self.proved = self.stale.len();
-        }
-        for segment in self.stale.drain(..) {
+        let is_quick = planar && !polygon.is_rational();
+        let most = if is_quick { AT_ONCE } else { FEW_AT_ONCE };
+        let left = self.pending.len().saturating_sub(most);
+        for segment in self.pending.drain(left..).rev() {
             if let Some(known) = self.segments.get_mut(segment) {
                 *known = self.prover.segment(polygon, segment);
             }
@@ -88,15 +93,30 @@ impl PieceTrend {
 }
 
 impl CurveAnalysis {
-    /// Bring the proved features up to date and return them: only segments that changed since
-    /// are proved anew.
-    pub fn features(&mut self) -> &Features {
-        self.prove();
+    /// Go on proving features, only of segments that changed since, and return them once all are
+    /// known. A long curve takes several calls, so that none takes long.
+    pub fn features(&mut self) -> Option<&Features> {
+        let (curve, planar) = (self.curve().clone(), self.is_planar());
+        self.curve_features().advance(&curve.polygon, planar);
+        self.known_features()
+    }
+
+    /// The proved features, if all are known.
+    pub fn known_features(&mut self) -> Option<&Features> {
         let curve = self.curve().clone();
         let features = self.curve_features();
+        if !features.pending.is_empty() {
+            return None;
+        }
         let segments = &features.segments;
         let assemble = || Features::assemble(&curve.polygon, segments);
-        features.assembled.get_or_insert_with(assemble)
+        Some(features.assembled.get_or_insert_with(assemble))
+    }
+
+    /// The share of the curve whose features are known.
+    pub fn proof_progress(&self) -> f64 {
+        let features = self.curve_features_known();
+        1.0 - features.pending.len() as f64 / features.segments.len().max(1) as f64
     }
 
     /// The number of segments that were proved anew when the features last changed.
@@ -107,7 +127,9 @@ impl CurveAnalysis {
     /// Append what is visible of the pieces of the curve on which its curvature does one thing;
     /// gaps lie between them.
     pub fn append_pieces(&mut self, view: &ViewBox, trend: PieceTrend, out: &mut Vec<DVec2>) {
-        self.prove();
+        if self.known_features().is_none() {
+            return;
+        }
         let segments = std::mem::take(&mut self.curve_features().segments);
         let (curve, eye) = (self.curve().clone(), self.orientation());
         let points =
@@ -140,10 +162,5 @@ impl CurveAnalysis {
         };
         self.append(view, out, layer);
         self.curve_features().segments = segments;
-    }
-
-    fn prove(&mut self) {
-        let curve = self.curve().clone();
-        self.curve_features().prove(&curve.polygon);
     }
 }

@@ -177,15 +177,25 @@ pub struct FeatureMark {
 }
 
 impl Editor {
-    /// The proved features of the active curve.
+    /// Go on proving the features of the active curve, and return them once all are known: of a
+    /// long curve after some calls.
     pub fn features(&mut self) -> Option<FeatureReport> {
         self.analyses.update(self.history.document());
         let analysis = self.analyses.get(self.selection.active()?)?;
         let polyline = analysis.curve().polygon.degree() == 1;
         Some(FeatureReport {
             polyline,
-            ..FeatureReport::of(analysis.features())
+            ..FeatureReport::of(analysis.features()?)
         })
+    }
+
+    /// The share of the active curve whose features are known.
+    pub fn proof_progress(&self) -> Option<f64> {
+        Some(
+            self.analyses
+                .peek(self.selection.active()?)?
+                .proof_progress(),
+        )
     }
 
     /// Show the surroundings of a parameter of the active curve, and the layer of its features.
@@ -234,7 +244,10 @@ pub(super) fn append_marks(
     let eye = analysis.orientation();
     let last = polygon.segments() as f64;
     let mut kept: Option<DVec2> = None;
-    for row in FeatureReport::of(analysis.features()).rows {
+    let Some(features) = analysis.known_features() else {
+        return;
+    };
+    for row in FeatureReport::of(features).rows {
         let middle = row.middle();
         let u = if middle > last { middle - last } else { middle };
         let at = eye.flatten(polygon.point(u));

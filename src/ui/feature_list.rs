@@ -20,6 +20,7 @@ const MOST_ROWS: usize = 7;
 /// Show the verdict and the features of the active curve; choosing one goes to it.
 pub fn feature_list_ui(ui: &mut Ui, editor: &mut Editor) {
     let Some(report) = editor.features() else {
+        proving_ui(ui, editor);
         return;
     };
     verdict_ui(ui, &report);
@@ -90,9 +91,20 @@ fn colour_of(report: &FeatureReport, tokens: &Tokens) -> eframe::egui::Color32 {
     }
 }
 
+/// Tell how far the proofs of a long curve have come, and go on with them.
+fn proving_ui(ui: &mut Ui, editor: &Editor) {
+    if let Some(progress) = editor.proof_progress() {
+        widgets::caption(ui, &format!("Proving features: {:.0} %", 100.0 * progress));
+        ui.ctx().request_repaint();
+    }
+}
+
 /// Show the verdict as a chip; pressing it shows the features.
 pub fn chip_ui(ui: &mut Ui, editor: &mut Editor) -> Option<Response> {
-    let report = editor.features()?;
+    let Some(report) = editor.features() else {
+        proving_ui(ui, editor);
+        return None;
+    };
     let (icon, text) = verdict(&report);
     let colour = colour_of(&report, Tokens::of(ui));
     let button = Button::new((

@@ -121,6 +121,7 @@ fn only_segments_that_depend_on_a_vertex_are_redone() {
         .editor
         .apply("long", vec![Edit::SetPolygon { curve, polygon }]);
     script.editor.scene();
+    script.editor.features();
     script.editor.apply(
         "move",
         vec![Edit::MoveVertices {
@@ -129,6 +130,7 @@ fn only_segments_that_depend_on_a_vertex_are_redone() {
         }],
     );
     script.editor.scene();
+    script.editor.features();
     assert_eq!(script.editor.segments_redone(curve), Some(10));
     assert_eq!(script.editor.segments_proved(curve), Some(10));
 }

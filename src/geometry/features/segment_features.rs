@@ -16,7 +16,7 @@ use crate::geometry::float_polygon::FloatPolygon;
 ///
 /// Each list of pieces covers the segment from t = 0 to t = 1; the first and the last piece
 /// give the one-sided signs at its ends.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct SegmentFeatures {
     /// The sign of the signed curvature of a planar curve; [`Sign::Zero`] throughout in space,
     /// where curvature has no sign.
