@@ -25,7 +25,8 @@ pub struct FloatPolygon {
 }
 
 impl FloatPolygon {
-    /// Build a polygon from its degree, vertices, optional weights and whether it is periodic.
+    /// Build a polygon from its degree, vertices, optional weights and whether it is periodic. A
+    /// height of −0 is taken as 0.
     ///
     /// # Errors
     /// [`PolygonError`] if the degree is not 1 … 25, there are fewer than n + 1 vertices, a
@@ -40,7 +41,7 @@ impl FloatPolygon {
         check_polygon(degree, &vertices, weights.as_deref(), periodic)?;
         Ok(Self {
             degree,
-            vertices,
+            vertices: vertices.into_iter().map(without_negative_height).collect(),
             weights,
             periodic,
         })
@@ -133,7 +134,7 @@ impl FloatPolygon {
             check_vertex(index, point)?;
         }
         for (index, point) in moves {
-            self.vertices[index] = point;
+            self.vertices[index] = without_negative_height(point);
         }
         Ok(())
     }
@@ -230,6 +231,11 @@ pub(super) fn check_polygon(
     }
     check_vertices(vertices)?;
     check_weights(weights, found)
+}
+
+/// Write a height of −0 as 0: a planar curve has no heights that could differ.
+fn without_negative_height(vertex: DVec3) -> DVec3 {
+    vertex.with_z(vertex.z + 0.0)
 }
 
 pub(super) fn check_degree(degree: usize) -> Result<(), PolygonError> {
