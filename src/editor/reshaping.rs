@@ -92,7 +92,8 @@ impl Editor {
             Division::Split(_) => "Split curve",
             Division::Trim(..) => "Trim curve",
         };
-        let text = off(label, report.is_exact(), report.deviation());
+        let mut text = off(label, report.is_exact(), report.deviation());
+        text += &extrema_told(&curve.polygon, &report.parts);
         let mut edits = Vec::new();
         for (number, part) in report.parts.into_iter().enumerate() {
             if number == 0 {
@@ -277,6 +278,24 @@ fn off(what: &str, exact: bool, deviation: f64) -> String {
     } else {
         format!("{what}: off the curve by at most {}", figure(deviation))
     }
+}
+
+/// Say how many curvature extrema there were and are, unless proving it would take long.
+fn extrema_told(before: &FloatPolygon, parts: &[Approximation]) -> String {
+    /// Segments whose features are proved without a delay that is felt.
+    const QUICK: usize = 1000;
+    let all = || std::iter::once(before).chain(parts.iter().map(|part| &part.polygon));
+    if all().map(FloatPolygon::segments).sum::<usize>() > QUICK {
+        return String::new();
+    }
+    let count = |polygon| Features::new(polygon).curvature_extrema.len();
+    let mut counts = all().map(count);
+    let whole = counts.next().unwrap_or_default();
+    let parts: Vec<String> = counts.map(|count| count.to_string()).collect();
+    format!(
+        "; curvature extrema: {whole} before, {} now",
+        parts.join(" and ")
+    )
 }
 
 /// The edits that take away the targets of ends that a division cuts off.

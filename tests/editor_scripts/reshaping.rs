@@ -126,6 +126,11 @@ fn splitting_at_a_knot_is_exact_and_makes_two_curves() {
     assert_eq!(parts.len(), 2);
     assert_eq!(parts[0].vertices(), &before.vertices()[..degree + 1]);
     assert_eq!(parts[1].vertices(), &before.vertices()[1..]);
+    let message = script.message();
+    assert!(
+        message.contains("extrema: 2 before, 1 and 1 now"),
+        "{message}"
+    );
     assert_eq!(script.editor.history().undo_steps(), 1);
     script.command(Command::Undo);
     script.editor.divide(Division::Trim(0.5, 1.75), 2);
