@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use batten::geometry::FloatPolygon;
 use batten::geometry::circle_comparison::regular_polygon;
 use batten::geometry::features::{ExtremumKind, Features, Quantity, Trend, Verdict};
-use common::{Random, assert_near};
+use common::{Random, assert_near, counts};
 use glam::DVec3;
 use witness::ExactSegment;
 
@@ -25,18 +25,6 @@ fn planar(degree: usize, points: &[(f64, f64)]) -> FloatPolygon {
 
 fn features(degree: usize, points: &[(f64, f64)]) -> Features {
     Features::new(&planar(degree, points))
-}
-
-/// The numbers of inflections, curvature extrema, torsion zeros, torsion extrema, and whatever
-/// is in doubt.
-fn counts(features: &Features) -> [usize; 5] {
-    [
-        features.inflections.len(),
-        features.curvature_extrema.len(),
-        features.torsion_zeros.len(),
-        features.torsion_extrema.len(),
-        features.undecided.len() + features.cusps.len(),
-    ]
 }
 
 #[test]

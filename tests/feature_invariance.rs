@@ -6,21 +6,9 @@ use std::f64::consts::TAU;
 
 use batten::geometry::FloatPolygon;
 use batten::geometry::features::Features;
-use common::Random;
+use common::{Random, counts};
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
-
-/// The numbers of inflections, curvature extrema, torsion zeros, torsion extrema, and whatever
-/// is in doubt.
-fn counts(features: &Features) -> [usize; 5] {
-    [
-        features.inflections.len(),
-        features.curvature_extrema.len(),
-        features.torsion_zeros.len(),
-        features.torsion_extrema.len(),
-        features.undecided.len() + features.cusps.len(),
-    ]
-}
 
 #[test]
 fn size_and_place_do_not_matter() {

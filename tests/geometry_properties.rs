@@ -4,34 +4,12 @@
 mod common;
 
 use batten::geometry::{Batch, ClampedPolygon, End, FloatPolygon, Jet, Sampler, segment_bezier};
-use common::{Random, reach};
+use common::{Kind, Random, reach};
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
 
 /// A few roundings of the largest coordinate.
 const ROUNDINGS: f64 = 16.0 * f64::EPSILON;
-
-#[derive(Clone, Copy, Debug)]
-struct Kind {
-    degree: usize,
-    extra: usize,
-    periodic: bool,
-    rational: bool,
-    in_space: bool,
-    seed: u64,
-}
-
-impl Kind {
-    fn polygon(self) -> FloatPolygon {
-        let mut random = Random(self.seed);
-        let count = self.degree + 1 + self.extra;
-        let vertices = (0..count).map(|_| random.vector(10.0, self.in_space));
-        let vertices = vertices.collect();
-        let weights = (0..count).map(|_| random.between(0.5, 2.0)).collect();
-        let weights = Some(weights).filter(|_| self.rational);
-        FloatPolygon::new(self.degree, vertices, weights, self.periodic).expect("valid")
-    }
-}
 
 fn kinds(degrees: std::ops::RangeInclusive<usize>) -> impl Strategy<Value = Kind> {
     (degrees, 0..12_usize, any::<[bool; 3]>(), any::<u64>()).prop_map(

@@ -5,7 +5,7 @@ mod common;
 use batten::geometry::{
     BezierPolygon, ClampedPolygon, End, ExactPolygon, FloatPolygon, PolygonError,
 };
-use common::{Random, reach};
+use common::{Kind, Random, reach};
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
 
@@ -20,27 +20,7 @@ const ONE_ROUNDING: f64 = 2.0 * f64::EPSILON;
 /// What a bound of a deviation adds for the rounding of its own arithmetic, relatively.
 const BOUND_ROUNDINGS: f64 = 128.0 * f64::EPSILON;
 
-#[derive(Clone, Copy, Debug)]
-struct Kind {
-    degree: usize,
-    extra: usize,
-    periodic: bool,
-    rational: bool,
-    in_space: bool,
-    seed: u64,
-}
-
 impl Kind {
-    fn polygon(self) -> FloatPolygon {
-        let mut random = Random(self.seed);
-        let count = self.degree + 1 + self.extra;
-        let vertices = (0..count).map(|_| random.vector(10.0, self.in_space));
-        let vertices = vertices.collect();
-        let weights = (0..count).map(|_| random.between(0.5, 2.0)).collect();
-        let weights = Some(weights).filter(|_| self.rational);
-        FloatPolygon::new(self.degree, vertices, weights, self.periodic).expect("valid")
-    }
-
     /// A smooth open polygon, as a designer lays one.
     fn gentle(self) -> FloatPolygon {
         let count = self.degree + 1 + self.extra;

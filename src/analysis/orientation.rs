@@ -1,6 +1,6 @@
 //! How space is turned before it is seen: the view plane's axes.
 
-use glam::{DMat3, DQuat, DVec2, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 
 /// Turn space so that the view plane lies before the eye, orthographically: `right` and `up` are
 /// the view plane's axes, `towards` points from the model to the eye.
@@ -114,19 +114,16 @@ impl Orientation {
             towards,
         }
     }
-
-    /// The matrix that maps space to (right, up, towards).
-    pub fn matrix(&self) -> DMat3 {
-        DMat3::from_cols(self.right, self.up, self.towards).transpose()
-    }
 }
 
 #[cfg(test)]
 mod tests {
+    use glam::DMat3;
+
     use super::*;
 
     fn check(view: &Orientation) {
-        let turned = view.matrix();
+        let turned = DMat3::from_cols(view.right, view.up, view.towards);
         let rest = turned * turned.transpose() - DMat3::IDENTITY;
         let error = rest
             .to_cols_array()

@@ -32,7 +32,7 @@ const SETTINGS: &str = "window";
 
 /// The height, below the list of curves, from which on the layers stay in sight beside the
 /// inspector, and beside the taller end-fit panel.
-const PINNED: [f32; 2] = [600.0, 920.0];
+const PINNED: [f32; 2] = [780.0, 920.0];
 
 /// The application: the editor, and what only a window has.
 pub struct App {

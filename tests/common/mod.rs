@@ -2,6 +2,7 @@
 #![allow(dead_code)] // Each test uses a part of it.
 
 use batten::geometry::FloatPolygon;
+use batten::geometry::features::Features;
 use glam::DVec3;
 use serde_json::Value;
 
@@ -122,4 +123,40 @@ impl Random {
         let weights = Some(weights).filter(|_| rational);
         FloatPolygon::new(degree, all, weights, false).expect("a valid polygon")
     }
+}
+
+/// What a random polygon is like: `extra` vertices more than one segment has.
+#[derive(Clone, Copy, Debug)]
+pub struct Kind {
+    pub degree: usize,
+    pub extra: usize,
+    pub periodic: bool,
+    pub rational: bool,
+    pub in_space: bool,
+    pub seed: u64,
+}
+
+impl Kind {
+    /// Draw the polygon.
+    pub fn polygon(self) -> FloatPolygon {
+        let mut random = Random(self.seed);
+        let count = self.degree + 1 + self.extra;
+        let vertices = (0..count).map(|_| random.vector(10.0, self.in_space));
+        let vertices = vertices.collect();
+        let weights = (0..count).map(|_| random.between(0.5, 2.0)).collect();
+        let weights = Some(weights).filter(|_| self.rational);
+        FloatPolygon::new(self.degree, vertices, weights, self.periodic).expect("valid")
+    }
+}
+
+/// The numbers of inflections, curvature extrema, torsion zeros, torsion extrema, and whatever
+/// is in doubt.
+pub fn counts(features: &Features) -> [usize; 5] {
+    [
+        features.inflections.len(),
+        features.curvature_extrema.len(),
+        features.torsion_zeros.len(),
+        features.torsion_extrema.len(),
+        features.undecided.len() + features.cusps.len(),
+    ]
 }
