@@ -3,7 +3,9 @@
 use std::hint::black_box;
 use std::time::Duration;
 
-use batten::geometry::{Amplification, BezierPolygon, ClampedPolygon, FloatPolygon, PolygonKind};
+use batten::geometry::{
+    Amplification, BezierPolygon, ClampedPolygon, FloatPolygon, PolygonKind, segment_bezier,
+};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use glam::{DVec3, DVec4};
 
@@ -75,6 +77,9 @@ fn conversions(criterion: &mut Criterion) {
         });
         group.bench_function("bezier to float", |bencher| {
             bencher.iter(|| black_box(&bezier).to_float());
+        });
+        group.bench_function("one segment to bezier", |bencher| {
+            bencher.iter(|| segment_bezier(black_box(&float), black_box(5)));
         });
         group.finish();
     }

@@ -1,21 +1,22 @@
-//! Measures evaluation in batches beside two kernels written for one degree each, and the
-//! conversions, the nearest point and the joint correction.
+//! Measures evaluation in batches beside two kernels written for one degree each, the nearest
+//! point and the joint correction.
 //!
 //! The two kernels are what a programmer would write who knows the degree at compile time and
 //! keeps the vertices coordinate by coordinate: a polynomial in powers of the parameter for each
 //! segment, and a table of basis values that all segments share.
 
-use std::f64::consts::TAU;
+mod wavy;
+
 use std::hint::black_box;
 use std::time::Duration;
 
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::joint_correction::correct_jointly;
-use batten::geometry::{Batch, BezierPolygon, ClampedPolygon, End, FloatPolygon, Sampler};
-use batten::geometry::{basis, segment_bezier};
+use batten::geometry::{Batch, End, Sampler, basis};
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, Throughput, measurement::WallTime};
 use criterion::{criterion_group, criterion_main};
 use glam::DVec3;
+use wavy::wavy;
 
 /// Vertices of the curves evaluated.
 const VERTICES: usize = 200;
@@ -25,21 +26,6 @@ const PARAMETERS: usize = 16;
 
 /// Values of x and y at all parameters, for the point and three derivatives.
 type Output = [[[f64; PARAMETERS]; 2]; 4];
-
-fn wavy(vertices: usize, degree: usize, height: f64, rational: bool) -> FloatPolygon {
-    let points = (0..vertices).map(|index| {
-        let turn = index as f64 / vertices as f64 * TAU;
-        let radius = 10.0 + (7.0 * turn).sin();
-        DVec3::new(
-            radius * turn.cos(),
-            radius * turn.sin(),
-            height * (3.0 * turn).sin(),
-        )
-    });
-    let weights = (0..vertices).map(|index| 1.0 + 0.3 * (index as f64).sin());
-    let weights = rational.then(|| weights.collect());
-    FloatPolygon::new(degree, points.collect(), weights, false).expect("a valid polygon")
-}
 
 fn parameters() -> [f64; PARAMETERS] {
     std::array::from_fn(|index| (index as f64 + 0.5) / PARAMETERS as f64)
@@ -198,29 +184,6 @@ fn single(criterion: &mut Criterion) {
     group.finish();
 }
 
-fn conversion(criterion: &mut Criterion) {
-    let float = wavy(1000, 9, 0.0, false);
-    let clamped = ClampedPolygon::from_float(&float);
-    let bezier = BezierPolygon::from_float(&float);
-    let mut group = criterion.benchmark_group("conversion, degree 9, 1000 vertices");
-    group.bench_function("float to clamped", |bencher| {
-        bencher.iter(|| ClampedPolygon::from_float(black_box(&float)));
-    });
-    group.bench_function("clamped to float", |bencher| {
-        bencher.iter(|| black_box(&clamped).to_float());
-    });
-    group.bench_function("float to bezier", |bencher| {
-        bencher.iter(|| BezierPolygon::from_float(black_box(&float)));
-    });
-    group.bench_function("bezier to float", |bencher| {
-        bencher.iter(|| black_box(&bezier).to_float());
-    });
-    group.bench_function("one segment to bezier", |bencher| {
-        bencher.iter(|| segment_bezier(black_box(&float), black_box(500)));
-    });
-    group.finish();
-}
-
 fn correction(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("joint correction, degree 9");
     for vertices in [100, 1000] {
@@ -244,6 +207,6 @@ criterion_group! {
         .sample_size(20)
         .warm_up_time(Duration::from_millis(200))
         .measurement_time(Duration::from_millis(600));
-    targets = batch, single, conversion, correction
+    targets = batch, single, correction
 }
 criterion_main!(benches);

@@ -1,33 +1,18 @@
 //! Measures the proofs of single segments and putting a curve's features together.
 
-use std::f64::consts::TAU;
+mod wavy;
+
 use std::hint::black_box;
 use std::time::Duration;
 
-use batten::geometry::FloatPolygon;
 use batten::geometry::features::{Features, SegmentProver};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use glam::DVec3;
+use wavy::wavy;
 
 /// Vertices of the curves that are put together.
 const VERTICES: usize = 1000;
 
 /// A closed wavy line with many inflections and extrema.
-fn wavy(vertices: usize, degree: usize, height: f64, rational: bool) -> FloatPolygon {
-    let points = (0..vertices).map(|index| {
-        let turn = index as f64 / vertices as f64 * TAU;
-        let radius = 10.0 + (7.0 * turn).sin();
-        DVec3::new(
-            radius * turn.cos(),
-            radius * turn.sin(),
-            height * (3.0 * turn).sin(),
-        )
-    });
-    let weights = (0..vertices).map(|index| 1.0 + 0.3 * (index as f64).sin());
-    let weights = rational.then(|| weights.collect());
-    FloatPolygon::new(degree, points.collect(), weights, false).expect("a valid polygon")
-}
-
 fn segments(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("features of one segment");
     group

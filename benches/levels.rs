@@ -1,13 +1,14 @@
 //! Measures curvature and torsion levels: the expansion of a segment, and the levels at many
 //! parameters of it, as the plots take them on every frame of a drag.
 
-use std::f64::consts::TAU;
+mod wavy;
+
 use std::hint::black_box;
 use std::time::Duration;
 
 use batten::geometry::{FloatPolygon, SegmentExpansion};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use glam::DVec3;
+use wavy::wavy;
 
 /// Vertices of the curves.
 const VERTICES: usize = 200;
@@ -22,18 +23,6 @@ const KINDS: [(&str, f64, bool); 4] = [
     ("in space", 1.0, false),
     ("in space rational", 1.0, true),
 ];
-
-fn wavy(degree: usize, height: f64, rational: bool) -> FloatPolygon {
-    let points = (0..VERTICES).map(|index| {
-        let turn = index as f64 / VERTICES as f64 * TAU;
-        let radius = 10.0 + (7.0 * turn).sin();
-        let z = height * (3.0 * turn).sin();
-        DVec3::new(radius * turn.cos(), radius * turn.sin(), z)
-    });
-    let weights = (0..VERTICES).map(|index| 1.0 + 0.3 * (index as f64).sin());
-    let weights = rational.then(|| weights.collect());
-    FloatPolygon::new(degree, points.collect(), weights, false).expect("a valid polygon")
-}
 
 /// Sums the fourth levels of the curvature, so that none can be left out.
 fn sampled(polygon: &FloatPolygon, segments: usize, samples: usize) -> f64 {
@@ -53,7 +42,7 @@ fn plot(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("plot of all levels, a sample");
     for degree in [3, 5, 9] {
         for (name, height, rational) in KINDS {
-            let polygon = wavy(degree, height, rational);
+            let polygon = wavy(VERTICES, degree, height, rational);
             let segments = polygon.segments();
             let samples = SAMPLES / segments;
             group.throughput(Throughput::Elements((segments * samples) as u64));
@@ -68,7 +57,7 @@ fn plot(criterion: &mut Criterion) {
 fn drag(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("the touched segments of a plot, degree 9");
     for (name, height, rational) in KINDS {
-        let polygon = wavy(9, height, rational);
+        let polygon = wavy(VERTICES, 9, height, rational);
         let samples = SAMPLES / polygon.segments();
         group.bench_function(name, |bencher| {
             bencher.iter(|| sampled(black_box(&polygon), 10, samples));
@@ -80,7 +69,7 @@ fn drag(criterion: &mut Criterion) {
 fn single(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("one segment, degree 9");
     for (name, height, rational) in KINDS {
-        let polygon = wavy(9, height, rational);
+        let polygon = wavy(VERTICES, 9, height, rational);
         let planar = polygon.is_planar();
         group.bench_function(BenchmarkId::new("expansion", name), |bencher| {
             bencher.iter(|| SegmentExpansion::new(black_box(&polygon), black_box(93), planar));

@@ -12,6 +12,7 @@ mod conversion;
 mod end;
 pub mod end_correction;
 mod error;
+mod error_free;
 mod evaluation;
 pub mod features;
 mod float_polygon;

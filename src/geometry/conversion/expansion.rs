@@ -8,12 +8,12 @@
 //! TwoSum, Dekker's product); a list of terms is then distilled into K parts, each pass taking
 //! the rounded sum and leaving the errors behind (Ogita, Rump and Oishi, "Accurate sum and dot
 //! product", 2005). The error of an operation is a few units of 2^(−53 K) of the sum of its
-//! terms' magnitudes. Dekker's product rather than a fused multiply-add: processors of the basic
-//! x86-64 level have none, and its replacement in software is ten times slower.
+//! terms' magnitudes.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::knots::Blend;
+use crate::geometry::error_free::{two_product, two_sum};
 
 /// The most terms that one operation distils: for K = 3 those of a product and a number added, and
 /// those of two numbers times a double each.
@@ -189,32 +189,6 @@ impl<const K: usize> Blend for Expansion<K> {
         }
         Self::distilled(&mut terms[..4 * K]) / divisor
     }
-}
-
-/// Add two doubles: the rounded sum and its error.
-#[inline(always)]
-fn two_sum(a: f64, b: f64) -> (f64, f64) {
-    let sum = a + b;
-    let other = sum - a;
-    (sum, (a - (sum - other)) + (b - other))
-}
-
-/// Multiply two doubles: the rounded product and its error.
-#[inline(always)]
-fn two_product(a: f64, b: f64) -> (f64, f64) {
-    let product = a * b;
-    let ((a_high, a_low), (b_high, b_low)) = (halves(a), halves(b));
-    let error = ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
-    (product, error)
-}
-
-/// Split a double into two numbers of half its digits.
-#[inline(always)]
-fn halves(value: f64) -> (f64, f64) {
-    const SPLITTER: f64 = 134_217_729.0; // 2²⁷ + 1
-    let scaled = SPLITTER * value;
-    let high = scaled - (scaled - value);
-    (high, value - high)
 }
 
 #[cfg(test)]

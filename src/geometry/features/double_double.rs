@@ -7,8 +7,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Splits a double into two halves of 26 bits.
-const SPLITTER: f64 = 134_217_729.0;
+use crate::geometry::error_free::{two_product, two_sum};
 
 /// Hold the number `high` + `low`, |`low`| at most half a unit in the last place of `high`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -20,15 +19,15 @@ pub(super) struct DoubleDouble {
 impl DoubleDouble {
     /// Subtract two doubles without error.
     pub(super) fn difference(a: f64, b: f64) -> Self {
-        two_sum(a, -b)
+        Self::from_pair(two_sum(a, -b))
     }
 
     /// Multiply two doubles without error, unless the result leaves the range of numbers.
     pub(super) fn product(a: f64, b: f64) -> Self {
-        let high = a * b;
-        let (a_high, a_low) = halves(a);
-        let (b_high, b_low) = halves(b);
-        let low = ((a_high * b_high - high) + a_high * b_low + a_low * b_high) + a_low * b_low;
+        Self::from_pair(two_product(a, b))
+    }
+
+    fn from_pair((high, low): (f64, f64)) -> Self {
         Self { high, low }
     }
 
@@ -55,10 +54,10 @@ impl Add for DoubleDouble {
 
     #[inline]
     fn add(self, other: Self) -> Self {
-        let high = two_sum(self.high, other.high);
-        let low = two_sum(self.low, other.low);
-        let sum = quick_two_sum(high.high, high.low + low.high);
-        quick_two_sum(sum.high, low.low + sum.low)
+        let (high, error) = two_sum(self.high, other.high);
+        let (low, least) = two_sum(self.low, other.low);
+        let sum = quick_two_sum(high, error + low);
+        quick_two_sum(sum.high, least + sum.low)
     }
 }
 
@@ -108,27 +107,12 @@ impl Div for DoubleDouble {
     }
 }
 
-#[inline]
-fn two_sum(a: f64, b: f64) -> DoubleDouble {
-    let high = a + b;
-    let b_part = high - a;
-    let low = (a - (high - b_part)) + (b - b_part);
-    DoubleDouble { high, low }
-}
-
-/// As [`two_sum`] for |a| ≥ |b|.
+/// Add two doubles without error, |a| ≥ |b|.
 #[inline]
 fn quick_two_sum(a: f64, b: f64) -> DoubleDouble {
     let high = a + b;
     let low = b - (high - a);
     DoubleDouble { high, low }
-}
-
-#[inline]
-fn halves(value: f64) -> (f64, f64) {
-    let shifted = SPLITTER * value;
-    let high = shifted - (shifted - value);
-    (high, value - high)
 }
 
 #[cfg(test)]

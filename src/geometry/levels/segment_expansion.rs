@@ -4,6 +4,7 @@ use glam::DVec4;
 
 use crate::geometry::basis::uniform_basis_step;
 use crate::geometry::error::MAX_DEGREE;
+use crate::geometry::error_free::{two_product, two_sum};
 use crate::geometry::float_polygon::FloatPolygon;
 
 /// Hold one segment of a curve by its Taylor polynomial about the middle of the segment, t = ½.
@@ -144,17 +145,12 @@ impl From<DVec4> for Pair {
 
 impl Pair {
     fn minus(self, other: Self) -> Self {
-        let difference = self.high - other.high;
-        let subtracted = self.high - difference;
-        let error = (self.high - (difference + subtracted)) - (other.high - subtracted);
+        let (difference, error) = two_sum(self.high, -other.high);
         normalised(difference, error + (self.low - other.low))
     }
 
     fn times(self, factor: f64) -> Self {
-        let product = self.high * factor;
-        let (a, b) = halves(self.high);
-        let (c, d) = halves(DVec4::splat(factor));
-        let error = ((a * c - product) + a * d + b * c) + b * d;
+        let (product, error) = two_product(self.high, DVec4::splat(factor));
         normalised(product, error + self.low * factor)
     }
 }
@@ -164,14 +160,6 @@ fn normalised(high: DVec4, low: DVec4) -> Pair {
     let sum = high + low;
     let low = low - (sum - high);
     Pair { high: sum, low }
-}
-
-/// Split numbers into halves of 26 bits, whose products are exact.
-fn halves(numbers: DVec4) -> (DVec4, DVec4) {
-    const SPLITTER: f64 = 134_217_729.0; // 2²⁷ + 1
-    let spread = numbers * SPLITTER;
-    let high = spread - (spread - numbers);
-    (high, numbers - high)
 }
 
 #[cfg(test)]
