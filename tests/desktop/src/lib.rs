@@ -3,8 +3,8 @@
 #![forbid(unsafe_code)]
 
 pub mod arc;
+mod display;
 
-use std::io::{BufRead, BufReader};
 use std::net::{TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -15,40 +15,10 @@ use egui::accesskit::{Node, TreeUpdate};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect};
 use egui_inspection::protocol::{Request, Response, read_handshake, read_message, write_message};
 
+pub use crate::display::Display;
+
 /// How long the window may take to appear, and a widget to be found.
 const PATIENCE: Duration = Duration::from_secs(60);
-
-/// A virtual display, taken down when dropped.
-pub struct Display {
-    server: Child,
-    name: String,
-}
-
-impl Display {
-    /// Start a virtual display of some size.
-    pub fn start(width: u32, height: u32) -> Result<Self> {
-        let mut server = Command::new("Xvfb")
-            .args(["-displayfd", "1", "-screen", "0"])
-            .arg(format!("{width}x{height}x24"))
-            .args(["-nolisten", "tcp"])
-            .stdout(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn()
-            .context("Xvfb does not start: is the package xvfb installed?")?;
-        let output = server.stdout.take().context("Xvfb has no output")?;
-        let mut number = String::new();
-        BufReader::new(output).read_line(&mut number)?;
-        let name = format!(":{}", number.trim());
-        Ok(Self { server, name })
-    }
-}
-
-impl Drop for Display {
-    fn drop(&mut self) {
-        let _ = self.server.kill();
-        let _ = self.server.wait();
-    }
-}
 
 /// The running program with its window.
 pub struct Window {
@@ -60,16 +30,16 @@ pub struct Window {
 impl Window {
     /// Start the program on a display and wait for its window. The program is the one named by
     /// `BATTEN`, or the debug build with the feature `inspection`.
-    pub fn open(display: &Display, arguments: &[&str], scale: f32) -> Result<Self> {
+    pub fn open(display: &mut Display, arguments: &[&str], scale: f32) -> Result<Self> {
         let program = std::env::var_os("BATTEN").map_or_else(
             || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target/debug/batten"),
             PathBuf::from,
         );
         let address = free_address()?;
         let home = tempfile::tempdir()?;
-        let child = Command::new(&program)
+        let mut child = Command::new(&program)
             .args(arguments)
-            .env("DISPLAY", &display.name)
+            .env("DISPLAY", display.name())
             .env_remove("WAYLAND_DISPLAY")
             .env_remove("DBUS_SESSION_BUS_ADDRESS")
             .env("WINIT_X11_SCALE_FACTOR", scale.to_string())
@@ -80,7 +50,15 @@ impl Window {
             .stdin(Stdio::null())
             .spawn()
             .with_context(|| format!("{} does not start", program.display()))?;
-        let connection = connect(&address)?;
+        let connection = match connect(&address, &mut child) {
+            Ok(connection) => connection,
+            Err(error) => {
+                let _ = child.kill();
+                let _ = child.wait();
+                display.check()?;
+                return Err(error);
+            }
+        };
         let mut window = Self {
             program: child,
             connection,
@@ -285,19 +263,26 @@ fn free_address() -> Result<String> {
     Ok(listener.local_addr()?.to_string())
 }
 
-fn connect(address: &str) -> Result<TcpStream> {
+/// Wait for the program's answer; give up as soon as the program has ended.
+fn connect(address: &str, program: &mut Child) -> Result<TcpStream> {
     let begin = Instant::now();
     loop {
-        match TcpStream::connect(address) {
-            Ok(mut connection) => {
-                connection.set_read_timeout(Some(PATIENCE))?;
-                read_handshake(&mut connection)?;
-                return Ok(connection);
-            }
+        if let Some(status) = program.try_wait()? {
+            bail!("the program has ended ({status}) before its window appeared");
+        }
+        match greet(address) {
+            Ok(connection) => return Ok(connection),
             Err(error) if begin.elapsed() > PATIENCE => {
                 return Err(error).context("the window does not appear");
             }
             Err(_) => std::thread::sleep(Duration::from_millis(50)),
         }
     }
+}
+
+fn greet(address: &str) -> Result<TcpStream> {
+    let mut connection = TcpStream::connect(address)?;
+    connection.set_read_timeout(Some(PATIENCE))?;
+    read_handshake(&mut connection)?;
+    Ok(connection)
 }

@@ -21,8 +21,8 @@ const CORRECTION_TOLERANCE: f64 = 1e-12;
 
 #[test]
 fn the_main_job_end_to_end() -> Result<()> {
-    let display = Display::start(1600, 1000)?;
-    let mut window = Window::open(&display, &[], 1.0)?;
+    let mut display = Display::start(1600, 1000)?;
+    let mut window = Window::open(&mut display, &[], 1.0)?;
     window.resize(1480, 920)?;
     window.key(Key::H, Modifiers::NONE)?;
     let canvas = window.find("Canvas")?;
@@ -109,8 +109,8 @@ fn export(window: &mut Window, curve: &Curve) -> Result<()> {
 
 #[test]
 fn a_window_at_twice_the_scale_and_in_the_light_theme() -> Result<()> {
-    let display = Display::start(3200, 2000)?;
-    let mut window = Window::open(&display, &[], 2.0)?;
+    let mut display = Display::start(3200, 2000)?;
+    let mut window = Window::open(&mut display, &[], 2.0)?;
     window.resize(1480, 920)?;
     window.key(Key::H, Modifiers::NONE)?;
     window.key(Key::F9, Modifiers::NONE)?;
@@ -123,8 +123,8 @@ fn a_window_at_twice_the_scale_and_in_the_light_theme() -> Result<()> {
 
 #[test]
 fn quitting_asks_about_unsaved_changes() -> Result<()> {
-    let display = Display::start(1600, 1000)?;
-    let mut window = Window::open(&display, &[], 1.0)?;
+    let mut display = Display::start(1600, 1000)?;
+    let mut window = Window::open(&mut display, &[], 1.0)?;
     let canvas = window.find("Canvas")?;
     let from = place(canvas, &arc(), 5);
     window.drag(from, from + vec2(30.0, 30.0))?;

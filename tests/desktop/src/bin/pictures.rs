@@ -12,8 +12,8 @@ fn main() -> Result<()> {
         .nth(1)
         .context("usage: pictures FOLDER")?;
     let folder = PathBuf::from(folder);
-    let display = Display::start(1600, 1000)?;
-    let mut window = Window::open(&display, &[], 1.0)?;
+    let mut display = Display::start(1600, 1000)?;
+    let mut window = Window::open(&mut display, &[], 1.0)?;
     window.resize(1480, 920)?;
     window.key(Key::H, Modifiers::NONE)?;
     let canvas = window.find("Canvas")?;
