@@ -6,9 +6,9 @@ mod witness;
 
 use std::f64::consts::TAU;
 
-use batten::geometry::FloatPolygon;
 use batten::geometry::circle_comparison::regular_polygon;
-use batten::geometry::features::{ExtremumKind, Features, Quantity, Trend, Verdict};
+use batten::geometry::features::{ExtremumKind, Features, Trend, Verdict};
+use batten::geometry::{BezierPolygon, FloatPolygon};
 use common::{Random, assert_near, counts};
 use glam::DVec3;
 use witness::ExactSegment;
@@ -175,7 +175,7 @@ fn the_cusp_of_a_cubic_is_found_and_nothing_is_claimed_there() {
     let features = features(3, &[(0.0, 0.0), (-2.0, 2.25), (-2.0, 1.5), (0.0, 3.75)]);
     assert_eq!(features.cusps.len(), 1);
     let cusp = features.cusps[0];
-    assert!(!cusp.proved && cusp.u[0] <= 0.5 && 0.5 <= cusp.u[1]);
+    assert!(cusp.proved && cusp.u[0] <= 0.5 && 0.5 <= cusp.u[1]);
     assert!(cusp.u[1] - cusp.u[0] <= 1e-9);
     assert_eq!(features.curvature_extrema, []);
     assert!(features.inflections.is_empty());
@@ -192,6 +192,55 @@ fn turning_back_on_a_line_is_a_proved_cusp() {
     assert!(features.cusps[0].u[0] <= 1.0 && 1.0 <= features.cusps[0].u[1]);
     assert_eq!(features.undecided, []);
     assert_eq!(features.monotone, Verdict::Undecided);
+}
+
+#[test]
+fn a_cusp_at_a_simple_fraction_is_proved() {
+    // C′ = (2 s, 3 s²) with s = 3 t − 1, in Bézier form.
+    let bezier = [(0.0, 0.0), (-2.0, 3.0), (-1.0, -3.0), (3.0, 9.0)];
+    let vertices = bezier.map(|(x, y)| DVec3::new(x, y, 0.0)).to_vec();
+    let bezier = BezierPolygon::new(3, vertices, None).expect("valid");
+    let features = Features::new(&bezier.to_float().expect("one segment"));
+    let [cusp] = features.cusps[..] else {
+        panic!("{features:?}");
+    };
+    assert!(cusp.proved && cusp.u[0] < 1.0 / 3.0 && 1.0 / 3.0 < cusp.u[1]);
+}
+
+#[test]
+fn vertices_on_a_line_need_not_be_round_numbers() {
+    let vertices = [0.1, 0.7, 1.3, 1.9, 3.3, 4.1].map(|x| DVec3::new(x, x, 0.0));
+    let line = FloatPolygon::new(4, vertices.to_vec(), None, false).expect("valid");
+    let features = Features::new(&line);
+    assert_eq!(counts(&features), [0; 5]);
+    assert_eq!(features.undecided, []);
+    assert_eq!(features.monotone, Verdict::Proved);
+}
+
+#[test]
+fn both_sides_of_a_knot_may_agree_exactly() {
+    // A square with rounded corners, of degree 2: κ is the same on both sides of every knot, and
+    // its slope is 0 there at the curve's ends and where two arcs of one kind meet.
+    let features = features(
+        2,
+        &[
+            (0.0, 0.0),
+            (1.0, 0.0),
+            (2.0, 1.0),
+            (2.0, 2.0),
+            (1.0, 3.0),
+            (0.0, 3.0),
+        ],
+    );
+    assert_eq!(features.undecided, []);
+    assert!(features.inflections.is_empty());
+    let kinds = features
+        .curvature_extrema
+        .iter()
+        .map(|extremum| extremum.kind);
+    let kinds: Vec<_> = kinds.collect();
+    use ExtremumKind::{Maximum, Minimum};
+    assert_eq!(kinds, [Minimum, Maximum, Minimum]);
 }
 
 #[test]
@@ -257,47 +306,65 @@ fn a_symmetrical_cubic_has_an_extremum_on_its_knot() {
 }
 
 #[test]
-fn a_rational_circle_is_undecided_at_once() {
-    // (1 − t², 2 t) / (1 + t²) times 3: the curvature is 1/3 throughout.
-    let vertices = [(3.0, -3.0), (3.0, 3.0), (-1.0, 3.0)].map(|(x, y)| DVec3::new(x, y, 0.0));
-    let weights = Some(vec![1.0, 1.0, 3.0]);
-    let circle = FloatPolygon::new(2, vertices.to_vec(), weights, false).expect("valid");
-    let features = Features::new(&circle);
-    assert_eq!(features.curvature_extrema, []);
-    assert!(features.inflections.is_empty());
-    assert_eq!(features.cusps, []);
-    assert_eq!(features.monotone, Verdict::Undecided);
-    assert_eq!(features.undecided.len(), 1);
-    assert_eq!(features.undecided[0].u, [0.0, 1.0]);
+fn exact_circles_have_constant_curvature() {
+    // (1 − t², 2 t) / (1 + t²) times 21 on two segments, and times 35 on one of degree 3.
+    let two = (
+        2,
+        vec![(21.0, -21.0), (21.0, 21.0), (-7.0, 21.0), (-15.0, 15.0)],
+        vec![1.0, 1.0, 3.0, 7.0],
+    );
+    let cubic = (
+        3,
+        vec![(7.0, -42.0), (70.0, 0.0), (7.0, 42.0), (-20.0, 30.0)],
+        vec![5.0, 2.0, 5.0, 14.0],
+    );
+    let curves = [two, cubic]
+        .into_iter()
+        .flat_map(|(degree, points, weights)| {
+            [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [3.0, 5.0, 4.0]].map(|tilt| {
+                // In the plane, upright, and in the plane of two vectors of length 5.
+                let place = |(x, y): &(f64, f64)| match tilt {
+                    [_, _, 1.0] => DVec3::new(*x, *y, 0.0),
+                    [_, up, 0.0] => DVec3::new(*x, up, *y),
+                    [a, b, c] => DVec3::new(a * x, b * y, c * x),
+                };
+                let vertices = points.iter().map(place).collect();
+                FloatPolygon::new(degree, vertices, Some(weights.clone()), false).expect("valid")
+            })
+        });
+    for curve in curves {
+        let features = Features::new(&curve);
+        assert_eq!(counts(&features), [0; 5], "{features:?}");
+        assert_eq!(features.undecided, []);
+        assert_eq!(features.monotone, Verdict::Proved);
+        let length = curve.segments() as f64;
+        let [piece] = features.trends[..] else {
+            panic!("one piece");
+        };
+        assert_eq!((piece.trend, piece.u), (Trend::Constant, [0.0, length]));
+    }
 }
 
 #[test]
-fn the_torsion_of_a_tilted_plane_is_undecided_at_once() {
+fn a_plane_curve_in_space_has_no_torsion() {
     let mut random = Random(3);
     let mut whole = || random.between(-50.0, 50.0).round();
     let vertices = (0..30).map(|_| {
         let (x, y) = (whole(), whole());
         DVec3::new(x, y, 2.0 * x - 3.0 * y)
     });
-    let curve = FloatPolygon::new(5, vertices.collect(), None, true).expect("valid");
+    let mut vertices: Vec<_> = vertices.collect();
+    let curve = FloatPolygon::new(5, vertices.clone(), None, true).expect("valid");
     let features = Features::new(&curve);
     assert_eq!(counts(&features)[2..4], [0, 0]);
-    let torsion = |doubt: &&batten::geometry::features::Undecided| {
-        matches!(
-            doubt.quantity,
-            Quantity::TorsionZero | Quantity::TorsionExtremum
-        )
-    };
-    let doubts: Vec<_> = features.undecided.iter().filter(torsion).collect();
-    assert_eq!(doubts.len(), 2);
-    assert!(doubts.iter().all(|doubt| doubt.u == [0.0, 30.0]));
-    // In a plane z = constant it is exactly 0.
-    let raised = curve
-        .vertices()
-        .iter()
-        .map(|vertex| DVec3::new(vertex.x, vertex.y, 7.0));
-    let raised = FloatPolygon::new(5, raised.collect(), None, true).expect("valid");
-    assert_eq!(Features::new(&raised).undecided, []);
+    assert_eq!(features.undecided, []);
+    // One vertex beside the plane is enough, by however little: then the torsion is proved where
+    // the curve leaves the plane.
+    vertices[7].z = vertices[7].z.next_up();
+    let bent = FloatPolygon::new(5, vertices, None, true).expect("valid");
+    let features = Features::new(&bent);
+    assert_ne!(counts(&features)[3], 0);
+    assert_eq!(features.undecided, []);
 }
 
 #[test]

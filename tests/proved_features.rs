@@ -126,7 +126,7 @@ fn check_segment(pieces: &[SignPiece], exact: &Polynomial, tally: &mut Tally) ->
                 );
             }
             Sign::Zero => assert!(exact.is_zero()),
-            Sign::Edge | Sign::Unknown => decided = false,
+            Sign::Unknown => decided = false,
         }
         start = piece.until;
     }
@@ -251,6 +251,7 @@ fn check_curves(seed: u64, degrees: RangeInclusive<usize>, count: usize, kind: K
     }
     assert_eq!(tally.curves, count);
     assert!(tally.roots > count / 4, "{tally:?}");
+    assert_eq!(tally.wide, 0);
     assert!(
         1000 * tally.undecided_segments < tally.segments,
         "{tally:?}"
@@ -389,12 +390,15 @@ fn special_curve(random: &mut Random, degree: usize) -> FloatPolygon {
 
 #[test]
 fn curves_near_something_special_are_never_misjudged() {
-    let (count, mut random) = (250, Random(8));
+    let (count, mut random) = (1000, Random(8));
     let mut tally = Tally::default();
     for degree in (2..=6).cycle().take(count) {
         let curve = special_curve(&mut random, degree);
         let mut prover = SegmentProver::new(curve.is_planar());
         check_curve(&curve, &mut prover, &mut tally);
     }
+    // What stays undecided are double roots on the small grids.
+    assert!(500 * tally.undecided_segments < tally.segments, "{tally:?}");
+    assert_eq!(tally.wide, 0);
     assert!(tally.roots > count / 4, "{tally:?}");
 }

@@ -1,11 +1,12 @@
 //! The features of a whole curve, put together from those of its segments.
 
+use super::exact_numerators::ExactSegment;
 use super::feature::{
     Cusp, Extremum, ExtremumKind, Features, Quantity, Trend, TrendPiece, Undecided, Verdict,
 };
 use super::segment_features::{SegmentFeatures, SegmentProver};
 use super::sign_piece::SignPiece;
-use super::sign_walk::{Change, KnotRule, Place, SignWalk};
+use super::sign_walk::{Change, Place, SignWalk};
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::jet::Jet;
 
@@ -155,29 +156,22 @@ impl Assembly<'_> {
     }
 
     fn walk(&self, quantity: Quantity) -> SignWalk {
-        let degree = self.polygon.degree();
-        // The function is continuous from this degree on; its integral from one less.
-        let smooth = match quantity {
-            Quantity::Inflection => 3,
-            Quantity::CurvatureExtremum | Quantity::TorsionZero => 4,
-            Quantity::TorsionExtremum => 5,
+        // The quantity whose derivative is walked along jumps at the knots of this degree.
+        let jumping = match quantity {
+            Quantity::CurvatureExtremum => Some(2),
+            Quantity::TorsionExtremum => Some(3),
+            Quantity::Inflection | Quantity::TorsionZero => None,
         };
-        let slope = matches!(
-            quantity,
-            Quantity::CurvatureExtremum | Quantity::TorsionExtremum
-        );
-        let rule = KnotRule {
-            continuous: degree >= smooth,
-            jumps: slope && degree + 2 == smooth,
-        };
+        let jumps = jumping == Some(self.polygon.degree());
         let pieces = |segment: usize| self.pieces(quantity, segment);
-        let jump = |segment: usize| self.jump(quantity, segment);
-        SignWalk::new(
-            rule,
-            (self.segments.len(), self.is_periodic()),
-            pieces,
-            jump,
-        )
+        let jump = |segment: usize| {
+            if jumps {
+                self.jump(quantity, segment)
+            } else {
+                0
+            }
+        };
+        SignWalk::new((self.segments.len(), self.is_periodic()), pieces, jump)
     }
 
     fn pieces(&self, quantity: Quantity, segment: usize) -> &[SignPiece] {
@@ -190,22 +184,25 @@ impl Assembly<'_> {
         }
     }
 
-    /// The sign of the jump at the start of a segment; `None` if it cannot be told.
-    fn jump(&self, quantity: Quantity, segment: usize) -> Option<i8> {
+    /// The sign of the jump at the start of a segment.
+    fn jump(&self, quantity: Quantity, segment: usize) -> i8 {
         let count = self.segments.len();
-        let [before, behind] = [segment + count - 1, segment].map(|k| &self.segments[k % count]);
-        let ([_, before], [behind, _]) = if quantity == Quantity::CurvatureExtremum {
-            (before.end_curvature, behind.end_curvature)
+        let before = (segment + count - 1) % count;
+        let [left, right] = [before, segment % count].map(|k| &self.segments[k]);
+        let ([_, left], [right, _]) = if quantity == Quantity::CurvatureExtremum {
+            (left.end_curvature, right.end_curvature)
         } else {
-            (before.end_torsion, behind.end_torsion)
+            (left.end_torsion, right.end_torsion)
         };
-        if before[1] < behind[0] {
-            Some(1)
-        } else if behind[1] < before[0] {
-            Some(-1)
+        if left[1] < right[0] {
+            1
+        } else if right[1] < left[0] {
+            -1
+        } else if left == right && left[0] == left[1] {
+            0
         } else {
-            let exact = before[0] == before[1] && before == behind;
-            exact.then_some(0)
+            let [left, right] = ExactSegment::pair(self.polygon, before, self.polygon.is_planar());
+            left.jump(&right, quantity)
         }
     }
 

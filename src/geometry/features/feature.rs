@@ -4,9 +4,8 @@
 ///
 /// An interval `u` = \[lo, hi\] is part of the domain \[0, L\], lo ≤ hi; on a periodic curve one
 /// that reaches over the joint has hi > L. A feature's interval holds exactly one. It is at
-/// most 1e-12 wide (and one rounding of u) unless rounding hides the signs in more; a single
-/// point at a knot where curvature or its slope jumps; or the whole of a piece on which the
-/// function is exactly 0 between two different signs.
+/// most 1e-12 wide (and one rounding of u); a single point at a knot; or the whole of a piece on
+/// which the function is exactly 0 between two different signs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Features {
     /// Where the signed curvature of a planar curve changes its sign.
@@ -51,8 +50,8 @@ pub enum ExtremumKind {
 
 /// Hold a place where the tangent vanishes or may vanish.
 ///
-/// Zeros of both x′ and y′ coincide by chance only, and rounded numbers cannot prove it but
-/// where a motion along a straight line turns back or vertices coincide. Others are reported
+/// Zeros of both x′ and y′ coincide by chance only. It is proved where a motion along a straight
+/// line turns back, at knots, and at parameters that are simple fractions. Others are reported
 /// with `proved` false: the tangent is too small there for its sign to be told.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cusp {

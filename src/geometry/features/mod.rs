@@ -6,23 +6,23 @@
 //! bound of every rounding. Descartes' rule on the coefficients whose signs the bounds leave no
 //! doubt of proves a piece empty, or proves that it holds one simple root; other pieces are
 //! cut in two. What plain doubles leave in doubt is repeated with twice the digits, and what is
-//! in doubt then is named, never guessed: see [`Undecided`]. Nothing is divided by the tangent.
+//! in doubt then with whole numbers of any length. Nothing is divided by the tangent.
 //!
-//! - A straight line has constant curvature 0: no extrema, and it is monotone.
-//! - Vertices that lie on a line exactly are recognised, also a straight piece next to a bend.
-//! - Curvature that is exactly constant but not 0, as on a circle written as a rational curve, is
-//!   undecided: rounded numbers cannot tell a slope of 0 from a tiny one. So is the torsion of a
-//!   plane curve in space, unless z is constant or rounding has moved the vertices off the plane;
-//!   then the torsion of the doubles given is proved, however small. The work stays bounded.
-//! - Two roots closer than 1e-9, and a root that the end of an open curve cannot be told from,
-//!   are undecided, in a piece of that size. So is a knot of a curve of degree 2 (torsion: 3)
-//!   at which both sides agree within rounding while the trend does not change.
-//! - Coordinates below 1e-60 of a segment's size pass for rounding.
+//! - A straight line has constant curvature 0, an exact circle a constant one: no extrema, and
+//!   both are monotone. A curve whose vertices lie in one plane exactly has no torsion; once
+//!   rounding has moved them off it the torsion of the doubles given is proved, however small.
+//! - A root at an end of a segment is one of its knot: it counts if the sign changes there.
+//! - Only two things stay undecided, and are named ([`Undecided`]), never guessed: roots closer
+//!   than 1e-9, double ones among them, in a piece of that size; and whole segments whose
+//!   coordinates and weights differ so much in size that exact numbers would take too long, if
+//!   twice the digits are not enough for them: 1e60 and more between two of them.
 
 mod arena;
 mod curve_features;
 mod double_double;
 mod enclosure;
+mod exact_numerators;
+mod exact_polynomial;
 mod feature;
 mod isolation;
 mod numerators;
@@ -34,6 +34,7 @@ mod sign_piece;
 mod sign_walk;
 mod tables;
 mod variations;
+mod whole_numbers;
 
 pub use feature::{
     Cusp, Extremum, ExtremumKind, Features, Quantity, Trend, TrendPiece, Undecided, Verdict,

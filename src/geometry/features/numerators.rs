@@ -16,6 +16,7 @@
 //! the numerator of τ′ do so where N = 0: a simple root of any of them is an ordinary point.
 
 use super::arena::{Arena, Polynomial};
+use super::feature::Quantity;
 use super::scalar::Scalar;
 use super::segment_shape::SegmentShape;
 
@@ -38,6 +39,32 @@ pub(super) struct Numerators {
     pub(super) bending: Polynomial,
     /// W, or 0 if the segment is polynomial.
     pub(super) weight: Polynomial,
+}
+
+/// Name a function of which the signs are wanted.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Function {
+    /// What a quantity changes its sign with.
+    Feature(Quantity),
+    /// The speed: the square of A.
+    Speed,
+    /// The velocity on a straight line of this direction.
+    Along([f64; 3]),
+}
+
+impl Numerators {
+    /// The polynomial that has a function's signs.
+    pub(super) fn of(&self, function: Function) -> Polynomial {
+        match function {
+            Function::Feature(Quantity::Inflection) => self.curvature,
+            Function::Feature(Quantity::CurvatureExtremum) => self.curvature_slope,
+            Function::Feature(Quantity::TorsionZero) => self.torsion,
+            Function::Feature(Quantity::TorsionExtremum) => self.torsion_slope,
+            Function::Speed => self.speed,
+            // A line is turned into the x axis.
+            Function::Along(_) => self.tangent[0],
+        }
+    }
 }
 
 /// A vector of polynomials.

@@ -1,10 +1,14 @@
 //! The features inside one segment.
 
-use super::arena::{Arena, Polynomial};
+use std::cell::LazyCell;
+
+use super::arena::Arena;
 use super::double_double::DoubleDouble;
 use super::enclosure::at_ends;
-use super::isolation::{Effort, isolate};
-use super::numerators::Numerators;
+use super::exact_numerators::ExactSegment;
+use super::feature::Quantity;
+use super::isolation::{Doubt, isolate};
+use super::numerators::{Function, Numerators};
 use super::segment_shape::SegmentShape;
 use super::sign_piece::{Sign, SignPiece, append, with_starts};
 use super::variations::certain_sign;
@@ -52,9 +56,6 @@ pub struct SegmentProver {
     precise: Arena<DoubleDouble>,
 }
 
-/// Picks a polynomial of which the signs are wanted.
-type Choice = fn(&Numerators) -> Polynomial;
-
 impl SegmentProver {
     /// Prepare for curves in the plane z = 0, or for curves in space. All segments of a curve
     /// must be treated alike: curvature has a sign in the plane only.
@@ -69,7 +70,7 @@ impl SegmentProver {
     /// Prove the features of one segment.
     ///
     /// Plain doubles decide nearly always; what they leave in doubt is repeated with twice the
-    /// digits, at some 30 times the cost. The cost is bounded by the degree alone.
+    /// digits, at some 30 times the cost, and what these leave in doubt in whole numbers.
     ///
     /// # Panics
     /// If the curve has no segment with this number.
@@ -77,16 +78,17 @@ impl SegmentProver {
         let shape = SegmentShape::new(polygon, segment, self.planar);
         let quick = Numerators::new(&mut self.quick, &shape, self.planar);
         let [start, end] = at_ends(&self.quick, &quick, &shape, self.planar);
+        let planar = self.planar;
         let mut search = Search {
             prover: self,
             shape: &shape,
             quick,
             precise: None,
+            exact: LazyCell::new(Box::new(|| ExactSegment::new(polygon, segment, planar))),
         };
         let mut features = search.features();
         features.end_curvature = [start[0], end[0]];
         features.end_torsion = [start[1], end[1]];
-        let planar = self.planar;
         let jet = |t: f64| polygon.segment_jet(segment, t);
         set_values(&mut features.curvature_slope, |t| {
             if planar {
@@ -106,14 +108,15 @@ struct Search<'a> {
     shape: &'a SegmentShape,
     quick: Numerators,
     precise: Option<Numerators>,
+    exact: LazyCell<Option<ExactSegment>, Box<dyn FnOnce() -> Option<ExactSegment> + 'a>>,
 }
 
 impl Search<'_> {
     fn features(&mut self) -> SegmentFeatures {
-        let curvature = self.signs(|numerators| numerators.curvature);
-        let curvature_slope = self.signs(|numerators| numerators.curvature_slope);
-        let torsion = self.signs(|numerators| numerators.torsion);
-        let torsion_slope = self.signs(|numerators| numerators.torsion_slope);
+        let curvature = self.signs(Function::Feature(Quantity::Inflection));
+        let curvature_slope = self.signs(Function::Feature(Quantity::CurvatureExtremum));
+        let torsion = self.signs(Function::Feature(Quantity::TorsionZero));
+        let torsion_slope = self.signs(Function::Feature(Quantity::TorsionExtremum));
         let cusps = self.cusps(&curvature_slope);
         SegmentFeatures {
             curvature,
@@ -126,28 +129,29 @@ impl Search<'_> {
         }
     }
 
-    fn signs(&mut self, choose: Choice) -> Vec<SignPiece> {
+    fn signs(&mut self, function: Function) -> Vec<SignPiece> {
         let mut pieces = Vec::new();
-        let polynomial = choose(&self.quick);
+        let polynomial = self.quick.of(function);
         if polynomial.vanishes() {
             append(&mut pieces, Sign::Zero, 1.0);
-        } else if isolate(
-            &mut self.prover.quick,
-            polynomial,
-            Effort::Quick,
-            &mut pieces,
-        )
-        .is_err()
-        {
+            return pieces;
+        }
+        let Err(doubt) = isolate(&mut self.prover.quick, polynomial, &mut pieces) else {
+            return pieces;
+        };
+        pieces.clear();
+        let exact = || self.exact.as_ref().map(|exact| exact.numerator(function));
+        if doubt == Doubt::Everywhere && exact().is_some_and(|exact| exact.is_zero()) {
+            append(&mut pieces, Sign::Zero, 1.0);
+            return pieces;
+        }
+        let polynomial = self.precise().of(function);
+        if isolate(&mut self.prover.precise, polynomial, &mut pieces).is_err() {
             pieces.clear();
-            let polynomial = choose(&self.precise());
-            // A thorough search never gives up.
-            let _ = isolate(
-                &mut self.prover.precise,
-                polynomial,
-                Effort::Thorough,
-                &mut pieces,
-            );
+            match self.exact.as_ref() {
+                Some(exact) => exact.numerator(function).append_signs(&mut pieces),
+                None => append(&mut pieces, Sign::Unknown, 1.0),
+            }
         }
         pieces
     }
@@ -162,37 +166,53 @@ impl Search<'_> {
     /// Find where the tangent vanishes. The numerator of κ′ vanishes there as well, to at least
     /// the third order: so where its sign is known, and at its simple roots, there is no cusp.
     fn cusps(&mut self, slope: &[SignPiece]) -> Vec<LocalCusp> {
-        if self.shape.straight {
-            let along = self.signs(|numerators| numerators.tangent[0]);
+        if let Some(direction) = self.shape.line {
+            let along = self.signs(Function::Along(direction));
             let mut cusps = line_cusps(&along);
             self.add_end_cusps(&mut cusps);
             return cusps;
         }
-        let doubtful =
-            |piece: &SignPiece| matches!(piece.sign, Sign::Unknown | Sign::Edge | Sign::Zero);
+        let doubtful = |piece: &SignPiece| matches!(piece.sign, Sign::Unknown | Sign::Zero);
         let mut cusps = Vec::new();
         if slope.iter().any(doubtful) {
-            let speed = self.signs(|numerators| numerators.speed);
+            let speed = self.signs(Function::Speed);
             let low = with_starts(&speed)
                 .filter(|(_, piece)| !matches!(piece.sign, Sign::Positive))
                 .map(|(start, piece)| [start, piece.until]);
-            cusps.extend(low.map(|t| LocalCusp { t, proved: false }));
+            cusps.extend(low.map(|t| self.cusp(t)));
         }
         self.add_end_cusps(&mut cusps);
         cusps
     }
 
+    /// Look for a cusp on a piece at its simplest fraction: there, and at few other places, can a
+    /// zero of the whole tangent be proved.
+    fn cusp(&self, t: [f64; 2]) -> LocalCusp {
+        let [p, q] = simplest_fraction(t);
+        let place = f64::from(p) / f64::from(q);
+        let inside = t[0] < place && place < t[1];
+        let proved = inside && self.tangent_vanishes(p, q);
+        LocalCusp { t, proved }
+    }
+
+    fn tangent_vanishes(&self, p: u32, q: u32) -> bool {
+        let exact = self.exact.as_ref();
+        exact.is_some_and(|exact| exact.tangent_vanishes(p, q))
+    }
+
     /// Add the ends at which every component of the tangent is exactly 0.
-    fn add_end_cusps(&mut self, cusps: &mut Vec<LocalCusp>) {
-        for (at_end, t) in [(false, 0.0), (true, 1.0)] {
-            let vanishes = self.quick.tangent.iter().all(|component| {
+    fn add_end_cusps(&self, cusps: &mut Vec<LocalCusp>) {
+        for (end, t) in [(0, 0.0), (1, 1.0)] {
+            let may_vanish = self.quick.tangent.iter().all(|component| {
                 let (values, errors) = self.prover.quick.coefficients(*component);
-                let index = if at_end { component.degree() } else { 0 };
+                let index = end as usize * component.degree();
                 let end = values.get(index).zip(errors.get(index));
-                end.is_none_or(|(value, error)| certain_sign(*value, *error) == Some(0))
+                end.is_none_or(|(value, error)| {
+                    !matches!(certain_sign(*value, *error), Some(1 | -1))
+                })
             });
             let inside = |cusp: &LocalCusp| cusp.proved && cusp.t[0] <= t && t <= cusp.t[1];
-            if vanishes && !cusps.iter().any(inside) {
+            if may_vanish && !cusps.iter().any(inside) && self.tangent_vanishes(end, 1) {
                 cusps.push(LocalCusp {
                     t: [t, t],
                     proved: true,
@@ -200,6 +220,32 @@ impl Search<'_> {
             }
         }
     }
+}
+
+/// Find the fraction of the least denominator between two numbers from 0 to 1, as well as rounding
+/// lets it be found, by continued fractions.
+fn simplest_fraction([low, high]: [f64; 2]) -> [u32; 2] {
+    /// Simple enough for a curve that someone wrote down.
+    const MOST_STEPS: usize = 8;
+    let (mut low, mut high) = (low, high);
+    // The last two convergents.
+    let ([mut p, mut q], [mut last_p, mut last_q]) = ([1_u32, 0_u32], [0_u32, 1_u32]);
+    for _ in 0..MOST_STEPS {
+        let whole = low.floor();
+        let ends = low == whole || whole + 1.0 <= high;
+        let step = if low == whole {
+            whole
+        } else {
+            whole + f64::from(u8::from(ends))
+        };
+        let next = |now: u32, last: u32| now.saturating_mul(step as u32).saturating_add(last);
+        ([p, q], [last_p, last_q]) = ([next(p, last_p), next(q, last_q)], [p, q]);
+        if ends {
+            break;
+        }
+        (low, high) = (1.0 / (high - whole), 1.0 / (low - whole));
+    }
+    [p, q.max(1)]
 }
 
 /// Read off where a motion along a line, of which these are the velocity's signs, stands still.

@@ -4,11 +4,15 @@ use glam::DVec3;
 
 use super::arena::FLOOR;
 use super::double_double::DoubleDouble;
+use super::whole_numbers;
 use crate::geometry::error::MAX_DEGREE;
 use crate::geometry::float_polygon::FloatPolygon;
 
 /// What the arithmetic of wide numbers adds to a product or a sum of three: 2⁻⁹⁸.
 const WIDE_ROUNDING: f64 = f64::EPSILON * f64::EPSILON * 64.0;
+
+/// Products of doubles further apart than this share of their size are different in truth.
+const APART: f64 = 8.0 * f64::EPSILON;
 
 /// Hold what the features of one segment depend on.
 ///
@@ -25,8 +29,9 @@ pub(super) struct SegmentShape {
     pub(super) bounds: [[f64; MAX_DEGREE + 1]; 4],
     /// Whether the weights differ.
     pub(super) rational: bool,
-    /// Whether the vertices are proved to lie on one line: the x axis then.
-    pub(super) straight: bool,
+    /// The direction of the line that the vertices are proved to lie on, 0 if they are one
+    /// point; here that line is the x axis.
+    pub(super) line: Option<[f64; 3]>,
     /// The length that is 1 here.
     pub(super) unit: f64,
 }
@@ -47,7 +52,7 @@ impl SegmentShape {
             controls: Default::default(),
             bounds: Default::default(),
             rational,
-            straight: false,
+            line: None,
             unit: 1.0,
         };
         let vertex = |j: usize| polygon.vertex(segment + j);
@@ -102,15 +107,17 @@ impl SegmentShape {
         let known = |j: usize| (0..3).all(|axis| self.bounds[axis][j] == 0.0);
         let middle = (self.count / 2..self.count).chain((0..self.count / 2).rev());
         let Some(reference) = middle.clone().find(moving) else {
-            self.straight = (0..self.count).all(known);
+            self.line = (0..self.count).all(known).then_some([0.0; 3]);
             return;
         };
         let direction = vector(reference);
         let parallel = middle
             .filter(|j| known(*j) && are_parallel(direction, vector(*j)))
             .count();
-        self.straight = parallel == self.count;
-        if self.straight || planar && self.count > 2 && parallel + 1 >= self.count {
+        if parallel == self.count {
+            self.line = Some(direction.map(|part| part.high));
+        }
+        if self.line.is_some() || planar && self.count > 2 && parallel + 1 >= self.count {
             self.rotate(reference, planar);
         }
     }
@@ -124,7 +131,7 @@ impl SegmentShape {
             let rounding = WIDE_ROUNDING * size * (a.high.abs() + b.high.abs() + c.high.abs());
             let along = x * a + y * b + z * c;
             let across = x * b + -(y * a);
-            let exact = self.straight || off == 0.0 && are_parallel([x, y, z], [a, b, c]);
+            let exact = self.line.is_some() || off == 0.0 && are_parallel([x, y, z], [a, b, c]);
             self.controls[0][j] = along;
             self.bounds[0][j] = off + nonzero(rounding);
             self.controls[1][j] = if exact || !planar {
@@ -180,12 +187,20 @@ fn power_of_two_below(value: f64) -> f64 {
     }
 }
 
-/// Decide exactly whether two vectors are parallel; vectors of more than 53 bits a coordinate
-/// pass for not parallel.
+/// Decide exactly whether two vectors are parallel.
 fn are_parallel(a: [DoubleDouble; 3], b: [DoubleDouble; 3]) -> bool {
-    let plain = |vector: [DoubleDouble; 3]| vector.iter().all(|value| value.low == 0.0);
-    let cross_vanishes = |i: usize, j: usize| {
-        DoubleDouble::product(a[i].high, b[j].high) == DoubleDouble::product(a[j].high, b[i].high)
+    let products_agree = |[p, q]: [DoubleDouble; 2], [r, s]: [DoubleDouble; 2]| {
+        let (one, other) = (p.high * q.high, r.high * s.high);
+        if (one - other).abs() > APART * (one.abs() + other.abs()) {
+            return false;
+        }
+        if [p, q, r, s].iter().all(|value| value.low == 0.0) {
+            return DoubleDouble::product(p.high, q.high) == DoubleDouble::product(r.high, s.high);
+        }
+        let pairs = |values: [DoubleDouble; 2]| values.map(|value| [value.high, value.low]);
+        whole_numbers::products_agree(pairs([p, q]), pairs([r, s]))
     };
-    plain(a) && plain(b) && cross_vanishes(0, 1) && cross_vanishes(1, 2) && cross_vanishes(2, 0)
+    [(0, 1), (1, 2), (2, 0)]
+        .iter()
+        .all(|&(i, j)| products_agree([a[i], b[j]], [a[j], b[i]]))
 }

@@ -15,9 +15,6 @@ pub enum Sign {
         /// curvature or torsion itself.
         value: f64,
     },
-    /// The piece lies at an end of the segment, and the sign at that end is not known: there is
-    /// no root, or there is one and it is simple.
-    Edge,
     /// Nothing is known: the piece is too small, or the function lies within rounding of 0.
     Unknown,
 }
@@ -60,7 +57,7 @@ pub(super) fn with_starts(pieces: &[SignPiece]) -> impl Iterator<Item = (f64, Si
 /// Append a piece, or lengthen the last one if it says the same.
 pub(super) fn append(pieces: &mut Vec<SignPiece>, sign: Sign, until: f64) {
     match pieces.last_mut() {
-        Some(last) if last.sign == sign && !matches!(sign, Sign::Root { .. } | Sign::Edge) => {
+        Some(last) if last.sign == sign && !matches!(sign, Sign::Root { .. }) => {
             last.until = until;
         }
         _ => pieces.push(SignPiece { sign, until }),

@@ -67,19 +67,9 @@ pub(super) struct Run {
     pub(super) sign: i8,
 }
 
-/// Say what a function does at knots.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct KnotRule {
-    /// Whether the function is continuous at knots.
-    pub(super) continuous: bool,
-    /// Whether the quantity whose derivative it is jumps at knots; the jump counts as a slope.
-    pub(super) jumps: bool,
-}
-
 /// Collect the changes of sign along a curve, segment after segment.
 #[derive(Debug)]
 pub(super) struct SignWalk {
-    rule: KnotRule,
     periodic: bool,
     sign: Option<i8>,
     gap: Gap,
@@ -93,8 +83,6 @@ pub(super) struct SignWalk {
 struct Gap {
     start: Place,
     unknown: bool,
-    edges: u32,
-    unknown_jumps: u32,
     value: Option<f64>,
 }
 
@@ -103,31 +91,23 @@ impl Gap {
         Self {
             start,
             unknown: false,
-            edges: 0,
-            unknown_jumps: 0,
             value: None,
         }
-    }
-
-    fn is_doubtful(&self) -> bool {
-        self.unknown || self.edges + self.unknown_jumps > 0
     }
 }
 
 impl SignWalk {
     /// Walk along all segments of a curve.
     ///
-    /// `pieces` gives those of a segment; `jump` the sign of the jump of the quantity at the
-    /// start of a segment, `None` if it cannot be told.
+    /// `pieces` gives those of a segment; `jump` the sign of the jump at the start of a segment of
+    /// the quantity whose derivative the function is. A jump counts as a slope.
     pub(super) fn new<'a>(
-        rule: KnotRule,
         (segments, periodic): (usize, bool),
         pieces: impl Fn(usize) -> &'a [SignPiece],
-        jump: impl Fn(usize) -> Option<i8>,
+        jump: impl Fn(usize) -> i8,
     ) -> Self {
         let start = Place { segment: 0, t: 0.0 };
         let mut walk = Self {
-            rule,
             periodic,
             sign: None,
             gap: Gap::from(start),
@@ -145,7 +125,7 @@ impl SignWalk {
         }
         if periodic && walk.sign.is_some() {
             walk.go_round(segments, pieces, jump);
-        } else if walk.gap.is_doubtful() {
+        } else if walk.gap.unknown {
             walk.doubt(
                 Place {
                     segment: segments - 1,
@@ -162,7 +142,7 @@ impl SignWalk {
         &mut self,
         segments: usize,
         pieces: impl Fn(usize) -> &'a [SignPiece],
-        jump: impl Fn(usize) -> Option<i8>,
+        jump: impl Fn(usize) -> i8,
     ) {
         let runs = std::mem::take(&mut self.runs);
         'round: for segment in 0..segments {
@@ -183,22 +163,15 @@ impl SignWalk {
         self.doubts.push(Doubt { places, changed });
     }
 
-    fn knot(&mut self, segment: usize, jump: &impl Fn(usize) -> Option<i8>) {
-        if !self.rule.jumps {
-            return;
-        }
-        match jump(segment) {
-            Some(0) => {}
-            // A periodic walk ends at the first piece with a sign, so it begins there too.
-            Some(_) if self.periodic && self.sign.is_none() => {}
-            Some(sign) => {
-                let before = Place {
-                    segment: segment - 1,
-                    t: 1.0,
-                };
-                self.sign_piece(sign, [before, Place { segment, t: 0.0 }]);
-            }
-            None => self.gap.unknown_jumps += 1,
+    fn knot(&mut self, segment: usize, jump: &impl Fn(usize) -> i8) {
+        let sign = jump(segment);
+        // A periodic walk ends at the first piece with a sign, so it begins there too.
+        if sign != 0 && !(self.periodic && self.sign.is_none()) {
+            let before = Place {
+                segment: segment - 1,
+                t: 1.0,
+            };
+            self.sign_piece(sign, [before, Place { segment, t: 0.0 }]);
         }
     }
 
@@ -213,7 +186,6 @@ impl SignWalk {
                 self.run(0, places, continues);
             }
             Sign::Root { value } => self.gap.value = Some(value),
-            Sign::Edge => self.gap.edges += 1,
             Sign::Unknown => self.gap.unknown = true,
         }
     }
@@ -221,9 +193,9 @@ impl SignWalk {
     fn sign_piece(&mut self, sign: i8, places: [Place; 2]) {
         let changed = self.sign.is_some_and(|before| before != sign);
         let certain = match self.sign {
-            Some(_) => self.is_certain(changed),
+            Some(_) => !self.gap.unknown,
             // The part of a periodic curve before its first sign is seen again at the end.
-            None => self.periodic || !self.gap.is_doubtful(),
+            None => self.periodic || !self.gap.unknown,
         };
         if !certain {
             self.doubt(places[0], changed);
@@ -239,21 +211,6 @@ impl SignWalk {
         self.gap = Gap::from(places[1]);
     }
 
-    /// Decide whether the gap behind the last sign holds exactly one change if the next sign
-    /// is another, and none if it is the same.
-    ///
-    /// An edge is a piece next to a knot that holds at most one root, as the sign at the knot
-    /// tells. A continuous function has one sign there for both sides: a single edge, whose
-    /// other side knows the sign, has no doubt left, and of two edges exactly one holds the
-    /// root, or the knot does, if the signs beyond them differ. If the function jumps, one
-    /// doubt leaves a single change between different signs, two may leave three.
-    fn is_certain(&self, changed: bool) -> bool {
-        let doubts = self.gap.edges + self.gap.unknown_jumps;
-        let settled = if self.rule.continuous { 2 } else { 1 };
-        let unchanged = if self.rule.continuous { 1 } else { 0 };
-        !self.gap.unknown && doubts <= if changed { settled } else { unchanged }
-    }
-
     fn run(&mut self, sign: i8, places: [Place; 2], continues: bool) {
         match self.runs.last_mut() {
             Some(last) if last.sign == sign && continues => last.places[1] = places[1],
@@ -267,20 +224,7 @@ impl SignWalk {
 mod tests {
     use super::*;
 
-    const CONTINUOUS: KnotRule = KnotRule {
-        continuous: true,
-        jumps: false,
-    };
-    const BROKEN: KnotRule = KnotRule {
-        continuous: false,
-        jumps: false,
-    };
-    const JUMPS: KnotRule = KnotRule {
-        continuous: false,
-        jumps: true,
-    };
-
-    /// Read a segment written as + − 0, r for a root, e for an edge and ? for unknown.
+    /// Read a segment written as + − 0, r for a root and ? for unknown.
     fn segment(signs: &str) -> Vec<SignPiece> {
         let count = signs.len() as f64;
         let sign = |letter| match letter {
@@ -288,7 +232,6 @@ mod tests {
             '-' => Sign::Negative,
             '0' => Sign::Zero,
             'r' => Sign::Root { value: 0.0 },
-            'e' => Sign::Edge,
             _ => Sign::Unknown,
         };
         let until = (1..).map(|index| f64::from(index) / count);
@@ -299,85 +242,56 @@ mod tests {
     }
 
     /// The numbers of changes and of doubts, with all jumps the same.
-    fn counts(
-        rule: KnotRule,
-        periodic: bool,
-        segments: &[&str],
-        jump: Option<i8>,
-    ) -> (usize, usize) {
+    fn counts(periodic: bool, segments: &[&str], jump: i8) -> (usize, usize) {
         let segments: Vec<_> = segments.iter().map(|signs| segment(signs)).collect();
         let size = (segments.len(), periodic);
-        let walk = SignWalk::new(rule, size, |k| &segments[k], |_| jump);
+        let walk = SignWalk::new(size, |k| &segments[k], |_| jump);
         (walk.changes.len(), walk.doubts.len())
     }
 
     #[test]
     fn knots_are_counted_once() {
-        for (rule, segments, expected) in [
-            (CONTINUOUS, ["+r-", "-r+"], (2, 0)),
-            // A root at the knot, in sight from both sides, or a value known from one.
-            (CONTINUOUS, ["-e", "e+"], (1, 0)),
-            (CONTINUOUS, ["+e", "e+"], (0, 1)),
-            (CONTINUOUS, ["+e", "+"], (0, 0)),
-            (CONTINUOUS, ["+", "e-"], (1, 0)),
-            // Two sides that need not agree may hold one more change each.
-            (BROKEN, ["-e", "e+"], (0, 1)),
-            (BROKEN, ["+e", "+"], (0, 1)),
-            (BROKEN, ["+", "e-"], (1, 0)),
-            (BROKEN, ["+", "-"], (1, 0)),
+        for (segments, expected) in [
+            (["+r-", "-r+"], (2, 0)),
+            (["+", "-"], (1, 0)),
+            (["-r+", "-"], (2, 0)),
             // Exact zeros between different signs are one change.
-            (BROKEN, ["+0", "0-"], (1, 0)),
-            (BROKEN, ["+0", "0+"], (0, 0)),
-            (CONTINUOUS, ["+?-", "-"], (0, 1)),
+            (["+0", "0-"], (1, 0)),
+            (["+0", "0+"], (0, 0)),
+            (["+?-", "-"], (0, 1)),
             // At the ends nothing changes, as far as is known.
-            (CONTINUOUS, ["e+", "+e"], (0, 2)),
-            (CONTINUOUS, ["0+", "+0"], (0, 0)),
-            (CONTINUOUS, ["?", "?"], (0, 1)),
+            (["?+", "+?"], (0, 2)),
+            (["0+", "+0"], (0, 0)),
+            (["?", "?"], (0, 1)),
         ] {
-            assert_eq!(
-                counts(rule, false, &segments, Some(0)),
-                expected,
-                "{segments:?}"
-            );
+            assert_eq!(counts(false, &segments, 0), expected, "{segments:?}");
         }
     }
 
     #[test]
     fn jumps_are_slopes() {
         for (jump, segments, expected) in [
-            (Some(1), ["+", "+"], (0, 0)),
-            (Some(-1), ["+", "+"], (2, 0)),
-            (Some(-1), ["+", "-"], (1, 0)),
-            (None, ["+", "-"], (1, 0)),
-            (None, ["+", "+"], (0, 1)),
-            (Some(1), ["0", "+"], (0, 0)),
-            (Some(-1), ["0", "+"], (1, 0)),
+            (1, ["+", "+"], (0, 0)),
+            (-1, ["+", "+"], (2, 0)),
+            (-1, ["+", "-"], (1, 0)),
+            (1, ["0", "+"], (0, 0)),
+            (-1, ["0", "+"], (1, 0)),
         ] {
-            assert_eq!(
-                counts(JUMPS, false, &segments, jump),
-                expected,
-                "{jump:?} {segments:?}"
-            );
+            assert_eq!(counts(false, &segments, jump), expected, "{segments:?}");
         }
     }
 
     #[test]
     fn a_periodic_curve_has_no_ends() {
         for (segments, expected) in [
-            (["e+", "r-e"], (2, 0)),
             (["+", "r-"], (2, 0)),
             (["0+", "+0"], (0, 0)),
             (["?+", "+"], (0, 1)),
             (["?", "?"], (0, 1)),
             (["?", "+r-"], (1, 1)),
         ] {
-            assert_eq!(
-                counts(CONTINUOUS, true, &segments, Some(0)),
-                expected,
-                "{segments:?}"
-            );
+            assert_eq!(counts(true, &segments, 0), expected, "{segments:?}");
         }
-        let jumping = ["+", "+"];
-        assert_eq!(counts(JUMPS, true, &jumping, Some(-1)), (4, 0));
+        assert_eq!(counts(true, &["+", "+"], -1), (4, 0));
     }
 }

@@ -32,10 +32,6 @@ pub(super) enum Variations {
     None(i8),
     /// Exactly one change, from this sign to its opposite.
     One(i8),
-    /// At most one change, from an unknown first coefficient to this sign.
-    UnknownFirst(i8),
-    /// At most one change, from this sign to an unknown last coefficient.
-    UnknownLast(i8),
     /// More than one change, or possibly more.
     Many,
 }
@@ -64,15 +60,9 @@ impl Variations {
                 Self::Unknown
             };
         };
-        // An unknown sign next to exact zeros at an end says nothing about the end itself.
-        let vague = |end: Option<(&T, &f64)>| {
-            end.is_some_and(|(value, error)| certain_sign(value.rounded(), *error).is_none())
-        };
         match (most.count(), first, last) {
             (0, ..) => Self::None(known),
             (1, Some(sign), Some(_)) => Self::One(sign),
-            (1, None, _) if vague(values.first().zip(errors.first())) => Self::UnknownFirst(known),
-            (1, _, None) if vague(values.last().zip(errors.last())) => Self::UnknownLast(known),
             _ => Self::Many,
         }
     }
@@ -145,8 +135,8 @@ mod tests {
             ("-??+", Variations::Many),
             ("+?+", Variations::Many),
             ("+-+", Variations::Many),
-            ("?++", Variations::UnknownFirst(1)),
-            ("--?", Variations::UnknownLast(-1)),
+            ("?++", Variations::Many),
+            ("--?", Variations::Many),
             ("?+?", Variations::Many),
             ("??+", Variations::Many),
             ("0?+", Variations::Many),
