@@ -13,7 +13,7 @@ use super::end_fit_panel::EndFitPanel;
 use super::file_dialogs::{Chosen, FileDialogs, Purpose};
 use super::gizmo::gizmo_ui;
 use super::inspector::Inspector;
-use super::keyboard::{self, Asked};
+use super::keyboard::{self, Asked, Keyboard};
 use super::layer_list::layer_list_ui;
 use super::menu::menu_ui;
 use super::message::message_ui;
@@ -39,6 +39,7 @@ pub struct App {
     editor: Editor,
     shell: Shell,
     canvas: Canvas,
+    keyboard: Keyboard,
     curves: CurveList,
     inspector: Inspector,
     end_fit: EndFitPanel,
@@ -81,6 +82,7 @@ impl App {
             editor,
             shell,
             canvas: Canvas::default(),
+            keyboard: Keyboard::default(),
             curves: CurveList::default(),
             inspector: Inspector::default(),
             end_fit: EndFitPanel::default(),
@@ -139,7 +141,7 @@ impl App {
             move_keyboard(context);
         }
         let typing = keyboard::is_typing(context);
-        let asked = keyboard::asked(context, &self.editor);
+        let asked = self.keyboard.asked(context, &self.editor);
         if typing && !asked.is_empty() {
             // What is being typed counts: its field gives it up before the command is done.
             context.memory_mut(|memory| memory.stop_text_input());

@@ -63,7 +63,8 @@ impl Canvas {
 
     fn send_event(&mut self, context: &Context, editor: &mut Editor, rect: Rect, event: &Event) {
         if let Some((axis, pressed)) = keyboard::axis_of(event) {
-            self.hold_axis(editor, axis, pressed);
+            let mine = editor.is_holding() || self.has_keyboard(context);
+            self.hold_axis(editor, axis, pressed && mine);
         }
         match event {
             Event::PointerMoved(pos) => self.moved(context, editor, rect, *pos),
@@ -211,7 +212,7 @@ impl Canvas {
     /// An axis's key steers a drag while it is held.
     fn hold_axis(&mut self, editor: &mut Editor, axis: usize, pressed: bool) {
         let wanted = match (pressed, self.axis) {
-            (true, _) if editor.is_holding() => Some(axis),
+            (true, _) => Some(axis),
             (false, Some(held)) if held == axis => None,
             (_, held) => held,
         };

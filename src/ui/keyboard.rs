@@ -95,32 +95,65 @@ pub enum Asked {
     Paste(String),
 }
 
-/// Take the events out of this frame that stand for commands.
-pub fn asked(context: &Context, editor: &Editor) -> Vec<Asked> {
-    if is_covered(context) {
-        return Vec::new();
-    }
-    let typing = is_typing(context);
-    let holding = editor.is_holding();
-    let table: Vec<(Shortcut, Command)> = Command::all(editor.examples())
-        .into_iter()
-        .filter_map(|command| Some((command.shortcut()?, command)))
-        .collect();
-    let mut asked = Vec::new();
-    context.input_mut(|input| {
-        input
-            .events
-            .retain(|event| match command_of(event, &table, typing) {
-                // The axes' keys steer a drag.
-                Some(_) if holding && axis_of(event).is_some() => true,
-                Some(found) => {
-                    asked.push(found);
-                    false
+/// Turns keys into commands.
+///
+/// A key that may steer a drag along an axis stands for its command when it is released, unless
+/// the pointer was pressed meanwhile.
+#[derive(Debug, Default)]
+pub struct Keyboard {
+    /// The axis whose key is held, and the command that waits for its release.
+    waiting: Option<(usize, Command)>,
+}
+
+impl Keyboard {
+    /// Take the events out of this frame that stand for commands.
+    pub fn asked(&mut self, context: &Context, editor: &Editor) -> Vec<Asked> {
+        if is_covered(context) {
+            self.waiting = None;
+            return Vec::new();
+        }
+        let typing = is_typing(context);
+        let holding = editor.is_holding();
+        let table: Vec<(Shortcut, Command)> = Command::all(editor.examples())
+            .into_iter()
+            .filter_map(|command| Some((command.shortcut()?, command)))
+            .collect();
+        let mut asked = Vec::new();
+        context.input_mut(|input| {
+            input.events.retain(|event| {
+                asked.extend(self.released(event));
+                let found = command_of(event, &table, typing);
+                match (found, axis_of(event)) {
+                    (None, _) => true,
+                    (Some(Asked::Command(command)), Some((axis, _))) => {
+                        self.waiting = (!holding).then_some((axis, command));
+                        true
+                    }
+                    (Some(found), _) => {
+                        asked.push(found);
+                        false
+                    }
                 }
-                None => true,
             });
-    });
-    asked
+        });
+        asked
+    }
+
+    /// The command that an event brings to its end of waiting.
+    fn released(&mut self, event: &Event) -> Option<Asked> {
+        let (waiting, command) = self.waiting?;
+        match event {
+            Event::PointerButton { pressed: true, .. } | Event::WindowFocused(false) => {
+                self.waiting = None;
+                None
+            }
+            _ if axis_of(event) == Some((waiting, false)) => {
+                self.waiting = None;
+                Some(Asked::Command(command))
+            }
+            _ => None,
+        }
+    }
 }
 
 /// The axis of the model (0 x, 1 y, 2 z) whose key an event is about, and whether it is held.

@@ -253,6 +253,29 @@ fn letters_are_typed_into_fields_and_are_commands_elsewhere() {
 }
 
 #[test]
+fn an_axis_key_held_before_a_drag_steers_it_and_keeps_the_tool() {
+    let mut window = open_window();
+    let before = curve(&window).polygon.vertex(4);
+    let from = vertex(&window, 4);
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    window.key_down(Key::X);
+    window.run();
+    drag(&mut window, from, from + vec2(40.0, 30.0));
+    window.key_up(Key::X);
+    window.run();
+    let after = curve(&window).polygon.vertex(4);
+    assert!(after.x > before.x && after.y == before.y, "{after}");
+    assert_eq!(window.state().editor().tool(), ToolKind::Select);
+    // Without a drag the key chooses its tool, and the next drag is free again.
+    press(&mut window, Modifiers::NONE, Key::X);
+    assert_eq!(window.state().editor().tool(), ToolKind::Delete);
+    press(&mut window, Modifiers::NONE, Key::V);
+    let from = vertex(&window, 4);
+    drag(&mut window, from, from + vec2(0.0, 30.0));
+    assert_ne!(curve(&window).polygon.vertex(4).y, before.y);
+}
+
+#[test]
 fn the_wheel_zooms_to_the_pointer_and_the_middle_button_pans() {
     let mut window = open_window();
     let at = vertex(&window, 2);
