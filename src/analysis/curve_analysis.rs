@@ -17,7 +17,7 @@ use super::orientation::Orientation;
 use super::outline::{Bounds, Outline};
 use super::plot_series::PlotBlock;
 use super::sample::{Sample, SegmentSampler};
-use super::vertex_chain::VertexChain;
+use super::vertex_chain::{VertexChain, changed_range};
 use crate::document::Curve;
 use crate::geometry::{ClampedPolygon, FloatPolygon, Range as Span};
 
@@ -122,7 +122,7 @@ impl CurveAnalysis {
     }
 
     /// Bring the analysis up to date with the curve. Only segments that depend on a vertex that
-    /// moved are sampled again.
+    /// moved, or whose weight changed, are sampled again.
     pub fn update(&mut self, curve: &Arc<Curve>) {
         if Arc::ptr_eq(&self.curve, curve) {
             return;
@@ -130,14 +130,22 @@ impl CurveAnalysis {
         let (old, new) = (&self.curve.polygon, &curve.polygon);
         let alike = old.degree() == new.degree()
             && old.is_periodic() == new.is_periodic()
-            && old.weights() == new.weights();
+            && old.is_rational() == new.is_rational();
         let changed = alike
             .then(|| self.float.update(new.vertices(), new.is_periodic()))
             .flatten();
-        let Some(changed) = changed else {
+        let Some(mut changed) = changed else {
             *self = Self::new(curve.clone(), self.orientation);
             return;
         };
+        let [old, new] = [old, new].map(|polygon| polygon.weights().unwrap_or_default());
+        if let Some(weights) = changed_range(old, new) {
+            changed = if changed.is_empty() {
+                weights
+            } else {
+                changed.start.min(weights.start)..changed.end.max(weights.end)
+            };
+        }
         self.curve = curve.clone();
         self.redone = 0;
         if changed.is_empty() {

@@ -338,7 +338,7 @@ fn union(a: Option<Span>, b: Option<Span>) -> Option<Span> {
 }
 
 /// Find the smallest range that holds every difference of two slices of one length.
-fn changed_range(old: &[DVec3], new: &[DVec3]) -> Option<Range<usize>> {
+pub(super) fn changed_range<T: PartialEq>(old: &[T], new: &[T]) -> Option<Range<usize>> {
     let mut pairs = old.iter().zip(new);
     let first = pairs.position(|(a, b)| a != b)?;
     let behind = old.iter().zip(new).rev();

@@ -120,17 +120,23 @@ fn only_segments_that_depend_on_a_vertex_are_redone() {
     script
         .editor
         .apply("long", vec![Edit::SetPolygon { curve, polygon }]);
-    script.editor.scene();
     script.editor.features();
-    script.editor.apply(
-        "move",
-        vec![Edit::MoveVertices {
-            curve,
-            moves: vec![(100, DVec3::new(100.0, 3.0, 0.0))],
-        }],
-    );
-    script.editor.scene();
-    script.editor.features();
-    assert_eq!(script.editor.segments_redone(curve), Some(10));
-    assert_eq!(script.editor.segments_proved(curve), Some(10));
+    let weigh = |weight| Edit::SetWeight {
+        curve,
+        vertex: 50,
+        weight,
+    };
+    let moves = vec![(100, DVec3::new(100.0, 3.0, 0.0))];
+    // The first weight makes the curve rational: that changes all of it.
+    for (edit, expected) in [
+        (Edit::MoveVertices { curve, moves }, 10),
+        (weigh(2.0), 191),
+        (weigh(3.0), 10),
+    ] {
+        script.editor.apply("edit", vec![edit]);
+        script.editor.scene();
+        script.editor.features();
+        assert_eq!(script.editor.segments_redone(curve), Some(expected));
+        assert_eq!(script.editor.segments_proved(curve), Some(expected));
+    }
 }

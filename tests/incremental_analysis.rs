@@ -1,0 +1,109 @@
+//! What is kept up to date vertex by vertex is what would be made anew.
+
+mod common;
+
+use std::sync::Arc;
+
+use batten::analysis::{CurveAnalysis, Orientation, PieceTrend, ViewBox};
+use batten::document::Curve;
+use batten::geometry::FloatPolygon;
+use common::Random;
+use glam::{DVec2, DVec3};
+
+/// Edits of each curve.
+const EDITS: usize = 12;
+
+/// How far closed polygons may differ that are converted whole and in part, in units of the
+/// curve's size.
+const CONVERSION: f64 = 8.0 * f64::EPSILON;
+
+fn random_polygon(random: &mut Random, degree: usize) -> FloatPolygon {
+    let count = degree + 1 + (random.bits() % 120) as usize;
+    let in_space = random.bits().is_multiple_of(3);
+    let vertices =
+        (0..count).map(|i| DVec3::new(i as f64, 0.0, 0.0) + random.vector(2.0, in_space));
+    let vertices = vertices.collect();
+    let weights = random.bits().is_multiple_of(2);
+    let weights = weights.then(|| (0..count).map(|_| random.between(0.5, 2.0)).collect());
+    let periodic = random.bits().is_multiple_of(3);
+    FloatPolygon::new(degree, vertices, weights, periodic).expect("a valid polygon")
+}
+
+fn edit(random: &mut Random, polygon: &mut FloatPolygon) {
+    let count = polygon.vertices().len() as u64;
+    for _ in 0..1 + random.bits() % 3 {
+        let index = (random.bits() % count) as usize;
+        let in_space = !polygon.is_planar();
+        let place = polygon.vertex(index) + random.vector(1.0, in_space);
+        match random.bits() % 8 {
+            // The first weight turns a polynomial curve into a rational one.
+            0..=2 if polygon.is_rational() || random.bits().is_multiple_of(8) => polygon
+                .set_weight(index, random.between(0.2, 5.0))
+                .expect("a valid weight"),
+            // Off the plane, and perhaps back to it.
+            3 => {
+                let z = (random.bits() % 2) as f64;
+                let place = DVec3::new(place.x, place.y, z);
+                polygon
+                    .move_vertices(vec![(index, place)])
+                    .expect("a valid place");
+            }
+            _ => polygon
+                .move_vertices(vec![(index, place)])
+                .expect("a valid place"),
+        }
+    }
+}
+
+/// What is drawn of a curve and plotted, gaps included.
+fn drawn(analysis: &mut CurveAnalysis) -> Vec<[u64; 2]> {
+    let view = ViewBox {
+        low: DVec2::new(-20.0, -20.0),
+        high: DVec2::new(150.0, 20.0),
+        pixel: 0.05,
+    };
+    let mut points = Vec::new();
+    for trend in PieceTrend::ALL {
+        analysis.append_pieces(&view, trend, &mut points);
+    }
+    analysis.append_curvature(&mut points);
+    analysis.append_leg_lengths(&mut points);
+    let bits = |point: DVec2| point.to_array().map(f64::to_bits);
+    points.into_iter().map(bits).collect()
+}
+
+#[test]
+fn an_edited_curve_is_analysed_as_if_it_were_new() {
+    let mut random = Random(12);
+    for degree in (1..=9).cycle().take(45) {
+        let mut polygon = random_polygon(&mut random, degree);
+        let eye = if degree % 2 == 0 {
+            Orientation::isometric()
+        } else {
+            Orientation::default()
+        };
+        let curve = |polygon: &FloatPolygon| Arc::new(Curve::new("curve", polygon.clone()));
+        let mut kept = CurveAnalysis::new(curve(&polygon), eye);
+        for _ in 0..EDITS {
+            kept.features();
+            drawn(&mut kept);
+            edit(&mut random, &mut polygon);
+            let curve = curve(&polygon);
+            kept.update(&curve);
+            let mut fresh = CurveAnalysis::new(curve, eye);
+            for segment in 0..polygon.segments() {
+                assert_eq!(
+                    kept.segment_samples(segment),
+                    fresh.segment_samples(segment)
+                );
+            }
+            assert_eq!(kept.features(), fresh.features());
+            assert_eq!(kept.length(), fresh.length());
+            assert_eq!(drawn(&mut kept), drawn(&mut fresh));
+            let pairs = kept.clamped_vertices().iter().zip(fresh.clamped_vertices());
+            for (kept, fresh) in pairs {
+                assert!(kept.distance(*fresh) <= CONVERSION * polygon.size());
+            }
+        }
+    }
+}
