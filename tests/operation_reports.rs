@@ -2,6 +2,8 @@
 
 mod common;
 
+use std::f64::consts::TAU;
+
 use batten::geometry::{
     Amplification, BezierPolygon, ClampedPolygon, End, FloatPolygon, PolygonError, PolygonKind,
 };
@@ -10,6 +12,9 @@ use glam::DVec3;
 
 /// By how much a bound of a deviation may lie above the deviation.
 const GAP: f64 = 1.001;
+
+/// What may be left between ends that are kept, in units of the curve's size.
+const END_TOLERANCE: f64 = 1e-12;
 
 /// The largest difference of two lists of points.
 fn distance(a: &[DVec3], b: &[DVec3]) -> f64 {
@@ -75,16 +80,65 @@ fn lowering_errs_by_the_bernoulli_monospline() {
     // The difference of a polynomial of degree m + 1 and the spline nearest to it on uniform
     // knots is a Bernoulli polynomial: |B_{m+1}| / (m + 1)! times the derivative. On a circle of
     // radius 10 that derivative is 10 h^{m+1}, h the angle, but for the curve's own shrinking.
-    let step = 0.1_f64;
+    let step = TAU / 63.0;
     for (from, to, bernoulli) in [(4, 3, 1.0 / 30.0), (7, 5, 1.0 / 42.0), (9, 5, 1.0 / 42.0)] {
         let factorial: f64 = (1..=to + 1).map(|k| k as f64).product();
         let expected = 10.0 * step.powi(to as i32 + 1) * bernoulli / factorial;
-        let changed = arc(from, 100, step).with_degree(to).expect("valid");
-        let quotient = changed.deviation / expected;
-        assert!(
-            (0.9..=1.2).contains(&quotient),
-            "{from} to {to}: {quotient}"
-        );
+        let open = arc(from, 63, step);
+        let circle = FloatPolygon::new(from, open.vertices().to_vec(), None, true).expect("valid");
+        // An open curve's ends are kept, where the monospline is furthest off: the rest is off by
+        // its whole height, from lowest to highest, less than twice as much.
+        for (polygon, most) in [(circle, 1.2), (open, 2.2)] {
+            let changed = polygon.with_degree(to).expect("valid");
+            let quotient = changed.deviation / expected;
+            assert!(
+                (0.9..=most).contains(&quotient),
+                "{from} to {to}: {quotient}"
+            );
+        }
+    }
+}
+
+#[test]
+fn curves_of_another_degree_and_parts_of_curves_keep_their_ends() {
+    let mut random = Random(21);
+    for (degree, other) in [
+        (2, 4),
+        (3, 5),
+        (5, 2),
+        (5, 3),
+        (5, 9),
+        (9, 5),
+        (9, 8),
+        (7, 12),
+    ] {
+        for round in 0..8 {
+            let count = 2 * degree.max(other) + 2 + round;
+            let polygon = random.gentle(degree, count, round % 2 == 0, round % 3 == 0);
+            let last = polygon.segments() as f64;
+            let changes = [
+                (polygon.with_degree(other), 0.0, last),
+                (polygon.trimmed(0.3, last - 0.3, 0), 0.3, last - 0.3),
+            ];
+            for (changed, from, to) in changes {
+                let Ok(curve) = changed else {
+                    // Beyond the ends weights may change their sign.
+                    assert!(polygon.is_rational());
+                    continue;
+                };
+                assert!(!curve.exact);
+                for (end, u) in [(End::Start, from), (End::Finish, to)] {
+                    let (kept, given) = (curve.polygon.end_jet(end), polygon.jet(u));
+                    let off = kept.point.distance(given.point);
+                    assert!(
+                        off <= END_TOLERANCE * polygon.size(),
+                        "{degree} {other}: {off:e}"
+                    );
+                    let turn = kept.first.normalize().distance(given.first.normalize());
+                    assert!(turn <= END_TOLERANCE, "{degree} {other}: {turn:e}");
+                }
+            }
+        }
     }
 }
 

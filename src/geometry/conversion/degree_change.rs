@@ -3,8 +3,10 @@
 use super::approximation::Approximation;
 use super::deviation::between_chains;
 use super::exact_polygon::ExactPolygon;
+use super::kept_ends::with_ends;
 use super::quasi_interpolation::{NewKnots, quasi_interpolated};
 use crate::geometry::bezier_polygon::BezierPolygon;
+use crate::geometry::end::End;
 use crate::geometry::error::PolygonError;
 use crate::geometry::float_polygon::{FloatPolygon, check_degree};
 
@@ -15,9 +17,10 @@ impl FloatPolygon {
     /// at its knots than a uniform curve of higher degree: raising it exactly would double the
     /// knots, so it can only be approximated. So can lowering, unless the curve happens to be of
     /// the lower degree, which then is found again. The approximation is a local one, each vertex
-    /// taken from the curve's derivatives in the middle of its knots; it commutes with affine maps
-    /// and reversal and keeps smooth polygons smooth, but not the end points, which move by no
-    /// more than the deviation. Rational curves are changed in homogeneous coordinates.
+    /// taken from the curve's derivatives in the middle of its knots, and keeps smooth polygons
+    /// smooth. Then the vertices move as little as brings the ends of an open curve, and from
+    /// degree 2 on its end tangents, back to where they were; where they are too few for that, the
+    /// ends stay off by up to the deviation. Rational curves are changed in homogeneous coordinates.
     ///
     /// # Errors
     /// [`PolygonError::DegreeOutOfRange`] if `degree` is not 1 … 25;
@@ -42,6 +45,11 @@ impl FloatPolygon {
                 periodic: self.is_periodic(),
             },
         )?;
+        let polygon = if self.is_periodic() {
+            polygon
+        } else {
+            with_ends(polygon, End::BOTH.map(|end| self.end_jet(end)))
+        };
         let (before, after) = (
             BezierPolygon::from_float(self),
             BezierPolygon::from_float(&polygon),

@@ -14,6 +14,7 @@ pub(in crate::geometry) mod exact_vertices;
 pub(in crate::geometry) mod expansion;
 pub(in crate::geometry) mod extension;
 pub(in crate::geometry) mod homogeneous;
+pub(in crate::geometry) mod kept_ends;
 pub(in crate::geometry) mod knots;
 pub(in crate::geometry) mod quasi_interpolation;
 pub(in crate::geometry) mod rounding;

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::approximation::Approximation;
 use super::deviation::from_part;
+use super::kept_ends::with_ends;
 use super::quasi_interpolation::{NewKnots, quasi_interpolated};
 use crate::geometry::error::PolygonError;
 use crate::geometry::float_polygon::FloatPolygon;
@@ -50,7 +51,8 @@ impl FloatPolygon {
     /// bring knots to both places, they are made and the part is exact. Otherwise it is a uniform
     /// curve over (`to` − `from`) · 2^`subdivisions` segments, rounded up, near the curve: exact
     /// but for rounding where no knot lies between, else with an error that falls with the
-    /// (n + 1)-th power of the length of its segments.
+    /// (n + 1)-th power of the length of its segments; its ends and end tangents are kept as in
+    /// [`FloatPolygon::with_degree`].
     ///
     /// # Errors
     /// [`PolygonError::NoSuchPart`] as in [`FloatPolygon::trimmed_at_knots`], also for what is
@@ -114,6 +116,7 @@ impl FloatPolygon {
             periodic: false,
         };
         let polygon = quasi_interpolated(self, &knots)?;
+        let polygon = with_ends(polygon, [from, to].map(|u| self.jet(u)));
         Ok(Approximation {
             deviation: from_part(self, from, step, &polygon),
             polygon,

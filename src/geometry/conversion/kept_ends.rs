@@ -1,0 +1,37 @@
+//! Approximations that begin and end where the curve does, in its directions.
+
+use crate::geometry::end::End;
+use crate::geometry::end_correction::{EndDifference, EndTarget};
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::jet::Jet;
+use crate::geometry::joint_correction::correct_jointly;
+
+/// What is left of an end's difference by rounding, in units of the curve's size.
+const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
+
+/// Move the vertices of an open curve as little as possible to bring both ends to the points of
+/// two jets, and from degree 2 on into their directions where they have one.
+///
+/// Ends that differ by no more than rounding stay, and so does the curve where the vertices are too
+/// few to meet both ends.
+pub(super) fn with_ends(polygon: FloatPolygon, jets: [Jet; 2]) -> FloatPolygon {
+    let target = |jet: Jet| EndTarget {
+        point: jet.point,
+        direction: jet.tangent().filter(|_| polygon.degree() > 1),
+    };
+    let targets = [
+        (End::Start, target(jets[0])),
+        (End::Finish, target(jets[1])),
+    ];
+    let size = polygon.size();
+    let met = targets.iter().all(|(end, target)| {
+        EndDifference::between(&polygon, *end, target).residual(size) <= ROUNDINGS * size
+    });
+    if met {
+        return polygon;
+    }
+    match correct_jointly(&polygon, &targets) {
+        Ok(correction) => correction.polygon,
+        Err(_) => polygon,
+    }
+}
