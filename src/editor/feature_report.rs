@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::Editor;
 use super::layers::Layer;
 use crate::analysis::{Bounds, CurveAnalysis, ViewBox};
-use crate::geometry::features::{ExtremumKind, Features, Quantity, Verdict};
+use crate::geometry::features::{ExtremumKind, Features, Quantity, Trend, TrendPiece, Verdict};
 
 /// How much of a segment is shown around a feature, on either side.
 const SURROUNDINGS: f64 = 0.6;
@@ -75,6 +75,8 @@ impl FeatureRow {
 pub struct FeatureReport {
     /// Whether the curvature is proved to be monotone.
     pub monotone: Verdict,
+    /// Whether it is proved to be constant, as on a line or a circle.
+    pub constant: bool,
     /// Whether there are pieces on which curvature extrema could not be counted.
     pub has_doubts: bool,
     /// Whether the curve is of degree 1: its corners have no curvature.
@@ -153,8 +155,11 @@ impl FeatureReport {
             },
         }));
         rows.sort_by(|a, b| a.u[0].total_cmp(&b.u[0]));
+        let mut trends = features.trends.iter();
+        let is_constant = |piece: &TrendPiece| piece.trend == Trend::Constant;
         Self {
             monotone: features.monotone,
+            constant: features.monotone == Verdict::Proved && trends.all(is_constant),
             has_doubts: features
                 .undecided
                 .iter()

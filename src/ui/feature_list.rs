@@ -73,6 +73,9 @@ fn verdict(report: &FeatureReport) -> (Icon, String) {
             let noun = if least == 1 { "extremum" } else { "extrema" };
             (Icon::Spline, format!("At least {least} curvature {noun}"))
         }
+        Verdict::Proved if report.constant => {
+            (Icon::Check, "Curvature constant: proved".to_owned())
+        }
         Verdict::Proved => (Icon::Check, "Curvature monotone: proved".to_owned()),
         Verdict::Disproved if extrema == 1 => (Icon::Spline, "1 curvature extremum".to_owned()),
         Verdict::Disproved => (Icon::Spline, format!("{extrema} curvature extrema")),

@@ -5,7 +5,7 @@ use batten::document::Edit;
 use batten::editor::{Command, FeatureKind, HoverScene, Layer};
 use batten::geometry::features::{Features, Verdict};
 use batten::geometry::{FloatPolygon, LEVELS};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::script::Script;
 
@@ -49,6 +49,24 @@ fn the_canvas_marks_features_and_colours_monotone_pieces() {
     }
     script.command(Command::ToggleLayer(Layer::Features));
     assert!(script.editor.scene().curves[0].features.is_empty());
+}
+
+#[test]
+fn lines_and_circles_are_told_from_monotone_curves() {
+    let circle = [(3.0, -3.0), (3.0, 3.0), (-1.0, 3.0)].map(|(x, y)| DVec3::new(x, y, 0.0));
+    let circle = FloatPolygon::new(2, circle.to_vec(), Some(vec![1.0, 1.0, 3.0]), false);
+    let line = FloatPolygon::planar(3, &[(0.0, 0.0), (0.1, 0.1), (0.3, 0.3), (0.7, 0.7)]);
+    let spiral = FloatPolygon::planar(2, &[(0.0, 0.0), (8.0, 0.0), (18.0, 2.0)]);
+    for (polygon, constant) in [(circle, true), (line, true), (spiral, false)] {
+        let polygon = polygon.expect("a valid polygon");
+        let mut script = Script::example("arc");
+        let curve = script.curve();
+        let edit = Edit::SetPolygon { curve, polygon };
+        script.editor.apply("another", vec![edit]);
+        let report = script.editor.features().expect("features");
+        assert_eq!(report.monotone, Verdict::Proved);
+        assert_eq!(report.constant, constant);
+    }
 }
 
 #[test]
