@@ -107,11 +107,7 @@ impl Space {
     }
 
     fn curvature(&self, jet: &Jet) -> f64 {
-        if self.dimension == 2 {
-            jet.signed_curvature()
-        } else {
-            jet.curvature()
-        }
+        jet.curvature_of(self.dimension == 2)
     }
 }
 

@@ -60,12 +60,16 @@ impl History {
             .map_or(&self.document, |step| &step.document)
     }
 
-    /// Show what `edits` make of the document that the gesture began with.
+    /// Show what `edits` make of the document that the gesture began with. Without a gesture there
+    /// is nothing to go back to, and nothing is shown.
     ///
     /// # Errors
     /// [`EditError`] of the first edit that cannot be made; the last good preview stays.
     pub fn preview(&mut self, edits: Vec<Edit>) -> Result<(), EditError> {
-        let mut document = self.before_gesture().clone();
+        let Some(step) = &self.gesture else {
+            return Ok(());
+        };
+        let mut document = step.document.clone();
         for edit in edits {
             document.apply(edit)?;
         }

@@ -1,5 +1,7 @@
 //! Copy and paste, as the text of a project: other programs and other windows can read it.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use super::Editor;
@@ -39,17 +41,23 @@ impl Editor {
         }
     }
 
-    /// Make the text of the active curve, or of its selected vertices alone.
+    /// Make the text of the selected vertices, a curve for each curve that has some, or of the
+    /// active curve if none is selected.
     pub(super) fn copy(&mut self) -> Option<Request> {
-        let (id, curve) = self.active_curve()?;
-        let copied = match self.selected_part(id, &curve) {
-            Ok(copied) => copied,
+        let selected = |(id, _): &(CurveId, &Arc<Curve>)| self.selection.of_curve(*id).count() > 0;
+        let parts = self.document().curves().filter(selected);
+        let parts: Result<Vec<Curve>, _> = parts
+            .map(|(id, curve)| self.selected_part(id, curve))
+            .collect();
+        let copied = match parts {
+            Ok(parts) if parts.is_empty() => vec![Curve::clone(&self.active_curve()?.1)],
+            Ok(parts) => parts,
             Err(error) => {
                 self.fail(format!("The selection is no curve of its own: {error}"));
                 return None;
             }
         };
-        let export = Format::Batten.write(&[copied], None);
+        let export = Format::Batten.write(&copied, None);
         match export.map(|export| String::from_utf8_lossy(&export.bytes).into_owned()) {
             Ok(text) => Some(Request::CopyText(text)),
             Err(error) => {
@@ -99,7 +107,7 @@ impl Editor {
     ) -> Result<Curve, crate::geometry::PolygonError> {
         let polygon = &curve.polygon;
         let indices: Vec<usize> = self.selection.of_curve(id).collect();
-        if indices.is_empty() || indices.len() == polygon.vertices().len() {
+        if indices.len() == polygon.vertices().len() {
             return Ok(curve.clone());
         }
         let vertices: Vec<DVec3> = indices.iter().map(|index| polygon.vertex(*index)).collect();

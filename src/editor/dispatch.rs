@@ -1,7 +1,5 @@
 //! From inputs to gestures, to the tool in the hand, and from its effects to the document.
 
-use glam::DVec2;
-
 use super::Editor;
 use super::gesture::Gesture;
 use super::hit::HitTest;
@@ -21,13 +19,11 @@ impl Editor {
             self.abort_field();
             return;
         }
-        if matches!(input, Input::Moved { .. }) && !self.gestures.is_dragging() {
-            let moved = |at: DVec2| self.gestures.pointer().is_none_or(|old| old != at);
-            if let Input::Moved { at } = input
-                && moved(at)
-            {
-                self.cycle = 0;
-            }
+        if let Input::Moved { at } = input
+            && !self.gestures.is_dragging()
+            && self.gestures.pointer() != Some(at)
+        {
+            self.cycle = 0;
         }
         if matches!(input, Input::Pressed { .. } | Input::Key(_)) {
             self.commit_field();
@@ -128,7 +124,12 @@ impl Editor {
             Effect::Select(vertices) => self.selection.set(vertices),
             Effect::SelectMore(vertices) => self.selection.add(vertices),
             Effect::ToggleSelected(vertex) => self.selection.toggle(vertex),
-            Effect::Activate(curve) => self.selection.activate(Some(curve)),
+            Effect::Activate(curve) => {
+                if self.selection.active() != Some(curve) {
+                    self.end_fit.begin_anew();
+                }
+                self.selection.activate(Some(curve));
+            }
             Effect::SetComb(comb) => self.set_comb(comb),
             Effect::FitAll => self.fit_all(),
             Effect::Say(text) => self.say(text),

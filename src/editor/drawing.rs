@@ -312,11 +312,7 @@ impl Editor {
         let curve = self.document().curve(id).filter(|curve| curve.visible)?;
         let planar = self.analyses.peek(id)?.is_planar();
         let jet = curve.polygon.jet(u);
-        let curvature = if planar {
-            jet.signed_curvature()
-        } else {
-            jet.curvature()
-        };
+        let curvature = jet.curvature_of(planar);
         let radius = 1.0 / curvature.abs();
         let text = format!(
             "u {u:.4}\nx {}\ny {}{}\nκ {}\nR {}",
@@ -338,7 +334,9 @@ impl Editor {
         let seen_as_it_is = planar && self.viewport.orientation.is_from_above();
         let circle = centre.filter(|_| !seen_as_it_is);
         Some(HoverScene::Curve {
+            curve: id,
             u,
+            curvature,
             at: self.viewport.flatten(jet.point),
             centre: centre
                 .filter(|_| seen_as_it_is)

@@ -124,9 +124,9 @@ impl Editor {
         let label = format!("Translate {}", end.name());
         match translate_end(&curve.polygon, end, difference.vector) {
             Ok(polygon) => {
-                self.corrected(id, curve, &label, polygon);
+                let done = self.corrected(id, curve, &label, polygon);
                 // Without a direction there is no step 6: this was a whole pass.
-                self.end_fit.passes += usize::from(target.direction.is_none());
+                self.end_fit.passes += usize::from(done && target.direction.is_none());
             }
             Err(error) => self.outcome(error.to_string(), true),
         }
@@ -142,8 +142,8 @@ impl Editor {
         let label = format!("Rotate {}", end.name());
         match align_end(&curve.polygon, end, direction) {
             Ok(polygon) => {
-                self.corrected(id, curve, &label, polygon);
-                self.end_fit.passes += 1;
+                let done = self.corrected(id, curve, &label, polygon);
+                self.end_fit.passes += usize::from(done);
             }
             Err(error) => self.outcome(error.to_string(), true),
         }
@@ -165,7 +165,9 @@ impl Editor {
                 let passes = outcome.passes();
                 let total = self.end_fit.passes + passes;
                 let left = outcome.residuals.last().copied().unwrap_or_default();
-                self.corrected(id, curve, "Repeat end correction", outcome.polygon);
+                if !self.corrected(id, curve, "Repeat end correction", outcome.polygon) {
+                    return;
+                }
                 self.end_fit.passes = total;
                 let passes = if passes == 1 {
                     "1 pass".into()
@@ -200,26 +202,34 @@ impl Editor {
         match correct_jointly(&curve.polygon, &targets) {
             Ok(correction) => {
                 let (moved, at) = (correction.largest_move, correction.largest_at);
-                self.corrected(id, curve, "Correct both ends", correction.polygon);
-                self.end_fit.largest_move = Some((moved, at));
-                self.outcome("Both ends are met", false);
+                if self.corrected(id, curve, "Correct both ends", correction.polygon) {
+                    self.end_fit.largest_move = Some((moved, at));
+                    self.outcome("Both ends are met", false);
+                }
             }
             Err(error) => self.outcome(error.to_string(), true),
         }
     }
 
-    fn corrected(&mut self, id: CurveId, before: &Arc<Curve>, label: &str, polygon: FloatPolygon) {
+    /// Put the corrected polygon in place; `false`, with the reason as outcome, if it cannot be.
+    fn corrected(
+        &mut self,
+        id: CurveId,
+        before: &Arc<Curve>,
+        label: &str,
+        polygon: FloatPolygon,
+    ) -> bool {
         let passes = self.end_fit.passes;
         self.end_fit.begin_anew();
         self.end_fit.passes = passes;
-        match self
-            .history
-            .apply(label, vec![Edit::SetPolygon { curve: id, polygon }])
-        {
+        let edit = Edit::SetPolygon { curve: id, polygon };
+        let done = self.history.apply(label, vec![edit]);
+        match &done {
             Ok(()) => self.end_fit.ghost = Some((id, before.clone())),
             Err(error) => self.outcome(error.to_string(), true),
         }
         self.document_changed();
+        done.is_ok()
     }
 
     fn outcome(&mut self, text: impl Into<String>, failed: bool) {

@@ -293,7 +293,6 @@ impl Editor {
             }
             self.viewport = self.viewport.fitted(&bounds);
         }
-        self.reset_comb();
     }
 
     fn toggle_layer(&mut self, layer: Layer) {
@@ -359,6 +358,7 @@ impl Editor {
             }
         };
         let label = format!("{verb} vertices");
+        self.end_fit.begin_anew();
         let done = self.history.apply(label, edits);
         match done {
             Ok(()) => self.selection.clear(),

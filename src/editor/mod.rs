@@ -81,6 +81,8 @@ pub struct Editor {
     field: bool,
     cycle: usize,
     hovered: Hovered,
+    /// What they said in the frame before: panels that are shown first read it.
+    hovered_before: Hovered,
     scene: Scene,
     plots: PlotScene,
     ghost: Ghost,
@@ -133,6 +135,7 @@ impl Editor {
             field: false,
             cycle: 0,
             hovered: Hovered::default(),
+            hovered_before: Hovered::default(),
             scene: Scene::default(),
             plots: PlotScene::default(),
             ghost: Ghost::default(),
@@ -286,10 +289,15 @@ impl Editor {
         self.gestures.is_holding()
     }
 
-    /// Make edits as one step. An error becomes the message, and nothing is changed.
+    /// Make edits as one step; a drag that goes on is called off. An error becomes the message,
+    /// and nothing is changed.
     pub fn apply(&mut self, label: &str, edits: Vec<Edit>) {
         self.commit_field();
+        if self.gestures.is_dragging() {
+            self.call_off();
+        }
         self.message = None;
+        self.end_fit.begin_anew();
         if let Err(error) = self.history.apply(label, edits) {
             self.fail(error.to_string());
         }
@@ -301,6 +309,7 @@ impl Editor {
     pub fn preview_field(&mut self, label: &str, edits: Vec<Edit>) {
         if !self.field {
             self.call_off();
+            self.end_fit.begin_anew();
             self.history.begin(label);
             self.field = true;
         }
@@ -325,14 +334,21 @@ impl Editor {
         }
     }
 
-    /// Mark the point at an arc length of the active curve, as while the plot is hovered.
-    pub fn hover_length(&mut self, arc_length: Option<f64>) {
-        self.hovered.length = arc_length;
+    /// Forget what panels marked, before they are shown anew.
+    pub fn hover_nothing(&mut self) {
+        self.hovered_before = std::mem::take(&mut self.hovered);
     }
 
-    /// Mark a vertex of the active curve, as while its row is hovered.
-    pub fn hover_vertex(&mut self, vertex: Option<usize>) {
-        self.hovered.vertex = vertex;
+    /// Mark the point at an arc length of the active curve, as while the plot is hovered, until
+    /// [`Editor::hover_nothing`].
+    pub fn hover_length(&mut self, arc_length: f64) {
+        self.hovered.length = Some(arc_length);
+    }
+
+    /// Mark a vertex of the active curve, as while its row is hovered, until
+    /// [`Editor::hover_nothing`].
+    pub fn hover_vertex(&mut self, vertex: usize) {
+        self.hovered.vertex = Some(vertex);
     }
 
     /// Say something.

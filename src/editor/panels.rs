@@ -7,7 +7,6 @@ use super::report::{CurveReport, Readout};
 use super::reshaping::clamped_amplification;
 use super::scene::{HoverScene, PlotScene};
 use crate::analysis::LevelPlot;
-use crate::document::Curve;
 
 impl Editor {
     /// Bring the plots of the active curve up to date and return them.
@@ -20,21 +19,16 @@ impl Editor {
         plots.turns.clear();
         plots.hovered = None;
         plots.hovered_vertex = None;
-        plots.name.clear();
-        if let Some((id, curve)) = self.active_curve() {
-            plots.name.push_str(&curve.name);
-            let hover = self.scene.hover.clone();
-            if let Some(analysis) = self.analyses.get(id) {
-                plots.planar = analysis.is_planar();
-                analysis.append_curvature(&mut plots.curvature);
-                plots.flank = analysis.append_discrete_curvature(&mut plots.discrete);
-                plots.length = analysis.length();
-                plots.curvature_range = analysis.curvature();
-                if let Some(HoverScene::Curve { u, .. }) = hover {
-                    let curvature = curvature_at(&curve, u, plots.planar);
-                    plots.hovered = Some(DVec2::new(analysis.length_at(u), curvature));
-                }
-            }
+        if let Some(id) = self.selection.active()
+            && let Some(analysis) = self.analyses.get(id)
+        {
+            plots.planar = analysis.is_planar();
+            analysis.append_curvature(&mut plots.curvature);
+            plots.flank = analysis.append_discrete_curvature(&mut plots.discrete);
+            plots.length = analysis.length();
+            let hovered = self.scene.hovered_on(id);
+            plots.hovered =
+                hovered.map(|(u, curvature)| DVec2::new(analysis.length_at(u), curvature));
             plots.hovered_vertex = self.vertex_hovered_on(id);
         }
         self.plots = plots;
@@ -45,17 +39,16 @@ impl Editor {
     /// `normalised` scales the curve to length 1.
     pub fn level_plot(&mut self, plot: LevelPlot, normalised: bool) -> &PlotScene {
         self.plots();
-        let hovered = match self.scene.hover {
-            Some(HoverScene::Curve { u, .. }) => Some(u),
-            _ => None,
-        };
         let scene = &mut self.plots;
         scene.levels.clear();
         scene.hovered_level = None;
         scene.slope = None;
-        if let Some(analysis) = self.selection.active().and_then(|id| self.analyses.get(id)) {
+        if let Some(id) = self.selection.active()
+            && let Some(analysis) = self.analyses.get(id)
+        {
             analysis.append_levels(plot, normalised, &mut scene.levels);
-            scene.hovered_level = hovered.map(|u| analysis.level_at(plot, normalised, u));
+            let hovered = self.scene.hovered_on(id);
+            scene.hovered_level = hovered.map(|(u, _)| analysis.level_at(plot, normalised, u));
             scene.slope = (plot == LevelPlot::Logarithmic)
                 .then(|| straight_slope(&scene.levels))
                 .flatten();
@@ -93,12 +86,9 @@ impl Editor {
             degree: self.active_curve().map(|(_, curve)| curve.polygon.degree()),
             ..Readout::default()
         };
-        if let Some(HoverScene::Curve { u, .. }) = self.scene.hover {
+        if let Some(HoverScene::Curve { u, curvature, .. }) = self.scene.hover {
             readout.u = Some(u);
-            readout.curvature = self.active_curve().and_then(|(id, curve)| {
-                let planar = self.analyses.peek(id)?.is_planar();
-                Some(curvature_at(&curve, u, planar))
-            });
+            readout.curvature = Some(curvature);
         }
         readout
     }
@@ -136,8 +126,9 @@ impl Editor {
     }
 
     fn vertex_hovered_on(&self, id: crate::document::CurveId) -> Option<usize> {
-        if self.hovered.vertex.is_some() {
-            return self.hovered.vertex;
+        let told = self.hovered.vertex.or(self.hovered_before.vertex);
+        if told.is_some() {
+            return told;
         }
         let place = self.gestures.pointer()?;
         if self.gestures.is_dragging() {
@@ -176,14 +167,4 @@ fn straight_slope(points: &[DVec2]) -> Option<(f64, f64)> {
     });
     let (slope, fit) = (xy / xx, xy * xy / (xx * yy));
     (slope.is_finite() && fit.is_finite()).then_some((slope, fit))
-}
-
-/// The curvature at a parameter: signed for a planar curve, not negative in space.
-fn curvature_at(curve: &Curve, u: f64, planar: bool) -> f64 {
-    let jet = curve.polygon.jet(u);
-    if planar {
-        jet.signed_curvature()
-    } else {
-        jet.curvature()
-    }
 }

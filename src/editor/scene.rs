@@ -5,7 +5,6 @@ use glam::DVec2;
 use super::end_fit::EndFitMarks;
 use super::feature_report::FeatureMark;
 use crate::document::{Colour, CurveId};
-use crate::geometry::Range;
 
 /// All that is on the canvas, from back to front. Chains are points in the model's plane; a NaN
 /// point ([`crate::analysis::GAP`]) breaks them.
@@ -103,8 +102,12 @@ pub enum HoverScene {
     },
     /// A place on a curve.
     Curve {
+        /// The curve.
+        curve: CurveId,
         /// The parameter u.
         u: f64,
+        /// The curvature: signed for a planar curve, not negative in space.
+        curvature: f64,
         /// The point.
         at: DVec2,
         /// The centre of the osculating circle of a planar curve seen from above; `None` where it
@@ -124,6 +127,21 @@ pub enum HoverScene {
     },
 }
 
+impl Scene {
+    /// The parameter and curvature of the place that is hovered, if it is on this curve.
+    pub fn hovered_on(&self, id: CurveId) -> Option<(f64, f64)> {
+        match self.hover {
+            Some(HoverScene::Curve {
+                curve,
+                u,
+                curvature,
+                ..
+            }) if curve == id => Some((u, curvature)),
+            _ => None,
+        }
+    }
+}
+
 impl PlotScene {
     /// The plot of the curvature of the curve scaled to length 1, over shares of its length.
     pub fn at_length_one(&self) -> Self {
@@ -135,7 +153,9 @@ impl PlotScene {
             hovered: self.hovered.as_ref().map(place),
             flank: self.flank / self.length,
             length: 1.0,
-            ..self.clone()
+            planar: self.planar,
+            hovered_vertex: self.hovered_vertex,
+            ..Self::default()
         }
     }
 }
@@ -143,8 +163,6 @@ impl PlotScene {
 /// The plots of the active curve.
 #[derive(Clone, Debug, Default)]
 pub struct PlotScene {
-    /// The curve's name.
-    pub name: String,
     /// Whether curvature is signed.
     pub planar: bool,
     /// Curvature over arc length; NaN points are gaps.
@@ -166,8 +184,6 @@ pub struct PlotScene {
     pub turns: Vec<DVec2>,
     /// The arc length of the whole curve.
     pub length: f64,
-    /// The smallest and largest curvature.
-    pub curvature_range: Option<Range>,
     /// The arc length and curvature at what is hovered on the canvas.
     pub hovered: Option<DVec2>,
     /// The vertex that is hovered on the canvas.

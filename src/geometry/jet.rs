@@ -37,6 +37,15 @@ impl Jet {
         factor * first.cross(second).length() / first.length().powi(3)
     }
 
+    /// Compute the curvature as a curve of that kind has it: signed if `planar`, ≥ 0 in space.
+    pub fn curvature_of(&self, planar: bool) -> f64 {
+        if planar {
+            self.signed_curvature()
+        } else {
+            self.curvature()
+        }
+    }
+
     /// Compute the torsion (C′ × C″) · C‴ / |C′ × C″|²; not a number where the curvature is 0.
     pub fn torsion(&self) -> f64 {
         let (first, a) = vector::scaled(self.first);

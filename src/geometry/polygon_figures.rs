@@ -84,11 +84,7 @@ pub fn discrete_curvature(before: DVec3, corner: DVec3, after: DVec3) -> f64 {
         second: before - 2.0 * corner + after,
         ..Jet::default()
     };
-    if before.z == 0.0 && corner.z == 0.0 && after.z == 0.0 {
-        differences.signed_curvature()
-    } else {
-        differences.curvature()
-    }
+    differences.curvature_of(before.z == 0.0 && corner.z == 0.0 && after.z == 0.0)
 }
 
 impl FloatPolygon {

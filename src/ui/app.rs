@@ -115,6 +115,7 @@ impl App {
         self.canvas.send_events(&context, &mut self.editor);
         // Panels read what is hovered from the scene: bring it up to date before they do.
         self.editor.scene();
+        self.editor.hover_nothing();
         self.panels_ui(ui);
         self.overlays_ui(&context);
         let commands = std::mem::take(&mut self.commands);

@@ -38,8 +38,6 @@ pub struct VertexTable {
     selected: Vec<usize>,
     /// The rows that were visible in the last frame.
     visible: std::ops::Range<usize>,
-    /// Whether the table hovers a vertex on the canvas.
-    hovering: bool,
 }
 
 /// What a row asks for.
@@ -95,7 +93,9 @@ impl VertexTable {
         });
         self.visible = visible;
         self.selected = selected;
-        self.hover(editor, hovered);
+        if let Some(hovered) = hovered {
+            editor.hover_vertex(hovered);
+        }
         if let Some(asked) = asked {
             execute(editor, id, curve, asked);
         }
@@ -105,13 +105,6 @@ impl VertexTable {
     fn row_to_show(&self, selected: &[usize]) -> Option<usize> {
         let first = *selected.first()?;
         (self.selected != selected && !self.visible.contains(&first)).then_some(first)
-    }
-
-    fn hover(&mut self, editor: &mut Editor, hovered: Option<usize>) {
-        if hovered.is_some() || self.hovering {
-            editor.hover_vertex(hovered);
-        }
-        self.hovering = hovered.is_some();
     }
 }
 

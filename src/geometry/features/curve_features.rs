@@ -49,13 +49,7 @@ impl Features {
         features.inflections = features.take(&assembly, Quantity::Inflection, &walk, interval);
         let walk = assembly.walk(Quantity::CurvatureExtremum);
         let planar = polygon.is_planar();
-        let curvature = |jet: Jet| {
-            if planar {
-                jet.signed_curvature()
-            } else {
-                jet.curvature()
-            }
-        };
+        let curvature = |jet: Jet| jet.curvature_of(planar);
         features.curvature_extrema = features.take(
             &assembly,
             Quantity::CurvatureExtremum,

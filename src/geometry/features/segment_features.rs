@@ -91,11 +91,7 @@ impl SegmentProver {
         features.end_torsion = [start[1], end[1]];
         let jet = |t: f64| polygon.segment_jet(segment, t);
         set_values(&mut features.curvature_slope, |t| {
-            if planar {
-                jet(t).signed_curvature()
-            } else {
-                jet(t).curvature()
-            }
+            jet(t).curvature_of(planar)
         });
         set_values(&mut features.torsion_slope, |t| jet(t).torsion());
         features

@@ -101,11 +101,12 @@ impl Plots {
         let vertex = beyond.and_then(|x| nearest_dot(scene, x));
         let along = hovered.filter(|x| (0.0..=length).contains(x));
         let along = along.map(|x| x * whole / length);
-        if hovered.is_some() || self.hovering {
+        if let Some(along) = along {
             editor.hover_length(along);
+        }
+        if let Some(vertex) = vertex {
             editor.hover_vertex(vertex);
         }
-        self.hovering = hovered.is_some();
     }
 }
 

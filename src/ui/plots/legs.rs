@@ -51,11 +51,9 @@ impl Plots {
             }
         });
         let vertex = hovered.map(|x| x.round()).filter(|x| *x >= 0.0);
-        if vertex.is_some() || self.hovering {
-            let vertices = count as usize + 1;
-            editor.hover_vertex(vertex.map(|x| x as usize).filter(|index| *index < vertices));
+        if let Some(vertex) = vertex.filter(|x| *x <= count) {
+            editor.hover_vertex(vertex as usize);
         }
-        self.hovering = vertex.is_some();
     }
 }
 

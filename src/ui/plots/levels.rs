@@ -147,10 +147,9 @@ impl Plots {
         let along = hovered
             .filter(|x| !is_graph && (0.0..=extent).contains(x))
             .map(|x| x * length / extent);
-        if along.is_some() || self.hovering {
+        if let Some(along) = along {
             editor.hover_length(along);
         }
-        self.hovering = along.is_some();
     }
 }
 

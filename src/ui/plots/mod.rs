@@ -53,8 +53,6 @@ pub struct Plots {
     tab: Tab,
     legs: Frame,
     turns: Frame,
-    /// Whether a plot marks something on the canvas.
-    hovering: bool,
     /// What the curvature plot's dots are.
     legend: &'static str,
     /// What a plot of levels has to say.
