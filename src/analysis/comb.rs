@@ -1,5 +1,7 @@
 //! The curvature comb: teeth that stand on the curve, as long as it is curved there.
 
+use std::ops::RangeInclusive;
+
 use glam::DVec2;
 
 use super::orientation::Orientation;
@@ -15,6 +17,11 @@ pub struct CombSettings {
     pub density: usize,
 }
 
+impl CombSettings {
+    /// How many teeth a segment may have.
+    pub const DENSITY: RangeInclusive<usize> = 1..=64;
+}
+
 /// The teeth of one block's comb: where they stand, and their tips.
 #[derive(Debug, Default)]
 pub(super) struct Teeth {
@@ -24,7 +31,7 @@ pub(super) struct Teeth {
 }
 
 impl Teeth {
-    /// Bring the teeth up to date if `key` (level, scale, stride) has changed since.
+    /// Bring the teeth up to date if `key` (level, scale, density) has changed since.
     pub(super) fn refresh<'a, I: Iterator<Item = &'a Sample>>(
         &mut self,
         key: (i32, u64, usize),

@@ -55,7 +55,7 @@ pub fn run(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> 
     Request::Done(match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            output::message(&error.to_string());
+            output::message(&format!("{error:#}"));
             ExitCode::FAILURE
         }
     })

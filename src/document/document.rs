@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::curve::{Curve, CurveId};
+use super::names::free_name;
 
 /// Hold the curves of a project, in the order in which they are listed and drawn.
 ///
@@ -21,6 +22,13 @@ impl Document {
             document.push(curve);
         }
         document
+    }
+
+    /// Find a name that no curve has: this one, or with another number behind it.
+    pub fn free_name(&self, name: &str) -> String {
+        free_name(name, |name| {
+            self.curves().any(|(_, curve)| curve.name == name)
+        })
     }
 
     /// List the curves with their identities.

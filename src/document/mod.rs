@@ -6,8 +6,10 @@ mod curve;
 mod document;
 mod edit;
 mod history;
+mod names;
 
 pub use curve::{Colour, Curve, CurveId, EndTargets};
 pub use document::Document;
 pub use edit::{Edit, EditError};
 pub use history::History;
+pub use names::free_name;

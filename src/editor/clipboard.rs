@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::Editor;
 use super::files::count_curves;
 use super::report::Request;
-use crate::document::{Curve, CurveId};
+use crate::document::{Curve, CurveId, free_name};
 use crate::geometry::FloatPolygon;
 use crate::io::Format;
 
@@ -80,7 +80,7 @@ impl Editor {
             let mut copy = curve.clone();
             copy.locked = false;
             copy.visible = true;
-            copy.name = free_name(&curve.name, &names);
+            copy.name = free_name(&curve.name, |name| names.iter().any(|taken| taken == name));
             names.push(copy.name.clone());
             let vertices = curve.polygon.vertices().iter().enumerate();
             let moved: Vec<(usize, DVec3)> =
@@ -118,18 +118,4 @@ impl Editor {
         let part = FloatPolygon::new(degree, vertices, weights, false)?;
         Ok(Curve::new(curve.name.clone(), part))
     }
-}
-
-/// Find a name that is not taken: the name itself, or with a number behind it.
-fn free_name(name: &str, taken: &[String]) -> String {
-    let is_free = |candidate: &String| !taken.contains(candidate);
-    let plain = name.to_owned();
-    if is_free(&plain) {
-        return plain;
-    }
-    let stem = name
-        .trim_end_matches(|letter: char| letter.is_ascii_digit())
-        .trim_end();
-    let mut numbered = (2..).map(|number| format!("{stem} {number}"));
-    numbered.find(is_free).unwrap_or(plain)
 }

@@ -60,8 +60,8 @@ impl Editor {
     pub fn save(&mut self, path: &Path) -> bool {
         self.commit_field();
         let path = &with_extension(path, Format::Batten.extension());
-        let format = match Format::to_write(path) {
-            Ok(Format::Batten) => Format::Batten,
+        match Format::to_write(path) {
+            Ok(Format::Batten) => {}
             Ok(other) => {
                 self.fail(format!(
                     "{}: a {other} does not hold all of a document: save as .batten, or export",
@@ -73,8 +73,7 @@ impl Editor {
                 self.fail(format!("{}: {error}", path.display()));
                 return false;
             }
-        };
-        debug_assert_eq!(format, Format::Batten);
+        }
         match disk::write_file(path, &self.curves(), None) {
             Ok(_) => {
                 self.path = Some(path.clone());
@@ -93,12 +92,24 @@ impl Editor {
     /// format could not hold.
     pub fn export(&mut self, path: &Path, export: &Export) {
         let path = &with_extension(path, export.extension);
+        match Format::to_write(path) {
+            Ok(format) if format.extension() == export.extension => {}
+            Ok(other) => {
+                self.fail(format!(
+                    "{}: that would be a {other}: give it the extension .{}",
+                    path.display(),
+                    export.extension
+                ));
+                return;
+            }
+            Err(error) => {
+                self.fail(format!("{}: {error}", path.display()));
+                return;
+            }
+        }
         let polygon = (export.extension == Format::Csv.extension()).then_some(export.polygon);
-        let shown: Vec<Curve> = self
-            .curves()
-            .into_iter()
-            .filter(|curve| curve.visible)
-            .collect();
+        let (shown, hidden): (Vec<Curve>, Vec<Curve>) =
+            self.curves().into_iter().partition(|curve| curve.visible);
         if shown.is_empty() {
             self.fail("Every curve is hidden: show what shall be exported");
             return;
@@ -107,6 +118,9 @@ impl Editor {
             Ok(losses) => {
                 let count = count_curves(shown.len());
                 let mut text = format!("{count} exported to {}", path.display());
+                if !hidden.is_empty() {
+                    text += &format!("; {} not, being hidden", count_curves(hidden.len()));
+                }
                 if !losses.is_empty() {
                     text = format!("{text}\n{losses}");
                 }

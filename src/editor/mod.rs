@@ -254,7 +254,9 @@ impl Editor {
         if comb.scale > 0.0 && comb.scale.is_finite() {
             self.comb = CombSettings {
                 scale: comb.scale,
-                density: comb.density.clamp(1, 256),
+                density: comb
+                    .density
+                    .clamp(*CombSettings::DENSITY.start(), *CombSettings::DENSITY.end()),
             };
         }
     }

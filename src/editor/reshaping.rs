@@ -102,7 +102,7 @@ impl Editor {
                 let polygon = part.polygon;
                 edits.push(Edit::SetPolygon { curve: id, polygon });
             } else {
-                let mut second = Curve::new(format!("{} (2)", curve.name), part.polygon);
+                let mut second = Curve::new(self.document().free_name(&curve.name), part.polygon);
                 second.colour = curve.colour;
                 second.targets.finish = curve.targets.finish;
                 edits.push(Edit::Add(Box::new(second)));

@@ -154,8 +154,8 @@ pub enum PolygonError {
         /// The number of segments of the curve.
         segments: usize,
     },
-    /// An extension would be too long.
-    #[error("{segments} segments are too many to add at once: at most {most} can be")]
+    /// An extension or a part would be too long.
+    #[error("{segments} segments are too many at once: at most {most} can be made")]
     TooManySegments {
         /// The number of segments asked for.
         segments: usize,

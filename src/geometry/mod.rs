@@ -29,7 +29,8 @@ mod vector;
 pub use bezier_polygon::{BezierPolygon, segment_bezier};
 pub use clamped_polygon::ClampedPolygon;
 pub use conversion::{
-    Amplification, Approximation, ExactPolygon, MAX_ADDED_SEGMENTS, MAX_SUBDIVISIONS, Rounded,
+    Amplification, Approximation, ExactPolygon, MAX_ADDED_SEGMENTS, MAX_PART_SEGMENTS,
+    MAX_SUBDIVISIONS, Rounded,
 };
 pub use end::{End, rotation_between};
 pub use error::{MAX_DEGREE, PolygonError};

@@ -177,7 +177,7 @@ fn checked(target: Option<Target>, end: End) -> Result<Option<EndTarget>, Proble
             return Err(Problem::TargetOutOfRange { end, value });
         }
     }
-    if direction.is_some_and(|direction| direction.try_normalize().is_none()) {
+    if direction == Some(DVec3::ZERO) {
         return Err(Problem::NoDirection { end: end.name() });
     }
     Ok(Some(EndTarget {

@@ -88,6 +88,7 @@ impl FileDialogs {
             let _ = sender.send(native_dialog(&kind, &start));
             repaint.request_repaint();
         };
+        let begun = Instant::now();
         if cfg!(target_os = "macos") {
             show();
         } else {
@@ -96,7 +97,7 @@ impl FileDialogs {
         self.waiting = Some(Waiting {
             purpose,
             proposal,
-            begun: Instant::now(),
+            begun,
             answer,
         });
     }

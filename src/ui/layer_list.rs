@@ -7,6 +7,7 @@ use super::number_field::{FieldEvent, NumberField};
 use super::theme::{ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
 use super::{figures, icons, keyboard};
+use crate::analysis::CombSettings;
 use crate::editor::{Command, Editor, Layer};
 
 /// Show the layers.
@@ -122,12 +123,13 @@ fn comb_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Command>) {
     });
     widgets::form_row(ui, "Comb density", |ui| {
         let shown = comb.density.to_string();
+        let (least, most) = CombSettings::DENSITY.into_inner();
         let field = NumberField::new("Comb density", comb.density as f64, shown)
-            .range(1.0..=64.0)
+            .range(least as f64..=most as f64)
             .speed(0.25)
             .width(96.0);
         if let FieldEvent::Typed(value) | FieldEvent::Preview(value) = field.show(ui).1 {
-            comb.density = value.round().max(1.0) as usize;
+            comb.density = value.round().max(0.0) as usize;
             editor.set_comb(comb);
         }
         widgets::caption(ui, "teeth a segment");

@@ -7,7 +7,7 @@ use super::dialogs::Decision;
 use super::number_field::{FieldEvent, NumberField};
 use super::theme::{ROW, STEP, Tokens};
 use super::{figures, widgets};
-use crate::editor::{Division, Editor, RoundingReport};
+use crate::editor::{Division, DivisionReport, Editor, RoundingReport};
 use crate::geometry::{MAX_SUBDIVISIONS, PolygonKind};
 
 /// The width of these dialogs.
@@ -22,6 +22,8 @@ pub struct DivisionDialog {
     /// Where the part that is kept ends.
     to: f64,
     subdivisions: u32,
+    /// What would come of it, for what was last looked at.
+    tried: Option<(Division, u32, Result<DivisionReport, String>)>,
 }
 
 impl DivisionDialog {
@@ -37,6 +39,7 @@ impl DivisionDialog {
             },
             to: segments,
             subdivisions: 0,
+            tried: None,
         }
     }
 
@@ -77,7 +80,12 @@ impl DivisionDialog {
             "At a knot (a whole u) the parts are exact. Elsewhere they are if subdividing brings \
              a knot there; otherwise they come near.",
         );
-        let tried = editor.try_division(self.division(), self.subdivisions);
+        let (division, most) = (self.division(), self.subdivisions);
+        let tried = self.tried.take();
+        let tried = tried.filter(|tried| (tried.0, tried.1) == (division, most));
+        let (_, _, tried) = self
+            .tried
+            .insert(tried.unwrap_or_else(|| (division, most, editor.try_division(division, most))));
         let is_good = tried.is_ok();
         let (text, colour) = match tried {
             Ok(report) => {
@@ -95,7 +103,7 @@ impl DivisionDialog {
                 };
                 (format!("{counts} vertices, {quality}"), Tokens::of(ui).text)
             }
-            Err(reason) => (reason, Tokens::of(ui).error),
+            Err(reason) => (reason.clone(), Tokens::of(ui).error),
         };
         outcome_ui(ui, &text, colour);
         let verb = if self.trims { "Trim" } else { "Split" };

@@ -6,6 +6,7 @@ mod features;
 mod reshaping;
 mod script;
 mod selecting;
+mod several;
 mod space;
 mod transforming;
 mod vertices;

@@ -43,15 +43,18 @@ impl CurveAnalysis {
     /// followed more closely where it runs much faster than the curve.
     pub fn append_evolute(&mut self, view: &ViewBox, out: &mut Vec<DVec2>) {
         let bounds = self.bounds();
+        // Powers of two: what blocks keep is not made anew whenever the view or the curve grows.
+        let reach = REACH * (bounds.high - bounds.low).max_element();
+        let reach = 2f64.powf(reach.log2().ceil());
         let evolute = Evolute {
             curve: self.curve.clone(),
             planar: self.planar,
             eye: self.orientation,
-            longest_chord: LONGEST_CHORD * view.pixel,
-            reach: REACH * (bounds.high - bounds.low).max_element(),
+            longest_chord: LONGEST_CHORD * 2f64.powi(view.level() + 1),
+            reach,
         };
         let layer = Drawn {
-            shape: 0,
+            shape: reach.to_bits(),
             outline: Kept::Evolute,
             place: |sample: &Sample| evolute.place(sample),
             points: |segment, samples: &[Sample], near: Option<&ViewBox>, out: &mut Vec<DVec2>| {
@@ -81,16 +84,16 @@ impl CurveAnalysis {
     pub fn append_teeth(&mut self, view: &ViewBox, comb: &CombSettings, out: &mut Vec<[DVec2; 2]>) {
         let level = view.level();
         let spacing = 3.0 * 2f64.powi(level + 1);
-        let stride = (self.steps / comb.density.clamp(1, self.steps)).max(1);
+        let density = comb.density.clamp(1, self.steps);
         for index in 0..self.blocks.len() {
             let range = self.block_segments(index);
             let (steps, samples) = (self.steps, &self.samples);
             let teeth = &mut self.blocks[index].teeth;
-            let key = (level, comb.scale.to_bits(), stride);
+            let key = (level, comb.scale.to_bits(), density);
             teeth.refresh(key, spacing, &self.orientation, || {
                 range.flat_map(move |segment| {
                     let own = &samples[segment * (steps + 1)..(segment + 1) * (steps + 1)];
-                    own.iter().step_by(stride)
+                    (0..=density).map(move |tooth| &own[(tooth * steps + density / 2) / density])
                 })
             });
             teeth.append(view, out);

@@ -46,13 +46,11 @@ impl Evolute {
         let Some(first) = samples.first() else {
             return;
         };
-        let start = self.place(first);
         // Where the curvature jumps at a knot, so does the evolute.
-        let jumps = |last: &DVec2| last.distance(start) > self.longest_chord;
-        if out.last().is_some_and(jumps) {
+        if self.curve.polygon.degree() < 3 {
             out.push(GAP);
         }
-        out.push(start);
+        out.push(self.place(first));
         for (number, pair) in samples.windows(2).enumerate() {
             let at = |offset: usize| (number + offset) as f64 / steps;
             self.follow(

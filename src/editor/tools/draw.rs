@@ -58,7 +58,8 @@ impl DrawTool {
         match FloatPolygon::new(degree, points.clone(), None, periodic) {
             Ok(polygon) => {
                 let id = context.document.next_id();
-                let curve = Curve::new(free_name(context), polygon);
+                let name = context.document.free_name("curve 1");
+                let curve = Curve::new(name, polygon);
                 vec![
                     Effect::Apply("Draw polygon".into(), vec![Edit::Add(Box::new(curve))]),
                     Effect::Select(Vec::new()),
@@ -82,18 +83,6 @@ impl DrawTool {
             }
         }
     }
-}
-
-/// Find a name that no curve has yet.
-fn free_name(context: &Context) -> String {
-    let taken = |name: &str| {
-        context
-            .document
-            .curves()
-            .any(|(_, curve)| curve.name == name)
-    };
-    let mut names = (1..).map(|number| format!("curve {number}"));
-    names.find(|name| !taken(name)).unwrap_or_default()
 }
 
 impl Tool for DrawTool {

@@ -64,8 +64,8 @@ impl Adding {
     fn next(slot: &mut Option<Self>, gesture: Gesture, context: &Context) -> Vec<Effect> {
         match (gesture, slot.as_ref()) {
             (Gesture::Drag(place), Some(adding)) => {
-                let own = BTreeSet::from([(adding.curve, adding.index)]);
-                let at = context.snapped(context.model(place), &own);
+                // It was not there before, so every vertex may attract it.
+                let at = context.snapped(context.model(place), &BTreeSet::new());
                 vec![adding.preview(at, context)]
             }
             (Gesture::DragEnd(_), Some(_)) => {

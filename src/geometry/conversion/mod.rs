@@ -26,4 +26,4 @@ pub use approximation::Approximation;
 pub use exact_polygon::ExactPolygon;
 pub use extension::MAX_ADDED_SEGMENTS;
 pub use rounding::Rounded;
-pub use splitting::MAX_SUBDIVISIONS;
+pub use splitting::{MAX_PART_SEGMENTS, MAX_SUBDIVISIONS};

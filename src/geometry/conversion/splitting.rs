@@ -12,6 +12,9 @@ use crate::geometry::float_polygon::FloatPolygon;
 /// How often a curve is subdivided at most to bring a knot to where it is cut.
 pub const MAX_SUBDIVISIONS: u32 = 12;
 
+/// How many segments a part may have: more than enough for any curve that is drawn.
+pub const MAX_PART_SEGMENTS: usize = 100_000;
+
 impl FloatPolygon {
     /// Take the part of the curve between two knots, u = `knots.start` … `knots.end`: a window of
     /// the vertices, bit for bit. The part is open; of a periodic curve it may run across the
@@ -56,7 +59,8 @@ impl FloatPolygon {
     ///
     /// # Errors
     /// [`PolygonError::NoSuchPart`] as in [`FloatPolygon::trimmed_at_knots`], also for what is
-    /// not a number; [`PolygonError::WeightLost`] or [`PolygonError::Overflow`] if the part cannot
+    /// not a number; [`PolygonError::TooManySegments`] if it had more than [`MAX_PART_SEGMENTS`];
+    /// [`PolygonError::WeightLost`] or [`PolygonError::Overflow`] if the part cannot
     /// be held.
     pub fn trimmed(
         &self,
@@ -69,8 +73,13 @@ impl FloatPolygon {
         let factor = |halvings: u32| f64::from(1_u32 << halvings);
         let is_knot = |u: f64, halvings| (u * factor(halvings)).fract() == 0.0;
         let needed = (0..=most).find(|halvings| is_knot(from, *halvings) && is_knot(to, *halvings));
+        let segments = ((to - from) * factor(needed.unwrap_or(most))).ceil();
+        if segments > MAX_PART_SEGMENTS as f64 {
+            let (segments, most) = (segments as usize, MAX_PART_SEGMENTS);
+            return Err(PolygonError::TooManySegments { segments, most });
+        }
         let Some(halvings) = needed else {
-            return self.trimmed_near(from, to, ((to - from) * factor(most)).ceil());
+            return self.trimmed_near(from, to, segments);
         };
         // Only the segments that the part touches are subdivided.
         let (first, last) = (from.floor(), to.ceil());

@@ -1,0 +1,219 @@
+//! Several curves at once: whose is what is hovered, copied, cut, exported and named.
+
+use batten::document::{Curve, CurveId, Edit};
+use batten::editor::{AfterDiscard, Command, Division, HoverScene, Modifiers, Request};
+use batten::geometry::end_correction::EndTarget;
+use batten::geometry::{End, FloatPolygon};
+use batten::io::disk;
+use glam::DVec3;
+
+use super::script::Script;
+
+/// The paper's arc, which is active, and a longer curve below it.
+fn two() -> (Script, [CurveId; 2]) {
+    let mut script = Script::example("arc");
+    let arc = script.curve();
+    let points: Vec<_> = (0..9)
+        .map(|i| (4.0 * f64::from(i) - 16.0, -20.0 + f64::from(i * i) / 9.0))
+        .collect();
+    let other = Curve::new(
+        "other",
+        FloatPolygon::planar(3, &points).expect("a polygon"),
+    );
+    script.editor.apply("add", vec![Edit::Add(Box::new(other))]);
+    let other = script
+        .editor
+        .document()
+        .curves()
+        .map(|(id, _)| id)
+        .find(|id| *id != arc);
+    let other = other.expect("the other curve");
+    script.command(Command::FitAll);
+    script.editor.activate(arc);
+    (script, [arc, other])
+}
+
+#[test]
+fn what_is_hovered_is_told_of_the_curve_it_is_on() {
+    let (mut script, [arc, other]) = two();
+    let polygon = script
+        .editor
+        .document()
+        .curve(other)
+        .expect("the other")
+        .polygon
+        .clone();
+    let u = 4.5;
+    let place = polygon.point(u).truncate();
+    script.move_to(script.editor.viewport().to_screen(place));
+    let hover = script.editor.scene().hover.clone();
+    let Some(HoverScene::Curve { curve, .. }) = hover else {
+        panic!("{hover:?}");
+    };
+    assert_eq!((curve, script.curve()), (other, arc));
+    let readout = script.editor.readout();
+    assert!((readout.u.expect("u") - u).abs() < 1e-3);
+    let expected = polygon.jet(readout.u.expect("u")).signed_curvature();
+    assert_eq!(readout.curvature, Some(expected));
+    // The plots are the active curve's, which is not hovered.
+    assert_eq!(script.editor.plots().hovered, None);
+    script.editor.activate(other);
+    script.editor.scene();
+    assert!(script.editor.plots().hovered.is_some());
+}
+
+#[test]
+fn cutting_removes_what_it_copies() {
+    let (mut script, [arc, other]) = two();
+    // All of the active curve, then all of both.
+    script.command(Command::SelectAll);
+    script.command(Command::SelectAll);
+    let Some(Request::CopyText(text)) = script.editor.execute(Command::Cut) else {
+        panic!("nothing was copied");
+    };
+    assert!(script.editor.document().is_empty());
+    script.editor.paste_text(&text);
+    assert_eq!(script.editor.document().len(), 2);
+    script.command(Command::Undo);
+    script.command(Command::Undo);
+    // Vertices of one curve, while the other is the active one.
+    for vertex in 0..4 {
+        script.editor.select_vertex(other, vertex, vertex > 0);
+    }
+    script.modifiers(Modifiers {
+        shift: true,
+        ..Modifiers::NONE
+    });
+    let polygon = script
+        .editor
+        .document()
+        .curve(arc)
+        .expect("the arc")
+        .polygon
+        .clone();
+    let on_arc = script
+        .editor
+        .viewport()
+        .to_screen(polygon.point(0.4).truncate());
+    script.click(on_arc);
+    script.modifiers(Modifiers::NONE);
+    assert_eq!(script.curve(), arc);
+    assert_eq!(script.editor.selected_vertices(other).len(), 4);
+    let before = script
+        .editor
+        .document()
+        .curve(other)
+        .expect("the other")
+        .polygon
+        .clone();
+    let Some(Request::CopyText(text)) = script.editor.execute(Command::Cut) else {
+        panic!("nothing was copied");
+    };
+    let left = script
+        .editor
+        .document()
+        .curve(other)
+        .expect("the other")
+        .polygon
+        .clone();
+    assert_eq!(left.vertices(), &before.vertices()[4..]);
+    script.editor.paste_text(&text);
+    assert_eq!(script.polygon().vertices().len(), 4);
+}
+
+#[test]
+fn pasting_in_the_middle_of_a_drag_calls_the_drag_off() {
+    let mut script = Script::example("arc");
+    let before = script.polygon();
+    let Some(Request::CopyText(text)) = script.editor.execute(Command::Copy) else {
+        panic!("nothing was copied");
+    };
+    let (arc, at) = (script.curve(), script.at_vertex(3));
+    script.press(at);
+    script.move_to(at + 40.0);
+    script.editor.paste_text(&text);
+    script.move_to(at + 80.0);
+    script.release(at + 80.0);
+    let polygon = |script: &Script| {
+        script
+            .editor
+            .document()
+            .curve(arc)
+            .map(|c| c.polygon.clone())
+    };
+    assert_eq!(polygon(&script), Some(before));
+    assert_eq!(script.editor.history().undo_steps(), 1);
+    script.command(Command::Undo);
+    assert_eq!(script.editor.document().len(), 1);
+}
+
+#[test]
+fn exports_keep_to_their_format_and_tell_what_is_hidden() {
+    let (mut script, [_, other]) = two();
+    let folder = tempfile::tempdir().expect("a folder");
+    let Some(Request::Export(export)) = script.editor.execute(Command::ExportDxf) else {
+        panic!("no export was asked for");
+    };
+    let project = folder.path().join("own.batten");
+    script.editor.export(&project, &export);
+    assert!(!project.exists() && script.message().contains("own.batten"));
+    let hide = Edit::SetVisible {
+        curve: other,
+        visible: false,
+    };
+    script.editor.apply("hide", vec![hide]);
+    let drawing = folder.path().join("own.dxf");
+    script.editor.export(&drawing, &export);
+    assert!(drawing.exists());
+    assert!(
+        script.message().contains("1 curve not, being hidden"),
+        "{}",
+        script.message()
+    );
+}
+
+#[test]
+fn the_parts_of_a_curve_get_names_of_their_own() {
+    let (mut script, _) = two();
+    script.command(Command::Duplicate);
+    for _ in 0..2 {
+        script.editor.divide(Division::Split(0.5), 1);
+    }
+    let mut names: Vec<String> = script
+        .editor
+        .document()
+        .curves()
+        .map(|(_, curve)| curve.name.clone())
+        .collect();
+    let count = names.len();
+    names.sort();
+    names.dedup();
+    assert_eq!(names.len(), count);
+}
+
+#[test]
+fn targets_of_any_direction_survive_a_file() {
+    let mut script = Script::example("arc");
+    let direction = DVec3::new(1e-200, -3e-310, 0.0);
+    let target = EndTarget {
+        point: DVec3::ZERO,
+        direction: Some(direction),
+    };
+    let curve = script.curve();
+    let edit = Edit::SetTarget {
+        curve,
+        end: End::Finish,
+        target: Some(target),
+    };
+    script.editor.apply("target", vec![edit]);
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("own.batten");
+    assert!(script.editor.save(&path), "{}", script.message());
+    let read = disk::read_file(&path).expect("what was saved");
+    assert_eq!(read[0].targets.get(End::Finish), Some(target));
+    assert_eq!(
+        script.editor.discard_and(AfterDiscard::OpenFile(path)),
+        None
+    );
+    assert_eq!(script.editor.document().len(), 1);
+}
