@@ -69,12 +69,15 @@ fn dragging(count: usize, close: bool) -> (Editor, DVec2) {
 fn frame(editor: &mut Editor, at: DVec2) {
     editor.input(Input::Moved { at });
     black_box(editor.features());
-    black_box(editor.scene());
-    // The leg plots come with the curvature plot.
+    editor.update_hover();
+    // The leg plots come with the curvature plot; the chip and the list read the features.
+    black_box(editor.known_features());
+    black_box(editor.known_features());
     black_box(editor.leg_plots());
     black_box(editor.report());
     black_box(editor.readout());
     black_box(editor.hint());
+    black_box(editor.scene());
 }
 
 fn drag(criterion: &mut Criterion) {

@@ -49,6 +49,12 @@ impl Ghost {
 }
 
 impl Editor {
+    /// Bring what is hovered up to date, without all that is drawn besides.
+    pub fn update_hover(&mut self) {
+        self.analyses.update(self.history.document());
+        self.scene.hover = self.hover();
+    }
+
     /// Bring the scene up to date and return it.
     pub fn scene(&mut self) -> &Scene {
         self.analyses.update(self.history.document());
@@ -105,6 +111,7 @@ impl Editor {
     ) {
         let (layers, comb, active) = (self.layers(), self.comb, scene.active);
         let orientation = self.viewport.orientation;
+        let report = self.known_features().filter(|_| active);
         let Some(analysis) = self.analyses.get(id) else {
             return;
         };
@@ -141,7 +148,9 @@ impl Editor {
             for (trend, chain) in PieceTrend::ALL.into_iter().zip(&mut scene.pieces) {
                 analysis.append_pieces(view, trend, chain);
             }
-            append_marks(analysis, view, &mut scene.features);
+            if let Some(report) = &report {
+                append_marks(report, &orientation, view, &mut scene.features);
+            }
         }
         if layers.shows(Layer::Clamped) {
             let chain = analysis.clamped();

@@ -1,11 +1,16 @@
 //! The proved features of the active curve: for the list, for the canvas, and to go to.
 
-use glam::DVec2;
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
 
 use super::Editor;
 use super::layers::Layer;
-use crate::analysis::{Bounds, CurveAnalysis, ViewBox};
-use crate::geometry::features::{ExtremumKind, Features, Quantity, Trend, TrendPiece, Verdict};
+use crate::analysis::{Bounds, Orientation, ViewBox};
+use crate::geometry::FloatPolygon;
+use crate::geometry::features::{
+    Extremum, ExtremumKind, Features, Quantity, Trend, TrendPiece, Verdict,
+};
 
 /// How much of a segment is shown around a feature, on either side.
 const SURROUNDINGS: f64 = 0.6;
@@ -61,13 +66,10 @@ pub struct FeatureRow {
     pub value: Option<f64>,
     /// What is not decided, or what is not proved of a cusp, in words.
     pub remark: &'static str,
-}
-
-impl FeatureRow {
-    /// The middle of the interval.
-    pub fn middle(&self) -> f64 {
-        0.5 * (self.u[0] + self.u[1])
-    }
+    /// The parameter in the middle of the interval, within the domain.
+    pub middle: f64,
+    /// The point there.
+    pub point: DVec3,
 }
 
 /// The features of the active curve.
@@ -92,81 +94,79 @@ impl FeatureReport {
         self.rows.iter().filter(fits).count()
     }
 
-    fn of(features: &Features) -> Self {
-        let plain = |kind| {
-            move |u: &[f64; 2]| FeatureRow {
+    fn of(features: &Features, polygon: &FloatPolygon) -> Self {
+        let last = polygon.segments() as f64;
+        let row = |kind, u: [f64; 2]| {
+            let middle = 0.5 * (u[0] + u[1]);
+            // On a periodic curve it may lie behind the joint.
+            let middle = if middle > last { middle - last } else { middle };
+            FeatureRow {
                 kind,
-                u: *u,
+                u,
                 value: None,
                 remark: "",
+                middle,
+                point: polygon.point(middle),
             }
         };
-        let mut rows: Vec<FeatureRow> = Vec::new();
-        rows.extend(
-            features
-                .inflections
-                .iter()
-                .map(plain(FeatureKind::Inflection)),
-        );
-        rows.extend(
-            features
-                .torsion_zeros
-                .iter()
-                .map(plain(FeatureKind::TorsionZero)),
-        );
-        let extrema = [
-            (
-                &features.curvature_extrema,
-                FeatureKind::CurvatureMaximum,
-                FeatureKind::CurvatureMinimum,
-            ),
-            (
-                &features.torsion_extrema,
-                FeatureKind::TorsionMaximum,
-                FeatureKind::TorsionMinimum,
-            ),
-        ];
-        for (extrema, maximum, minimum) in extrema {
-            rows.extend(extrema.iter().map(|extremum| FeatureRow {
-                kind: match extremum.kind {
+        let inflections = features.inflections.iter();
+        let torsion_zeros = features.torsion_zeros.iter();
+        let curvature = features.curvature_extrema.iter();
+        let torsion = features.torsion_extrema.iter();
+        let extremum = |[maximum, minimum]: [FeatureKind; 2]| {
+            move |extremum: &Extremum| {
+                let kind = match extremum.kind {
                     ExtremumKind::Maximum => maximum,
                     ExtremumKind::Minimum => minimum,
-                },
-                u: extremum.u,
-                value: Some(extremum.value),
-                remark: "",
-            }));
-        }
+                };
+                (kind, extremum.u, extremum.value)
+            }
+        };
+        let extrema = curvature
+            .map(extremum([
+                FeatureKind::CurvatureMaximum,
+                FeatureKind::CurvatureMinimum,
+            ]))
+            .chain(torsion.map(extremum([
+                FeatureKind::TorsionMaximum,
+                FeatureKind::TorsionMinimum,
+            ])));
+        let mut rows: Vec<FeatureRow> = Vec::new();
+        rows.extend(inflections.map(|u| row(FeatureKind::Inflection, *u)));
+        rows.extend(torsion_zeros.map(|u| row(FeatureKind::TorsionZero, *u)));
+        rows.extend(extrema.map(|(kind, u, value)| FeatureRow {
+            value: Some(value),
+            ..row(kind, u)
+        }));
         rows.extend(features.cusps.iter().map(|cusp| FeatureRow {
-            kind: FeatureKind::Cusp,
-            u: cusp.u,
-            value: None,
             remark: if cusp.proved { "" } else { "cusp?" },
+            ..row(FeatureKind::Cusp, cusp.u)
         }));
         rows.extend(features.undecided.iter().map(|doubt| FeatureRow {
-            kind: FeatureKind::Undecided,
-            u: doubt.u,
-            value: None,
-            remark: match doubt.quantity {
-                Quantity::Inflection => "inflections?",
-                Quantity::CurvatureExtremum => "κ extrema?",
-                Quantity::TorsionZero => "τ zeros?",
-                Quantity::TorsionExtremum => "τ extrema?",
-            },
+            remark: doubtful(doubt.quantity),
+            ..row(FeatureKind::Undecided, doubt.u)
         }));
         rows.sort_by(|a, b| a.u[0].total_cmp(&b.u[0]));
         let mut trends = features.trends.iter();
         let is_constant = |piece: &TrendPiece| piece.trend == Trend::Constant;
+        let mut doubts = features.undecided.iter();
         Self {
             monotone: features.monotone,
             constant: features.monotone == Verdict::Proved && trends.all(is_constant),
-            has_doubts: features
-                .undecided
-                .iter()
-                .any(|doubt| doubt.quantity == Quantity::CurvatureExtremum),
-            polyline: false,
+            has_doubts: doubts.any(|doubt| doubt.quantity == Quantity::CurvatureExtremum),
+            polyline: polygon.degree() == 1,
             rows,
         }
+    }
+}
+
+/// Name what could not be counted.
+fn doubtful(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Inflection => "inflections?",
+        Quantity::CurvatureExtremum => "κ extrema?",
+        Quantity::TorsionZero => "τ zeros?",
+        Quantity::TorsionExtremum => "τ extrema?",
     }
 }
 
@@ -184,14 +184,26 @@ pub struct FeatureMark {
 impl Editor {
     /// Go on proving the features of the active curve, and return them once all are known: of a
     /// long curve after some calls.
-    pub fn features(&mut self) -> Option<FeatureReport> {
+    pub fn features(&mut self) -> Option<Arc<FeatureReport>> {
+        self.analyses.update(self.history.document());
+        self.analyses.get(self.selection.active()?)?.features();
+        self.known_features()
+    }
+
+    /// The features of the active curve, if all are known.
+    pub fn known_features(&mut self) -> Option<Arc<FeatureReport>> {
         self.analyses.update(self.history.document());
         let analysis = self.analyses.get(self.selection.active()?)?;
-        let polyline = analysis.curve().polygon.degree() == 1;
-        Some(FeatureReport {
-            polyline,
-            ..FeatureReport::of(analysis.features()?)
-        })
+        let curve = analysis.curve().clone();
+        match &self.features {
+            Some((known, report)) if Arc::ptr_eq(known, &curve) => Some(report.clone()),
+            _ => {
+                let report = FeatureReport::of(analysis.known_features()?, &curve.polygon);
+                let report = Arc::new(report);
+                self.features = Some((curve, report.clone()));
+                Some(report)
+            }
+        }
     }
 
     /// The share of the active curve whose features are known.
@@ -209,11 +221,7 @@ impl Editor {
             return;
         };
         let last = curve.polygon.segments() as f64;
-        let u = if curve.polygon.is_periodic() {
-            u.rem_euclid(last)
-        } else {
-            u.clamp(0.0, last)
-        };
+        let u = u.clamp(0.0, last);
         let jet = curve.polygon.jet(u);
         let reach = SURROUNDINGS * jet.speed();
         let at = self.viewport.flatten(jet.point);
@@ -238,24 +246,16 @@ impl Editor {
     }
 }
 
-/// Append the marks of a curve's features that are visible, unless they crowd.
+/// Append the marks of features that are visible, unless they crowd.
 pub(super) fn append_marks(
-    analysis: &mut CurveAnalysis,
+    report: &FeatureReport,
+    orientation: &Orientation,
     view: &ViewBox,
     out: &mut Vec<FeatureMark>,
 ) {
-    let curve = analysis.curve().clone();
-    let polygon = &curve.polygon;
-    let eye = analysis.orientation();
-    let last = polygon.segments() as f64;
     let mut kept: Option<DVec2> = None;
-    let Some(features) = analysis.known_features() else {
-        return;
-    };
-    for row in FeatureReport::of(features).rows {
-        let middle = row.middle();
-        let u = if middle > last { middle - last } else { middle };
-        let at = eye.flatten(polygon.point(u));
+    for row in &report.rows {
+        let at = orientation.flatten(row.point);
         let is_visible = at.cmpge(view.low).all() && at.cmple(view.high).all();
         let apart = kept.is_none_or(|kept| kept.distance(at) >= MARK_SPACING * view.pixel);
         if is_visible && apart {
@@ -263,7 +263,7 @@ pub(super) fn append_marks(
             out.push(FeatureMark {
                 kind: row.kind,
                 at,
-                u,
+                u: row.middle,
             });
         }
     }

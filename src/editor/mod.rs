@@ -29,6 +29,7 @@ mod transforming;
 mod viewport;
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use glam::DVec2;
 
@@ -49,7 +50,7 @@ pub use tools::{Cursor, ToolKind, Transformation};
 pub use viewport::Viewport;
 
 use crate::analysis::{AnalysisCache, CombSettings};
-use crate::document::{CurveId, Document, Edit, History};
+use crate::document::{Curve, CurveId, Document, Edit, History};
 use drawing::Ghost;
 use end_fit::EndFitState;
 use gesture::GestureMachine;
@@ -81,8 +82,10 @@ pub struct Editor {
     field: bool,
     cycle: usize,
     hovered: Hovered,
-    /// What they said in the frame before: panels that are shown first read it.
+    /// What panels said in the frame before: those that are shown first read it.
     hovered_before: Hovered,
+    /// The report of the active curve's features, for the curve that it was made of.
+    features: Option<(Arc<Curve>, Arc<FeatureReport>)>,
     scene: Scene,
     plots: PlotScene,
     ghost: Ghost,
@@ -135,6 +138,7 @@ impl Editor {
             field: false,
             cycle: 0,
             hovered: Hovered::default(),
+            features: None,
             hovered_before: Hovered::default(),
             scene: Scene::default(),
             plots: PlotScene::default(),

@@ -113,8 +113,9 @@ impl App {
         self.take_dropped_files(&context);
         self.take_keys(&context);
         self.canvas.send_events(&context, &mut self.editor);
+        self.editor.features();
         // Panels read what is hovered from the scene: bring it up to date before they do.
-        self.editor.scene();
+        self.editor.update_hover();
         self.editor.hover_nothing();
         self.panels_ui(ui);
         self.overlays_ui(&context);

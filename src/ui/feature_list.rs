@@ -19,7 +19,7 @@ const MOST_ROWS: usize = 7;
 
 /// Show the verdict and the features of the active curve; choosing one goes to it.
 pub fn feature_list_ui(ui: &mut Ui, editor: &mut Editor) {
-    let Some(report) = editor.features() else {
+    let Some(report) = editor.known_features() else {
         proving_ui(ui, editor);
         return;
     };
@@ -39,7 +39,7 @@ pub fn feature_list_ui(ui: &mut Ui, editor: &mut Editor) {
     area.show_rows(ui, ROW, rows, |ui, range| {
         for row in report.rows.get(range).unwrap_or_default() {
             if row_ui(ui, row).clicked() {
-                chosen = Some(row.middle());
+                chosen = Some(row.middle);
             }
         }
     });
@@ -104,7 +104,7 @@ fn proving_ui(ui: &mut Ui, editor: &Editor) {
 
 /// Show the verdict as a chip; pressing it shows the features.
 pub fn chip_ui(ui: &mut Ui, editor: &mut Editor) -> Option<Response> {
-    let Some(report) = editor.features() else {
+    let Some(report) = editor.known_features() else {
         proving_ui(ui, editor);
         return None;
     };
@@ -158,7 +158,7 @@ fn row_ui(ui: &mut Ui, row: &FeatureRow) -> Response {
     let u = if high - low > WIDE {
         format!("u {} … {}", figure(low), figure(high))
     } else {
-        format!("u {}", figure(row.middle()))
+        format!("u {}", figure(row.middle))
     };
     let mut left = rect.with_min_x(rect.left() + 6.0 * STEP);
     left.max.x -= if high - low > WIDE { 24.0 } else { 36.0 } * STEP;

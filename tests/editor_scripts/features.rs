@@ -20,10 +20,10 @@ fn the_list_holds_every_feature_in_order_and_choosing_one_goes_there() {
     assert!(report.rows.is_sorted_by(|a, b| a.u[0] <= b.u[0]));
     let scale = script.editor.viewport().scale;
     let row = report.rows[2];
-    script.editor.go_to(row.middle());
+    script.editor.go_to(row.middle);
     let viewport = *script.editor.viewport();
     assert!(viewport.scale > scale);
-    let at = viewport.flatten(script.polygon().point(row.middle()));
+    let at = viewport.flatten(script.polygon().point(row.middle));
     let middle = 0.5 * viewport.size;
     assert!(viewport.to_screen(at).distance(middle) < 1e-6);
 }
@@ -42,7 +42,7 @@ fn the_canvas_marks_features_and_colours_monotone_pieces() {
     // Pieces end where the extrema are.
     let polygon = script.polygon();
     for row in report.rows.iter().filter(|row| row.value.is_some()) {
-        let at = polygon.point(row.middle()).truncate();
+        let at = polygon.point(row.middle).truncate();
         let curve = &script.editor.scene().curves[0];
         let near = |chain: &[DVec2]| chain.iter().any(|point| point.distance(at) < 1e-9);
         assert!(near(&curve.pieces[0]) && near(&curve.pieces[1]), "{row:?}");
