@@ -39,9 +39,15 @@ struct PowerKernel<const SIZE: usize> {
 
 impl<const SIZE: usize> PowerKernel<SIZE> {
     fn new() -> Self {
-        let matrix = basis::power_matrix(SIZE - 1);
+        // The power k has the k-th derivative of the basis at ½, divided by k!.
+        let mut factorial = 1.0;
+        let rows: [_; SIZE] = std::array::from_fn(|power| {
+            factorial *= power.max(1) as f64;
+            let row = basis::uniform_basis_derivative(SIZE - 1, power, 0.5);
+            std::array::from_fn::<_, SIZE, _>(|j| row[j] / factorial)
+        });
         Self {
-            columns: std::array::from_fn(|j| std::array::from_fn(|power| matrix[power * SIZE + j])),
+            columns: std::array::from_fn(|j| rows.map(|row| row[j])),
             offsets: parameters().map(|t| t - 0.5),
         }
     }

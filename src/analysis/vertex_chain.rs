@@ -65,11 +65,6 @@ impl VertexChain {
         &self.vertices
     }
 
-    /// Whether the last vertex is joined to the first.
-    pub fn is_closed(&self) -> bool {
-        self.closed
-    }
-
     /// Choose from where the polygon is seen.
     pub(super) fn set_orientation(&mut self, orientation: Orientation) {
         if self.orientation != orientation {

@@ -1,5 +1,6 @@
 //! One curve of a document.
 
+use super::edit::EditError;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{End, FloatPolygon};
 
@@ -62,6 +63,18 @@ pub struct Curve {
 }
 
 impl Curve {
+    /// Refuse if the curve is locked.
+    ///
+    /// # Errors
+    /// [`EditError::Locked`].
+    pub fn check_unlocked(&self) -> Result<(), EditError> {
+        if self.locked {
+            let name = self.name.clone();
+            return Err(EditError::Locked { name });
+        }
+        Ok(())
+    }
+
     /// Make a visible, unlocked curve without targets.
     pub fn new(name: impl Into<String>, polygon: FloatPolygon) -> Self {
         Self {

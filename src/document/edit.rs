@@ -183,9 +183,7 @@ impl Document {
         let index = self.position(id).ok_or(EditError::NoSuchCurve)?;
         let shared = &mut self.curves[index].1;
         let name = || shared.name.clone();
-        if shared.locked {
-            return Err(EditError::Locked { name: name() });
-        }
+        shared.check_unlocked()?;
         let mut changed = Curve::clone(shared);
         change(&mut changed.polygon).map_err(|error| EditError::Polygon {
             name: name(),

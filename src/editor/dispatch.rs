@@ -35,7 +35,6 @@ impl Editor {
                 Gesture::Orbit(by) => self.orbit(by),
                 Gesture::Zoom(at, factor) => self.viewport.zoom(at, factor),
                 Gesture::Key(Key::Tab) => self.cycle = self.cycle.wrapping_add(1),
-                Gesture::Hover(_) | Gesture::Leave => {}
                 gesture => self.deliver(gesture),
             }
         }

@@ -83,11 +83,7 @@ impl Editor {
                 self.set_target(id, "Pick target", Some(picked));
             }
             EndFitAction::TurnRound => {
-                let turned = target.map(|target| EndTarget {
-                    direction: target.direction.map(|direction| -direction),
-                    ..target
-                });
-                self.set_target(id, "Turn target round", turned);
+                self.set_target(id, "Turn target round", target.map(EndTarget::turned));
             }
             EndFitAction::Translate => self.translate(id, &curve, target),
             EndFitAction::Rotate => self.rotate(id, &curve, target),

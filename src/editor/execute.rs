@@ -12,6 +12,7 @@ use super::selection::VertexId;
 use crate::analysis::Bounds;
 use crate::document::{Curve, CurveId, Edit};
 use crate::geometry::PolygonKind;
+use crate::geometry::end_correction::EndTarget;
 
 /// The factor by which the zoom commands change the scale.
 const ZOOM: f64 = 1.25;
@@ -307,16 +308,23 @@ impl Editor {
         let Some((id, curve)) = self.active_curve() else {
             return;
         };
-        let (label, edit) = if command == Command::ToggleVisible {
-            let visible = !curve.visible;
-            let label = if visible { "Show curve" } else { "Hide curve" };
-            (label, Edit::SetVisible { curve: id, visible })
+        if command == Command::ToggleVisible {
+            self.set_visible(id, !curve.visible);
         } else {
-            let locked = !curve.locked;
-            let label = if locked { "Lock curve" } else { "Unlock curve" };
-            (label, Edit::SetLocked { curve: id, locked })
-        };
-        self.apply(label, vec![edit]);
+            self.set_locked(id, !curve.locked);
+        }
+    }
+
+    /// Show or hide a curve, as one step.
+    pub fn set_visible(&mut self, curve: CurveId, visible: bool) {
+        let label = if visible { "Show curve" } else { "Hide curve" };
+        self.apply(label, vec![Edit::SetVisible { curve, visible }]);
+    }
+
+    /// Protect a curve's shape or release it, as one step.
+    pub fn set_locked(&mut self, curve: CurveId, locked: bool) {
+        let label = if locked { "Lock curve" } else { "Unlock curve" };
+        self.apply(label, vec![Edit::SetLocked { curve, locked }]);
     }
 
     fn select_all(&mut self) {
@@ -390,11 +398,8 @@ impl Editor {
         let Some((id, curve)) = self.active_curve() else {
             return;
         };
-        if curve.locked {
-            self.fail(format!(
-                "“{}” is locked: unlock it in the list of curves to delete it",
-                curve.name
-            ));
+        if let Err(locked) = curve.check_unlocked() {
+            self.fail(locked.to_string());
             return;
         }
         self.apply(label, vec![Edit::Remove(id)]);
@@ -411,17 +416,10 @@ impl Editor {
         let Some((id, curve)) = self.active_curve() else {
             return;
         };
-        let turned = |target: crate::geometry::end_correction::EndTarget| {
-            let direction = target.direction.map(|direction| -direction);
-            crate::geometry::end_correction::EndTarget {
-                direction,
-                ..target
-            }
-        };
         let polygon = curve.polygon.reversed();
         let mut edits = vec![Edit::SetPolygon { curve: id, polygon }];
         for end in crate::geometry::End::BOTH {
-            let target = curve.targets.get(end.other()).map(turned);
+            let target = curve.targets.get(end.other()).map(EndTarget::turned);
             if target != curve.targets.get(end) {
                 edits.push(Edit::SetTarget {
                     curve: id,

@@ -10,8 +10,6 @@ const THRESHOLD: f64 = 3.0;
 /// What a tool is told; places are on the canvas, in screen points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Gesture {
-    /// The pointer moves with no button held.
-    Hover(DVec2),
     /// The primary button was pressed and released in one place.
     Click(DVec2),
     /// The primary button was clicked twice.
@@ -34,8 +32,6 @@ pub enum Gesture {
     Orbit(DVec2),
     /// The view is scaled about a place.
     Zoom(DVec2, f64),
-    /// The pointer is no longer on the canvas.
-    Leave,
 }
 
 /// The state of the hand on the canvas.
@@ -110,7 +106,7 @@ impl GestureMachine {
             Input::DoubleClicked { at } => vec![Gesture::DoubleClick(at)],
             Input::Left => {
                 self.pointer = None;
-                vec![Gesture::Leave]
+                Vec::new()
             }
             Input::Zoomed { at, factor } => vec![Gesture::Zoom(at, factor)],
             Input::Panned { by } => vec![Gesture::Pan(by)],
@@ -134,7 +130,7 @@ impl GestureMachine {
     fn moved(&mut self, at: DVec2) -> Vec<Gesture> {
         self.pointer = Some(at);
         match self.state {
-            State::Idle => vec![Gesture::Hover(at)],
+            State::Idle | State::Spent => Vec::new(),
             State::Pressed { origin } if origin.distance(at) < THRESHOLD => Vec::new(),
             State::Pressed { origin } => {
                 self.state = State::Dragging;
@@ -156,7 +152,6 @@ impl GestureMachine {
                 };
                 vec![Gesture::Orbit(at - last)]
             }
-            State::Spent => Vec::new(),
         }
     }
 
@@ -185,24 +180,24 @@ impl GestureMachine {
         match (self.state, button) {
             (State::Pressed { origin }, Button::Primary) => {
                 self.state = State::Idle;
-                vec![Gesture::Click(origin), Gesture::Hover(at)]
+                vec![Gesture::Click(origin)]
             }
             (State::Dragging, Button::Primary) => {
                 self.state = State::Idle;
-                vec![Gesture::DragEnd(at), Gesture::Hover(at)]
+                vec![Gesture::DragEnd(at)]
             }
             (State::Panning { button: held, .. }, released) if held == released => {
                 self.state = State::Idle;
-                vec![Gesture::Hover(at)]
+                Vec::new()
             }
             (State::Spent, Button::Primary) => {
                 self.state = State::Idle;
-                vec![Gesture::Hover(at)]
+                Vec::new()
             }
             (State::Orbiting { turned, .. }, Button::Secondary) => {
                 self.state = State::Idle;
                 if turned {
-                    vec![Gesture::Hover(at)]
+                    Vec::new()
                 } else {
                     vec![Gesture::SecondaryClick(at)]
                 }
@@ -246,7 +241,7 @@ mod tests {
                     at: at(2.0),
                 },
             ],
-            &[Gesture::Click(ORIGIN), Gesture::Hover(at(2.0))],
+            &[Gesture::Click(ORIGIN)],
         );
     }
 
@@ -265,7 +260,6 @@ mod tests {
                 Gesture::DragStart(ORIGIN),
                 Gesture::Drag(at(3.0)),
                 Gesture::DragEnd(at(9.0)),
-                Gesture::Hover(at(9.0)),
             ],
         );
     }
@@ -287,14 +281,13 @@ mod tests {
                 Gesture::DragStart(ORIGIN),
                 Gesture::Drag(at(5.0)),
                 Gesture::Cancel,
-                Gesture::Hover(at(20.0)),
             ],
         );
     }
 
     #[test]
     fn the_middle_button_and_space_pan() {
-        let pan = [Gesture::Pan(DVec2::new(4.0, 0.0)), Gesture::Hover(at(4.0))];
+        let pan = [Gesture::Pan(DVec2::new(4.0, 0.0))];
         let drag = |button| {
             [
                 press(button),

@@ -45,20 +45,6 @@ pub fn uniform_basis_derivative(degree: usize, order: usize, t: f64) -> Vec<f64>
     values
 }
 
-/// Fill the (n + 1)² matrix, row by row, that takes the vertices of one segment to its
-/// coefficients in powers of s = t − ½: row k holds the k-th derivatives of the basis at ½,
-/// divided by k!.
-pub fn power_matrix(degree: usize) -> Vec<f64> {
-    let mut matrix = Vec::with_capacity((degree + 1) * (degree + 1));
-    let mut factorial = 1.0;
-    for order in 0..=degree {
-        factorial *= order.max(1) as f64;
-        let row = uniform_basis_derivative(degree, order, 0.5);
-        matrix.extend(row.into_iter().map(|value| value / factorial));
-    }
-    matrix
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

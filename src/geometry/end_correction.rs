@@ -32,6 +32,14 @@ pub struct EndTarget {
 }
 
 impl EndTarget {
+    /// Turn the direction round, as when the curve is passed through the other way.
+    pub fn turned(self) -> Self {
+        Self {
+            direction: self.direction.map(|direction| -direction),
+            ..self
+        }
+    }
+
     /// Whether every number of the target can be used: the point's coordinates up to 1e100 in
     /// magnitude, the direction's too, and not all of these 0.
     pub fn is_usable(&self) -> bool {

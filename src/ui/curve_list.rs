@@ -29,6 +29,8 @@ struct Renaming {
 enum Asked {
     Activate(CurveId),
     Rename(CurveId),
+    Lock(CurveId, bool),
+    Show(CurveId, bool),
     Edit(&'static str, Edit),
 }
 
@@ -70,6 +72,8 @@ impl CurveList {
         match asked {
             Some(Asked::Activate(curve)) => editor.activate(curve),
             Some(Asked::Rename(curve)) => self.begin_renaming(editor, curve),
+            Some(Asked::Lock(curve, locked)) => editor.set_locked(curve, locked),
+            Some(Asked::Show(curve, visible)) => editor.set_visible(curve, visible),
             Some(Asked::Edit(label, edit)) => editor.apply(label, vec![edit]),
             None => {}
         }
@@ -148,7 +152,7 @@ impl CurveList {
         let Renaming { curve, text, .. } = self.renaming.take()?;
         let called_off = ui.input(|input| input.key_pressed(Key::Escape));
         (!called_off).then_some(Asked::Edit(
-            "rename curve",
+            "Rename curve",
             Edit::Rename { curve, name: text },
         ))
     }
@@ -184,7 +188,7 @@ fn heading_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Command>) {
             ] {
                 let response = IconButton::new(icon, name).enabled(to.is_some()).show(ui);
                 if let (true, Some((curve, place))) = (response.clicked(), to) {
-                    editor.apply("reorder curves", vec![Edit::Reorder { curve, place }]);
+                    editor.apply("Reorder curves", vec![Edit::Reorder { curve, place }]);
                 }
             }
         });
@@ -283,18 +287,7 @@ impl Row<'_> {
             .colour(colour)
             .tooltip("Protect the shape from edits");
         if button.show(ui).clicked() {
-            let edit = Edit::SetLocked {
-                curve,
-                locked: !locked,
-            };
-            asked = Some(Asked::Edit(
-                if *locked {
-                    "unlock curve"
-                } else {
-                    "lock curve"
-                },
-                edit,
-            ));
+            asked = Some(Asked::Lock(curve, !locked));
         }
         let (icon, colour) = if *visible {
             (Icon::Eye, faint)
@@ -306,14 +299,7 @@ impl Row<'_> {
             .colour(colour)
             .tooltip("Show or hide the curve");
         if button.show(ui).clicked() {
-            let edit = Edit::SetVisible {
-                curve,
-                visible: !visible,
-            };
-            asked = Some(Asked::Edit(
-                if *visible { "hide curve" } else { "show curve" },
-                edit,
-            ));
+            asked = Some(Asked::Show(curve, !visible));
         }
         asked
     }

@@ -68,13 +68,11 @@ impl Inspector {
         widgets::form_row(ui, "State", |ui| {
             let mut visible = curve.visible;
             if ui.checkbox(&mut visible, "Visible").clicked() {
-                let label = if visible { "Show curve" } else { "Hide curve" };
-                editor.apply(label, vec![Edit::SetVisible { curve: id, visible }]);
+                editor.set_visible(id, visible);
             }
             let mut locked = curve.locked;
             if ui.checkbox(&mut locked, "Locked").clicked() {
-                let label = if locked { "Lock curve" } else { "Unlock curve" };
-                editor.apply(label, vec![Edit::SetLocked { curve: id, locked }]);
+                editor.set_locked(id, locked);
             }
         });
     }

@@ -328,11 +328,8 @@ impl EndFitTool {
             Some(Handle::OtherEnd(_)) | None => return Vec::new(),
         };
         let shapes = matches!(state, State::Body { .. } | State::Ring { .. });
-        if shapes && subject.curve.locked {
-            return vec![Effect::Say(format!(
-                "“{}” is locked: unlock it in the list of curves",
-                subject.curve.name
-            ))];
+        if shapes && let Err(locked) = subject.curve.check_unlocked() {
+            return vec![Effect::Say(locked.to_string())];
         }
         self.state = state;
         vec![Effect::Begin(label)]

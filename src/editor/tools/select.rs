@@ -345,13 +345,12 @@ fn vertex_count(curve: CurveId, context: &Context) -> usize {
 }
 
 fn locked(curve: CurveId, context: &Context) -> Effect {
-    let name = context
+    let found = context
         .document
         .curve(curve)
-        .map_or("", |curve| &curve.name);
-    Effect::Say(format!(
-        "“{name}” is locked: unlock it in the list of curves to change its shape"
-    ))
+        .map(|curve| curve.check_unlocked());
+    let refused = found.and_then(Result::err);
+    Effect::Say(refused.map_or_else(String::new, |locked| locked.to_string()))
 }
 
 fn click(place: DVec2, context: &Context) -> Vec<Effect> {

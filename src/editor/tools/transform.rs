@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3};
 
-use super::tool::{Context, Cursor, Effect, Tool, count_vertices, move_edits};
+use super::tool::{Context, Effect, Tool, count_vertices, move_edits};
 use crate::analysis::Bounds;
 use crate::editor::gesture::Gesture;
 use crate::editor::hit::REACH;
@@ -13,9 +13,6 @@ use crate::editor::scene::Mark;
 use crate::editor::selection::VertexId;
 use crate::editor::snapping::by_fifteen_degrees;
 use crate::editor::viewport::Viewport;
-
-/// Drags that begin nearer to the pivot than this, in screen points, have no direction.
-const SHORTEST_ARM: f64 = 4.0;
 
 /// What a drag does to the vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,7 +70,7 @@ impl TransformTool {
             self.state = State::MovingPivot { before: self.pivot };
             return Vec::new();
         }
-        let Some(((curve, _), _)) = vertices.first().filter(|_| from_pivot > SHORTEST_ARM) else {
+        let Some(((curve, _), _)) = vertices.first() else {
             return vec![Effect::Say(
                 "The curve is locked: unlock it in the list of curves".into(),
             )];
@@ -250,10 +247,6 @@ impl Tool for TransformTool {
             ];
         }
         self.pivot(context).map(Mark::Pivot).into_iter().collect()
-    }
-
-    fn cursor(&self, _context: &Context) -> Cursor {
-        Cursor::Crosshair
     }
 
     fn set_pivot(&mut self, pivot: Option<DVec2>) {

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3};
 
-use super::tool::{Context, Cursor, Effect, Tool};
+use super::tool::{Context, Effect, Tool};
 use crate::document::{CurveId, Edit};
 use crate::editor::gesture::Gesture;
 use crate::editor::hit::LegHit;
@@ -89,12 +89,9 @@ impl AddVertexTool {
         let Some((curve, found)) = found else {
             return Err("There is no curve to add to: draw one with D".into());
         };
-        if found.locked {
-            return Err(format!(
-                "“{}” is locked: unlock it in the list of curves",
-                found.name
-            ));
-        }
+        found
+            .check_unlocked()
+            .map_err(|locked| locked.to_string())?;
         if !found.visible {
             return Err(format!(
                 "“{}” is hidden: show it in the list of curves",
@@ -181,12 +178,9 @@ impl InsertTool {
         let Some(found) = context.document.curve(hit.curve) else {
             return Err(String::new());
         };
-        if found.locked {
-            return Err(format!(
-                "“{}” is locked: unlock it in the list of curves",
-                found.name
-            ));
-        }
+        found
+            .check_unlocked()
+            .map_err(|locked| locked.to_string())?;
         let vertices = found.polygon.vertices();
         let ends = vertices
             .get(hit.index)
@@ -265,10 +259,6 @@ impl Tool for DeleteTool {
 
     fn hint(&self, _context: &Context) -> String {
         "Click a vertex to delete it; Esc ends".into()
-    }
-
-    fn cursor(&self, _context: &Context) -> Cursor {
-        Cursor::Crosshair
     }
 }
 
