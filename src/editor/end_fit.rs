@@ -33,8 +33,10 @@ pub struct EndFitReport {
     pub planar: bool,
     /// Whether the curve is locked: only its targets can be set then.
     pub locked: bool,
-    /// The degree n: the number of terminal vertices.
+    /// The degree n.
     pub degree: usize,
+    /// The number of terminal vertices, which steps 5 and 6 move.
+    pub terminal: usize,
     /// The number of vertices N.
     pub vertices: usize,
     /// Step 1: the smallest and largest leg.
@@ -208,6 +210,7 @@ impl EndFitState {
             planar: analysis.is_planar(),
             locked: curve.locked,
             degree: polygon.degree(),
+            terminal: polygon.terminal_vertices(self.end).len(),
             vertices: polygon.vertices().len(),
             legs: figures.legs,
             turns: figures.turns,

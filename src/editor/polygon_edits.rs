@@ -17,12 +17,16 @@ pub fn inserted(
     let mut vertices = polygon.vertices().to_vec();
     vertices.insert(index, vertex);
     let weights = polygon.weights().map(|old| {
-        let before = old
-            .get(index.wrapping_sub(1))
-            .or(old.first())
-            .copied()
-            .unwrap_or(1.0);
-        let after = old.get(index).copied().unwrap_or(before);
+        // At an end of an open polygon the only neighbour stands for both.
+        let [round_before, round_after] = if polygon.is_periodic() {
+            [old.last(), old.first()]
+        } else {
+            [old.first(), old.last()]
+        };
+        let neighbour =
+            |found: Option<&f64>, round: Option<&f64>| found.or(round).copied().unwrap_or(1.0);
+        let before = neighbour(old.get(index.wrapping_sub(1)), round_before);
+        let after = neighbour(old.get(index), round_after);
         let mut weights = old.to_vec();
         weights.insert(index, (before * after).sqrt());
         weights

@@ -92,9 +92,10 @@ fn unsaved_ui(ui: &mut Ui, after: &AfterDiscard, editor: &Editor) -> Option<Deci
 }
 
 /// What the mouse does, beside the keys that the table of commands lists.
-const MOUSE: [(&str, &str); 12] = [
+const MOUSE: [(&str, &str); 14] = [
     ("Wheel, pinch", "Zoom to the pointer"),
     ("Middle button, Space and drag", "Pan"),
+    ("Right button and drag", "Turn the view"),
     ("Double-click on empty canvas", "Fit all"),
     ("Click, Shift and click", "Select, add to the selection"),
     ("Drag on empty canvas", "Select by a box"),
@@ -103,6 +104,7 @@ const MOUSE: [(&str, &str); 12] = [
         "Shift while dragging",
         "Keep to an axis, or to steps of 15°",
     ),
+    ("X, Y, Z while dragging", "Keep to an axis of the model"),
     ("Ctrl while dragging", "Snapping the other way"),
     ("Alt", "Show the state before the drag"),
     ("Arrows, Shift and arrows", "Nudge, ten times as far"),

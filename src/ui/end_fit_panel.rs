@@ -369,7 +369,7 @@ impl Panel<'_> {
     fn translate_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
         let has_target = report.target_point.is_some() && !report.locked;
-        let title = format!("Move {} vertices", report.degree);
+        let title = format!("Move {} vertices", report.terminal);
         step_ui(ui, 5, &title, self.is_in_place(), |ui| {
             let response = step_button(ui, "Translate", has_target, None)
                 .accessible_name("Translate terminal vertices");
@@ -384,7 +384,7 @@ impl Panel<'_> {
     fn rotate_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
         let has_target = report.target_direction.is_some() && report.tangent.is_some();
-        let title = format!("Turn {} vertices", report.degree);
+        let title = format!("Turn {} vertices", report.terminal);
         step_ui(ui, 6, &title, has_target && self.is_aligned(), |ui| {
             let response = step_button(ui, "Rotate", has_target && !report.locked, None)
                 .accessible_name("Rotate terminal vertices");

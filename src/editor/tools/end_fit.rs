@@ -195,7 +195,7 @@ impl Tool for EndFitTool {
             State::Direction => "Drag the target direction; Shift keeps to 15°".into(),
             State::Body { .. } => format!(
                 "Step 5: drag the {} terminal vertices as one body; the {name} snaps to the target, Ctrl frees it",
-                subject.curve.polygon.degree()
+                subject.curve.polygon.terminal_vertices(subject.end).len()
             ),
             State::Ring { angle, .. } => format!(
                 "Step 6: turned by {:.3}°; the tangent snaps to the target direction, Ctrl frees it",

@@ -19,7 +19,7 @@ pub struct Features {
     pub torsion_extrema: Vec<Extremum>,
     /// Where the tangent vanishes or may vanish, so that curvature is not defined.
     pub cusps: Vec<Cusp>,
-    /// Where a function may have roots or not; all of them are counted elsewhere.
+    /// Where a function may have roots or not; elsewhere all are counted.
     pub undecided: Vec<Undecided>,
     /// Pieces of the domain on which the curvature is proved to rise, to fall or to be
     /// constant. What they leave out are the intervals of extrema and undecided pieces.

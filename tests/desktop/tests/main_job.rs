@@ -13,7 +13,7 @@ use batten_desktop_tests::{Display, Window};
 use egui::{Key, Modifiers, Pos2, vec2};
 use glam::DVec3;
 
-/// A millionth of the curve: more than the canvas's single-precision places are off.
+/// A share of the curve's size: more than the canvas's single-precision places are off.
 const PLACE_TOLERANCE: f64 = 1e-5;
 
 /// What an end correction leaves, in units of the curve's size.
