@@ -244,6 +244,62 @@ fn both_sides_of_a_knot_may_agree_exactly() {
 }
 
 #[test]
+fn torsion_may_jump_where_a_space_curve_is_flat() {
+    // κ = 0 at u = 3; τ is 0 before and −½ just behind.
+    let points = [
+        [0, 0, 1],
+        [1, 1, 1],
+        [0, -1, 1],
+        [1, -1, 1],
+        [-1, -1, 1],
+        [0, -1, 1],
+        [0, 0, 1],
+        [-1, 1, 0],
+    ];
+    let vertices = points
+        .map(|point| DVec3::from(point.map(f64::from)))
+        .to_vec();
+    let curve = FloatPolygon::new(4, vertices, None, false).expect("valid");
+    let features = Features::new(&curve);
+    assert_eq!(counts(&features)[3], 1);
+    let doubts: Vec<_> = features.undecided.iter().map(|doubt| doubt.u).collect();
+    assert!(doubts.contains(&[3.0, 3.0]), "{doubts:?}");
+}
+
+#[test]
+fn extrema_next_to_a_cusp_have_values_of_the_right_sign() {
+    let points = [
+        (0.0, 0.0),
+        (0.3, 1.0),
+        (0.6, 2.0),
+        (0.8999999999999999, 2.0),
+        (1.2, 3.0),
+        (1.5, 3.0),
+        (1.2, 3.0),
+        (0.8999999999999999, 3.0),
+    ];
+    let vertices = points.map(|(x, y)| DVec3::new(x, y, 0.0)).to_vec();
+    let curve = FloatPolygon::new(3, vertices, None, true).expect("valid");
+    let features = Features::new(&curve);
+    let last = features.curvature_extrema.last().expect("extrema");
+    assert_eq!(last.kind, ExtremumKind::Maximum);
+    assert!(last.value > 1e19, "{last:?}");
+    let lows = features.curvature_extrema.windows(2);
+    assert!(lows.into_iter().all(|pair| pair[0].u[0] <= pair[1].u[0]));
+}
+
+#[test]
+fn sizes_far_apart_are_no_doubt_at_low_degrees() {
+    let vertices = [(168.0, -276.0), (1e-150, -325.0), (-168.0, -276.0)];
+    let vertices = vertices.map(|(x, y)| DVec3::new(x, y, 0.0)).to_vec();
+    let weights = Some(vec![26.0, 24.0, 26.0]);
+    let curve = FloatPolygon::new(2, vertices, weights, false).expect("valid");
+    let features = Features::new(&curve);
+    assert_eq!(features.undecided, []);
+    assert_ne!(features.monotone, Verdict::Undecided);
+}
+
+#[test]
 fn symmetrical_curves_have_their_extremum_in_the_middle() {
     for degree in 3..=25 {
         for extra in 0..4 {

@@ -1,5 +1,7 @@
 //! The proved features of a curve, kept up to date segment by segment, and what is drawn of them.
 
+use std::time::{Duration, Instant};
+
 use glam::DVec2;
 
 use super::curve_analysis::{CurveAnalysis, Drawn, Kept};
@@ -13,6 +15,12 @@ const AT_ONCE: usize = 1024;
 
 /// Segments of other curves, which take several times as long.
 const FEW_AT_ONCE: usize = 192;
+
+/// Segments that are proved at once however long it takes.
+const LEAST_AT_ONCE: usize = 16;
+
+/// How long others may take: some are decided in whole numbers only.
+const LONGEST: Duration = Duration::from_millis(100);
 
 /// What is known of a curve's features.
 #[derive(Debug)]
@@ -59,7 +67,13 @@ impl CurveFeatures {
         let is_quick = planar && !polygon.is_rational();
         let most = if is_quick { AT_ONCE } else { FEW_AT_ONCE };
         let left = self.pending.len().saturating_sub(most);
-        for segment in self.pending.drain(left..).rev() {
+        let begin = Instant::now();
+        let mut done = 0;
+        while self.pending.len() > left
+            && (done < LEAST_AT_ONCE || begin.elapsed() < LONGEST)
+            && let Some(segment) = self.pending.pop()
+        {
+            done += 1;
             if let Some(known) = self.segments.get_mut(segment) {
                 *known = self.prover.segment(polygon, segment);
             }

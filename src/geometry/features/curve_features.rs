@@ -7,8 +7,8 @@ use super::feature::{
 use super::segment_features::{SegmentFeatures, SegmentProver};
 use super::sign_piece::SignPiece;
 use super::sign_walk::{Change, Place, SignWalk};
+use super::values;
 use crate::geometry::float_polygon::FloatPolygon;
-use crate::geometry::jet::Jet;
 
 impl Features {
     /// Prove the features of a whole curve.
@@ -45,64 +45,93 @@ impl Features {
             cusps: assembly.cusps(),
             ..Self::default()
         };
-        let walk = assembly.walk(Quantity::Inflection);
-        features.inflections = features.take(&assembly, Quantity::Inflection, &walk, interval);
-        let walk = assembly.walk(Quantity::CurvatureExtremum);
         let planar = polygon.is_planar();
-        let curvature = |jet: Jet| jet.curvature_of(planar);
+        let mut singular: Vec<_> = features.cusps.iter().map(|cusp| cusp.u).collect();
+        let walk = assembly.walk(Quantity::Inflection);
+        features.inflections =
+            features.take(&assembly, Quantity::Inflection, &walk, &singular, interval);
+        let walk = assembly.walk(Quantity::CurvatureExtremum);
+        let curvature = |segment, t| values::curvature(polygon, segment, t, planar);
+        let extremum = |change: &Change, u| assembly.extremum(change, u, curvature);
         features.curvature_extrema = features.take(
             &assembly,
             Quantity::CurvatureExtremum,
             &walk,
-            |change, u| assembly.extremum(change, u, curvature),
+            &singular,
+            extremum,
         );
         features.trends = trends(&walk);
         features.monotone = features.verdict();
         if !planar {
             let walk = assembly.walk(Quantity::TorsionZero);
             features.torsion_zeros =
-                features.take(&assembly, Quantity::TorsionZero, &walk, interval);
+                features.take(&assembly, Quantity::TorsionZero, &walk, &singular, interval);
+            let flat = assembly.flat_knots();
+            singular.extend(&flat);
             let walk = assembly.walk(Quantity::TorsionExtremum);
-            features.torsion_extrema =
-                features.take(&assembly, Quantity::TorsionExtremum, &walk, |change, u| {
-                    assembly.extremum(change, u, |jet| jet.torsion())
-                });
+            let torsion = |segment, t| values::torsion(polygon, segment, t);
+            let extremum = |change: &Change, u| assembly.extremum(change, u, torsion);
+            features.torsion_extrema = features.take(
+                &assembly,
+                Quantity::TorsionExtremum,
+                &walk,
+                &singular,
+                extremum,
+            );
+            features.doubt_jumps(&flat);
         }
         features
     }
 
-    /// Turn the changes of a sign into features, but for those at a cusp, which are added to
-    /// the undecided pieces together with the walk's own.
+    /// Turn the changes of a sign into features, but for those at a singular place, which are
+    /// added to the undecided pieces together with the walk's own.
     fn take<T>(
         &mut self,
         assembly: &Assembly,
         quantity: Quantity,
         walk: &SignWalk,
+        singular: &[[f64; 2]],
         feature: impl Fn(&Change, [f64; 2]) -> T,
     ) -> Vec<T> {
         let mut features = Vec::with_capacity(walk.changes.len());
-        for change in &walk.changes {
-            let u = assembly.interval(change.places);
-            if assembly.touches(&self.cusps, u) {
-                self.undecided.push(Undecided {
-                    u,
-                    quantity,
-                    certain: false,
-                });
+        let changes = walk.changes.iter();
+        let mut changes: Vec<_> = changes
+            .map(|change| (assembly.interval(change.places), change))
+            .collect();
+        // A walk round a periodic curve sees its joint last.
+        changes.sort_by(|(a, _), (b, _)| a[0].total_cmp(&b[0]));
+        let doubt = |u, certain| Undecided {
+            u,
+            quantity,
+            certain,
+        };
+        for (u, change) in changes {
+            if assembly.touches(singular, u) {
+                self.undecided.push(doubt(u, false));
             } else {
                 features.push(feature(change, u));
             }
         }
-        for doubt in &walk.doubts {
-            let u = assembly.interval(doubt.places);
-            let certain = doubt.changed && !assembly.touches(&self.cusps, u);
-            self.undecided.push(Undecided {
-                u,
-                quantity,
-                certain,
-            });
+        for found in &walk.doubts {
+            let u = assembly.interval(found.places);
+            let certain = found.changed && !assembly.touches(singular, u);
+            self.undecided.push(doubt(u, certain));
         }
         features
+    }
+
+    /// Leave open whether the torsion jumps at knots without curvature, and makes extrema there.
+    fn doubt_jumps(&mut self, knots: &[[f64; 2]]) {
+        for u in knots {
+            let doubt = Undecided {
+                u: *u,
+                quantity: Quantity::TorsionExtremum,
+                certain: false,
+            };
+            if !self.undecided.contains(&doubt) {
+                self.undecided.push(doubt);
+            }
+        }
     }
 
     fn verdict(&self) -> Verdict {
@@ -134,19 +163,19 @@ impl Assembly<'_> {
         self.polygon.is_periodic() && self.segments.len() == self.polygon.segments()
     }
 
-    /// Whether an interval meets that of a cusp, across the joint of a periodic curve as well.
-    fn touches(&self, cusps: &[Cusp], [low, high]: [f64; 2]) -> bool {
+    /// Whether an interval meets a singular place, across the joint of a periodic curve as well.
+    fn touches(&self, singular: &[[f64; 2]], [low, high]: [f64; 2]) -> bool {
         let turn = if self.is_periodic() {
             self.segments.len() as f64
         } else {
             0.0
         };
-        let meets = |cusp: &Cusp| {
+        let meets = |place: &[f64; 2]| {
             [-turn, 0.0, turn]
                 .iter()
-                .any(|by| cusp.u[0] + by <= high && low <= cusp.u[1] + by)
+                .any(|by| place[0] + by <= high && low <= place[1] + by)
         };
-        cusps.iter().any(meets)
+        singular.iter().any(meets)
     }
 
     fn walk(&self, quantity: Quantity) -> SignWalk {
@@ -200,6 +229,30 @@ impl Assembly<'_> {
         }
     }
 
+    /// List the knots of a space curve at which the curvature is 0 and the torsion, which is
+    /// divided by it, may jump at any degree.
+    fn flat_knots(&self) -> Vec<[f64; 2]> {
+        let count = self.segments.len();
+        let before = |knot: usize| (knot + count - 1) % count;
+        let unknown = |bounds: [f64; 2]| bounds[0] == f64::NEG_INFINITY;
+        let may_be_flat = |knot: &usize| {
+            let [left, right] = [before(*knot), *knot].map(|k| &self.segments[k]);
+            unknown(left.end_torsion[1]) || unknown(right.end_torsion[0])
+        };
+        let is_flat = |knot: &usize| {
+            let [left, right] = ExactSegment::pair(self.polygon, before(*knot), false);
+            left.flattens(true) || right.flattens(false)
+        };
+        // Below degree 3 there is no torsion.
+        let first = if self.polygon.degree() < 3 {
+            count
+        } else {
+            usize::from(!self.is_periodic())
+        };
+        let knots = (first..count).filter(may_be_flat).filter(is_flat);
+        knots.map(|knot| [knot as f64; 2]).collect()
+    }
+
     fn interval(&self, [low, high]: [Place; 2]) -> [f64; 2] {
         self.within([low.rounded_down(), high.rounded_up()])
     }
@@ -214,11 +267,16 @@ impl Assembly<'_> {
         }
     }
 
-    fn extremum(&self, change: &Change, u: [f64; 2], quantity: impl Fn(Jet) -> f64) -> Extremum {
+    fn extremum(
+        &self,
+        change: &Change,
+        u: [f64; 2],
+        quantity: impl Fn(usize, f64) -> f64,
+    ) -> Extremum {
         let maximum = change.from > 0;
         let at = |place: Place| {
             let segment = place.segment % self.segments.len();
-            quantity(self.polygon.segment_jet(segment, place.t))
+            quantity(segment, place.t)
         };
         let value = change.value.unwrap_or_else(|| {
             let [low, high] = change.places.map(at);

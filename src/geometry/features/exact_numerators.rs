@@ -6,16 +6,22 @@
 use std::array::from_fn;
 
 use num_bigint::BigInt;
+use num_traits::{One, Zero};
 
 use super::exact_polynomial::ExactPolynomial;
 use super::feature::Quantity;
 use super::numerators::Function;
-use super::whole_numbers::whole_numbers;
+use super::values::Floating;
+use super::whole_numbers::{scaled_numbers, whole_numbers};
 use crate::geometry::float_polygon::FloatPolygon;
 
-/// The most binary digits of a segment's Bernstein coefficients: 53 for a coordinate and for
-/// a weight, up to 110 for the degree's n! and binomial coefficients, and what the sizes differ by.
+/// The most binary digits of a segment's Bernstein coefficients, whatever the degree: 53 for a
+/// coordinate and for a weight, up to 110 for n! and binomial coefficients, and what the sizes
+/// differ by.
 const MOST_BITS: u64 = 512;
+
+/// The most of them times the degree: low degrees may have more.
+const MOST_BITS_TIMES_DEGREE: u64 = 6144;
 
 /// A vector of polynomials.
 type Vector = [ExactPolynomial; 3];
@@ -24,6 +30,8 @@ type Vector = [ExactPolynomial; 3];
 #[derive(Debug)]
 pub(super) struct ExactSegment {
     planar: bool,
+    /// The length that is 1 here.
+    unit: Floating,
     curve: [Vector; 5],
     weight: [ExactPolynomial; 5],
 }
@@ -34,7 +42,8 @@ impl ExactSegment {
     pub(super) fn new(polygon: &FloatPolygon, segment: usize, planar: bool) -> Option<Self> {
         let [segment] = Self::some(polygon, segment, planar);
         let numbers = segment.curve[0].iter().chain(&segment.weight[..1]);
-        (numbers.map(ExactPolynomial::bits).max() <= Some(MOST_BITS)).then_some(segment)
+        let most = MOST_BITS.max(MOST_BITS_TIMES_DEGREE / polygon.degree() as u64);
+        (numbers.map(ExactPolynomial::bits).max() <= Some(most)).then_some(segment)
     }
 
     /// Read a segment and the next one, both in the same units.
@@ -50,7 +59,7 @@ impl ExactSegment {
         let degree = polygon.degree();
         let range = first..first + degree + COUNT;
         let places = range.clone().flat_map(|j| polygon.vertex(j).to_array());
-        let places = whole_numbers(&places.collect::<Vec<_>>());
+        let (places, exponent) = scaled_numbers(&places.collect::<Vec<_>>());
         let weights = range.map(|j| polygon.weight(j));
         let weights = whole_numbers(&weights.collect::<Vec<_>>());
         let vertices = places.chunks_exact(3).zip(&weights).map(|(place, weight)| {
@@ -62,8 +71,10 @@ impl ExactSegment {
         let bases = bases(degree);
         from_fn(|k| {
             let mut segment = Self::from_vertices(&bases, &vertices[k..=k + degree], planar);
+            segment.unit = Floating::new(&BigInt::one(), exponent.into());
             if constant {
                 // Another unit of length makes up for it.
+                segment.unit = segment.unit / segment.weight[0].value_at(0.0);
                 segment.weight = Default::default();
                 segment.weight[0] = ExactPolynomial::constant(1);
             }
@@ -82,6 +93,7 @@ impl ExactSegment {
         let mut axes = [x, y, z];
         Self {
             planar,
+            unit: Floating::new(&BigInt::one(), 0),
             curve: from_fn(|order| from_fn(|axis| std::mem::take(&mut axes[axis][order]))),
             weight: w,
         }
@@ -105,10 +117,36 @@ impl ExactSegment {
         }
     }
 
+    /// Evaluate the curvature at t: W³ D / S^{3/2}, in space W³ (Q / S³)^{1/2}.
+    pub(super) fn curvature_at(&self, t: f64) -> f64 {
+        let tangent = self.tangent(1);
+        let speed = dot(&tangent, &tangent).value_at(t).sqrt();
+        let bend = if self.planar {
+            self.bend(2).value_at(t)
+        } else {
+            self.bending(2).value_at(t).sqrt()
+        };
+        let share = self.weight[0].value_at(t) / speed;
+        (bend * share * share * share / self.unit).value()
+    }
+
+    /// Evaluate the torsion at t: W² T / Q.
+    pub(super) fn torsion_at(&self, t: f64) -> f64 {
+        let weight = self.weight[0].value_at(t);
+        let share = self.torsion(3).value_at(t) / self.bending(2).value_at(t);
+        (weight * weight * share / self.unit).value()
+    }
+
     /// Whether the tangent vanishes at p/q.
     pub(super) fn tangent_vanishes(&self, p: u32, q: u32) -> bool {
         let place = [p, q].map(BigInt::from);
         self.tangent(1).iter().all(|part| part.sign_at(&place) == 0)
+    }
+
+    /// Whether the curvature is 0 at the end of the segment but not all along it.
+    pub(super) fn flattens(&self, at_end: bool) -> bool {
+        let bending = self.bending(2);
+        bending.ends()[usize::from(at_end)].is_zero() && !bending.is_zero()
     }
 
     /// Tell the sign of the jump of curvature at degree 2, or torsion at degree 3, at the knot

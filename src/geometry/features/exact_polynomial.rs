@@ -7,6 +7,7 @@ use num_traits::{One, Zero};
 use super::isolation::{ROOT_WIDTH, SMALLEST_PIECE};
 use super::refinement::{Bracket, refine};
 use super::sign_piece::{Sign, SignPiece, append};
+use super::values::Floating;
 use super::whole_numbers::fraction;
 
 /// Where to cut a piece, in sixteenths; if there is a root the next is tried.
@@ -78,14 +79,28 @@ impl ExactPolynomial {
     }
 
     /// Tell the sign at p/q, for 0 ≤ p ≤ q.
-    pub(super) fn sign_at(&self, [p, q]: &[BigInt; 2]) -> i8 {
+    pub(super) fn sign_at(&self, place: &[BigInt; 2]) -> i8 {
+        sign(&self.scaled_value(place))
+    }
+
+    /// Evaluate at t, a double from 0 to 1.
+    pub(super) fn value_at(&self, t: f64) -> Floating {
+        let place = fraction(t);
+        let [_, q] = &place;
+        let power = q.trailing_zeros().unwrap_or(0) as i64;
+        let degree = self.0.len().saturating_sub(1) as i64;
+        Floating::new(&self.scaled_value(&place), -power * degree)
+    }
+
+    /// Evaluate at p/q, times qᴺ.
+    fn scaled_value(&self, [p, q]: &[BigInt; 2]) -> BigInt {
         let rest = q - p;
         let (mut sum, mut power) = (BigInt::zero(), BigInt::one());
         for coefficient in self.0.iter().rev() {
             sum = sum * p + coefficient * &power;
             power *= &rest;
         }
-        sign(&sum)
+        sum
     }
 
     /// Append pieces that cover \[0, 1\] and say where the polynomial has which sign.

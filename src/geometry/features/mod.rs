@@ -12,10 +12,13 @@
 //!   both are monotone. A curve whose vertices lie in one plane exactly has no torsion; once
 //!   rounding has moved them off it the torsion of the doubles given is proved, however small.
 //! - A root at an end of a segment is one of its knot: it counts if the sign changes there.
-//! - Only two things stay undecided, and are named ([`Undecided`]), never guessed: roots closer
-//!   than 1e-9, double ones among them, in a piece of that size; and whole segments whose
+//! - What a curvature does at a cusp, and a torsion at a knot without curvature, is left open: a
+//!   change of sign there, and all of a piece that touches it on which the function is 0, is
+//!   undecided.
+//! - Only two other things stay undecided, and are named ([`Undecided`]), never guessed: roots
+//!   closer than 1e-9, double ones among them, in a piece of that size; and whole segments whose
 //!   coordinates and weights differ so much in size that exact numbers would take too long, if
-//!   twice the digits are not enough for them: 1e60 and more between two of them.
+//!   twice the digits are not enough for them: 1e60 and more between two of them, at high degrees.
 
 mod arena;
 mod curve_features;
@@ -33,6 +36,7 @@ mod segment_shape;
 mod sign_piece;
 mod sign_walk;
 mod tables;
+mod values;
 mod variations;
 mod whole_numbers;
 

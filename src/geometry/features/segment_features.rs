@@ -11,6 +11,7 @@ use super::isolation::{Doubt, isolate};
 use super::numerators::{Function, Numerators};
 use super::segment_shape::SegmentShape;
 use super::sign_piece::{Sign, SignPiece, append, with_starts};
+use super::values;
 use super::variations::certain_sign;
 use crate::geometry::float_polygon::FloatPolygon;
 
@@ -89,11 +90,12 @@ impl SegmentProver {
         let mut features = search.features();
         features.end_curvature = [start[0], end[0]];
         features.end_torsion = [start[1], end[1]];
-        let jet = |t: f64| polygon.segment_jet(segment, t);
         set_values(&mut features.curvature_slope, |t| {
-            jet(t).curvature_of(planar)
+            values::curvature(polygon, segment, t, planar)
         });
-        set_values(&mut features.torsion_slope, |t| jet(t).torsion());
+        set_values(&mut features.torsion_slope, |t| {
+            values::torsion(polygon, segment, t)
+        });
         features
     }
 }

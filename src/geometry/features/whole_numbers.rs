@@ -5,13 +5,19 @@ use num_traits::{Float, One, Zero};
 
 /// Multiply finite doubles by the smallest power of two that makes all of them whole.
 pub(super) fn whole_numbers(values: &[f64]) -> Vec<BigInt> {
+    scaled_numbers(values).0
+}
+
+/// Write finite doubles as whole numbers times one power of two, as large as it can be; returns
+/// its exponent too.
+pub(super) fn scaled_numbers(values: &[f64]) -> (Vec<BigInt>, i32) {
     let decoded: Vec<_> = values.iter().map(|value| decode(*value)).collect();
     let nonzero = decoded.iter().filter(|(digits, _)| !digits.is_zero());
     let least = nonzero.map(|(_, exponent)| *exponent).min().unwrap_or(0);
     let shifted = decoded
         .into_iter()
         .map(|(digits, exponent)| digits << (exponent - least).max(0));
-    shifted.collect()
+    (shifted.collect(), least)
 }
 
 /// Write a double from 0 to 1 as a fraction p/q in lowest terms.
