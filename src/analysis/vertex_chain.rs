@@ -172,12 +172,7 @@ impl VertexChain {
     /// Append the discrete curvature at the vertices, with their numbers; where there are more
     /// than `bins` vertices, only the greatest in magnitude of each run of neighbours.
     pub(super) fn append_extreme_curvatures(&mut self, bins: usize, out: &mut Vec<(usize, f64)>) {
-        let run = self
-            .vertices
-            .len()
-            .div_ceil(bins)
-            .next_power_of_two()
-            .min(BLOCK);
+        let run = self.run(bins);
         for index in 0..self.blocks.len() {
             let known = self.blocks[index].extremes.take();
             let extremes = known.unwrap_or_else(|| self.block_extremes(index, run));

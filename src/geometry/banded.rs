@@ -1,5 +1,7 @@
 //! A banded, symmetric, positive definite system: the differences of vertex moves.
 
+use super::basis::undifferenced;
+
 /// Hold the Cholesky factor of H = DᵀD + μI, where D takes the k-th differences of a sequence.
 pub(super) struct BandedCholesky {
     /// For each row, the entries from the diagonal leftwards.
@@ -63,16 +65,7 @@ impl BandedCholesky {
 
 /// The coefficients of the k-th difference: (−1, 1), (1, −2, 1), …
 fn difference_stencil(order: usize) -> Vec<f64> {
-    let mut stencil = vec![1.0];
-    for _ in 0..order {
-        let mut next = vec![0.0; stencil.len() + 1];
-        for (index, value) in stencil.iter().enumerate() {
-            next[index] -= value;
-            next[index + 1] += value;
-        }
-        stencil = next;
-    }
-    stencil
+    (0..order).fold(vec![1.0], |stencil, _| undifferenced(&stencil, 0.0))
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! The basis of a uniform B-spline: the same on every segment.
 
+use std::ops::{Add, Sub};
+
 /// Evaluate the n + 1 basis functions of one segment at the local parameter t in \[0, 1\].
 ///
 /// Function j weighs the segment's vertex j, has the support \[j − n, j + 1\] (as t counts), is
@@ -35,14 +37,22 @@ pub fn uniform_basis_derivative(degree: usize, order: usize, t: f64) -> Vec<f64>
     }
     let mut values = uniform_basis(degree - order, t);
     for _ in 0..order {
-        let mut next = vec![0.0; values.len() + 1];
-        for (index, value) in values.iter().enumerate() {
-            next[index] -= value;
-            next[index + 1] += value;
-        }
-        values = next;
+        values = undifferenced(&values, 0.0);
     }
     values
+}
+
+/// The factors of numbers from the factors of their differences: Σ fᵢ (cᵢ₊₁ − cᵢ) = Σ gᵢ cᵢ.
+pub(super) fn undifferenced<T>(factors: &[T], zero: T) -> Vec<T>
+where
+    T: Copy + Add<Output = T> + Sub<Output = T>,
+{
+    let mut result = vec![zero; factors.len() + 1];
+    for (index, factor) in factors.iter().enumerate() {
+        result[index] = result[index] - *factor;
+        result[index + 1] = result[index + 1] + *factor;
+    }
+    result
 }
 
 #[cfg(test)]

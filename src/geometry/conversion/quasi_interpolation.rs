@@ -15,6 +15,7 @@ use super::exact_polygon::dot;
 use super::exact_vertices::{ExactVertices, check_weight, converted_error, weight_loss};
 use super::expansion::Expansion;
 use super::knots::Blend;
+use crate::geometry::basis::undifferenced;
 use crate::geometry::error::PolygonError;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::polygon_kind::PolygonKind;
@@ -129,7 +130,7 @@ fn taylor_row(degree: usize, t: f64, factors: &[Number]) -> Vec<Number> {
     for (k, factor) in factors.iter().enumerate() {
         let mut values = basis(degree - 2 * k, t);
         for _ in 0..2 * k {
-            values = differences(&values);
+            values = undifferenced(&values, Number::ZERO);
         }
         for (entry, value) in row.iter_mut().zip(values) {
             *entry = *entry + value * *factor;
@@ -164,16 +165,6 @@ fn basis(degree: usize, t: f64) -> Vec<Number> {
         values[0] = values[0] * (1.0 - t) / divisor;
     }
     values
-}
-
-/// The weights of the vertices where those of their differences are given.
-fn differences(values: &[Number]) -> Vec<Number> {
-    let mut next = vec![Number::ZERO; values.len() + 1];
-    for (index, value) in values.iter().enumerate() {
-        next[index] = next[index] - *value;
-        next[index + 1] = next[index + 1] + *value;
-    }
-    next
 }
 
 fn magnitude(row: &[Number]) -> f64 {

@@ -4,7 +4,7 @@
 use num_bigint::BigInt;
 use num_traits::{One, Zero};
 
-use super::isolation::{ROOT_WIDTH, SMALLEST_PIECE};
+use super::isolation::{ROOT_WIDTH, SMALLEST_PIECE, exact_cut};
 use super::refinement::{Bracket, refine};
 use super::sign_piece::{Sign, SignPiece, append};
 use super::values::Floating;
@@ -145,15 +145,12 @@ impl ExactPolynomial {
     /// Choose where to cut \[0, 1\], the local form of a piece, if possible not at a root: in
     /// sixteenths, with the parameter there. `None` if the piece is too small.
     fn place_to_cut(&self, [low, high]: [f64; 2]) -> Option<(u8, f64)> {
-        let width = high - low;
-        if width <= SMALLEST_PIECE {
+        if high - low <= SMALLEST_PIECE {
             return None;
         }
         let mut cuts = CUTS.iter().filter_map(|sixteenths| {
-            let cut = f64::from(*sixteenths) / 16.0;
-            let middle = low + width * cut;
-            let exact = middle - low == width * cut && high - middle == width * (1.0 - cut);
-            exact.then_some((*sixteenths, middle))
+            let middle = exact_cut([low, high], f64::from(*sixteenths) / 16.0)?;
+            Some((*sixteenths, middle))
         });
         let first = cuts.next();
         let is_root = |sixteenths| self.sign_at(&[sixteenths, 16].map(BigInt::from)) == 0;

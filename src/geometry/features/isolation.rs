@@ -67,6 +67,14 @@ pub(super) fn isolate<T: Scalar>(
     result
 }
 
+/// The place of a cut if it is exact: inside a segment the ends of pieces are. Where it would not
+/// be, 2⁻⁵³ has come into sight, and cutting ends.
+pub(super) fn exact_cut([low, high]: [f64; 2], share: f64) -> Option<f64> {
+    let (width, middle) = (high - low, low + (high - low) * share);
+    let exact = middle - low == width * share && high - middle == width * (1.0 - share);
+    exact.then_some(middle)
+}
+
 struct Isolation<'a, T> {
     arena: &'a mut Arena<T>,
     /// The polynomial in scaled form on the whole segment.
@@ -93,14 +101,11 @@ impl<T: Scalar> Isolation<'_, T> {
         let mark = self.arena.mark();
         let width = high - low;
         let cuts = if width == 1.0 { FIRST_CUTS } else { CUTS };
-        // Inside a segment the ends of pieces are exact; where a cut would not be, 2⁻⁵³ has come
-        // into sight, and cutting ends.
-        let exact = |cut: f64| {
-            let middle = low + width * cut;
-            (middle - low == width * cut && high - middle == width * (1.0 - cut)).then_some(middle)
-        };
         let mut parts = None;
-        for (cut, middle) in cuts.iter().filter_map(|cut| Some((*cut, exact(*cut)?))) {
+        for (cut, middle) in cuts
+            .iter()
+            .filter_map(|cut| Some((*cut, exact_cut([low, high], *cut)?)))
+        {
             self.arena.release(mark);
             let (left, right) = self.arena.split(local, cut);
             parts = Some((left, right, middle));
