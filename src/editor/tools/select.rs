@@ -29,95 +29,73 @@ pub struct SelectTool {
 enum State {
     #[default]
     Idle,
-    /// Vertices are dragged; `held` is where the vertex under the hand was seen, `planar` are the
-    /// curves that lie in the plane z = 0.
-    Moving {
-        origin: DVec2,
-        held: DVec2,
-        vertices: Vec<(VertexId, DVec3)>,
-        moving: BTreeSet<VertexId>,
-        planar: BTreeSet<CurveId>,
-        snap: Option<DVec2>,
-    },
-    /// A vertex of the closed S-polygon is dragged; `held` is where it was.
-    MovingClamped {
-        origin: DVec2,
-        held: DVec3,
-        vertex: VertexId,
-        planar: bool,
-    },
+    /// Vertices are dragged.
+    Moving(Moving),
+    /// A vertex of the closed S-polygon is dragged.
+    MovingClamped(MovingClamped),
     /// A box is drawn, by its corners on the canvas.
     Boxing { from: DVec2, to: DVec2 },
     /// The comb is scaled by the tip of a tooth.
     Scaling { foot: DVec2, tip: DVec2, scale: f64 },
 }
 
+#[derive(Debug)]
+struct Moving {
+    origin: DVec2,
+    /// Where the vertex under the hand was seen.
+    held: DVec2,
+    vertices: Vec<(VertexId, DVec3)>,
+    moving: BTreeSet<VertexId>,
+    /// The curves that lie in the plane z = 0.
+    planar: BTreeSet<CurveId>,
+    snap: Option<DVec2>,
+}
+
+impl Moving {
+    fn drag(&mut self, place: DVec2, context: &Context) -> Effect {
+        let (by, snap) = movement(self.origin, self.held, place, &self.moving, context);
+        self.snap = snap;
+        let places = self.vertices.iter().map(|(id, at)| {
+            let is_planar = self.planar.contains(&id.0);
+            (*id, *at + context.movement(by, is_planar))
+        });
+        Effect::Preview(move_edits(places))
+    }
+}
+
+#[derive(Debug)]
+struct MovingClamped {
+    origin: DVec2,
+    /// Where the vertex was.
+    held: DVec3,
+    vertex: VertexId,
+    planar: bool,
+}
+
+impl MovingClamped {
+    fn drag(&self, place: DVec2, context: &Context) -> Effect {
+        let seen = context.viewport.flatten(self.held);
+        let (by, _) = movement(self.origin, seen, place, &BTreeSet::new(), context);
+        let to = self.held + context.movement(by, self.planar);
+        move_clamped(self.vertex, to, context)
+    }
+}
+
 impl Tool for SelectTool {
     fn gesture(&mut self, gesture: Gesture, context: &Context) -> Vec<Effect> {
+        if let Gesture::Drag(place) = gesture {
+            return self.drag(place, context);
+        }
         match (std::mem::take(&mut self.state), gesture) {
             (State::Idle, Gesture::Click(place)) => click(place, context),
             (State::Idle, Gesture::DoubleClick(place)) => double_click(place, context),
             (State::Idle, Gesture::DragStart(place)) => self.start(place, context),
             (State::Idle, Gesture::Key(key)) => nudge(key, context),
-            (
-                State::Moving {
-                    origin,
-                    held,
-                    vertices,
-                    moving,
-                    planar,
-                    ..
-                },
-                Gesture::Drag(place),
-            ) => {
-                let (movement, snap) = movement(origin, held, place, &moving, context);
-                let places = vertices.iter().map(|(id, at)| {
-                    let by = context.movement(movement, planar.contains(&id.0));
-                    (*id, *at + by)
-                });
-                let effects = vec![Effect::Preview(move_edits(places))];
-                self.state = State::Moving {
-                    origin,
-                    held,
-                    vertices,
-                    moving,
-                    planar,
-                    snap,
-                };
-                effects
-            }
-            (
-                State::MovingClamped {
-                    origin,
-                    held,
-                    vertex,
-                    planar,
-                },
-                Gesture::Drag(place),
-            ) => {
-                self.state = State::MovingClamped {
-                    origin,
-                    held,
-                    vertex,
-                    planar,
-                };
-                let seen = context.viewport.flatten(held);
-                let (movement, _) = movement(origin, seen, place, &BTreeSet::new(), context);
-                vec![move_clamped(
-                    vertex,
-                    held + context.movement(movement, planar),
-                    context,
-                )]
-            }
-            (State::Moving { .. } | State::MovingClamped { .. }, Gesture::DragEnd(_)) => {
+            (State::Moving(_) | State::MovingClamped(_), Gesture::DragEnd(_)) => {
                 vec![Effect::Commit]
             }
-            (State::Moving { .. } | State::MovingClamped { .. }, Gesture::Cancel) => {
+            (State::Moving(_) | State::MovingClamped(_), Gesture::Cancel) => {
                 vec![Effect::Abort]
-            }
-            (State::Boxing { from, .. }, Gesture::Drag(to)) => {
-                self.state = State::Boxing { from, to };
-                Vec::new()
             }
             (State::Boxing { from, .. }, Gesture::DragEnd(to)) => {
                 let found = context.hits.vertices_in_box(from, to);
@@ -126,14 +104,6 @@ impl Tool for SelectTool {
                 } else {
                     vec![Effect::Select(found)]
                 }
-            }
-            (State::Scaling { foot, tip, scale }, Gesture::Drag(place)) => {
-                let arm = tip - foot;
-                let reach = (context.model(place) - foot).dot(arm) / arm.length_squared();
-                self.state = State::Scaling { foot, tip, scale };
-                let mut comb = context.comb;
-                comb.scale = scale * reach.max(1e-3);
-                vec![Effect::SetComb(comb)]
             }
             (State::Scaling { scale, .. }, Gesture::Cancel) => {
                 let mut comb = context.comb;
@@ -150,12 +120,12 @@ impl Tool for SelectTool {
 
     fn hint(&self, context: &Context) -> String {
         match &self.state {
-            State::Moving { vertices, .. } => format!(
+            State::Moving(Moving { vertices, .. }) => format!(
                 "Moving {}: Shift keeps to an axis, X, Y, Z to the model's, Ctrl turns snapping {}, Alt shows before, Esc cancels",
                 count_vertices(vertices.len()),
                 if context.snapping { "off" } else { "on" },
             ),
-            State::MovingClamped { vertex, .. } => format!(
+            State::MovingClamped(MovingClamped { vertex, .. }) => format!(
                 "Moving vertex {} of the closed S-polygon: {}; Esc cancels",
                 vertex.1,
                 amplified(*vertex, context)
@@ -189,9 +159,9 @@ impl Tool for SelectTool {
                     context.model(*to),
                 ])]
             }
-            State::Moving {
+            State::Moving(Moving {
                 snap: Some(snap), ..
-            } => vec![Mark::Snap(*snap)],
+            }) => vec![Mark::Snap(*snap)],
             _ => Vec::new(),
         }
     }
@@ -201,9 +171,7 @@ impl Tool for SelectTool {
             .pointer
             .map(|pointer| context.viewport.to_screen(pointer));
         match self.state {
-            State::Moving { .. } | State::MovingClamped { .. } | State::Scaling { .. } => {
-                Cursor::Move
-            }
+            State::Moving(_) | State::MovingClamped(_) | State::Scaling { .. } => Cursor::Move,
             State::Idle if place.is_some_and(|place| takes_vertex(place, context)) => Cursor::Move,
             _ => Cursor::Default,
         }
@@ -211,6 +179,25 @@ impl Tool for SelectTool {
 }
 
 impl SelectTool {
+    fn drag(&mut self, place: DVec2, context: &Context) -> Vec<Effect> {
+        match &mut self.state {
+            State::Idle => Vec::new(),
+            State::Moving(moving) => vec![moving.drag(place, context)],
+            State::MovingClamped(moving) => vec![moving.drag(place, context)],
+            State::Boxing { to, .. } => {
+                *to = place;
+                Vec::new()
+            }
+            State::Scaling { foot, tip, scale } => {
+                let arm = *tip - *foot;
+                let reach = (context.model(place) - *foot).dot(arm) / arm.length_squared();
+                let mut comb = context.comb;
+                comb.scale = *scale * reach.max(1e-3);
+                vec![Effect::SetComb(comb)]
+            }
+        }
+    }
+
     fn start(&mut self, place: DVec2, context: &Context) -> Vec<Effect> {
         if let Some(vertex) = context.hits.vertex(place) {
             return self.start_moving(place, vertex, context);
@@ -273,12 +260,12 @@ impl SelectTool {
         if curve.locked {
             return vec![locked(id, context)];
         }
-        self.state = State::MovingClamped {
+        self.state = State::MovingClamped(MovingClamped {
             origin: context.model(place),
             held: *held,
             vertex,
             planar: curve.polygon.is_planar(),
-        };
+        });
         let label = format!("Move vertex {index} of closed S-polygon");
         vec![Effect::Select(Vec::new()), Effect::Begin(label)]
     }
@@ -300,14 +287,14 @@ impl SelectTool {
                 .collect();
         };
         let effects = vec![Effect::Activate(*curve), Effect::Begin(label.to_owned())];
-        self.state = State::Moving {
+        self.state = State::Moving(Moving {
             origin: context.model(place),
             held,
             moving: taken.into_iter().collect(),
             planar: context.planar_curves(&vertices),
             vertices,
             snap: None,
-        };
+        });
         effects
     }
 }

@@ -100,7 +100,20 @@ fn header(writer: &mut Writer, free_handle: u64, (low, high): (DVec3, DVec3)) {
     writer.handle(5, free_handle);
 }
 
-fn tables(writer: &mut Writer, layers: &[Layer], (low, high): (DVec3, DVec3)) {
+fn tables(writer: &mut Writer, layers: &[Layer], bounds: (DVec3, DVec3)) {
+    view(writer, bounds);
+    line_types(writer);
+    layer_table(writer, layers);
+    text_styles(writer);
+    table(writer, "VIEW", VIEW_TABLE, 0, |_| {});
+    table(writer, "UCS", UCS_TABLE, 0, |_| {});
+    applications(writer);
+    dimension_styles(writer);
+    block_records(writer);
+}
+
+/// The view shows everything, twice as wide as high.
+fn view(writer: &mut Writer, (low, high): (DVec3, DVec3)) {
     table(writer, "VPORT", VPORT_TABLE, 1, |writer| {
         record(
             writer,
@@ -120,12 +133,14 @@ fn tables(writer: &mut Writer, layers: &[Layer], (low, high): (DVec3, DVec3)) {
         flat_point(writer, 15, 10.0, 10.0);
         writer.point(16, DVec3::Z);
         writer.point(17, DVec3::ZERO);
-        // The view shows everything, twice as wide as high.
         let height = 1.1 * size.y.max(0.5 * size.x);
         writer.number(40, if height > 0.0 { height } else { 1.0 });
         writer.number(41, 2.0);
         writer.number(42, 50.0);
     });
+}
+
+fn line_types(writer: &mut Writer) {
     table(writer, "LTYPE", LTYPE_TABLE, 3, |writer| {
         for name in ["ByBlock", "ByLayer", "Continuous"] {
             let handle = writer.take_handle();
@@ -144,6 +159,9 @@ fn tables(writer: &mut Writer, layers: &[Layer], (low, high): (DVec3, DVec3)) {
             writer.number(40, 0.0);
         }
     });
+}
+
+fn layer_table(writer: &mut Writer, layers: &[Layer]) {
     table(writer, "LAYER", LAYER_TABLE, layers.len() + 1, |writer| {
         let zero = Layer {
             name: "0".to_owned(),
@@ -168,6 +186,9 @@ fn tables(writer: &mut Writer, layers: &[Layer], (low, high): (DVec3, DVec3)) {
             writer.text(6, "Continuous");
         }
     });
+}
+
+fn text_styles(writer: &mut Writer) {
     table(writer, "STYLE", STYLE_TABLE, 1, |writer| {
         record(
             writer,
@@ -186,8 +207,9 @@ fn tables(writer: &mut Writer, layers: &[Layer], (low, high): (DVec3, DVec3)) {
         writer.text(3, "txt");
         writer.text(4, "");
     });
-    table(writer, "VIEW", VIEW_TABLE, 0, |_| {});
-    table(writer, "UCS", UCS_TABLE, 0, |_| {});
+}
+
+fn applications(writer: &mut Writer) {
     table(writer, "APPID", APPID_TABLE, 1, |writer| {
         let handle = writer.take_handle();
         record(
@@ -200,7 +222,9 @@ fn tables(writer: &mut Writer, layers: &[Layer], (low, high): (DVec3, DVec3)) {
         writer.text(2, "ACAD");
         writer.integer(70, 0);
     });
-    dimension_styles(writer);
+}
+
+fn block_records(writer: &mut Writer) {
     table(writer, "BLOCK_RECORD", BLOCK_RECORD_TABLE, 2, |writer| {
         for (handle, name, layout) in [
             (MODEL_SPACE, "*Model_Space", MODEL_LAYOUT),
