@@ -338,102 +338,116 @@ impl EndFitTool {
     fn drag(&mut self, at: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
         match &mut self.state {
             State::Idle => Vec::new(),
-            State::Target { offset } => {
-                let Some(target) = subject.target else {
-                    return Vec::new();
-                };
-                let from = context.viewport.flatten(target.point);
-                let wanted = at + *offset;
-                let to = if context.modifiers.shift {
-                    from + along_axis(wanted - from)
-                } else {
-                    context.snapped(wanted, &own_vertices(subject))
-                };
-                let movement = context.movement(to - from, subject.is_planar());
-                let point = target.point + movement;
-                vec![subject.with_target(EndTarget { point, ..target })]
-            }
-            State::Direction => {
-                let Some(target) = subject.target else {
-                    return Vec::new();
-                };
-                let view = &context.viewport.orientation;
-                let free = (at - view.flatten(target.point)).to_angle();
-                let angle = if context.modifiers.shift {
-                    by_fifteen_degrees(free)
-                } else {
-                    free
-                };
-                let push = DVec2::from_angle(angle);
-                let direction = Some(if subject.is_planar() {
-                    context.viewport.movement(push, true).normalize_or(DVec3::X)
-                } else {
-                    let before = target.direction.and_then(DVec3::try_normalize);
-                    let height = before.map_or(0.0, |d| view.depth(d));
-                    let flat = push * (1.0 - height * height).max(0.0).sqrt();
-                    view.lift(flat) + height * view.towards()
-                });
-                vec![subject.with_target(EndTarget {
-                    direction,
-                    ..target
-                })]
-            }
+            State::Target { offset } => drag_target(at + *offset, subject, context),
+            State::Direction => drag_direction(at, subject, context),
             State::Body { origin, snapped } => {
                 let free = at - *origin;
-                let wanted = subject.point + free;
-                let target = subject
-                    .target
-                    .map(|target| context.viewport.flatten(target.point));
-                let near =
-                    |target: &DVec2| target.distance(wanted) <= REACH * context.viewport.pixel();
-                let snaps = !context.modifiers.ctrl;
-                *snapped = target.filter(near).filter(|_| snaps);
-                let exact = subject.target.filter(|_| snapped.is_some());
-                let vector = match exact {
-                    Some(target) => {
-                        EndDifference::between(&subject.curve.polygon, subject.end, &target).vector
-                    }
-                    None if context.modifiers.shift => {
-                        context.movement(along_axis(free), subject.is_planar())
-                    }
-                    None => context.movement(free, subject.is_planar()),
-                };
-                shaped(
-                    subject,
-                    translate_end(&subject.curve.polygon, subject.end, vector),
-                )
+                let target = subject.target.filter(|_| !context.modifiers.ctrl);
+                let target = target.filter(|target| is_near(subject.point + free, target, context));
+                *snapped = target.map(|target| context.viewport.flatten(target.point));
+                drag_body(free, target, subject, context)
             }
             State::Ring { origin, angle } => {
-                let polygon = &subject.curve.polygon;
                 let turned = (*origin - subject.point).angle_to(at - subject.point);
                 let free = if context.modifiers.shift {
                     by_fifteen_degrees(turned)
                 } else {
                     turned
                 };
-                let wanted = subject.target.filter(|target| target.direction.is_some());
-                let missing = wanted
-                    .map(|target| EndDifference::between(polygon, subject.end, &target).angle);
-                let snaps = !context.modifiers.ctrl;
-                let close = |missing: &f64| (missing - free).abs() < SNAP_ANGLE.to_radians();
-                let exact = missing
-                    .filter(close)
-                    .filter(|_| snaps && context.viewport.orientation.is_from_above())
-                    .filter(|_| polygon.is_planar());
-                *angle = exact.unwrap_or(free);
-                let direction = wanted.and_then(|target| target.direction);
-                match (exact, direction) {
-                    (Some(_), Some(direction)) => {
-                        shaped(subject, align_end(polygon, subject.end, direction))
-                    }
-                    _ => shaped(
-                        subject,
-                        rotate_end(polygon, subject.end, turned_by(*angle, subject, context)),
-                    ),
-                }
+                let missing = missing_angle(free, subject, context);
+                *angle = missing.unwrap_or(free);
+                drag_ring(*angle, missing.is_some(), subject, context)
             }
         }
     }
+}
+
+fn drag_target(wanted: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
+    let Some(target) = subject.target else {
+        return Vec::new();
+    };
+    let from = context.viewport.flatten(target.point);
+    let to = if context.modifiers.shift {
+        from + along_axis(wanted - from)
+    } else {
+        context.snapped(wanted, &own_vertices(subject))
+    };
+    let movement = context.movement(to - from, subject.is_planar());
+    let point = target.point + movement;
+    vec![subject.with_target(EndTarget { point, ..target })]
+}
+
+fn drag_direction(at: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
+    let Some(target) = subject.target else {
+        return Vec::new();
+    };
+    let view = &context.viewport.orientation;
+    let free = (at - view.flatten(target.point)).to_angle();
+    let angle = if context.modifiers.shift {
+        by_fifteen_degrees(free)
+    } else {
+        free
+    };
+    let push = DVec2::from_angle(angle);
+    let direction = Some(if subject.is_planar() {
+        context.viewport.movement(push, true).normalize_or(DVec3::X)
+    } else {
+        // What the direction has along the line of sight is kept.
+        let before = target.direction.and_then(DVec3::try_normalize);
+        let height = before.map_or(0.0, |d| view.depth(d));
+        let flat = push * (1.0 - height * height).max(0.0).sqrt();
+        view.lift(flat) + height * view.towards()
+    });
+    let target = EndTarget {
+        direction,
+        ..target
+    };
+    vec![subject.with_target(target)]
+}
+
+fn is_near(place: DVec2, target: &EndTarget, context: &Context) -> bool {
+    let seen = context.viewport.flatten(target.point);
+    seen.distance(place) <= REACH * context.viewport.pixel()
+}
+
+/// Translate the terminal vertices, onto a target if they snap to it.
+fn drag_body(
+    free: DVec2,
+    snapped: Option<EndTarget>,
+    subject: &Subject,
+    context: &Context,
+) -> Vec<Effect> {
+    let (polygon, end) = (&subject.curve.polygon, subject.end);
+    let vector = match snapped {
+        Some(target) => EndDifference::between(polygon, end, &target).vector,
+        None if context.modifiers.shift => context.movement(along_axis(free), subject.is_planar()),
+        None => context.movement(free, subject.is_planar()),
+    };
+    shaped(subject, translate_end(polygon, end, vector))
+}
+
+/// The angle that turns the tangent into the target direction, if a free one snaps to it.
+fn missing_angle(free: f64, subject: &Subject, context: &Context) -> Option<f64> {
+    let polygon = &subject.curve.polygon;
+    let snaps = !context.modifiers.ctrl
+        && context.viewport.orientation.is_from_above()
+        && polygon.is_planar();
+    let target = subject
+        .target
+        .filter(|target| snaps && target.direction.is_some())?;
+    let missing = EndDifference::between(polygon, subject.end, &target).angle;
+    ((missing - free).abs() < SNAP_ANGLE.to_radians()).then_some(missing)
+}
+
+/// Rotate the terminal vertices, exactly into the target direction if they snap to it.
+fn drag_ring(angle: f64, snapped: bool, subject: &Subject, context: &Context) -> Vec<Effect> {
+    let (polygon, end) = (&subject.curve.polygon, subject.end);
+    let direction = subject.target.and_then(|target| target.direction);
+    let turned = match direction.filter(|_| snapped) {
+        Some(direction) => align_end(polygon, end, direction),
+        None => rotate_end(polygon, end, turned_by(angle, subject, context)),
+    };
+    shaped(subject, turned)
 }
 
 /// The rotation that turns what is seen by an angle: of a planar curve within its plane.
