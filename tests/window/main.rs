@@ -253,6 +253,21 @@ fn letters_are_typed_into_fields_and_are_commands_elsewhere() {
 }
 
 #[test]
+fn what_a_plot_marks_goes_with_the_plot() {
+    let mut window = open_window();
+    let canvas = window.state().canvas_rect().expect("the canvas was shown");
+    let on_plot = canvas.center_bottom() + vec2(0.0, 120.0);
+    window.hover_at(on_plot);
+    window.run();
+    let hovered = |window: &Window| window.state().editor().readout().u;
+    assert!(hovered(&window).is_some_and(|u| 0.0 < u && u < 1.0));
+    press(&mut window, Modifiers::NONE, Key::F8);
+    window.hover_at(canvas.center_top() + vec2(0.0, 20.0));
+    window.run();
+    assert_eq!(hovered(&window), None);
+}
+
+#[test]
 fn an_axis_key_held_before_a_drag_steers_it_and_keeps_the_tool() {
     let mut window = open_window();
     let before = curve(&window).polygon.vertex(4);
