@@ -68,6 +68,28 @@ impl Bounds {
         self.high = self.high.max(other.high);
     }
 
+    /// Widen the box on every side by a multiple of its greater extent.
+    pub fn grown(&self, share: f64) -> Self {
+        let by = share * (self.high - self.low).max_element();
+        Self {
+            low: self.low - by,
+            high: self.high + by,
+        }
+    }
+
+    /// What the box has in common with another.
+    pub fn within(&self, other: &Self) -> Self {
+        let common = Self {
+            low: self.low.max(other.low),
+            high: self.high.min(other.high),
+        };
+        if common.low.cmple(common.high).all() {
+            common
+        } else {
+            Self::EMPTY
+        }
+    }
+
     /// Whether there is nothing in the box.
     pub fn is_empty(&self) -> bool {
         !(self.low.x <= self.high.x)

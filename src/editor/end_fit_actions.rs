@@ -6,7 +6,7 @@ use super::Editor;
 use super::drawing::figure;
 use super::end_fit::{EndFitAction, EndFitReport};
 use super::layers::Layer;
-use super::tools::ToolKind;
+use super::tools::{ToolKind, count_vertices};
 use crate::document::{Curve, CurveId, Edit};
 use crate::geometry::end_correction::{
     EndDifference, EndOverlap, EndTarget, LoopOutcome, align_end, correct_in_turn, translate_end,
@@ -240,7 +240,8 @@ fn why_not(polygon: &FloatPolygon, outcome: &LoopOutcome) -> String {
     let reason = match EndOverlap::of(polygon) {
         EndOverlap::None => "the ends do not settle".to_owned(),
         EndOverlap::Partial { shared } => {
-            format!("the ends share {shared} vertices, and correcting one keeps spoiling the other")
+            let shared = count_vertices(shared);
+            format!("the ends share {shared}, and correcting one keeps spoiling the other")
         }
         EndOverlap::OneSegment => {
             "the curve is one segment, and both ends depend on almost the same vertices".to_owned()

@@ -20,6 +20,9 @@ const ZOOM: f64 = 1.25;
 /// The height of the comb after a reset, as a share of the smaller side of the curve's box.
 const COMB_HEIGHT: f64 = 0.35;
 
+/// How far beside curve and polygon a fitted view follows the comb, in units of their extent.
+const COMB_REACH: f64 = 1.0;
+
 impl Editor {
     /// The number of built-in examples.
     pub fn examples(&self) -> usize {
@@ -205,6 +208,10 @@ impl Editor {
             Command::ExportCsv(polygon) => return Some(self.export_request("csv", polygon)),
             Command::Undo | Command::Redo => {}
             Command::Cut => {
+                if let Err(reason) = self.deletion() {
+                    self.fail(reason);
+                    return None;
+                }
                 let request = self.copy();
                 if request.is_some() {
                     self.delete("Cut");
@@ -269,13 +276,19 @@ impl Editor {
     }
 
     fn bounds_of(&mut self, id: CurveId) -> Bounds {
-        let layers = self.layers();
+        let (layers, scale) = (self.layers(), self.comb.scale);
+        let is_active = self.selection.active() == Some(id);
         let Some(analysis) = self.analyses.get(id) else {
             return Bounds::EMPTY;
         };
         let mut bounds = analysis.bounds();
         if layers.shows(Layer::Float) {
             bounds.unite(&analysis.float().figures().bounds);
+        }
+        if layers.shows(Layer::Comb) && is_active {
+            // Long teeth are cut off: the curve must not become a speck.
+            let around = bounds.grown(COMB_REACH);
+            bounds.unite(&analysis.comb_bounds(scale).within(&around));
         }
         bounds
     }

@@ -46,7 +46,7 @@ pub use report::{AfterDiscard, CurveReport, Export, Message, Readout, Request};
 pub use reshaping::{Division, DivisionReport, RoundingReport};
 pub use scene::{CurveScene, HoverScene, Mark, PlotScene, Scene, VertexMark};
 pub use selection::{Selection, VertexId};
-pub use tools::{Cursor, ToolKind, Transformation};
+pub use tools::{Cursor, ToolKind, Transformation, count_vertices};
 pub use viewport::Viewport;
 
 use crate::analysis::{AnalysisCache, CombSettings};

@@ -114,7 +114,7 @@ const MOUSE: [(&str, &str); 14] = [
 
 fn keys_ui(ui: &mut Ui, editor: &Editor) -> Option<Decision> {
     let window = ui.ctx().content_rect().size();
-    ui.set_width((window.x - 80.0).clamp(200.0, 880.0));
+    ui.set_width((window.x - 80.0).clamp(200.0, 1080.0));
     ui.strong("Keys and mouse");
     let height = (window.y - 200.0).clamp(120.0, 560.0);
     // Without a least height the list would grow by a little each frame.

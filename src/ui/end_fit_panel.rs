@@ -13,7 +13,7 @@ use super::theme::{ROW, STEP, Tokens};
 use super::widgets::IconButton;
 use super::{figures, widgets};
 use crate::document::Edit;
-use crate::editor::{Editor, EndFitAction, EndFitReport, Layer};
+use crate::editor::{Editor, EndFitAction, EndFitReport, Layer, count_vertices};
 use crate::geometry::End;
 use crate::geometry::end_correction::{EndOverlap, EndTarget};
 
@@ -484,9 +484,10 @@ fn overlap_ui(ui: &mut Ui, report: &EndFitReport) {
     let text = match report.overlap {
         EndOverlap::None => return,
         EndOverlap::Partial { shared } => format!(
-            "N = {count} is less than 2n = {}: the two ends share {shared} vertices. Repeating \
-             converges slowly, if at all; “both ends at once” is exact.",
-            2 * degree
+            "N = {count} is less than 2n = {}: the two ends share {}. Repeating converges \
+             slowly, if at all; “both ends at once” is exact.",
+            2 * degree,
+            count_vertices(shared)
         ),
         EndOverlap::OneSegment => format!(
             "N = {count} is n + 1: both ends share all but two vertices. Repeating does not \

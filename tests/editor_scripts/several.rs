@@ -122,6 +122,22 @@ fn cutting_removes_what_it_copies() {
 }
 
 #[test]
+fn what_cannot_be_cut_is_not_copied() {
+    let (mut script, [_, other]) = two();
+    // The six vertices that are left would be no curve of degree 7.
+    let points: Vec<_> = (0..8).map(|i| (f64::from(i), f64::from(i * i))).collect();
+    let polygon = FloatPolygon::planar(7, &points).expect("a polygon");
+    let curve = other;
+    script
+        .editor
+        .apply("another", vec![Edit::SetPolygon { curve, polygon }]);
+    script.editor.select_vertex(other, 0, false);
+    script.editor.select_vertex(other, 1, true);
+    assert_eq!(script.editor.execute(Command::Cut), None);
+    assert!(script.message().contains("too few"), "{}", script.message());
+}
+
+#[test]
 fn pasting_in_the_middle_of_a_drag_calls_the_drag_off() {
     let mut script = Script::example("arc");
     let before = script.polygon();

@@ -107,6 +107,31 @@ fn the_comb_is_scaled_by_the_tip_of_a_tooth() {
 }
 
 #[test]
+fn fitting_shows_the_comb_within_reason() {
+    let mut script = Script::example("arc");
+    script.command(Command::ToggleLayer(Layer::Comb));
+    for (scale, all) in [(30.0, true), (1e6, false)] {
+        let mut comb = script.editor.comb();
+        comb.scale = scale;
+        script.editor.set_comb(comb);
+        script.command(Command::FitAll);
+        let viewport = *script.editor.viewport();
+        let polygon = script.polygon();
+        let middle = polygon.jet(0.5);
+        let normal = DVec2::new(0.0, 1.0);
+        let tip = middle.point.truncate() + normal * scale * middle.curvature();
+        let shown = |place: DVec2| {
+            let at = viewport.to_screen(place);
+            at.cmpge(DVec2::ZERO).all() && at.cmple(viewport.size).all()
+        };
+        assert_eq!(shown(tip), all, "comb scale {scale}");
+        // The curve stays large enough to be worked on.
+        let size = polygon.size() * viewport.scale;
+        assert!(size > 0.2 * viewport.size.y, "{size}");
+    }
+}
+
+#[test]
 fn only_segments_that_depend_on_a_vertex_are_redone() {
     let mut script = Script::example("arc");
     let points: Vec<DVec3> = (0..200)

@@ -79,6 +79,15 @@ impl CurveAnalysis {
         self.append(view, out, layer);
     }
 
+    /// The box around the comb's tips, as they are seen.
+    pub fn comb_bounds(&self, scale: f64) -> Bounds {
+        let mut bounds = Bounds::EMPTY;
+        for sample in &self.samples {
+            bounds.add(self.orientation.flatten(sample.comb_tip(scale)));
+        }
+        bounds
+    }
+
     /// Append the comb's visible teeth, each from its foot on the curve to its tip; where they
     /// would stand closer than three screen points they are thinned out.
     pub fn append_teeth(&mut self, view: &ViewBox, comb: &CombSettings, out: &mut Vec<[DVec2; 2]>) {

@@ -63,19 +63,19 @@ impl Plots {
         let plot = plot("curvature", across, signed, bounds, tokens)
             .x_axis_formatter(numbers)
             .label_formatter(|hover| {
-                let HoverPosition::NearDataPoint {
+                if let HoverPosition::NearDataPoint {
                     position,
-                    plot_name,
+                    plot_name: "discrete",
                     index,
                 } = hover
-                else {
-                    return None;
-                };
-                let curvature = figures::significant(position.y, 6);
-                Some(match *plot_name {
-                    "discrete" => discrete_label(scene, *index, &curvature),
-                    _ => format!("κ {curvature}\nat {}", figures::significant(position.x, 5)),
-                })
+                {
+                    let curvature = figures::significant(position.y, 6);
+                    return Some(discrete_label(scene, *index, &curvature));
+                }
+                // The figures are those of the place that is marked, not of a sample near it.
+                let at = scene.hovered?;
+                let (x, y) = (figures::significant(at.x, 5), figures::significant(at.y, 6));
+                Some(format!("κ {y}\nat {x}"))
             });
         let hovered = plot
             .show(ui, |plot| {

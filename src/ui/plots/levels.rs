@@ -61,6 +61,9 @@ fn axis_name(plot: LevelPlot, normalised: bool) -> String {
     }
 }
 
+/// Where the bar leaves less room than this, in points, the switch has a short name.
+const NARROW: f32 = 150.0;
+
 impl Plots {
     /// What the bar says of a plot of levels: the switch that normalises, and what is cut off.
     pub(super) fn level_bar_ui(&mut self, ui: &mut Ui, plot: LevelPlot) {
@@ -77,7 +80,14 @@ impl Plots {
     pub(super) fn normalised_ui(&mut self, ui: &mut Ui, remark: &str) {
         ui.spacing_mut().item_spacing.x = 2.0 * STEP;
         let tooltip = "Show the levels of the curve scaled to length 1, over shares of its length";
-        ui.add(Checkbox::new(&mut self.normalised, "By curve length"))
+        let name = "By curve length";
+        let text = if ui.available_width() < NARROW {
+            "1/L"
+        } else {
+            name
+        };
+        ui.add(Checkbox::new(&mut self.normalised, text))
+            .accessible_name(name)
             .on_hover_text(tooltip);
         widgets::remark(ui, remark);
     }
@@ -131,7 +141,9 @@ impl Plots {
             _ => "arc length (units)",
         };
         let upwards = axis_name(which, normalised);
-        let hovered = self::labelled(plot("levels", across, &upwards, bounds, tokens), is_graph)
+        let marked = scene.hovered_level.filter(|_| !is_graph);
+        let plot = plot("levels", across, &upwards, bounds, tokens);
+        let hovered = labelled(plot, marked, is_graph)
             .show(ui, |plot| {
                 plot.set_plot_bounds(bounds);
                 if !is_graph {
@@ -162,13 +174,17 @@ fn noise(plot: LevelPlot, length: f64) -> f64 {
     1e-9 * length.powi(-power)
 }
 
-/// Let a plot tell the figures under the pointer.
-fn labelled(plot: Plot<'_>, is_graph: bool) -> Plot<'_> {
+/// Let a plot tell the figures of the place that is marked in it; of the graph, which has none, of
+/// the point near the pointer.
+fn labelled(plot: Plot<'_>, marked: Option<DVec2>, is_graph: bool) -> Plot<'_> {
     plot.label_formatter(move |hover| {
-        let HoverPosition::NearDataPoint { position, .. } = hover else {
-            return None;
+        let at = match hover {
+            HoverPosition::NearDataPoint { position, .. } if is_graph => {
+                Some(DVec2::new(position.x, position.y))
+            }
+            _ => marked.filter(|at| at.is_finite()),
         };
-        let at = DVec2::new(position.x, position.y);
+        let at = at?;
         let (x, y) = (figures::significant(at.x, 5), figures::significant(at.y, 6));
         Some(if is_graph {
             format!("log ρ {x}\nlog |ρ ds/dρ| {y}")
