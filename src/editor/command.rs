@@ -111,6 +111,19 @@ pub struct Shortcut {
 }
 
 impl Command {
+    /// Whether it changes only how things are shown, so that a drag may go on.
+    pub fn only_shows(self) -> bool {
+        matches!(
+            self,
+            Self::ZoomIn
+                | Self::ZoomOut
+                | Self::ToggleLayer(_)
+                | Self::ToggleSnapping
+                | Self::ToggleTheme
+                | Self::TogglePlots
+        )
+    }
+
     /// List every command there is, in the order in which the palette offers them; `examples`
     /// is the number of built-in examples.
     pub fn all(examples: usize) -> Vec<Self> {

@@ -290,6 +290,9 @@ impl Editor {
         if let Some(weights) = curve.polygon.weights() {
             text += &format!("\nw {}", figure(*weights.get(index)?));
         }
+        if self.selection.active() != Some(id) {
+            text = format!("{}\n{text}", curve.name);
+        }
         Some(HoverScene::Vertex {
             at: self.viewport.flatten(vertex),
             text,
@@ -323,22 +326,23 @@ impl Editor {
         let jet = curve.polygon.jet(u);
         let curvature = jet.curvature_of(planar);
         let radius = 1.0 / curvature.abs();
-        let text = format!(
-            "u {u:.4}\nx {}\ny {}{}\nκ {}\nR {}",
-            figure(jet.point.x),
-            figure(jet.point.y),
-            if planar {
-                String::new()
-            } else {
-                format!("\nz {}", figure(jet.point.z))
-            },
-            figure(curvature),
-            if radius.is_finite() {
-                figure(radius)
-            } else {
-                "∞".into()
-            },
-        );
+        let mut lines = vec![
+            format!("u {u:.4}"),
+            format!("x {}", figure(jet.point.x)),
+            format!("y {}", figure(jet.point.y)),
+        ];
+        if !planar {
+            lines.push(format!("z {}", figure(jet.point.z)));
+        }
+        lines.push(format!("κ {}", figure(curvature)));
+        let radius = Some(radius).filter(|radius| radius.is_finite());
+        lines.push(format!("R {}", radius.map_or("∞".to_owned(), figure)));
+        let torsion = Some(jet.torsion()).filter(|torsion| !planar && torsion.is_finite());
+        lines.extend(torsion.map(|torsion| format!("τ {}", figure(torsion))));
+        if self.selection.active() != Some(id) {
+            lines.insert(0, curve.name.clone());
+        }
+        let text = lines.join("\n");
         let centre = jet.centre_of_curvature();
         let seen_as_it_is = planar && self.viewport.orientation.is_from_above();
         let circle = centre.filter(|_| !seen_as_it_is);

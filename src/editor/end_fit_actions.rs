@@ -32,6 +32,7 @@ impl Editor {
     /// Do one thing of the end-fit panel.
     pub fn end_fit_action(&mut self, action: EndFitAction) {
         self.commit_field();
+        self.message = None;
         let Some((id, curve)) = self.active_curve() else {
             return;
         };

@@ -40,7 +40,7 @@ impl Editor {
             Command::Undo => self.undo(),
             Command::Redo => self.redo(),
             _ => {
-                if self.gestures.is_dragging() {
+                if self.gestures.is_dragging() && !command.only_shows() {
                     self.call_off();
                 }
                 return self.execute_idle(command);
@@ -173,10 +173,11 @@ impl Editor {
             return;
         }
         self.end_fit.begin_anew();
+        let before: Vec<CurveId> = self.document().curves().map(|(id, _)| id).collect();
         if let Some(label) = self.history.undo() {
             self.say(format!("Undone: {label}"));
         }
-        self.document_changed();
+        self.activate_returned(&before);
     }
 
     fn redo(&mut self) {
@@ -184,10 +185,24 @@ impl Editor {
             return;
         }
         self.end_fit.begin_anew();
+        let before: Vec<CurveId> = self.document().curves().map(|(id, _)| id).collect();
         if let Some(label) = self.history.redo() {
             self.say(format!("Redone: {label}"));
         }
+        self.activate_returned(&before);
+    }
+
+    /// Make the first curve active that was not there before: the one that was waited for.
+    fn activate_returned(&mut self, before: &[CurveId]) {
         self.document_changed();
+        let returned = self
+            .document()
+            .curves()
+            .map(|(id, _)| id)
+            .find(|id| !before.contains(id));
+        if let Some(returned) = returned {
+            self.activate(returned);
+        }
     }
 
     fn execute_idle(&mut self, command: Command) -> Option<Request> {

@@ -53,6 +53,24 @@ fn every_command_can_be_given_at_any_time() {
 }
 
 #[test]
+fn what_only_shows_leaves_a_drag_going_on() {
+    let mut script = Script::example("arc");
+    let before = script.polygon().vertex(3);
+    let at = script.at_vertex(3);
+    script.press(at);
+    script.move_to(at + 30.0);
+    for command in Command::all(7).into_iter().filter(|c| c.only_shows()) {
+        script.command(command);
+        assert!(script.editor.is_dragging(), "{command:?}");
+    }
+    let to = at + 60.0;
+    script.move_to(to);
+    script.release(to);
+    assert_ne!(script.polygon().vertex(3), before);
+    assert_eq!(script.editor.history().undo_steps(), 1);
+}
+
+#[test]
 fn commands_have_names_and_keys_of_their_own() {
     let commands = Command::all(7);
     for (index, command) in commands.iter().enumerate() {

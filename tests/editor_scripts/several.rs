@@ -47,10 +47,11 @@ fn what_is_hovered_is_told_of_the_curve_it_is_on() {
     let place = polygon.point(u).truncate();
     script.move_to(script.editor.viewport().to_screen(place));
     let hover = script.editor.scene().hover.clone();
-    let Some(HoverScene::Curve { curve, .. }) = hover else {
+    let Some(HoverScene::Curve { curve, text, .. }) = hover else {
         panic!("{hover:?}");
     };
     assert_eq!((curve, script.curve()), (other, arc));
+    assert!(text.starts_with("other\n"), "{text}");
     let readout = script.editor.readout();
     assert!((readout.u.expect("u") - u).abs() < 1e-3);
     let expected = polygon.jet(readout.u.expect("u")).signed_curvature();
@@ -119,6 +120,16 @@ fn cutting_removes_what_it_copies() {
     assert_eq!(left.vertices(), &before.vertices()[4..]);
     script.editor.paste_text(&text);
     assert_eq!(script.polygon().vertices().len(), 4);
+}
+
+#[test]
+fn a_deleted_curve_that_comes_back_is_active_again() {
+    let (mut script, [arc, other]) = two();
+    script.editor.activate(other);
+    script.command(Command::Delete);
+    assert_eq!(script.curve(), arc);
+    script.command(Command::Undo);
+    assert_eq!(script.curve(), other);
 }
 
 #[test]
