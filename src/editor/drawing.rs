@@ -111,7 +111,7 @@ impl Editor {
     ) {
         let (layers, comb, active) = (self.layers(), self.comb, scene.active);
         let orientation = self.viewport.orientation;
-        let report = self.known_features().filter(|_| active);
+        let report = active.then(|| self.known_features()).flatten();
         let Some(analysis) = self.analyses.get(id) else {
             return;
         };

@@ -223,21 +223,19 @@ impl Editor {
             Command::ExportCsv(polygon) => return Some(self.export_request("csv", polygon)),
             Command::Undo | Command::Redo => {}
             Command::Cut => {
-                if let Err(reason) = self.deletion() {
-                    self.fail(reason);
-                    return None;
-                }
-                let request = self.copy();
-                if request.is_some() {
-                    self.delete("Cut");
-                }
-                return request;
+                // What cannot be removed is not copied either.
+                let request = self.copy()?;
+                return self.delete("Cut").then_some(request);
             }
             Command::Copy => return self.copy(),
             Command::Paste => return Some(Request::Paste),
             Command::Duplicate => self.duplicate(),
-            Command::Delete => self.delete("Delete"),
-            Command::DeleteCurve => self.delete_curve("Delete curve"),
+            Command::Delete => {
+                self.delete("Delete");
+            }
+            Command::DeleteCurve => {
+                self.delete_curve("Delete curve");
+            }
             Command::SelectAll => self.select_all(),
             Command::SelectNone => self.selection.clear(),
             Command::Reverse => self.reverse(),
@@ -381,26 +379,28 @@ impl Editor {
         }
     }
 
-    fn delete(&mut self, verb: &str) {
+    /// Remove what is selected, or the active curve; `false`, with the reason as message, if that
+    /// cannot be.
+    fn delete(&mut self, verb: &str) -> bool {
         if self.selection.is_empty() {
-            self.delete_curve(&format!("{verb} curve"));
-            return;
+            return self.delete_curve(&format!("{verb} curve"));
         }
         let edits = match self.deletion() {
             Ok(edits) => edits,
             Err(reason) => {
                 self.fail(reason);
-                return;
+                return false;
             }
         };
         let label = format!("{verb} vertices");
         self.end_fit.begin_anew();
         let done = self.history.apply(label, edits);
-        match done {
+        match &done {
             Ok(()) => self.selection.clear(),
             Err(error) => self.fail(error.to_string()),
         }
         self.document_changed();
+        done.is_ok()
     }
 
     /// The edits that remove the selected vertices; curves of which all are selected go whole.
@@ -422,15 +422,16 @@ impl Editor {
         Ok(edits)
     }
 
-    fn delete_curve(&mut self, label: &str) {
+    fn delete_curve(&mut self, label: &str) -> bool {
         let Some((id, curve)) = self.active_curve() else {
-            return;
+            return false;
         };
         if let Err(locked) = curve.check_unlocked() {
             self.fail(locked.to_string());
-            return;
+            return false;
         }
         self.apply(label, vec![Edit::Remove(id)]);
+        true
     }
 
     fn duplicate(&mut self) {

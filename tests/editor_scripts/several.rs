@@ -33,16 +33,15 @@ fn two() -> (Script, [CurveId; 2]) {
     (script, [arc, other])
 }
 
+fn polygon_of(script: &Script, id: CurveId) -> FloatPolygon {
+    let curve = script.editor.document().curve(id);
+    curve.expect("the curve").polygon.clone()
+}
+
 #[test]
 fn what_is_hovered_is_told_of_the_curve_it_is_on() {
     let (mut script, [arc, other]) = two();
-    let polygon = script
-        .editor
-        .document()
-        .curve(other)
-        .expect("the other")
-        .polygon
-        .clone();
+    let polygon = polygon_of(&script, other);
     let u = 4.5;
     let place = polygon.point(u).truncate();
     script.move_to(script.editor.viewport().to_screen(place));
@@ -85,13 +84,7 @@ fn cutting_removes_what_it_copies() {
         shift: true,
         ..Modifiers::NONE
     });
-    let polygon = script
-        .editor
-        .document()
-        .curve(arc)
-        .expect("the arc")
-        .polygon
-        .clone();
+    let polygon = polygon_of(&script, arc);
     let on_arc = script
         .editor
         .viewport()
@@ -100,23 +93,11 @@ fn cutting_removes_what_it_copies() {
     script.modifiers(Modifiers::NONE);
     assert_eq!(script.curve(), arc);
     assert_eq!(script.editor.selected_vertices(other).len(), 4);
-    let before = script
-        .editor
-        .document()
-        .curve(other)
-        .expect("the other")
-        .polygon
-        .clone();
+    let before = polygon_of(&script, other);
     let Some(Request::CopyText(text)) = script.editor.execute(Command::Cut) else {
         panic!("nothing was copied");
     };
-    let left = script
-        .editor
-        .document()
-        .curve(other)
-        .expect("the other")
-        .polygon
-        .clone();
+    let left = polygon_of(&script, other);
     assert_eq!(left.vertices(), &before.vertices()[4..]);
     script.editor.paste_text(&text);
     assert_eq!(script.polygon().vertices().len(), 4);
@@ -146,6 +127,14 @@ fn what_cannot_be_cut_is_not_copied() {
     script.editor.select_vertex(other, 1, true);
     assert_eq!(script.editor.execute(Command::Cut), None);
     assert!(script.message().contains("too few"), "{}", script.message());
+    // Neither are vertices of a locked curve, nor that curve as a whole.
+    script.editor.set_locked(other, true);
+    script.editor.select_vertex(other, 0, false);
+    assert_eq!(script.editor.execute(Command::Cut), None);
+    script.command(Command::SelectNone);
+    assert_eq!(script.curve(), other);
+    assert_eq!(script.editor.execute(Command::Cut), None);
+    assert!(script.message().contains("locked"), "{}", script.message());
 }
 
 #[test]
