@@ -1,5 +1,7 @@
 //! Raising and lowering the degree.
 
+use std::cmp::Ordering;
+
 use super::approximation::Approximation;
 use super::deviation::between_chains;
 use super::exact_polygon::ExactPolygon;
@@ -35,6 +37,21 @@ impl FloatPolygon {
         if degree > self.degree() && self.segments() == 1 && !self.is_periodic() {
             return Ok(Approximation::exact(self.raised_segment(degree)?));
         }
+        // One direction of an open curve stands for both, so that rounding favours neither.
+        if !self.is_periodic() && self.runs_backwards() {
+            let last = self.segments() + degree - 1;
+            let changed = self.reversed().with_degree(degree);
+            let mut changed = changed.map_err(|error| match error {
+                PolygonError::WeightLost { to, index, weight } => PolygonError::WeightLost {
+                    to,
+                    index: last - index,
+                    weight,
+                },
+                error => error,
+            })?;
+            changed.polygon = changed.polygon.reversed();
+            return Ok(changed);
+        }
         let polygon = quasi_interpolated(
             self,
             &NewKnots {
@@ -59,6 +76,16 @@ impl FloatPolygon {
             deviation: between_chains(&before, &after),
             exact: false,
         })
+    }
+
+    /// Whether the numbers of the vertices, read from the last one, come first in their order.
+    fn runs_backwards(&self) -> bool {
+        let numbers = |index: usize| self.vertex(index).extend(self.weight(index)).to_array();
+        let count = self.vertices().len();
+        let forward = (0..count).flat_map(numbers);
+        let backward = (0..count).rev().flat_map(numbers);
+        let order = forward.zip(backward).map(|(a, b)| a.total_cmp(&b));
+        order.into_iter().find(|order| order.is_ne()) == Some(Ordering::Greater)
     }
 
     fn raised_segment(&self, degree: usize) -> Result<Self, PolygonError> {

@@ -30,19 +30,8 @@ pub(super) fn with_ends(polygon: FloatPolygon, jets: [Jet; 2]) -> FloatPolygon {
     if met {
         return polygon;
     }
-    // The mean of the solutions from both ends: rounding favours neither direction of the curve.
-    let turned = targets.map(|(end, target)| (end.other(), target.turned()));
-    let solutions = correct_jointly(&polygon, &targets)
-        .and_then(|forward| Ok((forward, correct_jointly(&polygon.reversed(), &turned)?)));
-    let Ok((forward, backward)) = solutions else {
-        return polygon;
-    };
-    let backward = backward.polygon.reversed();
-    let pairs = forward.polygon.vertices().iter().zip(backward.vertices());
-    let means = pairs.map(|(a, b)| 0.5 * *a + 0.5 * *b).enumerate();
-    let mut mean = polygon.clone();
-    match mean.move_vertices(means.collect::<Vec<_>>()) {
-        Ok(()) => mean,
+    match correct_jointly(&polygon, &targets) {
+        Ok(correction) => correction.polygon,
         Err(_) => polygon,
     }
 }
