@@ -182,14 +182,14 @@ fn every_edit_is_undone_and_redone() {
             curve: id,
             colour: Some(Colour([1, 2, 3])),
         },
-        Edit::SetVisible {
-            curve: id,
-            visible: false,
-        },
         Edit::SetTarget {
             curve: id,
             end: End::Finish,
             target: Some(target),
+        },
+        Edit::SetVisible {
+            curve: id,
+            visible: false,
         },
         Edit::SetLocked {
             curve: id,

@@ -22,6 +22,15 @@ impl CombSettings {
     pub const DENSITY: RangeInclusive<usize> = 1..=64;
 }
 
+impl Default for CombSettings {
+    fn default() -> Self {
+        Self {
+            scale: 1.0,
+            density: 16,
+        }
+    }
+}
+
 /// The teeth of one block's comb: where they stand, and their tips.
 #[derive(Debug, Default)]
 pub(super) struct Teeth {

@@ -56,6 +56,21 @@ impl CurveFeatures {
         self.assembled = None;
     }
 
+    /// The features of the whole polygon, if all are known.
+    fn known(&mut self, polygon: &FloatPolygon) -> Option<&Features> {
+        if !self.pending.is_empty() {
+            return None;
+        }
+        let segments = &self.segments;
+        let assemble = || Features::assemble(polygon, segments);
+        Some(self.assembled.get_or_insert_with(assemble))
+    }
+
+    /// The share of the curve whose features are known.
+    fn progress(&self) -> f64 {
+        1.0 - self.pending.len() as f64 / self.segments.len().max(1) as f64
+    }
+
     /// Go on proving, for a while.
     fn advance(&mut self, polygon: &FloatPolygon, planar: bool) {
         if std::mem::take(&mut self.changed) {
@@ -78,6 +93,30 @@ impl CurveFeatures {
                 *known = self.prover.segment(polygon, segment);
             }
         }
+    }
+}
+
+/// Prove the features of a polygon that is only looked at, in parts none of which takes long.
+#[derive(Debug)]
+pub struct FeatureProof {
+    polygon: FloatPolygon,
+    features: CurveFeatures,
+}
+
+impl FeatureProof {
+    /// Begin a proof.
+    pub fn new(polygon: FloatPolygon) -> Self {
+        let count = polygon.segments();
+        let mut features = CurveFeatures::new(polygon.is_planar(), count);
+        (0..count).for_each(|segment| features.forget(segment));
+        Self { polygon, features }
+    }
+
+    /// Go on, and return the features once all are known.
+    pub fn advance(&mut self) -> Option<&Features> {
+        self.features
+            .advance(&self.polygon, self.polygon.is_planar());
+        self.features.known(&self.polygon)
     }
 }
 
@@ -118,19 +157,12 @@ impl CurveAnalysis {
     /// The proved features, if all are known.
     pub fn known_features(&mut self) -> Option<&Features> {
         let curve = self.curve().clone();
-        let features = self.curve_features();
-        if !features.pending.is_empty() {
-            return None;
-        }
-        let segments = &features.segments;
-        let assemble = || Features::assemble(&curve.polygon, segments);
-        Some(features.assembled.get_or_insert_with(assemble))
+        self.curve_features().known(&curve.polygon)
     }
 
     /// The share of the curve whose features are known.
     pub fn proof_progress(&self) -> f64 {
-        let features = self.curve_features_known();
-        1.0 - features.pending.len() as f64 / features.segments.len().max(1) as f64
+        self.curve_features_known().progress()
     }
 
     /// The number of segments that were proved anew when the features last changed.

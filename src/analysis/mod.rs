@@ -15,7 +15,7 @@ mod vertex_chain;
 pub use cache::AnalysisCache;
 pub use comb::CombSettings;
 pub use curve_analysis::CurveAnalysis;
-pub use curve_features::PieceTrend;
+pub use curve_features::{FeatureProof, PieceTrend};
 pub use level_series::LevelPlot;
 pub use orientation::Orientation;
 pub use outline::{Bounds, GAP, ViewBox};

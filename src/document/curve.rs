@@ -63,16 +63,37 @@ pub struct Curve {
 }
 
 impl Curve {
+    /// Refuse if the curve's shape cannot be changed: it is hidden or locked.
+    ///
+    /// # Errors
+    /// [`EditError::Hidden`] or [`EditError::Locked`].
+    pub fn check_editable(&self) -> Result<(), EditError> {
+        self.check_visible()?;
+        self.check_unlocked()
+    }
+
+    /// Refuse if the curve is hidden.
+    ///
+    /// # Errors
+    /// [`EditError::Hidden`].
+    pub fn check_visible(&self) -> Result<(), EditError> {
+        if self.visible {
+            return Ok(());
+        }
+        let name = self.name.clone();
+        Err(EditError::Hidden { name })
+    }
+
     /// Refuse if the curve is locked.
     ///
     /// # Errors
     /// [`EditError::Locked`].
     pub fn check_unlocked(&self) -> Result<(), EditError> {
-        if self.locked {
-            let name = self.name.clone();
-            return Err(EditError::Locked { name });
+        if !self.locked {
+            return Ok(());
         }
-        Ok(())
+        let name = self.name.clone();
+        Err(EditError::Locked { name })
     }
 
     /// Make a visible, unlocked curve without targets.

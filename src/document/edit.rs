@@ -98,6 +98,12 @@ pub enum EditError {
         /// The curve's name.
         name: String,
     },
+    /// The curve is hidden: nobody would see what is done to it.
+    #[error("“{name}” is hidden: show it in the list of curves to change it")]
+    Hidden {
+        /// The curve's name.
+        name: String,
+    },
     /// The curve's new shape is not one.
     #[error("“{name}”: {error}")]
     Polygon {
@@ -149,6 +155,8 @@ impl Document {
                 Err(EditError::BadTarget)
             }
             Edit::SetTarget { curve, end, target } => {
+                let found = self.curve(curve).ok_or(EditError::NoSuchCurve)?;
+                found.check_visible()?;
                 self.change(curve, |curve| curve.targets.set(end, target))
             }
             Edit::Add(curve) => {
@@ -183,7 +191,7 @@ impl Document {
         let index = self.position(id).ok_or(EditError::NoSuchCurve)?;
         let shared = &mut self.curves[index].1;
         let name = || shared.name.clone();
-        shared.check_unlocked()?;
+        shared.check_editable()?;
         let mut changed = Curve::clone(shared);
         change(&mut changed.polygon).map_err(|error| EditError::Polygon {
             name: name(),

@@ -116,6 +116,24 @@ impl History {
         result
     }
 
+    /// Make some edits as a part of the last step if it bears this label and nothing was undone
+    /// since, otherwise as a step of their own: so that a key that is held makes one step.
+    ///
+    /// # Errors
+    /// [`EditError`] of the first edit that cannot be made; none is made then.
+    pub fn extend(&mut self, label: &str, edits: Vec<Edit>) -> Result<(), EditError> {
+        let goes_on = self.redo.is_empty()
+            && self.gesture.is_none()
+            && self.undo.last().is_some_and(|step| step.label == label);
+        let steps = self.undo.len();
+        self.apply(label, edits)?;
+        if goes_on && self.undo.len() > steps {
+            // The state in between is no longer one to go back to.
+            self.undo.pop();
+        }
+        Ok(())
+    }
+
     /// Take back the last step, or abort the running gesture. Returns its label.
     pub fn undo(&mut self) -> Option<String> {
         if let Some(step) = self.gesture.take() {

@@ -8,8 +8,8 @@ use super::Editor;
 use super::files::count_curves;
 use super::report::Request;
 use crate::document::{Curve, CurveId, free_name};
-use crate::geometry::FloatPolygon;
-use crate::io::Format;
+use crate::geometry::{FloatPolygon, PolygonKind};
+use crate::io::{Export as Exported, Format, WriteError};
 
 /// How far copies are put from what they copy, in screen points, right and down.
 const OFFSET: f64 = 24.0;
@@ -31,7 +31,7 @@ impl Editor {
             Ok(curves) => {
                 let count = curves.len();
                 self.add_copies("Paste", curves);
-                self.say(format!("{} pasted", count_curves(count)));
+                self.say_done(format!("{} pasted", count_curves(count)));
             }
             Err(error) => {
                 self.fail(format!(
@@ -41,27 +41,36 @@ impl Editor {
         }
     }
 
-    /// Make the text of the selected vertices, a curve for each curve that has some, or of the
-    /// active curve if none is selected.
+    /// Make the text of what is selected, or of the active curve if nothing is: whole curves as a
+    /// project, which keeps all of them, otherwise tables of the selected vertices.
     pub(super) fn copy(&mut self) -> Option<Request> {
-        let selected = |(id, _): &(CurveId, &Arc<Curve>)| self.selection.of_curve(*id).count() > 0;
-        let parts = self.document().curves().filter(selected);
-        let parts: Result<Vec<Curve>, _> = parts
-            .map(|(id, curve)| self.selected_part(id, curve))
+        let selected: Vec<(CurveId, Arc<Curve>)> = self
+            .document()
+            .curves()
+            .filter(|(id, _)| self.selection.of_curve(*id).next().is_some())
+            .map(|(id, curve)| (id, curve.clone()))
             .collect();
-        let copied = match parts {
-            Ok(parts) if parts.is_empty() => vec![Curve::clone(&self.active_curve()?.1)],
-            Ok(parts) => parts,
-            Err(error) => {
-                self.fail(format!("The selection is no curve of its own: {error}"));
-                return None;
-            }
+        let is_whole = |(id, curve): &(CurveId, Arc<Curve>)| {
+            self.selection.of_curve(*id).count() == curve.polygon.vertices().len()
         };
-        let export = Format::Batten.write(&copied, None);
-        match export.map(|export| String::from_utf8_lossy(&export.bytes).into_owned()) {
+        let text = if selected.iter().all(is_whole) {
+            let whole = selected.into_iter().map(|(_, curve)| curve);
+            let mut copied: Vec<Curve> = whole.map(Arc::unwrap_or_clone).collect();
+            if copied.is_empty() {
+                copied.push(Curve::clone(&self.active_curve()?.1));
+            }
+            text_of(Format::Batten.write(&copied, None))
+        } else {
+            let tables = selected
+                .iter()
+                .map(|(id, curve)| self.selected_table(*id, curve));
+            let tables: Result<Vec<String>, String> = tables.collect();
+            tables.map(|tables| tables.join("\n"))
+        };
+        match text {
             Ok(text) => Some(Request::CopyText(text)),
             Err(error) => {
-                self.fail(error.to_string());
+                self.fail(error);
                 None
             }
         }
@@ -99,23 +108,33 @@ impl Editor {
         self.add_curves(label, copies);
     }
 
-    /// The curve of the selected vertices: its degree is lowered if they are too few.
-    fn selected_part(
-        &self,
-        id: CurveId,
-        curve: &Curve,
-    ) -> Result<Curve, crate::geometry::PolygonError> {
+    /// The selected vertices of a curve as a table, with a header line if they make a curve: its
+    /// degree is lowered if they are few. A single vertex is just its coordinates.
+    fn selected_table(&self, id: CurveId, curve: &Curve) -> Result<String, String> {
         let polygon = &curve.polygon;
         let indices: Vec<usize> = self.selection.of_curve(id).collect();
-        if indices.len() == polygon.vertices().len() {
-            return Ok(curve.clone());
+        if let [only] = indices.as_slice() {
+            let DVec3 { x, y, z } = polygon.vertex(*only);
+            return Ok(if polygon.is_planar() {
+                format!("{x},{y}\n")
+            } else {
+                format!("{x},{y},{z}\n")
+            });
         }
         let vertices: Vec<DVec3> = indices.iter().map(|index| polygon.vertex(*index)).collect();
         let weights = polygon
             .is_rational()
             .then(|| indices.iter().map(|index| polygon.weight(*index)).collect());
         let degree = polygon.degree().min(indices.len().saturating_sub(1)).max(1);
-        let part = FloatPolygon::new(degree, vertices, weights, false)?;
-        Ok(Curve::new(curve.name.clone(), part))
+        let part = FloatPolygon::new(degree, vertices, weights, false);
+        let part = part.map_err(|error| format!("“{}”: {error}", curve.name))?;
+        let part = Curve::new(curve.name.clone(), part);
+        text_of(Format::Csv.write(&[part], Some(PolygonKind::Float)))
     }
+}
+
+/// The text of an export, or why there is none.
+fn text_of(export: Result<Exported, WriteError>) -> Result<String, String> {
+    let export = export.map_err(|error| error.to_string())?;
+    Ok(String::from_utf8_lossy(&export.bytes).into_owned())
 }

@@ -31,7 +31,7 @@ pub enum Command {
     Undo,
     /// Make the last undone step again.
     Redo,
-    /// Copy the selected curves or vertices and remove them.
+    /// Copy the selected vertices and remove them.
     Cut,
     /// Copy the selected curve or vertices.
     Copy,
@@ -39,7 +39,7 @@ pub enum Command {
     Paste,
     /// Add a copy of the active curve.
     Duplicate,
-    /// Remove the selected vertices, or the active curve if none is selected.
+    /// Remove the selected vertices.
     Delete,
     /// Remove the active curve.
     DeleteCurve,
@@ -202,7 +202,7 @@ impl Command {
             Self::Copy => "Copy",
             Self::Paste => "Paste",
             Self::Duplicate => "Duplicate curve",
-            Self::Delete => "Delete selection",
+            Self::Delete => "Delete vertices",
             Self::DeleteCurve => "Delete curve",
             Self::SelectAll => "Select all",
             Self::SelectNone => "Select nothing",
@@ -253,12 +253,12 @@ impl Command {
             Self::Quit => "Leave Batten",
             Self::Undo => "Take back the last step",
             Self::Redo => "Make the last undone step again",
-            Self::Cut => "Copy what is selected and remove it",
+            Self::Cut => "Copy the selected vertices and remove them",
             Self::Copy => "Copy the active curve, or only its selected vertices",
             Self::Paste => "Add what was copied as a curve of its own",
             Self::Duplicate => "Add a copy of the active curve",
-            Self::Delete => "Remove the selected vertices, or the active curve if none is selected",
-            Self::DeleteCurve => "Remove the active curve",
+            Self::Delete => "Remove the selected vertices",
+            Self::DeleteCurve => "Remove the active curve as a whole",
             Self::SelectAll => "Select all vertices of the active curve; again, of all curves",
             Self::SelectNone => "Select nothing",
             Self::Reverse => "Let the curve run the other way; its shape stays",
@@ -340,6 +340,10 @@ impl Command {
             Self::Paste => ctrl('v'),
             Self::Duplicate => ctrl('d'),
             Self::Delete => plain(Key::Delete),
+            Self::DeleteCurve => Some(Shortcut {
+                modifiers: Modifiers::CTRL,
+                key: Key::Delete,
+            }),
             Self::SelectAll => ctrl('a'),
             Self::SelectNone => ctrl_shift('a'),
             Self::Fit => plain(Key::Character('f')),

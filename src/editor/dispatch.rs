@@ -1,10 +1,40 @@
 //! From inputs to gestures, to the tool in the hand, and from its effects to the document.
 
+use glam::DVec2;
+
 use super::Editor;
-use super::gesture::Gesture;
+use super::gesture::{Gesture, THRESHOLD};
 use super::hit::HitTest;
 use super::input::{Input, Key};
 use super::tools::{Context, Cursor, Effect, ToolKind};
+
+/// What came of the step that a tool's effects make.
+enum Step {
+    None,
+    Made,
+    Refused,
+}
+
+/// Which of several things at one place Tab has chosen, as long as the pointer stays there.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Cycle {
+    count: usize,
+    at: Option<DVec2>,
+}
+
+impl Cycle {
+    fn next(&mut self, at: Option<DVec2>) {
+        self.count = self.count.wrapping_add(1);
+        self.at = at;
+    }
+
+    /// Forget the choice once the pointer has moved by more than a hand that trembles.
+    fn moved(&mut self, to: DVec2) {
+        if self.at.is_none_or(|at| at.distance(to) > THRESHOLD) {
+            *self = Self::default();
+        }
+    }
+}
 
 impl Editor {
     /// Take what the hand does on the canvas.
@@ -20,21 +50,24 @@ impl Editor {
             return;
         }
         if let Input::Moved { at } = input
-            && !self.gestures.is_dragging()
-            && self.gestures.pointer() != Some(at)
+            && !self.gestures.is_holding()
         {
-            self.cycle = 0;
+            self.cycle.moved(at);
         }
-        if matches!(input, Input::Pressed { .. } | Input::Key(_)) {
+        if matches!(
+            input,
+            Input::Pressed { .. } | Input::Key(_) | Input::KeyRepeated(_)
+        ) {
             self.commit_field();
             self.message = None;
         }
+        self.repeating = matches!(input, Input::KeyRepeated(_));
         for gesture in self.gestures.input(input) {
             match gesture {
                 Gesture::Pan(by) => self.viewport.pan(by),
                 Gesture::Orbit(by) => self.orbit(by),
                 Gesture::Zoom(at, factor) => self.viewport.zoom(at, factor),
-                Gesture::Key(Key::Tab) => self.cycle = self.cycle.wrapping_add(1),
+                Gesture::Key(Key::Tab) => self.cycle.next(self.gestures.pointer()),
                 gesture => self.deliver(gesture),
             }
         }
@@ -67,10 +100,15 @@ impl Editor {
         let mut tool = std::mem::replace(&mut self.tool_state, ToolKind::Select.take());
         let effects = tool.gesture(gesture, &self.context());
         self.tool_state = tool;
+        let active = self.selection.active();
+        let mut step = Step::None;
         for effect in effects {
-            self.take_effect(effect);
+            self.take_effect(effect, &mut step);
         }
         self.document_changed();
+        if self.selection.active() != active {
+            self.end_fit.begin_anew();
+        }
     }
 
     pub(super) fn context(&self) -> Context<'_> {
@@ -87,7 +125,7 @@ impl Editor {
                 viewport: &self.viewport,
                 layers: self.layers(),
                 active,
-                cycle: self.cycle,
+                cycle: self.cycle.count,
             },
             modifiers: self.modifiers,
             axis: self.axis,
@@ -99,7 +137,7 @@ impl Editor {
         }
     }
 
-    fn take_effect(&mut self, effect: Effect) {
+    fn take_effect(&mut self, effect: Effect, step: &mut Step) {
         match effect {
             Effect::Begin(label) => {
                 self.end_fit.begin_anew();
@@ -115,23 +153,21 @@ impl Editor {
             }
             Effect::Abort => self.history.abort(),
             Effect::Apply(label, edits) => {
-                self.end_fit.begin_anew();
-                if let Err(error) = self.history.apply(label, edits) {
-                    self.fail(error.to_string());
-                }
+                let made = self.make(&label, edits);
+                *step = if made { Step::Made } else { Step::Refused };
             }
             Effect::Select(vertices) => self.selection.set(vertices),
             Effect::SelectMore(vertices) => self.selection.add(vertices),
             Effect::ToggleSelected(vertex) => self.selection.toggle(vertex),
-            Effect::Activate(curve) => {
-                if self.selection.active() != Some(curve) {
-                    self.end_fit.begin_anew();
-                }
-                self.selection.activate(Some(curve));
-            }
+            Effect::Activate(curve) => self.selection.activate(curve),
             Effect::SetComb(comb) => self.set_comb(comb),
             Effect::FitAll => self.fit_all(),
-            Effect::Say(text) => self.say(text),
+            Effect::Say(text) => match step {
+                Step::None => self.say(text),
+                Step::Made => self.say_done(text),
+                // The message says why not.
+                Step::Refused => {}
+            },
             Effect::Finish => self.take(ToolKind::Select),
             Effect::EndFit(action) => self.end_fit_action(action),
         }

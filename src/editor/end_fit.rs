@@ -31,8 +31,9 @@ pub struct EndFitReport {
     pub end: End,
     /// Whether the curve is planar: figures in z are left out then.
     pub planar: bool,
-    /// Whether the curve is locked: only its targets can be set then.
-    pub locked: bool,
+    /// Why the curve's shape cannot be changed now: of a locked curve only the targets can be
+    /// set.
+    pub refusal: Option<String>,
     /// The degree n.
     pub degree: usize,
     /// The number of terminal vertices, which steps 5 and 6 move.
@@ -78,6 +79,13 @@ pub struct EndFitReport {
     pub outcome: Option<(String, bool)>,
     /// The largest move of a vertex by the last "both ends at once", and which vertex.
     pub largest_move: Option<(f64, usize)>,
+}
+
+impl EndFitReport {
+    /// Whether the curve's vertices can be moved.
+    pub fn can_move(&self) -> bool {
+        self.refusal.is_none()
+    }
 }
 
 /// Something that the end-fit panel asks for.
@@ -208,7 +216,7 @@ impl EndFitState {
         EndFitReport {
             end: self.end,
             planar: analysis.is_planar(),
-            locked: curve.locked,
+            refusal: curve.check_editable().err().map(|error| error.to_string()),
             degree: polygon.degree(),
             terminal: polygon.terminal_vertices(self.end).len(),
             vertices: polygon.vertices().len(),

@@ -6,22 +6,15 @@ use super::Editor;
 use super::command::Command;
 use super::examples;
 use super::layers::Layer;
-use super::polygon_edits::{reinterpreted, without};
+use super::polygon_edits::reinterpreted;
 use super::report::{AfterDiscard, Export, Request};
 use super::selection::VertexId;
-use crate::analysis::Bounds;
 use crate::document::{Curve, CurveId, Edit};
 use crate::geometry::PolygonKind;
 use crate::geometry::end_correction::EndTarget;
 
 /// The factor by which the zoom commands change the scale.
 const ZOOM: f64 = 1.25;
-
-/// The height of the comb after a reset, as a share of the smaller side of the curve's box.
-const COMB_HEIGHT: f64 = 0.35;
-
-/// How far beside curve and polygon a fitted view follows the comb, in units of their extent.
-const COMB_REACH: f64 = 1.0;
 
 impl Editor {
     /// The number of built-in examples.
@@ -52,25 +45,29 @@ impl Editor {
     /// Whether a command can be given now.
     pub fn is_enabled(&self, command: Command) -> bool {
         let curve = self.active_curve();
-        let unlocked = curve.as_ref().is_some_and(|(_, curve)| !curve.locked);
+        let editable = curve
+            .as_ref()
+            .is_some_and(|(_, curve)| curve.check_editable().is_ok());
         match command {
-            Command::Undo => self.history.undo_label().is_some(),
-            Command::Redo => self.history.redo_label().is_some(),
+            Command::Undo => self.undo_label().is_some(),
+            Command::Redo => {
+                self.history.redo_label().is_some() && self.tool_state.undo_label().is_none()
+            }
             Command::Cut | Command::Delete => curve.is_some(),
             Command::Copy
             | Command::Duplicate
             | Command::DeleteCurve
             | Command::ToggleVisible
             | Command::ToggleLocked => curve.is_some(),
-            Command::Reverse => unlocked,
-            Command::TogglePeriodic => unlocked,
-            Command::RaiseDegree => unlocked && self.can_have_degree(1),
-            Command::LowerDegree => unlocked && self.can_have_degree(-1),
-            Command::RaiseCurveDegree => unlocked && self.can_change_degree(true),
-            Command::LowerCurveDegree => unlocked && self.can_change_degree(false),
-            Command::Subdivide | Command::Divide | Command::Round => unlocked,
+            Command::Reverse => editable,
+            Command::TogglePeriodic => editable,
+            Command::RaiseDegree => editable && self.can_have_degree(1),
+            Command::LowerDegree => editable && self.can_have_degree(-1),
+            Command::RaiseCurveDegree => editable && self.can_change_degree(true),
+            Command::LowerCurveDegree => editable && self.can_change_degree(false),
+            Command::Subdivide | Command::Divide | Command::Round => editable,
             Command::Extend(_) => {
-                unlocked && curve.is_some_and(|(_, curve)| !curve.polygon.is_periodic())
+                editable && curve.is_some_and(|(_, curve)| !curve.polygon.is_periodic())
             }
             Command::SelectAll | Command::Fit | Command::FitAll => !self.document().is_empty(),
             Command::SelectNone => !self.selection.is_empty(),
@@ -109,7 +106,7 @@ impl Editor {
             )
         };
         match command {
-            Command::Undo => self.history.undo_label().map(named),
+            Command::Undo => self.undo_label().map(named),
             Command::Redo => self.history.redo_label().map(named),
             _ => None,
         }
@@ -136,40 +133,19 @@ impl Editor {
         Some((id, self.document().curve(id)?.clone()))
     }
 
-    pub(super) fn fit_all(&mut self) {
-        self.analyses.update(self.history.document());
-        let mut bounds = Bounds::EMPTY;
-        let shown: Vec<CurveId> = self
-            .document()
-            .curves()
-            .filter(|(_, curve)| curve.visible)
-            .map(|(id, _)| id)
-            .collect();
-        for id in shown {
-            bounds.unite(&self.bounds_of(id));
-        }
-        self.viewport = self.viewport.fitted(&bounds);
-    }
-
-    /// Give the comb a scale at which its longest tooth is a good part of the curve's box.
-    pub(super) fn reset_comb(&mut self) {
-        self.analyses.update(self.history.document());
-        let Some(analysis) = self.selection.active().and_then(|id| self.analyses.get(id)) else {
-            return;
-        };
-        let bounds = analysis.bounds();
-        let extent = (bounds.high - bounds.low).max_element();
-        let largest = analysis
-            .curvature()
-            .map_or(0.0, |range| range.high.abs().max(range.low.abs()));
-        let mut comb = self.comb;
-        comb.scale = COMB_HEIGHT * extent / largest;
-        self.set_comb(comb);
+    /// What undo would take back: a point of what the tool has not finished comes first.
+    fn undo_label(&self) -> Option<&str> {
+        let point = self.tool_state.undo_label();
+        point.or_else(|| self.history.undo_label())
     }
 
     fn undo(&mut self) {
         if self.gestures.is_dragging() {
             self.call_off();
+            return;
+        }
+        if self.tool_state.undo_label().is_some() {
+            self.tool_state.undo();
             return;
         }
         self.end_fit.begin_anew();
@@ -225,17 +201,15 @@ impl Editor {
             Command::Cut => {
                 // What cannot be removed is not copied either.
                 let request = self.copy()?;
-                return self.delete("Cut").then_some(request);
+                return self.delete("Cut", "cut").then_some(request);
             }
             Command::Copy => return self.copy(),
             Command::Paste => return Some(Request::Paste),
             Command::Duplicate => self.duplicate(),
             Command::Delete => {
-                self.delete("Delete");
+                self.delete("Delete", "deleted");
             }
-            Command::DeleteCurve => {
-                self.delete_curve("Delete curve");
-            }
+            Command::DeleteCurve => self.delete_curve(),
             Command::SelectAll => self.select_all(),
             Command::SelectNone => self.selection.clear(),
             Command::Reverse => self.reverse(),
@@ -286,40 +260,6 @@ impl Editor {
             polygon,
             file_name: format!("{name}.{extension}"),
         })
-    }
-
-    fn bounds_of(&mut self, id: CurveId) -> Bounds {
-        let (layers, scale) = (self.layers(), self.comb.scale);
-        let is_active = self.selection.active() == Some(id);
-        let Some(analysis) = self.analyses.get(id) else {
-            return Bounds::EMPTY;
-        };
-        let mut bounds = analysis.bounds();
-        if layers.shows(Layer::Float) {
-            bounds.unite(&analysis.float().figures().bounds);
-        }
-        if layers.shows(Layer::Comb) && is_active {
-            // Long teeth are cut off: the curve must not become a speck.
-            let around = bounds.grown(COMB_REACH);
-            bounds.unite(&analysis.comb_bounds(scale).within(&around));
-        }
-        bounds
-    }
-
-    fn fit(&mut self) {
-        self.analyses.update(self.history.document());
-        // A single vertex has no extent that could be fitted.
-        if self.selection.vertices().len() < 2 {
-            self.fit_all();
-        } else {
-            let mut bounds = Bounds::EMPTY;
-            for (curve, index) in self.selection.vertices() {
-                if let Some(curve) = self.document().curve(curve) {
-                    bounds.add(self.viewport.flatten(curve.polygon.vertex(index)));
-                }
-            }
-            self.viewport = self.viewport.fitted(&bounds);
-        }
     }
 
     fn toggle_layer(&mut self, layer: Layer) {
@@ -379,61 +319,6 @@ impl Editor {
         }
     }
 
-    /// Remove what is selected, or the active curve; `false`, with the reason as message, if that
-    /// cannot be.
-    fn delete(&mut self, verb: &str) -> bool {
-        if self.selection.is_empty() {
-            return self.delete_curve(&format!("{verb} curve"));
-        }
-        let edits = match self.deletion() {
-            Ok(edits) => edits,
-            Err(reason) => {
-                self.fail(reason);
-                return false;
-            }
-        };
-        let label = format!("{verb} vertices");
-        self.end_fit.begin_anew();
-        let done = self.history.apply(label, edits);
-        match &done {
-            Ok(()) => self.selection.clear(),
-            Err(error) => self.fail(error.to_string()),
-        }
-        self.document_changed();
-        done.is_ok()
-    }
-
-    /// The edits that remove the selected vertices; curves of which all are selected go whole.
-    fn deletion(&self) -> Result<Vec<Edit>, String> {
-        let mut edits = Vec::new();
-        for (id, curve) in self.document().curves() {
-            let indices: Vec<usize> = self.selection.of_curve(id).collect();
-            if indices.is_empty() {
-                continue;
-            }
-            if indices.len() == curve.polygon.vertices().len() && !curve.locked {
-                edits.push(Edit::Remove(id));
-                continue;
-            }
-            let polygon = without(&curve.polygon, &indices)
-                .map_err(|error| format!("“{}”: {error}; lower its degree first", curve.name))?;
-            edits.push(Edit::SetPolygon { curve: id, polygon });
-        }
-        Ok(edits)
-    }
-
-    fn delete_curve(&mut self, label: &str) -> bool {
-        let Some((id, curve)) = self.active_curve() else {
-            return false;
-        };
-        if let Err(locked) = curve.check_unlocked() {
-            self.fail(locked.to_string());
-            return false;
-        }
-        self.apply(label, vec![Edit::Remove(id)]);
-        true
-    }
-
     fn duplicate(&mut self) {
         let Some((_, curve)) = self.active_curve() else {
             return;
@@ -489,7 +374,9 @@ impl Editor {
             return;
         }
         match reinterpreted(polygon, degree, periodic) {
-            Ok(polygon) => self.apply(label, vec![Edit::SetPolygon { curve: id, polygon }]),
+            Ok(polygon) => {
+                self.apply(label, vec![Edit::SetPolygon { curve: id, polygon }]);
+            }
             Err(error) => self.fail(format!("“{}”: {error}", curve.name)),
         }
     }

@@ -178,7 +178,7 @@ impl Editor {
         self.apply(label, edits);
         if self.document().curve(first).is_some() {
             self.selection.clear();
-            self.selection.activate(Some(first));
+            self.selection.activate(first);
         }
     }
 

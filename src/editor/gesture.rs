@@ -5,7 +5,15 @@ use glam::DVec2;
 use super::input::{Button, Input, Key};
 
 /// The pointer must move this far, in screen points, before a press becomes a drag.
-const THRESHOLD: f64 = 3.0;
+pub const THRESHOLD: f64 = 3.0;
+
+/// A drag that ends this near to where it began, in screen points, may have been meant as a click.
+const HASTY: f64 = 8.0;
+
+/// Whether a drag from here to there may have been meant as a click: for tools that set points.
+pub fn is_hasty_click(from: DVec2, to: DVec2) -> bool {
+    from.distance(to) <= HASTY
+}
 
 /// What a tool is told; places are on the canvas, in screen points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -114,7 +122,7 @@ impl GestureMachine {
                 self.state = State::Spent;
                 vec![Gesture::Cancel]
             }
-            Input::Key(key) => vec![Gesture::Key(key)],
+            Input::Key(key) | Input::KeyRepeated(key) => vec![Gesture::Key(key)],
             Input::SpaceHeld(held) => {
                 self.space = held;
                 Vec::new()

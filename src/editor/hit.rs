@@ -10,6 +10,10 @@ use crate::document::{Curve, CurveId, Document};
 /// How near the pointer must come to something, in screen points, whatever the zoom.
 pub const REACH: f64 = 8.0;
 
+/// How near to a vertex, in screen points, a press is still meant for it rather than for the tip
+/// of a comb's tooth.
+const BESIDE: f64 = 2.0 * REACH;
+
 /// Find what lies under a place; vertices come before legs and curves.
 #[derive(Clone, Copy)]
 pub struct HitTest<'a> {
@@ -57,25 +61,47 @@ impl<'a> HitTest<'a> {
         if !self.layers.shows(Layer::Float) {
             return None;
         }
-        let model = self.viewport.to_model(place);
-        let reach = REACH * self.viewport.pixel();
-        let mut found: Vec<(f64, bool, (CurveId, usize))> = Vec::new();
-        for (id, curve) in self.shown() {
-            for (index, vertex) in curve.polygon.vertices().iter().enumerate() {
-                let distance = self.viewport.flatten(*vertex).distance(model);
-                if distance <= reach {
-                    found.push((distance, self.active != Some(id), (id, index)));
-                }
-            }
-        }
+        let mut found: Vec<(f64, bool, (CurveId, usize))> = self
+            .vertices_within(place, REACH)
+            .map(|(distance, id)| (distance, self.active != Some(id.0), id))
+            .collect();
         // The nearest wins; of equals, the active curve's, then the one drawn on top.
         found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(b.2.cmp(&a.2)));
         let chosen = self.cycle.checked_rem(found.len())?;
         found.get(chosen).map(|hit| hit.2)
     }
 
+    /// Whether a place lies so near to a vertex that is shown, of either S-polygon, that it may
+    /// be the vertex that is meant.
+    pub fn is_beside_vertex(&self, place: DVec2) -> bool {
+        let float = self.layers.shows(Layer::Float);
+        (float && self.vertices_within(place, BESIDE).next().is_some())
+            || self.clamped_vertex_within(place, BESIDE).is_some()
+    }
+
     /// Find the vertex of the active curve's closed S-polygon under a place, if it is shown.
     pub fn clamped_vertex(&self, place: DVec2) -> Option<(CurveId, usize)> {
+        self.clamped_vertex_within(place, REACH)
+    }
+
+    /// The vertices within some screen points of a place, with their distances in the model.
+    fn vertices_within(
+        &self,
+        place: DVec2,
+        reach: f64,
+    ) -> impl Iterator<Item = (f64, (CurveId, usize))> {
+        let model = self.viewport.to_model(place);
+        let reach = reach * self.viewport.pixel();
+        let all = self.shown().flat_map(|(id, curve)| {
+            let vertices = curve.polygon.vertices().iter().enumerate();
+            vertices.map(move |(index, vertex)| (*vertex, (id, index)))
+        });
+        let distances =
+            all.map(move |(vertex, id)| (self.viewport.flatten(vertex).distance(model), id));
+        distances.filter(move |(distance, _)| *distance <= reach)
+    }
+
+    fn clamped_vertex_within(&self, place: DVec2, reach: f64) -> Option<(CurveId, usize)> {
         if !self.layers.shows(Layer::Clamped) {
             return None;
         }
@@ -86,7 +112,7 @@ impl<'a> HitTest<'a> {
         let distance = |vertex: &DVec3| self.viewport.flatten(*vertex).distance(model);
         let distances = vertices.iter().map(distance).enumerate();
         let (index, nearest) = distances.min_by(|a, b| a.1.total_cmp(&b.1))?;
-        (nearest <= REACH * self.viewport.pixel()).then_some((id, index))
+        (nearest <= reach * self.viewport.pixel()).then_some((id, index))
     }
 
     /// Find the place on a curve under a place on the canvas.

@@ -123,8 +123,10 @@ pub enum Input {
         /// By how many screen points.
         by: DVec2,
     },
-    /// A key went down (or repeats) while the canvas has the keyboard.
+    /// A key went down while the canvas has the keyboard.
     Key(Key),
+    /// A key is still held, and repeats.
+    KeyRepeated(Key),
     /// The space bar went down or up.
     SpaceHeld(bool),
     /// The key of an axis of the model (0 x, 1 y, 2 z) went down, or none is held any more.

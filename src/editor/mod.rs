@@ -3,6 +3,7 @@
 
 mod clipboard;
 mod command;
+mod deleting;
 mod dispatch;
 mod drawing;
 pub mod end_fit;
@@ -11,6 +12,7 @@ mod examples;
 mod execute;
 mod feature_report;
 mod files;
+mod fitting;
 mod gesture;
 mod grid;
 mod hit;
@@ -43,7 +45,7 @@ pub use input::{Button, Input, Key, Modifiers};
 pub use layers::{Layer, Layers};
 pub use orbit::NamedView;
 pub use report::{AfterDiscard, CurveReport, Export, Message, Readout, Request};
-pub use reshaping::{Division, DivisionReport, RoundingReport};
+pub use reshaping::{Division, DivisionReport, ExtremaCount, RoundingReport};
 pub use scene::{CurveScene, HoverScene, Mark, PlotScene, Scene, VertexMark};
 pub use selection::{Selection, VertexId};
 pub use tools::{Cursor, ToolKind, Transformation, count_vertices};
@@ -51,6 +53,7 @@ pub use viewport::Viewport;
 
 use crate::analysis::{AnalysisCache, CombSettings};
 use crate::document::{Curve, CurveId, Document, Edit, History};
+use dispatch::Cycle;
 use drawing::Ghost;
 use end_fit::EndFitState;
 use gesture::GestureMachine;
@@ -80,7 +83,9 @@ pub struct Editor {
     message: Option<Message>,
     /// Whether a number field is being dragged.
     field: bool,
-    cycle: usize,
+    cycle: Cycle,
+    /// Whether a key that is held repeats: what it does belongs to one step.
+    repeating: bool,
     hovered: Hovered,
     /// What panels said in the frame before: those that are shown first read it.
     hovered_before: Hovered,
@@ -129,14 +134,12 @@ impl Editor {
             viewport: Viewport::default(),
             placed: false,
             layers: Layers::default(),
-            comb: CombSettings {
-                scale: 1.0,
-                density: 16,
-            },
+            comb: CombSettings::default(),
             end_fit: EndFitState::default(),
             message: None,
             field: false,
-            cycle: 0,
+            cycle: Cycle::default(),
+            repeating: false,
             hovered: Hovered::default(),
             features: None,
             hovered_before: Hovered::default(),
@@ -178,7 +181,7 @@ impl Editor {
         if self.selection.active() != Some(curve) {
             let own: Vec<VertexId> = self.selection.of_curve(curve).map(|i| (curve, i)).collect();
             self.selection.set(own);
-            self.selection.activate(Some(curve));
+            self.selection.activate(curve);
             self.end_fit.begin_anew();
         }
     }
@@ -200,7 +203,6 @@ impl Editor {
         } else {
             self.selection.set([(curve, vertex)]);
         }
-        self.selection.activate(Some(curve));
         self.selection.retain_valid(self.history.document());
     }
 
@@ -244,7 +246,6 @@ impl Editor {
         if !self.placed {
             self.placed = true;
             self.fit_all();
-            self.reset_comb();
         }
     }
 
@@ -296,18 +297,34 @@ impl Editor {
     }
 
     /// Make edits as one step; a drag that goes on is called off. An error becomes the message,
-    /// and nothing is changed.
-    pub fn apply(&mut self, label: &str, edits: Vec<Edit>) {
+    /// and nothing is changed. Returns whether they were made.
+    pub fn apply(&mut self, label: &str, edits: Vec<Edit>) -> bool {
         self.commit_field();
         if self.gestures.is_dragging() {
             self.call_off();
         }
         self.message = None;
+        self.make(label, edits)
+    }
+
+    /// Make edits as one step, or as a part of the last one while a key repeats. An error becomes
+    /// the message, and nothing is changed. The first curve of a document is brought into view.
+    fn make(&mut self, label: &str, edits: Vec<Edit>) -> bool {
         self.end_fit.begin_anew();
-        if let Err(error) = self.history.apply(label, edits) {
+        let was_empty = self.document().is_empty();
+        let made = if self.repeating {
+            self.history.extend(label, edits)
+        } else {
+            self.history.apply(label, edits)
+        };
+        if let Err(error) = &made {
             self.fail(error.to_string());
         }
         self.document_changed();
+        if was_empty && !self.document().is_empty() {
+            self.fit_all();
+        }
+        made.is_ok()
     }
 
     /// Show what edits would make, as while a number field is dragged: begins a gesture, or
@@ -362,6 +379,16 @@ impl Editor {
         self.message = Some(Message {
             text: text.into(),
             is_error: false,
+            offers_undo: false,
+        });
+    }
+
+    /// Say what the step that was just made came to, with the offer to undo it.
+    fn say_done(&mut self, text: impl Into<String>) {
+        self.message = Some(Message {
+            text: text.into(),
+            is_error: false,
+            offers_undo: true,
         });
     }
 
@@ -370,6 +397,7 @@ impl Editor {
         self.message = Some(Message {
             text: text.into(),
             is_error: true,
+            offers_undo: false,
         });
     }
 
@@ -401,7 +429,6 @@ impl Editor {
                 self.viewport.scale = Viewport::default().scale;
             }
             self.fit_all();
-            self.reset_comb();
         }
     }
 }

@@ -65,6 +65,13 @@ impl Editor {
         }
     }
 
+    /// Whether everything that is shown is planar, and seen from elsewhere than from above.
+    pub fn is_orbited(&self) -> bool {
+        let mut shown = self.document().curves().filter(|(_, curve)| curve.visible);
+        self.viewport.orientation != Orientation::XY
+            && shown.all(|(_, curve)| curve.polygon.is_planar())
+    }
+
     /// What the view plane's coordinates are called.
     pub(super) fn axis_names(&self) -> [&'static str; 2] {
         let axes = self.viewport.orientation.axes();

@@ -74,6 +74,8 @@ pub struct Message {
     pub text: String,
     /// Whether something failed.
     pub is_error: bool,
+    /// Whether it tells of a step that can be undone on the spot.
+    pub offers_undo: bool,
 }
 
 /// What the status bar reads.

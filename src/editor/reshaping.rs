@@ -3,6 +3,7 @@
 
 use super::Editor;
 use super::drawing::figure;
+use crate::analysis::FeatureProof;
 use crate::document::{Curve, CurveId, Edit};
 use crate::geometry::features::{Features, Quantity, Undecided};
 use crate::geometry::{
@@ -40,7 +41,7 @@ impl DivisionReport {
 }
 
 /// What rounding a polygon's coordinates would come to.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug)]
 pub struct RoundingReport {
     /// The float polygon afterwards.
     pub polygon: FloatPolygon,
@@ -50,10 +51,36 @@ pub struct RoundingReport {
     pub float_moved: f64,
     /// How far the curve moves at most.
     pub deviation: f64,
-    /// The curvature extrema that are proved, before and afterwards.
-    pub extrema: [usize; 2],
-    /// The pieces on which their number is undecided, before and afterwards.
-    pub undecided: [usize; 2],
+    /// The proofs of the features before and afterwards.
+    proofs: [FeatureProof; 2],
+}
+
+impl RoundingReport {
+    /// Go on counting the curvature extrema before and afterwards, for a while.
+    pub fn extrema(&mut self) -> [Option<ExtremaCount>; 2] {
+        let count = |proof: &mut FeatureProof| proof.advance().map(ExtremaCount::of);
+        self.proofs.each_mut().map(count)
+    }
+}
+
+/// How many curvature extrema a curve has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ExtremaCount {
+    /// Those that are proved.
+    pub proved: usize,
+    /// The pieces on which their number is undecided.
+    pub undecided: usize,
+}
+
+impl ExtremaCount {
+    fn of(features: &Features) -> Self {
+        let doubts = features.undecided.iter();
+        let own = |doubt: &&Undecided| doubt.quantity == Quantity::CurvatureExtremum;
+        Self {
+            proved: features.curvature_extrema.len(),
+            undecided: doubts.filter(own).count(),
+        }
+    }
 }
 
 impl Editor {
@@ -93,7 +120,12 @@ impl Editor {
             Division::Trim(..) => "Trim curve",
         };
         let mut text = off(label, report.is_exact(), report.deviation());
-        text += &extrema_told(&curve.polygon, &report.parts);
+        let count = |polygon: &FloatPolygon| {
+            let mut proof = FeatureProof::new(polygon.clone());
+            proof.advance().map(ExtremaCount::of)
+        };
+        let parts = report.parts.iter().map(|part| count(&part.polygon));
+        text += &extrema_told(count(&curve.polygon), &parts.collect::<Vec<_>>());
         let mut edits = Vec::new();
         for (number, part) in report.parts.into_iter().enumerate() {
             if number == 0 {
@@ -129,14 +161,14 @@ impl Editor {
             return;
         };
         match self.try_rounding(kind, digits) {
-            Ok(report) => {
-                let [before, after] = report.extrema;
-                let text = format!(
-                    "Rounded to {digits} digits: vertices moved by at most {}, the curve by at most \
-                     {}; {before} curvature extrema became {after}",
+            Ok(mut report) => {
+                let [before, after] = report.extrema();
+                let mut text = format!(
+                    "Rounded to {digits} digits: vertices moved by at most {}, the curve by at most {}",
                     figure(report.moved),
                     figure(report.deviation)
                 );
+                text += &extrema_told(before, &[after]);
                 let polygon = report.polygon;
                 let edits = vec![Edit::SetPolygon { curve, polygon }];
                 self.reshaped("Round coordinates", edits, text);
@@ -218,9 +250,8 @@ impl Editor {
     }
 
     fn reshaped(&mut self, label: &str, edits: Vec<Edit>, text: String) {
-        self.apply(label, edits);
-        if self.message.is_none() {
-            self.say(text);
+        if self.apply(label, edits) {
+            self.say_done(text);
         }
     }
 }
@@ -253,17 +284,9 @@ fn rounding(
     };
     let pairs = polygon.vertices().iter().zip(rounded.vertices());
     let float_moved = pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
-    let features = [polygon, &rounded].map(Features::new);
-    let undecided = |features: &Features| {
-        let doubts = features.undecided.iter();
-        let own = |doubt: &&Undecided| doubt.quantity == Quantity::CurvatureExtremum;
-        doubts.filter(own).count()
-    };
+    let proofs = [polygon, &rounded].map(|polygon| FeatureProof::new(polygon.clone()));
     Ok(RoundingReport {
-        extrema: features
-            .each_ref()
-            .map(|features| features.curvature_extrema.len()),
-        undecided: features.each_ref().map(undecided),
+        proofs,
         polygon: rounded,
         moved,
         float_moved,
@@ -280,22 +303,21 @@ fn off(what: &str, exact: bool, deviation: f64) -> String {
     }
 }
 
-/// Say how many curvature extrema there were and are, unless proving it would take long.
-fn extrema_told(before: &FloatPolygon, parts: &[Approximation]) -> String {
-    /// Segments whose features are proved without a delay that is felt.
-    const QUICK: usize = 1000;
-    let all = || std::iter::once(before).chain(parts.iter().map(|part| &part.polygon));
-    if all().map(FloatPolygon::segments).sum::<usize>() > QUICK {
-        return String::new();
+/// Say how many curvature extrema there were and are in the parts, as far as that was proved
+/// without a delay that is felt.
+fn extrema_told(before: Option<ExtremaCount>, parts: &[Option<ExtremaCount>]) -> String {
+    let parts: Option<Vec<String>> = parts
+        .iter()
+        .map(|count| Some((*count)?.proved.to_string()))
+        .collect();
+    match (before, parts) {
+        (Some(before), Some(parts)) => format!(
+            "; curvature extrema: {} before, {} now",
+            before.proved,
+            parts.join(" and ")
+        ),
+        _ => "; how many curvature extrema there are is still being proved".into(),
     }
-    let count = |polygon| Features::new(polygon).curvature_extrema.len();
-    let mut counts = all().map(count);
-    let whole = counts.next().unwrap_or_default();
-    let parts: Vec<String> = counts.map(|count| count.to_string()).collect();
-    format!(
-        "; curvature extrema: {whole} before, {} now",
-        parts.join(" and ")
-    )
 }
 
 /// The edits that take away the targets of ends that a division cuts off.

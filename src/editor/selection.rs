@@ -7,7 +7,8 @@ use crate::document::{CurveId, Document};
 /// A vertex of a curve.
 pub type VertexId = (CurveId, usize);
 
-/// Hold the selected vertices and the active curve.
+/// Hold the selected vertices and the active curve. Where any vertex is selected, one of the active
+/// curve is: what panels show and what keys act on never differ.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Selection {
     vertices: BTreeSet<VertexId>,
@@ -20,9 +21,12 @@ impl Selection {
         self.active
     }
 
-    /// Make a curve the active one.
-    pub fn activate(&mut self, curve: Option<CurveId>) {
-        self.active = curve;
+    /// Make a curve the active one. Unless some of its vertices are selected, none is any more.
+    pub fn activate(&mut self, curve: CurveId) {
+        self.active = Some(curve);
+        if self.of_curve(curve).next().is_none() {
+            self.vertices.clear();
+        }
     }
 
     /// The selected vertices, by curve and number.
@@ -60,7 +64,9 @@ impl Selection {
 
     /// Select a vertex that is not selected, and the other way round.
     pub fn toggle(&mut self, vertex: VertexId) {
-        if !self.vertices.remove(&vertex) {
+        if self.vertices.remove(&vertex) {
+            self.follow();
+        } else {
             self.vertices.insert(vertex);
             self.active = Some(vertex.0);
         }
@@ -86,8 +92,10 @@ impl Selection {
         {
             self.active = document.ids().next();
         }
+        self.follow();
     }
 
+    /// Let the active curve be one of those that have selected vertices, if there are any.
     fn follow(&mut self) {
         let holds_active = self
             .active

@@ -2,32 +2,42 @@
 
 use std::collections::BTreeSet;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::grid::grid_steps;
 use super::hit::REACH;
 use super::selection::VertexId;
 use super::viewport::Viewport;
-use crate::document::Document;
+use crate::document::{CurveId, Document};
 use crate::geometry::End;
 
 /// Screen points within which the grid attracts: less than vertices do.
 const GRID_REACH: f64 = 5.0;
 
-/// Find the place that a dragged point snaps to, or `None` if nothing is near.
+/// What goes along with a dragged point, and does not attract it.
+#[derive(Clone, Debug, Default)]
+pub struct Carried {
+    /// The vertices.
+    pub vertices: BTreeSet<VertexId>,
+    /// The target of a curve's end.
+    pub target: Option<(CurveId, End)>,
+}
+
+/// Find the point of the model that a dragged place of the view plane snaps to, or `None` if
+/// nothing is near.
 ///
-/// Vertices that move along (`moving`) do not attract. Vertices, end points and targets come
-/// before the grid's minor crossings. Places are in the view plane.
+/// What is carried along does not attract. Vertices, end points and targets come before the
+/// grid's minor crossings.
 pub fn snap(
-    point: DVec2,
+    place: DVec2,
     document: &Document,
-    moving: &BTreeSet<VertexId>,
+    carried: &Carried,
     viewport: &Viewport,
-) -> Option<DVec2> {
+) -> Option<DVec3> {
     let reach = REACH * viewport.pixel();
-    let mut best: Option<(f64, DVec2)> = None;
-    let mut consider = |candidate: DVec2| {
-        let distance = candidate.distance(point);
+    let mut best: Option<(f64, DVec3)> = None;
+    let mut consider = |candidate: DVec3| {
+        let distance = viewport.flatten(candidate).distance(place);
         if distance <= reach && best.is_none_or(|(nearest, _)| distance < nearest) {
             best = Some((distance, candidate));
         }
@@ -35,29 +45,31 @@ pub fn snap(
     for (id, curve) in document.curves().filter(|(_, curve)| curve.visible) {
         let polygon = &curve.polygon;
         for (index, vertex) in polygon.vertices().iter().enumerate() {
-            let at = viewport.flatten(*vertex);
-            if at.distance(point) <= reach && !moving.contains(&(id, index)) {
-                consider(at);
+            let near = viewport.flatten(*vertex).distance(place) <= reach;
+            if near && !carried.vertices.contains(&(id, index)) {
+                consider(*vertex);
             }
         }
         for end in End::BOTH {
-            if let Some(target) = curve.targets.get(end) {
-                consider(viewport.flatten(target.point));
+            if let Some(target) = curve.targets.get(end)
+                && carried.target != Some((id, end))
+            {
+                consider(target.point);
             }
-            let feels = |index| moving.contains(&(id, index));
+            let feels = |index| carried.vertices.contains(&(id, index));
             if !polygon.is_periodic() && !polygon.terminal_vertices(end).any(feels) {
-                consider(viewport.flatten(polygon.end_jet(end).point));
+                consider(polygon.end_jet(end).point);
             }
         }
     }
-    consider(DVec2::ZERO);
-    best.map(|(_, place)| place).or_else(|| {
+    consider(DVec3::ZERO);
+    best.map(|(_, point)| point).or_else(|| {
         // Only a view along an axis of the model shows the grid.
         viewport.orientation.axes()?;
         let (minor, _) = grid_steps(viewport);
-        let crossing = (point / minor).round() * minor;
-        let near = crossing.distance(point) <= GRID_REACH * viewport.pixel();
-        (near && crossing.is_finite()).then_some(crossing)
+        let crossing = (place / minor).round() * minor;
+        let near = crossing.distance(place) <= GRID_REACH * viewport.pixel();
+        (near && crossing.is_finite()).then(|| viewport.grounded(crossing))
     })
 }
 

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::Editor;
-use super::tools::{Transformation, count_vertices, move_edits};
+use super::tools::{self, Transformation, count_vertices, move_edits};
 
 impl Editor {
     /// The pivot of the rotate or the scale tool, if one of them is in the hand and there is
@@ -23,7 +23,7 @@ impl Editor {
     pub fn transform(&mut self, transformation: Transformation) {
         let context = self.context();
         let Some(pivot) = self.tool_state.pivot(&context) else {
-            self.fail("There is nothing to take: select vertices, or a curve that is not locked");
+            self.fail(tools::NOTHING_TO_TRANSFORM);
             return;
         };
         let vertices = context.transformed();

@@ -19,7 +19,7 @@ use super::menu::menu_ui;
 use super::message::message_ui;
 use super::palette::Palette;
 use super::plots::{self, Plots, Tab};
-use super::reshaping_dialogs::{DivisionDialog, RoundingDialog};
+use super::reshaping_dialogs::DivisionDialog;
 use super::shell::Shell;
 use super::status_bar::{self, status_bar_ui};
 use super::theme::{self, Tokens};
@@ -280,7 +280,10 @@ impl App {
 
     fn overlays_ui(&mut self, context: &Context) {
         if let Some(rect) = self.canvas.rect() {
-            message_ui(context, rect, &mut self.editor);
+            message_ui(context, rect, &mut self.editor, &mut self.commands);
+            if self.editor.is_orbited() {
+                overlays::orbited_ui(context, rect, &mut self.commands);
+            }
             overlays::drop_ui(context, rect);
             if self.editor.document().is_empty() && self.editor.tool() != ToolKind::Draw {
                 overlays::empty_ui(context, rect);
@@ -334,7 +337,7 @@ impl App {
             Request::Divide => {
                 self.dialog = Some(Dialog::Divide(DivisionDialog::new(&self.editor)));
             }
-            Request::Round => self.dialog = Some(Dialog::Round(RoundingDialog::default())),
+            Request::Round => self.dialog = Some(Dialog::Round(Box::default())),
             Request::Keys => self.dialog = Some(Dialog::Keys),
             Request::About => self.dialog = Some(Dialog::About),
         }

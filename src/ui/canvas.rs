@@ -90,10 +90,11 @@ impl Canvas {
                 key,
                 pressed,
                 modifiers,
+                repeat,
                 ..
             } => {
                 self.send_modifiers(editor, keyboard::modifiers(*modifiers));
-                self.key(context, editor, *key, *pressed);
+                self.key(context, editor, *key, (*pressed, *repeat));
             }
             Event::WindowFocused(false) => {
                 self.send_modifiers(editor, Modifiers::NONE);
@@ -222,7 +223,13 @@ impl Canvas {
         }
     }
 
-    fn key(&mut self, context: &Context, editor: &mut Editor, key: egui::Key, pressed: bool) {
+    fn key(
+        &mut self,
+        context: &Context,
+        editor: &mut Editor,
+        key: egui::Key,
+        (pressed, repeated): (bool, bool),
+    ) {
         if key == egui::Key::Space && !pressed {
             self.hold_space(editor, false);
         }
@@ -231,6 +238,7 @@ impl Canvas {
         }
         match keyboard::key(key) {
             Some(Key::Space) => self.hold_space(editor, true),
+            Some(key) if repeated => editor.input(Input::KeyRepeated(key)),
             Some(key) => editor.input(Input::Key(key)),
             None => {}
         }

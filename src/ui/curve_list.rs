@@ -74,7 +74,9 @@ impl CurveList {
             Some(Asked::Rename(curve)) => self.begin_renaming(editor, curve),
             Some(Asked::Lock(curve, locked)) => editor.set_locked(curve, locked),
             Some(Asked::Show(curve, visible)) => editor.set_visible(curve, visible),
-            Some(Asked::Edit(label, edit)) => editor.apply(label, vec![edit]),
+            Some(Asked::Edit(label, edit)) => {
+                editor.apply(label, vec![edit]);
+            }
             None => {}
         }
     }

@@ -9,14 +9,14 @@ use crate::editor::{AfterDiscard, Command, Division, Editor};
 use crate::geometry::PolygonKind;
 
 /// What is asked or told.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug)]
 pub enum Dialog {
     /// Save, discard or go back, before something replaces the document.
     Unsaved(AfterDiscard),
     /// Split or trim the active curve.
     Divide(DivisionDialog),
     /// Round coordinates.
-    Round(RoundingDialog),
+    Round(Box<RoundingDialog>),
     /// What keys and mouse do.
     Keys,
     /// What this program is.

@@ -112,9 +112,8 @@ impl Panel<'_> {
     fn show(&mut self, ui: &mut Ui) {
         self.ends_ui(ui);
         self.target_ui(ui);
-        if self.report.locked {
-            let text = "This curve is locked: unlock it in the list of curves to correct its ends.";
-            widgets::note(ui, text);
+        if let Some(refusal) = &self.report.refusal {
+            widgets::note(ui, refusal);
         }
         ui.add_space(STEP);
         self.shape_ui(ui);
@@ -368,7 +367,7 @@ impl Panel<'_> {
 
     fn translate_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
-        let has_target = report.target_point.is_some() && !report.locked;
+        let has_target = report.target_point.is_some() && report.can_move();
         let title = format!("Move {} vertices", report.terminal);
         step_ui(ui, 5, &title, self.is_in_place(), |ui| {
             let response = step_button(ui, "Translate", has_target, None)
@@ -386,7 +385,7 @@ impl Panel<'_> {
         let has_target = report.target_direction.is_some() && report.tangent.is_some();
         let title = format!("Turn {} vertices", report.terminal);
         step_ui(ui, 6, &title, has_target && self.is_aligned(), |ui| {
-            let response = step_button(ui, "Rotate", has_target && !report.locked, None)
+            let response = step_button(ui, "Rotate", has_target && report.can_move(), None)
                 .accessible_name("Rotate terminal vertices");
             let tooltip = "Rotate them about the end point by the difference angle";
             if response.on_hover_text(tooltip).clicked() {
@@ -399,7 +398,7 @@ impl Panel<'_> {
     fn repeat_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
         step_ui(ui, 7, "Edit on, and repeat", report.within, |ui| {
-            let response = step_button(ui, "Repeat", report.targets > 0 && !report.locked, None);
+            let response = step_button(ui, "Repeat", report.targets > 0 && report.can_move(), None);
             let tooltip = "Repeat steps 2 to 6 on both ends until within the tolerance";
             if response.on_hover_text(tooltip).clicked() {
                 self.ask(7, EndFitAction::Repeat);
@@ -445,7 +444,7 @@ impl Panel<'_> {
         let size = vec2(ui.available_width(), ROW);
         let button = Button::new("Both ends at once");
         let response = ui
-            .add_enabled_ui(report.targets > 0 && !report.locked, |ui| {
+            .add_enabled_ui(report.targets > 0 && report.can_move(), |ui| {
                 ui.add_sized(size, button)
             })
             .inner;

@@ -61,7 +61,7 @@ impl Inspector {
     fn curve_ui(&mut self, ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
         widgets::form_row(ui, "Name", |ui| self.name_ui(ui, editor, id, curve));
         widgets::form_row(ui, "Colour", |ui| colour_ui(ui, editor, id, curve));
-        ui.add_enabled_ui(!curve.locked, |ui| {
+        ui.add_enabled_ui(curve.check_editable().is_ok(), |ui| {
             widgets::form_row(ui, "Degree", |ui| degree_ui(ui, editor, id, curve));
             widgets::form_row(ui, "Ends", |ui| ends_ui(ui, editor, id, curve));
         });

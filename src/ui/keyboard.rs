@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, Context, Event};
 
-use crate::editor::{Command, Editor, Key, Modifiers, Shortcut};
+use crate::editor::{Command, Editor, Key, Modifiers, Shortcut, ToolKind};
 
 /// Translate modifier keys.
 pub fn modifiers(modifiers: egui::Modifiers) -> Modifiers {
@@ -114,9 +114,16 @@ impl Keyboard {
         }
         let typing = is_typing(context);
         let holding = editor.is_holding();
+        // What is typed while drawing may be meant as coordinates.
+        let is_number = |shortcut: &Shortcut| {
+            shortcut.modifiers == Modifiers::NONE
+                && matches!(shortcut.key, Key::Character('0'..='9' | '+' | '-'))
+        };
+        let numbers_are_mine = editor.tool() != ToolKind::Draw;
         let table: Vec<(Shortcut, Command)> = Command::all(editor.examples())
             .into_iter()
             .filter_map(|command| Some((command.shortcut()?, command)))
+            .filter(|(shortcut, _)| numbers_are_mine || !is_number(shortcut))
             .collect();
         let mut asked = Vec::new();
         context.input_mut(|input| {

@@ -6,13 +6,18 @@ use lucide_icons::Icon;
 use super::icons;
 use super::theme::{STEP, Tokens};
 use super::widgets::IconButton;
-use crate::editor::Editor;
+use crate::editor::{Command, Editor};
 
 /// The widest that a message gets before it wraps.
 const WIDTH: f32 = 460.0;
 
 /// Show the message, if there is one, until it is dismissed or something else is done.
-pub fn message_ui(context: &Context, canvas: Rect, editor: &mut Editor) {
+pub fn message_ui(
+    context: &Context,
+    canvas: Rect,
+    editor: &mut Editor,
+    commands: &mut Vec<Command>,
+) {
     let Some(message) = editor.message().cloned() else {
         return;
     };
@@ -43,10 +48,14 @@ pub fn message_ui(context: &Context, canvas: Rect, editor: &mut Editor) {
                 ui.add_space(0.0);
                 ui.label(icons::text(icon).color(colour));
                 ui.vertical(|ui| {
-                    ui.set_max_width(width - 18.0 * STEP);
+                    let buttons = if message.offers_undo { 32.0 } else { 18.0 };
+                    ui.set_max_width(width - buttons * STEP);
                     let text = RichText::new(&message.text).color(tokens.text);
                     ui.add(Label::new(text).wrap().selectable(true));
                 });
+                if message.offers_undo && ui.button("Undo").clicked() {
+                    commands.push(Command::Undo);
+                }
                 IconButton::new(Icon::X, "Dismiss message")
                     .size(5.0 * STEP)
                     .show(ui)

@@ -1,8 +1,12 @@
 //! What lies over the canvas for a moment: an empty document's advice, and files about to drop.
 
-use eframe::egui::{Align2, Area, Context, Id, LayerId, Order, Rect, RichText, Stroke, StrokeKind};
+use eframe::egui::{
+    Align2, Area, Button, Context, Id, LayerId, Order, Rect, RichText, Stroke, StrokeKind, pos2,
+};
 
+use super::gizmo;
 use super::theme::{RADIUS, STEP, Tokens};
+use crate::editor::{Command, NamedView};
 
 /// Tell what to do with an empty document.
 pub fn empty_ui(context: &Context, canvas: Rect) {
@@ -25,6 +29,27 @@ pub fn empty_ui(context: &Context, canvas: Rect) {
             }
         });
     });
+}
+
+/// Say that a planar drawing is seen at an angle, with the way back.
+pub fn orbited_ui(context: &Context, canvas: Rect, commands: &mut Vec<Command>) {
+    let top = gizmo::place(canvas).map_or(canvas.top(), |gizmo| gizmo.bottom());
+    let area = Area::new(Id::unique("orbited"))
+        .order(Order::Middle)
+        .pivot(Align2::RIGHT_TOP)
+        .fixed_pos(pos2(canvas.right() - 2.0 * STEP, top + STEP));
+    let clicked = area.show(context, |ui| {
+        let tokens = Tokens::of(ui);
+        let text = RichText::new("Orbited · F2").color(tokens.strong_text);
+        let badge = Button::new(text).stroke(Stroke::new(1.0, tokens.accent));
+        let response = ui.add(badge);
+        response
+            .on_hover_text("The drawing is planar and seen at an angle: look at it from above")
+            .clicked()
+    });
+    if clicked.inner {
+        commands.push(Command::View(NamedView::Xy));
+    }
 }
 
 /// While files hover over the window, say what dropping them does.

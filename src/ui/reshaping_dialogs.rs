@@ -7,7 +7,7 @@ use super::dialogs::Decision;
 use super::number_field::{FieldEvent, NumberField};
 use super::theme::{ROW, STEP, Tokens};
 use super::{figures, widgets};
-use crate::editor::{Division, DivisionReport, Editor, RoundingReport};
+use crate::editor::{Division, DivisionReport, Editor, ExtremaCount, RoundingReport};
 use crate::geometry::{MAX_SUBDIVISIONS, PolygonKind};
 
 /// The width of these dialogs.
@@ -113,7 +113,7 @@ impl DivisionDialog {
 }
 
 /// Rounding, as it is being chosen.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug)]
 pub struct RoundingDialog {
     kind: PolygonKind,
     digits: usize,
@@ -160,6 +160,11 @@ impl RoundingDialog {
         match tried {
             Ok(report) => {
                 let length = |value: f64| figures::significant(value, 4);
+                let counts = report.extrema();
+                if counts.contains(&None) {
+                    ui.ctx().request_repaint();
+                }
+                let [before, after] = counts.map(extrema);
                 let rows = [
                     ("Largest move of a vertex", length(report.moved)),
                     ("… of the float S-polygon", length(report.float_moved)),
@@ -167,8 +172,8 @@ impl RoundingDialog {
                         "Largest move of the curve, at most",
                         length(report.deviation),
                     ),
-                    ("Curvature extrema before", extrema(report, 0)),
-                    ("Curvature extrema afterwards", extrema(report, 1)),
+                    ("Curvature extrema before", before),
+                    ("Curvature extrema afterwards", after),
                 ];
                 for (name, figure) in rows {
                     widgets::figure_row(ui, name, &figure);
@@ -182,10 +187,14 @@ impl RoundingDialog {
 }
 
 /// How many curvature extrema are proved, and how many pieces are undecided.
-fn extrema(report: &RoundingReport, when: usize) -> String {
-    match report.undecided[when] {
-        0 => report.extrema[when].to_string(),
-        doubts => format!("{}, {doubts} pieces undecided", report.extrema[when]),
+fn extrema(count: Option<ExtremaCount>) -> String {
+    match count {
+        None => "being proved …".to_owned(),
+        Some(ExtremaCount { proved, undecided }) => match undecided {
+            0 => proved.to_string(),
+            1 => format!("{proved}, 1 piece undecided"),
+            doubts => format!("{proved}, {doubts} pieces undecided"),
+        },
     }
 }
 

@@ -60,7 +60,10 @@ impl TransformPanel {
 
 fn pivot_ui(ui: &mut Ui, editor: &mut Editor) {
     let Some(pivot) = editor.pivot() else {
-        widgets::note(ui, "Select vertices, or a curve that is not locked.");
+        widgets::note(
+            ui,
+            "Select vertices, or a curve that is neither locked nor hidden.",
+        );
         return;
     };
     widgets::form_row(ui, "Pivot", |ui| {

@@ -257,6 +257,8 @@ fn execute(editor: &mut Editor, id: CurveId, curve: &Curve, asked: Asked) {
         FieldEvent::Preview(value) => editor.preview_field(label, edits(value)),
         FieldEvent::Commit => editor.commit_field(),
         FieldEvent::Abort => editor.abort_field(),
-        FieldEvent::Typed(value) => editor.apply(label, edits(value)),
+        FieldEvent::Typed(value) => {
+            editor.apply(label, edits(value));
+        }
     }
 }

@@ -175,6 +175,54 @@ fn steps_by_hand_count_as_passes_and_meet_the_target() {
 }
 
 #[test]
+fn a_dragged_target_is_not_held_by_its_own_old_place() {
+    let mut script = Script::example("hull");
+    script.tool(ToolKind::EndFit);
+    let end = script.polygon().end_jet(End::Finish).point;
+    let view = *script.editor.viewport();
+    let target = view.to_model(view.to_screen(end.truncate()) + DVec2::new(63.0, 77.0));
+    script
+        .editor
+        .end_fit_action(EndFitAction::SetPoint(target.extend(0.0)));
+    script.command(Command::ToggleSnapping);
+    // Off the grid, and nearer to the old place than snapping reaches.
+    script.input(Input::Zoomed {
+        at: view.to_screen(target),
+        factor: 1.37,
+    });
+    let from = script.editor.viewport().to_screen(target);
+    script.drag(from, from + DVec2::new(6.0, 0.0));
+    let moved = script
+        .editor
+        .end_fit()
+        .and_then(|report| report.target_point);
+    assert_ne!(moved, Some(target.extend(0.0)));
+}
+
+#[test]
+fn the_ring_snaps_to_the_target_direction_across_a_half_turn() {
+    for sense in [1.0, -1.0] {
+        let mut script = Script::example("s-curve");
+        script.tool(ToolKind::EndFit);
+        let end = script.polygon().end_jet(End::Finish);
+        script.editor.end_fit_action(EndFitAction::TargetActual);
+        // Half a turn, less a little: reached from the other side it is more than half a turn.
+        let turn = sense * 179.5_f64.to_radians();
+        let direction = DVec2::from_angle(turn).rotate(end.first.truncate());
+        script
+            .editor
+            .end_fit_action(EndFitAction::SetDirection(Some(direction.extend(0.0))));
+        let centre = script.editor.viewport().to_screen(end.point.truncate());
+        let on_ring = |angle: f64| centre + 40.0 * DVec2::new(angle.cos(), -angle.sin());
+        let start = clear_of_handles(&mut script, &on_ring);
+        let past = start + turn + sense * 1.0_f64.to_radians();
+        script.drag(on_ring(start), on_ring(past));
+        let report = script.editor.end_fit().expect("figures");
+        assert!(report.angle.abs() < 1e-12, "{}", report.angle);
+    }
+}
+
+#[test]
 fn on_the_ring_the_ring_is_taken_although_a_vertex_lies_there() {
     let mut script = Script::example("hull");
     script.tool(ToolKind::EndFit);

@@ -1,6 +1,8 @@
 //! The editor without a window, driven by scripts of pointer and key events.
 
 mod commands;
+mod deleting;
+mod drawing;
 mod end_fit;
 mod features;
 mod reshaping;

@@ -48,10 +48,16 @@ impl Script {
             .unwrap_or_default()
     }
 
-    /// Where a vertex is on the canvas.
+    /// Where a vertex of the active curve is on the canvas.
     pub fn at_vertex(&self, index: usize) -> DVec2 {
+        self.at_vertex_of(self.curve(), index)
+    }
+
+    /// Where a vertex of a curve is on the canvas.
+    pub fn at_vertex_of(&self, curve: CurveId, index: usize) -> DVec2 {
         let viewport = self.editor.viewport();
-        viewport.to_screen(viewport.flatten(self.polygon().vertex(index)))
+        let curve = self.editor.document().curve(curve).expect("a curve");
+        viewport.to_screen(viewport.flatten(curve.polygon.vertex(index)))
     }
 
     /// Send one input.
@@ -86,6 +92,13 @@ impl Script {
     pub fn click(&mut self, at: DVec2) {
         self.press(at);
         self.release(at);
+    }
+
+    /// Click while these modifiers are held.
+    pub fn click_with(&mut self, modifiers: Modifiers, at: DVec2) {
+        self.modifiers(modifiers);
+        self.click(at);
+        self.modifiers(Modifiers::NONE);
     }
 
     /// Drag with the primary button.
@@ -156,7 +169,14 @@ impl Script {
                 .document()
                 .curve(curve)
                 .expect("a selected curve");
-            assert!(index < curve.polygon.vertices().len());
+            assert!(index < curve.polygon.vertices().len() && curve.visible);
         }
+        // What is selected and what panels show never disagree.
+        let selection = self.editor.selection();
+        let active = selection.active();
+        assert!(
+            selection.is_empty()
+                || active.is_some_and(|active| selection.of_curve(active).next().is_some())
+        );
     }
 }

@@ -176,6 +176,42 @@ fn tab_cycles_through_vertices_that_overlap() {
 }
 
 #[test]
+fn tabs_choice_survives_jitter_and_is_what_a_drag_takes() {
+    let mut script = Script::example("arc");
+    let curve = script.curve();
+    let place = script.polygon().vertex(2);
+    let moves = vec![(7, place)];
+    script
+        .editor
+        .apply("overlap", vec![Edit::MoveVertices { curve, moves }]);
+    let at = script.at_vertex(2);
+    script.move_to(at);
+    let first = script.editor.hovered_vertex();
+    script.key(Key::Tab);
+    let chosen = script.editor.hovered_vertex().expect("a vertex");
+    assert_ne!(first, Some(chosen));
+    script.move_to(at + DVec2::new(1.0, 0.0));
+    assert_eq!(script.editor.hovered_vertex(), Some(chosen));
+    script.drag(at + DVec2::new(0.0, 1.0), at + DVec2::new(40.0, 30.0));
+    assert_ne!(script.polygon().vertex(chosen), place);
+    assert_eq!(script.polygon().vertex(9 - chosen), place);
+    assert_eq!(script.selected(), [chosen]);
+}
+
+#[test]
+fn a_leg_that_is_dragged_is_what_is_selected() {
+    let mut script = Script::example("hull");
+    script.click(script.at_vertex(1));
+    let middle = 0.5 * (script.at_vertex(5) + script.at_vertex(6));
+    script.press(middle);
+    script.move_to(middle + DVec2::new(0.0, 25.0));
+    assert_eq!(script.selected(), [5, 6]);
+    let hover = script.editor.scene().hover.clone();
+    assert_eq!(hover, None, "one vertex that does not move was told");
+    script.release(middle + DVec2::new(0.0, 25.0));
+}
+
+#[test]
 fn a_locked_curve_cannot_be_dragged_and_says_so() {
     let mut script = Script::example("arc");
     script.command(Command::ToggleLocked);

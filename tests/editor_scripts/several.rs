@@ -1,16 +1,18 @@
 //! Several curves at once: whose is what is hovered, copied, cut, exported and named.
 
 use batten::document::{Curve, CurveId, Edit};
-use batten::editor::{AfterDiscard, Command, Division, HoverScene, Modifiers, Request};
+use batten::editor::{
+    AfterDiscard, Command, Division, HoverScene, Key, Modifiers, Request, ToolKind,
+};
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::{End, FloatPolygon};
 use batten::io::disk;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::script::Script;
 
 /// The paper's arc, which is active, and a longer curve below it.
-fn two() -> (Script, [CurveId; 2]) {
+pub fn two() -> (Script, [CurveId; 2]) {
     let mut script = Script::example("arc");
     let arc = script.curve();
     let points: Vec<_> = (0..9)
@@ -65,40 +67,18 @@ fn what_is_hovered_is_told_of_the_curve_it_is_on() {
 #[test]
 fn cutting_removes_what_it_copies() {
     let (mut script, [arc, other]) = two();
-    // All of the active curve, then all of both.
-    script.command(Command::SelectAll);
-    script.command(Command::SelectAll);
-    let Some(Request::CopyText(text)) = script.editor.execute(Command::Cut) else {
-        panic!("nothing was copied");
-    };
-    assert!(script.editor.document().is_empty());
-    script.editor.paste_text(&text);
-    assert_eq!(script.editor.document().len(), 2);
-    script.command(Command::Undo);
-    script.command(Command::Undo);
-    // Vertices of one curve, while the other is the active one.
     for vertex in 0..4 {
         script.editor.select_vertex(other, vertex, vertex > 0);
     }
-    script.modifiers(Modifiers {
-        shift: true,
-        ..Modifiers::NONE
-    });
-    let polygon = polygon_of(&script, arc);
-    let on_arc = script
-        .editor
-        .viewport()
-        .to_screen(polygon.point(0.4).truncate());
-    script.click(on_arc);
-    script.modifiers(Modifiers::NONE);
-    assert_eq!(script.curve(), arc);
-    assert_eq!(script.editor.selected_vertices(other).len(), 4);
+    assert_eq!(script.curve(), other);
+    let untouched = polygon_of(&script, arc);
     let before = polygon_of(&script, other);
     let Some(Request::CopyText(text)) = script.editor.execute(Command::Cut) else {
         panic!("nothing was copied");
     };
     let left = polygon_of(&script, other);
     assert_eq!(left.vertices(), &before.vertices()[4..]);
+    assert_eq!(polygon_of(&script, arc), untouched);
     script.editor.paste_text(&text);
     assert_eq!(script.polygon().vertices().len(), 4);
 }
@@ -107,7 +87,7 @@ fn cutting_removes_what_it_copies() {
 fn a_deleted_curve_that_comes_back_is_active_again() {
     let (mut script, [arc, other]) = two();
     script.editor.activate(other);
-    script.command(Command::Delete);
+    script.command(Command::DeleteCurve);
     assert_eq!(script.curve(), arc);
     script.command(Command::Undo);
     assert_eq!(script.curve(), other);
@@ -127,14 +107,107 @@ fn what_cannot_be_cut_is_not_copied() {
     script.editor.select_vertex(other, 1, true);
     assert_eq!(script.editor.execute(Command::Cut), None);
     assert!(script.message().contains("too few"), "{}", script.message());
-    // Neither are vertices of a locked curve, nor that curve as a whole.
+    // Neither are vertices of a locked curve.
     script.editor.set_locked(other, true);
     script.editor.select_vertex(other, 0, false);
     assert_eq!(script.editor.execute(Command::Cut), None);
-    script.command(Command::SelectNone);
-    assert_eq!(script.curve(), other);
-    assert_eq!(script.editor.execute(Command::Cut), None);
     assert!(script.message().contains("locked"), "{}", script.message());
+}
+
+#[test]
+fn the_active_curve_stays_active_when_its_vertex_is_dragged_among_others() {
+    let (mut script, [arc, other]) = two();
+    script.command(Command::SelectAll);
+    script.command(Command::SelectAll);
+    let at = script.at_vertex_of(other, 2);
+    script.click_with(Modifiers::SHIFT, script.at_vertex_of(other, 0));
+    script.click_with(Modifiers::SHIFT, script.at_vertex_of(other, 0));
+    assert_eq!(script.curve(), other);
+    script.drag(at, at + DVec2::new(15.0, 10.0));
+    assert_eq!(script.curve(), other);
+    script.key(Key::Up);
+    assert_eq!(script.curve(), other);
+    script.tool(ToolKind::Rotate);
+    script.drag(DVec2::new(700.0, 100.0), DVec2::new(720.0, 160.0));
+    assert_eq!(script.curve(), other);
+    assert_eq!(script.editor.selected_vertices(arc).len(), 10);
+    assert_eq!(script.editor.selected_vertices(other).len(), 9);
+}
+
+#[test]
+fn a_leg_of_a_selection_takes_the_selection_along() {
+    let (mut script, [arc, other]) = two();
+    script.command(Command::SelectAll);
+    script.command(Command::SelectAll);
+    let before = [arc, other].map(|id| polygon_of(&script, id));
+    let middle = 0.5 * (script.at_vertex_of(other, 3) + script.at_vertex_of(other, 4));
+    script.drag(middle, middle + DVec2::new(0.0, 30.0));
+    for (id, before) in [arc, other].into_iter().zip(before) {
+        let moved = polygon_of(&script, id).vertex(0) - before.vertex(0);
+        assert!(moved.y < 0.0 && moved.x.abs() < 1e-9, "{moved}");
+    }
+    assert_eq!(script.editor.history().undo_steps(), 2);
+}
+
+#[test]
+fn what_is_hidden_is_not_edited() {
+    let (mut script, [arc, _]) = two();
+    script.editor.set_visible(arc, false);
+    script.editor.activate(arc);
+    let before = script.editor.document().clone();
+    for tool in ToolKind::ALL
+        .into_iter()
+        .filter(|tool| *tool != ToolKind::Draw)
+    {
+        script.tool(tool);
+        script.drag(DVec2::new(300.0, 100.0), DVec2::new(420.0, 160.0));
+        if script.curve() != arc {
+            script.editor.activate(arc);
+        }
+        script.click(DVec2::new(500.0, 120.0));
+    }
+    for command in [
+        Command::Reverse,
+        Command::Subdivide,
+        Command::RaiseDegree,
+        Command::TogglePeriodic,
+    ] {
+        assert!(!script.editor.is_enabled(command), "{command:?}");
+    }
+    let moves = vec![(0, DVec3::ZERO)];
+    let edit = Edit::MoveVertices { curve: arc, moves };
+    assert!(!script.editor.apply("move", vec![edit]));
+    assert!(script.message().contains("hidden"), "{}", script.message());
+    assert!(script.editor.document().is_same(&before));
+}
+
+#[test]
+fn a_single_vertex_is_copied_as_its_coordinates() {
+    let (mut script, [arc, other]) = two();
+    let copied = |script: &mut Script| match script.editor.execute(Command::Copy) {
+        Some(Request::CopyText(text)) => text,
+        none => panic!("{none:?}: {}", script.message()),
+    };
+    script.click(script.at_vertex_of(other, 3));
+    let DVec3 { x, y, .. } = polygon_of(&script, other).vertex(3);
+    assert_eq!(copied(&mut script), format!("{x},{y}\n"));
+    // With a header only where vertices make a curve.
+    script.editor.select_vertex(arc, 2, true);
+    script.editor.select_vertex(arc, 5, true);
+    let text = copied(&mut script);
+    let lines: Vec<&str> = text.lines().filter(|line| !line.is_empty()).collect();
+    assert_eq!(lines.iter().filter(|line| line.starts_with('#')).count(), 1);
+    assert!(lines[0].starts_with("# degree=1"), "{text}");
+    assert_eq!(lines.last(), Some(&format!("{x},{y}").as_str()));
+    // A table of vertices is a curve again.
+    script.command(Command::SelectNone);
+    script.click(script.at_vertex_of(other, 0));
+    for vertex in 1..5 {
+        script.editor.select_vertex(other, vertex, true);
+    }
+    let text = copied(&mut script);
+    script.editor.paste_text(&text);
+    assert_eq!(script.polygon().vertices().len(), 5);
 }
 
 #[test]

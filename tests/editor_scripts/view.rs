@@ -1,8 +1,10 @@
 //! The view and what it shows: zoom, pan, hovering, the comb, what is redone.
 
-use batten::document::Edit;
-use batten::editor::{Button, Command, HoverScene, Input, Layer};
+use batten::analysis::CombSettings;
+use batten::document::{Curve, Edit};
+use batten::editor::{Button, Command, HoverScene, Input, Layer, NamedView};
 use batten::geometry::FloatPolygon;
+use batten::io::examples::EXAMPLES;
 use glam::{DVec2, DVec3};
 
 use super::script::Script;
@@ -107,14 +109,15 @@ fn the_comb_is_scaled_by_the_tip_of_a_tooth() {
 }
 
 #[test]
-fn fitting_shows_the_comb_within_reason() {
+fn fitting_makes_the_comb_legible_and_shows_it() {
     let mut script = Script::example("arc");
     script.command(Command::ToggleLayer(Layer::Comb));
-    for (scale, all) in [(30.0, true), (1e6, false)] {
-        let mut comb = script.editor.comb();
-        comb.scale = scale;
-        script.editor.set_comb(comb);
-        script.command(Command::FitAll);
+    let fresh = script.editor.comb();
+    for (scale, fit) in [(30.0, Command::FitAll), (1e6, Command::Fit)] {
+        script.editor.set_comb(CombSettings { scale, density: 3 });
+        script.command(fit);
+        assert_eq!(script.editor.comb(), fresh);
+        let scale = fresh.scale;
         let viewport = *script.editor.viewport();
         let polygon = script.polygon();
         let middle = polygon.jet(0.5);
@@ -124,11 +127,73 @@ fn fitting_shows_the_comb_within_reason() {
             let at = viewport.to_screen(place);
             at.cmpge(DVec2::ZERO).all() && at.cmple(viewport.size).all()
         };
-        assert_eq!(shown(tip), all, "comb scale {scale}");
+        assert!(shown(tip), "comb scale {scale}");
         // The curve stays large enough to be worked on.
         let size = polygon.size() * viewport.scale;
         assert!(size > 0.2 * viewport.size.y, "{size}");
     }
+}
+
+#[test]
+fn no_document_inherits_the_comb_of_another() {
+    let fresh = |name| Script::example(name).editor.comb();
+    let mut script = Script::example("arc");
+    for name in ["hull", "arc", "bottle"] {
+        script.editor.set_comb(CombSettings {
+            scale: 1e7,
+            density: 60,
+        });
+        let index = EXAMPLES.iter().position(|example| example.name == name);
+        script.command(Command::OpenExample(index.expect("an example")));
+        assert_eq!(script.editor.comb(), fresh(name), "{name}");
+    }
+}
+
+#[test]
+fn tips_of_the_comb_yield_to_legs_and_to_what_is_beside_a_vertex() {
+    // A leg of another curve runs through the tip, its ends far away; or its end lies beside.
+    for (from, to, taken) in [
+        (DVec2::new(-120.0, 0.0), DVec2::new(120.0, 0.0), true),
+        (DVec2::new(0.0, 11.0), DVec2::new(240.0, 40.0), false),
+    ] {
+        let mut script = Script::example("arc");
+        script.command(Command::ToggleLayer(Layer::Comb));
+        let arc = script.curve();
+        let teeth = script.editor.scene().curves[0].teeth.clone();
+        let viewport = *script.editor.viewport();
+        let tip = viewport.to_screen(teeth[teeth.len() / 2][1]);
+        let ends = [from, to].map(|off| viewport.to_model(tip + off));
+        let ends = ends.map(|end| (end.x, end.y));
+        let other = Curve::new("other", FloatPolygon::planar(1, &ends).expect("a leg"));
+        script.editor.apply("add", vec![Edit::Add(Box::new(other))]);
+        script.editor.activate(arc);
+        let before = (script.editor.document().clone(), script.editor.comb());
+        script.drag(tip, tip + DVec2::new(5.0, 25.0));
+        assert_eq!(script.editor.comb(), before.1);
+        assert_eq!(!script.editor.document().is_same(&before.0), taken);
+    }
+}
+
+#[test]
+fn a_planar_drawing_seen_at_an_angle_says_so() {
+    let mut script = Script::example("arc");
+    assert!(!script.editor.is_orbited());
+    script.drag_with(
+        Button::Secondary,
+        DVec2::new(300.0, 300.0),
+        DVec2::new(310.0, 330.0),
+    );
+    assert!(script.editor.is_orbited());
+    script.command(Command::View(NamedView::Xy));
+    assert!(!script.editor.is_orbited());
+    // A drawing in space is seen from anywhere.
+    let curve = script.curve();
+    let moves = vec![(3, DVec3::new(1.0, 2.0, 3.0))];
+    script
+        .editor
+        .apply("lift", vec![Edit::MoveVertices { curve, moves }]);
+    script.command(Command::View(NamedView::Isometric));
+    assert!(!script.editor.is_orbited());
 }
 
 #[test]

@@ -1,16 +1,14 @@
 //! Draw a new float S-polygon, click by click.
 
-use std::collections::BTreeSet;
-
 use glam::{DVec2, DVec3};
 
 use super::tool::{Context, Effect, Tool, count_vertices};
 use crate::document::{Curve, Edit};
-use crate::editor::gesture::Gesture;
+use crate::editor::gesture::{Gesture, is_hasty_click};
 use crate::editor::hit::REACH;
 use crate::editor::input::Key;
 use crate::editor::scene::Mark;
-use crate::editor::snapping::{along_axis, by_fifteen_degrees};
+use crate::editor::snapping::{Carried, along_axis, by_fifteen_degrees};
 use crate::geometry::FloatPolygon;
 
 /// The degree that a drawn curve gets if there is no active curve to take it from.
@@ -20,6 +18,8 @@ const DEGREE: usize = 5;
 #[derive(Debug, Default)]
 pub struct DrawTool {
     points: Vec<DVec3>,
+    /// Where the drag that goes on began.
+    pressed: Option<DVec2>,
 }
 
 impl DrawTool {
@@ -27,7 +27,7 @@ impl DrawTool {
     fn next(&self, at: DVec2, context: &Context) -> DVec2 {
         let last = self.points.last().filter(|_| context.modifiers.shift);
         let Some(last) = last else {
-            return context.snapped(at, &BTreeSet::new());
+            return context.snapped(at, &Carried::default());
         };
         let last = context.viewport.flatten(*last);
         let leg = at - last;
@@ -37,6 +37,12 @@ impl DrawTool {
             return last + along_axis(leg);
         }
         last + leg.dot(constrained) * constrained
+    }
+
+    /// Whether a press that ends here was a click on the first vertex, were it a hasty one.
+    fn closes_by_hasty_click(&self, end: DVec2, context: &Context) -> bool {
+        let from = self.pressed.filter(|from| is_hasty_click(*from, end));
+        from.is_some_and(|from| self.closes(from, context) || self.closes(end, context))
     }
 
     fn closes(&self, place: DVec2, context: &Context) -> bool {
@@ -89,6 +95,13 @@ impl Tool for DrawTool {
     fn gesture(&mut self, gesture: Gesture, context: &Context) -> Vec<Effect> {
         match gesture {
             Gesture::Click(place) if self.closes(place, context) => self.finish(true, context),
+            Gesture::DragStart(place) => {
+                self.pressed = Some(place);
+                Vec::new()
+            }
+            Gesture::DragEnd(place) if self.closes_by_hasty_click(place, context) => {
+                self.finish(true, context)
+            }
             // A hasty click is a short drag: the vertex goes where the button is released.
             Gesture::Click(place) | Gesture::DragEnd(place) => {
                 let place = self.next(context.model(place), context);
@@ -108,7 +121,7 @@ impl Tool for DrawTool {
                 self.finish(false, context)
             }
             Gesture::Key(Key::Backspace) => {
-                self.points.pop();
+                self.undo();
                 Vec::new()
             }
             Gesture::Key(Key::Escape) if self.points.is_empty() => vec![Effect::Finish],
@@ -118,6 +131,14 @@ impl Tool for DrawTool {
             }
             _ => Vec::new(),
         }
+    }
+
+    fn undo_label(&self) -> Option<&'static str> {
+        (!self.points.is_empty()).then_some("last point")
+    }
+
+    fn undo(&mut self) {
+        self.points.pop();
     }
 
     fn hint(&self, _context: &Context) -> String {

@@ -1,5 +1,7 @@
 //! The end-fit tool on the canvas: targets, the body of terminal vertices, and the ring.
 
+use std::f64::consts::{PI, TAU};
+
 use glam::{DMat3, DVec2, DVec3};
 
 use super::tool::{Context, Cursor, Effect, Tool};
@@ -9,7 +11,7 @@ use crate::editor::gesture::Gesture;
 use crate::editor::hit::REACH;
 use crate::editor::input::Key;
 use crate::editor::scene::Mark;
-use crate::editor::snapping::{along_axis, by_fifteen_degrees};
+use crate::editor::snapping::{Carried, along_axis, by_fifteen_degrees};
 use crate::geometry::End;
 use crate::geometry::end_correction::{
     EndDifference, EndTarget, align_end, rotate_end, translate_end,
@@ -80,6 +82,9 @@ impl<'a> Subject<'a> {
                 curve.name
             ));
         }
+        curve
+            .check_visible()
+            .map_err(|refused| refused.to_string())?;
         let end = context.end_fit.end;
         Ok(Self {
             id,
@@ -143,6 +148,15 @@ impl<'a> Subject<'a> {
 
     fn is_planar(&self) -> bool {
         self.curve.polygon.is_planar()
+    }
+
+    /// What does not attract the end's target: the target itself, and the curve's own vertices.
+    fn carried(&self) -> Carried {
+        let all = 0..self.curve.polygon.vertices().len();
+        Carried {
+            vertices: all.map(|index| (self.id, index)).collect(),
+            target: Some((self.id, self.end)),
+        }
     }
 
     fn with_target(&self, target: EndTarget) -> Effect {
@@ -283,7 +297,7 @@ fn click(place: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
         Some(Handle::OtherEnd(end)) => vec![Effect::EndFit(EndFitAction::Choose(end))],
         Some(_) => Vec::new(),
         None if subject.target.is_none() => {
-            let at = context.snapped(context.model(place), &own_vertices(subject));
+            let at = context.snapped(context.model(place), &subject.carried());
             let end = subject.curve.polygon.end_jet(subject.end).point;
             let by = at - context.viewport.flatten(end);
             let point = end + context.movement(by, subject.is_planar());
@@ -294,11 +308,6 @@ fn click(place: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
             _ => Vec::new(),
         },
     }
-}
-
-fn own_vertices(subject: &Subject) -> std::collections::BTreeSet<(CurveId, usize)> {
-    let all = 0..subject.curve.polygon.vertices().len();
-    all.map(|index| (subject.id, index)).collect()
 }
 
 impl EndFitTool {
@@ -328,8 +337,8 @@ impl EndFitTool {
             Some(Handle::OtherEnd(_)) | None => return Vec::new(),
         };
         let shapes = matches!(state, State::Body { .. } | State::Ring { .. });
-        if shapes && let Err(locked) = subject.curve.check_unlocked() {
-            return vec![Effect::Say(locked.to_string())];
+        if shapes && let Err(refused) = subject.curve.check_editable() {
+            return vec![Effect::Say(refused.to_string())];
         }
         self.state = state;
         vec![Effect::Begin(label)]
@@ -370,7 +379,7 @@ fn drag_target(wanted: DVec2, subject: &Subject, context: &Context) -> Vec<Effec
     let to = if context.modifiers.shift {
         from + along_axis(wanted - from)
     } else {
-        context.snapped(wanted, &own_vertices(subject))
+        context.snapped(wanted, &subject.carried())
     };
     let movement = context.movement(to - from, subject.is_planar());
     let point = target.point + movement;
@@ -436,7 +445,9 @@ fn missing_angle(free: f64, subject: &Subject, context: &Context) -> Option<f64>
         .target
         .filter(|target| snaps && target.direction.is_some())?;
     let missing = EndDifference::between(polygon, subject.end, &target).angle;
-    ((missing - free).abs() < SNAP_ANGLE.to_radians()).then_some(missing)
+    // Angles are the same a whole turn apart: the nearest way counts.
+    let between = (missing - free + PI).rem_euclid(TAU) - PI;
+    (between.abs() < SNAP_ANGLE.to_radians()).then_some(missing)
 }
 
 /// Rotate the terminal vertices, exactly into the target direction if they snap to it.

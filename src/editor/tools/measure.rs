@@ -1,17 +1,15 @@
 //! Measure a distance and its direction.
 
-use std::collections::BTreeSet;
-
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::tool::{Context, Effect, Tool};
-use crate::analysis::Orientation;
-use crate::editor::gesture::Gesture;
+use crate::editor::gesture::{Gesture, is_hasty_click};
 use crate::editor::input::Key;
 use crate::editor::scene::Mark;
-use crate::editor::snapping::along_axis;
+use crate::editor::snapping::{Carried, along_axis};
 
-/// The measure tool's state.
+/// The measure tool's state. Points are those of the model, so that the figures stay true when it
+/// is looked at from another side.
 #[derive(Debug, Default)]
 pub struct MeasureTool {
     state: State,
@@ -21,61 +19,93 @@ pub struct MeasureTool {
 enum State {
     #[default]
     Idle,
-    /// The first point is set, the second follows the pointer.
-    From(DVec2),
+    /// The first point is set, the second follows the pointer. A drag began where `dragged` says.
+    From { from: DVec3, dragged: Option<DVec2> },
     /// Both are set and stay until the next click.
-    Between(DVec2, DVec2),
+    Between(DVec3, DVec3),
 }
 
 impl MeasureTool {
-    fn place(&self, at: DVec2, context: &Context) -> DVec2 {
-        if let (State::From(from), true) = (self.state, context.modifiers.shift) {
-            return from + along_axis(at - from);
+    /// The point of the model that is meant by a place of the view plane: one that snaps, or one
+    /// of a curve, otherwise the one on the ground.
+    fn point(&self, at: DVec2, context: &Context) -> DVec3 {
+        let view = context.viewport;
+        if let (State::From { from, .. }, true) = (self.state, context.modifiers.shift) {
+            let by = along_axis(at - view.flatten(from));
+            return from + view.movement(by, true);
         }
-        let snapped = context.snapped(at, &BTreeSet::new());
-        if snapped != at || context.snapping == context.modifiers.ctrl {
-            return snapped;
-        }
-        // The curve attracts where nothing more definite does.
-        let hit = context.hits.curve(context.viewport.to_screen(at));
-        hit.map_or(at, |hit| hit.point)
+        let on_curve = || {
+            // The curve attracts where nothing more definite does.
+            let snaps = context.snapping != context.modifiers.ctrl;
+            let hit = context.hits.curve(view.to_screen(at)).filter(|_| snaps)?;
+            let curve = context.document.curve(hit.curve)?;
+            Some(curve.polygon.jet(hit.u).point)
+        };
+        context
+            .snapped_point(at, &Carried::default())
+            .or_else(on_curve)
+            .unwrap_or_else(|| view.grounded(at))
     }
 
-    fn line(&self, context: &Context) -> Option<(DVec2, DVec2)> {
+    fn line(&self, context: &Context) -> Option<(DVec3, DVec3)> {
         match self.state {
             State::Idle => None,
-            State::From(from) => context.pointer.map(|at| (from, self.place(at, context))),
+            State::From { from, .. } => context.pointer.map(|at| (from, self.point(at, context))),
             State::Between(from, to) => Some((from, to)),
         }
     }
+
+    /// Set the first point, by a click or where a drag begins.
+    fn begin(&mut self, place: DVec2, dragged: Option<DVec2>, context: &Context) {
+        self.state = State::Idle;
+        let from = self.point(context.model(place), context);
+        self.state = State::From { from, dragged };
+    }
 }
 
-/// Say a distance as it is seen, its parts and its direction.
-fn figures(from: DVec2, to: DVec2, view: &Orientation) -> String {
+/// Say a distance in space and its parts and, within a plane of two axes, its direction.
+fn figures(from: DVec3, to: DVec3) -> String {
+    const NAMES: [&str; 3] = ["x", "y", "z"];
     let span = to - from;
-    let names = view.axes().map_or([" right", " up"], |axes| {
-        axes.map(|axis| ["x", "y", "z"][axis])
-    });
-    let [across, upwards] = names;
-    format!(
-        "{:.6}   d{across} {:.6}   d{upwards} {:.6}   {:.3}°",
-        span.length(),
-        span.x,
-        span.y,
-        span.to_angle().to_degrees()
-    )
+    let part = |axis: usize| format!("   d{} {:.6}", NAMES[axis], span[axis]);
+    let mut text = format!("{:.6}", span.length());
+    // The plane z = 0 first: it is where planar curves are.
+    match [2, 1, 0].into_iter().find(|normal| span[*normal] == 0.0) {
+        Some(normal) => {
+            let [across, along] = [[1, 2], [0, 2], [0, 1]][normal];
+            let angle = DVec2::new(span[across], span[along]).to_angle();
+            text += &part(across);
+            text += &part(along);
+            text += &format!("   {:.3}°", angle.to_degrees());
+        }
+        None => (0..3).for_each(|axis| text += &part(axis)),
+    }
+    text
 }
 
 impl Tool for MeasureTool {
     fn gesture(&mut self, gesture: Gesture, context: &Context) -> Vec<Effect> {
         match (self.state, gesture) {
-            (State::From(from), Gesture::Click(place) | Gesture::DragEnd(place)) => {
-                self.state = State::Between(from, self.place(context.model(place), context));
+            // A hasty click is a short drag: it sets one point, as a click does.
+            (
+                State::From {
+                    from,
+                    dragged: Some(origin),
+                },
+                Gesture::DragEnd(place),
+            ) if is_hasty_click(origin, place) => {
+                self.state = State::From {
+                    from,
+                    dragged: None,
+                };
             }
-            (_, Gesture::Click(place) | Gesture::DragStart(place)) => {
-                self.state = State::Idle;
-                self.state = State::From(self.place(context.model(place), context));
+            (State::From { from, .. }, Gesture::Click(place) | Gesture::DragEnd(place)) => {
+                self.state = State::Between(from, self.point(context.model(place), context));
             }
+            // The second point is where the drag ends.
+            (State::From { .. }, Gesture::DragStart(_)) => {}
+            (_, Gesture::Click(place)) => self.begin(place, None, context),
+            (_, Gesture::DragStart(place)) => self.begin(place, Some(place), context),
             (State::Idle, Gesture::Key(Key::Escape)) => return vec![Effect::Finish],
             (_, Gesture::Key(Key::Escape) | Gesture::Cancel) => self.state = State::Idle,
             _ => {}
@@ -84,23 +114,33 @@ impl Tool for MeasureTool {
     }
 
     fn hint(&self, context: &Context) -> String {
-        let view = &context.viewport.orientation;
         match (self.state, self.line(context)) {
-            (State::From(_), Some((from, to))) => {
-                format!("{}   Shift keeps to an axis", figures(from, to, view))
+            (State::From { .. }, Some((from, to))) => {
+                format!("{}   Shift keeps to an axis", figures(from, to))
             }
-            (State::Between(..), Some((from, to))) => figures(from, to, view),
+            (State::Between(..), Some((from, to))) => figures(from, to),
             _ => "Click two points, or drag, to measure between them; Esc ends".into(),
         }
     }
 
+    fn undo_label(&self) -> Option<&'static str> {
+        matches!(self.state, State::From { .. }).then_some("first point")
+    }
+
+    fn undo(&mut self) {
+        self.state = State::Idle;
+    }
+
     fn marks(&self, context: &Context) -> Vec<Mark> {
+        let view = context.viewport;
         let Some((from, to)) = self.line(context) else {
-            let at = context.pointer.map(|at| (at, self.place(at, context)));
-            let snap = at.filter(|(free, snapped)| free != snapped);
-            return snap.map(|(_, at)| Mark::Snap(at)).into_iter().collect();
+            let at = context.pointer;
+            let snapped = at.and_then(|at| context.snapped_point(at, &Carried::default()));
+            let mark = snapped.map(|point| Mark::Snap(view.flatten(point)));
+            return mark.into_iter().collect();
         };
         let text = format!("{:.4}", from.distance(to));
+        let [from, to] = [from, to].map(|point| view.flatten(point));
         vec![
             Mark::Ruler([from, to]),
             Mark::Label(0.5 * (from + to), text),

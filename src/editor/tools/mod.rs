@@ -10,7 +10,7 @@ mod transform;
 mod vertices;
 
 pub use tool::{Context, Cursor, Effect, Tool, count_vertices, move_edits};
-pub use transform::Action as Transformation;
+pub use transform::{Action as Transformation, NOTHING_TO_TRANSFORM};
 
 use transform::Transform;
 

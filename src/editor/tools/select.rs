@@ -9,12 +9,15 @@ use crate::document::{CurveId, Edit};
 use crate::editor::drawing::figure;
 use crate::editor::gesture::Gesture;
 use crate::editor::grid::grid_steps;
-use crate::editor::hit::REACH;
+use crate::editor::hit::{LegHit, REACH};
 use crate::editor::input::Key;
 use crate::editor::layers::Layer;
 use crate::editor::scene::Mark;
 use crate::editor::selection::VertexId;
-use crate::editor::snapping::along_axis;
+use crate::editor::snapping::{Carried, along_axis};
+
+/// How near to a leg the pointer must be to take it, in screen points: less than to a vertex.
+const LEG_REACH: f64 = 0.5 * REACH;
 
 /// The smallest length of a comb's tooth, in screen points, that can be dragged by its tip.
 const SHORTEST_TOOTH: f64 = 4.0;
@@ -45,7 +48,7 @@ struct Moving {
     /// Where the vertex under the hand was seen.
     held: DVec2,
     vertices: Vec<(VertexId, DVec3)>,
-    moving: BTreeSet<VertexId>,
+    carried: Carried,
     /// The curves that lie in the plane z = 0.
     planar: BTreeSet<CurveId>,
     snap: Option<DVec2>,
@@ -53,7 +56,7 @@ struct Moving {
 
 impl Moving {
     fn drag(&mut self, place: DVec2, context: &Context) -> Effect {
-        let (by, snap) = movement(self.origin, self.held, place, &self.moving, context);
+        let (by, snap) = movement(self.origin, self.held, place, &self.carried, context);
         self.snap = snap;
         let places = self.vertices.iter().map(|(id, at)| {
             let is_planar = self.planar.contains(&id.0);
@@ -75,7 +78,7 @@ struct MovingClamped {
 impl MovingClamped {
     fn drag(&self, place: DVec2, context: &Context) -> Effect {
         let seen = context.viewport.flatten(self.held);
-        let (by, _) = movement(self.origin, seen, place, &BTreeSet::new(), context);
+        let (by, _) = movement(self.origin, seen, place, &Carried::default(), context);
         let to = self.held + context.movement(by, self.planar);
         move_clamped(self.vertex, to, context)
     }
@@ -205,17 +208,12 @@ impl SelectTool {
         if let Some(vertex) = context.hits.clamped_vertex(place) {
             return self.start_moving_clamped(place, vertex, context);
         }
+        if let Some(leg) = context.hits.leg(place, LEG_REACH) {
+            return self.start_moving_leg(place, leg, context);
+        }
         if let Some(([foot, tip], scale)) = tooth(place, context) {
             self.state = State::Scaling { foot, tip, scale };
             return Vec::new();
-        }
-        if let Some(leg) = context.hits.leg(place, 0.5 * REACH) {
-            let count = vertex_count(leg.curve, context);
-            let ends = [
-                (leg.curve, leg.index),
-                (leg.curve, (leg.index + 1) % count.max(1)),
-            ];
-            return self.move_these(place, leg.point, ends.into(), "Move leg", context);
         }
         self.state = State::Boxing {
             from: place,
@@ -236,12 +234,31 @@ impl SelectTool {
         let held = places.first();
         let held = held.map(|(_, at)| context.viewport.flatten(*at));
         let Some(held) = held else {
-            return vec![locked(hit.0, context)];
+            return vec![refused(hit.0, context)];
         };
         let label = format!("Move {}", count_vertices(taken.len()));
-        let mut effects = self.move_these(place, held, taken.clone(), &label, context);
-        effects.insert(0, Effect::Activate(hit.0));
-        effects.insert(0, Effect::Select(taken));
+        let mut effects = vec![Effect::Select(taken.clone()), Effect::Activate(hit.0)];
+        effects.extend(self.move_these(place, held, taken, &label, context));
+        effects
+    }
+
+    /// A leg moves as its two vertices do: they are selected, or all that is selected goes along
+    /// if both were.
+    fn start_moving_leg(&mut self, place: DVec2, leg: LegHit, context: &Context) -> Vec<Effect> {
+        let count = vertex_count(leg.curve, context).max(1);
+        let ends = [leg.index, (leg.index + 1) % count].map(|index| (leg.curve, index));
+        if context.places(ends).is_empty() {
+            return vec![refused(leg.curve, context)];
+        }
+        let (taken, label) = if ends.iter().all(|end| context.selection.contains(*end)) {
+            let taken: Vec<VertexId> = context.selection.vertices().collect();
+            let label = format!("Move {}", count_vertices(taken.len()));
+            (taken, label)
+        } else {
+            (ends.into(), "Move leg".to_owned())
+        };
+        let mut effects = vec![Effect::Select(taken.clone()), Effect::Activate(leg.curve)];
+        effects.extend(self.move_these(place, leg.point, taken, &label, context));
         effects
     }
 
@@ -257,8 +274,8 @@ impl SelectTool {
         let (Some(held), Some(curve)) = (held, context.before.curve(id)) else {
             return Vec::new();
         };
-        if curve.locked {
-            return vec![locked(id, context)];
+        if curve.check_editable().is_err() {
+            return vec![refused(id, context)];
         }
         self.state = State::MovingClamped(MovingClamped {
             origin: context.model(place),
@@ -279,23 +296,18 @@ impl SelectTool {
         context: &Context,
     ) -> Vec<Effect> {
         let vertices = context.places(taken.iter().copied());
-        let Some(((curve, _), _)) = vertices.first() else {
-            return taken
-                .first()
-                .map(|id| locked(id.0, context))
-                .into_iter()
-                .collect();
-        };
-        let effects = vec![Effect::Activate(*curve), Effect::Begin(label.to_owned())];
         self.state = State::Moving(Moving {
             origin: context.model(place),
             held,
-            moving: taken.into_iter().collect(),
+            carried: Carried {
+                vertices: taken.into_iter().collect(),
+                target: None,
+            },
             planar: context.planar_curves(&vertices),
             vertices,
             snap: None,
         });
-        effects
+        vec![Effect::Begin(label.to_owned())]
     }
 }
 
@@ -331,28 +343,29 @@ fn vertex_count(curve: CurveId, context: &Context) -> usize {
     curve.map_or(0, |curve| curve.polygon.vertices().len())
 }
 
-fn locked(curve: CurveId, context: &Context) -> Effect {
+/// Say why a curve cannot be edited.
+fn refused(curve: CurveId, context: &Context) -> Effect {
     let found = context
         .document
         .curve(curve)
-        .map(|curve| curve.check_unlocked());
+        .map(|curve| curve.check_editable());
     let refused = found.and_then(Result::err);
-    Effect::Say(refused.map_or_else(String::new, |locked| locked.to_string()))
+    Effect::Say(refused.map_or_else(String::new, |refused| refused.to_string()))
 }
 
 fn click(place: DVec2, context: &Context) -> Vec<Effect> {
     if let Some(vertex) = context.hits.vertex(place) {
-        let select = if context.modifiers.shift {
+        return vec![if context.modifiers.shift {
             Effect::ToggleSelected(vertex)
         } else {
             Effect::Select(vec![vertex])
-        };
-        return vec![Effect::Activate(vertex.0), select];
+        }];
     }
     let curve = context.hits.curve(place).map(|hit| hit.curve);
-    let curve = curve.or_else(|| context.hits.leg(place, 0.5 * REACH).map(|hit| hit.curve));
+    let curve = curve.or_else(|| context.hits.leg(place, LEG_REACH).map(|hit| hit.curve));
     match curve {
-        Some(curve) if context.modifiers.shift => vec![Effect::Activate(curve)],
+        // Shift keeps what is selected, and no other curve's vertices than the active one's are.
+        Some(_) if context.modifiers.shift && !context.selection.is_empty() => Vec::new(),
         Some(curve) => vec![Effect::Select(Vec::new()), Effect::Activate(curve)],
         None if context.modifiers.shift => Vec::new(),
         None => vec![Effect::Select(Vec::new())],
@@ -377,7 +390,7 @@ fn movement(
     origin: DVec2,
     held: DVec2,
     place: DVec2,
-    moving: &BTreeSet<VertexId>,
+    carried: &Carried,
     context: &Context,
 ) -> (DVec2, Option<DVec2>) {
     let free = context.model(place) - origin;
@@ -388,14 +401,15 @@ fn movement(
         return (along_axis(free), None);
     }
     let wanted = held + free;
-    let snapped = context.snapped(wanted, moving);
+    let snapped = context.snapped(wanted, carried);
     let snap = (snapped != wanted).then_some(snapped);
     (snap.map_or(free, |snap| snap - held), snap)
 }
 
-/// Find the tooth of the comb whose tip is under a place.
+/// Find the tooth of the comb whose tip is under a place. Beside a vertex it was the vertex that
+/// was aimed at.
 fn tooth(place: DVec2, context: &Context) -> Option<([DVec2; 2], f64)> {
-    if !context.hits.layers.shows(Layer::Comb) {
+    if !context.hits.layers.shows(Layer::Comb) || context.hits.is_beside_vertex(place) {
         return None;
     }
     let distance = |tooth: &[DVec2; 2]| context.viewport.to_screen(tooth[1]).distance(place);
@@ -425,22 +439,15 @@ fn nudge(key: Key, context: &Context) -> Vec<Effect> {
     };
     let vertices = context.places(context.selection.vertices());
     let planar = context.planar_curves(&vertices);
-    let Some(((curve, _), _)) = vertices.first() else {
-        return context
-            .selection
-            .vertices()
-            .next()
-            .map(|id| locked(id.0, context))
-            .into_iter()
-            .collect();
-    };
+    if vertices.is_empty() {
+        let first = context.selection.vertices().next();
+        let refused = first.map(|id| refused(id.0, context));
+        return refused.into_iter().collect();
+    }
     let label = format!("Nudge {}", count_vertices(vertices.len()));
     let places = vertices.iter().map(|(id, at)| {
         let by = context.movement(direction * step, planar.contains(&id.0));
         (*id, *at + by)
     });
-    vec![
-        Effect::Activate(*curve),
-        Effect::Apply(label, move_edits(places)),
-    ]
+    vec![Effect::Apply(label, move_edits(places))]
 }

@@ -12,7 +12,7 @@ use crate::editor::hit::HitTest;
 use crate::editor::input::Modifiers;
 use crate::editor::scene::Mark;
 use crate::editor::selection::{Selection, VertexId};
-use crate::editor::snapping;
+use crate::editor::snapping::{self, Carried};
 use crate::editor::viewport::Viewport;
 
 /// What a tool may look at. It changes nothing itself: it returns [`Effect`]s.
@@ -94,6 +94,15 @@ pub trait Tool: std::fmt::Debug + Send {
         Cursor::Crosshair
     }
 
+    /// What undo takes back before it takes back a step of the document: the last point of what
+    /// is not finished.
+    fn undo_label(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// Take back the last point of what is not finished.
+    fn undo(&mut self) {}
+
     /// The pivot, of a tool that has one.
     fn pivot(&self, _context: &Context) -> Option<DVec2> {
         None
@@ -145,16 +154,22 @@ impl Context<'_> {
         self.viewport.to_model(place)
     }
 
-    /// Let a point snap, if snapping is on and something is near.
-    pub fn snapped(&self, point: DVec2, moving: &BTreeSet<VertexId>) -> DVec2 {
-        if self.snapping == self.modifiers.ctrl {
-            return point;
-        }
-        snapping::snap(point, self.before, moving, self.viewport).unwrap_or(point)
+    /// Let a place of the view plane snap, if snapping is on and something is near.
+    pub fn snapped(&self, place: DVec2, carried: &Carried) -> DVec2 {
+        let point = self.snapped_point(place, carried);
+        point.map_or(place, |point| self.viewport.flatten(point))
+    }
+
+    /// The point of the model that a place of the view plane snaps to, if snapping is on and
+    /// something is near.
+    pub fn snapped_point(&self, place: DVec2, carried: &Carried) -> Option<DVec3> {
+        let snaps = self.snapping != self.modifiers.ctrl;
+        let near = || snapping::snap(place, self.before, carried, self.viewport);
+        snaps.then(near).flatten()
     }
 
     /// The vertices that a transformation takes: the selected ones that can be moved, or all of
-    /// the active curve if none is selected.
+    /// the active curve if none is selected. What is hidden is left out.
     pub fn transformed(&self) -> Vec<(VertexId, DVec3)> {
         let chosen: Vec<VertexId> = if self.selection.is_empty() {
             let active = self
@@ -171,10 +186,12 @@ impl Context<'_> {
         self.places(chosen)
     }
 
-    /// Look up where vertices were when the gesture began; those of locked curves are left out.
+    /// Look up where vertices were when the gesture began; those of locked and of hidden curves
+    /// are left out.
     pub fn places(&self, vertices: impl IntoIterator<Item = VertexId>) -> Vec<(VertexId, DVec3)> {
         let place = |(curve, index): VertexId| {
-            let found = self.before.curve(curve).filter(|curve| !curve.locked)?;
+            let found = self.before.curve(curve)?;
+            found.check_editable().ok()?;
             let vertex = found.polygon.vertices().get(index)?;
             Some(((curve, index), *vertex))
         };

@@ -1,7 +1,5 @@
 //! Rotate and scale the selection about a movable pivot.
 
-use std::collections::BTreeSet;
-
 use glam::{DVec2, DVec3};
 
 use super::tool::{Context, Effect, Tool, count_vertices, move_edits};
@@ -11,8 +9,12 @@ use crate::editor::hit::REACH;
 use crate::editor::input::Key;
 use crate::editor::scene::Mark;
 use crate::editor::selection::VertexId;
-use crate::editor::snapping::by_fifteen_degrees;
+use crate::editor::snapping::{Carried, by_fifteen_degrees};
 use crate::editor::viewport::Viewport;
+
+/// What is said where there is nothing to rotate or scale.
+pub const NOTHING_TO_TRANSFORM: &str =
+    "Nothing to transform: select vertices, or a curve that is neither locked nor hidden";
 
 /// What a drag does to the vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,26 +63,18 @@ impl TransformTool {
     fn start(&mut self, place: DVec2, context: &Context) -> Vec<Effect> {
         let vertices = context.transformed();
         let Some(pivot) = self.pivot(context) else {
-            return vec![Effect::Say(
-                "There is nothing to take: select vertices, or a curve that is not locked".into(),
-            )];
+            return vec![Effect::Say(NOTHING_TO_TRANSFORM.into())];
         };
         let from_pivot = context.viewport.to_screen(pivot).distance(place);
         if from_pivot <= REACH {
             self.state = State::MovingPivot { before: self.pivot };
             return Vec::new();
         }
-        let Some(((curve, _), _)) = vertices.first() else {
-            return vec![Effect::Say(
-                "The curve is locked: unlock it in the list of curves".into(),
-            )];
-        };
         let verb = match self.transform {
             Transform::Rotate => "Rotate",
             Transform::Scale => "Scale",
         };
         let label = format!("{verb} {}", count_vertices(vertices.len()));
-        let effects = vec![Effect::Activate(*curve), Effect::Begin(label)];
         let origin = context.model(place);
         self.state = State::Turning {
             pivot,
@@ -89,7 +83,7 @@ impl TransformTool {
             now: origin,
             label: String::new(),
         };
-        effects
+        vec![Effect::Begin(label)]
     }
 
     /// What the drag from `origin` to `now` does, with a label of it.
@@ -157,7 +151,7 @@ impl Tool for TransformTool {
             (State::Idle, Gesture::DragStart(place)) => self.start(place, context),
             (State::Idle, Gesture::Click(place)) => match context.hits.vertex(place) {
                 Some(vertex) if context.modifiers.shift => vec![Effect::ToggleSelected(vertex)],
-                Some(vertex) => vec![Effect::Activate(vertex.0), Effect::Select(vec![vertex])],
+                Some(vertex) => vec![Effect::Select(vec![vertex])],
                 None => Vec::new(),
             },
             (State::Idle, Gesture::DoubleClick(_)) => {
@@ -166,7 +160,7 @@ impl Tool for TransformTool {
             }
             (State::Idle, Gesture::Key(Key::Escape)) => vec![Effect::Finish],
             (State::MovingPivot { before }, Gesture::Drag(place)) => {
-                self.pivot = Some(context.snapped(context.model(place), &BTreeSet::new()));
+                self.pivot = Some(context.snapped(context.model(place), &Carried::default()));
                 self.state = State::MovingPivot { before };
                 Vec::new()
             }

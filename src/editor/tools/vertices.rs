@@ -1,7 +1,5 @@
 //! Tools that change the number of vertices: add at an end, insert into a leg, delete.
 
-use std::collections::BTreeSet;
-
 use glam::{DVec2, DVec3};
 
 use super::tool::{Context, Effect, Tool};
@@ -10,6 +8,7 @@ use crate::editor::gesture::Gesture;
 use crate::editor::hit::LegHit;
 use crate::editor::polygon_edits::{inserted, without};
 use crate::editor::scene::Mark;
+use crate::editor::snapping::Carried;
 use crate::geometry::{End, FloatPolygon};
 
 /// Legs are found from this far, in screen points, when a vertex shall be inserted.
@@ -65,7 +64,7 @@ impl Adding {
         match (gesture, slot.as_ref()) {
             (Gesture::Drag(place), Some(adding)) => {
                 // It was not there before, so every vertex may attract it.
-                let at = context.snapped(context.model(place), &BTreeSet::new());
+                let at = context.snapped(context.model(place), &Carried::default());
                 vec![adding.preview(at, context)]
             }
             (Gesture::DragEnd(_), Some(_)) => {
@@ -90,14 +89,8 @@ impl AddVertexTool {
             return Err("There is no curve to add to: draw one with D".into());
         };
         found
-            .check_unlocked()
-            .map_err(|locked| locked.to_string())?;
-        if !found.visible {
-            return Err(format!(
-                "“{}” is hidden: show it in the list of curves",
-                found.name
-            ));
-        }
+            .check_editable()
+            .map_err(|refused| refused.to_string())?;
         let polygon = found.polygon.clone();
         let count = polygon.vertices().len();
         let distance = |index: usize| context.viewport.flatten(polygon.vertex(index)).distance(at);
@@ -126,7 +119,7 @@ impl Tool for AddVertexTool {
         let (Gesture::Click(place) | Gesture::DragStart(place)) = gesture else {
             return Adding::next(&mut self.adding, gesture, context);
         };
-        let at = context.snapped(context.model(place), &BTreeSet::new());
+        let at = context.snapped(context.model(place), &Carried::default());
         match self.plan(at, context) {
             Err(reason) => vec![Effect::Say(reason)],
             Ok((adding, _)) if matches!(gesture, Gesture::Click(_)) => {
@@ -157,7 +150,7 @@ impl Tool for AddVertexTool {
         let (None, Some(pointer)) = (&self.adding, context.pointer) else {
             return Vec::new();
         };
-        let at = context.snapped(pointer, &BTreeSet::new());
+        let at = context.snapped(pointer, &Carried::default());
         let Ok((adding, _)) = self.plan(at, context) else {
             return Vec::new();
         };
@@ -179,8 +172,8 @@ impl InsertTool {
             return Err(String::new());
         };
         found
-            .check_unlocked()
-            .map_err(|locked| locked.to_string())?;
+            .check_editable()
+            .map_err(|refused| refused.to_string())?;
         let vertices = found.polygon.vertices();
         let ends = vertices
             .get(hit.index)
@@ -273,6 +266,7 @@ fn delete(curve: CurveId, index: usize, context: &Context) -> Vec<Effect> {
                 Effect::Select(Vec::new()),
                 Effect::Activate(curve),
                 Effect::Apply("Delete vertex".into(), vec![edit]),
+                Effect::Say(format!("Vertex {index} of “{}” deleted", found.name)),
             ]
         }
         Err(reason) => vec![Effect::Say(format!("“{}”: {reason}", found.name))],

@@ -1,0 +1,126 @@
+//! Deleting: only what is seen selected, never a curve by a command for vertices.
+
+use batten::editor::{Command, Key, Modifiers, Request, ToolKind};
+use glam::DVec2;
+
+use super::script::Script;
+use super::several::two;
+
+#[test]
+fn after_a_leg_of_another_curve_is_dragged_delete_takes_nothing_unseen() {
+    let (mut script, [arc, other]) = two();
+    script.editor.activate(other);
+    script.command(Command::SelectAll);
+    assert_eq!(script.selected().len(), 9);
+    let middle = 0.5 * (script.at_vertex_of(arc, 4) + script.at_vertex_of(arc, 5));
+    script.drag(middle, middle + DVec2::new(20.0, -10.0));
+    assert_eq!(script.curve(), arc);
+    assert_eq!(script.selected(), [4, 5]);
+    let before = script.editor.document().clone();
+    script.command(Command::Delete);
+    // Eight vertices would be no curve of degree 9: nothing changes, and nothing of the other.
+    assert!(script.editor.document().is_same(&before));
+    assert!(script.message().contains("too few"), "{}", script.message());
+}
+
+#[test]
+fn delete_and_cut_without_a_selection_name_the_command_for_curves() {
+    for command in [Command::Delete, Command::Cut] {
+        let mut script = Script::example("hull");
+        let before = script.editor.document().clone();
+        assert_eq!(script.editor.execute(command), None);
+        assert!(script.editor.document().is_same(&before));
+        let message = script.message();
+        assert!(message.contains("Delete curve"), "{message}");
+        script.command(Command::SelectAll);
+        assert_eq!(script.editor.execute(command), None);
+        assert!(script.editor.document().is_same(&before));
+        let message = script.message();
+        assert!(message.contains("Delete curve"), "{message}");
+    }
+}
+
+#[test]
+fn every_deletion_offers_to_be_undone() {
+    let offers = |script: &Script| {
+        let message = script.editor.message();
+        message.is_some_and(|message| message.offers_undo && !message.is_error)
+    };
+    let mut script = Script::example("hull");
+    let before = script.polygon();
+    script.click(script.at_vertex(3));
+    assert!(!offers(&script));
+    script.command(Command::Delete);
+    assert!(offers(&script), "{}", script.message());
+    assert!(
+        script.message().starts_with("1 vertex"),
+        "{}",
+        script.message()
+    );
+    script.command(Command::Undo);
+    assert!(!offers(&script));
+    script.click(script.at_vertex(3));
+    assert!(matches!(
+        script.editor.execute(Command::Cut),
+        Some(Request::CopyText(_))
+    ));
+    assert!(offers(&script), "{}", script.message());
+    script.command(Command::Undo);
+    script.tool(ToolKind::Delete);
+    script.click(script.at_vertex(3));
+    assert!(offers(&script), "{}", script.message());
+    assert_eq!(script.editor.history().undo_steps(), 1);
+    script.command(Command::Undo);
+    assert_eq!(script.polygon(), before);
+    script.command(Command::DeleteCurve);
+    assert!(script.editor.document().is_empty());
+    assert!(offers(&script), "{}", script.message());
+    script.command(Command::Undo);
+    assert_eq!(script.polygon(), before);
+}
+
+#[test]
+fn a_deletion_that_is_refused_offers_nothing() {
+    let mut script = Script::example("hull");
+    script.command(Command::ToggleLocked);
+    script.tool(ToolKind::Delete);
+    script.click(script.at_vertex(3));
+    let message = script.editor.message().expect("a message");
+    assert!(message.is_error && !message.offers_undo, "{message:?}");
+    assert!(message.text.contains("locked"), "{message:?}");
+}
+
+#[test]
+fn taking_the_last_vertex_of_the_active_curve_from_the_selection_activates_the_other() {
+    let (mut script, [arc, other]) = two();
+    script.click(script.at_vertex_of(arc, 0));
+    script.modifiers(Modifiers::SHIFT);
+    script.click(script.at_vertex_of(other, 8));
+    assert_eq!(script.curve(), other);
+    script.click(script.at_vertex_of(other, 8));
+    assert_eq!(script.curve(), arc);
+    assert_eq!(script.selected(), [0]);
+}
+
+#[test]
+fn shift_click_on_another_curve_keeps_the_selection_and_its_curve() {
+    let (mut script, [arc, other]) = two();
+    script.click(script.at_vertex_of(arc, 0));
+    script.modifiers(Modifiers::SHIFT);
+    let polygon = script.editor.document().curve(other).expect("a curve");
+    let place = polygon.polygon.point(2.3).truncate();
+    script.click(script.editor.viewport().to_screen(place));
+    assert_eq!(script.curve(), arc);
+    assert_eq!(script.selected(), [0]);
+    script.key(Key::Escape);
+}
+
+#[test]
+fn hiding_the_active_curve_leaves_no_unseen_selection() {
+    let (mut script, [arc, other]) = two();
+    script.command(Command::SelectAll);
+    script.command(Command::SelectAll);
+    script.editor.set_visible(arc, false);
+    assert_eq!(script.curve(), other);
+    assert_eq!(script.selected().len(), 9);
+}

@@ -1,0 +1,207 @@
+//! Drawing polygons and measuring: hasty clicks, undo, the first curve of a document.
+
+use batten::analysis::CombSettings;
+use batten::editor::{Command, Input, Key, Modifiers, NamedView, ToolKind};
+use glam::{DVec2, DVec3};
+
+use super::script::Script;
+
+const CORNERS: [DVec2; 5] = [
+    DVec2::new(200.0, 500.0),
+    DVec2::new(300.0, 200.0),
+    DVec2::new(500.0, 180.0),
+    DVec2::new(700.0, 250.0),
+    DVec2::new(800.0, 520.0),
+];
+
+fn drawing() -> Script {
+    let mut script = Script::example("arc");
+    script.command(Command::New);
+    script.tool(ToolKind::Draw);
+    for corner in CORNERS {
+        script.click(corner);
+    }
+    script
+}
+
+#[test]
+fn a_hasty_click_on_the_first_vertex_closes_the_polygon() {
+    for (from, to) in [
+        (DVec2::new(2.0, 1.0), DVec2::new(6.0, 1.0)),
+        (DVec2::new(7.0, 0.0), DVec2::new(11.0, 0.0)),
+        (DVec2::new(11.0, 0.0), DVec2::new(6.0, 0.0)),
+    ] {
+        let mut script = drawing();
+        script.drag(CORNERS[0] + from, CORNERS[0] + to);
+        assert_eq!(script.editor.document().len(), 1);
+        assert!(script.polygon().is_periodic());
+        assert_eq!(script.polygon().vertices().len(), CORNERS.len());
+    }
+    // A real drag from the first vertex sets a vertex where it ends.
+    let mut script = drawing();
+    script.drag(CORNERS[0], CORNERS[0] + DVec2::new(150.0, -20.0));
+    script.key(Key::Enter);
+    assert_eq!(script.polygon().vertices().len(), CORNERS.len() + 1);
+    assert!(!script.polygon().is_periodic());
+}
+
+#[test]
+fn undo_takes_back_the_last_point_before_any_step_of_the_document() {
+    let mut script = Script::example("hull");
+    script.drag_vertex(2, DVec2::new(10.0, 20.0));
+    let before = script.polygon();
+    script.tool(ToolKind::Draw);
+    for corner in CORNERS {
+        script.click(corner);
+    }
+    assert_eq!(script.editor.label(Command::Undo), "Undo last point");
+    script.command(Command::Undo);
+    assert_eq!(script.polygon(), before);
+    script.key(Key::Enter);
+    assert_eq!(script.polygon().vertices().len(), CORNERS.len() - 1);
+    script.command(Command::Undo);
+    script.command(Command::Undo);
+    assert_ne!(script.polygon(), before);
+}
+
+#[test]
+fn undo_is_offered_for_points_in_an_empty_document_too() {
+    let mut script = drawing();
+    assert!(script.editor.is_enabled(Command::Undo));
+    for _ in CORNERS {
+        script.command(Command::Undo);
+    }
+    assert!(!script.editor.is_enabled(Command::Undo));
+    script.key(Key::Enter);
+    assert!(script.editor.document().is_empty());
+}
+
+#[test]
+fn the_first_curve_that_is_drawn_is_fitted_with_a_comb_of_its_own() {
+    let mut script = Script::example("periodic");
+    script.editor.set_comb(CombSettings {
+        scale: 1e5,
+        density: 3,
+    });
+    script.command(Command::New);
+    assert_eq!(script.editor.comb(), CombSettings::default());
+    script.tool(ToolKind::Draw);
+    // Small, in a corner.
+    for corner in CORNERS {
+        script.click(0.1 * corner);
+    }
+    script.key(Key::Enter);
+    let view = *script.editor.viewport();
+    let seen = |index| view.to_screen(script.polygon().vertex(index).truncate());
+    assert!(seen(0).distance(seen(4)) > 0.3 * view.size.x);
+    assert_ne!(script.editor.comb().scale, CombSettings::default().scale);
+    // The second one leaves the view as it is.
+    script.tool(ToolKind::Draw);
+    for corner in CORNERS {
+        script.click(0.1 * corner);
+    }
+    script.key(Key::Enter);
+    assert_eq!(*script.editor.viewport(), view);
+}
+
+/// The distance that the measure tool tells.
+fn told(script: &Script) -> f64 {
+    let hint = script.editor.hint();
+    let first = hint.split_whitespace().next().expect("a figure");
+    first.parse().expect("a number")
+}
+
+#[test]
+fn a_measurement_stays_true_from_another_side() {
+    let mut script = Script::example("arc");
+    script.tool(ToolKind::Measure);
+    script.click(DVec2::new(200.0, 500.0));
+    script.click(DVec2::new(500.0, 350.0));
+    let hint = script.editor.hint();
+    let expected = DVec2::new(300.0, 150.0) / script.editor.viewport().scale;
+    assert!((told(&script) - expected.length()).abs() < 1e-5);
+    assert!(hint.contains(" dx ") && hint.contains(" dy "), "{hint}");
+    for view in NamedView::ALL {
+        script.command(Command::View(view));
+        assert_eq!(script.editor.hint(), hint);
+    }
+}
+
+#[test]
+fn between_vertices_in_space_the_distance_is_that_in_space() {
+    let mut script = Script::example("arc");
+    let curve = script.curve();
+    let moves = vec![(0, script.polygon().vertex(0) + DVec3::new(0.0, 0.0, 7.0))];
+    let edit = batten::document::Edit::MoveVertices { curve, moves };
+    script.editor.apply("lift", vec![edit]);
+    script.command(Command::ToggleSnapping);
+    script.tool(ToolKind::Measure);
+    script.click(script.at_vertex(0));
+    script.click(script.at_vertex(9));
+    let expected = script
+        .polygon()
+        .vertex(0)
+        .distance(script.polygon().vertex(9));
+    assert!(
+        (told(&script) - expected).abs() < 1e-5,
+        "{}",
+        script.editor.hint()
+    );
+    assert!(
+        script.editor.hint().contains(" dz "),
+        "{}",
+        script.editor.hint()
+    );
+}
+
+#[test]
+fn hasty_clicks_measure_as_clicks_do() {
+    let mut script = Script::example("arc");
+    script.tool(ToolKind::Measure);
+    let (from, to) = (DVec2::new(200.0, 500.0), DVec2::new(500.0, 350.0));
+    let jerk = DVec2::new(4.0, 0.0);
+    script.drag(from, from + jerk);
+    script.drag(to - jerk, to);
+    let expected = (to - from).length() / script.editor.viewport().scale;
+    assert!(
+        (told(&script) - expected).abs() < 1e-5,
+        "{}",
+        script.editor.hint()
+    );
+    // By a drag.
+    script.drag(to, from);
+    assert!(
+        (told(&script) - expected).abs() < 1e-5,
+        "{}",
+        script.editor.hint()
+    );
+    // Undo takes back a first point that waits for the second.
+    script.click(from);
+    let steps = script.editor.history().undo_steps();
+    script.command(Command::Undo);
+    assert_eq!(script.editor.history().undo_steps(), steps);
+    assert!(script.editor.hint().starts_with("Click two points"));
+}
+
+#[test]
+fn a_key_that_is_held_makes_one_step() {
+    let mut script = Script::example("hull");
+    script.click(script.at_vertex(3));
+    let before = script.polygon();
+    script.key(Key::Right);
+    let once = script.polygon().vertex(3).x - before.vertex(3).x;
+    for _ in 0..20 {
+        script.input(Input::KeyRepeated(Key::Right));
+    }
+    let moved = script.polygon().vertex(3).x - before.vertex(3).x;
+    assert!((moved / once - 21.0).abs() < 1e-9, "{moved} against {once}");
+    assert_eq!(script.editor.history().undo_steps(), 1);
+    // Released and pressed again it is another step.
+    script.key(Key::Right);
+    script.input(Input::KeyRepeated(Key::Right));
+    assert_eq!(script.editor.history().undo_steps(), 2);
+    script.command(Command::Undo);
+    script.command(Command::Undo);
+    assert_eq!(script.polygon(), before);
+    script.modifiers(Modifiers::NONE);
+}
