@@ -53,7 +53,7 @@ pub fn message_ui(
                     let text = RichText::new(&message.text).color(tokens.text);
                     ui.add(Label::new(text).wrap().selectable(true));
                 });
-                if message.offers_undo && ui.button("Undo").clicked() {
+                if message.offers_undo && ui.small_button("Undo").clicked() {
                     commands.push(Command::Undo);
                 }
                 IconButton::new(Icon::X, "Dismiss message")

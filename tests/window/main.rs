@@ -1,6 +1,7 @@
 //! The window, driven through the labels that a screen reader reads: no display, no renderer.
 #![cfg(feature = "gui")]
 
+mod canvas;
 mod files;
 mod hand;
 
