@@ -1,5 +1,6 @@
 //! Operations that keep the curve, and dragging the closed S-polygon.
 
+use batten::document::Edit;
 use batten::editor::{Command, Division, HoverScene, Key};
 use batten::geometry::{ClampedPolygon, End, FloatPolygon, PolygonKind};
 use glam::{DVec2, DVec3};
@@ -201,4 +202,33 @@ fn a_periodic_curve_says_why_its_closed_polygon_cannot_be_dragged() {
         "{}",
         script.message()
     );
+}
+
+#[test]
+fn rounding_and_dividing_prove_no_more_than_a_frame_has_time_for() {
+    // More segments than are proved at once, and few enough for the former limit on dividing.
+    let points: Vec<(f64, f64)> = (0..990)
+        .map(|i| (f64::from(i), 10.0 * (0.05 * f64::from(i)).sin()))
+        .collect();
+    let weights = (0..990).map(|i| 1.0 + 0.1 * f64::from(i % 3)).collect();
+    let planar = FloatPolygon::planar(3, &points).expect("a polygon");
+    let vertices = planar.vertices().to_vec();
+    let polygon = FloatPolygon::new(3, vertices, Some(weights), false).expect("a polygon");
+    let mut script = Script::example("arc");
+    let curve = script.curve();
+    let edit = Edit::SetPolygon { curve, polygon };
+    script.editor.apply("long", vec![edit]);
+    let mut report = script
+        .editor
+        .try_rounding(PolygonKind::Float, 2)
+        .expect("rounded");
+    assert_eq!(report.extrema(), [None, None]);
+    let counts = std::iter::repeat_with(|| report.extrema()).take(100);
+    let counts = counts.last().expect("counts");
+    assert!(counts.iter().all(Option::is_some), "{counts:?}");
+    script.editor.round(PolygonKind::Float, 2);
+    let still = |script: &Script| script.message().contains("still being proved");
+    assert!(still(&script), "{}", script.message());
+    script.editor.divide(Division::Split(500.0), 0);
+    assert!(still(&script), "{}", script.message());
 }
