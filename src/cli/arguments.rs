@@ -1,40 +1,50 @@
 //! What can be written on the command line.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{Parser, Subcommand};
+use clap::error::ErrorKind;
+use clap::{CommandFactory, Error, Parser, Subcommand};
 
+use super::ends::{Destination, Source};
+use crate::document::quoted;
 use crate::geometry::PolygonKind;
+use crate::io::Format;
 use crate::io::examples::{EXAMPLES, Example};
+
+/// How like a command a word must be to be taken for one misspelled, as 0 to 1.
+const LEAST_LIKENESS: f64 = 0.7;
 
 /// Shape fair curves by their float S-polygons.
 #[derive(Debug, Parser)]
 #[command(name = "batten", version, args_conflicts_with_subcommands = true)]
 #[command(
-    after_help = "Formats are told by their extensions: .batten and .csv are read and written, .dxf is written.\nExit codes: 0 done; 1 bad input, with a message that names file and place; 2 bad usage."
+    after_help = "Formats are told by their extensions: .batten and .csv are read and written, .dxf is written.\n“-” stands for the standard input and output; --from-format and --to-format tell the format then.\nExit codes: 0 done; 1 bad input, with a message that names file and place; 2 bad usage."
 )]
 pub(super) struct Arguments {
     #[command(subcommand)]
-    pub(super) command: Option<Command>,
+    command: Option<Command>,
 
     /// Files to open in the editor; without any, the built-in arc
     #[arg(value_name = "FILE")]
-    pub(super) files: Vec<PathBuf>,
+    files: Vec<PathBuf>,
 }
 
 #[derive(Debug, Subcommand)]
-pub(super) enum Command {
+enum Command {
     /// Write a built-in example to a file
     Example {
         /// The example's name
         #[arg(value_parser = example_parser(), required_unless_present = "list")]
         name: Option<Example>,
-        /// The file to write; its extension tells the format
+        /// The file to write, or - for the standard output; its extension tells the format
         #[arg(required_unless_present = "list")]
         out: Option<PathBuf>,
+        /// The format to write, whatever the file's extension; needed for the standard output
+        #[arg(long, value_name = "FORMAT", value_parser = format_parser(Format::writable()))]
+        to_format: Option<Format>,
         /// List the examples instead
-        #[arg(long, conflicts_with_all = ["name", "out"])]
+        #[arg(long, conflicts_with_all = ["name", "out", "to_format"])]
         list: bool,
     },
     /// Recompute the paper's Table 1: how near B-spline and Bézier segments come to a circle
@@ -46,12 +56,18 @@ pub(super) enum Command {
     },
     /// Convert a file to another format; what the format cannot hold is listed on stderr
     Convert {
-        /// The file to read; its extension tells the format
+        /// The file to read, or - for the standard input; its extension tells the format
         #[arg(value_name = "IN")]
         input: PathBuf,
-        /// The file to write; its extension tells the format
+        /// The file to write, or - for the standard output; its extension tells the format
         #[arg(value_name = "OUT")]
         out: PathBuf,
+        /// The format to read, whatever the file's extension; needed for the standard input
+        #[arg(long, value_name = "FORMAT", value_parser = format_parser(Format::readable()))]
+        from_format: Option<Format>,
+        /// The format to write, whatever the file's extension; needed for the standard output
+        #[arg(long, value_name = "FORMAT", value_parser = format_parser(Format::writable()))]
+        to_format: Option<Format>,
         /// The polygon to write
         ///
         /// .batten and .csv: the polygon that holds each curve (without the option: float). A
@@ -61,11 +77,17 @@ pub(super) enum Command {
         /// clamped); the curve itself is always a spline on clamped knots.
         #[arg(long, value_parser = polygon_parser())]
         polygon: Option<PolygonKind>,
+        /// Write a polygon even if it cannot be read back as the curve
+        #[arg(long)]
+        force: bool,
     },
     /// Print the curves of a file as JSON, with full double precision
     Inspect {
-        /// The file to read; its extension tells the format
+        /// The file to read, or - for the standard input; its extension tells the format
         file: PathBuf,
+        /// The format to read, whatever the file's extension; needed for the standard input
+        #[arg(long, value_name = "FORMAT", value_parser = format_parser(Format::readable()))]
+        from_format: Option<Format>,
         /// Parameters at which to evaluate every curve, each from 0 to the number of segments
         #[arg(
             long,
@@ -76,6 +98,131 @@ pub(super) enum Command {
         )]
         at: Vec<f64>,
     },
+}
+
+/// What is to be done.
+pub(super) enum Task {
+    /// Open the editor with these files.
+    Editor(Vec<PathBuf>),
+    /// List the examples.
+    Examples,
+    /// Write an example.
+    Example(Example, Destination),
+    /// Recompute Table 1.
+    Table1 {
+        /// As JSON.
+        json: bool,
+    },
+    /// Convert a file.
+    Convert {
+        /// What is read.
+        source: Source,
+        /// What is written.
+        destination: Destination,
+        /// The polygon to write.
+        polygon: Option<PolygonKind>,
+        /// Whether to write what cannot be read back.
+        force: bool,
+    },
+    /// Print curves in figures.
+    Inspect {
+        /// What is read.
+        source: Source,
+        /// The parameters at which curves are evaluated.
+        at: Vec<f64>,
+    },
+}
+
+impl Arguments {
+    /// Check what the arguments mean together.
+    ///
+    /// # Errors
+    /// The usage, if a word is neither a command nor a file, or a format is missing.
+    pub(super) fn checked(self) -> Result<Task, Error> {
+        let source = |name, path, format| {
+            let needed = "--from-format says what the standard input holds, and is needed with “-”";
+            Source::new(path, format).ok_or_else(|| missing(name, needed))
+        };
+        let destination = |name, path, format| {
+            let needed = "--to-format says what the standard output gets, and is needed with “-”";
+            Destination::new(path, format).ok_or_else(|| missing(name, needed))
+        };
+        Ok(match self.command {
+            None => Task::Editor(files(self.files)?),
+            Some(Command::Example {
+                name: Some(example),
+                out: Some(out),
+                to_format,
+                ..
+            }) => Task::Example(example, destination("example", out, to_format)?),
+            Some(Command::Example { .. }) => Task::Examples,
+            Some(Command::Table1 { json }) => Task::Table1 { json },
+            Some(Command::Convert {
+                input,
+                out,
+                from_format,
+                to_format,
+                polygon,
+                force,
+            }) => Task::Convert {
+                source: source("convert", input, from_format)?,
+                destination: destination("convert", out, to_format)?,
+                polygon,
+                force,
+            },
+            Some(Command::Inspect {
+                file,
+                from_format,
+                at,
+            }) => Task::Inspect {
+                source: source("inspect", file, from_format)?,
+                at,
+            },
+        })
+    }
+}
+
+/// Take files to open, unless the first is a word that can only be a command misspelled.
+fn files(files: Vec<PathBuf>) -> Result<Vec<PathBuf>, Error> {
+    let Some(word) = files.first().filter(|path| is_bare_word(path)) else {
+        return Ok(files);
+    };
+    let word = word.to_string_lossy();
+    let mut text = format!("{} is neither a command nor a file", quoted(&word));
+    let mut command = Arguments::command();
+    if let Some(similar) = similar_command(&command, &word) {
+        text += &format!("\n\n  tip: a command with a similar name is “{similar}”");
+    }
+    Err(command.error(ErrorKind::InvalidSubcommand, text))
+}
+
+/// Whether a path is a single word that names no file: without an extension it could not be
+/// opened either.
+fn is_bare_word(path: &Path) -> bool {
+    path.components().count() == 1 && path.extension().is_none() && !path.exists()
+}
+
+fn similar_command(command: &clap::Command, word: &str) -> Option<String> {
+    let names = command.get_subcommands().map(clap::Command::get_name);
+    let rated = names.map(|name| (strsim::jaro(name, word), name));
+    let near = rated.filter(|(likeness, _)| *likeness > LEAST_LIKENESS);
+    let best = near.max_by(|a, b| a.0.total_cmp(&b.0));
+    best.map(|(_, name)| name.to_owned())
+}
+
+fn missing(subcommand: &str, text: &str) -> Error {
+    let mut command = Arguments::command();
+    command.build();
+    let command = command.find_subcommand_mut(subcommand);
+    match command {
+        Some(command) => command.error(ErrorKind::MissingRequiredArgument, text),
+        None => Arguments::command().error(ErrorKind::MissingRequiredArgument, text),
+    }
+}
+
+fn format_parser(formats: impl Iterator<Item = Format>) -> impl TypedValueParser<Value = Format> {
+    let names = PossibleValuesParser::new(formats.map(Format::extension));
+    names.try_map(|name| Format::find(&name).ok_or("no such format"))
 }
 
 fn example_parser() -> impl TypedValueParser<Value = Example> {

@@ -1,17 +1,16 @@
 //! `batten inspect`: curves as JSON.
 
-use std::path::Path;
-
 use anyhow::bail;
 use glam::DVec3;
 use serde::Serialize;
 
+use super::ends::Source;
 use super::feature_lists::FeatureLists;
 use super::output;
 use crate::document::Curve;
 use crate::geometry::features::Features;
 use crate::geometry::{ClampedPolygon, End, FloatPolygon, Jet};
-use crate::io::{Place, disk, json_layout};
+use crate::io::{Place, json_layout};
 
 /// Levels of curvature and torsion that are printed.
 const LEVELS: usize = 3;
@@ -20,15 +19,15 @@ const LEVELS: usize = 3;
 const LENGTH_TOLERANCE: f64 = 1e-13;
 
 /// Print the curves of a file, evaluated at some parameters.
-pub(super) fn run(file: &Path, at: &[f64]) -> anyhow::Result<()> {
-    let curves = disk::read_file(file)?;
+pub(super) fn run(source: &Source, at: &[f64]) -> anyhow::Result<()> {
+    let curves = source.read()?.curves;
     for (index, curve) in curves.iter().enumerate() {
         let last = curve.polygon.segments() as f64;
         if let Some(u) = at.iter().find(|u| !(0.0..=last).contains(*u)) {
             let place = Place::curve(index + 1, &curve.name);
             bail!(
                 "{}: {place}: the parameter {u} of --at lies outside the curve's domain, 0 to {last}",
-                file.display()
+                source.name()
             );
         }
     }

@@ -2,21 +2,22 @@
 //! holds no logic of its own.
 
 mod arguments;
+mod convert;
+mod ends;
 mod feature_lists;
 mod inspect;
 mod output;
 
 use std::ffi::OsString;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
 
-use crate::geometry::PolygonKind;
 use crate::geometry::circle_comparison::CircleComparison;
 use crate::io::examples::{EXAMPLES, Example};
-use crate::io::{LossReport, disk, json_layout};
-use arguments::{Arguments, Command};
+use crate::io::json_layout;
+use arguments::{Arguments, Task};
 
 /// What the command line asks for.
 #[derive(Debug)]
@@ -32,25 +33,24 @@ pub enum Request {
 /// The exit code is 0, or 1 with a message that names file and place, or 2 with the usage if
 /// the arguments are not understood. A reader of the output that goes away early is no error.
 pub fn run(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> Request {
-    let arguments = match Arguments::try_parse_from(arguments) {
-        Ok(arguments) => arguments,
+    let result = match Arguments::try_parse_from(arguments).and_then(Arguments::checked) {
+        Ok(Task::Editor(files)) => return Request::Editor(files),
+        Ok(Task::Examples) => list_examples(),
+        Ok(Task::Example(example, destination)) => convert::example(&example, &destination),
+        Ok(Task::Table1 { json }) => table1(json),
+        Ok(Task::Convert {
+            source,
+            destination,
+            polygon,
+            force,
+        }) => convert::convert(&source, &destination, polygon, force),
+        Ok(Task::Inspect { source, at }) => inspect::run(&source, &at),
         Err(error) => {
             // Help goes to a reader that may go away; there is nobody else to tell.
             let _ = error.print();
             let code = u8::try_from(error.exit_code()).unwrap_or(2);
             return Request::Done(ExitCode::from(code));
         }
-    };
-    let result = match arguments.command {
-        None => return Request::Editor(arguments.files),
-        Some(Command::Example { name, out, .. }) => example(name, out),
-        Some(Command::Table1 { json }) => table1(json),
-        Some(Command::Convert {
-            input,
-            out,
-            polygon,
-        }) => convert(&input, &out, polygon),
-        Some(Command::Inspect { file, at }) => inspect::run(&file, &at),
     };
     Request::Done(match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -61,22 +61,18 @@ pub fn run(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> 
     })
 }
 
-fn example(example: Option<Example>, out: Option<PathBuf>) -> anyhow::Result<()> {
-    let (Some(example), Some(out)) = (example, out) else {
-        let width = EXAMPLES.iter().map(|example| example.name.len());
-        let width = width.max().unwrap_or_default();
-        let lines = EXAMPLES.map(
-            |Example {
-                 name,
-                 title,
-                 description,
-                 ..
-             }| { format!("{name:width$}  {title}. {description}\n") },
-        );
-        return output::print(&lines.concat());
-    };
-    report(&disk::write_file(&out, &example.curves()?, None)?);
-    Ok(())
+fn list_examples() -> anyhow::Result<()> {
+    let width = EXAMPLES.iter().map(|example| example.name.len());
+    let width = width.max().unwrap_or_default();
+    let lines = EXAMPLES.map(
+        |Example {
+             name,
+             title,
+             description,
+             ..
+         }| { format!("{name:width$}  {title}. {description}\n") },
+    );
+    output::print(&lines.concat())
 }
 
 fn table1(json: bool) -> anyhow::Result<()> {
@@ -103,19 +99,4 @@ fn table1(json: bool) -> anyhow::Result<()> {
         text.push_str(&format!("{degree:>6} {bspline:>16.9e} {bezier:>16.9e}\n"));
     }
     output::print(&text)
-}
-
-fn convert(input: &Path, out: &Path, polygon: Option<PolygonKind>) -> anyhow::Result<()> {
-    let curves = disk::read_file(input)?;
-    if disk::is_same_file(input, out) {
-        anyhow::bail!("{}: a file is not converted into itself", out.display());
-    }
-    report(&disk::write_file(out, &curves, polygon)?);
-    Ok(())
-}
-
-fn report(losses: &LossReport) {
-    if !losses.is_empty() {
-        output::message(&losses.to_string());
-    }
 }

@@ -2,15 +2,29 @@
 
 use std::io::{self, ErrorKind, Write};
 
+use crate::io::Remarks;
+
 /// Print to the standard output. A reader that has gone away wants no more, which is no error.
 pub(super) fn print(text: &str) -> anyhow::Result<()> {
+    print_bytes(text.as_bytes())
+}
+
+/// Print bytes, as [`print`] does text.
+pub(super) fn print_bytes(bytes: &[u8]) -> anyhow::Result<()> {
     let mut out = io::stdout().lock();
-    let result = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    let result = out.write_all(bytes).and_then(|()| out.flush());
     match result {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             Err(anyhow::Error::new(error).context("cannot write to the standard output"))
         }
         _ => Ok(()),
+    }
+}
+
+/// Print remarks on a file to the standard error, each line with the file in front.
+pub(super) fn report(name: &str, remarks: &Remarks) {
+    for line in remarks.to_string().lines() {
+        message(&format!("{name}: {line}"));
     }
 }
 

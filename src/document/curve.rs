@@ -1,6 +1,7 @@
 //! One curve of a document.
 
 use super::edit::EditError;
+use super::extras::Extras;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{End, FloatPolygon};
 
@@ -60,6 +61,9 @@ pub struct Curve {
     pub polygon: FloatPolygon,
     /// Where the ends shall be.
     pub targets: EndTargets,
+    /// What its file said of it that this program does not know. Every edit keeps it; copies and
+    /// parts split off are curves of their own and have none.
+    pub extras: Extras,
 }
 
 impl Curve {
@@ -105,6 +109,7 @@ impl Curve {
             locked: false,
             polygon,
             targets: EndTargets::default(),
+            extras: Extras::default(),
         }
     }
 }

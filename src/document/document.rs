@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::curve::{Curve, CurveId};
+use super::extras::Extras;
 use super::names::free_name;
 
 /// Hold the curves of a project, in the order in which they are listed and drawn.
@@ -12,6 +13,7 @@ use super::names::free_name;
 pub struct Document {
     pub(super) curves: Vec<(CurveId, Arc<Curve>)>,
     pub(super) next: u64,
+    extras: Extras,
 }
 
 impl Document {
@@ -22,6 +24,22 @@ impl Document {
             document.push(curve);
         }
         document
+    }
+
+    /// Add what the project's file said that this program does not know. Every edit keeps it.
+    pub fn with_extras(self, extras: Extras) -> Self {
+        Self { extras, ..self }
+    }
+
+    /// What the project's file said that this program does not know.
+    pub fn extras(&self) -> &Extras {
+        &self.extras
+    }
+
+    /// Whether the project or a curve has something that this program does not know.
+    pub fn has_extras(&self) -> bool {
+        let mut curves = self.curves();
+        !self.extras.is_empty() || curves.any(|(_, curve)| !curve.extras.is_empty())
     }
 
     /// Find a name that no curve has: this one, or with another number behind it.

@@ -7,6 +7,7 @@ use thiserror::Error;
 
 use super::curve::{Colour, Curve, CurveId};
 use super::document::Document;
+use super::wording::quoted;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{End, FloatPolygon, PolygonError};
 
@@ -93,7 +94,7 @@ pub enum EditError {
     #[error("the curve is no longer in the document")]
     NoSuchCurve,
     /// The curve is locked.
-    #[error("“{name}” is locked: unlock it in the list of curves to change its shape")]
+    #[error("{} is locked: unlock it in the list of curves to change its shape", quoted(.name))]
     Locked {
         /// The curve's name.
         name: String,
@@ -105,7 +106,7 @@ pub enum EditError {
         name: String,
     },
     /// The curve's new shape is not one.
-    #[error("“{name}”: {error}")]
+    #[error("{}: {error}", quoted(.name))]
     Polygon {
         /// The curve's name.
         name: String,

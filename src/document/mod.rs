@@ -5,11 +5,15 @@ mod curve;
 #[allow(clippy::module_inception)]
 mod document;
 mod edit;
+mod extras;
 mod history;
 mod names;
+mod wording;
 
 pub use curve::{Colour, Curve, CurveId, EndTargets};
 pub use document::Document;
 pub use edit::{Edit, EditError};
+pub use extras::Extras;
 pub use history::History;
 pub use names::free_name;
+pub use wording::{cut, escaped, quoted};

@@ -5,11 +5,11 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::Editor;
-use super::files::count_curves;
+use super::files::{count_curves, with_lines};
 use super::report::Request;
-use crate::document::{Curve, CurveId, free_name};
+use crate::document::{Curve, CurveId, Extras, free_name};
 use crate::geometry::{FloatPolygon, PolygonKind};
-use crate::io::{Export as Exported, Format, WriteError};
+use crate::io::{Export as Exported, Format, Reading, WriteError};
 
 /// How far copies are put from what they copy, in screen points, right and down.
 const OFFSET: f64 = 24.0;
@@ -27,11 +27,16 @@ impl Editor {
             Err(_) => Format::Csv.read(text.as_bytes()),
         };
         match read {
-            Ok(curves) if curves.is_empty() => self.say("There are no curves on the clipboard"),
-            Ok(curves) => {
+            Ok(Reading { curves, .. }) if curves.is_empty() => {
+                self.say("There are no curves on the clipboard");
+            }
+            Ok(Reading {
+                curves, remarks, ..
+            }) => {
                 let count = curves.len();
                 self.add_copies("Paste", curves);
-                self.say_done(format!("{} pasted", count_curves(count)));
+                let text = format!("{} pasted", count_curves(count));
+                self.say_done(with_lines(text, &remarks));
             }
             Err(error) => {
                 self.fail(format!(
@@ -59,7 +64,10 @@ impl Editor {
             if copied.is_empty() {
                 copied.push(Curve::clone(&self.active_curve()?.1));
             }
-            text_of(Format::Batten.write(&copied, None))
+            for curve in &mut copied {
+                curve.extras = Extras::default();
+            }
+            text_of(Format::Batten.write(&copied, &Extras::default(), None))
         } else {
             let tables = selected
                 .iter()
@@ -76,7 +84,8 @@ impl Editor {
         }
     }
 
-    /// Add copies a little aside, named anew and unlocked.
+    /// Add copies a little aside, named anew and unlocked. What their file said of the curves
+    /// that Batten does not know, such as a number of their own, is not copied.
     pub(super) fn add_copies(&mut self, label: &str, curves: Vec<Curve>) {
         let offset = OFFSET * self.viewport.pixel() * DVec3::new(1.0, -1.0, 0.0);
         let mut names: Vec<String> = self
@@ -89,6 +98,7 @@ impl Editor {
             let mut copy = curve.clone();
             copy.locked = false;
             copy.visible = true;
+            copy.extras = Extras::default();
             copy.name = free_name(&curve.name, |name| names.iter().any(|taken| taken == name));
             names.push(copy.name.clone());
             let vertices = curve.polygon.vertices().iter().enumerate();
@@ -129,7 +139,7 @@ impl Editor {
         let part = FloatPolygon::new(degree, vertices, weights, false);
         let part = part.map_err(|error| format!("“{}”: {error}", curve.name))?;
         let part = Curve::new(curve.name.clone(), part);
-        text_of(Format::Csv.write(&[part], Some(PolygonKind::Float)))
+        text_of(Format::Csv.write(&[part], &Extras::default(), Some(PolygonKind::Float)))
     }
 }
 

@@ -1,38 +1,45 @@
 //! Opening, saving and exporting; the window only asks for paths.
 
+use std::fmt;
 use std::path::{Path, PathBuf};
 
 use super::Editor;
 use super::examples;
 use super::report::{AfterDiscard, Export, Request};
 use crate::document::{Curve, Document, Edit, History};
+use crate::geometry::counted;
 use crate::io::examples::EXAMPLES;
-use crate::io::{FileError, Format, disk};
+use crate::io::{FileError, Format, Reading, disk, shown_path};
 
 impl Editor {
     /// Open a file in place of the document. An error becomes the message, and nothing is
     /// changed.
     pub fn open(&mut self, path: &Path) {
         match disk::read_file(path) {
-            Ok(curves) => self.replace(curves, own_path(path)),
+            Ok(reading) => self.replace_by_file(reading, path),
             Err(error) => self.fail(error.to_string()),
         }
     }
 
     /// Open several files as one document in place of the present one. Only a single project is
-    /// saved back to where it came from.
+    /// saved back to where it came from, with what it says of itself that is not known.
     ///
     /// # Errors
     /// [`FileError`] of the first file that cannot be read; nothing is changed then.
     pub fn open_all(&mut self, paths: &[PathBuf]) -> Result<(), FileError> {
-        let mut curves = Vec::new();
-        for path in paths {
-            curves.extend(disk::read_file(path)?);
-        }
         match paths {
             [] => {}
-            [path] => self.replace(curves, own_path(path)),
-            _ => self.replace(curves, None),
+            [path] => self.replace_by_file(disk::read_file(path)?, path),
+            _ => {
+                let (curves, remarks) = read_together(paths)?;
+                let text = format!(
+                    "{} read from {} files",
+                    count_curves(curves.len()),
+                    paths.len()
+                );
+                self.replace(Document::from_curves(curves), None);
+                self.say(with_lines(text, &remarks));
+            }
         }
         Ok(())
     }
@@ -40,20 +47,17 @@ impl Editor {
     /// Add the curves of some files to the document, as one step. An error becomes the message,
     /// and nothing is changed.
     pub fn import(&mut self, paths: &[PathBuf]) {
-        let mut curves = Vec::new();
-        for path in paths {
-            match disk::read_file(path) {
-                Ok(read) => curves.extend(read),
-                Err(error) => {
-                    self.fail(error.to_string());
-                    return;
-                }
-            }
-        }
+        let (curves, remarks) = match read_together(paths) {
+            Ok(read) => read,
+            Err(error) => return self.fail(error.to_string()),
+        };
         let count = curves.len();
         self.add_curves("Import curves", curves);
         self.fit_all();
-        self.say(format!("{} added", count_curves(count)));
+        self.say(with_lines(
+            format!("{} added", count_curves(count)),
+            &remarks,
+        ));
     }
 
     /// Save the document. An error becomes the message. Returns whether it is saved.
@@ -65,20 +69,21 @@ impl Editor {
             Ok(other) => {
                 self.fail(format!(
                     "{}: a {other} does not hold all of a document: save as .batten, or export",
-                    path.display()
+                    shown_path(path)
                 ));
                 return false;
             }
             Err(error) => {
-                self.fail(format!("{}: {error}", path.display()));
+                self.fail(format!("{}: {error}", shown_path(path)));
                 return false;
             }
         }
-        match disk::write_file(path, &self.curves(), None) {
-            Ok(_) => {
+        let extras = self.document().extras();
+        match disk::write_file(path, &self.curves(), extras, None) {
+            Ok(saved) => {
                 self.path = Some(path.clone());
                 self.history.mark_saved();
-                self.say(format!("Saved to {}", path.display()));
+                self.say(with_lines(format!("Saved to {}", shown_path(path)), &saved));
                 true
             }
             Err(error) => {
@@ -97,13 +102,13 @@ impl Editor {
             Ok(other) => {
                 self.fail(format!(
                     "{}: that would be a {other}: give it the extension .{}",
-                    path.display(),
+                    shown_path(path),
                     export.extension
                 ));
                 return;
             }
             Err(error) => {
-                self.fail(format!("{}: {error}", path.display()));
+                self.fail(format!("{}: {error}", shown_path(path)));
                 return;
             }
         }
@@ -114,17 +119,14 @@ impl Editor {
             self.fail("Every curve is hidden: show what shall be exported");
             return;
         }
-        match disk::write_file(path, &shown, polygon) {
-            Ok(losses) => {
+        match disk::write_file(path, &shown, self.document().extras(), polygon) {
+            Ok(saved) => {
                 let count = count_curves(shown.len());
-                let mut text = format!("{count} exported to {}", path.display());
+                let mut text = format!("{count} exported to {}", shown_path(path));
                 if !hidden.is_empty() {
                     text += &format!("; {} not, being hidden", count_curves(hidden.len()));
                 }
-                if !losses.is_empty() {
-                    text = format!("{text}\n{losses}");
-                }
-                self.say(text);
+                self.say(with_lines(text, &saved));
             }
             Err(error) => self.fail(error.to_string()),
         }
@@ -133,7 +135,7 @@ impl Editor {
     /// Go on with what was wanted, whether or not there are unsaved changes.
     pub fn discard_and(&mut self, after: AfterDiscard) -> Option<Request> {
         match after {
-            AfterDiscard::New => self.replace(Vec::new(), None),
+            AfterDiscard::New => self.replace(Document::default(), None),
             AfterDiscard::Open => return Some(Request::Open),
             AfterDiscard::OpenFile(path) => self.open(&path),
             AfterDiscard::OpenExample(index) => self.open_example(index),
@@ -158,7 +160,7 @@ impl Editor {
         };
         match example.curves() {
             Ok(curves) => {
-                self.replace(curves, None);
+                self.replace(Document::from_curves(curves), None);
                 self.say(format!(
                     "{}: {}",
                     examples::title(index),
@@ -187,17 +189,54 @@ impl Editor {
         curves.map(|(_, curve)| Curve::clone(curve)).collect()
     }
 
-    fn replace(&mut self, curves: Vec<Curve>, path: Option<PathBuf>) {
+    fn replace_by_file(&mut self, reading: Reading, path: &Path) {
+        let Reading {
+            curves,
+            extras,
+            remarks,
+        } = reading;
+        let text = format!(
+            "{} read from {}",
+            count_curves(curves.len()),
+            shown_path(path)
+        );
+        let document = Document::from_curves(curves).with_extras(extras);
+        let keeps = document.has_extras();
+        self.replace(document, own_path(path));
+        let mut text = with_lines(text, &remarks);
+        if keeps {
+            text += "\nSaving keeps what is not known.";
+        }
+        self.say(text);
+    }
+
+    fn replace(&mut self, document: Document, path: Option<PathBuf>) {
         self.call_off();
-        let count = curves.len();
-        self.history = History::new(Document::from_curves(curves));
+        self.history = History::new(document);
         self.path = path;
         self.document_replaced();
-        if let Some(path) = &self.path {
-            let text = format!("{} read from {}", count_curves(count), path.display());
-            self.say(text);
-        }
     }
+}
+
+/// Read the curves of several files, with what there is to tell of each.
+fn read_together(paths: &[PathBuf]) -> Result<(Vec<Curve>, String), FileError> {
+    let mut curves = Vec::new();
+    let mut lines = Vec::new();
+    for path in paths {
+        let reading = disk::read_file(path)?;
+        curves.extend(reading.curves);
+        let remarks = reading.remarks.to_string();
+        let named = remarks
+            .lines()
+            .map(|remark| format!("{}: {remark}", shown_path(path)));
+        lines.extend(named);
+    }
+    Ok((curves, lines.join("\n")))
+}
+
+/// Add lines to a message, if there are any.
+pub(super) fn with_lines(text: String, lines: &impl fmt::Display) -> String {
+    format!("{text}\n{lines}").trim_end().to_owned()
 }
 
 /// The path that a document read from it is saved back to: only a project loses nothing there.
@@ -208,17 +247,21 @@ fn own_path(path: &Path) -> Option<PathBuf> {
 
 /// Say "1 curve" or "7 curves".
 pub(super) fn count_curves(count: usize) -> String {
-    match count {
-        1 => "1 curve".to_owned(),
-        count => format!("{count} curves"),
-    }
+    counted(count, "curve", "curves")
 }
 
-/// Give a path the extension if it has none at all.
+/// Give a path the extension if it has none that is a format's: what follows the point in
+/// "hull v1.2" is part of the name.
 pub fn with_extension(path: &Path, extension: &str) -> PathBuf {
-    if path.extension().is_some() {
-        path.to_owned()
-    } else {
-        path.with_extension(extension)
+    let given = path.extension().map(|given| given.to_string_lossy());
+    match (given.as_deref(), path.file_name()) {
+        (Some(given), _) if Format::find(given).is_some() => path.to_owned(),
+        (Some(""), _) | (None, _) | (_, None) => path.with_extension(extension),
+        (Some(_), Some(name)) => {
+            let mut name = name.to_owned();
+            name.push(".");
+            name.push(extension);
+            path.with_file_name(name)
+        }
     }
 }

@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use super::polygon_kind::PolygonKind;
+use super::wording::counted;
 
 /// The highest degree a polygon may have: CAD kernels stop at 25.
 pub const MAX_DEGREE: usize = 25;
@@ -19,7 +20,7 @@ pub enum PolygonError {
     /// There are fewer vertices than a curve of this degree has.
     #[error(
         "{} too few: {} curve of degree {degree} needs at least {needed}",
-        if *found == 1 { "1 vertex is".to_owned() } else { format!("{found} vertices are") },
+        counted(*found, "vertex is", "vertices are"),
         if *periodic { "a periodic" } else { "an open" }
     )]
     TooFewVertices {
@@ -55,7 +56,11 @@ pub enum PolygonError {
         value: f64,
     },
     /// The number of weights is not the number of vertices.
-    #[error("{weights} weights for {vertices} vertices: give one weight a vertex, or none at all")]
+    #[error(
+        "{} for {}: give one weight a vertex, or none at all",
+        counted(*weights, "weight", "weights"),
+        counted(*vertices, "vertex", "vertices")
+    )]
     WeightCount {
         /// The number of weights given.
         weights: usize,

@@ -25,6 +25,7 @@ pub mod polygon_figures;
 mod polygon_kind;
 mod sampler;
 mod vector;
+mod wording;
 
 pub use bezier_polygon::{BezierPolygon, segment_bezier};
 pub use clamped_polygon::ClampedPolygon;
@@ -41,3 +42,4 @@ pub use nearest::Nearest;
 pub use polygon_figures::Range;
 pub use polygon_kind::PolygonKind;
 pub use sampler::{BATCH_ORDER, Batch, Sampler};
+pub use wording::counted;

@@ -4,14 +4,18 @@
 //! old or the new content is on the disk, whole.
 
 use std::borrow::Borrow;
-use std::fs::{self, File, Metadata, Permissions};
+use std::fmt;
+use std::fs::{self, File, Metadata};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
+use tempfile::NamedTempFile;
+
 use super::error::FileError;
 use super::format::Format;
-use super::loss::LossReport;
-use crate::document::Curve;
+use super::loss::{Export, LossReport};
+use super::reading::Reading;
+use crate::document::{Curve, Extras};
 use crate::geometry::PolygonKind;
 
 /// The most bytes that are read: far more than any curve, far less than fills the memory.
@@ -20,17 +24,43 @@ pub const MOST_BYTES: u64 = 1 << 30;
 /// How many symbolic links are followed, one behind the other.
 const MOST_LINKS: usize = 32;
 
+/// What the names of temporary files are made of: the prefix, random letters and digits, and the
+/// suffix, a digit.
+const PREFIX: &str = ".batten-";
+const RANDOM: usize = 5;
+const SUFFIX: &str = "0";
+
 /// Read the curves of a file; its extension tells the format.
 ///
 /// # Errors
 /// [`FileError`], naming the file and the place in it.
-pub fn read_file(path: &Path) -> Result<Vec<Curve>, FileError> {
+pub fn read_file(path: &Path) -> Result<Reading, FileError> {
     let format = Format::to_read(path).map_err(|error| FileError::Format {
         path: path.to_owned(),
         error,
     })?;
-    let bytes = read_bytes(path, MOST_BYTES)?;
-    format.read(&bytes).map_err(|error| FileError::Content {
+    read_file_as(path, format)
+}
+
+/// Read the curves of a file of a given format, whatever its name.
+///
+/// # Errors
+/// [`FileError`], naming the file and the place in it.
+pub fn read_file_as(path: &Path, format: Format) -> Result<Reading, FileError> {
+    content(path, format, &read_bytes(path, MOST_BYTES)?)
+}
+
+/// Read the curves of a stream to its end; `name` is what messages call it.
+///
+/// # Errors
+/// [`FileError`], with the name and the place in the stream.
+pub fn read_stream(stream: impl Read, name: &str, format: Format) -> Result<Reading, FileError> {
+    let name = Path::new(name);
+    content(name, format, &limited_bytes(stream, name, MOST_BYTES)?)
+}
+
+fn content(path: &Path, format: Format, bytes: &[u8]) -> Result<Reading, FileError> {
+    format.read(bytes).map_err(|error| FileError::Content {
         path: path.to_owned(),
         error,
     })
@@ -42,36 +72,84 @@ pub fn is_same_file(a: &Path, b: &Path) -> bool {
     canonical(a).is_some_and(|a| canonical(b) == Some(a))
 }
 
-/// Write curves to a file; its extension tells the format, and `polygon` means what it does to
-/// [`Format::write`]. Returns what the format could not hold.
+/// What there is to tell of a file that was written. Shown as one line a thing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Saved {
+    /// What the format could not hold.
+    pub losses: LossReport,
+    /// How many other names (hard links) the old file had: they keep its content.
+    pub other_names: u64,
+}
+
+impl Saved {
+    /// Whether there is nothing to tell.
+    pub fn is_quiet(&self) -> bool {
+        self.losses.is_empty() && self.other_names == 0
+    }
+}
+
+impl fmt::Display for Saved {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{}", self.losses)?;
+        let separator = if self.losses.is_empty() { "" } else { "\n" };
+        match self.other_names {
+            0 => Ok(()),
+            1 => write!(
+                formatter,
+                "{separator}the file had another name (a hard link), which keeps the old content"
+            ),
+            count => write!(
+                formatter,
+                "{separator}the file had {count} other names (hard links), which keep the old content"
+            ),
+        }
+    }
+}
+
+/// Write curves to a file; its extension tells the format, and `extras` and `polygon` mean what
+/// they do to [`Format::write`].
 ///
 /// # Errors
 /// [`FileError`], naming the file; what was there before is unchanged then.
 pub fn write_file<C: Borrow<Curve>>(
     path: &Path,
     curves: &[C],
+    extras: &Extras,
     polygon: Option<PolygonKind>,
-) -> Result<LossReport, FileError> {
+) -> Result<Saved, FileError> {
     let format = Format::to_write(path).map_err(|error| FileError::Format {
         path: path.to_owned(),
         error,
     })?;
-    let export = format.write(curves, polygon);
+    let export = format.write(curves, extras, polygon);
     let export = export.map_err(|error| FileError::Export {
         path: path.to_owned(),
         error,
     })?;
-    write_bytes(path, &export.bytes)?;
-    Ok(export.losses)
+    write_export(path, export)
+}
+
+/// Write to a file what a format made of curves.
+///
+/// # Errors
+/// [`FileError`], naming the file; what was there before is unchanged then.
+pub fn write_export(path: &Path, export: Export) -> Result<Saved, FileError> {
+    Ok(Saved {
+        other_names: write_bytes(path, &export.bytes)?,
+        losses: export.losses,
+    })
 }
 
 /// Write bytes to a file, atomically: on failure what was there before is unchanged and nothing
-/// else is left behind. An existing file keeps its permissions; where the path is a symbolic
-/// link, the file it points to is written.
+/// else is left. An existing file keeps its permissions, and its owner and group where the
+/// system allows it; where the path is a symbolic link, the file it points to is written.
+/// Returns how many other names (hard links) the old file had: they keep its content.
+///
+/// What killed saves have left in the folder is removed.
 ///
 /// # Errors
 /// [`FileError`], naming the file.
-pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<u64, FileError> {
     let failed = |action| {
         move |error| FileError::System {
             path: path.to_owned(),
@@ -80,8 +158,8 @@ pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
         }
     };
     let target = followed(path).map_err(failed("find"))?;
-    let permissions = match fs::metadata(&target) {
-        Ok(metadata) => Some(writable_permissions(path, &metadata)?),
+    let old = match fs::metadata(&target) {
+        Ok(metadata) => Some(check_writable(path, metadata)?),
         Err(error) if error.kind() == io::ErrorKind::NotFound => None,
         Err(error) => return Err(failed("find")(error)),
     };
@@ -95,11 +173,16 @@ pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
             folder: folder.to_owned(),
         });
     }
+    remove_stale(folder);
     let mut temporary = beside(folder).map_err(failed("write"))?;
-    temporary.write_all(bytes).map_err(failed("write"))?;
-    let file = temporary.as_file();
-    if let Some(permissions) = permissions {
-        file.set_permissions(permissions).map_err(failed("write"))?;
+    // The errors of the file itself do not name the temporary path.
+    let file = temporary.as_file_mut();
+    file.write_all(bytes).map_err(failed("write"))?;
+    if let Some(old) = &old {
+        keep_owner(file, old);
+        // After the owner: a change of owner can take permissions away.
+        let kept = file.set_permissions(old.permissions());
+        kept.map_err(failed("write"))?;
     }
     file.sync_all().map_err(failed("write"))?;
     let moved = temporary.persist(&target);
@@ -108,7 +191,7 @@ pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     if let Ok(folder) = File::open(folder) {
         let _ = folder.sync_all();
     }
-    Ok(())
+    Ok(old.as_ref().map_or(0, other_names))
 }
 
 fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, FileError> {
@@ -116,10 +199,6 @@ fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, FileError> {
         path: path.to_owned(),
         action: "read",
         error,
-    };
-    let too_large = || FileError::TooLarge {
-        path: path.to_owned(),
-        most,
     };
     let file = File::open(path).map_err(failed)?;
     let metadata = file.metadata().map_err(failed)?;
@@ -129,14 +208,24 @@ fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, FileError> {
         });
     }
     if metadata.len() > most {
-        return Err(too_large());
+        let path = path.to_owned();
+        return Err(FileError::TooLarge { path, most });
     }
     // The file may grow, or not know its size: the limit holds for what is read.
+    limited_bytes(file, path, most)
+}
+
+fn limited_bytes(stream: impl Read, name: &Path, most: u64) -> Result<Vec<u8>, FileError> {
+    let path = || name.to_owned();
     let mut bytes = Vec::new();
-    let limited = file.take(most + 1).read_to_end(&mut bytes);
-    limited.map_err(failed)?;
+    let limited = stream.take(most + 1).read_to_end(&mut bytes);
+    limited.map_err(|error| FileError::System {
+        path: path(),
+        action: "read",
+        error,
+    })?;
     if bytes.len() as u64 > most {
-        return Err(too_large());
+        return Err(FileError::TooLarge { path: path(), most });
     }
     Ok(bytes)
 }
@@ -158,168 +247,93 @@ fn followed(path: &Path) -> io::Result<PathBuf> {
     Err(io::Error::other("too many symbolic links"))
 }
 
-fn writable_permissions(path: &Path, metadata: &Metadata) -> Result<Permissions, FileError> {
+fn check_writable(path: &Path, metadata: Metadata) -> Result<Metadata, FileError> {
     let path = || path.to_owned();
     if !metadata.is_file() {
         return Err(FileError::NotAFile { path: path() });
     }
-    let permissions = metadata.permissions();
-    if permissions.readonly() {
+    if metadata.permissions().readonly() {
         return Err(FileError::ReadOnly { path: path() });
     }
-    Ok(permissions)
+    Ok(metadata)
 }
 
-fn beside(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".batten-");
-    #[cfg(unix)]
-    {
-        // As for any new file: the user's mask takes from this what it does not allow.
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(Permissions::from_mode(0o666));
+/// Give a file the owner and the group of another, or the group alone, or neither: as far as the
+/// system allows.
+#[cfg(unix)]
+fn keep_owner(file: &File, old: &Metadata) {
+    use std::os::unix::fs::{MetadataExt, fchown};
+    if fchown(file, Some(old.uid()), Some(old.gid())).is_err() {
+        let _ = fchown(file, None, Some(old.gid()));
     }
-    builder.tempfile_in(folder)
 }
 
+#[cfg(not(unix))]
+fn keep_owner(_: &File, _: &Metadata) {}
+
+#[cfg(unix)]
+fn other_names(metadata: &Metadata) -> u64 {
+    use std::os::unix::fs::MetadataExt;
+    metadata.nlink().saturating_sub(1)
+}
+
+#[cfg(not(unix))]
+fn other_names(_: &Metadata) -> u64 {
+    0
+}
+
+/// Create a temporary file in a folder. It is locked as long as it is open, which tells
+/// [`remove_stale`] that it is in use.
+fn beside(folder: &Path) -> io::Result<NamedTempFile> {
+    loop {
+        let temporary = tempfile::Builder::new()
+            .prefix(PREFIX)
+            .rand_bytes(RANDOM)
+            .suffix(SUFFIX)
+            .make_in(folder, |path| {
+                // As for any new file: the user's mask takes from the permissions.
+                File::create_new(path)
+            })?;
+        // Where there are no locks, nobody takes the file for stale either.
+        let is_locked = temporary.as_file().lock().is_ok();
+        // Between its creation and the lock it may have been.
+        if !is_locked || temporary.path().exists() {
+            return Ok(temporary);
+        }
+    }
+}
+
+/// Remove the temporary files that killed saves have left in a folder: those that no process
+/// has locked. What cannot be removed stays.
+fn remove_stale(folder: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else {
+        return;
+    };
+    for entry in entries.flatten() {
+        let is_temporary = entry.file_name().to_str().is_some_and(is_temporary_name)
+            && entry.file_type().is_ok_and(|kind| kind.is_file());
+        if !is_temporary {
+            continue;
+        }
+        let path = entry.path();
+        // The lock is held until the file is gone, so that no process can begin to use it.
+        let file = File::options().read(true).write(true).open(&path);
+        if let Ok(file) = file
+            && file.try_lock().is_ok()
+        {
+            let _ = fs::remove_file(&path);
+        }
+    }
+}
+
+/// Whether a file's name is one that a save gives to its temporary file: six letters and digits
+/// after the prefix, with a digit among them, so that no word is taken for one.
+fn is_temporary_name(name: &str) -> bool {
+    name.strip_prefix(PREFIX).is_some_and(|rest| {
+        rest.len() == RANDOM + SUFFIX.len()
+            && rest.bytes().all(|byte| byte.is_ascii_alphanumeric())
+            && rest.bytes().any(|byte| byte.is_ascii_digit())
+    })
+}
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::geometry::FloatPolygon;
-
-    fn curve() -> Curve {
-        let points = [(0.0, 0.1), (1.0, 2.0), (3.0, 1e-300), (4.0, 0.0)];
-        Curve::new("arc", FloatPolygon::planar(3, &points).unwrap())
-    }
-
-    fn names(folder: &Path) -> Vec<String> {
-        let entries = fs::read_dir(folder).unwrap();
-        let mut names: Vec<String> = entries
-            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-            .collect();
-        names.sort();
-        names
-    }
-
-    #[test]
-    fn a_file_is_written_whole_and_read_back() {
-        let folder = tempfile::tempdir().unwrap();
-        for name in ["a.batten", "b.CSV"] {
-            let path = folder.path().join(name);
-            let losses = write_file(&path, &[curve()], None).unwrap();
-            assert!(losses.is_empty(), "{losses}");
-            assert_eq!(read_file(&path).unwrap(), [curve()]);
-        }
-        assert_eq!(names(folder.path()), ["a.batten", "b.CSV"]);
-    }
-
-    #[test]
-    fn what_cannot_be_read_or_written_is_named() {
-        let folder = tempfile::tempdir().unwrap();
-        let check = |result: Result<(), FileError>, name: &str, expected: &str| {
-            let path = folder.path().join(name);
-            let message = result.unwrap_err().to_string();
-            let expected = format!("{}: {expected}", path.display());
-            assert!(
-                message.starts_with(&expected),
-                "{message}\nis not\n{expected}"
-            );
-        };
-        let read = |name: &str| read_file(&folder.path().join(name)).map(|_| ());
-        let write =
-            |name: &str| write_file(&folder.path().join(name), &[curve()], None).map(|_| ());
-        fs::create_dir(folder.path().join("folder.csv")).unwrap();
-        fs::write(folder.path().join("bad.batten"), "{").unwrap();
-        check(read("gone.batten"), "gone.batten", "cannot read the file: ");
-        check(read("folder.csv"), "folder.csv", "this is not a file");
-        check(write("folder.csv"), "folder.csv", "this is not a file");
-        check(
-            read("a.txt"),
-            "a.txt",
-            "“.txt” is not a format Batten knows",
-        );
-        check(write("a"), "a", "the name has no extension");
-        check(read("bad.batten"), "bad.batten", "line 1, column 1: EOF");
-        check(write("no/a.csv"), "no/a.csv", "the folder ");
-        let none: [Curve; 0] = [];
-        let result = write_file(&folder.path().join("a.dxf"), &none, None);
-        check(result.map(|_| ()), "a.dxf", "there is no curve to write");
-        assert_eq!(names(folder.path()), ["bad.batten", "folder.csv"]);
-    }
-
-    #[test]
-    fn a_file_that_is_too_large_is_not_read() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("huge.batten");
-        // The file takes no room: it consists of a hole.
-        File::create(&path)
-            .unwrap()
-            .set_len(MOST_BYTES + 1)
-            .unwrap();
-        let message = read_file(&path).unwrap_err().to_string();
-        assert!(
-            message.ends_with("larger than 1024 MiB, the most that Batten reads"),
-            "{message}"
-        );
-        fs::write(&path, [b' '; 11]).unwrap();
-        assert_eq!(read_bytes(&path, 11).unwrap().len(), 11);
-        assert!(matches!(
-            read_bytes(&path, 10),
-            Err(FileError::TooLarge { .. })
-        ));
-    }
-
-    #[cfg(unix)]
-    mod unix {
-        use std::os::unix::fs::{PermissionsExt, symlink};
-
-        use super::*;
-
-        fn mode(path: &Path) -> u32 {
-            fs::metadata(path).unwrap().permissions().mode() & 0o777
-        }
-
-        #[test]
-        fn permissions_are_kept() {
-            let folder = tempfile::tempdir().unwrap();
-            let (new, plain) = (folder.path().join("new.csv"), folder.path().join("plain"));
-            write_bytes(&new, b"1").unwrap();
-            File::create(&plain).unwrap();
-            assert_eq!(mode(&new), mode(&plain), "as any new file");
-            fs::set_permissions(&new, Permissions::from_mode(0o640)).unwrap();
-            write_bytes(&new, b"2").unwrap();
-            assert_eq!(
-                (mode(&new), fs::read(&new).unwrap()),
-                (0o640, b"2".to_vec())
-            );
-            fs::set_permissions(&new, Permissions::from_mode(0o444)).unwrap();
-            let result = write_bytes(&new, b"3");
-            assert!(
-                matches!(result, Err(FileError::ReadOnly { .. })),
-                "{result:?}"
-            );
-            assert_eq!(fs::read(&new).unwrap(), b"2");
-        }
-
-        #[test]
-        fn links_are_followed() {
-            let folder = tempfile::tempdir().unwrap();
-            fs::create_dir(folder.path().join("inner")).unwrap();
-            let (link, second) = (folder.path().join("link.csv"), folder.path().join("second"));
-            let real = folder.path().join("inner/real.csv");
-            symlink("inner/real.csv", &second).unwrap();
-            symlink("second", &link).unwrap();
-            for content in [b"new", b"old"] {
-                write_bytes(&link, content).unwrap();
-                assert!(link.is_symlink() && second.is_symlink() && !real.is_symlink());
-                assert_eq!(fs::read(&real).unwrap(), content);
-            }
-            let circle = folder.path().join("circle");
-            symlink("circle", &circle).unwrap();
-            assert!(matches!(
-                write_bytes(&circle, b"x"),
-                Err(FileError::System { .. })
-            ));
-        }
-    }
-}
+mod tests;

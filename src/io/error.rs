@@ -2,12 +2,13 @@
 
 use std::fmt;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
 use super::format::Format;
-use crate::geometry::{MAX_DEGREE, PolygonError, PolygonKind};
+use crate::document::{cut, escaped, quoted};
+use crate::geometry::{MAX_DEGREE, PolygonError, PolygonKind, counted};
 
 /// A place in a file, as exactly as it is known.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -69,24 +70,6 @@ impl fmt::Display for Place {
     }
 }
 
-/// Put text from a file into quotation marks for a message: on one line and of bearable length.
-pub(crate) fn quoted(text: &str) -> String {
-    const LONGEST: usize = 60;
-    let mut shown = String::new();
-    for (index, character) in text.chars().enumerate() {
-        if index == LONGEST {
-            shown.push('…');
-            break;
-        }
-        if character.is_control() {
-            shown.extend(character.escape_default());
-        } else {
-            shown.push(character);
-        }
-    }
-    format!("“{shown}”")
-}
-
 /// A reason why a file cannot be read, with its place. Nothing is read then.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReadError {
@@ -144,7 +127,7 @@ pub enum Problem {
     /// The JSON is no project.
     #[error(
         "this is not a Batten project: it says {}, where \"format\": \"batten\" is needed",
-        match .found { Some(found) => format!("\"format\": {found}"), None => "no \"format\"".to_owned() }
+        match .found { Some(found) => format!("\"format\": {}", cut(found)), None => "no \"format\"".to_owned() }
     )]
     WrongFormat {
         /// The format that it claims to have.
@@ -161,7 +144,7 @@ pub enum Problem {
         newest: u64,
     },
     /// The project has no version, or one that is no number from 1 up.
-    #[error("the project's \"version\" is {found}: a whole number from 1 up is needed")]
+    #[error("the project's \"version\" is {}: a whole number from 1 up is needed", cut(.found))]
     BadVersion {
         /// What is written there.
         found: String,
@@ -221,7 +204,7 @@ pub enum Problem {
     #[error("{0} is given twice")]
     Repeated(&'static str),
     /// The line above a table has a value that cannot be used.
-    #[error("{key}={value} cannot be used: {needed}")]
+    #[error("{key}={} cannot be used: {needed}", cut(.value))]
     BadValue {
         /// Which value.
         key: &'static str,
@@ -237,7 +220,7 @@ pub enum Problem {
     NoColumns,
     /// A column name is unknown or is there twice.
     #[error(
-        "{} is not a column name that can stand here: the columns are x,y or x,y,z, then weight, each once and separated by commas",
+        "{} is not a column name that can stand here: the columns are x,y or x,y,z, then weight, each once and separated by commas, semicolons or tabs",
         quoted(.0)
     )]
     BadColumn(String),
@@ -245,7 +228,11 @@ pub enum Problem {
     #[error("the column {0} is missing: the columns x and y are needed")]
     MissingColumn(&'static str),
     /// A line of a table has too many or too few values.
-    #[error("{found} values for {needed} columns")]
+    #[error(
+        "{} for {}",
+        counted(*.found, "value", "values"),
+        counted(*.needed, "column", "columns")
+    )]
     ValueCount {
         /// The number of values.
         found: usize,
@@ -260,6 +247,18 @@ pub enum Problem {
         /// What is written there.
         text: String,
     },
+    /// A number has a decimal comma where others have a point, or the other way round.
+    #[error(
+        "{} has another decimal mark than the numbers before it: write all decimals with points, or all with commas",
+        quoted(.0)
+    )]
+    MixedDecimals(String),
+    /// No number tells whether commas are decimal ones.
+    #[error(
+        "{} can be read with a decimal comma or with a comma between thousands: write the table's decimals with points",
+        quoted(.0)
+    )]
+    AmbiguousComma(String),
 }
 
 /// A reason why curves cannot be written in a format.
@@ -298,7 +297,7 @@ pub enum FormatError {
         known: String,
     },
     /// The name has an extension that is not known.
-    #[error("“.{extension}” is not a format Batten knows: use one of {known}")]
+    #[error("“.{}” is not a format Batten knows: use one of {known}", cut(.extension))]
     UnknownExtension {
         /// The extension.
         extension: String,
@@ -315,11 +314,16 @@ pub enum FormatError {
     },
 }
 
+/// Show a path in a message: whole, but [escaped].
+pub fn shown_path(path: &Path) -> String {
+    escaped(&path.display().to_string())
+}
+
 /// A reason why a file cannot be read or written; every message begins with the file.
 #[derive(Debug, Error)]
 pub enum FileError {
     /// Its format is not known or cannot be used so.
-    #[error("{}: {error}", path.display())]
+    #[error("{}: {error}", shown_path(path))]
     Format {
         /// The file.
         path: PathBuf,
@@ -327,7 +331,7 @@ pub enum FileError {
         error: FormatError,
     },
     /// Its content cannot be used.
-    #[error("{}: {error}", path.display())]
+    #[error("{}: {error}", shown_path(path))]
     Content {
         /// The file.
         path: PathBuf,
@@ -335,7 +339,7 @@ pub enum FileError {
         error: ReadError,
     },
     /// The curves cannot be written to it.
-    #[error("{}: {error}", path.display())]
+    #[error("{}: {error}", shown_path(path))]
     Export {
         /// The file.
         path: PathBuf,
@@ -343,7 +347,7 @@ pub enum FileError {
         error: WriteError,
     },
     /// The system refused.
-    #[error("{}: cannot {action} the file: {error}", path.display())]
+    #[error("{}: cannot {action} the file: {error}", shown_path(path))]
     System {
         /// The file.
         path: PathBuf,
@@ -353,7 +357,11 @@ pub enum FileError {
         error: io::Error,
     },
     /// The folder that it would be in is not there.
-    #[error("{}: the folder {} does not exist: create it first", path.display(), folder.display())]
+    #[error(
+        "{}: the folder {} does not exist: create it first",
+        shown_path(path),
+        shown_path(folder)
+    )]
     NoFolder {
         /// The file.
         path: PathBuf,
@@ -361,19 +369,22 @@ pub enum FileError {
         folder: PathBuf,
     },
     /// It is a folder or a device.
-    #[error("{}: this is not a file", path.display())]
+    #[error("{}: this is not a file", shown_path(path))]
     NotAFile {
         /// The path.
         path: PathBuf,
     },
     /// It is protected against writing.
-    #[error("{}: the file is read-only: save under another name, or allow writing to it", path.display())]
+    #[error(
+        "{}: the file is read-only: save under another name, or allow writing to it",
+        shown_path(path)
+    )]
     ReadOnly {
         /// The file.
         path: PathBuf,
     },
     /// It is too large.
-    #[error("{}: the file is larger than {} MiB, the most that Batten reads", path.display(), most >> 20)]
+    #[error("{}: the file is larger than {} MiB, the most that Batten reads", shown_path(path), most >> 20)]
     TooLarge {
         /// The file.
         path: PathBuf,

@@ -74,13 +74,14 @@ impl Example {
     /// # Errors
     /// None for the examples there are: a test reads them all.
     pub fn curves(&self) -> Result<Vec<Curve>, ReadError> {
-        project::read(self.text.as_bytes())
+        Ok(project::read(self.text.as_bytes())?.curves)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::document::Extras;
     use crate::geometry::circle_comparison::regular_polygon;
     use crate::geometry::{FloatPolygon, PolygonKind};
 
@@ -186,7 +187,7 @@ mod tests {
         for example in EXAMPLES {
             let curves = example.curves().unwrap();
             let curves: Vec<&Curve> = curves.iter().collect();
-            let written = project::write(&curves, PolygonKind::Float).bytes;
+            let written = project::write(&curves, &Extras::default(), PolygonKind::Float).bytes;
             assert_eq!(
                 String::from_utf8(written).unwrap(),
                 example.text,

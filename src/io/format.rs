@@ -6,8 +6,9 @@ use std::path::Path;
 
 use super::error::{FormatError, ReadError, WriteError};
 use super::loss::Export;
+use super::reading::Reading;
 use super::{dxf, project, table};
-use crate::document::Curve;
+use crate::document::{Curve, Extras};
 use crate::geometry::PolygonKind;
 
 /// A file format.
@@ -86,11 +87,17 @@ impl Format {
         Self::from_extension(path, || extensions(Self::writable()))
     }
 
+    /// Find a format by its extension, in upper or lower case.
+    pub fn find(extension: &str) -> Option<Self> {
+        let mut formats = Self::ALL.into_iter();
+        formats.find(|format| extension.eq_ignore_ascii_case(format.extension()))
+    }
+
     /// Read the curves of a file's bytes.
     ///
     /// # Errors
     /// [`ReadError`] with the place. A format that [cannot be read](Self::can_read) says so.
-    pub fn read(self, bytes: &[u8]) -> Result<Vec<Curve>, ReadError> {
+    pub fn read(self, bytes: &[u8]) -> Result<Reading, ReadError> {
         match self {
             Self::Batten => project::read(bytes),
             Self::Csv => table::read(bytes),
@@ -102,30 +109,32 @@ impl Format {
     ///
     /// `polygon` chooses by which polygon each curve is held (project and table) or which
     /// polygon is drawn beside it (DXF); without it a project and a table hold the float
-    /// polygon, and a DXF draws the float and the clamped one.
+    /// polygon, and a DXF draws the float and the clamped one. `extras` are those of the
+    /// project, which only a project holds.
     ///
     /// # Errors
     /// [`WriteError`] if the format cannot hold the curves at all.
     pub fn write<C: Borrow<Curve>>(
         self,
         curves: &[C],
+        extras: &Extras,
         polygon: Option<PolygonKind>,
     ) -> Result<Export, WriteError> {
         let curves: Vec<&Curve> = curves.iter().map(Borrow::borrow).collect();
-        match self {
-            Self::Batten => Ok(project::write(&curves, polygon.unwrap_or_default())),
-            Self::Csv => table::write(&curves, polygon.unwrap_or_default()),
-            Self::Dxf => dxf::write(&curves, polygon),
-        }
+        let mut export = match self {
+            Self::Batten => project::write(&curves, extras, polygon.unwrap_or_default()),
+            Self::Csv => table::write(&curves, polygon.unwrap_or_default())?,
+            Self::Dxf => dxf::write(&curves, polygon)?,
+        };
+        export.losses.project_keys = self != Self::Batten && !extras.is_empty();
+        Ok(export)
     }
 
     fn from_extension(path: &Path, known: impl Fn() -> String) -> Result<Self, FormatError> {
         let Some(extension) = path.extension() else {
             return Err(FormatError::NoExtension { known: known() });
         };
-        let found = Self::ALL
-            .into_iter()
-            .find(|format| extension.eq_ignore_ascii_case(format.extension()));
+        let found = extension.to_str().and_then(Self::find);
         found.ok_or_else(|| FormatError::UnknownExtension {
             extension: extension.to_string_lossy().into_owned(),
             known: known(),

@@ -2,9 +2,8 @@
 
 use std::fmt;
 
-use super::error::quoted;
 use super::format::Format;
-use crate::document::Curve;
+use crate::document::{Curve, quoted};
 use crate::geometry::PolygonKind;
 
 /// Hold a written file's bytes and what is lost with them.
@@ -23,6 +22,8 @@ pub struct LossReport {
     pub format: Format,
     /// The losses, each with the name of its curve.
     pub losses: Vec<(String, Loss)>,
+    /// Whether it does not hold what the project says that this program does not know.
+    pub project_keys: bool,
 }
 
 /// Something that a file does not hold of a curve.
@@ -41,6 +42,8 @@ pub enum Loss {
     Locked,
     /// The targets of the ends.
     Targets,
+    /// What its file said of it that this program does not know.
+    UnknownKeys,
     /// That the curve is periodic; it is written as an open one that ends where it begins.
     Periodic,
     /// The weights of a polygon that is drawn as plain lines.
@@ -68,12 +71,13 @@ impl LossReport {
         Self {
             format,
             losses: Vec::new(),
+            project_keys: false,
         }
     }
 
     /// Whether nothing is lost.
     pub fn is_empty(&self) -> bool {
-        self.losses.is_empty()
+        self.losses.is_empty() && !self.project_keys
     }
 
     /// Add a loss of one curve.
@@ -138,7 +142,23 @@ impl fmt::Display for LossReport {
                         "{name}: the {format} does not hold the targets of its ends"
                     )
                 }
+                Loss::UnknownKeys => {
+                    write!(
+                        formatter,
+                        "{name}: the {format} does not hold its unknown keys"
+                    )
+                }
             }?;
+        }
+        if self.project_keys {
+            if !self.losses.is_empty() {
+                writeln!(formatter)?;
+            }
+            let format = self.format;
+            write!(
+                formatter,
+                "the {format} does not hold the project's unknown keys"
+            )?;
         }
         Ok(())
     }

@@ -1,10 +1,12 @@
 //! Files: one module a format, bytes in and bytes out, and [`disk`], the only one that touches
 //! the disk.
 //!
-//! Reading gives curves or a [`ReadError`] that names the place; writing gives an [`Export`]:
+//! Reading gives a [`Reading`], with [`Remarks`] on what is not wrong but better told, or a
+//! [`ReadError`] that names the place; writing gives an [`Export`]:
 //! the bytes together with a [`LossReport`] of what the format could not hold. Nothing in here
 //! opens dialogs or changes a document.
 
+mod decimals;
 pub mod disk;
 pub mod dxf;
 mod error;
@@ -13,12 +15,15 @@ mod format;
 pub mod json_layout;
 mod layer_names;
 mod loss;
+mod object;
 mod polygon;
 pub mod project;
 mod project_v1;
+mod reading;
 pub mod table;
 mod table_header;
 
-pub use error::{FileError, FormatError, Place, Problem, ReadError, WriteError};
+pub use error::{FileError, FormatError, Place, Problem, ReadError, WriteError, shown_path};
 pub use format::Format;
 pub use loss::{Export, Loss, LossReport};
+pub use reading::{Owner, Reading, Remark, Remarks};

@@ -17,8 +17,10 @@ use serde_path_to_error::{Path, Segment};
 use super::error::{Place, Problem, ReadError};
 use super::format::Format;
 use super::loss::{Export, LossReport};
+use super::object::Object;
+use super::reading::Reading;
 use super::{json_layout, project_v1};
-use crate::document::Curve;
+use crate::document::{Curve, Extras, escaped};
 use crate::geometry::PolygonKind;
 
 /// What a file says to be a project.
@@ -30,12 +32,13 @@ pub(super) const VERSION: u64 = 1;
 /// Read a project.
 ///
 /// `polygon` may be float (also if it is not given), clamped or bezier; `weights`, `periodic`,
-/// `colour`, `visible`, `locked` and `targets` may be left out, and further keys are passed over.
+/// `colour`, `visible`, `locked` and `targets` may be left out. Further keys have no effect; those
+/// of the project and of its curves are kept.
 ///
 /// # Errors
 /// [`ReadError`] with line and column for JSON that is malformed or has something else than
 /// belongs there, and with curve and vertex for numbers that make no curve.
-pub fn read(bytes: &[u8]) -> Result<Vec<Curve>, ReadError> {
+pub fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
     let text = text(bytes)?;
     if !text.trim_start().starts_with('{') {
         return Err(Problem::WrongFormat { found: None }.into());
@@ -52,7 +55,7 @@ pub fn read(bytes: &[u8]) -> Result<Vec<Curve>, ReadError> {
         return Err(Problem::WrongFormat { found }.into());
     }
     match header.version.as_ref().and_then(Value::as_u64) {
-        Some(1) => parse::<project_v1::Project>(text)?.into_curves(),
+        Some(1) => parse::<project_v1::Project>(text)?.into_reading(),
         Some(found) if found > VERSION => Err(Problem::NewerVersion {
             found,
             newest: VERSION,
@@ -68,10 +71,13 @@ pub fn read(bytes: &[u8]) -> Result<Vec<Curve>, ReadError> {
 }
 
 /// Write a project with each curve held by one of its polygons; by the float polygon nothing is
-/// lost.
-pub fn write(curves: &[&Curve], kind: PolygonKind) -> Export {
+/// lost. `extras` are those of the project.
+pub fn write(curves: &[&Curve], extras: &Extras, kind: PolygonKind) -> Export {
     let mut losses = LossReport::new(Format::Batten);
-    let project = project_v1::Project::from_curves(curves, kind, &mut losses);
+    let project = Object {
+        value: project_v1::WrittenProject::from_curves(curves, kind, &mut losses),
+        extras: extras.clone(),
+    };
     Export {
         bytes: json_layout::to_text(&project).into_bytes(),
         losses,
@@ -148,10 +154,23 @@ fn json_problem(text: &str, mut place: Place, error: &serde_json::Error) -> Read
             // The place is said in front, so it need not be said again.
             let suffix = format!(" at line {} column {}", error.line(), error.column());
             let message = error.to_string();
-            Problem::Json(message.trim_end_matches(&suffix).to_owned())
+            Problem::Json(shortened(message.trim_end_matches(&suffix)))
         }
     };
     place.problem(problem)
+}
+
+/// Cut a message in its middle, where it repeats a long text of the file: it begins with what is
+/// wrong and ends with what is needed.
+fn shortened(message: &str) -> String {
+    const LONGEST: usize = 200;
+    let count = message.chars().count();
+    if count <= LONGEST {
+        return escaped(message);
+    }
+    let start: String = message.chars().take(LONGEST / 2).collect();
+    let end: String = message.chars().skip(count - LONGEST / 2).collect();
+    format!("{}…{}", escaped(&start), escaped(&end))
 }
 
 /// Find a number at a place that JSON cannot hold, such as NaN, -Infinity or 1e999.

@@ -3,25 +3,38 @@
 use std::fmt;
 
 use glam::DVec3;
-use serde::de::{Error, SeqAccess, Unexpected, Visitor};
+use serde::de::{Error, IgnoredAny, SeqAccess, Unexpected, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::error::{Place, Problem, ReadError};
 use super::loss::LossReport;
+use super::object::Object;
 use super::polygon::{Written, build, written};
 use super::project::{FORMAT, VERSION};
-use crate::document::{Colour, Curve, EndTargets};
+use super::reading::{Owner, Reading, Remark, Remarks};
+use crate::document::{Colour, Curve, EndTargets, Extras, cut};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{End, MAX_DEGREE, MAX_MAGNITUDE, PolygonKind};
 
-#[derive(Deserialize, Serialize)]
+/// A project as it is read.
+pub(super) type Project = Object<ProjectV1>;
+
+#[derive(Deserialize)]
 #[serde(expecting = "a Batten project, which is a JSON object")]
-pub(super) struct Project {
-    #[serde(skip_deserializing)]
+pub(super) struct ProjectV1 {
+    #[serde(default, rename = "format")]
+    _format: IgnoredAny,
+    #[serde(default, rename = "version")]
+    _version: IgnoredAny,
+    curves: Vec<Object<CurveV1>>,
+}
+
+/// A project as it is written.
+#[derive(Serialize)]
+pub(super) struct WrittenProject {
     format: &'static str,
-    #[serde(skip_deserializing)]
     version: u64,
-    curves: Vec<CurveV1>,
+    curves: Vec<Object<CurveV1>>,
 }
 
 #[derive(Deserialize, Serialize)]
@@ -44,16 +57,16 @@ struct CurveV1 {
     #[serde(default)]
     periodic: Option<bool>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    targets: Option<Targets>,
+    targets: Option<Object<Targets>>,
 }
 
-#[derive(Deserialize, Serialize)]
+#[derive(Default, Deserialize, Serialize)]
 #[serde(expecting = "the targets of a curve, which are a JSON object")]
 struct Targets {
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    start: Option<Target>,
+    start: Option<Object<Target>>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    end: Option<Target>,
+    end: Option<Object<Target>>,
 }
 
 #[derive(Deserialize, Serialize)]
@@ -66,35 +79,60 @@ struct Target {
 
 impl Project {
     /// Check the content and make curves of it.
-    pub(super) fn into_curves(self) -> Result<Vec<Curve>, ReadError> {
-        let numbered = self.curves.into_iter().enumerate();
-        numbered
-            .map(|(index, curve)| curve.into_curve(index + 1))
-            .collect()
+    pub(super) fn into_reading(self) -> Result<Reading, ReadError> {
+        let mut remarks = Remarks::default();
+        for (key, _) in self.extras.iter() {
+            remarks.add(Remark::UnknownKey {
+                key: key.to_owned(),
+                owner: Owner::Project,
+            });
+        }
+        let numbered = self.value.curves.into_iter().enumerate();
+        let curves: Result<_, _> = numbered
+            .map(|(index, Object { value, extras })| {
+                value.into_curve(index + 1, extras, &mut remarks)
+            })
+            .collect();
+        Ok(Reading {
+            curves: curves?,
+            extras: self.extras,
+            remarks,
+        })
     }
+}
 
+impl WrittenProject {
     /// Take what version 1 writes of the curves.
     pub(super) fn from_curves(
         curves: &[&Curve],
         kind: PolygonKind,
         losses: &mut LossReport,
     ) -> Self {
-        let curves = curves.iter();
+        let curves = curves.iter().map(|curve| Object {
+            value: CurveV1::from_curve(curve, kind, losses),
+            extras: curve.extras.clone(),
+        });
         Self {
             format: FORMAT,
             version: VERSION,
-            curves: curves
-                .map(|curve| CurveV1::from_curve(curve, kind, losses))
-                .collect(),
+            curves: curves.collect(),
         }
     }
 }
 
 impl CurveV1 {
-    fn into_curve(self, number: usize) -> Result<Curve, ReadError> {
+    fn into_curve(
+        self,
+        number: usize,
+        extras: Extras,
+        remarks: &mut Remarks,
+    ) -> Result<Curve, ReadError> {
         let given = self.name.filter(|name| !name.trim().is_empty());
         let name = given.unwrap_or_else(|| format!("curve {number}"));
         let place = |problem| Place::curve(number, &name).problem(problem);
+        for (key, _) in extras.iter() {
+            remarks.add_key(key, number, &name);
+        }
         let weights = self.weights;
         let polygon = build(
             self.polygon.0,
@@ -107,19 +145,23 @@ impl CurveV1 {
             self.periodic.unwrap_or(false),
         )
         .map_err(place)?;
-        let targets = self.targets.unwrap_or(Targets {
-            start: None,
-            end: None,
-        });
+        let mut forgotten = Forgotten::default();
+        let targets = forgotten.strip(self.targets).unwrap_or_default();
         let targets = EndTargets {
-            start: checked(targets.start, End::Start).map_err(place)?,
-            finish: checked(targets.end, End::Finish).map_err(place)?,
+            start: checked(forgotten.strip(targets.start), End::Start).map_err(place)?,
+            finish: checked(forgotten.strip(targets.end), End::Finish).map_err(place)?,
         };
+        for key in forgotten.0 {
+            let curve = (number, name.clone());
+            let owner = Owner::Targets { curve };
+            remarks.add(Remark::UnknownKey { key, owner });
+        }
         Ok(Curve {
             colour: self.colour.map(|colour| colour.0),
             visible: self.visible.unwrap_or(true),
             locked: self.locked.unwrap_or(false),
             targets,
+            extras,
             ..Curve::new(name, polygon)
         })
     }
@@ -130,9 +172,11 @@ impl CurveV1 {
             point,
             dimension: if planar && point.z == 0.0 { 2 } else { 3 },
         };
-        let target = |target: EndTarget| Target {
-            point: coordinates(target.point),
-            direction: target.direction.map(coordinates),
+        let target = |target: EndTarget| {
+            Object::new(Target {
+                point: coordinates(target.point),
+                direction: target.direction.map(coordinates),
+            })
         };
         let targets = Targets {
             start: curve.targets.start.map(target),
@@ -157,8 +201,22 @@ impl CurveV1 {
             vertices: vertices.into_iter().map(coordinates).collect(),
             weights: weights.map(|weights| weights.into_iter().map(Number).collect()),
             periodic: Some(periodic),
-            targets: (targets.start.is_some() || targets.end.is_some()).then_some(targets),
+            targets: (targets.start.is_some() || targets.end.is_some())
+                .then(|| Object::new(targets)),
         }
+    }
+}
+
+/// Unknown keys that are not kept.
+#[derive(Default)]
+struct Forgotten(Vec<String>);
+
+impl Forgotten {
+    fn strip<T>(&mut self, object: Option<Object<T>>) -> Option<T> {
+        let object = object?;
+        let keys = object.extras.iter().map(|(key, _)| key.to_owned());
+        self.0.extend(keys);
+        Some(object.value)
     }
 }
 
@@ -255,7 +313,7 @@ impl<'de> Deserialize<'de> for Kind {
         let name = String::deserialize(deserializer)?;
         let kind = PolygonKind::from_name(&name).map(Self);
         kind.ok_or_else(|| {
-            Error::invalid_value(Unexpected::Str(&name), &"float, clamped or bezier")
+            Error::invalid_value(Unexpected::Str(&cut(&name)), &"float, clamped or bezier")
         })
     }
 }
@@ -277,7 +335,7 @@ impl<'de> Deserialize<'de> for HexColour {
         });
         let value = digits.and_then(|digits| u32::from_str_radix(digits, 16).ok());
         let value = value.ok_or_else(|| {
-            Error::invalid_value(Unexpected::Str(&text), &"a colour like #1f77b4")
+            Error::invalid_value(Unexpected::Str(&cut(&text)), &"a colour like #1f77b4")
         })?;
         let [_, red, green, blue] = value.to_be_bytes();
         Ok(Self(Colour([red, green, blue])))

@@ -11,15 +11,23 @@
 //! Space curves have the columns `x,y,z`, rational ones `x,y,z,weight`. Columns are read by
 //! their names in any order, so that `x,y,weight` is read too. Numbers are written with the
 //! digits that it takes to read the very same number again.
+//!
+//! Tables of spreadsheets are read too: the line of column names tells whether commas,
+//! semicolons or tabs stand between the columns, the numbers tell whether decimals follow a
+//! point or a comma. Other lines that begin with `#` are comments.
+
+use std::borrow::Cow;
 
 use csv::{ReaderBuilder, StringRecord, WriterBuilder};
 use glam::DVec3;
 
+use super::decimals::Decimals;
 use super::error::{Place, Problem, ReadError, WriteError};
 use super::format::Format;
 use super::loss::{Export, Loss, LossReport};
 use super::polygon::{Written, build, written};
 use super::project::text;
+use super::reading::{Reading, Remark, Remarks};
 use super::table_header::TableHeader;
 use crate::document::Curve;
 use crate::geometry::{PolygonError, PolygonKind};
@@ -31,11 +39,18 @@ const COLUMNS: [&str; 4] = ["x", "y", "z", "weight"];
 ///
 /// # Errors
 /// [`ReadError`] with the line, and with the curve and vertex where the numbers make no curve.
-pub fn read(bytes: &[u8]) -> Result<Vec<Curve>, ReadError> {
-    let text = text(bytes)?;
+pub fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
+    let mut comments = Comments::default();
+    let text = comments.blanked(text(bytes)?);
+    let separator = separator(&text);
+    let mut decimals = Decimals::default();
     let mut blocks: Vec<Block> = Vec::new();
-    each_record(text, |line, record| {
-        if let Some(header) = header_text(record) {
+    each_record(&text, separator, |line, record| {
+        if let Some(header) = header_text(record, separator) {
+            if !begins_curve(&header) {
+                comments.add(line);
+                return Ok(());
+            }
             let header = TableHeader::parse(&header);
             let header = header.map_err(|problem| Place::line(line).problem(problem))?;
             blocks.push(Block::new(line, header));
@@ -43,15 +58,29 @@ pub fn read(bytes: &[u8]) -> Result<Vec<Curve>, ReadError> {
         }
         let block = blocks.last_mut();
         let block = block.ok_or_else(|| Place::line(line).problem(Problem::NoTableHeader))?;
-        block.take(line, record)
+        block.take(line, record, &mut decimals)
     })?;
     if blocks.is_empty() {
         return Err(Problem::NoTableHeader.into());
     }
+    let decimal_commas = decimals.are_commas()?;
+    let mut remarks = Remarks::default();
+    if decimal_commas || separator != ',' {
+        remarks.add(Remark::Notation {
+            separator,
+            decimal_commas,
+        });
+    }
+    comments.remark(&mut remarks);
     let numbered = blocks.into_iter().enumerate();
-    numbered
+    let curves: Result<_, _> = numbered
         .map(|(index, block)| block.into_curve(index + 1))
-        .collect()
+        .collect();
+    Ok(Reading {
+        curves: curves?,
+        remarks,
+        ..Reading::default()
+    })
 }
 
 /// Write curves as tables of one of their polygons.
@@ -76,6 +105,7 @@ pub fn write(curves: &[&Curve], kind: PolygonKind) -> Result<Export, WriteError>
         losses.add_if(curve.locked, curve, Loss::Locked);
         let has_targets = !curve.targets.list().is_empty();
         losses.add_if(has_targets, curve, Loss::Targets);
+        losses.add_if(!curve.extras.is_empty(), curve, Loss::UnknownKeys);
     }
     Ok(Export { bytes, losses })
 }
@@ -114,13 +144,77 @@ fn block_bytes(curve: &Curve, kind: PolygonKind, losses: &mut LossReport) -> csv
         .map_err(|error| error.into_error().into())
 }
 
+/// Whether a line that begins with `#` begins a curve; otherwise it is a comment.
+fn begins_curve(line: &str) -> bool {
+    line.contains("degree=")
+}
+
+/// The comments of a file.
+#[derive(Default)]
+struct Comments {
+    first: usize,
+    count: usize,
+}
+
+impl Comments {
+    /// Empty the lines of a text that are comments: what looks like a quotation mark in them is
+    /// none.
+    fn blanked<'a>(&mut self, text: &'a str) -> Cow<'a, str> {
+        let is_comment = |line: &str| line.trim_start().starts_with('#') && !begins_curve(line);
+        if !text.lines().any(is_comment) {
+            return Cow::Borrowed(text);
+        }
+        let mut blanked = String::with_capacity(text.len());
+        for (index, line) in text.split('\n').enumerate() {
+            if index > 0 {
+                blanked.push('\n');
+            }
+            if is_comment(line) {
+                self.add(index + 1);
+            } else {
+                blanked.push_str(line);
+            }
+        }
+        Cow::Owned(blanked)
+    }
+
+    fn add(&mut self, line: usize) {
+        self.first = if self.count == 0 {
+            line
+        } else {
+            self.first.min(line)
+        };
+        self.count += 1;
+    }
+
+    fn remark(&self, remarks: &mut Remarks) {
+        let Self { first, count } = *self;
+        if count > 0 {
+            remarks.add(Remark::Comments { first, count });
+        }
+    }
+}
+
+/// Find what stands between the columns, from the line with their names: the first line that
+/// neither is empty nor begins with `#`.
+fn separator(text: &str) -> char {
+    let mut lines = text.lines().map(|line| line.trim_start_matches(['"', ' ']));
+    let is_filled = |line: &str| !line.trim_matches([',', ';', '\t', ' ']).is_empty();
+    let names = lines.find(|line| is_filled(line) && !line.starts_with('#'));
+    let mut separators = [';', '\t'].into_iter();
+    let found = names.and_then(|names| separators.find(|separator| names.contains(*separator)));
+    found.unwrap_or(',')
+}
+
 /// Hand over each line of values with its number, but for lines without any value; the empty
 /// values that spreadsheets pad lines with are cut off.
 fn each_record(
     text: &str,
+    separator: char,
     mut take: impl FnMut(usize, &StringRecord) -> Result<(), ReadError>,
 ) -> Result<(), ReadError> {
     let mut reader = ReaderBuilder::new()
+        .delimiter(u8::try_from(separator).unwrap_or(b','))
         .has_headers(false)
         .flexible(true)
         .from_reader(text.as_bytes());
@@ -148,14 +242,14 @@ fn each_record(
     }
 }
 
-/// Join a line that begins with `#` to the text it was before it was split at commas.
-fn header_text(record: &StringRecord) -> Option<String> {
+/// Join a line that begins with `#` to the text it was before it was split into columns.
+fn header_text(record: &StringRecord, separator: char) -> Option<String> {
     let is_header = record.get(0)?.trim_start().starts_with('#');
     is_header.then(|| {
         record
             .iter()
             .collect::<Vec<_>>()
-            .join(",")
+            .join(separator.encode_utf8(&mut [0; 4]))
             .trim()
             .to_owned()
     })
@@ -185,7 +279,12 @@ impl Block {
         }
     }
 
-    fn take(&mut self, line: usize, record: &StringRecord) -> Result<(), ReadError> {
+    fn take(
+        &mut self,
+        line: usize,
+        record: &StringRecord,
+        decimals: &mut Decimals,
+    ) -> Result<(), ReadError> {
         let place = |problem| Place::line(line).problem(problem);
         if self.columns.is_empty() {
             self.columns = columns(record).map_err(place)?;
@@ -197,7 +296,8 @@ impl Block {
         }
         let mut values = [0.0, 0.0, 0.0, 1.0];
         for (text, column) in record.iter().zip(&self.columns) {
-            values[*column] = number(text, COLUMNS[*column]).map_err(place)?;
+            let value = decimals.number(text, COLUMNS[*column], line);
+            values[*column] = value.map_err(place)?;
         }
         let [x, y, z, weight] = values;
         self.vertices.push(DVec3::new(x, y, z));
@@ -263,233 +363,5 @@ fn columns(record: &StringRecord) -> Result<Vec<usize>, Problem> {
     Ok(columns)
 }
 
-fn number(text: &str, column: &'static str) -> Result<f64, Problem> {
-    let text = text.trim();
-    let value: f64 = text.parse().map_err(|_| Problem::NotANumber {
-        column,
-        text: text.to_owned(),
-    })?;
-    if value.is_finite() {
-        Ok(value)
-    } else {
-        Err(Problem::NotFinite(text.to_owned()))
-    }
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::document::Colour;
-    use crate::geometry::FloatPolygon;
-
-    fn curve(
-        name: &str,
-        vertices: &[[f64; 3]],
-        weights: Option<Vec<f64>>,
-        periodic: bool,
-    ) -> Curve {
-        let vertices = vertices.iter().map(|vertex| DVec3::from_array(*vertex));
-        let polygon = FloatPolygon::new(2, vertices.collect(), weights, periodic);
-        Curve::new(name, polygon.unwrap())
-    }
-
-    fn planar() -> Curve {
-        let vertices = [
-            [0.1, 1e-300, 0.0],
-            [-2.5e7, 1.0 / 3.0, 0.0],
-            [3.0, -1e100, 0.0],
-        ];
-        curve("arc", &vertices, None, false)
-    }
-
-    fn spatial() -> Curve {
-        let vertices = [
-            [0.0, 0.0, 1.0],
-            [1.0, 0.0, 0.0],
-            [1.0, 1.0, 0.0],
-            [0.0, 2.0, 5.0],
-        ];
-        curve("a \"b\", c=d\n", &vertices, None, true)
-    }
-
-    fn rational() -> Curve {
-        let vertices = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]];
-        curve("weighted", &vertices, Some(vec![1.0, 0.1, 1e-100]), false)
-    }
-
-    #[test]
-    fn the_layout_is_as_described() {
-        let check = |curve: Curve, expected: &str| {
-            let bytes = write(&[&curve], PolygonKind::Float).unwrap().bytes;
-            assert_eq!(String::from_utf8(bytes).unwrap(), expected);
-        };
-        check(
-            planar(),
-            "# degree=2 polygon=float periodic=false name=arc\nx,y\n0.1,1e-300\n-25000000.0,0.3333333333333333\n3.0,-1e100\n",
-        );
-        check(
-            rational(),
-            "# degree=2 polygon=float periodic=false name=weighted\nx,y,z,weight\n0.0,0.0,0.0,1.0\n1.0,0.0,0.0,0.1\n1.0,1.0,0.0,1e-100\n",
-        );
-        check(
-            spatial(),
-            "\"# degree=2 polygon=float periodic=true name=\"\"a \\\"\"b\\\"\", c=d\\n\"\"\"\nx,y,z\n0.0,0.0,1.0\n1.0,0.0,0.0\n1.0,1.0,0.0\n0.0,2.0,5.0\n",
-        );
-    }
-
-    #[test]
-    fn tables_come_back_exactly() {
-        let curves = [planar(), spatial(), rational()];
-        let export = write(&curves.each_ref(), PolygonKind::Float).unwrap();
-        assert!(export.losses.is_empty(), "{}", export.losses);
-        assert_eq!(read(&export.bytes).unwrap(), curves);
-    }
-
-    #[test]
-    fn what_a_table_does_not_hold_is_reported() {
-        let mut changed = spatial();
-        changed.name = "c".to_owned();
-        changed.colour = Some(Colour([1, 2, 3]));
-        changed.visible = false;
-        changed.locked = true;
-        changed.targets.start = Some(crate::geometry::end_correction::EndTarget {
-            point: DVec3::ZERO,
-            direction: None,
-        });
-        let losses = write(&[&changed], PolygonKind::Bezier).unwrap().losses;
-        let losses: Vec<Loss> = losses.losses.into_iter().map(|(_, loss)| loss).collect();
-        let expected = [
-            Loss::Periodic,
-            Loss::Colour,
-            Loss::Hidden,
-            Loss::Locked,
-            Loss::Targets,
-        ];
-        assert_eq!(losses, expected);
-        assert!(matches!(
-            write(&[], PolygonKind::Float),
-            Err(WriteError::NoCurves { .. })
-        ));
-    }
-
-    #[test]
-    fn tables_of_other_programs_are_read() {
-        let check = |text: &str, expected: &[[f64; 3]], weights: Option<Vec<f64>>| {
-            let curves = read(text.as_bytes()).unwrap();
-            assert_eq!(
-                curves,
-                [curve("curve 1", expected, weights, false)],
-                "{text:?}"
-            );
-        };
-        let plane = [[0.0, 1.0, 0.0], [2.0, 3.0, 0.0], [4.0, 5.0, 0.0]];
-        // Marks, line ends, blank lines, padding and upper case are a spreadsheet's.
-        check(
-            "\u{feff}# degree=2,,\r\n\r\nX,Y,\r\n0,1\r\n2, 3 ,\r\n,,\r\n4,5",
-            &plane,
-            None,
-        );
-        check(" #degree=2\n y , x \n1,0\n3,2\n5,4\n", &plane, None);
-        check(
-            "# degree=2\nx,y,weight\n0,1,1\n2,3,2\n4,5,3\n",
-            &plane,
-            Some(vec![1.0, 2.0, 3.0]),
-        );
-        check(
-            "# degree=2 polygon=bezier\nx,y\n0,0\n1,1\n2,0\n",
-            &[[-1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [3.0, -1.0, 0.0]],
-            None,
-        );
-    }
-
-    #[test]
-    fn what_is_wrong_is_named_with_its_place() {
-        let check = |text: &str, expected: &str| {
-            let message = read(text.as_bytes()).unwrap_err().to_string();
-            assert_eq!(message, expected, "{text:?}");
-        };
-        let hint = "the table does not say which curve its vertices make: put a line like “# degree=3 polygon=float periodic=false name=curve” above the line with the column names";
-        check("", "the file is empty");
-        check("\n \n", "the file is empty");
-        check(",,\n", hint);
-        check("\n\nx,y\n0,0\n", &format!("line 3: {hint}"));
-        check(
-            "# degree=2 name=hull",
-            "line 1, curve 1 “hull”: the table has no columns: put a line with their names, for example “x,y”, above its numbers",
-        );
-        check(
-            "# degree=2\n\n0,1\n",
-            "line 3: the table has no columns: put a line with their names, for example “x,y”, above its numbers",
-        );
-        check(
-            "# degree=2\nx;y\n",
-            "line 2: “x;y” is not a column name that can stand here: the columns are x,y or x,y,z, then weight, each once and separated by commas",
-        );
-        check(
-            "# degree=2\nx,x\n",
-            "line 2: “x” is not a column name that can stand here: the columns are x,y or x,y,z, then weight, each once and separated by commas",
-        );
-        check(
-            "# degree=2\nx,z\n",
-            "line 2: the column y is missing: the columns x and y are needed",
-        );
-        let rows = "\nx,y\n0,0\n1,0\n\n";
-        check(
-            &format!("# degree=2{rows}2,3,4\n"),
-            "line 6: 3 values for 2 columns",
-        );
-        check(
-            &format!("# degree=2{rows}2\n"),
-            "line 6: 1 values for 2 columns",
-        );
-        check(
-            &format!("# degree=2{rows}2,two\n"),
-            "line 6: “two” in column y is not a number",
-        );
-        for value in ["NaN", "inf", "-infinity", "1e999"] {
-            check(
-                &format!("# degree=2{rows}2,{value}\n"),
-                &format!(
-                    "line 6: “{value}” is not a finite number: only finite numbers can be used"
-                ),
-            );
-        }
-        check(
-            &format!("# degree=2 name=hull{rows}2,1e200\n"),
-            "line 6, curve 1 “hull”, vertex 2: coordinate y is 1e200, and only finite numbers up to 1e100 can be used",
-        );
-        check(
-            "# degree=1\nx,y,weight\n0,0,1\n1,1,-2\n",
-            "line 4, curve 1 “curve 1”, vertex 1: weight -2.0 cannot be used: weights are positive numbers from 1e-100 to 1e100",
-        );
-        check(
-            &format!("# degree=0{rows}"),
-            "line 1, curve 1 “curve 1”: degree 0 is out of range: a degree from 1 to 25 is needed",
-        );
-        check(
-            &format!("# degree=26{rows}"),
-            "line 1, curve 1 “curve 1”: degree 26 is out of range: a degree from 1 to 25 is needed",
-        );
-        check(
-            &format!("# degree=1{rows}\n# degree=2 name=b{rows}"),
-            "line 7, curve 2 “b”: 2 vertices are too few: an open curve of degree 2 needs at least 3",
-        );
-        check(
-            &format!("# degree=1 polygon=clamped periodic=true{rows}"),
-            "line 1, curve 1 “curve 1”: a periodic curve cannot be given by its clamped polygon, which starts and ends somewhere: give its float polygon, or make it open",
-        );
-        check(
-            "# degree=2 vertices=1000000000\nx,y\n",
-            "line 1: “vertices=1000000000” is not known here: a line above a table holds degree=…, polygon=…, periodic=… and, last, name=…",
-        );
-    }
-
-    #[test]
-    fn text_that_is_not_utf8_is_refused_with_its_place() {
-        let error = read(b"# degree=2\nx,\xff").unwrap_err();
-        assert_eq!(
-            error.to_string(),
-            "line 2, column 3: the file is not text in UTF-8 here: save it as UTF-8"
-        );
-    }
-}
+mod tests;

@@ -298,7 +298,7 @@ fn targets_of_any_direction_survive_a_file() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("own.batten");
     assert!(script.editor.save(&path), "{}", script.message());
-    let read = disk::read_file(&path).expect("what was saved");
+    let read = disk::read_file(&path).expect("what was saved").curves;
     assert_eq!(read[0].targets.get(End::Finish), Some(target));
     assert_eq!(
         script.editor.discard_and(AfterDiscard::OpenFile(path)),

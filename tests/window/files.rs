@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use batten::document::Extras;
 use batten::io::disk;
 use eframe::egui::{DroppedFile, Key, Modifiers, Vec2};
 use egui_kittest::kittest::Queryable;
@@ -34,7 +35,7 @@ fn unsaved_changes_are_asked_about() {
         "saved, then gone on"
     );
     assert_eq!(
-        disk::read_file(&path).expect("the file")[0].polygon,
+        disk::read_file(&path).expect("the file").curves[0].polygon,
         changed.polygon
     );
 }
@@ -78,7 +79,7 @@ fn a_dropped_table_is_added_and_a_dropped_project_asks_about_changes() {
     drop_file(&mut window, &table);
     assert_eq!(window.state().editor().document().len(), 2);
     let project = folder.path().join("line.batten");
-    disk::write_file(&project, &[curve(&window)], None).expect("the file");
+    disk::write_file(&project, &[curve(&window)], &Extras::default(), None).expect("the file");
     drop_file(&mut window, &project);
     click(&mut window, "Cancel");
     assert_eq!(window.state().editor().document().len(), 2);

@@ -73,7 +73,7 @@ fn the_main_job_through_the_window() {
     press(&mut window, Modifiers::COMMAND, Key::S);
     answer(&mut window, &path);
     assert!(!window.state().editor().is_modified());
-    let saved = disk::read_file(&path).expect("the saved file");
+    let saved = disk::read_file(&path).expect("the saved file").curves;
     assert_eq!(saved[0].polygon, dragged.polygon, "numbers survive exactly");
 
     let path = folder.path().join("dragged.dxf");

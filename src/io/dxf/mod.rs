@@ -121,6 +121,7 @@ fn report(curve: &Curve, layer: &str, kinds: &[PolygonKind], losses: &mut LossRe
     losses.add_if(curve.colour.is_some(), curve, Loss::Colour);
     let has_targets = !curve.targets.list().is_empty();
     losses.add_if(has_targets, curve, Loss::Targets);
+    losses.add_if(!curve.extras.is_empty(), curve, Loss::UnknownKeys);
     losses.add_if(curve.polygon.is_periodic(), curve, Loss::Periodic);
     for &kind in kinds {
         let is_rational = curve.polygon.is_rational();

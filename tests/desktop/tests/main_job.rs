@@ -143,7 +143,7 @@ fn saved(window: &mut Window, name: &str) -> Result<Curve> {
     let path = window.folder().join(format!("{name}.batten"));
     window.key(Key::S, Modifiers::COMMAND | Modifiers::SHIFT)?;
     answer_prompt(window, &path)?;
-    let curves = disk::read_file(&path)?;
+    let curves = disk::read_file(&path)?.curves;
     curves.into_iter().next().context("the file has no curve")
 }
 

@@ -1,0 +1,124 @@
+//! Where curves come from and go to: files, or the standard input and output.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::output;
+use crate::io::{Export, FileError, Format, Reading, disk, shown_path};
+
+/// The name that stands for the standard input or output.
+pub(super) const STANDARD: &str = "-";
+
+/// A source of curves.
+pub(super) enum Source {
+    /// The standard input, in this format.
+    Standard(Format),
+    /// A file, of this format whatever its name says.
+    File(PathBuf, Option<Format>),
+}
+
+impl Source {
+    /// Name a source; the standard input is one only if its format is given.
+    pub(super) fn new(path: PathBuf, format: Option<Format>) -> Option<Self> {
+        if path.as_os_str() == STANDARD {
+            format.map(Self::Standard)
+        } else {
+            Some(Self::File(path, format))
+        }
+    }
+
+    /// Read it, and print what there is to tell of it.
+    ///
+    /// # Errors
+    /// [`FileError`], naming the source and the place in it.
+    pub(super) fn read(&self) -> Result<Reading, FileError> {
+        let reading = match self {
+            Self::Standard(format) => disk::read_stream(io::stdin().lock(), &self.name(), *format),
+            Self::File(path, None) => disk::read_file(path),
+            Self::File(path, Some(format)) => disk::read_file_as(path, *format),
+        }?;
+        output::report(&self.name(), &reading.remarks);
+        Ok(reading)
+    }
+
+    /// What messages call it.
+    pub(super) fn name(&self) -> String {
+        match self {
+            Self::Standard(_) => "standard input".to_owned(),
+            Self::File(path, _) => shown_path(path),
+        }
+    }
+
+    fn path(&self) -> Option<&Path> {
+        match self {
+            Self::Standard(_) => None,
+            Self::File(path, _) => Some(path),
+        }
+    }
+}
+
+/// A destination of curves.
+pub(super) enum Destination {
+    /// The standard output, in this format.
+    Standard(Format),
+    /// A file, of this format whatever its name says.
+    File(PathBuf, Option<Format>),
+}
+
+impl Destination {
+    /// Name a destination; the standard output is one only if its format is given.
+    pub(super) fn new(path: PathBuf, format: Option<Format>) -> Option<Self> {
+        if path.as_os_str() == STANDARD {
+            format.map(Self::Standard)
+        } else {
+            Some(Self::File(path, format))
+        }
+    }
+
+    /// The format to write.
+    ///
+    /// # Errors
+    /// [`FileError`] if it is not given and the file's name does not tell it.
+    pub(super) fn format(&self) -> Result<Format, FileError> {
+        match self {
+            Self::Standard(format) | Self::File(_, Some(format)) => Ok(*format),
+            Self::File(path, None) => Format::to_write(path).map_err(|error| FileError::Format {
+                path: path.clone(),
+                error,
+            }),
+        }
+    }
+
+    /// Whether it is the file that a source is.
+    pub(super) fn is(&self, source: &Source) -> bool {
+        match (self, source.path()) {
+            (Self::File(path, _), Some(source)) => disk::is_same_file(source, path),
+            _ => false,
+        }
+    }
+
+    /// Write what a format made of curves, and print what is lost by it.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub(super) fn write(&self, export: Export) -> anyhow::Result<()> {
+        match self {
+            Self::Standard(_) => {
+                output::print_bytes(&export.bytes)?;
+                output::message(&export.losses.to_string());
+            }
+            Self::File(path, _) => {
+                output::message(&disk::write_export(path, export)?.to_string());
+            }
+        }
+        Ok(())
+    }
+
+    /// What messages call it.
+    pub(super) fn name(&self) -> String {
+        match self {
+            Self::Standard(_) => "standard output".to_owned(),
+            Self::File(path, _) => shown_path(path),
+        }
+    }
+}

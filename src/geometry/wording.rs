@@ -1,0 +1,18 @@
+//! Numbers in messages.
+
+/// Say a number with its noun: "1 vertex", but "0 vertices" and "7 vertices".
+pub fn counted(count: usize, one: &str, many: &str) -> String {
+    let noun = if count == 1 { one } else { many };
+    format!("{count} {noun}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_thing_is_not_said_in_the_plural() {
+        let said = [0, 1, 2].map(|count| counted(count, "vertex", "vertices"));
+        assert_eq!(said, ["0 vertices", "1 vertex", "2 vertices"]);
+    }
+}

@@ -1,0 +1,144 @@
+//! Numbers of tables, whose decimals follow a point or, in many countries, a comma.
+
+use super::error::{Place, Problem, ReadError};
+
+/// What the numbers of a table read so far tell of how its decimals are written.
+#[derive(Default)]
+pub(super) struct Decimals {
+    mark: Option<Mark>,
+    /// Whether a comma was found that cannot be one between thousands.
+    is_proved: bool,
+    /// The first number whose comma can be one between thousands, with its line.
+    doubtful: Option<(usize, String)>,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Mark {
+    Point,
+    Comma,
+}
+
+impl Decimals {
+    /// Read a number of a column.
+    ///
+    /// # Errors
+    /// [`Problem`] if it is none, is infinite, or has another decimal mark than those before.
+    pub(super) fn number(
+        &mut self,
+        text: &str,
+        column: &'static str,
+        line: usize,
+    ) -> Result<f64, Problem> {
+        let text = text.trim();
+        let mark = match (text.contains('.'), text.contains(',')) {
+            (false, false) => None,
+            (true, _) => Some(Mark::Point),
+            (false, true) => Some(Mark::Comma),
+        };
+        let value: Option<f64> = match mark {
+            Some(Mark::Comma) => text.replacen(',', ".", 1).parse().ok(),
+            _ => text.parse().ok(),
+        };
+        let value = value.ok_or_else(|| Problem::NotANumber {
+            column,
+            text: text.to_owned(),
+        })?;
+        if !value.is_finite() {
+            return Err(Problem::NotFinite(text.to_owned()));
+        }
+        if mark.is_some() && self.mark.is_some() && mark != self.mark {
+            return Err(Problem::MixedDecimals(text.to_owned()));
+        }
+        self.mark = self.mark.or(mark);
+        if mark == Some(Mark::Comma) {
+            if !may_be_grouped(text) {
+                self.is_proved = true;
+            } else if self.doubtful.is_none() {
+                self.doubtful = Some((line, text.to_owned()));
+            }
+        }
+        Ok(value)
+    }
+
+    /// Tell, after the last number, whether decimals follow a comma.
+    ///
+    /// # Errors
+    /// [`Problem::AmbiguousComma`] with its line if each comma can as well be one between
+    /// thousands.
+    pub(super) fn are_commas(self) -> Result<bool, ReadError> {
+        match self.doubtful {
+            Some((line, text)) if !self.is_proved => {
+                Err(Place::line(line).problem(Problem::AmbiguousComma(text)))
+            }
+            _ => Ok(self.mark == Some(Mark::Comma)),
+        }
+    }
+}
+
+/// Whether a number with a comma can be a whole one with its thousands set apart, such as 12,345.
+fn may_be_grouped(text: &str) -> bool {
+    let digits = text.trim_start_matches(['+', '-']);
+    let is_number = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());
+    digits.split_once(',').is_some_and(|(head, tail)| {
+        (1..=3).contains(&head.len())
+            && !head.starts_with('0')
+            && tail.len() == 3
+            && is_number(head)
+            && is_number(tail)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(texts: &[&str]) -> Result<(Vec<f64>, bool), String> {
+        let mut decimals = Decimals::default();
+        let mut values = Vec::new();
+        for (index, text) in texts.iter().enumerate() {
+            let value = decimals.number(text, "x", index + 1);
+            values.push(value.map_err(|problem| problem.to_string())?);
+        }
+        let are_commas = decimals.are_commas().map_err(|error| error.to_string())?;
+        Ok((values, are_commas))
+    }
+
+    #[test]
+    fn decimal_commas_are_read_where_they_can_be_nothing_else() {
+        for (text, value) in [
+            ("0,125", 0.125),
+            ("1,5", 1.5),
+            ("-12,3456", -12.3456),
+            (",5", 0.5),
+            ("1234,567", 1234.567),
+            ("1,234e-3", 1.234e-3),
+            ("7,", 7.0),
+        ] {
+            assert_eq!(read(&[text]), Ok((vec![value], true)), "{text}");
+            // One that is sure decides for those that are not.
+            let expected = Ok((vec![1.234, value, 5.0], true));
+            assert_eq!(read(&["1,234", text, "5"]), expected, "{text}");
+        }
+        assert_eq!(read(&["1.234", "5"]), Ok((vec![1.234, 5.0], false)));
+    }
+
+    #[test]
+    fn commas_that_may_set_thousands_apart_are_refused() {
+        for text in ["1,234", "-12,345", "+999,000"] {
+            let expected = format!(
+                "line 2: “{text}” can be read with a decimal comma or with a comma between thousands: write the table's decimals with points"
+            );
+            assert_eq!(read(&["7", text, "8"]), Err(expected), "{text}");
+        }
+        for text in ["1,234,567", "1.234,5", "1,234.5", ",", "1,5x"] {
+            let expected = format!("“{text}” in column x is not a number");
+            assert_eq!(read(&[text]), Err(expected));
+        }
+        for [first, second] in [["0,5", "2.5"], ["2.5", "0,5"], ["1.5", "1,234"]] {
+            let expected = format!(
+                "“{second}” has another decimal mark than the numbers before it: write all decimals with points, or all with commas"
+            );
+            assert_eq!(read(&[first, second]), Err(expected));
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! What is read of a file, and what there is to say of it.
+
+use std::fmt;
+
+use crate::document::{Curve, Extras, quoted};
+use crate::geometry::counted;
+
+/// The most unknown keys that are named one by one.
+const MOST_NAMED: usize = 8;
+
+/// What is read of a file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Reading {
+    /// The curves.
+    pub curves: Vec<Curve>,
+    /// What a project says of itself that this program does not know.
+    pub extras: Extras,
+    /// What the reader should tell its user.
+    pub remarks: Remarks,
+}
+
+/// List what is not wrong with a file, but better told. Shown as one line a remark.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Remarks(Vec<Remark>);
+
+/// Something that is not wrong with a file, but better told.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Remark {
+    /// A key that this program does not know: it has no effect.
+    UnknownKey {
+        /// The key.
+        key: String,
+        /// Whose key it is.
+        owner: Owner,
+    },
+    /// How the columns and decimals of a table are told apart, where it is not by commas and
+    /// points.
+    Notation {
+        /// What is between the columns: a comma, a semicolon or a tab.
+        separator: char,
+        /// Whether decimals follow a comma.
+        decimal_commas: bool,
+    },
+    /// Lines of a table that begin with # but no curve.
+    Comments {
+        /// The first of them, counted from 1.
+        first: usize,
+        /// Their number.
+        count: usize,
+    },
+}
+
+/// Who has a key.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Owner {
+    /// The project.
+    Project,
+    /// Curves; kept with them.
+    Curves {
+        /// The first of them, counted from 1, with its name.
+        first: (usize, String),
+        /// Their number.
+        count: usize,
+    },
+    /// The targets of a curve, which keep nothing unknown.
+    Targets {
+        /// The curve, counted from 1, with its name.
+        curve: (usize, String),
+    },
+}
+
+impl Remarks {
+    /// Add a remark.
+    pub fn add(&mut self, remark: Remark) {
+        self.0.push(remark);
+    }
+
+    /// Name a curve's unknown key, together with those of curves before it that are alike.
+    pub fn add_key(&mut self, key: &str, number: usize, name: &str) {
+        for remark in &mut self.0 {
+            if let Remark::UnknownKey {
+                key: known,
+                owner: Owner::Curves { count, .. },
+            } = remark
+                && known == key
+            {
+                *count += 1;
+                return;
+            }
+        }
+        let first = (number, name.to_owned());
+        self.add(Remark::UnknownKey {
+            key: key.to_owned(),
+            owner: Owner::Curves { first, count: 1 },
+        });
+    }
+
+    /// Whether there is nothing to say.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// List the remarks.
+    pub fn iter(&self) -> impl Iterator<Item = &Remark> {
+        self.0.iter()
+    }
+}
+
+impl fmt::Display for Remarks {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let is_key = |remark: &&Remark| matches!(remark, Remark::UnknownKey { .. });
+        let others = self.iter().filter(|remark| !is_key(remark));
+        let keys = self.iter().filter(is_key).take(MOST_NAMED);
+        let mut lines: Vec<String> = others.chain(keys).map(ToString::to_string).collect();
+        let unnamed = self.iter().filter(is_key).skip(MOST_NAMED).count();
+        if unnamed > 0 {
+            let keys = counted(unnamed, "other key is", "other keys are");
+            lines.push(format!("{keys} not known either"));
+        }
+        formatter.write_str(&lines.join("\n"))
+    }
+}
+
+impl fmt::Display for Remark {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let curve = |(number, name): &(usize, String)| format!("curve {number} {}", quoted(name));
+        match self {
+            Self::UnknownKey { key, owner } => {
+                let key = quoted(key);
+                match owner {
+                    Owner::Project => write!(
+                        formatter,
+                        "the project's key {key} is not known and has no effect"
+                    ),
+                    Owner::Curves { first, count: 1 } => write!(
+                        formatter,
+                        "{}: the key {key} is not known and has no effect",
+                        curve(first)
+                    ),
+                    Owner::Curves { first, count } => write!(
+                        formatter,
+                        "the key {key} of {count} curves is not known and has no effect; the first is {}",
+                        curve(first)
+                    ),
+                    Owner::Targets { curve: owner } => write!(
+                        formatter,
+                        "{}: the key {key} of its targets is not known, has no effect and is not kept",
+                        curve(owner)
+                    ),
+                }
+            }
+            Self::Notation {
+                separator,
+                decimal_commas,
+            } => {
+                let columns = match separator {
+                    ';' => Some("semicolons between columns"),
+                    '\t' => Some("tabs between columns"),
+                    _ => None,
+                };
+                let decimals = decimal_commas.then_some("decimal commas");
+                let parts: Vec<&str> = columns.into_iter().chain(decimals).collect();
+                write!(formatter, "read with {}", parts.join(" and "))
+            }
+            Self::Comments { first, count: 1 } => {
+                write!(formatter, "line {first} is taken as a comment")
+            }
+            Self::Comments { first, count } => write!(
+                formatter,
+                "{count} lines are taken as comments, the first is line {first}"
+            ),
+        }
+    }
+}

@@ -1,0 +1,209 @@
+//! Tables, as Batten and as other programs write them.
+
+use super::*;
+use crate::document::Colour;
+use crate::geometry::FloatPolygon;
+
+fn curve(name: &str, vertices: &[[f64; 3]], weights: Option<Vec<f64>>, periodic: bool) -> Curve {
+    let vertices = vertices.iter().map(|vertex| DVec3::from_array(*vertex));
+    let polygon = FloatPolygon::new(2, vertices.collect(), weights, periodic);
+    Curve::new(name, polygon.unwrap())
+}
+
+fn planar() -> Curve {
+    let vertices = [
+        [0.1, 1e-300, 0.0],
+        [-2.5e7, 1.0 / 3.0, 0.0],
+        [3.0, -1e100, 0.0],
+    ];
+    curve("arc", &vertices, None, false)
+}
+
+fn spatial() -> Curve {
+    let vertices = [
+        [0.0, 0.0, 1.0],
+        [1.0, 0.0, 0.0],
+        [1.0, 1.0, 0.0],
+        [0.0, 2.0, 5.0],
+    ];
+    curve("a \"b\", c=d\n", &vertices, None, true)
+}
+
+fn rational() -> Curve {
+    let vertices = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]];
+    curve("weighted", &vertices, Some(vec![1.0, 0.1, 1e-100]), false)
+}
+
+#[test]
+fn the_layout_is_as_described() {
+    let check = |curve: Curve, expected: &str| {
+        let bytes = write(&[&curve], PolygonKind::Float).unwrap().bytes;
+        assert_eq!(String::from_utf8(bytes).unwrap(), expected);
+    };
+    check(
+        planar(),
+        "# degree=2 polygon=float periodic=false name=arc\nx,y\n0.1,1e-300\n-25000000.0,0.3333333333333333\n3.0,-1e100\n",
+    );
+    check(
+        rational(),
+        "# degree=2 polygon=float periodic=false name=weighted\nx,y,z,weight\n0.0,0.0,0.0,1.0\n1.0,0.0,0.0,0.1\n1.0,1.0,0.0,1e-100\n",
+    );
+    check(
+        spatial(),
+        "\"# degree=2 polygon=float periodic=true name=\"\"a \\\"\"b\\\"\", c=d\\n\"\"\"\nx,y,z\n0.0,0.0,1.0\n1.0,0.0,0.0\n1.0,1.0,0.0\n0.0,2.0,5.0\n",
+    );
+}
+
+#[test]
+fn tables_come_back_exactly() {
+    let curves = [planar(), spatial(), rational()];
+    let export = write(&curves.each_ref(), PolygonKind::Float).unwrap();
+    assert!(export.losses.is_empty(), "{}", export.losses);
+    assert_eq!(read(&export.bytes).unwrap().curves, curves);
+}
+
+#[test]
+fn what_a_table_does_not_hold_is_reported() {
+    let mut changed = spatial();
+    changed.name = "c".to_owned();
+    changed.colour = Some(Colour([1, 2, 3]));
+    changed.visible = false;
+    changed.locked = true;
+    changed.targets.start = Some(crate::geometry::end_correction::EndTarget {
+        point: DVec3::ZERO,
+        direction: None,
+    });
+    let losses = write(&[&changed], PolygonKind::Bezier).unwrap().losses;
+    let losses: Vec<Loss> = losses.losses.into_iter().map(|(_, loss)| loss).collect();
+    let expected = [
+        Loss::Periodic,
+        Loss::Colour,
+        Loss::Hidden,
+        Loss::Locked,
+        Loss::Targets,
+    ];
+    assert_eq!(losses, expected);
+    assert!(matches!(
+        write(&[], PolygonKind::Float),
+        Err(WriteError::NoCurves { .. })
+    ));
+}
+
+#[test]
+fn tables_of_other_programs_are_read() {
+    let check = |text: &str, expected: &[[f64; 3]], weights: Option<Vec<f64>>| {
+        let curves = read(text.as_bytes()).unwrap().curves;
+        assert_eq!(
+            curves,
+            [curve("curve 1", expected, weights, false)],
+            "{text:?}"
+        );
+    };
+    let plane = [[0.0, 1.0, 0.0], [2.0, 3.0, 0.0], [4.0, 5.0, 0.0]];
+    // Marks, line ends, blank lines, padding and upper case are a spreadsheet's.
+    check(
+        "\u{feff}# degree=2,,\r\n\r\nX,Y,\r\n0,1\r\n2, 3 ,\r\n,,\r\n4,5",
+        &plane,
+        None,
+    );
+    check(" #degree=2\n y , x \n1,0\n3,2\n5,4\n", &plane, None);
+    check(
+        "# degree=2\nx,y,weight\n0,1,1\n2,3,2\n4,5,3\n",
+        &plane,
+        Some(vec![1.0, 2.0, 3.0]),
+    );
+    check(
+        "# degree=2 polygon=bezier\nx,y\n0,0\n1,1\n2,0\n",
+        &[[-1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [3.0, -1.0, 0.0]],
+        None,
+    );
+}
+
+#[test]
+fn what_is_wrong_is_named_with_its_place() {
+    let check = |text: &str, expected: &str| {
+        let message = read(text.as_bytes()).unwrap_err().to_string();
+        assert_eq!(message, expected, "{text:?}");
+    };
+    let hint = "the table does not say which curve its vertices make: put a line like “# degree=3 polygon=float periodic=false name=curve” above the line with the column names";
+    check("", "the file is empty");
+    check("\n \n", "the file is empty");
+    check(",,\n", hint);
+    check("\n\nx,y\n0,0\n", &format!("line 3: {hint}"));
+    check(
+        "# degree=2 name=hull",
+        "line 1, curve 1 “hull”: the table has no columns: put a line with their names, for example “x,y”, above its numbers",
+    );
+    check(
+        "# degree=2\n\n0,1\n",
+        "line 3: the table has no columns: put a line with their names, for example “x,y”, above its numbers",
+    );
+    check(
+        "# degree=2\nx/y\n",
+        "line 2: “x/y” is not a column name that can stand here: the columns are x,y or x,y,z, then weight, each once and separated by commas, semicolons or tabs",
+    );
+    check(
+        "# degree=2\nx,x\n",
+        "line 2: “x” is not a column name that can stand here: the columns are x,y or x,y,z, then weight, each once and separated by commas, semicolons or tabs",
+    );
+    check(
+        "# degree=2\nx,z\n",
+        "line 2: the column y is missing: the columns x and y are needed",
+    );
+    let rows = "\nx,y\n0,0\n1,0\n\n";
+    check(
+        &format!("# degree=2{rows}2,3,4\n"),
+        "line 6: 3 values for 2 columns",
+    );
+    check(
+        &format!("# degree=2{rows}2\n"),
+        "line 6: 1 value for 2 columns",
+    );
+    check(
+        &format!("# degree=2{rows}2,two\n"),
+        "line 6: “two” in column y is not a number",
+    );
+    for value in ["NaN", "inf", "-infinity", "1e999"] {
+        check(
+            &format!("# degree=2{rows}2,{value}\n"),
+            &format!("line 6: “{value}” is not a finite number: only finite numbers can be used"),
+        );
+    }
+    check(
+        &format!("# degree=2 name=hull{rows}2,1e200\n"),
+        "line 6, curve 1 “hull”, vertex 2: coordinate y is 1e200, and only finite numbers up to 1e100 can be used",
+    );
+    check(
+        "# degree=1\nx,y,weight\n0,0,1\n1,1,-2\n",
+        "line 4, curve 1 “curve 1”, vertex 1: weight -2.0 cannot be used: weights are positive numbers from 1e-100 to 1e100",
+    );
+    check(
+        &format!("# degree=0{rows}"),
+        "line 1, curve 1 “curve 1”: degree 0 is out of range: a degree from 1 to 25 is needed",
+    );
+    check(
+        &format!("# degree=26{rows}"),
+        "line 1, curve 1 “curve 1”: degree 26 is out of range: a degree from 1 to 25 is needed",
+    );
+    check(
+        &format!("# degree=1{rows}\n# degree=2 name=b{rows}"),
+        "line 7, curve 2 “b”: 2 vertices are too few: an open curve of degree 2 needs at least 3",
+    );
+    check(
+        &format!("# degree=1 polygon=clamped periodic=true{rows}"),
+        "line 1, curve 1 “curve 1”: a periodic curve cannot be given by its clamped polygon, which starts and ends somewhere: give its float polygon, or make it open",
+    );
+    check(
+        "# degree=2 vertices=1000000000\nx,y\n",
+        "line 1: “vertices=1000000000” is not known here: a line above a table holds degree=…, polygon=…, periodic=… and, last, name=…",
+    );
+}
+
+#[test]
+fn text_that_is_not_utf8_is_refused_with_its_place() {
+    let error = read(b"# degree=2\nx,\xff").unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "line 2, column 3: the file is not text in UTF-8 here: save it as UTF-8"
+    );
+}
