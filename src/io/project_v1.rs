@@ -11,8 +11,8 @@ use super::loss::LossReport;
 use super::object::Object;
 use super::polygon::{Written, build, written};
 use super::project::{FORMAT, VERSION};
-use super::reading::{Owner, Reading, Remark, Remarks};
-use crate::document::{Colour, Curve, EndTargets, Extras, cut};
+use super::reading::{CurveKeys, Owner, Reading, Remark, Remarks};
+use crate::document::{Colour, Curve, EndTargets, cut};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{End, MAX_DEGREE, MAX_MAGNITUDE, PolygonKind};
 
@@ -87,14 +87,19 @@ impl Project {
                 owner: Owner::Project,
             });
         }
-        let numbered = self.value.curves.into_iter().enumerate();
-        let curves: Result<_, _> = numbered
-            .map(|(index, Object { value, extras })| {
-                value.into_curve(index + 1, extras, &mut remarks)
-            })
-            .collect();
+        let mut curves = Vec::with_capacity(self.value.curves.len());
+        let mut keys = CurveKeys::default();
+        for (index, Object { value, extras }) in self.value.curves.into_iter().enumerate() {
+            let number = index + 1;
+            let curve = value.into_curve(number, &mut remarks)?;
+            for (key, _) in extras.iter() {
+                keys.add(key, number, &curve.name);
+            }
+            curves.push(Curve { extras, ..curve });
+        }
+        keys.remark(&mut remarks);
         Ok(Reading {
-            curves: curves?,
+            curves,
             extras: self.extras,
             remarks,
         })
@@ -121,18 +126,10 @@ impl WrittenProject {
 }
 
 impl CurveV1 {
-    fn into_curve(
-        self,
-        number: usize,
-        extras: Extras,
-        remarks: &mut Remarks,
-    ) -> Result<Curve, ReadError> {
+    fn into_curve(self, number: usize, remarks: &mut Remarks) -> Result<Curve, ReadError> {
         let given = self.name.filter(|name| !name.trim().is_empty());
         let name = given.unwrap_or_else(|| format!("curve {number}"));
         let place = |problem| Place::curve(number, &name).problem(problem);
-        for (key, _) in extras.iter() {
-            remarks.add_key(key, number, &name);
-        }
         let weights = self.weights;
         let polygon = build(
             self.polygon.0,
@@ -161,7 +158,6 @@ impl CurveV1 {
             visible: self.visible.unwrap_or(true),
             locked: self.locked.unwrap_or(false),
             targets,
-            extras,
             ..Curve::new(name, polygon)
         })
     }

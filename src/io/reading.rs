@@ -1,5 +1,6 @@
 //! What is read of a file, and what there is to say of it.
 
+use std::collections::HashMap;
 use std::fmt;
 
 use crate::document::{Curve, Extras, quoted};
@@ -75,26 +76,6 @@ impl Remarks {
         self.0.push(remark);
     }
 
-    /// Name a curve's unknown key, together with those of curves before it that are alike.
-    pub fn add_key(&mut self, key: &str, number: usize, name: &str) {
-        for remark in &mut self.0 {
-            if let Remark::UnknownKey {
-                key: known,
-                owner: Owner::Curves { count, .. },
-            } = remark
-                && known == key
-            {
-                *count += 1;
-                return;
-            }
-        }
-        let first = (number, name.to_owned());
-        self.add(Remark::UnknownKey {
-            key: key.to_owned(),
-            owner: Owner::Curves { first, count: 1 },
-        });
-    }
-
     /// Whether there is nothing to say.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
@@ -103,6 +84,53 @@ impl Remarks {
     /// List the remarks.
     pub fn iter(&self) -> impl Iterator<Item = &Remark> {
         self.0.iter()
+    }
+}
+
+/// The unknown keys of curves: one remark for all curves that have the same.
+#[derive(Default)]
+pub(super) struct CurveKeys {
+    keys: Vec<CurveKey>,
+    /// Where in the list a key is.
+    places: HashMap<String, usize>,
+}
+
+struct CurveKey {
+    key: String,
+    first: (usize, String),
+    /// The number of the last curve that has it: a curve may have it twice.
+    last: usize,
+    count: usize,
+}
+
+impl CurveKeys {
+    /// Add a key of a curve, which is given by its number, counted from 1, and its name. Curves
+    /// come in the order of their numbers.
+    pub(super) fn add(&mut self, key: &str, number: usize, name: &str) {
+        let known = self.places.get(key);
+        if let Some(known) = known.and_then(|place| self.keys.get_mut(*place)) {
+            known.count += usize::from(known.last != number);
+            known.last = number;
+            return;
+        }
+        self.places.insert(key.to_owned(), self.keys.len());
+        self.keys.push(CurveKey {
+            key: key.to_owned(),
+            first: (number, name.to_owned()),
+            last: number,
+            count: 1,
+        });
+    }
+
+    /// Add a remark for each key.
+    pub(super) fn remark(self, remarks: &mut Remarks) {
+        for CurveKey {
+            key, first, count, ..
+        } in self.keys
+        {
+            let owner = Owner::Curves { first, count };
+            remarks.add(Remark::UnknownKey { key, owner });
+        }
     }
 }
 

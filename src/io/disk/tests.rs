@@ -100,7 +100,7 @@ fn a_file_that_is_too_large_is_not_read() {
 #[cfg(unix)]
 mod unix {
     use std::fs::Permissions;
-    use std::os::unix::fs::{PermissionsExt, symlink};
+    use std::os::unix::fs::{MetadataExt, PermissionsExt, chown, symlink};
 
     use super::*;
 
@@ -131,6 +131,72 @@ mod unix {
     }
 
     #[test]
+    fn owner_and_group_are_kept_as_far_as_the_system_allows() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("shared.csv");
+        write_bytes(&path, b"1").unwrap();
+        // What root may give away anybody else may not; then the group of a member is tried.
+        let given = chown(&path, Some(12_345), Some(23_456));
+        if given.is_err() {
+            let group = other_group();
+            chown(&path, None, group).unwrap();
+        }
+        fs::set_permissions(&path, Permissions::from_mode(0o660)).unwrap();
+        let before = fs::metadata(&path).unwrap();
+        write_bytes(&path, b"2").unwrap();
+        let after = fs::metadata(&path).unwrap();
+        assert_ne!(after.ino(), before.ino(), "it is a new file");
+        assert_eq!((after.uid(), after.gid()), (before.uid(), before.gid()));
+        assert_eq!(mode(&path), 0o660);
+    }
+
+    /// A group of this user that new files do not get by themselves, if there is one.
+    fn other_group() -> Option<u32> {
+        let output = std::process::Command::new("id").arg("-G").output().unwrap();
+        let groups = String::from_utf8(output.stdout).unwrap();
+        groups.split_whitespace().nth(1)?.parse().ok()
+    }
+
+    #[test]
+    fn other_names_of_a_file_are_told() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.batten");
+        let save = || write_file(&path, &[curve()], &Extras::default(), None).unwrap();
+        assert_eq!(save().to_string(), "");
+        for other in ["b", "c"] {
+            fs::hard_link(&path, folder.path().join(other)).unwrap();
+        }
+        let old = fs::read(&path).unwrap();
+        fs::write(&path, "shared").unwrap();
+        assert_eq!(
+            save().to_string(),
+            "the file had 2 other names (hard links), which keep the old content"
+        );
+        assert_eq!(fs::read(&path).unwrap(), old);
+        assert_eq!(fs::read(folder.path().join("b")).unwrap(), b"shared");
+        assert!(save().is_quiet(), "the link is broken now");
+        fs::hard_link(&path, folder.path().join("d")).unwrap();
+        assert_eq!(
+            save().to_string(),
+            "the file had another name (a hard link), which keeps the old content"
+        );
+    }
+
+    #[test]
+    fn messages_do_not_name_the_temporary_file() {
+        // A folder of the system where nobody may create files, root neither.
+        let path = Path::new("/proc/a.batten");
+        if path.parent().is_some_and(Path::is_dir) {
+            let message = write_bytes(path, b"").unwrap_err().to_string();
+            assert!(
+                message.starts_with("/proc/a.batten: cannot write"),
+                "{message}"
+            );
+            assert!(!message.contains(PREFIX), "{message}");
+        }
+    }
+
+    #[test]
     fn links_are_followed() {
         let folder = tempfile::tempdir().unwrap();
         fs::create_dir(folder.path().join("inner")).unwrap();
@@ -150,4 +216,86 @@ mod unix {
             Err(FileError::System { .. })
         ));
     }
+}
+
+#[test]
+fn what_killed_saves_left_is_removed_and_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.batten");
+    let kept = [
+        ".batten-backup",
+        ".batten-backup2",
+        ".batten-ab12",
+        ".batten-abc123.batten",
+        "batten-abc123",
+    ];
+    for name in kept {
+        fs::write(folder.path().join(name), "mine").unwrap();
+    }
+    fs::create_dir(folder.path().join(".batten-folde0")).unwrap();
+    // Two that are as killed saves leave them, and one that is being written.
+    let left = beside(folder.path()).unwrap();
+    fs::write(left.path(), "half a fi").unwrap();
+    let (_, left) = left.keep().unwrap();
+    fs::write(folder.path().join(".batten-abc123"), "").unwrap();
+    let mut live = beside(folder.path()).unwrap();
+    write_bytes(&path, b"new").unwrap();
+    assert!(!left.exists(), "{left:?}");
+    live.write_all(b"whole").unwrap();
+    let moved = folder.path().join("b.batten");
+    live.persist(&moved).unwrap();
+    assert_eq!(fs::read(&moved).unwrap(), b"whole");
+    let mut expected = kept.map(str::to_owned).to_vec();
+    expected.extend([".batten-folde0", "a.batten", "b.batten"].map(str::to_owned));
+    expected.sort();
+    assert_eq!(names(folder.path()), expected);
+}
+
+#[test]
+fn temporary_files_are_known_by_their_names() {
+    let folder = tempfile::tempdir().unwrap();
+    for _ in 0..100 {
+        let temporary = beside(folder.path()).unwrap();
+        let name = temporary.path().file_name().unwrap().to_str().unwrap();
+        assert!(is_temporary_name(name), "{name}");
+    }
+}
+
+#[test]
+fn saves_at_the_same_time_do_not_disturb_each_other() {
+    let folder = tempfile::tempdir().unwrap();
+    std::thread::scope(|scope| {
+        for thread in 0..8 {
+            let path = folder.path().join(format!("{thread}.csv"));
+            scope.spawn(move || {
+                for turn in 0..50 {
+                    write_bytes(&path, format!("{turn}").as_bytes()).unwrap();
+                }
+                assert_eq!(fs::read(&path).unwrap(), b"49");
+            });
+        }
+    });
+    assert_eq!(names(folder.path()).len(), 8);
+}
+
+#[test]
+fn a_stream_is_read_under_its_name() {
+    let stream = &b"# degree=1\nx,y\n0,0\n1,two\n"[..];
+    let error = read_stream(stream, "standard input", Format::Csv).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "standard input: line 4: “two” in column y is not a number"
+    );
+}
+
+#[test]
+fn a_path_cannot_turn_or_break_a_message() {
+    let path = Path::new("no\u{202e}folder\n/a.batten");
+    let message = write_bytes(path, b"").unwrap_err().to_string();
+    assert_eq!(
+        message,
+        "no\\u{202e}folder\\n/a.batten: the folder no\\u{202e}folder\\n does not exist: create it first"
+    );
+    let error = read_file(Path::new(&format!("a.{}\u{202e}", "x".repeat(99)))).unwrap_err();
+    assert!(error.to_string().contains("xxx…”"), "{error}");
 }

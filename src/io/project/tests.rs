@@ -391,3 +391,126 @@ proptest! {
         }
     }
 }
+
+/// A project with keys that are not known, of all kinds, as another program lays it out.
+const WITH_EXTRAS: &str = r#"{"autor": "Ä \u00df", "format": "batten", "id": 123456789012345678901234567890,
+ "version": 1, "curves": [
+  {"name": "arc", "weigths": [1.50, 2e0], "degree": 1, "vertices": [[0, 0], [1, 1]],
+   "more": {"b": 1e999, "a": null}}, {"name": "hull", "degree": 1, "vertices": [[0, 0], [1, 1]]},
+  {"name": "keel", "degree": 1, "vertices": [[0, 0], [1, 1]], "weigths": null, "weigths": 7}
+ ]}"#;
+
+#[test]
+fn unknown_keys_are_named() {
+    let remarks = read(WITH_EXTRAS.as_bytes()).unwrap().remarks.to_string();
+    assert_eq!(
+        remarks,
+        "the project's key “autor” is not known and has no effect\n\
+         the project's key “id” is not known and has no effect\n\
+         the key “weigths” of 2 curves is not known and has no effect; the first is curve 1 “arc”\n\
+         curve 1 “arc”: the key “more” is not known and has no effect"
+    );
+    let plain = text_of(&[&line("a")]);
+    assert!(read(plain.as_bytes()).unwrap().remarks.is_empty());
+}
+
+#[test]
+fn many_unknown_keys_do_not_fill_the_screen() {
+    let keys: Vec<String> = (0..30).map(|i| format!("\"key {i}\": 0")).collect();
+    let text = format!(
+        "{{\"format\":\"batten\",\"version\":1,{},\"curves\":[]}}",
+        keys.join(",")
+    );
+    let remarks = read(text.as_bytes()).unwrap().remarks.to_string();
+    assert_eq!(remarks.lines().count(), 9);
+    assert_eq!(
+        remarks.lines().last(),
+        Some("22 other keys are not known either")
+    );
+}
+
+#[test]
+fn unknown_keys_are_written_again_to_the_letter() {
+    let reading = read(WITH_EXTRAS.as_bytes()).unwrap();
+    let curves: Vec<&Curve> = reading.curves.iter().collect();
+    let written = write(&curves, &reading.extras, PolygonKind::Float);
+    assert!(written.losses.is_empty(), "{}", written.losses);
+    let text = String::from_utf8(written.bytes).unwrap();
+    for part in [
+        r#""autor": "Ä \u00df""#,
+        r#""id": 123456789012345678901234567890"#,
+        r#""weigths": [1.50, 2e0]"#,
+        r#""more": {"b": 1e999, "a": null}"#,
+        "\"weigths\": null,\n      \"weigths\": 7\n",
+    ] {
+        assert!(text.contains(part), "{part} in {text}");
+    }
+    assert_eq!(read(text.as_bytes()).unwrap(), reading);
+    for (format, expected) in [(Format::Csv, "CSV table"), (Format::Dxf, "DXF")] {
+        let written = format.write(&reading.curves, &reading.extras, None);
+        let losses = written.unwrap().losses.to_string();
+        let expected = format!(
+            "“arc”: the {expected} does not hold its unknown keys\n\
+             “keel”: the {expected} does not hold its unknown keys\n\
+             the {expected} does not hold the project's unknown keys"
+        );
+        assert_eq!(losses, expected);
+    }
+}
+
+#[test]
+fn unknown_keys_of_targets_are_named_as_lost() {
+    let text = r#"{"format":"batten","version":1,"curves":[{"name":"a","degree":1,
+        "vertices":[[0,0],[1,1]],"targets":{"strat":1,"end":{"point":[1,2],"dir":[1,0]}}}]}"#;
+    let reading = read(text.as_bytes()).unwrap();
+    assert_eq!(
+        reading.remarks.to_string(),
+        "curve 1 “a”: the key “strat” of its targets is not known, has no effect and is not kept\n\
+         curve 1 “a”: the key “dir” of its targets is not known, has no effect and is not kept"
+    );
+    assert!(reading.curves[0].targets.finish.is_some());
+}
+
+#[test]
+fn arrays_in_place_of_objects_are_refused() {
+    check_curve(
+        r#"["hull",1,"float",null,true,false,[[0,0],[1,2]],null,false]"#,
+        "line 2, column 0, curve 2: invalid type: sequence, expected a curve, which is a JSON object",
+    );
+    let with_targets = |targets: &str, expected: &str| {
+        let curve = format!(r#"{{"degree":1,"vertices":[[0,0],[1,2]],"targets":{targets}}}"#);
+        check_curve(&curve, expected);
+    };
+    with_targets(
+        r#"[{"point":[0,0]}]"#,
+        "line 2, column 47, curve 2: invalid type: sequence, expected the targets of a curve, which are a JSON object",
+    );
+    with_targets(
+        r#"{"end":[[0,0],[1,0]]}"#,
+        "line 2, column 54, curve 2: invalid type: sequence, expected a target, which is a JSON object",
+    );
+}
+
+#[test]
+fn long_texts_of_a_file_are_cut_in_messages() {
+    let long = "x".repeat(100_000);
+    let turned = "a\u{202e}b\u{2066}";
+    let texts = [
+        format!(r#"{{"format":"{long}","version":1}}"#),
+        format!(r#"{{"format":{{"{long}":1}},"version":1}}"#),
+        format!(r#"{{"format":"batten","version":"{long}"}}"#),
+        format!(r#"{{"format":"batten","version":1,"curves":"{long}"}}"#),
+        format!(r#"{{"format":"batten","version":1,"curves":[{{"degree":"{long}"}}]}}"#),
+        format!(r#"{{"format":"batten","version":1,"curves":[{{"polygon":"{long}"}}]}}"#),
+        format!(r#"{{"format":"batten","version":1,"curves":[{{"colour":"{long}"}}]}}"#),
+    ];
+    for text in texts {
+        let message = read(text.as_bytes()).unwrap_err().to_string();
+        let length = message.chars().count();
+        assert!(message.contains('…') && length < 300, "{length}");
+        let text = text.replace(&long, turned);
+        let message = read(text.as_bytes()).unwrap_err().to_string();
+        assert!(!message.contains(['\u{202e}', '\u{2066}']), "{message}");
+        assert!(message.contains("\\u{202e}"), "{message}");
+    }
+}

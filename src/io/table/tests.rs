@@ -207,3 +207,101 @@ fn text_that_is_not_utf8_is_refused_with_its_place() {
         "line 2, column 3: the file is not text in UTF-8 here: save it as UTF-8"
     );
 }
+
+/// Check the values of a table's only curve, and what is told of it.
+fn check_table(text: &str, expected: &[[f64; 3]], told: &str) {
+    let reading = read(text.as_bytes()).unwrap();
+    let expected = [curve("curve 1", expected, None, false)];
+    assert_eq!(reading.curves, expected, "{text:?}");
+    assert_eq!(reading.remarks.to_string(), told, "{text:?}");
+}
+
+#[test]
+fn tables_of_spreadsheets_in_every_country_are_read() {
+    let values = [[0.0, 1.5, 0.0], [2.25, -3.0, 0.0], [4.0, 5.125, 0.0]];
+    let check = |text: &str, told: &str| check_table(text, &values, told);
+    check("# degree=2\nx,y\n0,1.5\n2.25,-3\n4,5.125\n", "");
+    check(
+        "# degree=2\nx;y\n0;1.5\n2.25;-3\n4;5.125\n",
+        "read with semicolons between columns",
+    );
+    check(
+        "# degree=2;;\r\n;;\r\nX;Y;\r\n0;1,5;\r\n2,25;-3;\r\n4;5,125\r\n",
+        "read with semicolons between columns and decimal commas",
+    );
+    check(
+        "\u{feff}# degree=2\t\nx\ty\n0\t1,5\n 2,25\t-3 \n4\t5,125",
+        "read with tabs between columns and decimal commas",
+    );
+    check(
+        "# degree=2\nx\ty\n0\t1.5\n2.25\t-3\n4\t5.125\n",
+        "read with tabs between columns",
+    );
+    check(
+        "# degree=2\nx,y\n0,\"1,5\"\n\"2,25\",-3\n4,\"5,125\"\n",
+        "read with decimal commas",
+    );
+}
+
+#[test]
+fn every_name_survives_every_separator() {
+    let named = curve(
+        "a;b\tc,d \"e\"",
+        &[[0.0; 3], [1.0; 3], [2.0; 3]],
+        None,
+        false,
+    );
+    let bytes = write(&[&named], PolygonKind::Float).unwrap().bytes;
+    let text = String::from_utf8(bytes).unwrap();
+    let (header, rows) = text.split_once('\n').unwrap();
+    for separator in [",", ";", "\t"] {
+        let text = format!("{header}\n{}", rows.replace(',', separator));
+        assert_eq!(read(text.as_bytes()).unwrap().curves, [named.clone()]);
+    }
+}
+
+#[test]
+fn numbers_with_doubtful_commas_are_refused() {
+    let check = |text: &str, expected: &str| {
+        let message = read(text.as_bytes()).unwrap_err().to_string();
+        assert_eq!(message, expected, "{text:?}");
+    };
+    check(
+        "# degree=1\nx;y\n0;0\n1,234;10\n",
+        "line 4: “1,234” can be read with a decimal comma or with a comma between thousands: write the table's decimals with points",
+    );
+    check(
+        "# degree=1\nx;y\n0,5;0\n1,25;2.5\n",
+        "line 4: “2.5” has another decimal mark than the numbers before it: write all decimals with points, or all with commas",
+    );
+    check(
+        "# degree=1\nx,y\n0,5,0\n1,25,2,5\n",
+        "line 3: 3 values for 2 columns",
+    );
+}
+
+#[test]
+fn comments_are_passed_over_and_told() {
+    let values = [[0.0, 1.0, 0.0], [2.0, 3.0, 0.0], [4.0, 5.0, 0.0]];
+    check_table(
+        "# drawn by \"me, on\n#\n# degree=2\n# the columns\nx,y\n0,1\n #,\"none\n2,3\n\"# a, b\"\n4,5\n",
+        &values,
+        "5 lines are taken as comments, the first is line 1",
+    );
+    check_table(
+        "# degree=2\nx,y\n0,1\n2,3\n4,5\n# end",
+        &values,
+        "line 6 is taken as a comment",
+    );
+    // The lines after a comment keep their numbers.
+    let error = read(b"# one\n# degree=1\n# \"two\nx,y\n0,a\n").unwrap_err();
+    assert_eq!(error.place.line, Some(5));
+}
+
+#[test]
+fn a_table_whose_curve_is_not_told_is_refused() {
+    for text in ["# points\nx,y\n0,0\n1,1\n", "# degre=1\nx;y\n0;0\n1;1\n"] {
+        let error = read(text.as_bytes()).unwrap_err();
+        assert_eq!(error.problem, Problem::NoTableHeader, "{text:?}");
+    }
+}
