@@ -324,6 +324,51 @@ fn failed_edits_change_nothing() {
 }
 
 #[test]
+fn targets_without_usable_numbers_are_refused() {
+    let (mut history, curve) = history();
+    let expected = "a target needs numbers up to 1e100, and a direction that is not 0";
+    for bad in [f64::NAN, f64::INFINITY, 2e100] {
+        for axis in 0..3 {
+            let mut vector = DVec3::ONE;
+            vector[axis] = bad;
+            for (point, direction) in [
+                (vector, None),
+                (vector, Some(DVec3::ONE)),
+                (DVec3::ONE, Some(vector)),
+            ] {
+                check_target_refused(
+                    &mut history,
+                    curve,
+                    EndTarget { point, direction },
+                    expected,
+                );
+            }
+        }
+    }
+    let nowhere = EndTarget {
+        point: DVec3::ONE,
+        direction: Some(DVec3::ZERO),
+    };
+    check_target_refused(&mut history, curve, nowhere, expected);
+}
+
+#[track_caller]
+fn check_target_refused(history: &mut History, curve: CurveId, target: EndTarget, expected: &str) {
+    let mut added = Curve::new("third", cubic());
+    added.targets.finish = Some(target);
+    for edit in [
+        Edit::SetTarget {
+            curve,
+            end: End::Start,
+            target: Some(target),
+        },
+        Edit::Add(Box::new(added)),
+    ] {
+        check_refused(history, vec![edit], expected);
+    }
+}
+
+#[test]
 fn a_failed_preview_keeps_the_last_good_one() {
     let (mut history, id) = history();
     history.begin("Move vertex");

@@ -186,12 +186,12 @@ fn nothing_panics_whatever_finite_numbers_come() {
         let bezier = BezierPolygon::from_float(&polygon);
         let _ = (
             clamped.to_float(),
-            clamped.to_periodic_float(),
+            clamped.nearest_periodic_float(),
             clamped.rounded(3),
         );
         let _ = (
             bezier.to_float(),
-            bezier.to_periodic_float(),
+            bezier.nearest_periodic_float(),
             polygon.rounded(3),
         );
         let _ = (
@@ -260,6 +260,21 @@ fn what_cannot_be_done_is_refused_with_the_place() {
             other => panic!("{other:?}"),
         }
     }
+}
+
+#[test]
+fn a_change_of_degree_names_the_vertex_beyond_the_range_from_either_direction() {
+    let mut heights = [0.0; 9];
+    heights[..5].copy_from_slice(&[-1e100, 1e100, -1e100, 1e100, -1e100]);
+    let vertices = heights.map(|height| DVec3::new(1.0, height, 0.0));
+    let polygon = FloatPolygon::new(4, vertices.to_vec(), None, false).expect("valid");
+    let overflow = |polygon: &FloatPolygon| match polygon.with_degree(3) {
+        Err(PolygonError::Overflow { index, .. }) => index,
+        other => panic!("{other:?}"),
+    };
+    // The polygon of degree 3 has the vertices 0 to 7; those from 5 on are small.
+    assert!(overflow(&polygon) < 5);
+    assert!(overflow(&polygon.reversed()) > 2);
 }
 
 #[test]

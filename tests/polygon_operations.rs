@@ -346,7 +346,7 @@ proptest! {
         let norm = clamped.amplification().norm;
         // Weights between ½ and 2 add a factor of the quotient.
         let allowed = digit * norm * if kind.rational { 32.0 } else { 2.0 };
-        for back in [clamped.to_periodic_float(), bezier.to_periodic_float()] {
+        for back in [clamped.nearest_periodic_float(), bezier.to_periodic_float()] {
             let back = back.expect("closes smoothly");
             prop_assert!(back.is_periodic());
             let error = distance(back.vertices(), polygon.vertices());
@@ -356,7 +356,7 @@ proptest! {
         moved[0].x += 0.01;
         let weights = clamped.weights().map(<[f64]>::to_vec);
         let open = ClampedPolygon::new(kind.degree, moved, weights).expect("valid");
-        let refused = open.to_periodic_float().expect_err("does not close");
+        let refused = open.nearest_periodic_float().expect_err("does not close");
         prop_assert!(matches!(refused, PolygonError::NotPeriodic { .. }), "{}", refused);
     }
 }

@@ -44,6 +44,12 @@ impl EndTargets {
         let both = End::BOTH.into_iter();
         both.filter_map(|end| Some((end, self.get(end)?))).collect()
     }
+
+    /// Whether every number of the targets can be used.
+    pub fn are_usable(&self) -> bool {
+        let mut targets = self.list().into_iter();
+        targets.all(|(_, target)| target.is_usable())
+    }
 }
 
 /// Hold a curve: its float polygon, which is the truth of its shape, and what the user calls it.

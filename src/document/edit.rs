@@ -160,6 +160,7 @@ impl Document {
                 found.check_visible()?;
                 self.change(curve, |curve| curve.targets.set(end, target))
             }
+            Edit::Add(curve) if !curve.targets.are_usable() => Err(EditError::BadTarget),
             Edit::Add(curve) => {
                 self.push(*curve);
                 Ok(())

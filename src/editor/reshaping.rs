@@ -275,7 +275,7 @@ fn rounding(
         PolygonKind::Clamped => {
             let rounded = ClampedPolygon::from_float(polygon).rounded(digits)?;
             let float = if polygon.is_periodic() {
-                rounded.polygon.to_periodic_float()?
+                rounded.polygon.nearest_periodic_float()?.polygon
             } else {
                 rounded.polygon.to_float()?
             };

@@ -43,9 +43,10 @@ impl EndTarget {
     /// Whether every number of the target can be used: the point's coordinates up to 1e100 in
     /// magnitude, the direction's too, and not all of these 0.
     pub fn is_usable(&self) -> bool {
-        let usable = |vector: DVec3| vector.abs().max_element() <= MAX_MAGNITUDE;
+        // The largest component of a vector passes over what is not a number.
+        let usable = |vector: DVec3| vector.to_array().iter().all(|c| c.abs() <= MAX_MAGNITUDE);
         let directed = |direction: DVec3| usable(direction) && direction != DVec3::ZERO;
-        !self.point.is_nan() && usable(self.point) && self.direction.is_none_or(directed)
+        usable(self.point) && self.direction.is_none_or(directed)
     }
 }
 

@@ -174,3 +174,22 @@ pub enum PolygonError {
         done: &'static str,
     },
 }
+
+impl PolygonError {
+    /// Count the vertex that a conversion's error names from the other end of a polygon whose
+    /// last vertex is `last`.
+    pub(super) fn counted_backwards(self, last: usize) -> Self {
+        match self {
+            Self::WeightLost { to, index, weight } => Self::WeightLost {
+                to,
+                index: last - index,
+                weight,
+            },
+            Self::Overflow { to, index } => Self::Overflow {
+                to,
+                index: last - index,
+            },
+            other => other,
+        }
+    }
+}

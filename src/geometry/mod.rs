@@ -31,7 +31,7 @@ pub use bezier_polygon::{BezierPolygon, segment_bezier};
 pub use clamped_polygon::ClampedPolygon;
 pub use conversion::{
     Amplification, Approximation, ExactPolygon, MAX_ADDED_SEGMENTS, MAX_PART_SEGMENTS,
-    MAX_SUBDIVISIONS, Rounded,
+    MAX_SUBDIVISIONS, NearestFloat, Rounded,
 };
 pub use end::{End, rotation_between};
 pub use error::{MAX_DEGREE, PolygonError};

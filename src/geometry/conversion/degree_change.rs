@@ -41,14 +41,7 @@ impl FloatPolygon {
         if !self.is_periodic() && self.runs_backwards() {
             let last = self.segments() + degree - 1;
             let changed = self.reversed().with_degree(degree);
-            let mut changed = changed.map_err(|error| match error {
-                PolygonError::WeightLost { to, index, weight } => PolygonError::WeightLost {
-                    to,
-                    index: last - index,
-                    weight,
-                },
-                error => error,
-            })?;
+            let mut changed = changed.map_err(|error| error.counted_backwards(last))?;
             changed.polygon = changed.polygon.reversed();
             return Ok(changed);
         }

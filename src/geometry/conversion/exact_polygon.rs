@@ -176,6 +176,11 @@ impl ExactPolygon {
         folded
     }
 
+    /// The homogeneous vertices.
+    pub(in crate::geometry) fn vertices(&self) -> &ExactVertices<3> {
+        &self.vertices
+    }
+
     fn new(
         kind: PolygonKind,
         degree: usize,

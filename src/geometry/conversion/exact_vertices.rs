@@ -1,6 +1,6 @@
 //! Homogeneous vertices with more digits than doubles hold, coordinate by coordinate.
 
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 
 use super::expansion::Expansion;
 use crate::geometry::error::PolygonError;
@@ -67,6 +67,45 @@ impl<const K: usize> ExactVertices<K> {
         Self {
             axes: axes.map(|axis| axis.as_ref().map(|axis| make(axis))),
         }
+    }
+
+    /// Make vertices whose coordinates are lists made of the present ones and of others with the
+    /// same coordinates in use.
+    pub(in crate::geometry) fn map_with(
+        &self,
+        other: &Self,
+        make: impl Fn(&[Expansion<K>], &[Expansion<K>]) -> Vec<Expansion<K>>,
+    ) -> Self {
+        let mut others = other.axes.iter();
+        let axes = self.axes.each_ref();
+        Self {
+            axes: axes.map(|axis| {
+                let other = others.next().and_then(Option::as_ref);
+                axis.as_ref()
+                    .zip(other)
+                    .map(|(axis, other)| make(axis, other))
+            }),
+        }
+    }
+
+    /// Hold the same coordinates by J doubles a number.
+    pub(in crate::geometry) fn resized<const J: usize>(&self) -> ExactVertices<J> {
+        let axes = self.axes.each_ref();
+        let resized = |axis: &Vec<Expansion<K>>| axis.iter().map(|n| n.resized()).collect();
+        ExactVertices {
+            axes: axes.map(|axis| axis.as_ref().map(resized)),
+        }
+    }
+
+    /// Subtract the homogeneous coordinates of another vertex from those of a vertex and round;
+    /// a coordinate that neither polygon has is 0.
+    pub(in crate::geometry) fn difference(&self, other: &Self, index: usize) -> DVec4 {
+        let coordinate = |axis: usize| {
+            let [a, b] = [self, other].map(|vertices| vertices.axes[axis].as_ref());
+            let [a, b] = [a, b].map(|axis| axis.map_or(Expansion::ZERO, |axis| axis[index]));
+            (a - b).value()
+        };
+        DVec4::from_array(std::array::from_fn(coordinate))
     }
 
     /// Find the largest weight; 1 for a polynomial curve.

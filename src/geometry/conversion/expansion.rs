@@ -57,6 +57,13 @@ impl<const K: usize> Expansion<K> {
         Self::distilled(&mut terms[..count])
     }
 
+    /// Keep the first parts, or add parts that are 0.
+    pub(in crate::geometry) fn resized<const J: usize>(self) -> Expansion<J> {
+        Expansion(std::array::from_fn(|part| {
+            self.0.get(part).copied().unwrap_or(0.0)
+        }))
+    }
+
     /// Round to the nearest double.
     pub(in crate::geometry) fn value(self) -> f64 {
         self.0.iter().rev().fold(0.0, |sum, part| part + sum)

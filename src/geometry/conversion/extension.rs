@@ -37,7 +37,7 @@ impl FloatPolygon {
             let last = self.vertices().len() + segments - 1;
             return match extended {
                 Ok(extended) => Ok(extended.reversed()),
-                Err(error) => Err(counted_backwards(error, last)),
+                Err(error) => Err(error.counted_backwards(last)),
             };
         }
         let added = self.added_vertices(segments)?;
@@ -99,21 +99,5 @@ fn growth(degree: usize) -> impl FnMut() -> f64 {
             differences[index] += differences[index - 1];
         }
         differences.last().copied().unwrap_or(1.0)
-    }
-}
-
-/// Count the vertex that an error names from the other end.
-fn counted_backwards(error: PolygonError, last: usize) -> PolygonError {
-    match error {
-        PolygonError::WeightLost { to, index, weight } => PolygonError::WeightLost {
-            to,
-            index: last - index,
-            weight,
-        },
-        PolygonError::Overflow { to, index } => PolygonError::Overflow {
-            to,
-            index: last - index,
-        },
-        other => other,
     }
 }
