@@ -79,7 +79,7 @@ pub enum PolygonError {
     },
     /// A chain of Bézier polygons is not the B-spline curve that a float polygon can hold.
     #[error(
-        "the Bézier polygons do not join as one B-spline curve: at vertex {index} they are {distance:.3e} away from the smooth curve nearest to them; import the segments one by one"
+        "the Bézier polygons do not join as one B-spline curve: at vertex {index} they are {distance:.3e} away from the nearest one found; import the segments one by one"
     )]
     NotSmooth {
         /// The worst vertex, counted from 0.
@@ -87,12 +87,12 @@ pub enum PolygonError {
         /// How far it is from the curve's own Bézier vertex.
         distance: f64,
     },
-    /// The float polygon of a Bézier polygon is too large for its size.
+    /// The float polygon of a curve is too large for its size.
     #[error(
-        "the float polygon is so much larger than the Bézier polygon that its last digits move vertex {index} by {distance:.3e}: a curve like this needs a lower degree"
+        "the float polygon of this curve is so large that its last digits move vertex {index} by {distance:.3e}: a curve like this needs a lower degree"
     )]
     DigitsLost {
-        /// The worst Bézier vertex, counted from 0.
+        /// The worst of the vertices given, counted from 0.
         index: usize,
         /// How far it would move.
         distance: f64,

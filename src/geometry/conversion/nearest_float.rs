@@ -20,9 +20,12 @@ use crate::geometry::polygon_kind::PolygonKind;
 /// as the one given.
 const CLOSE_ULPS: f64 = 4.0;
 
-/// How far, in units of the largest coordinate, a curve may be off at all: decimal rounding to ten
-/// digits is not refused, what single-precision writers leave is.
-const TOLERANCE: f64 = 1e-9;
+/// How far, in units of the largest coordinate, polygons may lie from a smooth curve: decimal
+/// rounding to ten digits is not refused, what single-precision writers leave is.
+const SMOOTHNESS_TOLERANCE: f64 = 1e-9;
+
+/// The same where a curve that has a float polygon is farther off for want of digits.
+const DIGITS_TOLERANCE: f64 = 1e-6;
 
 /// How much farther off the curve may be of a polygon that is to be preferred.
 const PREFERENCE: f64 = 4.0;
@@ -30,6 +33,10 @@ const PREFERENCE: f64 = 4.0;
 /// The force of a fit, in units of the curve's own: half a unit in the last place of 1, which
 /// rounding moves the vertices by.
 const FORCE: f64 = 0.5 * f64::EPSILON;
+
+/// The forces tried where rounding has left no positive weights: those of decimals of ten to twelve
+/// digits.
+const DECIMAL_FORCES: [f64; 3] = [1e-11, 1e-10, 1e-9];
 
 /// The force that holds a vertex where it is.
 const STIFF: f64 = (1_u64 << 30) as f64;
@@ -61,7 +68,7 @@ impl BezierPolygon {
     /// # Errors
     /// [`PolygonError::NotSmooth`] if the segments are not one curve of smoothness n − 1 on
     /// uniform knots, within 1e-9 of the largest coordinate; [`PolygonError::DigitsLost`] if no
-    /// float polygon in doubles holds a single segment as well as that;
+    /// float polygon in doubles holds a single segment within 1e-6 of it;
     /// [`PolygonError::WeightLost`] and [`PolygonError::Overflow`] as in
     /// [`ClampedPolygon::to_float`].
     pub fn nearest_float(&self) -> Result<NearestFloat, PolygonError> {
@@ -76,7 +83,12 @@ impl BezierPolygon {
                 None => target.measured(exact()?),
             }
         };
-        target.checked(nearest, |polygon| {
+        let tolerance = if segments == 1 {
+            DIGITS_TOLERANCE
+        } else {
+            SMOOTHNESS_TOLERANCE
+        };
+        target.checked(nearest, tolerance, |polygon| {
             let (index, distance) = self.worst_vertex(polygon);
             if segments == 1 {
                 PolygonError::DigitsLost { index, distance }
@@ -98,7 +110,7 @@ impl BezierPolygon {
         let target = Target::new(ExactPolygon::from_bezier(self), true);
         let exact = periodic(&ExactPolygon::from_bezier(self).periodic_blossoms());
         let nearest = target.nearest(exact, None)?;
-        target.checked(nearest, |polygon| {
+        target.checked(nearest, SMOOTHNESS_TOLERANCE, |polygon| {
             let (index, distance) = self.worst_vertex(polygon);
             PolygonError::NotPeriodic {
                 from: PolygonKind::Bezier,
@@ -123,13 +135,13 @@ impl ClampedPolygon {
     /// Vertices that do not change stay as they are, bit for bit.
     ///
     /// # Errors
-    /// [`PolygonError::DigitsLost`] if no float polygon in doubles holds the curve within 1e-9 of
+    /// [`PolygonError::DigitsLost`] if no float polygon in doubles holds the curve within 1e-6 of
     /// its largest coordinate, and as [`ClampedPolygon::to_float`].
     pub fn nearest_float(&self) -> Result<NearestFloat, PolygonError> {
         let ends = self.ends()?;
         let target = Target::new(ExactPolygon::from_clamped(&ends), false);
         let nearest = target.nearest(ends.to_float(), Some(&ends))?;
-        let nearest = target.checked(nearest, |polygon| {
+        let nearest = target.checked(nearest, DIGITS_TOLERANCE, |polygon| {
             let (index, distance) = ends.worst_vertex(polygon);
             let left_out = self.vertices().len() - ends.vertices().len();
             let in_last_half = index >= ends.vertices().len() / 2;
@@ -153,7 +165,7 @@ impl ClampedPolygon {
         let exact = periodic(&given.converted(PolygonKind::Float).folded());
         let target = Target::new(given, true);
         let nearest = target.nearest(exact, None)?;
-        target.checked(nearest, |polygon| {
+        target.checked(nearest, SMOOTHNESS_TOLERANCE, |polygon| {
             let (index, distance) = self.worst_vertex(polygon);
             PolygonError::NotPeriodic {
                 from: PolygonKind::Clamped,
@@ -184,6 +196,9 @@ impl ClampedPolygon {
 
     /// Put the converted ends, the first and the last n − 1 vertices, in their places.
     fn with_ends_of(&self, ends: &FloatPolygon) -> Result<FloatPolygon, PolygonError> {
+        if ends.vertices().len() == self.vertices().len() {
+            return Ok(ends.clone());
+        }
         let changed = self.degree() - 1;
         let vertices = with_ends(self.vertices(), ends.vertices(), changed);
         let weights = self.weights().zip(ends.weights());
@@ -305,10 +320,13 @@ impl Target {
         }
         // Vertices with more than their own rounding: a force as large as their error keeps the
         // float polygon from following it.
-        let error = even
-            .as_ref()
-            .map_or(TOLERANCE, |even| even.deviation / self.reach);
-        let gentle = attempt(fit.even_forces(error.clamp(FORCE, TOLERANCE)));
+        let forces = even.as_ref().map_or(DECIMAL_FORCES.to_vec(), |even| {
+            vec![(even.deviation / self.reach).clamp(FORCE, SMOOTHNESS_TOLERANCE)]
+        });
+        let gentle = forces
+            .into_iter()
+            .filter_map(|force| attempt(fit.even_forces(force)))
+            .min_by(|a, b| a.deviation.total_cmp(&b.deviation));
         let loose = attempt(fit.curve_forces(FORCE));
         let candidates = [gentle, exact.cloned(), even, loose];
         let deviations = candidates.iter().flatten().map(|c| c.deviation);
@@ -354,10 +372,11 @@ impl Target {
     fn checked(
         &self,
         nearest: NearestFloat,
+        tolerance: f64,
         reason: impl FnOnce(&FloatPolygon) -> PolygonError,
     ) -> Result<NearestFloat, PolygonError> {
         // Written so that a deviation that is not a number is refused too.
-        if nearest.deviation <= TOLERANCE * self.reach {
+        if nearest.deviation <= tolerance * self.reach {
             Ok(nearest)
         } else {
             Err(reason(&nearest.polygon))
