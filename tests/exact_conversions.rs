@@ -9,8 +9,8 @@ use batten::geometry::{
 };
 use common::Random;
 use exact_witness::{
-    Exact, Kind, Knots, Vertices, assert_exact, bezier_chain, converted, exact, homogeneous,
-    integer, kinds, ulp,
+    ALLOWED_ULPS, Exact, Kind, Knots, Vertices, assert_exact, bezier_chain, converted, exact,
+    homogeneous, integer, kinds, ulp,
 };
 use glam::DVec3;
 use num_traits::{Signed, ToPrimitive};
@@ -67,6 +67,94 @@ fn float_to_clamped_and_bezier_is_exact_but_for_one_rounding() {
             bezier.weights(),
             &expected,
         );
+    }
+}
+
+/// Conversions of whole numbers times n! have whole results where those of the clamped polygon
+/// are: coordinates that are nothing beside the curve's size must come back too.
+#[test]
+fn coordinates_far_smaller_than_the_curve_are_exact_too() {
+    let mut random = Random(7);
+    for degree in 2..=25_usize {
+        for count in [degree + 1, degree + 3, 2 * degree, 2 * degree + 3] {
+            let (knots, float) = (Knots::clamped(degree, count - degree), Knots::float(degree));
+            // Float vertices of 0, of 1 and of 1e50 by turns.
+            let sizes = [0.0, 1.0, 1e50];
+            let exact_float: Vertices = (0..count)
+                .map(|index| {
+                    let coordinate = |axis: usize| {
+                        let size = sizes[(index + axis + random.bits() as usize) % 3];
+                        exact(size)
+                    };
+                    [coordinate(0), coordinate(1), coordinate(2), integer(1)]
+                })
+                .collect();
+            // The clamped polygon in doubles is that of a float polygon that is near this one.
+            let clamped = converted(&exact_float, float, knots);
+            let double = |number: &Exact| number.to_f64().expect("a number");
+            let points = clamped
+                .iter()
+                .map(|v| DVec3::new(double(&v[0]), double(&v[1]), double(&v[2])));
+            let points: Vec<DVec3> = points.collect();
+            let expected = converted(&homogeneous(&points, None), knots, float);
+            let clamped = ClampedPolygon::new(degree, points, None).expect("valid");
+            let found = clamped.to_float().expect("polynomial");
+            let old = ExactPolygon::from_clamped(&clamped).to_float().unwrap();
+            let bad = old
+                .vertices()
+                .iter()
+                .zip(found.vertices())
+                .filter(|(a, b)| a != b)
+                .count();
+            println!("old {degree} {count}: {bad}");
+            for (found, expected) in found.vertices().iter().zip(&expected) {
+                for axis in 0..3 {
+                    assert_rounded(found[axis], &expected[axis], degree);
+                }
+            }
+            let points: Vec<DVec3> = exact_float
+                .iter()
+                .map(|v| DVec3::new(double(&v[0]), double(&v[1]), double(&v[2])))
+                .collect();
+            let expected = converted(&homogeneous(&points, None), float, knots);
+            let given = FloatPolygon::new(degree, points, None, false).expect("valid");
+            let found = ClampedPolygon::from_float(&given);
+            for (found, expected) in found.vertices().iter().zip(&expected) {
+                for axis in 0..3 {
+                    assert_rounded(found[axis], &expected[axis], degree);
+                }
+            }
+        }
+    }
+}
+
+/// Assert that a number is the exact one rounded, in units of its own last place.
+#[track_caller]
+fn assert_rounded(found: f64, expected: &Exact, degree: usize) {
+    let off = (exact(found) - expected).abs();
+    let unit = exact(ulp(expected.to_f64().expect("a number").abs()));
+    let allowed = unit * exact(ALLOWED_ULPS);
+    assert!(
+        off <= allowed,
+        "degree {degree}: {found:e} for {expected:?}"
+    );
+}
+
+#[test]
+fn a_vertex_at_zero_comes_back_on_a_curve_of_size_1e50() {
+    // A multiple of the denominators of degree 4, so that the clamped vertices are doubles.
+    let size = 2.0_f64.powi(153) * 24.0_f64.powi(3);
+    for zero in 0..8 {
+        let heights = [3.0, -1.0, 2.0, 5.0, -4.0, 1.0, -2.0, 3.0].map(|height| size * height);
+        let vertices = heights.iter().enumerate().map(|(index, height)| {
+            let height = if index == zero { 0.0 } else { *height };
+            DVec3::new(height, if index == zero { 1.0 } else { height }, 0.0)
+        });
+        let float = FloatPolygon::new(4, vertices.collect(), None, false).expect("valid");
+        let back = ClampedPolygon::from_float(&float)
+            .to_float()
+            .expect("polynomial");
+        assert_eq!(back.vertices()[zero].x, 0.0);
     }
 }
 

@@ -2,11 +2,10 @@
 
 use glam::DVec3;
 
-use super::conversion::amplification::Amplification;
+use super::conversion::amplification::{Amplification, double_factorial};
 use super::conversion::end_conversion::ConvertedEnds;
 use super::conversion::exact_vertices::{check_weight, converted_error, weight_loss};
-use super::conversion::expansion::Expansion;
-use super::conversion::knots::{clamp, unclamp};
+use super::conversion::knots::Direction;
 use super::error::PolygonError;
 use super::float_polygon::{FloatPolygon, check_polygon};
 use super::polygon_kind::PolygonKind;
@@ -49,12 +48,8 @@ impl ClampedPolygon {
             return Self::from_float(&float.unrolled());
         }
         let degree = float.degree();
-        let ends = ConvertedEnds::new(
-            degree,
-            float.vertices(),
-            float.weights(),
-            clamp::<Expansion<2>>,
-        );
+        let (given, way) = (float.weights(), Direction::Clamp);
+        let ends = ConvertedEnds::<2>::new(degree, float.vertices(), given, way, 1.0);
         let mut vertices = float.vertices().to_vec();
         let mut weights = float.weights().map(<[f64]>::to_vec);
         replace(&mut vertices, weights.as_deref_mut(), ends.rounded());
@@ -79,7 +74,8 @@ impl ClampedPolygon {
     pub fn to_float(&self) -> Result<FloatPolygon, PolygonError> {
         let (degree, to) = (self.degree, PolygonKind::Float);
         let given = self.weights.as_deref();
-        let ends = ConvertedEnds::new(degree, &self.vertices, given, unclamp::<Expansion<3>>);
+        let (norm, way) = (double_factorial(degree), Direction::Unclamp);
+        let ends = ConvertedEnds::<3>::new(degree, &self.vertices, given, way, norm);
         let converted: Vec<_> = ends.rounded().collect();
         if given.is_some() {
             let loses = weight_loss(ends.largest_weight() * self.amplification().norm);

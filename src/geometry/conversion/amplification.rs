@@ -118,6 +118,12 @@ impl Amplification {
     }
 }
 
+/// Compute (2n − 1)!!: the norm of the conversion of one segment to the float polygon, and a bound
+/// of that of more.
+pub(in crate::geometry) fn double_factorial(degree: usize) -> f64 {
+    (1..=degree).map(|k| (2 * k - 1) as f64).product()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -137,7 +143,7 @@ mod tests {
     #[test]
     fn one_segment_has_a_double_factorial() {
         for degree in 1..=25 {
-            let expected: f64 = (1..=degree).map(|k| (2 * k - 1) as f64).product();
+            let expected = double_factorial(degree);
             for from in [Clamped, Bezier] {
                 let found = Amplification::of(from, Float, degree, 1).unwrap();
                 assert_near(found.norm, expected);

@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use super::exact_vertices::ExactVertices;
-use super::expansion::Expansion;
+use super::knots::Direction;
+use super::whole_vertices::WholeVertices;
 
 /// Hold the vertices near the ends, the only ones that differ between the float and the clamped
 /// polygon of a curve: the first and the last n − 1.
@@ -14,17 +15,22 @@ pub(in crate::geometry) struct ConvertedEnds<const K: usize> {
     /// The first n and the last n vertices, or all where that is fewer: a curve of so few
     /// vertices has the same ends.
     vertices: ExactVertices<K>,
+    /// What each coordinate's numbers may have lost on the way.
+    lost: [f64; 4],
+    /// The exact vertices, if some have lost too much.
+    whole: Option<WholeVertices>,
     /// The largest weight that entered.
     largest_weight: f64,
 }
 
 impl<const K: usize> ConvertedEnds<K> {
-    /// Convert the ends of a polygon of degree n; `convert` works on the n and n vertices.
+    /// Convert the ends of a polygon of degree n by steps whose rows sum up to `norm`.
     pub(in crate::geometry) fn new(
         degree: usize,
         points: &[DVec3],
         weights: Option<&[f64]>,
-        convert: impl Fn(usize, &mut [Expansion<K>]),
+        direction: Direction,
+        norm: f64,
     ) -> Self {
         let count = points.len();
         let kept = count.min(2 * degree);
@@ -34,24 +40,40 @@ impl<const K: usize> ConvertedEnds<K> {
             (points[index], weight.copied().unwrap_or(1.0))
         };
         let ends = (0..kept).map(place).map(vertex);
-        let mut vertices = ExactVertices::new(ends, weights.is_some());
-        let largest_weight = vertices.largest_weight();
-        vertices.change(|axis| convert(degree, axis));
+        let given = ExactVertices::new(ends, weights.is_some());
+        let mut vertices = given.clone();
+        vertices.change(|axis| direction.convert(degree, axis));
+        let lost = given
+            .largest()
+            .map(|largest| largest * norm * lost_by::<K>());
+        let changes = |index: &usize| index + 1 < degree || index + degree > kept;
+        let mut changed = (0..kept).filter(changes);
+        let whole = if changed.all(|index| vertices.is_sure(index, lost)) {
+            None
+        } else {
+            Some(WholeVertices::new(&given, degree, direction))
+        };
         Self {
             degree,
             count,
             vertices,
-            largest_weight,
+            lost,
+            whole,
+            largest_weight: given.largest_weight(),
         }
     }
 
-    /// List the converted vertices, rounded: their numbers in the whole polygon, points, weights.
+    /// List the converted vertices, each number rounded by itself: their numbers in the whole
+    /// polygon, points, weights.
     pub(in crate::geometry) fn rounded(&self) -> impl Iterator<Item = (usize, DVec3, f64)> + '_ {
         let kept = self.vertices.len();
         let changed = self.degree - 1;
         let ends = (0..kept).filter(move |index| *index < changed || index + changed >= kept);
         ends.map(move |index| {
-            let (point, weight) = self.vertices.rounded(index);
+            let (point, weight) = match &self.whole {
+                Some(whole) if !self.vertices.is_sure(index, self.lost) => whole.rounded(index),
+                _ => self.vertices.rounded(index),
+            };
             (placed(index, self.degree, self.count), point, weight)
         })
     }
@@ -69,4 +91,10 @@ fn placed(index: usize, degree: usize, count: usize) -> usize {
     } else {
         index + count - 2 * degree
     }
+}
+
+/// Bound what a conversion in K doubles loses, in units of the numbers that enter it.
+fn lost_by<const K: usize>() -> f64 {
+    const STEPS: f64 = 1024.0;
+    STEPS * f64::EPSILON.powi(K as i32)
 }

@@ -317,7 +317,7 @@ fn raised_chain(degree: usize, axis: &[Expansion<3>]) -> Vec<Expansion<3>> {
         let inner = window.windows(2).enumerate().map(|(index, leg)| {
             let before = (index + 1) as f64;
             let divisor = (degree + 1) as f64;
-            Expansion::blend(before, leg[0], divisor - before, leg[1], divisor)
+            Expansion::blend(before, &leg[0], divisor - before, &leg[1], divisor)
         });
         raised.extend(inner);
         raised.extend(window.last().copied());

@@ -108,6 +108,33 @@ impl<const K: usize> ExactVertices<K> {
         DVec4::from_array(std::array::from_fn(coordinate))
     }
 
+    /// List the K doubles of each number in use.
+    pub(in crate::geometry) fn parts(&self) -> [Option<Vec<[f64; K]>>; 4] {
+        let axes = self.axes.each_ref();
+        axes.map(|axis| {
+            let axis = axis.as_ref()?;
+            Some(axis.iter().map(|number| *number.parts()).collect())
+        })
+    }
+
+    /// Find the largest magnitude of each coordinate's numbers; 0 where it is not in use.
+    pub(in crate::geometry) fn largest(&self) -> [f64; 4] {
+        let axes = self.axes.each_ref();
+        axes.map(|axis| {
+            let values = axis.iter().flatten().map(|number| number.value().abs());
+            values.fold(0.0, f64::max)
+        })
+    }
+
+    /// Whether each number of a vertex is more than 2⁶⁰ times what it may have lost.
+    pub(in crate::geometry) fn is_sure(&self, index: usize, lost: [f64; 4]) -> bool {
+        let mut axes = self.axes.iter().zip(lost);
+        axes.all(|(axis, lost)| {
+            let number = axis.as_ref().map_or(0.0, |axis| axis[index].value());
+            lost == 0.0 || number.abs() * f64::EPSILON * (1.0 / 256.0) >= lost
+        })
+    }
+
     /// Find the largest weight; 1 for a polynomial curve.
     pub(in crate::geometry) fn largest_weight(&self) -> f64 {
         let Some(weights) = &self.axes[3] else {

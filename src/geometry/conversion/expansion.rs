@@ -64,6 +64,11 @@ impl<const K: usize> Expansion<K> {
         }))
     }
 
+    /// The K doubles.
+    pub(in crate::geometry) fn parts(&self) -> &[f64; K] {
+        &self.0
+    }
+
     /// Round to the nearest double.
     pub(in crate::geometry) fn value(self) -> f64 {
         self.0.iter().rev().fold(0.0, |sum, part| part + sum)
@@ -188,7 +193,7 @@ impl<const K: usize> Div for Expansion<K> {
 
 impl<const K: usize> Blend for Expansion<K> {
     #[inline(always)]
-    fn blend(p: f64, a: Self, q: f64, b: Self, divisor: f64) -> Self {
+    fn blend(p: f64, a: &Self, q: f64, b: &Self, divisor: f64) -> Self {
         let mut terms = [0.0; MOST_TERMS];
         for part in 0..K {
             (terms[4 * part], terms[4 * part + 2]) = two_product(a.0[part], p);
@@ -234,7 +239,7 @@ mod tests {
             assert_close(third * right, &(&exact_third * &y));
             assert_close(third * b, &(&exact_third * &y));
             assert_close(right / third, &(&y / &exact_third));
-            let blend = Expansion::blend(2.0, third, 5.0, right, 7.0);
+            let blend = Expansion::blend(2.0, &third, 5.0, &right, 7.0);
             let expected = (rational(2.0) * &exact_third + rational(5.0) * &y) / rational(7.0);
             assert_close(blend, &expected);
         }

@@ -7,21 +7,40 @@
 
 use glam::DVec4;
 
-/// What the steps work on: points, coordinates, and coordinates of many digits.
-pub trait Blend: Copy {
-    /// Compute (p·a + q·b) / divisor.
-    fn blend(p: f64, a: Self, q: f64, b: Self, divisor: f64) -> Self;
+/// What the steps work on: points, coordinates, coordinates of many digits, and exact ones.
+pub trait Blend {
+    /// Compute (p·a + q·b) / divisor, p, q and the divisor being whole numbers.
+    fn blend(p: f64, a: &Self, q: f64, b: &Self, divisor: f64) -> Self;
+}
+
+/// The two ways between the float and the clamped polygon.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::geometry) enum Direction {
+    /// From the float to the clamped polygon: [`clamp`].
+    Clamp,
+    /// Back: [`unclamp`].
+    Unclamp,
+}
+
+impl Direction {
+    /// Convert vertices in place.
+    pub(in crate::geometry) fn convert<T: Blend>(self, degree: usize, vertices: &mut [T]) {
+        match self {
+            Self::Clamp => clamp(degree, vertices),
+            Self::Unclamp => unclamp(degree, vertices),
+        }
+    }
 }
 
 impl Blend for f64 {
-    fn blend(p: f64, a: Self, q: f64, b: Self, divisor: f64) -> Self {
-        (p * a + q * b) / divisor
+    fn blend(p: f64, a: &Self, q: f64, b: &Self, divisor: f64) -> Self {
+        (p * *a + q * *b) / divisor
     }
 }
 
 impl Blend for DVec4 {
-    fn blend(p: f64, a: Self, q: f64, b: Self, divisor: f64) -> Self {
-        (p * a + q * b) / divisor
+    fn blend(p: f64, a: &Self, q: f64, b: &Self, divisor: f64) -> Self {
+        (p * *a + q * *b) / divisor
     }
 }
 
@@ -51,8 +70,8 @@ fn clamp_start<T: Blend>(degree: usize, knots: &mut [f64], vertices: &mut [T]) {
     for outside in (1..degree).rev() {
         for index in 0..outside {
             let (left, right) = (knots[index], knots[index + degree]);
-            let inner = vertices[index + 1];
-            vertices[index] = T::blend(right, vertices[index], -left, inner, right - left);
+            let (here, inner) = (&vertices[index], &vertices[index + 1]);
+            vertices[index] = T::blend(right, here, -left, inner, right - left);
         }
         knots.copy_within(1..outside, 0);
         knots[outside - 1] = 0.0;
@@ -67,14 +86,8 @@ fn clamp_end<T: Blend>(degree: usize, knots: &mut [f64], vertices: &mut [T]) {
         for step in 0..outside {
             let index = last_vertex - step;
             let (left, right) = (knots[index - 1], knots[index + degree - 1]);
-            let inner = vertices[index - 1];
-            vertices[index] = T::blend(
-                right - end,
-                inner,
-                end - left,
-                vertices[index],
-                right - left,
-            );
+            let (inner, here) = (&vertices[index - 1], &vertices[index]);
+            vertices[index] = T::blend(right - end, inner, end - left, here, right - left);
         }
         let first = last_knot + 1 - outside;
         knots.copy_within(first..last_knot, first + 1);
@@ -90,8 +103,8 @@ fn unclamp_start<T: Blend>(degree: usize, knots: &[f64], vertices: &mut [T]) {
         for index in (0..outside).rev() {
             let left = index as f64 - outside as f64;
             let right = knots[index + degree];
-            let inner = vertices[index + 1];
-            vertices[index] = T::blend(right - left, vertices[index], left, inner, right);
+            let (here, inner) = (&vertices[index], &vertices[index + 1]);
+            vertices[index] = T::blend(right - left, here, left, inner, right);
         }
     }
 }
@@ -105,9 +118,8 @@ fn unclamp_end<T: Blend>(degree: usize, knots: &[f64], vertices: &mut [T]) {
             let index = last - step;
             let left = knots[index - 1].max(0.0);
             let right = end + (outside - step) as f64;
-            let inner = vertices[index - 1];
-            let (here, there) = (right - left, end - right);
-            vertices[index] = T::blend(here, vertices[index], there, inner, end - left);
+            let (here, inner) = (&vertices[index], &vertices[index - 1]);
+            vertices[index] = T::blend(right - left, here, end - right, inner, end - left);
         }
     }
 }

@@ -23,6 +23,7 @@ pub(in crate::geometry) mod quasi_interpolation;
 pub(in crate::geometry) mod rounding;
 pub(in crate::geometry) mod splitting;
 pub(in crate::geometry) mod subdivision;
+pub(in crate::geometry) mod whole_vertices;
 
 pub use amplification::Amplification;
 pub use approximation::Approximation;

@@ -5,6 +5,7 @@
 //! which the rounding of the given vertices makes them from degree 12 on, or where each comes from
 //! another Bézier segment. Then the nearest curve of several least-squares fits is taken.
 
+use super::amplification::double_factorial;
 use super::chain_deviation::{chain_deviation, reach};
 use super::chain_fit::ChainFit;
 use super::closing::{check_periodic, periodic, worst_difference};
@@ -269,8 +270,8 @@ impl Target {
             return false;
         };
         let largest = self.chain.largest_weight();
-        let norm: f64 = (1..=self.degree).map(|k| (2 * k - 1) as f64).product();
-        weight + FORCE * norm * largest > BELIEVED * largest
+        let explained = FORCE * double_factorial(self.degree) * largest;
+        weight + explained > BELIEVED * largest
     }
 
     /// Find the fit whose curve is nearest, unless `exact` is preferred.

@@ -160,7 +160,7 @@ fn basis(degree: usize, t: f64) -> Vec<Number> {
         for index in (1..=level).rev() {
             let (falling, rising) = ((index + 1) as f64 - t, (level - index) as f64 + t);
             values[index] =
-                Number::blend(falling, values[index], rising, values[index - 1], divisor);
+                Number::blend(falling, &values[index], rising, &values[index - 1], divisor);
         }
         values[0] = values[0] * (1.0 - t) / divisor;
     }

@@ -38,7 +38,7 @@ mod sign_walk;
 mod tables;
 mod values;
 mod variations;
-mod whole_numbers;
+pub(super) mod whole_numbers;
 
 pub use feature::{
     Cusp, Extremum, ExtremumKind, Features, Quantity, Trend, TrendPiece, Undecided, Verdict,
