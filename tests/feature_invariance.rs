@@ -188,8 +188,9 @@ proptest! {
         let curve = FloatPolygon::new(degree, vertices, weights, periodic).expect("valid");
         let features = Features::new(&curve);
         let end = curve.segments() as f64;
-        let mut intervals: Vec<[f64; 2]> = features.inflections.clone();
-        intervals.extend(&features.torsion_zeros);
+        let mut intervals: Vec<[f64; 2]> = Vec::new();
+        intervals.extend(features.inflections.iter().map(|root| root.u));
+        intervals.extend(features.torsion_zeros.iter().map(|root| root.u));
         intervals.extend(features.curvature_extrema.iter().map(|extremum| extremum.u));
         intervals.extend(features.torsion_extrema.iter().map(|extremum| extremum.u));
         intervals.extend(features.cusps.iter().map(|cusp| cusp.u));

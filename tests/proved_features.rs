@@ -206,11 +206,18 @@ fn check_curve(curve: &FloatPolygon, prover: &mut SegmentProver, tally: &mut Tal
         return;
     }
     for function in &functions {
-        let (count, knots) = match function.quantity {
-            Quantity::Inflection => counts(features.inflections.iter()),
-            Quantity::CurvatureExtremum => counts(features.curvature_extrema.iter().map(|e| &e.u)),
-            Quantity::TorsionZero => counts(features.torsion_zeros.iter()),
-            Quantity::TorsionExtremum => counts(features.torsion_extrema.iter().map(|e| &e.u)),
+        let count = features.count(function.quantity);
+        let knots = match function.quantity {
+            Quantity::Inflection => at_knots(features.inflections.iter().map(|r| (r.u, r.count))),
+            Quantity::CurvatureExtremum => {
+                at_knots(features.curvature_extrema.iter().map(|e| (e.u, e.count)))
+            }
+            Quantity::TorsionZero => {
+                at_knots(features.torsion_zeros.iter().map(|r| (r.u, r.count)))
+            }
+            Quantity::TorsionExtremum => {
+                at_knots(features.torsion_extrema.iter().map(|e| (e.u, e.count)))
+            }
         };
         tally.at_knots += knots;
         let in_doubt = |doubt: &Undecided| doubt.quantity == function.quantity;
@@ -232,11 +239,10 @@ fn check_curve(curve: &FloatPolygon, prover: &mut SegmentProver, tally: &mut Tal
     }
 }
 
-/// Count intervals, and those that are a point.
-fn counts<'a>(intervals: impl Iterator<Item = &'a [f64; 2]>) -> (usize, usize) {
-    intervals.fold((0, 0), |(all, points), u| {
-        (all + 1, points + usize::from(u[0] == u[1]))
-    })
+/// Count the features whose interval is a point.
+fn at_knots(features: impl Iterator<Item = ([f64; 2], usize)>) -> usize {
+    let points = features.filter(|(u, _)| u[0] == u[1]);
+    points.map(|(_, count)| count).sum()
 }
 
 /// Compare random curves of these degrees with exact arithmetic; fewer than one segment in a

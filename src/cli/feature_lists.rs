@@ -2,7 +2,12 @@
 
 use serde::Serialize;
 
-use crate::geometry::features::{Extremum, ExtremumKind, Features, Verdict};
+use crate::geometry::features::{
+    Extremum, ExtremumKind, Features, Quantity, Root, Undecided, Verdict, certain_digits,
+};
+
+/// The most digits of a number that are printed.
+const DIGITS: usize = 17;
 
 /// The lists, each in the order of u.
 #[derive(Serialize)]
@@ -13,26 +18,35 @@ pub(super) struct FeatureLists {
     torsion_extrema: Vec<TorsionExtremum>,
     cusps: Vec<PossibleCusp>,
     undecided: Vec<[f64; 2]>,
+    undecided_of: Vec<UndecidedPiece>,
     monotone: &'static str,
 }
 
 #[derive(Serialize)]
 struct Place {
     u: [f64; 2],
+    #[serde(skip_serializing_if = "is_one")]
+    count: usize,
 }
 
 #[derive(Serialize)]
 struct CurvatureExtremum {
     u: [f64; 2],
+    #[serde(skip_serializing_if = "is_one")]
+    count: usize,
     kind: &'static str,
-    curvature: f64,
+    /// All digits are certain; null if none is.
+    curvature: Option<f64>,
 }
 
 #[derive(Serialize)]
 struct TorsionExtremum {
     u: [f64; 2],
+    #[serde(skip_serializing_if = "is_one")]
+    count: usize,
     kind: &'static str,
-    torsion: f64,
+    /// All digits are certain; null if none is.
+    torsion: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -41,27 +55,44 @@ struct PossibleCusp {
     proved: bool,
 }
 
+/// An undecided piece and the list that features may be missing from.
+#[derive(Serialize)]
+struct UndecidedPiece {
+    u: [f64; 2],
+    quantity: &'static str,
+}
+
 impl FeatureLists {
     /// Write down what was proved.
     pub(super) fn of(features: &Features) -> Self {
-        let place = |u: &[f64; 2]| Place { u: *u };
+        let place = |root: &Root| Place {
+            u: root.u,
+            count: root.count,
+        };
         let curvature = |extremum: &Extremum| CurvatureExtremum {
             u: extremum.u,
+            count: extremum.count,
             kind: kind(extremum),
-            curvature: extremum.value,
+            curvature: certain_digits(extremum.value, DIGITS),
         };
         let torsion = |extremum: &Extremum| TorsionExtremum {
             u: extremum.u,
+            count: extremum.count,
             kind: kind(extremum),
-            torsion: extremum.value,
+            torsion: certain_digits(extremum.value, DIGITS),
         };
         let cusps = features.cusps.iter().map(|cusp| PossibleCusp {
             u: cusp.u,
             proved: cusp.proved,
         });
-        let mut undecided: Vec<_> = features.undecided.iter().map(|doubt| doubt.u).collect();
-        undecided.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+        let mut doubts = features.undecided.clone();
+        doubts.sort_by(|a, b| a.u[0].total_cmp(&b.u[0]).then(a.u[1].total_cmp(&b.u[1])));
+        let mut undecided: Vec<_> = doubts.iter().map(|doubt| doubt.u).collect();
         undecided.dedup();
+        let piece = |doubt: &Undecided| UndecidedPiece {
+            u: doubt.u,
+            quantity: list_of(doubt.quantity),
+        };
         Self {
             inflections: features.inflections.iter().map(place).collect(),
             curvature_extrema: features.curvature_extrema.iter().map(curvature).collect(),
@@ -69,6 +100,7 @@ impl FeatureLists {
             torsion_extrema: features.torsion_extrema.iter().map(torsion).collect(),
             cusps: cusps.collect(),
             undecided,
+            undecided_of: doubts.iter().map(piece).collect(),
             monotone: match features.monotone {
                 Verdict::Proved => "proved",
                 Verdict::Disproved => "disproved",
@@ -83,4 +115,18 @@ fn kind(extremum: &Extremum) -> &'static str {
         ExtremumKind::Maximum => "max",
         ExtremumKind::Minimum => "min",
     }
+}
+
+/// The list that features of a kind are in.
+fn list_of(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Inflection => "inflections",
+        Quantity::CurvatureExtremum => "curvature_extrema",
+        Quantity::TorsionZero => "torsion_zeros",
+        Quantity::TorsionExtremum => "torsion_extrema",
+    }
+}
+
+fn is_one(count: &usize) -> bool {
+    *count == 1
 }

@@ -9,7 +9,7 @@ use super::layers::Layer;
 use crate::analysis::{Bounds, Orientation, ViewBox};
 use crate::geometry::FloatPolygon;
 use crate::geometry::features::{
-    Extremum, ExtremumKind, Features, Quantity, Trend, TrendPiece, Verdict,
+    Extremum, ExtremumKind, Features, Quantity, Root, Trend, TrendPiece, Verdict,
 };
 
 /// How much of a segment is shown around a feature, on either side.
@@ -62,8 +62,10 @@ pub struct FeatureRow {
     pub kind: FeatureKind,
     /// The interval of u that holds it.
     pub u: [f64; 2],
-    /// The curvature or torsion of an extremum.
-    pub value: Option<f64>,
+    /// How many features the interval holds: 1 unless they are too close to tell apart.
+    pub count: usize,
+    /// Bounds of the curvature or torsion of an extremum.
+    pub value: Option<[f64; 2]>,
     /// What is not decided, or what is not proved of a cusp, in words.
     pub remark: &'static str,
     /// The parameter in the middle of the interval, within the domain.
@@ -91,7 +93,7 @@ impl FeatureReport {
     /// How many features of a kind there are.
     pub fn count(&self, kinds: &[FeatureKind]) -> usize {
         let fits = |row: &&FeatureRow| kinds.contains(&row.kind);
-        self.rows.iter().filter(fits).count()
+        self.rows.iter().filter(fits).map(|row| row.count).sum()
     }
 
     fn of(features: &Features, polygon: &FloatPolygon) -> Self {
@@ -103,11 +105,16 @@ impl FeatureReport {
             FeatureRow {
                 kind,
                 u,
+                count: 1,
                 value: None,
                 remark: "",
                 middle,
                 point: polygon.point(middle),
             }
+        };
+        let zero = |kind, root: &Root| FeatureRow {
+            count: root.count,
+            ..row(kind, root.u)
         };
         let inflections = features.inflections.iter();
         let torsion_zeros = features.torsion_zeros.iter();
@@ -119,7 +126,11 @@ impl FeatureReport {
                     ExtremumKind::Maximum => maximum,
                     ExtremumKind::Minimum => minimum,
                 };
-                (kind, extremum.u, extremum.value)
+                FeatureRow {
+                    count: extremum.count,
+                    value: Some(extremum.value),
+                    ..row(kind, extremum.u)
+                }
             }
         };
         let extrema = curvature
@@ -132,12 +143,9 @@ impl FeatureReport {
                 FeatureKind::TorsionMinimum,
             ])));
         let mut rows: Vec<FeatureRow> = Vec::new();
-        rows.extend(inflections.map(|u| row(FeatureKind::Inflection, *u)));
-        rows.extend(torsion_zeros.map(|u| row(FeatureKind::TorsionZero, *u)));
-        rows.extend(extrema.map(|(kind, u, value)| FeatureRow {
-            value: Some(value),
-            ..row(kind, u)
-        }));
+        rows.extend(inflections.map(|root| zero(FeatureKind::Inflection, root)));
+        rows.extend(torsion_zeros.map(|root| zero(FeatureKind::TorsionZero, root)));
+        rows.extend(extrema);
         rows.extend(features.cusps.iter().map(|cusp| FeatureRow {
             remark: if cusp.proved { "" } else { "cusp?" },
             ..row(FeatureKind::Cusp, cusp.u)

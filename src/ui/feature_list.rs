@@ -9,10 +9,13 @@ use super::feature_marks::glyph;
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
 use super::{figures, icons, widgets};
 use crate::editor::{Editor, FeatureKind, FeatureReport, FeatureRow};
-use crate::geometry::features::Verdict;
+use crate::geometry::features::{Verdict, certain_digits};
 
 /// An interval wider than this is shown by both of its ends.
 const WIDE: f64 = 1e-4;
+
+/// The most digits of a curvature or torsion.
+const DIGITS: usize = 4;
 
 /// The most rows that are in sight at once.
 const MOST_ROWS: usize = 7;
@@ -149,9 +152,10 @@ fn row_ui(ui: &mut Ui, row: &FeatureRow) -> Response {
     }
     let at = pos2(rect.left() + 3.0 * STEP, rect.center().y);
     glyph(ui.painter(), at, row.kind, tokens);
-    let name = match row.remark {
-        "" => short_name(row.kind).to_owned(),
-        remark => remark.to_owned(),
+    let name = match (row.remark, row.count) {
+        ("", 1) => short_name(row.kind).to_owned(),
+        ("", count) => format!("{} ×{count}", short_name(row.kind)),
+        (remark, _) => remark.to_owned(),
     };
     let [low, high] = row.u;
     let figure = |u: f64| figures::to_resolution(u, 1e-4);
@@ -171,9 +175,10 @@ fn row_ui(ui: &mut Ui, row: &FeatureRow) -> Response {
         inner.with_max_x(inner.right() - 20.0 * STEP)
     };
     widgets::number_in(ui, place, &u, tokens.text);
-    let value = row
-        .value
-        .map_or(String::new(), |value| figures::significant(value, 4));
+    let value = row.value.map_or(String::new(), |bounds| {
+        let certain = certain_digits(bounds, DIGITS);
+        certain.map_or("?".to_owned(), figures::shortest)
+    });
     widgets::number_in(ui, inner, &value, tokens.text);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{name} at {u}")));
     let width = figures::significant(high - low, 2);

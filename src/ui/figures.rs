@@ -50,6 +50,16 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
+/// Write all digits that a number has, and no more: plainly where that is short, otherwise with an
+/// exponent.
+pub fn shortest(value: f64) -> String {
+    if value == 0.0 || (1e-4..1e6).contains(&value.abs()) {
+        without_negative_zero(value.to_string())
+    } else {
+        format!("{value:e}")
+    }
+}
+
 /// Write an angle given in radians as degrees.
 pub fn degrees(radians: f64, decimals: usize) -> String {
     if radians.is_finite() {

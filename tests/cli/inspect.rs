@@ -81,7 +81,7 @@ fn inspect_prints_the_described_shape() {
         }],
         "features": {
             "inflections": [], "curvature_extrema": [], "torsion_zeros": [], "torsion_extrema": [],
-            "cusps": [], "undecided": [], "monotone": "proved",
+            "cusps": [], "undecided": [], "undecided_of": [], "monotone": "proved",
         },
     });
     let mut first = found["curves"][0].clone();

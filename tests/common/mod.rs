@@ -2,7 +2,7 @@
 #![allow(dead_code)] // Each test uses a part of it.
 
 use batten::geometry::FloatPolygon;
-use batten::geometry::features::Features;
+use batten::geometry::features::{Features, Quantity};
 use glam::DVec3;
 use serde_json::Value;
 
@@ -153,10 +153,10 @@ impl Kind {
 /// is in doubt.
 pub fn counts(features: &Features) -> [usize; 5] {
     [
-        features.inflections.len(),
-        features.curvature_extrema.len(),
-        features.torsion_zeros.len(),
-        features.torsion_extrema.len(),
+        features.count(Quantity::Inflection),
+        features.count(Quantity::CurvatureExtremum),
+        features.count(Quantity::TorsionZero),
+        features.count(Quantity::TorsionExtremum),
         features.undecided.len() + features.cusps.len(),
     ]
 }

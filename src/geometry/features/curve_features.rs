@@ -2,7 +2,7 @@
 
 use super::exact_numerators::ExactSegment;
 use super::feature::{
-    Cusp, Extremum, ExtremumKind, Features, Quantity, Trend, TrendPiece, Undecided, Verdict,
+    Cusp, Extremum, ExtremumKind, Features, Quantity, Root, Trend, TrendPiece, Undecided, Verdict,
 };
 use super::segment_features::{SegmentFeatures, SegmentProver};
 use super::sign_piece::SignPiece;
@@ -49,7 +49,7 @@ impl Features {
         let mut singular: Vec<_> = features.cusps.iter().map(|cusp| cusp.u).collect();
         let walk = assembly.walk(Quantity::Inflection);
         features.inflections =
-            features.take(&assembly, Quantity::Inflection, &walk, &singular, interval);
+            features.take(&assembly, Quantity::Inflection, &walk, &singular, root);
         let walk = assembly.walk(Quantity::CurvatureExtremum);
         let curvature = |segment, t| values::curvature(polygon, segment, t, planar);
         let extremum = |change: &Change, u| assembly.extremum(change, u, curvature);
@@ -65,7 +65,7 @@ impl Features {
         if !planar {
             let walk = assembly.walk(Quantity::TorsionZero);
             features.torsion_zeros =
-                features.take(&assembly, Quantity::TorsionZero, &walk, &singular, interval);
+                features.take(&assembly, Quantity::TorsionZero, &walk, &singular, root);
             let flat = assembly.flat_knots();
             singular.extend(&flat);
             let walk = assembly.walk(Quantity::TorsionExtremum);
@@ -291,7 +291,14 @@ impl Assembly<'_> {
         } else {
             ExtremumKind::Minimum
         };
-        Extremum { u, kind, value }
+        // Doubles are trusted to this share of the value.
+        let off = 1e-9 * value.abs();
+        Extremum {
+            u,
+            count: 1,
+            kind,
+            value: [value - off, value + off],
+        }
     }
 
     /// List the cusps of all segments; those that touch, as they do at knots, become one.
@@ -341,8 +348,8 @@ fn join_cusps(last: &mut Cusp, next: &Cusp) -> bool {
     touch
 }
 
-fn interval(_: &Change, u: [f64; 2]) -> [f64; 2] {
-    u
+fn root(_: &Change, u: [f64; 2]) -> Root {
+    Root { u, count: 1 }
 }
 
 fn trends(walk: &SignWalk) -> Vec<TrendPiece> {

@@ -3,18 +3,20 @@
 /// Hold the proved features of a curve, each list in the order of u.
 ///
 /// An interval `u` = \[lo, hi\] is part of the domain \[0, L\], lo ≤ hi; on a periodic curve one
-/// that reaches over the joint has hi > L. A feature's interval holds exactly one. It is at
-/// most 1e-12 wide (and one rounding of u); a single point at a knot; or the whole of a piece on
-/// which the function is exactly 0 between two different signs.
+/// that reaches over the joint has hi > L. The intervals of a list are disjoint, across the joint
+/// of a periodic curve as well. Each holds exactly one feature, or as many as its `count` says if
+/// doubles of u cannot tell them apart. It is at most 1e-12 wide (and one rounding of u); a single
+/// point at a knot; or the whole of a piece on which the function is exactly 0 between two
+/// different signs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Features {
     /// Where the signed curvature of a planar curve changes its sign.
-    pub inflections: Vec<[f64; 2]>,
+    pub inflections: Vec<Root>,
     /// Where the curvature — signed in the plane, ≥ 0 in space — turns from rising to falling
     /// or back. In space that may be a point where it is 0.
     pub curvature_extrema: Vec<Extremum>,
     /// Where the torsion of a space curve changes its sign.
-    pub torsion_zeros: Vec<[f64; 2]>,
+    pub torsion_zeros: Vec<Root>,
     /// Where the torsion of a space curve turns from rising to falling or back.
     pub torsion_extrema: Vec<Extremum>,
     /// Where the tangent vanishes or may vanish, so that curvature is not defined.
@@ -28,15 +30,43 @@ pub struct Features {
     pub monotone: Verdict,
 }
 
+/// Hold a place where the curvature or torsion changes its sign.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Root {
+    /// The interval that holds it.
+    pub u: [f64; 2],
+    /// How many changes the interval holds: 1 unless doubles of u cannot tell them apart.
+    pub count: usize,
+}
+
 /// Hold an extremum of curvature or torsion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extremum {
     /// The interval that holds it.
     pub u: [f64; 2],
-    /// Whether it is a maximum or a minimum.
+    /// How many extrema the interval holds, maxima and minima in turn: 1 unless doubles of u
+    /// cannot tell them apart.
+    pub count: usize,
+    /// Whether it, or the first of several, is a maximum or a minimum.
     pub kind: ExtremumKind,
-    /// The curvature or torsion there, rounded; at a jump the greater side of a maximum.
-    pub value: f64,
+    /// Bounds of the curvature or torsion there, at the first of several; at a jump those of the
+    /// greater side of a maximum and of the smaller side of a minimum. Infinite where nothing is
+    /// known.
+    pub value: [f64; 2],
+}
+
+impl Features {
+    /// Tell how many features of a kind are proved.
+    pub fn count(&self, quantity: Quantity) -> usize {
+        let roots = |roots: &[Root]| roots.iter().map(|root| root.count).sum();
+        let extrema = |extrema: &[Extremum]| extrema.iter().map(|extremum| extremum.count).sum();
+        match quantity {
+            Quantity::Inflection => roots(&self.inflections),
+            Quantity::CurvatureExtremum => extrema(&self.curvature_extrema),
+            Quantity::TorsionZero => roots(&self.torsion_zeros),
+            Quantity::TorsionExtremum => extrema(&self.torsion_extrema),
+        }
+    }
 }
 
 /// Tell maxima from minima.

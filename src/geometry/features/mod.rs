@@ -21,6 +21,7 @@
 //!   twice the digits are not enough for them: 1e60 and more between two of them, at high degrees.
 
 mod arena;
+mod certain_digits;
 mod curve_features;
 mod double_double;
 mod enclosure;
@@ -40,8 +41,9 @@ mod values;
 mod variations;
 pub(super) mod whole_numbers;
 
+pub use certain_digits::certain_digits;
 pub use feature::{
-    Cusp, Extremum, ExtremumKind, Features, Quantity, Trend, TrendPiece, Undecided, Verdict,
+    Cusp, Extremum, ExtremumKind, Features, Quantity, Root, Trend, TrendPiece, Undecided, Verdict,
 };
 pub use segment_features::{LocalCusp, SegmentFeatures, SegmentProver};
 pub use sign_piece::{Sign, SignPiece};
