@@ -103,6 +103,7 @@ struct Tally {
 /// Compare the pieces of one segment with an exact polynomial; returns whether all is decided.
 fn check_segment(pieces: &[SignPiece], exact: &Polynomial, tally: &mut Tally) -> bool {
     let (mut start, mut roots, mut decided) = (0.0, 0, true);
+    let exact = &exact.changing();
     for piece in pieces {
         match piece.sign {
             Sign::Positive | Sign::Negative => {
@@ -114,16 +115,12 @@ fn check_segment(pieces: &[SignPiece], exact: &Polynomial, tally: &mut Tally) ->
                     }
                 }
             }
-            Sign::Root { .. } => {
-                roots += 1;
+            Sign::Root { count, .. } => {
+                roots += count;
                 tally.wide += usize::from(piece.until - start > ROOT_WIDTH);
                 let signs = [start, piece.until].map(|t| exact.sign_at(t));
-                assert_eq!(
-                    signs[0] * signs[1],
-                    -1,
-                    "no root in {start}, {}",
-                    piece.until
-                );
+                let expected = if count % 2 == 1 { -1 } else { 1 };
+                assert_eq!(signs[0] * signs[1], expected, "{start}, {}", piece.until);
             }
             Sign::Zero => assert!(exact.is_zero()),
             Sign::Unknown => decided = false,

@@ -85,30 +85,142 @@ impl Polynomial {
         BigRational::from(value)
     }
 
-    /// Count the roots inside the interval from 0 to 1 exactly, each once: Descartes' rule and
-    /// bisection (Vincent, Collins, Akritas). The polynomial must have no multiple root there.
+    /// Count the changes of sign inside the interval from 0 to 1 exactly: roots of odd
+    /// multiplicity, each once. Descartes' rule and bisection (Vincent, Collins, Akritas).
     pub fn roots_inside(&self) -> usize {
+        /// Simple roots are found sooner.
+        const DEEP: usize = 64;
+        /// The roots of a polynomial without multiple ones are found sooner.
+        const DEEPEST: usize = 4000;
+        let count = |polynomial: &Self, depth| {
+            let first = polynomial
+                .0
+                .iter()
+                .position(|coefficient| !coefficient.is_zero());
+            count_inside(polynomial.0[first.unwrap_or(0)..].to_vec(), depth)
+        };
+        let simple = self.trimmed();
+        count(&simple, DEEP).unwrap_or_else(|| {
+            let simple = simple.with_simple_roots();
+            count(&simple, DEEPEST).expect("simple roots")
+        })
+    }
+
+    /// The polynomial, or if it has a multiple root inside the interval, the one that has its sign
+    /// but for roots of even multiplicity.
+    pub fn changing(&self) -> Self {
+        let trimmed = self.trimmed();
+        let first = trimmed
+            .0
+            .iter()
+            .position(|coefficient| !coefficient.is_zero());
+        match count_inside(trimmed.0[first.unwrap_or(0)..].to_vec(), 64) {
+            Some(_) => self.clone(),
+            None => trimmed.with_simple_roots(),
+        }
+    }
+
+    /// Multiply the factors of odd multiplicity: p, p/g₁, g₁/g₂, … with gₖ₊₁ = gcd(gₖ, gₖ′) give
+    /// the factors of multiplicity k and more.
+    fn with_simple_roots(&self) -> Self {
+        let mut at_least = Vec::new();
+        let mut rest = self.primitive();
+        while rest.0.len() > 1 {
+            let next = rest.common_divisor(&rest.derivative());
+            at_least.push(rest.divided(&next));
+            rest = next;
+        }
+        at_least.push(Self(vec![BigInt::one()]));
+        let exactly = at_least.windows(2).map(|pair| pair[0].divided(&pair[1]));
+        let odd = exactly.step_by(2).reduce(|a, b| a.times(&b));
+        let odd = odd.unwrap_or_else(|| Self(vec![BigInt::one()]));
+        // A square is positive.
+        let sign = |polynomial: &Self| polynomial.0.last().map(Signed::is_negative);
+        if sign(self) == sign(&odd) {
+            odd
+        } else {
+            odd.times(&Self(vec![-BigInt::one()]))
+        }
+    }
+
+    fn trimmed(&self) -> Self {
         let mut coefficients = self.0.clone();
         while coefficients.last().is_some_and(Zero::is_zero) {
             coefficients.pop();
         }
-        let first = coefficients
-            .iter()
-            .position(|coefficient| !coefficient.is_zero());
-        coefficients.drain(..first.unwrap_or(0));
-        count_inside(coefficients, 0)
+        Self(coefficients)
+    }
+
+    fn primitive(&self) -> Self {
+        let mut factor = BigInt::zero();
+        for coefficient in &self.0 {
+            let mut other = coefficient.abs();
+            while !other.is_zero() {
+                (factor, other) = (other.clone(), factor % other);
+            }
+        }
+        if factor.is_zero() {
+            return self.clone();
+        }
+        Self(
+            self.0
+                .iter()
+                .map(|coefficient| coefficient / &factor)
+                .collect(),
+        )
+    }
+
+    /// Euclid's algorithm with pseudo-remainders.
+    fn common_divisor(&self, other: &Self) -> Self {
+        let (mut a, mut b) = (self.trimmed(), other.trimmed());
+        while let Some(last) = b.0.last().cloned() {
+            while a.0.len() >= b.0.len() {
+                let lead = a.0.pop().expect("a coefficient");
+                let offset = a.0.len() + 1 - b.0.len();
+                for coefficient in &mut a.0 {
+                    *coefficient *= &last;
+                }
+                for (place, coefficient) in a.0[offset..].iter_mut().zip(&b.0) {
+                    *place -= &lead * coefficient;
+                }
+            }
+            (a, b) = (b, a.trimmed().primitive());
+        }
+        a.primitive()
+    }
+
+    /// Divide by a polynomial that divides this one but for a factor.
+    fn divided(&self, other: &Self) -> Self {
+        let last = other.0.last().expect("not 0");
+        let mut rest = self.0.clone();
+        let size = rest.len() + 1 - other.0.len();
+        let mut quotient = vec![BigInt::zero(); size];
+        for offset in (0..size).rev() {
+            for value in rest.iter_mut().chain(&mut quotient) {
+                *value *= last;
+            }
+            let share = &rest[offset + other.0.len() - 1] / last;
+            for (place, coefficient) in rest[offset..].iter_mut().zip(&other.0) {
+                *place -= &share * coefficient;
+            }
+            quotient[offset] = share;
+        }
+        assert!(rest.iter().all(Zero::is_zero), "a rest");
+        Self(quotient).primitive()
     }
 }
 
-fn count_inside(coefficients: Vec<BigInt>, depth: usize) -> usize {
-    assert!(depth < 200, "a multiple root");
+/// Count simple roots inside the interval from 0 to 1; `None` if that takes more than so many
+/// bisections.
+fn count_inside(coefficients: Vec<BigInt>, depth: usize) -> Option<usize> {
     // (1 + x)^N p(1 / (1 + x)) has a positive root for each of p between 0 and 1.
     let mut turned: Vec<BigInt> = coefficients.iter().rev().cloned().collect();
     shift_by_one(&mut turned);
     let changes = variations(&turned);
     if changes <= 1 {
-        return changes;
+        return Some(changes);
     }
+    let depth = depth.checked_sub(1)?;
     // 2^N p(x / 2) lives on the left half; shifted by 1 it lives on the right half.
     let degree = coefficients.len() - 1;
     let left: Vec<BigInt> = coefficients
@@ -118,12 +230,19 @@ fn count_inside(coefficients: Vec<BigInt>, depth: usize) -> usize {
         .collect();
     let mut right = left.clone();
     shift_by_one(&mut right);
+    if right
+        .get(..2)
+        .is_some_and(|low| low.iter().all(Zero::is_zero))
+    {
+        // A multiple root in the middle.
+        return None;
+    }
     let mut middle = 0;
-    while right.first().is_some_and(Zero::is_zero) {
+    if right.first().is_some_and(Zero::is_zero) {
         right.remove(0);
         middle = 1;
     }
-    count_inside(left, depth + 1) + middle + count_inside(right, depth + 1)
+    Some(count_inside(left, depth)? + middle + count_inside(right, depth)?)
 }
 
 /// Replace p(x) by p(x + 1).

@@ -234,6 +234,15 @@ impl<T: Scalar> Arena<T> {
         (left, right)
     }
 
+    /// Bound the Bernstein coefficients of a polynomial in scaled form, and with them its size.
+    pub(super) fn bound(&self, polynomial: Polynomial) -> f64 {
+        let (values, errors) = self.coefficients(polynomial);
+        let sizes = values.iter().zip(errors).zip(binomials(polynomial.degree));
+        let sizes = sizes
+            .map(|((value, error), binomial)| (value.magnitude() + error) / binomial.high * SLACK);
+        sizes.fold(0.0, f64::max)
+    }
+
     /// Evaluate a polynomial in scaled form at t in \[0, 1\]: the value, rounded to a double, and
     /// the bound of its error before that. The sign is certain where the value exceeds the
     /// bound by more than a rounding.

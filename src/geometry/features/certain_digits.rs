@@ -46,7 +46,7 @@ mod tests {
     fn only_digits_that_both_bounds_share_are_told() {
         for (low, high, most, expected) in [
             (0.123_456, 0.123_461, 17, Some(0.123_46)),
-            (0.123_444_9, 0.123_445_1, 17, Some(0.1234)),
+            (0.123_444_9, 0.123_446_1, 17, Some(0.1234)),
             (0.1, 0.1, 17, Some(0.1)),
             (0.1, 0.1, 2, Some(0.1)),
             (1.0 / 3.0, 1.0 / 3.0, 17, Some(1.0 / 3.0)),

@@ -1,12 +1,14 @@
 //! The features of a whole curve, put together from those of its segments.
 
+use super::enclosure::narrower;
 use super::exact_numerators::ExactSegment;
 use super::feature::{
     Cusp, Extremum, ExtremumKind, Features, Quantity, Root, Trend, TrendPiece, Undecided, Verdict,
 };
 use super::segment_features::{SegmentFeatures, SegmentProver};
+use super::separation::{Found, join_neighbours, narrow_neighbours};
 use super::sign_piece::SignPiece;
-use super::sign_walk::{Change, Place, SignWalk};
+use super::sign_walk::{Place, SignWalk};
 use super::values;
 use crate::geometry::float_polygon::FloatPolygon;
 
@@ -51,8 +53,7 @@ impl Features {
         features.inflections =
             features.take(&assembly, Quantity::Inflection, &walk, &singular, root);
         let walk = assembly.walk(Quantity::CurvatureExtremum);
-        let curvature = |segment, t| values::curvature(polygon, segment, t, planar);
-        let extremum = |change: &Change, u| assembly.extremum(change, u, curvature);
+        let extremum = |found: &Found| assembly.extremum(found, Quantity::CurvatureExtremum);
         features.curvature_extrema = features.take(
             &assembly,
             Quantity::CurvatureExtremum,
@@ -69,8 +70,7 @@ impl Features {
             let flat = assembly.flat_knots();
             singular.extend(&flat);
             let walk = assembly.walk(Quantity::TorsionExtremum);
-            let torsion = |segment, t| values::torsion(polygon, segment, t);
-            let extremum = |change: &Change, u| assembly.extremum(change, u, torsion);
+            let extremum = |found: &Found| assembly.extremum(found, Quantity::TorsionExtremum);
             features.torsion_extrema = features.take(
                 &assembly,
                 Quantity::TorsionExtremum,
@@ -84,40 +84,47 @@ impl Features {
     }
 
     /// Turn the changes of a sign into features, but for those at a singular place, which are
-    /// added to the undecided pieces together with the walk's own.
+    /// added to the undecided pieces together with the walk's own. Roots that touch another one or
+    /// a singular place are narrowed first.
     fn take<T>(
         &mut self,
         assembly: &Assembly,
         quantity: Quantity,
         walk: &SignWalk,
         singular: &[[f64; 2]],
-        feature: impl Fn(&Change, [f64; 2]) -> T,
+        feature: impl Fn(&Found) -> T,
     ) -> Vec<T> {
-        let mut features = Vec::with_capacity(walk.changes.len());
         let changes = walk.changes.iter();
-        let mut changes: Vec<_> = changes
-            .map(|change| (assembly.interval(change.places), change))
+        let mut found: Vec<_> = changes
+            .map(|change| Found::new(change, assembly.interval(change.places)))
             .collect();
         // A walk round a periodic curve sees its joint last.
-        changes.sort_by(|(a, _), (b, _)| a[0].total_cmp(&b[0]));
+        found.sort_by(|a, b| a.u[0].total_cmp(&b.u[0]));
+        let joint = assembly.joint();
+        let narrow = |found: &mut Found| found.narrow(assembly.polygon, quantity);
+        narrow_neighbours(&mut found, joint, narrow);
         let doubt = |u, certain| Undecided {
             u,
             quantity,
             certain,
         };
-        for (u, change) in changes {
-            if assembly.touches(singular, u) {
-                self.undecided.push(doubt(u, false));
-            } else {
-                features.push(feature(change, u));
+        found.retain_mut(|found| {
+            if assembly.touches(singular, found.u) {
+                narrow(found);
             }
-        }
+            let is_singular = assembly.touches(singular, found.u);
+            if is_singular {
+                self.undecided.push(doubt(found.u, false));
+            }
+            !is_singular
+        });
+        join_neighbours(&mut found, joint);
         for found in &walk.doubts {
             let u = assembly.interval(found.places);
             let certain = found.changed && !assembly.touches(singular, u);
             self.undecided.push(doubt(u, certain));
         }
-        features
+        found.iter().map(feature).collect()
     }
 
     /// Leave open whether the torsion jumps at knots without curvature, and makes extrema there.
@@ -163,13 +170,14 @@ impl Assembly<'_> {
         self.polygon.is_periodic() && self.segments.len() == self.polygon.segments()
     }
 
+    /// The parameter of the joint of a periodic curve.
+    fn joint(&self) -> Option<f64> {
+        self.is_periodic().then_some(self.segments.len() as f64)
+    }
+
     /// Whether an interval meets a singular place, across the joint of a periodic curve as well.
     fn touches(&self, singular: &[[f64; 2]], [low, high]: [f64; 2]) -> bool {
-        let turn = if self.is_periodic() {
-            self.segments.len() as f64
-        } else {
-            0.0
-        };
+        let turn = self.joint().unwrap_or(0.0);
         let meets = |place: &[f64; 2]| {
             [-turn, 0.0, turn]
                 .iter()
@@ -267,37 +275,45 @@ impl Assembly<'_> {
         }
     }
 
-    fn extremum(
-        &self,
-        change: &Change,
-        u: [f64; 2],
-        quantity: impl Fn(usize, f64) -> f64,
-    ) -> Extremum {
+    fn extremum(&self, found: &Found, quantity: Quantity) -> Extremum {
+        let change = found.change;
         let maximum = change.from > 0;
-        let at = |place: Place| {
-            let segment = place.segment % self.segments.len();
-            quantity(segment, place.t)
+        let value = if change.is_root {
+            change.value
+        } else {
+            let [low, high] = change.places.map(|place| self.value(place, quantity));
+            let choose = if maximum { f64::max } else { f64::min };
+            [choose(low[0], high[0]), choose(low[1], high[1])]
         };
-        let value = change.value.unwrap_or_else(|| {
-            let [low, high] = change.places.map(at);
-            if maximum {
-                low.max(high)
-            } else {
-                low.min(high)
-            }
-        });
         let kind = if maximum {
             ExtremumKind::Maximum
         } else {
             ExtremumKind::Minimum
         };
-        // Doubles are trusted to this share of the value.
-        let off = 1e-9 * value.abs();
         Extremum {
-            u,
-            count: 1,
+            u: found.u,
+            count: found.count,
             kind,
-            value: [value - off, value + off],
+            value,
+        }
+    }
+
+    /// Bound the curvature or torsion at an end of a segment, seen from inside.
+    fn value(&self, place: Place, quantity: Quantity) -> [f64; 2] {
+        let index = place.segment % self.segments.len();
+        let segment = &self.segments[index];
+        let end = usize::from(place.t == 1.0);
+        let bounds = match quantity {
+            Quantity::CurvatureExtremum => segment.end_curvature[end],
+            _ => segment.end_torsion[end],
+        };
+        let exact = || ExactSegment::new(self.polygon, index, self.polygon.is_planar());
+        if !values::is_known(bounds)
+            && let Some(exact) = exact()
+        {
+            narrower(bounds, exact.enclose(quantity, [place.t; 2]))
+        } else {
+            bounds
         }
     }
 
@@ -348,8 +364,11 @@ fn join_cusps(last: &mut Cusp, next: &Cusp) -> bool {
     touch
 }
 
-fn root(_: &Change, u: [f64; 2]) -> Root {
-    Root { u, count: 1 }
+fn root(found: &Found) -> Root {
+    Root {
+        u: found.u,
+        count: found.count,
+    }
 }
 
 fn trends(walk: &SignWalk) -> Vec<TrendPiece> {

@@ -10,8 +10,8 @@ use num_traits::{One, Zero};
 
 use super::exact_polynomial::ExactPolynomial;
 use super::feature::Quantity;
+use super::floating::Floating;
 use super::numerators::Function;
-use super::values::Floating;
 use super::whole_numbers::{scaled_numbers, whole_numbers};
 use crate::geometry::float_polygon::FloatPolygon;
 
@@ -24,7 +24,7 @@ const MOST_BITS: u64 = 512;
 const MOST_BITS_TIMES_DEGREE: u64 = 6144;
 
 /// A vector of polynomials.
-type Vector = [ExactPolynomial; 3];
+pub(super) type Vector = [ExactPolynomial; 3];
 
 /// Hold the homogeneous derivatives H, H′, … H⁗ of a segment, all times one positive number.
 #[derive(Debug)]
@@ -74,7 +74,8 @@ impl ExactSegment {
             segment.unit = Floating::new(&BigInt::one(), exponent.into());
             if constant {
                 // Another unit of length makes up for it.
-                segment.unit = segment.unit / segment.weight[0].value_at(0.0);
+                let [weight, _] = segment.weight[0].ends();
+                segment.unit = segment.unit / Floating::new(&weight, 0);
                 segment.weight = Default::default();
                 segment.weight[0] = ExactPolynomial::constant(1);
             }
@@ -117,30 +118,31 @@ impl ExactSegment {
         }
     }
 
-    /// Evaluate the curvature at t: W³ D / S^{3/2}, in space W³ (Q / S³)^{1/2}.
-    pub(super) fn curvature_at(&self, t: f64) -> f64 {
-        let tangent = self.tangent(1);
-        let speed = dot(&tangent, &tangent).value_at(t).sqrt();
-        let bend = if self.planar {
-            self.bend(2).value_at(t)
-        } else {
-            self.bending(2).value_at(t).sqrt()
-        };
-        let share = self.weight[0].value_at(t) / speed;
-        (bend * share * share * share / self.unit).value()
+    /// Find the polynomial whose roots are the zeros of the tangent inside the segment, each once:
+    /// 0 if it vanishes everywhere. `None` if it would take too long.
+    pub(super) fn tangent_zeros(&self) -> Option<ExactPolynomial> {
+        ExactPolynomial::shared_roots(self.tangent(1).iter())
     }
 
-    /// Evaluate the torsion at t: W² T / Q.
-    pub(super) fn torsion_at(&self, t: f64) -> f64 {
-        let weight = self.weight[0].value_at(t);
-        let share = self.torsion(3).value_at(t) / self.bending(2).value_at(t);
-        (weight * weight * share / self.unit).value()
+    /// Whether the tangent vanishes at an end of the segment.
+    pub(super) fn tangent_vanishes(&self, at_end: bool) -> bool {
+        let vanishes = |part: &ExactPolynomial| part.ends()[usize::from(at_end)].is_zero();
+        self.tangent(1).iter().all(vanishes)
     }
 
-    /// Whether the tangent vanishes at p/q.
-    pub(super) fn tangent_vanishes(&self, p: u32, q: u32) -> bool {
-        let place = [p, q].map(BigInt::from);
-        self.tangent(1).iter().all(|part| part.sign_at(&place) == 0)
+    /// Whether curvature has a sign.
+    pub(super) fn is_planar(&self) -> bool {
+        self.planar
+    }
+
+    /// The length that is 1 here.
+    pub(super) fn unit(&self) -> Floating {
+        self.unit
+    }
+
+    /// W.
+    pub(super) fn weight(&self) -> &ExactPolynomial {
+        &self.weight[0]
     }
 
     /// Whether the curvature is 0 at the end of the segment but not all along it.
@@ -195,7 +197,7 @@ impl ExactSegment {
     }
 
     /// C⁽ᵏ⁾W − C W⁽ᵏ⁾: A for the order k = 1, A′ for 2.
-    fn tangent(&self, order: usize) -> Vector {
+    pub(super) fn tangent(&self, order: usize) -> Vector {
         from_fn(|axis| {
             let slope = self.curve[order][axis].times(&self.weight[0]);
             slope.plus(-1, &self.curve[0][axis].times(&self.weight[order]))
@@ -221,18 +223,18 @@ impl ExactSegment {
     }
 
     /// The only component that the normal of a planar curve has: D for the order k = 2, D′ for 3.
-    fn bend(&self, order: usize) -> ExactPolynomial {
+    pub(super) fn bend(&self, order: usize) -> ExactPolynomial {
         let [_, _, bend] = self.normal(order);
         bend
     }
 
     /// N · N⁽ᵏ⁻²⁾: Q for the order k = 2, R for 3.
-    fn bending(&self, order: usize) -> ExactPolynomial {
+    pub(super) fn bending(&self, order: usize) -> ExactPolynomial {
         dot(&self.normal(2), &self.normal(order))
     }
 
     /// N · C⁽ᵏ⁾ + M W⁽ᵏ⁾, M = −L · C″: T for the order k = 3, T′ for 4.
-    fn torsion(&self, order: usize) -> ExactPolynomial {
+    pub(super) fn torsion(&self, order: usize) -> ExactPolynomial {
         let volume = dot(&self.normal(2), &self.curve[order]);
         if self.weight[order].is_zero() {
             return volume;
@@ -267,7 +269,8 @@ fn derivatives(polynomial: ExactPolynomial) -> [ExactPolynomial; 5] {
     })
 }
 
-fn dot(a: &Vector, b: &Vector) -> ExactPolynomial {
+/// The scalar product.
+pub(super) fn dot(a: &Vector, b: &Vector) -> ExactPolynomial {
     let terms = a.iter().zip(b);
     terms.fold(ExactPolynomial::default(), |sum, (a, b)| {
         sum.plus(1, &a.times(b))

@@ -11,7 +11,7 @@ use super::variations::{Variations, certain_sign};
 pub(super) const ROOT_WIDTH: f64 = 1e-12;
 
 /// Pieces below this width, in the segment's parameter, are not cut again: 2⁻³¹ < 1e-9.
-pub(super) const SMALLEST_PIECE: f64 = 1.0 / (1_u64 << 31) as f64;
+const SMALLEST_PIECE: f64 = 1.0 / (1_u64 << 31) as f64;
 
 /// Where to cut the whole segment: off the middle, where symmetrical curves have their roots. If
 /// the sign at one place cannot be told the next is tried.
@@ -30,6 +30,9 @@ pub(super) enum Doubt {
 }
 
 /// Append pieces that cover \[0, 1\] and say where a polynomial in scaled form has which sign.
+///
+/// No cut hides a root: where the sign at a cut is not certain, both pieces end with a coefficient
+/// of unknown sign, which may be a change, so neither counts as decided.
 ///
 /// A piece that is not decided is cut in two. Of the pieces of one size no more than a small
 /// multiple of the polynomial's degree N remain undecided, because each has a complex root near
@@ -138,7 +141,7 @@ impl<T: Scalar> Isolation<'_, T> {
             return Err(Doubt::Somewhere);
         }
         self.append(Sign::from_direction(sign), low);
-        self.append(Sign::Root { value: 0.0 }, high);
+        self.append(Sign::roots(1), high);
         self.append(Sign::from_direction(-sign), ends[1]);
         Ok(())
     }

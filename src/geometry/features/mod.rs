@@ -22,20 +22,26 @@
 
 mod arena;
 mod certain_digits;
+mod common_divisor;
 mod curve_features;
 mod double_double;
 mod enclosure;
+mod exact_isolation;
 mod exact_numerators;
 mod exact_polynomial;
+mod exact_values;
 mod feature;
+mod floating;
 mod isolation;
 mod numerators;
 mod refinement;
 mod scalar;
 mod segment_features;
 mod segment_shape;
+mod separation;
 mod sign_piece;
 mod sign_walk;
+mod square_free;
 mod tables;
 mod values;
 mod variations;

@@ -1,5 +1,7 @@
 //! Narrowing an interval that holds one root.
 
+use std::cmp::Ordering;
+
 use super::variations::certain_sign;
 
 /// How far the secant may fall behind bisection before it must follow: half of 2⁵, five steps.
@@ -39,6 +41,22 @@ pub(super) fn refine(
         }
     }
     bracket.ends
+}
+
+/// Narrow an interval to neighbouring doubles about the place that `side` compares a place with,
+/// or to that place itself.
+pub(super) fn bisect([mut low, mut high]: [f64; 2], side: impl Fn(f64) -> Ordering) -> [f64; 2] {
+    loop {
+        let middle = low + 0.5 * (high - low);
+        if !(low < middle && middle < high) {
+            return [low, high];
+        }
+        match side(middle) {
+            Ordering::Less => low = middle,
+            Ordering::Equal => return [middle; 2],
+            Ordering::Greater => high = middle,
+        }
+    }
 }
 
 impl Bracket {

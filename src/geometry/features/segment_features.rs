@@ -4,15 +4,18 @@ use std::cell::LazyCell;
 
 use super::arena::Arena;
 use super::double_double::DoubleDouble;
-use super::enclosure::at_ends;
+use super::enclosure::{UNKNOWN, at_ends, narrower};
 use super::exact_numerators::ExactSegment;
+use super::exact_polynomial::ExactPolynomial;
 use super::feature::Quantity;
 use super::isolation::{Doubt, isolate};
 use super::numerators::{Function, Numerators};
+use super::refinement::bisect;
 use super::segment_shape::SegmentShape;
 use super::sign_piece::{Sign, SignPiece, append, with_starts};
-use super::values;
+use super::values::{at_extremum, is_known};
 use super::variations::certain_sign;
+use super::whole_numbers::fraction;
 use crate::geometry::float_polygon::FloatPolygon;
 
 /// Hold what is proved of one segment, its two ends included as far as they can be seen from
@@ -90,12 +93,8 @@ impl SegmentProver {
         let mut features = search.features();
         features.end_curvature = [start[0], end[0]];
         features.end_torsion = [start[1], end[1]];
-        set_values(&mut features.curvature_slope, |t| {
-            values::curvature(polygon, segment, t, planar)
-        });
-        set_values(&mut features.torsion_slope, |t| {
-            values::torsion(polygon, segment, t)
-        });
+        search.set_values(&mut features.curvature_slope, Quantity::CurvatureExtremum);
+        search.set_values(&mut features.torsion_slope, Quantity::TorsionExtremum);
         features
     }
 }
@@ -111,11 +110,11 @@ struct Search<'a> {
 
 impl Search<'_> {
     fn features(&mut self) -> SegmentFeatures {
-        let curvature = self.signs(Function::Feature(Quantity::Inflection));
-        let curvature_slope = self.signs(Function::Feature(Quantity::CurvatureExtremum));
-        let torsion = self.signs(Function::Feature(Quantity::TorsionZero));
-        let torsion_slope = self.signs(Function::Feature(Quantity::TorsionExtremum));
-        let cusps = self.cusps(&curvature_slope);
+        let (curvature, _) = self.signs(Function::Feature(Quantity::Inflection));
+        let (curvature_slope, tier) = self.signs(Function::Feature(Quantity::CurvatureExtremum));
+        let (torsion, _) = self.signs(Function::Feature(Quantity::TorsionZero));
+        let (torsion_slope, _) = self.signs(Function::Feature(Quantity::TorsionExtremum));
+        let cusps = self.cusps(tier);
         SegmentFeatures {
             curvature,
             curvature_slope,
@@ -127,31 +126,33 @@ impl Search<'_> {
         }
     }
 
-    fn signs(&mut self, function: Function) -> Vec<SignPiece> {
+    /// Find the signs of a function, and what they took.
+    fn signs(&mut self, function: Function) -> (Vec<SignPiece>, Tier) {
         let mut pieces = Vec::new();
         let polynomial = self.quick.of(function);
         if polynomial.vanishes() {
             append(&mut pieces, Sign::Zero, 1.0);
-            return pieces;
+            return (pieces, Tier::Exact);
         }
         let Err(doubt) = isolate(&mut self.prover.quick, polynomial, &mut pieces) else {
-            return pieces;
+            return (pieces, Tier::Rounded);
         };
         pieces.clear();
         let exact = || self.exact.as_ref().map(|exact| exact.numerator(function));
         if doubt == Doubt::Everywhere && exact().is_some_and(|exact| exact.is_zero()) {
             append(&mut pieces, Sign::Zero, 1.0);
-            return pieces;
+            return (pieces, Tier::Exact);
         }
         let polynomial = self.precise().of(function);
-        if isolate(&mut self.prover.precise, polynomial, &mut pieces).is_err() {
-            pieces.clear();
-            match self.exact.as_ref() {
-                Some(exact) => exact.numerator(function).append_signs(&mut pieces),
-                None => append(&mut pieces, Sign::Unknown, 1.0),
-            }
+        if isolate(&mut self.prover.precise, polynomial, &mut pieces).is_ok() {
+            return (pieces, Tier::Rounded);
         }
-        pieces
+        pieces.clear();
+        match self.exact.as_ref() {
+            Some(exact) => exact.numerator(function).append_signs(&mut pieces),
+            None => append(&mut pieces, Sign::Unknown, 1.0),
+        }
+        (pieces, Tier::Exact)
     }
 
     fn precise(&mut self) -> Numerators {
@@ -162,55 +163,82 @@ impl Search<'_> {
     }
 
     /// Find where the tangent vanishes. The numerator of κ′ vanishes there as well, to at least
-    /// the third order: so where its sign is known, and at its simple roots, there is no cusp.
-    fn cusps(&mut self, slope: &[SignPiece]) -> Vec<LocalCusp> {
-        if let Some(direction) = self.shape.line {
-            let along = self.signs(Function::Along(direction));
-            let mut cusps = line_cusps(&along);
-            self.add_end_cusps(&mut cusps);
-            return cusps;
-        }
-        let doubtful = |piece: &SignPiece| matches!(piece.sign, Sign::Unknown | Sign::Zero);
+    /// the third order: where rounded numbers found all its roots, and that they are simple, there
+    /// is no cusp. Otherwise cusps are the roots that all components of the tangent share.
+    fn cusps(&mut self, slope: Tier) -> Vec<LocalCusp> {
         let mut cusps = Vec::new();
-        if slope.iter().any(doubtful) {
-            let speed = self.signs(Function::Speed);
-            let low = with_starts(&speed)
-                .filter(|(_, piece)| !matches!(piece.sign, Sign::Positive))
-                .map(|(start, piece)| [start, piece.until]);
-            cusps.extend(low.map(|t| self.cusp(t)));
+        if slope == Tier::Exact {
+            let zeros = self.exact.as_ref().and_then(ExactSegment::tangent_zeros);
+            match zeros {
+                Some(zeros) => cusps.extend(exact_cusps(&zeros)),
+                None => cusps.extend(self.possible_cusps()),
+            }
         }
         self.add_end_cusps(&mut cusps);
         cusps
     }
 
-    /// Look for a cusp on a piece at its simplest fraction: there, and at few other places, can a
-    /// zero of the whole tangent be proved.
-    fn cusp(&self, t: [f64; 2]) -> LocalCusp {
-        let [p, q] = simplest_fraction(t);
-        let place = f64::from(p) / f64::from(q);
-        let inside = t[0] < place && place < t[1];
-        let proved = inside && self.tangent_vanishes(p, q);
-        LocalCusp { t, proved }
+    /// List the pieces on which the speed, or the velocity on a line, is not proved to differ
+    /// from 0.
+    fn possible_cusps(&mut self) -> Vec<LocalCusp> {
+        let (speed, on_line) = match self.shape.line {
+            Some(direction) => (self.signs(Function::Along(direction)).0, true),
+            None => (self.signs(Function::Speed).0, false),
+        };
+        let low = with_starts(&speed).filter(|(_, piece)| piece.sign.direction().is_none());
+        low.map(|(start, piece)| LocalCusp {
+            t: [start, piece.until],
+            proved: on_line && piece.sign != Sign::Unknown,
+        })
+        .collect()
     }
 
-    fn tangent_vanishes(&self, p: u32, q: u32) -> bool {
-        let exact = self.exact.as_ref();
-        exact.is_some_and(|exact| exact.tangent_vanishes(p, q))
+    /// Bound the curvature or torsion at the roots of its derivative.
+    fn set_values(&mut self, pieces: &mut [SignPiece], quantity: Quantity) {
+        let (mut start, mut is_maximum) = (0.0, false);
+        for piece in pieces {
+            let ends = [start, piece.until];
+            if let Sign::Root { count, value } = &mut piece.sign {
+                *value = self.value(quantity, (ends, is_maximum), *count);
+            }
+            start = piece.until;
+            is_maximum = piece.sign == Sign::Positive;
+        }
+    }
+
+    fn value(&mut self, quantity: Quantity, place: ([f64; 2], bool), count: usize) -> [f64; 2] {
+        let curve = (self.shape, self.prover.planar);
+        let mut bounds = UNKNOWN;
+        if count == 1 {
+            bounds = at_extremum(&self.prover.quick, &self.quick, curve, quantity, place);
+            if !is_known(bounds) {
+                let precise = self.precise();
+                bounds = at_extremum(&self.prover.precise, &precise, curve, quantity, place);
+            }
+        }
+        if !is_known(bounds)
+            && let Some(exact) = self.exact.as_ref()
+        {
+            bounds = narrower(bounds, exact.enclose(quantity, place.0));
+        }
+        bounds
     }
 
     /// Add the ends at which every component of the tangent is exactly 0.
     fn add_end_cusps(&self, cusps: &mut Vec<LocalCusp>) {
-        for (end, t) in [(0, 0.0), (1, 1.0)] {
+        for (end, t) in [(0_usize, 0.0), (1, 1.0)] {
             let may_vanish = self.quick.tangent.iter().all(|component| {
                 let (values, errors) = self.prover.quick.coefficients(*component);
-                let index = end as usize * component.degree();
+                let index = end * component.degree();
                 let end = values.get(index).zip(errors.get(index));
                 end.is_none_or(|(value, error)| {
                     !matches!(certain_sign(*value, *error), Some(1 | -1))
                 })
             });
             let inside = |cusp: &LocalCusp| cusp.proved && cusp.t[0] <= t && t <= cusp.t[1];
-            if may_vanish && !cusps.iter().any(inside) && self.tangent_vanishes(end, 1) {
+            let vanishes = |exact: &ExactSegment| exact.tangent_vanishes(end == 1);
+            if may_vanish && !cusps.iter().any(inside) && self.exact.as_ref().is_some_and(vanishes)
+            {
                 cusps.push(LocalCusp {
                     t: [t, t],
                     proved: true,
@@ -220,50 +248,37 @@ impl Search<'_> {
     }
 }
 
-/// Find the fraction of the least denominator between two numbers from 0 to 1, as well as rounding
-/// lets it be found, by continued fractions.
-fn simplest_fraction([low, high]: [f64; 2]) -> [u32; 2] {
-    /// Simple enough for a curve that someone wrote down.
-    const MOST_STEPS: usize = 8;
-    let (mut low, mut high) = (low, high);
-    // The last two convergents.
-    let ([mut p, mut q], [mut last_p, mut last_q]) = ([1_u32, 0_u32], [0_u32, 1_u32]);
-    for _ in 0..MOST_STEPS {
-        let whole = low.floor();
-        let ends = low == whole || whole + 1.0 <= high;
-        let step = if low == whole {
-            whole
-        } else {
-            whole + f64::from(u8::from(ends))
-        };
-        let next = |now: u32, last: u32| now.saturating_mul(step as u32).saturating_add(last);
-        ([p, q], [last_p, last_q]) = ([next(p, last_p), next(q, last_q)], [p, q]);
-        if ends {
-            break;
-        }
-        (low, high) = (1.0 / (high - whole), 1.0 / (low - whole));
-    }
-    [p, q.max(1)]
+/// Say what it took to find the signs of a function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Tier {
+    /// Rounded numbers were enough: all roots are simple.
+    Rounded,
+    /// It took whole numbers, or the function is 0 throughout.
+    Exact,
 }
 
-/// Read off where a motion along a line, of which these are the velocity's signs, stands still.
-fn line_cusps(velocity: &[SignPiece]) -> Vec<LocalCusp> {
-    with_starts(velocity)
-        .filter(|(_, piece)| piece.sign.direction().is_none())
-        .map(|(start, piece)| LocalCusp {
-            t: [start, piece.until],
-            proved: matches!(piece.sign, Sign::Root { .. } | Sign::Zero),
-        })
-        .collect()
-}
-
-/// Put values into the roots among some pieces.
-fn set_values(pieces: &mut [SignPiece], value_at: impl Fn(f64) -> f64) {
-    let mut start = 0.0;
-    for piece in pieces {
-        if let Sign::Root { value } = &mut piece.sign {
-            *value = value_at(0.5 * (start + piece.until));
-        }
-        start = piece.until;
+/// Separate the zeros of the tangent as far as doubles can.
+fn exact_cusps(zeros: &ExactPolynomial) -> Vec<LocalCusp> {
+    let proved = |t: [f64; 2], proved: bool| LocalCusp { t, proved };
+    if zeros.is_zero() {
+        return vec![proved([0.0, 1.0], true)];
     }
+    let mut pieces = Vec::new();
+    zeros.append_simple_roots(&mut pieces);
+    let mut before = Sign::Zero;
+    let mut cusps = Vec::new();
+    for (start, piece) in with_starts(&pieces) {
+        let t = [start, piece.until];
+        match (piece.sign, before.direction()) {
+            (Sign::Root { count: 1, .. }, Some(sign)) => {
+                let narrow = bisect(t, |t| 0.cmp(&(zeros.sign_at(&fraction(t)) * sign)));
+                cusps.push(proved(narrow, true));
+            }
+            (Sign::Root { .. }, _) => cusps.push(proved(t, true)),
+            (Sign::Unknown, _) => cusps.push(proved(t, false)),
+            _ => {}
+        }
+        before = piece.sign;
+    }
+    cusps
 }

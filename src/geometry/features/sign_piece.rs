@@ -1,25 +1,37 @@
 //! What is proved of a function's sign on a piece of a segment.
 
+use super::enclosure::UNKNOWN;
+
 /// Say what a function does on a piece of a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Sign {
-    /// It is above 0.
+    /// It is above 0, but for single points where it may touch 0 (roots of even multiplicity).
     Positive,
-    /// It is below 0.
+    /// It is below 0, but for such points.
     Negative,
     /// It is 0 throughout, exactly.
     Zero,
-    /// It has one root, a simple one, where its sign changes.
+    /// It changes its sign: it has one root, of odd multiplicity.
     Root {
-        /// The curvature or torsion in the middle of the piece; 0 where the root is one of the
-        /// curvature or torsion itself.
-        value: f64,
+        /// How many such roots there are: 1 unless doubles cannot tell them apart.
+        count: usize,
+        /// Bounds of the curvature or torsion at the first one, if the function is its
+        /// derivative.
+        value: [f64; 2],
     },
     /// Nothing is known: the piece is too small, or the function lies within rounding of 0.
     Unknown,
 }
 
 impl Sign {
+    /// Roots where nothing is known yet of the curvature or torsion.
+    pub(super) fn roots(count: usize) -> Self {
+        Self::Root {
+            count,
+            value: UNKNOWN,
+        }
+    }
+
     /// 1 or −1 where the sign is known and not 0.
     pub(super) fn direction(self) -> Option<i8> {
         match self {

@@ -1,5 +1,6 @@
 //! The changes of one function's sign along a whole curve, knots included.
 
+use super::enclosure::UNKNOWN;
 use super::sign_piece::{Sign, SignPiece, with_starts};
 
 /// Hold a place on the curve exactly: a segment and a local parameter. A knot has two such
@@ -41,14 +42,19 @@ impl Place {
 }
 
 /// Hold a proved change of sign: it lies between the places, at the only root of the function
-/// between them, at a knot where the function jumps, or all along a piece where it is 0.
+/// between them, at a knot where the function jumps, or all along a piece where it is 0. Several
+/// roots too close to tell apart are one, whatever the sign after them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Change {
     pub(super) places: [Place; 2],
     /// The sign before the change.
     pub(super) from: i8,
-    /// The value that came with the root.
-    pub(super) value: Option<f64>,
+    /// How many changes there are.
+    pub(super) count: usize,
+    /// Whether they are roots inside a segment.
+    pub(super) is_root: bool,
+    /// The bounds of the value that came with the first root.
+    pub(super) value: [f64; 2],
 }
 
 /// Hold a piece on which the number of changes is not known.
@@ -83,7 +89,8 @@ pub(super) struct SignWalk {
 struct Gap {
     start: Place,
     unknown: bool,
-    value: Option<f64>,
+    roots: usize,
+    value: [f64; 2],
 }
 
 impl Gap {
@@ -91,7 +98,8 @@ impl Gap {
         Self {
             start,
             unknown: false,
-            value: None,
+            roots: 0,
+            value: UNKNOWN,
         }
     }
 }
@@ -185,7 +193,12 @@ impl SignWalk {
                 let continues = last.is_some_and(|last| last.places[1].meets(places[0]));
                 self.run(0, places, continues);
             }
-            Sign::Root { value } => self.gap.value = Some(value),
+            Sign::Root { count, value } => {
+                if self.gap.roots == 0 {
+                    self.gap.value = value;
+                }
+                self.gap.roots += count;
+            }
             Sign::Unknown => self.gap.unknown = true,
         }
     }
@@ -197,16 +210,19 @@ impl SignWalk {
             // The part of a periodic curve before its first sign is seen again at the end.
             None => self.periodic || !self.gap.unknown,
         };
+        let count = self.gap.roots.max(usize::from(changed));
         if !certain {
             self.doubt(places[0], changed);
-        } else if changed {
+        } else if count > 0 {
             self.changes.push(Change {
                 places: [self.gap.start, places[0]],
-                from: -sign,
+                from: if changed { -sign } else { sign },
+                count,
+                is_root: self.gap.roots > 0,
                 value: self.gap.value,
             });
         }
-        self.run(sign, places, certain && !changed);
+        self.run(sign, places, certain && count == 0);
         self.sign = Some(sign);
         self.gap = Gap::from(places[1]);
     }
@@ -231,7 +247,8 @@ mod tests {
             '+' => Sign::Positive,
             '-' => Sign::Negative,
             '0' => Sign::Zero,
-            'r' => Sign::Root { value: 0.0 },
+            'r' => Sign::roots(1),
+            'd' => Sign::roots(2),
             _ => Sign::Unknown,
         };
         let until = (1..).map(|index| f64::from(index) / count);

@@ -1,0 +1,96 @@
+//! Numbers with the digits of a double that no power takes out of range.
+
+use std::ops::{Div, Mul};
+
+use num_bigint::BigInt;
+use num_traits::ToPrimitive;
+
+/// A number digits · 2^exponent that no power takes out of range; digits are 0 or of size 1 … 2.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Floating {
+    digits: f64,
+    exponent: i64,
+}
+
+impl Floating {
+    /// Write `number` · 2^exponent.
+    pub(super) fn new(number: &BigInt, exponent: i64) -> Self {
+        /// What a double holds, and more.
+        const KEPT: u64 = 64;
+        let spare = number.bits().saturating_sub(KEPT);
+        let digits = (number >> spare).to_f64().unwrap_or_default();
+        Self::normal(digits, exponent + spare as i64)
+    }
+
+    /// The positive square root.
+    pub(super) fn sqrt(self) -> Self {
+        let odd = self.exponent.rem_euclid(2);
+        let digits = if odd == 1 {
+            2.0 * self.digits
+        } else {
+            self.digits
+        };
+        Self::normal(digits.sqrt(), (self.exponent - odd) / 2)
+    }
+
+    /// The nearest double, infinite or 0 if there is none.
+    pub(super) fn value(self) -> f64 {
+        /// Beyond it nothing but 0 and infinity is left, twice.
+        const FAR: i64 = 2400;
+        let exponent = self.exponent.clamp(-FAR, FAR) as i32;
+        let third = exponent / 3;
+        let power = |exponent: i32| 2f64.powi(exponent);
+        self.digits * power(third) * power(third) * power(exponent - 2 * third)
+    }
+
+    fn normal(digits: f64, exponent: i64) -> Self {
+        if digits == 0.0 || !digits.is_finite() {
+            return Self {
+                digits,
+                exponent: 0,
+            };
+        }
+        let shift = digits.abs().log2().floor() as i32;
+        Self {
+            digits: digits * 2f64.powi(-shift),
+            exponent: exponent + i64::from(shift),
+        }
+    }
+}
+
+impl Mul for Floating {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        Self::normal(self.digits * other.digits, self.exponent + other.exponent)
+    }
+}
+
+impl Div for Floating {
+    type Output = Self;
+
+    fn div(self, other: Self) -> Self {
+        Self::normal(self.digits / other.digits, self.exponent - other.exponent)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_beyond_doubles_come_back_into_range() {
+        let huge = Floating::new(&(BigInt::from(3) << 5000), 0);
+        let tiny = Floating::new(&BigInt::from(-5), -4999);
+        assert_eq!((huge * tiny).value(), -30.0);
+        assert_eq!((huge / huge).value(), 1.0);
+        assert_eq!((huge * huge).sqrt(), huge);
+        assert_eq!(
+            Floating::new(&BigInt::from(9), 1).sqrt().value(),
+            18f64.sqrt()
+        );
+        assert_eq!(huge.value(), f64::INFINITY);
+        assert_eq!((tiny * tiny).value(), 0.0);
+        assert_eq!(Floating::new(&BigInt::default(), 7).value(), 0.0);
+    }
+}
