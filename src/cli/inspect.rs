@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::ends::Source;
 use super::feature_lists::FeatureLists;
 use super::output;
+use super::progress::Progress;
 use crate::document::Curve;
 use crate::geometry::features::Features;
 use crate::geometry::{ClampedPolygon, End, FloatPolygon, Jet};
@@ -31,7 +32,16 @@ pub(super) fn run(source: &Source, at: &[f64]) -> anyhow::Result<()> {
             );
         }
     }
-    let curves = curves.iter().map(|curve| inspected(curve, at)).collect();
+    let mut progress = Progress::new();
+    let count = curves.len();
+    let curves = curves.iter().enumerate().map(|(index, curve)| {
+        let segments = curve.polygon.segments();
+        let told = |segment| progress.tell((index, count), (segment, segments));
+        let features = Features::with_progress(&curve.polygon, told);
+        inspected(curve, at, &features)
+    });
+    let curves = curves.collect();
+    drop(progress);
     output::print(&json_layout::to_text(&Report { curves }))
 }
 
@@ -110,7 +120,7 @@ impl Space {
     }
 }
 
-fn inspected(curve: &Curve, at: &[f64]) -> Inspected {
+fn inspected(curve: &Curve, at: &[f64], features: &Features) -> Inspected {
     let polygon = &curve.polygon;
     let space = Space::of(polygon);
     let clamped = ClampedPolygon::from_float(polygon);
@@ -138,7 +148,7 @@ fn inspected(curve: &Curve, at: &[f64]) -> Inspected {
             end: end(End::Finish),
         }),
         at: at.iter().map(|u| evaluated(polygon, &space, *u)).collect(),
-        features: FeatureLists::of(&Features::new(polygon)),
+        features: FeatureLists::of(features),
     }
 }
 

@@ -7,6 +7,7 @@ mod ends;
 mod feature_lists;
 mod inspect;
 mod output;
+mod progress;
 
 use std::ffi::OsString;
 use std::path::PathBuf;

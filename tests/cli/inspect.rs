@@ -177,3 +177,47 @@ fn a_possible_cusp_is_told_and_nothing_claimed_there() {
     assert_eq!(features["curvature_extrema"], json!([]));
     assert_ne!(features["monotone"], "proved");
 }
+
+#[test]
+fn an_undecided_piece_says_what_it_is_about() {
+    // The tangent vanishes in the middle, where the curvature turns.
+    let cusp = json!([{
+        "name": "cusp", "degree": 3, "vertices": [[0, 0], [-2, 2.25], [-2, 1.5], [0, 3.75]],
+    }]);
+    let folder = Folder::new().with("cusp.batten", project(cusp));
+    let features = folder.inspect(&["cusp.batten"])["curves"][0]["features"].clone();
+    assert_eq!(features["undecided"], json!([[0.5, 0.5]]));
+    let piece = json!({"u": [0.5, 0.5], "quantity": "curvature_extrema"});
+    assert_eq!(features["undecided_of"], json!([piece]));
+    assert_eq!(
+        features["cusps"],
+        json!([{"u": [0.5, 0.5], "proved": true}])
+    );
+}
+
+#[test]
+fn only_certain_digits_of_an_extremum_are_printed() {
+    // C′ = (2 s, 3 s² + ε) with s = t − ½: κ = −2 / ε² at ½, of which doubles see no digit.
+    let tiny = f64::EPSILON * 2.0;
+    let sharp = json!([{
+        "name": "sharp", "degree": 3,
+        "vertices": [[0, 0], [-2, 2.25 + tiny], [-2, 1.5 + 2.0 * tiny], [0, 3.75 + 3.0 * tiny]],
+    }]);
+    let folder = Folder::new().with("sharp.batten", project(sharp));
+    let found = folder.inspect(&["sharp.batten"]);
+    let sharp = &found["curves"][0]["features"]["curvature_extrema"][1];
+    let printed = sharp["curvature"].as_f64().unwrap();
+    let digits = format!("{printed:e}")
+        .split_once('e')
+        .unwrap()
+        .0
+        .trim_start_matches('-')
+        .len()
+        - 1;
+    assert!(digits >= 10, "{printed:e}");
+    let expected = -2.0 / (tiny * tiny);
+    assert_eq!(
+        format!("{expected:.*e}", digits - 1),
+        format!("{printed:e}")
+    );
+}

@@ -19,10 +19,19 @@ impl Features {
     /// the n + 1 segments that a vertex touches and put them together again with
     /// [`Features::assemble`].
     pub fn new(polygon: &FloatPolygon) -> Self {
+        Self::with_progress(polygon, |_| {})
+    }
+
+    /// Prove the features of a whole curve, and call `progress` before each segment with its
+    /// number.
+    pub fn with_progress(polygon: &FloatPolygon, mut progress: impl FnMut(usize)) -> Self {
         let mut prover = SegmentProver::new(polygon.is_planar());
         let segments = 0..polygon.segments();
-        let segments: Vec<_> = segments.map(|k| prover.segment(polygon, k)).collect();
-        Self::assemble(polygon, &segments)
+        let segments = segments.map(|segment| {
+            progress(segment);
+            prover.segment(polygon, segment)
+        });
+        Self::assemble(polygon, &segments.collect::<Vec<_>>())
     }
 
     /// Put the features of all segments together, joining them at the knots, in time

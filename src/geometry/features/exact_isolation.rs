@@ -14,8 +14,9 @@ use super::whole_numbers::fraction;
 /// as many roots as its degree says, below 512, so that not all of these places are roots.
 const SHARES: std::ops::RangeInclusive<u32> = 1..=10;
 
-/// The most additions of single digits, of 64 bits, for one polynomial: below a second.
-const MOST_WORK: u64 = 400_000_000;
+/// The most additions of single digits, of 64 bits, for one polynomial: below a tenth
+/// of a second.
+const MOST_WORK: u64 = 40_000_000;
 
 impl ExactPolynomial {
     /// Append pieces that cover \[0, 1\] and say where the polynomial has which sign.

@@ -4,6 +4,7 @@
 //! a segment in Bernstein form. The formulas are those of the numerators' module.
 
 use std::array::from_fn;
+use std::cell::OnceCell;
 
 use num_bigint::BigInt;
 use num_traits::{One, Zero};
@@ -34,6 +35,7 @@ pub(super) struct ExactSegment {
     unit: Floating,
     curve: [Vector; 5],
     weight: [ExactPolynomial; 5],
+    flat: OnceCell<Option<ExactPolynomial>>,
 }
 
 impl ExactSegment {
@@ -97,6 +99,7 @@ impl ExactSegment {
             unit: Floating::new(&BigInt::one(), 0),
             curve: from_fn(|order| from_fn(|axis| std::mem::take(&mut axes[axis][order]))),
             weight: w,
+            flat: OnceCell::new(),
         }
     }
 
@@ -128,6 +131,13 @@ impl ExactSegment {
     pub(super) fn tangent_vanishes(&self, at_end: bool) -> bool {
         let vanishes = |part: &ExactPolynomial| part.ends()[usize::from(at_end)].is_zero();
         self.tangent(1).iter().all(vanishes)
+    }
+
+    /// Find the polynomial whose roots are the places inside the segment where the curvature of a
+    /// space curve is 0, each once. `None` if it would take too long.
+    pub(super) fn flat(&self) -> Option<&ExactPolynomial> {
+        let find = || ExactPolynomial::shared_roots(self.normal(2).iter());
+        self.flat.get_or_init(find).as_ref()
     }
 
     /// Whether curvature has a sign.

@@ -93,7 +93,7 @@ impl ExactPolynomial {
     }
 
     /// Evaluate at p/q, times qᴺ.
-    fn scaled_value(&self, [p, q]: &[BigInt; 2]) -> BigInt {
+    pub(super) fn scaled_value(&self, [p, q]: &[BigInt; 2]) -> BigInt {
         let rest = q - p;
         let (mut sum, mut power) = (BigInt::zero(), BigInt::one());
         for coefficient in self.0.iter().rev() {

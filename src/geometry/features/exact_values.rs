@@ -1,7 +1,7 @@
 //! Bounds of the curvature and torsion from whole numbers, where rounded ones cancel.
 
-use num_bigint::BigInt;
-use num_traits::One;
+use num_bigint::{BigInt, Sign};
+use num_traits::{One, Zero};
 
 use super::enclosure::{Enclosure, UNKNOWN};
 use super::exact_numerators::{ExactSegment, dot};
@@ -11,11 +11,14 @@ use super::floating::Floating;
 use super::numerators::Function;
 use super::whole_numbers::fraction;
 
-/// The interval is narrowed by so many binary digits at once.
+/// The interval is narrowed by so many binary digits at once, where a secant tells where to.
 const STEP: u32 = 32;
 
+/// Where it does not, the interval is cut in two so often.
+const BISECTIONS: usize = 6;
+
 /// Beyond so many binary digits it is not narrowed.
-const MOST_BITS: u64 = 1024;
+const MOST_BITS: u64 = 320;
 
 /// What rounding adds to the relative error of one polynomial, and to that of the result.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
@@ -27,6 +30,12 @@ const ENOUGH: f64 = 64.0 * f64::EPSILON;
 const SMALL: f64 = 0.01;
 
 impl ExactSegment {
+    /// Whether the curvature of a space curve is 0 at an only place between two others.
+    pub(super) fn is_flat_between(&self, ends: [f64; 2]) -> bool {
+        let interval = Interval::new(ends);
+        !self.is_planar() && self.flat().is_some_and(|flat| interval.parts_signs(flat))
+    }
+
     /// Enclose the curvature or torsion at the extremum that lies between two places, which are
     /// the same at a knot. It is narrowed as far as digits are to be gained.
     pub(super) fn enclose(&self, quantity: Quantity, ends: [f64; 2]) -> Enclosure {
@@ -38,21 +47,19 @@ impl ExactSegment {
             if let Some((bounds, error)) = parts.enclose(&interval, self.unit()) {
                 best = bounds;
                 if error <= ENOUGH {
-                    return best;
+                    break;
                 }
             }
             if interval.is_point() || interval.bits > MOST_BITS {
                 break;
             }
-            let simple = simple
-                .get_or_insert_with(|| self.numerator(Function::Feature(quantity)).odd_part());
-            let Some(simple) = simple
-                .as_ref()
-                .filter(|simple| interval.parts_signs(simple))
-            else {
+            let is_first = simple.is_none();
+            let find = || self.numerator(Function::Feature(quantity)).odd_part();
+            let simple = simple.get_or_insert_with(find).as_ref();
+            let Some(simple) = simple.filter(|simple| interval.parts_signs(simple)) else {
                 break;
             };
-            if parts.vanishes_with(simple, &interval) {
+            if is_first && parts.vanishes_with(simple, &interval) {
                 return [0.0, 0.0];
             }
             interval.narrow(simple);
@@ -205,22 +212,55 @@ impl Interval {
         low * high < 0
     }
 
-    /// Bisect some times about the only root of a polynomial.
+    /// Narrow the interval about the only root of a polynomial: to the part of 2⁻³² of it that a
+    /// secant points to, if the root is there, and to less otherwise.
     fn narrow(&mut self, simple: &ExactPolynomial) {
-        let before = simple.sign_at(&self.place(0));
-        for _ in 0..STEP {
+        let values = [0, 1].map(|end| simple.scaled_value(&self.place(end)));
+        let before = values[0].sign();
+        let [low, high] = values
+            .map(BigInt::into_parts)
+            .map(|(_, size)| BigInt::from(size));
+        let width = &self.ends[1] - &self.ends[0];
+        let share: BigInt = (&low << STEP) / (&low + &high);
+        let start = (&self.ends[0] << STEP) + share * &width;
+        let part = Self {
+            ends: [start.clone(), start + width],
+            bits: self.bits + u64::from(STEP),
+        };
+        let [from, to] = [0, 1].map(|end| simple.scaled_value(&part.place(end)));
+        if from.is_zero() || to.is_zero() {
+            let root = part.ends[usize::from(to.is_zero())].clone();
+            self.ends = [root.clone(), root];
+        } else if from.sign() == before && to.sign() != before {
+            self.ends = part.ends;
+        } else {
+            // The root is before or behind the part.
+            let [from_start, to_end] = self.ends.each_ref().map(|end| end << STEP);
+            let [part_start, part_end] = part.ends;
+            self.ends = if from.sign() == before {
+                [part_end, to_end]
+            } else {
+                [from_start, part_start]
+            };
+            self.bits = part.bits;
+            return self.bisect(simple, before);
+        }
+        self.bits = part.bits;
+    }
+
+    fn bisect(&mut self, simple: &ExactPolynomial, before: Sign) {
+        for _ in 0..BISECTIONS {
             let middle = &self.ends[0] + &self.ends[1];
             self.bits += 1;
             for end in &mut self.ends {
                 *end <<= 1;
             }
-            match simple.sign_at(&[middle.clone(), BigInt::one() << self.bits]) {
-                0 => {
-                    self.ends = [middle.clone(), middle];
-                    return;
-                }
-                found => self.ends[usize::from(found != before)] = middle,
+            let value = simple.scaled_value(&[middle.clone(), BigInt::one() << self.bits]);
+            if value.is_zero() {
+                self.ends = [middle.clone(), middle];
+                return;
             }
+            self.ends[usize::from(value.sign() != before)] = middle;
         }
     }
 }

@@ -211,17 +211,21 @@ impl Search<'_> {
         let mut bounds = UNKNOWN;
         if count == 1 {
             bounds = at_extremum(&self.prover.quick, &self.quick, curve, quantity, place);
-            if !is_known(bounds) {
-                let precise = self.precise();
-                bounds = at_extremum(&self.prover.precise, &precise, curve, quantity, place);
+            if is_known(bounds) {
+                return bounds;
             }
+            let may_be_flat = quantity == Quantity::CurvatureExtremum && bounds[0] <= 0.0;
+            let flat = |exact: &ExactSegment| exact.is_flat_between(place.0);
+            if may_be_flat && self.exact.as_ref().is_some_and(flat) {
+                return [0.0, 0.0];
+            }
+            let precise = self.precise();
+            bounds = at_extremum(&self.prover.precise, &precise, curve, quantity, place);
         }
-        if !is_known(bounds)
-            && let Some(exact) = self.exact.as_ref()
-        {
-            bounds = narrower(bounds, exact.enclose(quantity, place.0));
+        match self.exact.as_ref() {
+            Some(exact) if !is_known(bounds) => narrower(bounds, exact.enclose(quantity, place.0)),
+            _ => bounds,
         }
-        bounds
     }
 
     /// Add the ends at which every component of the tangent is exactly 0.

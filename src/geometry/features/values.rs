@@ -11,9 +11,9 @@ use super::segment_shape::SegmentShape;
 const ROUNDING: f64 = 1.0 + 1e-9;
 
 /// Bounds are close enough if they differ by this share of the value.
-const CLOSE: f64 = 1e-13;
+const CLOSE: f64 = 1e-11;
 
-/// Whether bounds leave hardly a digit open that doubles have.
+/// Whether bounds leave nothing open that is worth more work.
 pub(super) fn is_known([low, high]: Enclosure) -> bool {
     let size = low.abs().max(high.abs());
     size.is_finite() && high - low <= CLOSE * size
