@@ -77,7 +77,7 @@ impl ExtremaCount {
         let doubts = features.undecided.iter();
         let own = |doubt: &&Undecided| doubt.quantity == Quantity::CurvatureExtremum;
         Self {
-            proved: features.curvature_extrema.len(),
+            proved: features.count(Quantity::CurvatureExtremum),
             undecided: doubts.filter(own).count(),
         }
     }

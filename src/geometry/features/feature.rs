@@ -80,9 +80,9 @@ pub enum ExtremumKind {
 
 /// Hold a place where the tangent vanishes or may vanish.
 ///
-/// Zeros of both x′ and y′ coincide by chance only. It is proved where a motion along a straight
-/// line turns back, at knots, and at parameters that are simple fractions. Others are reported
-/// with `proved` false: the tangent is too small there for its sign to be told.
+/// Its interval is a double or lies between neighbouring ones; a piece on which the curve stands
+/// still is a cusp as a whole. Where exact numbers would take too long, places are reported with
+/// `proved` false: the tangent is too small there for its sign to be told.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cusp {
     /// The interval that holds it.

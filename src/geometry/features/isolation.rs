@@ -40,7 +40,7 @@ pub(super) enum Doubt {
 /// cuts of O(N²) operations.
 ///
 /// # Errors
-/// [`Doubt`] if a piece is lost in rounding, or still undecided below 1e-9.
+/// [`Doubt`] if a piece is lost in rounding, or still undecided below 1e-9, as about multiple roots.
 pub(super) fn isolate<T: Scalar>(
     arena: &mut Arena<T>,
     polynomial: Polynomial,

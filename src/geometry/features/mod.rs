@@ -12,13 +12,19 @@
 //!   both are monotone. A curve whose vertices lie in one plane exactly has no torsion; once
 //!   rounding has moved them off it the torsion of the doubles given is proved, however small.
 //! - A root at an end of a segment is one of its knot: it counts if the sign changes there.
+//! - A root of odd multiplicity is a change of sign, one of even multiplicity is none. Whole numbers
+//!   take multiplicities out first: what is left has simple roots only, which pieces that are small
+//!   enough separate, and no piece is cut at a root. Rounded numbers leave a piece in doubt if the
+//!   sign at its end is. So no cut hides a root.
+//! - Cusps inside a segment are the roots that all components of the tangent share: their common
+//!   divisor is exact, wherever they are.
 //! - What a curvature does at a cusp, and a torsion at a knot without curvature, is left open: a
 //!   change of sign there, and all of a piece that touches it on which the function is 0, is
 //!   undecided.
-//! - Only two other things stay undecided, and are named ([`Undecided`]), never guessed: roots
-//!   closer than 1e-9, double ones among them, in a piece of that size; and whole segments whose
-//!   coordinates and weights differ so much in size that exact numbers would take too long, if
-//!   twice the digits are not enough for them: 1e60 and more between two of them, at high degrees.
+//! - Only one other thing stays undecided, and is named ([`Undecided`]), never guessed: segments
+//!   whose exact numbers would take too long, if twice the digits are not enough for them. Their
+//!   coordinates and weights differ in size by 1e60 and more, at high degrees; or they have so many
+//!   roots so close to each other that separating them takes more than a bounded number of steps.
 
 mod arena;
 mod certain_digits;
