@@ -17,13 +17,13 @@ pub(super) fn convert(
     polygon: Option<PolygonKind>,
     force: bool,
 ) -> anyhow::Result<()> {
-    let reading = source.read()?;
     if destination.is(source) {
         bail!(
             "{}: a file is not converted into itself",
             destination.name()
         );
     }
+    let reading = source.read()?;
     let (export, format) = exported(&reading, destination, polygon)?;
     // The float polygon is what is read: nothing can happen to it.
     let is_converted = polygon.is_some_and(|kind| kind != PolygonKind::Float);

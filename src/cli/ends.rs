@@ -108,7 +108,11 @@ impl Destination {
                 output::message(&export.losses.to_string());
             }
             Self::File(path, _) => {
-                output::message(&disk::write_export(path, export)?.to_string());
+                let saved = disk::write_export(path, export)?;
+                output::message(&saved.losses.to_string());
+                if let Some(line) = saved.broken_links() {
+                    output::message(&format!("{}: {line}", self.name()));
+                }
             }
         }
         Ok(())

@@ -203,3 +203,25 @@ impl Document {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_cannot_fill_or_turn_the_message_of_an_edit() {
+        let name = format!("a\u{202e}\n{}", "x".repeat(1000));
+        let shown = format!("“a\\u{{202e}}\\n{}…”", "x".repeat(57));
+        let error = PolygonError::DegreeOutOfRange { degree: 0 };
+        let locked = EditError::Locked { name: name.clone() }.to_string();
+        assert!(
+            locked.starts_with(&format!("{shown} is locked")),
+            "{locked}"
+        );
+        let refused = EditError::Polygon { name, error }.to_string();
+        assert!(
+            refused.starts_with(&format!("{shown}: degree 0")),
+            "{refused}"
+        );
+    }
+}

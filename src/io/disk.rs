@@ -82,27 +82,25 @@ pub struct Saved {
 }
 
 impl Saved {
-    /// Whether there is nothing to tell.
-    pub fn is_quiet(&self) -> bool {
-        self.losses.is_empty() && self.other_names == 0
+    /// Say which other names of the file keep the old content, if it had any.
+    pub fn broken_links(&self) -> Option<String> {
+        match self.other_names {
+            0 => None,
+            1 => Some(
+                "the file had another name (a hard link), which keeps the old content".to_owned(),
+            ),
+            count => Some(format!(
+                "the file had {count} other names (hard links), which keep the old content"
+            )),
+        }
     }
 }
 
 impl fmt::Display for Saved {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{}", self.losses)?;
-        let separator = if self.losses.is_empty() { "" } else { "\n" };
-        match self.other_names {
-            0 => Ok(()),
-            1 => write!(
-                formatter,
-                "{separator}the file had another name (a hard link), which keeps the old content"
-            ),
-            count => write!(
-                formatter,
-                "{separator}the file had {count} other names (hard links), which keep the old content"
-            ),
-        }
+        let lines = [Some(self.losses.to_string()), self.broken_links()];
+        let lines = lines.into_iter().flatten().filter(|line| !line.is_empty());
+        formatter.write_str(&lines.collect::<Vec<_>>().join("\n"))
     }
 }
 

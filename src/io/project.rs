@@ -191,3 +191,5 @@ fn token(text: &str, line: usize, column: usize) -> Option<&str> {
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod unknown_keys;

@@ -2,6 +2,7 @@
 
 mod folder;
 mod inspect;
+mod streams;
 
 use std::fs;
 use std::process::{Command as Process, Stdio};
@@ -164,6 +165,113 @@ fn convert_lists_what_is_lost() {
         &["c.batten", "--polygon", "bezier"],
         "batten: “a/b”: written as an open curve that ends where it begins, not as a periodic one\n",
     );
+}
+
+#[test]
+fn unknown_keys_are_told_and_kept() {
+    let curve =
+        json!([{"name": "a", "degree": 1, "vertices": [[0, 0], [1, 1]], "weigths": [1, 2]}]);
+    let text = project(curve).replacen('{', "{\"made by\": \"me\", ", 1);
+    let folder = Folder::new().with("a.batten", text);
+    let (_, err) = folder.done(&["convert", "a.batten", "b.batten"]);
+    assert_eq!(
+        err,
+        "batten: a.batten: the project's key “made by” is not known and has no effect\n\
+         batten: a.batten: curve 1 “a”: the key “weigths” is not known and has no effect\n"
+    );
+    let text = fs::read_to_string(folder.path("b.batten")).unwrap();
+    for part in ["\"made by\": \"me\"", "\"weigths\": [1,2]"] {
+        assert!(text.contains(part), "{part} in {text}");
+    }
+    let (out, err) = folder.done(&["inspect", "b.batten"]);
+    assert!(out.starts_with('{'), "{out}");
+    assert_eq!(err.lines().count(), 2, "{err}");
+}
+
+#[test]
+fn a_polygon_that_cannot_be_read_back_is_written_by_force_alone() {
+    // The clamped weights are of one size: which tiny weights they come from is lost.
+    let curve = json!([{"name": "extreme", "degree": 2, "weights": [1e-100, 1e100, 1e-100],
+        "vertices": [[0, 0], [1, 2], [3, 2]]}]);
+    let folder = Folder::new()
+        .with("a.batten", project(curve))
+        .with("old.csv", "old");
+    for polygon in ["clamped", "bezier"] {
+        for file in ["b.batten", "b.csv", "old.csv"] {
+            let output = folder.run(&["convert", "a.batten", file, "--polygon", polygon]);
+            let (out, err) = texts(&output);
+            assert_eq!((output.status.code(), out.as_str()), (Some(1), ""), "{err}");
+            let start = format!("batten: {file}: what would be written cannot be read back: ");
+            assert!(err.starts_with(&start), "{err}");
+            let end = "Nothing is written; --force writes it all the same\n";
+            assert!(err.ends_with(end), "{err}");
+        }
+    }
+    assert!(!folder.path("b.batten").exists() && !folder.path("b.csv").exists());
+    assert_eq!(fs::read(folder.path("old.csv")).unwrap(), b"old");
+    let (_, err) = folder.done(&[
+        "convert",
+        "a.batten",
+        "b.csv",
+        "--polygon",
+        "clamped",
+        "--force",
+    ]);
+    assert_eq!(
+        err,
+        "batten: “extreme”: the clamped polygon written cannot be converted back to a float polygon\n"
+    );
+    let text = fs::read_to_string(folder.path("b.csv")).unwrap();
+    assert!(text.contains("polygon=clamped"), "{text}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_broken_hard_link_is_told() {
+    let folder = Folder::new();
+    folder.done(&["example", "arc", "a.batten"]);
+    fs::hard_link(folder.path("a.batten"), folder.path("b.batten")).unwrap();
+    let (_, err) = folder.done(&["example", "hull", "a.batten"]);
+    assert_eq!(
+        err,
+        "batten: a.batten: the file had another name (a hard link), which keeps the old content\n"
+    );
+    assert_eq!(folder.inspect(&["b.batten"])["curves"][0]["name"], "arc");
+}
+
+#[test]
+fn a_misspelled_command_is_bad_usage() {
+    let folder = Folder::new();
+    folder.done(&["example", "arc", "arc.batten"]);
+    for (word, meant) in [
+        ("inspcet", "inspect"),
+        ("convrt", "convert"),
+        ("exampel", "example"),
+        ("table", "table1"),
+    ] {
+        let expected = format!(
+            "“{word}” is neither a command nor a file\n\n  tip: a command with a similar name is “{meant}”\n\nUsage: "
+        );
+        folder.misused(&[word, "arc.batten"], &expected);
+        folder.misused(&[word], &expected);
+    }
+    let expected = "“frobnicate” is neither a command nor a file\n\nUsage: ";
+    folder.misused(&["frobnicate", "arc.batten"], expected);
+    folder.misused(&["in\u{202e}spect\n"], "“in\\u{202e}spect\\n” is neither");
+}
+
+#[test]
+fn what_can_only_be_a_file_is_refused_as_one() {
+    let folder = Folder::new().with("inspcet", "");
+    let missing = "cannot read the file: No such file or directory (os error 2)";
+    folder.refused(&["inspcet.batten"], &format!("inspcet.batten: {missing}"));
+    folder.refused(
+        &["new.batten", "inspcet"],
+        &format!("new.batten: {missing}"),
+    );
+    let nameless = "the name has no extension that tells its format: add one of .batten, .csv";
+    folder.refused(&["inspcet"], &format!("inspcet: {nameless}"));
+    folder.refused(&["./convrt"], &format!("./convrt: {nameless}"));
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod deleting;
 mod drawing;
 mod end_fit;
 mod features;
+mod files;
 mod reshaping;
 mod script;
 mod selecting;

@@ -72,7 +72,9 @@ fn everything_is_kept() {
     ] {
         assert!(text.contains(part), "{part} in {text}");
     }
-    assert_eq!(curves_of(&text), [curve, line("b")]);
+    let reading = read(text.as_bytes()).unwrap();
+    assert_eq!(reading.curves, [curve, line("b")]);
+    assert!(reading.remarks.is_empty(), "{}", reading.remarks);
 }
 
 #[test]
@@ -376,12 +378,16 @@ proptest! {
         at in 0usize..400,
         other in any::<u8>(),
     ) {
-        let mut text = text_of(&[&line("arc")]).into_bytes();
-        text.truncate(cut);
-        if let Some(byte) = text.get_mut(at) {
-            *byte = other;
+        let table = "# one\n# degree=1\nx;y\n0;1,5\n\"# two\"\n2,25;3\n";
+        let mut texts = [text_of(&[&line("arc")]), table.to_owned()].map(String::into_bytes);
+        for text in &mut texts {
+            text.truncate(cut);
+            if let Some(byte) = text.get_mut(at) {
+                *byte = other;
+            }
         }
-        for input in [bytes, text] {
+        let [text, table] = texts;
+        for input in [bytes, text, table] {
             // Whatever it is, the message can be shown.
             for format in [Format::Batten, Format::Csv] {
                 if let Err(error) = format.read(&input) {
@@ -390,85 +396,6 @@ proptest! {
             }
         }
     }
-}
-
-/// A project with keys that are not known, of all kinds, as another program lays it out.
-const WITH_EXTRAS: &str = r#"{"autor": "Ä \u00df", "format": "batten", "id": 123456789012345678901234567890,
- "version": 1, "curves": [
-  {"name": "arc", "weigths": [1.50, 2e0], "degree": 1, "vertices": [[0, 0], [1, 1]],
-   "more": {"b": 1e999, "a": null}}, {"name": "hull", "degree": 1, "vertices": [[0, 0], [1, 1]]},
-  {"name": "keel", "degree": 1, "vertices": [[0, 0], [1, 1]], "weigths": null, "weigths": 7}
- ]}"#;
-
-#[test]
-fn unknown_keys_are_named() {
-    let remarks = read(WITH_EXTRAS.as_bytes()).unwrap().remarks.to_string();
-    assert_eq!(
-        remarks,
-        "the project's key “autor” is not known and has no effect\n\
-         the project's key “id” is not known and has no effect\n\
-         the key “weigths” of 2 curves is not known and has no effect; the first is curve 1 “arc”\n\
-         curve 1 “arc”: the key “more” is not known and has no effect"
-    );
-    let plain = text_of(&[&line("a")]);
-    assert!(read(plain.as_bytes()).unwrap().remarks.is_empty());
-}
-
-#[test]
-fn many_unknown_keys_do_not_fill_the_screen() {
-    let keys: Vec<String> = (0..30).map(|i| format!("\"key {i}\": 0")).collect();
-    let text = format!(
-        "{{\"format\":\"batten\",\"version\":1,{},\"curves\":[]}}",
-        keys.join(",")
-    );
-    let remarks = read(text.as_bytes()).unwrap().remarks.to_string();
-    assert_eq!(remarks.lines().count(), 9);
-    assert_eq!(
-        remarks.lines().last(),
-        Some("22 other keys are not known either")
-    );
-}
-
-#[test]
-fn unknown_keys_are_written_again_to_the_letter() {
-    let reading = read(WITH_EXTRAS.as_bytes()).unwrap();
-    let curves: Vec<&Curve> = reading.curves.iter().collect();
-    let written = write(&curves, &reading.extras, PolygonKind::Float);
-    assert!(written.losses.is_empty(), "{}", written.losses);
-    let text = String::from_utf8(written.bytes).unwrap();
-    for part in [
-        r#""autor": "Ä \u00df""#,
-        r#""id": 123456789012345678901234567890"#,
-        r#""weigths": [1.50, 2e0]"#,
-        r#""more": {"b": 1e999, "a": null}"#,
-        "\"weigths\": null,\n      \"weigths\": 7\n",
-    ] {
-        assert!(text.contains(part), "{part} in {text}");
-    }
-    assert_eq!(read(text.as_bytes()).unwrap(), reading);
-    for (format, expected) in [(Format::Csv, "CSV table"), (Format::Dxf, "DXF")] {
-        let written = format.write(&reading.curves, &reading.extras, None);
-        let losses = written.unwrap().losses.to_string();
-        let expected = format!(
-            "“arc”: the {expected} does not hold its unknown keys\n\
-             “keel”: the {expected} does not hold its unknown keys\n\
-             the {expected} does not hold the project's unknown keys"
-        );
-        assert_eq!(losses, expected);
-    }
-}
-
-#[test]
-fn unknown_keys_of_targets_are_named_as_lost() {
-    let text = r#"{"format":"batten","version":1,"curves":[{"name":"a","degree":1,
-        "vertices":[[0,0],[1,1]],"targets":{"strat":1,"end":{"point":[1,2],"dir":[1,0]}}}]}"#;
-    let reading = read(text.as_bytes()).unwrap();
-    assert_eq!(
-        reading.remarks.to_string(),
-        "curve 1 “a”: the key “strat” of its targets is not known, has no effect and is not kept\n\
-         curve 1 “a”: the key “dir” of its targets is not known, has no effect and is not kept"
-    );
-    assert!(reading.curves[0].targets.finish.is_some());
 }
 
 #[test]

@@ -1,0 +1,206 @@
+//! Opening and saving: what files say that is not known, names, and what messages tell.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use batten::document::Extras;
+use batten::editor::{AfterDiscard, Command, Export, Request};
+use batten::geometry::PolygonKind;
+use batten::io::disk;
+use glam::DVec2;
+use tempfile::TempDir;
+
+use super::script::Script;
+
+const PROJECT: &str = r#"{"format": "batten", "version": 1, "made by": {"b": 1.50, "a": [2]}, "curves": [
+  {"name": "arc", "degree": 2, "vertices": [[0, 0], [10, 20], [30, 0], [40, 5]], "weigths": [1, 2e0]}]}"#;
+
+fn folder() -> TempDir {
+    tempfile::tempdir().expect("a folder")
+}
+
+fn write(folder: &TempDir, name: &str, text: &str) -> PathBuf {
+    let path = folder.path().join(name);
+    fs::write(&path, text).expect("the file");
+    path
+}
+
+fn text(path: &Path) -> String {
+    fs::read_to_string(path).expect("the file")
+}
+
+fn opened(path: &Path) -> Script {
+    let mut script = Script::example("arc");
+    let after = AfterDiscard::OpenFile(path.to_owned());
+    assert_eq!(script.editor.discard_and(after), None);
+    script.check();
+    script
+}
+
+fn is_kept(text: &str) -> bool {
+    text.contains(r#""weigths": [1, 2e0]"#) && text.contains(r#""made by": {"b": 1.50, "a": [2]}"#)
+}
+
+#[test]
+fn unknown_keys_are_told_when_a_project_is_opened() {
+    let folder = folder();
+    let path = write(&folder, "own.batten", PROJECT);
+    let expected = format!(
+        "1 curve read from {}\n\
+         the project's key “made by” is not known and has no effect\n\
+         curve 1 “arc”: the key “weigths” is not known and has no effect\n\
+         Saving keeps what is not known.",
+        path.display()
+    );
+    assert_eq!(opened(&path).message(), expected);
+    let mut script = Script::example("arc");
+    script
+        .editor
+        .open_all(std::slice::from_ref(&path))
+        .expect("a project");
+    assert_eq!(script.message(), expected, "from the command line too");
+    script.editor.import(std::slice::from_ref(&path));
+    assert_eq!(
+        script.message().lines().nth(2),
+        Some(
+            format!(
+                "{}: curve 1 “arc”: the key “weigths” is not known and has no effect",
+                path.display()
+            )
+            .as_str()
+        )
+    );
+}
+
+#[test]
+fn unknown_keys_survive_edits_undo_and_saving() {
+    let folder = folder();
+    let path = write(&folder, "own.batten", PROJECT);
+    let mut script = opened(&path);
+    script.drag_vertex(1, DVec2::new(30.0, 10.0));
+    script.command(Command::Reverse);
+    script.command(Command::RaiseDegree);
+    assert!(script.editor.save(&path), "{}", script.message());
+    assert!(is_kept(&text(&path)), "{}", text(&path));
+    let edited = text(&path);
+    for _ in 0..3 {
+        script.command(Command::Undo);
+    }
+    assert!(script.editor.save(&path), "{}", script.message());
+    assert!(is_kept(&text(&path)), "{}", text(&path));
+    for _ in 0..3 {
+        script.command(Command::Redo);
+    }
+    assert!(script.editor.save(&path), "{}", script.message());
+    assert_eq!(text(&path), edited);
+    script.command(Command::New);
+    assert!(script.editor.save(&path), "{}", script.message());
+    assert!(!text(&path).contains("made by"), "another document");
+}
+
+#[test]
+fn unknown_keys_do_not_go_with_copies() {
+    let folder = folder();
+    let mut script = opened(&write(&folder, "own.batten", PROJECT));
+    let Some(Request::CopyText(copied)) = script.editor.execute(Command::Copy) else {
+        panic!("a text is copied");
+    };
+    assert!(!copied.contains("weigths"), "{copied}");
+    script.editor.paste_text(&copied);
+    script.editor.paste_text(PROJECT);
+    assert_eq!(
+        script.message(),
+        "1 curve pasted\n\
+         the project's key “made by” is not known and has no effect\n\
+         curve 1 “arc”: the key “weigths” is not known and has no effect"
+    );
+    script.command(Command::Duplicate);
+    let document = script.editor.document();
+    let extras: Vec<bool> = document
+        .curves()
+        .map(|(_, curve)| curve.extras.is_empty())
+        .collect();
+    assert_eq!(extras, [false, true, true, true]);
+    assert_eq!(document.extras().iter().count(), 1);
+}
+
+#[test]
+fn a_pasted_table_tells_how_it_was_read() {
+    let mut script = Script::example("arc");
+    script
+        .editor
+        .paste_text("# degree=1\t\nx\ty\n0\t0,5\n1\t1,25\n");
+    assert_eq!(
+        script.message(),
+        "1 curve pasted\nread with tabs between columns and decimal commas"
+    );
+}
+
+#[test]
+fn a_name_with_a_point_gets_its_extension() {
+    let folder = folder();
+    let mut script = Script::example("hull");
+    for (name, written) in [
+        ("hull v1.2", "hull v1.2.batten"),
+        ("hull", "hull.batten"),
+        ("hull.", "hull.batten"),
+        ("lines.txt", "lines.txt.batten"),
+        ("upper.BATTEN", "upper.BATTEN"),
+    ] {
+        let path = folder.path().join(name);
+        assert!(script.editor.save(&path), "{name}: {}", script.message());
+        let path = folder.path().join(written);
+        assert_eq!(script.message(), format!("Saved to {}", path.display()));
+        fs::remove_file(&path).expect("what was saved");
+    }
+    let export = Export {
+        extension: "csv",
+        polygon: PolygonKind::Float,
+        file_name: String::new(),
+    };
+    script
+        .editor
+        .export(&folder.path().join("hull v1.2"), &export);
+    assert!(
+        folder.path().join("hull v1.2.csv").is_file(),
+        "{}",
+        script.message()
+    );
+    assert!(
+        !script.editor.save(&folder.path().join("hull.dxf")),
+        "another format"
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn a_hard_link_that_saving_breaks_is_told() {
+    let folder = folder();
+    let path = write(&folder, "own.batten", PROJECT);
+    fs::hard_link(&path, folder.path().join("other")).expect("a link");
+    let mut script = opened(&path);
+    assert!(script.editor.save(&path));
+    let expected = format!(
+        "Saved to {}\nthe file had another name (a hard link), which keeps the old content",
+        path.display()
+    );
+    assert_eq!(script.message(), expected);
+    assert_eq!(text(&folder.path().join("other")), PROJECT);
+}
+
+#[test]
+fn several_projects_become_one_without_what_each_says_of_itself() {
+    let folder = folder();
+    let paths = ["a.batten", "b.batten"].map(|name| write(&folder, name, PROJECT));
+    let mut script = Script::example("arc");
+    script.editor.open_all(&paths).expect("two projects");
+    assert_eq!(script.editor.document().extras(), &Extras::default());
+    let path = folder.path().join("both.batten");
+    assert!(script.editor.save(&path), "{}", script.message());
+    let read = disk::read_file(&path).expect("what was saved");
+    assert!(
+        read.curves
+            .iter()
+            .all(|curve| curve.extras.iter().count() == 1)
+    );
+}
