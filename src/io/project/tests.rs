@@ -284,6 +284,14 @@ fn vertices_that_make_no_curve_are_refused_with_their_curve() {
         ": 2 weights for 3 vertices: give one weight a vertex, or none at all",
     );
     check(
+        r#""degree":1,"vertices":[[0,0],[1,1]],"weights":[1]"#,
+        ": 1 weight for 2 vertices: give one weight a vertex, or none at all",
+    );
+    check(
+        r#""degree":1,"vertices":[[0,0]]"#,
+        ": 1 vertex is too few: an open curve of degree 1 needs at least 2",
+    );
+    check(
         &format!(r#""degree":2,{vertices},"weights":[1,-2,1]"#),
         ", vertex 1: weight -2.0 cannot be used: weights are positive numbers from 1e-100 to 1e100",
     );
