@@ -5,7 +5,7 @@
 
 use std::borrow::Borrow;
 use std::fmt;
-use std::fs::{self, File, Metadata};
+use std::fs::{self, File, Metadata, TryLockError};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
@@ -292,11 +292,12 @@ fn beside(folder: &Path) -> io::Result<NamedTempFile> {
                 // As for any new file: the user's mask takes from the permissions.
                 File::create_new(path)
             })?;
-        // Where there are no locks, nobody takes the file for stale either.
-        let is_locked = temporary.as_file().lock().is_ok();
-        // Between its creation and the lock it may have been.
-        if !is_locked || temporary.path().exists() {
-            return Ok(temporary);
+        match temporary.as_file().try_lock() {
+            Ok(()) if temporary.path().exists() => return Ok(temporary),
+            // Where there are no locks, nobody takes the file for stale either.
+            Err(TryLockError::Error(_)) => return Ok(temporary),
+            // Between its creation and the lock it was taken for stale: another one is needed.
+            Ok(()) | Err(TryLockError::WouldBlock) => {}
         }
     }
 }
