@@ -259,6 +259,23 @@ fn check_words(source: &Source) -> Vec<String> {
     complaints
 }
 
+/// Whether all properties draw their cases from a seed that is known: see tests/common/repeatable.rs.
+fn check_properties(source: &Source) -> Vec<String> {
+    let code = code(&source.text);
+    let tokens = tokens(&code);
+    let blocks = tokens.windows(2).enumerate();
+    let blocks = blocks.filter(|(_, window)| *window == ["proptest", "!"]);
+    let chance = blocks.filter(|(index, _)| {
+        let mut head = tokens[*index..].iter().take_while(|token| **token != "fn");
+        !head.any(|token| *token == "repeatable")
+    });
+    let complaint = || {
+        let path = &source.path;
+        format!("{path} has properties without #![proptest_config(common::repeatable())]")
+    };
+    chance.map(|_| complaint()).collect()
+}
+
 fn check_length(source: &Source) -> Vec<String> {
     let lines = source.text.lines().count();
     let excused = LONG_FILES.iter().any(|(path, _)| *path == source.path);
@@ -296,6 +313,16 @@ fn only_one_file_touches_the_disk() {
 #[test]
 fn nothing_is_unsafe_or_unfinished() {
     check_all(check_words);
+}
+
+#[test]
+fn properties_are_repeatable() {
+    check_all(check_properties);
+    let complaints: Vec<String> = sources_below("tests")
+        .iter()
+        .flat_map(check_properties)
+        .collect();
+    assert!(complaints.is_empty(), "\n{}\n", complaints.join("\n"));
 }
 
 #[test]
@@ -387,7 +414,7 @@ fn what_the_table_allows_is_let_through() {
 }
 
 #[test]
-fn window_crates_the_disk_and_unfinished_work_are_caught() {
+fn window_crates_the_disk_unfinished_work_and_chance_are_caught() {
     let egui = ["src/editor/tool.rs names egui: only ui may"];
     check(
         check_window,
@@ -416,6 +443,16 @@ fn window_crates_the_disk_and_unfinished_work_are_caught() {
     let found = ["src/io/csv.rs is unsafe"];
     check(check_words, "io/csv.rs", "unsafe { f() }", &found);
     check(check_words, "lib.rs", "#![forbid(unsafe_code)]", &[]);
+
+    let chance = ["line.rs has properties without #![proptest_config(common::repeatable())]"];
+    for text in [
+        "proptest! { #[test] fn f() {} }",
+        "proptest!(|(x in 0..9)| {});",
+    ] {
+        check(check_properties, "line.rs", text, &chance);
+    }
+    let seeded = "proptest! { #![proptest_config(common::repeatable())] #[test] fn f() {} }";
+    check(check_properties, "line.rs", seeded, &[]);
 
     assert_eq!(check_length(&long_source(MOST_LINES)).len(), 0);
     assert_eq!(check_length(&long_source(MOST_LINES + 1)).len(), 1);

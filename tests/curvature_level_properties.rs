@@ -78,7 +78,7 @@ fn torsion(levels: &CurvatureLevels) -> [f64; LEVELS] {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(common::repeatable())]
 
     #[test]
     fn rotating_and_moving_the_curve_keeps_its_levels(

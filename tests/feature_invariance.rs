@@ -114,7 +114,7 @@ fn total(polygons: &[Vec<DVec3>]) -> [usize; 5] {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(common::repeatable())]
 
     #[test]
     fn rigid_motions_scaling_and_reversal_keep_the_counts(

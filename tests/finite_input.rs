@@ -1,5 +1,7 @@
 //! Whatever finite numbers a polygon is made of, nothing panics and nothing runs for ever.
 
+mod common;
+
 use batten::geometry::end_correction::{
     EndDifference, EndOverlap, EndTarget, align_end, angle_between, correct_end, correct_in_turn,
 };
@@ -162,11 +164,7 @@ fn large_and_tiny_weights() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig {
-        cases: 64,
-        failure_persistence: None,
-        ..ProptestConfig::default()
-    })]
+    #![proptest_config(ProptestConfig { cases: 64, ..common::repeatable() })]
 
     #[test]
     fn any_finite_polygon(

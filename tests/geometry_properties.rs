@@ -40,7 +40,7 @@ fn derivative_tolerance(polygon: &FloatPolygon, order: usize) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(common::repeatable())]
 
     #[test]
     fn mapping_the_vertices_maps_the_curve(kind in kinds(1..=25), at in 0.0..1.0) {

@@ -67,7 +67,7 @@ fn shift(polygon: &FloatPolygon, u: f64) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(common::repeatable())]
 
     #[test]
     fn conversions_commute_with_affine_maps(kind in kinds(1..=25)) {

@@ -1,9 +1,12 @@
 //! What the integration tests share: the reference values and random numbers that repeat.
-#![allow(dead_code)] // Each test uses a part of it.
+#![allow(dead_code, unused_imports)] // Each test uses a part of it.
+
+mod repeatable;
 
 use batten::geometry::FloatPolygon;
 use batten::geometry::features::{Features, Quantity};
 use glam::DVec3;
+pub use repeatable::repeatable;
 use serde_json::Value;
 
 /// Read one file of tests/data.

@@ -8,6 +8,9 @@ use crate::document::{Colour, EndTargets};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{FloatPolygon, MAX_MAGNITUDE};
 
+#[path = "../../../tests/common/repeatable.rs"]
+mod repeatable;
+
 fn line(name: &str) -> Curve {
     let polygon = FloatPolygon::planar(1, &[(0.0, 1.0), (2.0, 3.5)]);
     Curve::new(name, polygon.unwrap())
@@ -363,6 +366,8 @@ fn bits(curve: &Curve) -> Vec<u64> {
 }
 
 proptest! {
+    #![proptest_config(repeatable::repeatable())]
+
     #[test]
     fn every_curve_survives_bit_for_bit(curve in any_curve()) {
         let back = read(text_of(&[&curve]).as_bytes()).expect("what is written is read").curves;
