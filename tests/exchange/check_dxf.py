@@ -1,9 +1,9 @@
 """Ask ezdxf whether DXF files written by Batten hold what they should.
 
-    check_dxf.py EXPECTED.json FILE...
+    check_dxf.py FOLDER
 
-EXPECTED.json is what `batten inspect` prints of the curves that were exported; FILE... are
-exports of just these curves, in their order. Of every file is asked that
+For each NAME.dxf of the folder, NAME.json is what `batten inspect` prints of the curves that were
+exported, in their order. Of every drawing is asked that
 
 * the audit finds nothing to complain of and nothing to mend,
 * the drawing is in millimetres,
@@ -11,10 +11,11 @@ exports of just these curves, in their order. Of every file is asked that
   weights to the last digit, and with the points of the float polygon's curve,
 * every polyline is on a layer of its own and holds the vertices of its polygon to the last digit.
 
-It needs ezdxf, numpy and scipy, and ends with 1 if anything is wrong.
+It needs what requirements.txt lists, and ends with 1 if anything is wrong.
 """
 
 import json
+import pathlib
 import sys
 
 import ezdxf
@@ -138,21 +139,21 @@ def problems(path, curves):
             yield f"curve {number + 1}: {problem}"
 
 
-def main(expected, *paths):
-    with open(expected, encoding="utf-8") as file:
-        curves = json.load(file)["curves"]
+def main(folder):
+    expected = sorted(pathlib.Path(folder).glob("*.json"))
     wrong = 0
-    for path in paths:
-        found = list(problems(path, curves))
+    for path in expected:
+        curves = json.loads(path.read_text(encoding="utf-8"))["curves"]
+        found = list(problems(path.with_suffix(".dxf"), curves))
         wrong += bool(found)
         for problem in found:
-            print(f"{path}: {problem}")
+            print(f"{path.stem}: {problem}")
         if not found:
-            print(f"{path}: {len(curves)} curves, all as they should be")
-    return 1 if wrong or not paths else 0
+            print(f"{path.stem}: {len(curves)} curves, all as they should be")
+    return 1 if wrong or not expected else 0
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 3:
+    if len(sys.argv) != 2:
         sys.exit(__doc__)
-    sys.exit(main(*sys.argv[1:]))
+    sys.exit(main(sys.argv[1]))

@@ -10,10 +10,12 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Context, Result, anyhow, bail, ensure};
 use egui::accesskit::{Node, TreeUpdate};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect};
-use egui_inspection::protocol::{Request, Response, read_handshake, read_message, write_message};
+use egui_inspection::protocol::{
+    EncodedPng, Request, Response, read_handshake, read_message, write_message,
+};
 
 pub use crate::display::Display;
 
@@ -25,23 +27,23 @@ pub struct Window {
     program: Child,
     connection: TcpStream,
     home: tempfile::TempDir,
+    scale: f32,
 }
 
 impl Window {
     /// Start the program on a display and wait for its window. The program is the one named by
-    /// `BATTEN`, or the debug build with the feature `inspection`.
+    /// `BATTEN`, or the one that Batten's own tests have built.
     pub fn open(display: &mut Display, arguments: &[&str], scale: f32) -> Result<Self> {
-        let program = std::env::var_os("BATTEN").map_or_else(
-            || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target/debug/batten"),
-            PathBuf::from,
-        );
+        let program = program()?;
         let address = free_address()?;
         let home = tempfile::tempdir()?;
         let mut child = Command::new(&program)
             .args(arguments)
             .env("DISPLAY", display.name())
             .env_remove("WAYLAND_DISPLAY")
-            .env_remove("DBUS_SESSION_BUS_ADDRESS")
+            // Neither a bus nor zenity is found: whatever the desktop offers, Batten asks itself.
+            .env("DBUS_SESSION_BUS_ADDRESS", unreachable_bus(home.path()))
+            .env("PATH", "")
             .env("WINIT_X11_SCALE_FACTOR", scale.to_string())
             .env("LIBGL_ALWAYS_SOFTWARE", "1")
             .env("HOME", home.path())
@@ -63,6 +65,7 @@ impl Window {
             program: child,
             connection,
             home,
+            scale,
         };
         window.settle()?;
         Ok(window)
@@ -165,21 +168,28 @@ impl Window {
         self.settle()
     }
 
-    /// Give the window another size, in screen points.
+    /// Give the window another size, in screen points, and wait until it has it: the display
+    /// tells the window of its new size some frames later.
     pub fn resize(&mut self, width: u32, height: u32) -> Result<()> {
+        let wanted = [width, height].map(|points| (points as f32 * self.scale).round() as u32);
         self.ask(Request::Resize { width, height })?;
-        self.settle()
+        let begin = Instant::now();
+        loop {
+            let size = self.screenshot()?.size;
+            if size == wanted {
+                return self.settle();
+            }
+            ensure!(
+                begin.elapsed() < PATIENCE,
+                "the window stays at {size:?} pixels instead of {wanted:?}"
+            );
+        }
     }
 
     /// Take a picture, as a PNG file.
     pub fn picture(&mut self, path: &Path) -> Result<()> {
         self.settle()?;
-        match self.ask(Request::GetScreenshot {
-            pixels_per_point: None,
-        })? {
-            Response::Screenshot(picture) => Ok(std::fs::write(path, picture.bytes)?),
-            other => bail!("no picture: {other:?}"),
-        }
+        Ok(std::fs::write(path, self.screenshot()?.bytes)?)
     }
 
     /// Wait until the program has ended and tell whether it did so well.
@@ -222,6 +232,15 @@ impl Window {
         }
     }
 
+    fn screenshot(&mut self) -> Result<EncodedPng> {
+        match self.ask(Request::GetScreenshot {
+            pixels_per_point: None,
+        })? {
+            Response::Screenshot(picture) => Ok(picture),
+            other => bail!("no picture: {other:?}"),
+        }
+    }
+
     fn tree(&mut self) -> Result<TreeUpdate> {
         match self.ask(Request::GetTree)? {
             Response::Tree {
@@ -257,6 +276,27 @@ fn button(pos: Pos2, pressed: bool) -> Event {
     }
 }
 
+/// Find the program: `BATTEN`, or what Batten's tests have built into the folder of this build.
+fn program() -> Result<PathBuf> {
+    if let Some(path) = std::env::var_os("BATTEN") {
+        return Ok(path.into());
+    }
+    let this = std::env::current_exe()?;
+    let name = format!("batten{}", std::env::consts::EXE_SUFFIX);
+    let mut places = this
+        .ancestors()
+        .skip(1)
+        .take(2)
+        .map(|folder| folder.join(&name));
+    let built = places.find(|path| path.is_file());
+    built.context("Batten is not built: `cargo test --no-run` builds it for these tests")
+}
+
+/// The address of a bus that is not there.
+fn unreachable_bus(folder: &Path) -> String {
+    format!("unix:path={}/no-bus", folder.display())
+}
+
 /// Find a port on the loopback that nobody uses.
 fn free_address() -> Result<String> {
     let listener = TcpListener::bind("127.0.0.1:0")?;
@@ -273,7 +313,9 @@ fn connect(address: &str, program: &mut Child) -> Result<TcpStream> {
         match greet(address) {
             Ok(connection) => return Ok(connection),
             Err(error) if begin.elapsed() > PATIENCE => {
-                return Err(error).context("the window does not appear");
+                return Err(error).context(
+                    "the window does not appear; only programs built by `cargo test` can be controlled",
+                );
             }
             Err(_) => std::thread::sleep(Duration::from_millis(50)),
         }
