@@ -29,9 +29,12 @@ impl Editor {
         Some(self.end_fit.report(self.analyses.get(id)?))
     }
 
-    /// Do one thing of the end-fit panel.
+    /// Do one thing of the end-fit panel; a drag that goes on is called off.
     pub fn end_fit_action(&mut self, action: EndFitAction) {
         self.commit_field();
+        if self.gestures.is_dragging() {
+            self.call_off();
+        }
         self.message = None;
         let Some((id, curve)) = self.active_curve() else {
             return;

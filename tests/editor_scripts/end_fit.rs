@@ -242,3 +242,19 @@ fn on_the_ring_the_ring_is_taken_although_a_vertex_lies_there() {
         script.editor.hint()
     );
 }
+
+#[test]
+fn the_panel_calls_off_a_drag_instead_of_keeping_half_of_it() {
+    let mut script = Script::example("arc");
+    let before = script.polygon();
+    let at = script.at_vertex(3);
+    script.press(at);
+    script.move_to(at + 30.0);
+    assert_ne!(script.polygon(), before);
+    script.editor.end_fit_action(EndFitAction::TargetActual);
+    assert!(!script.editor.is_dragging());
+    script.move_to(at + 60.0);
+    script.release(at + 60.0);
+    assert_eq!(script.polygon(), before);
+    assert_eq!(script.editor.history().undo_steps(), 1);
+}
