@@ -1,16 +1,28 @@
 //! The editor without a window, driven by scripts of pointer and key events.
 
+#[path = "../common/mod.rs"]
+mod common;
+
 mod commands;
 mod deleting;
+mod documents;
 mod drawing;
 mod end_fit;
+mod events;
 mod features;
 mod files;
+mod laws;
+mod matrix;
+mod model;
+mod places;
 mod reshaping;
 mod script;
 mod selecting;
 mod several;
+mod snapshot;
 mod space;
 mod transforming;
 mod vertices;
 mod view;
+mod watch;
+mod window;

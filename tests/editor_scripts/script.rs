@@ -6,6 +6,8 @@ use batten::geometry::FloatPolygon;
 use batten::io::examples::EXAMPLES;
 use glam::DVec2;
 
+use super::laws::{check_document, check_selection};
+
 /// Hold an editor with a canvas of 1000 by 700 screen points.
 pub struct Script {
     /// The editor.
@@ -152,31 +154,8 @@ impl Script {
         self.editor.end_fit();
         self.editor.readout();
         assert!(!self.editor.hint().is_empty());
-        for (_, curve) in self.editor.document().curves() {
-            let polygon = &curve.polygon;
-            let weights = polygon.weights().map(<[f64]>::to_vec);
-            let rebuilt = FloatPolygon::new(
-                polygon.degree(),
-                polygon.vertices().to_vec(),
-                weights,
-                polygon.is_periodic(),
-            );
-            assert_eq!(rebuilt.as_ref(), Ok(polygon));
-        }
-        for (curve, index) in self.editor.selection().vertices() {
-            let curve = self
-                .editor
-                .document()
-                .curve(curve)
-                .expect("a selected curve");
-            assert!(index < curve.polygon.vertices().len() && curve.visible);
-        }
-        // What is selected and what panels show never disagree.
-        let selection = self.editor.selection();
-        let active = selection.active();
-        assert!(
-            selection.is_empty()
-                || active.is_some_and(|active| selection.of_curve(active).next().is_some())
-        );
+        let document = self.editor.document();
+        assert_eq!(check_document(document), Ok(()));
+        assert_eq!(check_selection(document, self.editor.selection()), Ok(()));
     }
 }

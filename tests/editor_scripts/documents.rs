@@ -1,0 +1,136 @@
+//! Documents of every kind that commands and tools meet.
+
+use batten::document::{Curve, Document};
+use batten::geometry::End;
+use batten::geometry::end_correction::EndTarget;
+use glam::DVec3;
+
+use super::common::Kind;
+use super::events::{Event, Player};
+use super::window::{OfCurve, Panel};
+
+/// A document of the matrix: its name, its curves, and the number of the active one.
+pub struct Case {
+    /// What it is an example of.
+    pub name: &'static str,
+    curves: Vec<Curve>,
+    active: usize,
+}
+
+impl Case {
+    fn new(name: &'static str, curves: Vec<Curve>) -> Self {
+        let active = 0;
+        Self {
+            name,
+            curves,
+            active,
+        }
+    }
+
+    fn with_active(self, active: usize) -> Self {
+        Self { active, ..self }
+    }
+
+    /// Open the document, make two steps and take one back, so that undo and redo have something
+    /// to do, and activate a curve.
+    pub fn open(&self) -> Result<Player, String> {
+        let mut player = Player::new(Document::from_curves(self.curves.iter().cloned()));
+        player.play(&[
+            Event::Panel(Panel::OfCurve(0, OfCurve::Rename("renamed"))),
+            Event::Panel(Panel::OfCurve(0, OfCurve::Recolour(Some([1, 2, 3])))),
+            Event::Command(batten::editor::Command::Undo),
+            Event::Panel(Panel::OfCurve(self.active, OfCurve::Activate)),
+        ])?;
+        Ok(player)
+    }
+}
+
+/// One document of every kind.
+pub fn cases() -> Vec<Case> {
+    let [planar, spatial, rational, periodic] = [
+        Kind { seed: 1, ..PLANAR },
+        Kind {
+            in_space: true,
+            seed: 2,
+            ..PLANAR
+        },
+        Kind {
+            rational: true,
+            seed: 3,
+            ..PLANAR
+        },
+        Kind {
+            periodic: true,
+            seed: 4,
+            ..PLANAR
+        },
+    ]
+    .map(curve);
+    let single = curve(Kind {
+        degree: 4,
+        extra: 0,
+        seed: 5,
+        ..PLANAR
+    });
+    let all = curve(Kind {
+        rational: true,
+        in_space: true,
+        periodic: true,
+        seed: 6,
+        ..PLANAR
+    });
+    let hidden = Curve {
+        visible: false,
+        ..with_targets(spatial.clone())
+    };
+    let locked = Curve {
+        locked: true,
+        ..with_targets(rational.clone())
+    };
+    let several = vec![
+        planar.clone(),
+        with_targets(spatial.clone()),
+        periodic.clone(),
+    ];
+    vec![
+        Case::new("planar", vec![planar.clone()]),
+        Case::new("spatial", vec![spatial]),
+        Case::new("rational", vec![rational]),
+        Case::new("periodic", vec![periodic]),
+        Case::new("periodic, rational, spatial", vec![all]),
+        Case::new("single segment", vec![single]),
+        Case::new("with targets", vec![with_targets(planar.clone())]),
+        Case::new("several, the second active", several).with_active(1),
+        Case::new("beside a hidden one", vec![planar.clone(), hidden.clone()]),
+        Case::new("beside a locked one", vec![planar.clone(), locked.clone()]),
+        Case::new("locked and active", vec![planar.clone(), locked]).with_active(1),
+        Case::new("hidden and active", vec![planar, hidden]).with_active(1),
+        Case::new("empty", Vec::new()),
+    ]
+}
+
+const PLANAR: Kind = Kind {
+    degree: 3,
+    extra: 3,
+    periodic: false,
+    rational: false,
+    in_space: false,
+    seed: 0,
+};
+
+fn curve(kind: Kind) -> Curve {
+    Curve::new(format!("curve {}", kind.seed), kind.polygon())
+}
+
+/// Give a curve's ends targets that it misses.
+pub fn with_targets(mut curve: Curve) -> Curve {
+    for end in End::BOTH {
+        let jet = curve.polygon.end_jet(end);
+        let target = EndTarget {
+            point: jet.point + DVec3::new(1.5, -1.0, 0.0),
+            direction: Some(DVec3::new(1.0, 2.0, 0.0)),
+        };
+        curve.targets.set(end, Some(target));
+    }
+    curve
+}

@@ -1,0 +1,140 @@
+//! What documents, selection and view are after anything that is done, and what protects curves.
+
+use batten::document::{Curve, Document};
+use batten::editor::Selection;
+use batten::geometry::FloatPolygon;
+use batten::io::Format;
+use glam::DVec3;
+
+use super::snapshot::{Bits, Snapshot};
+use super::watch::Done;
+use super::window::Window;
+
+/// Every polygon is one that could be made anew.
+pub fn check_document(document: &Document) -> Result<(), String> {
+    for (_, curve) in document.curves() {
+        let polygon = &curve.polygon;
+        let rebuilt = FloatPolygon::new(
+            polygon.degree(),
+            polygon.vertices().to_vec(),
+            polygon.weights().map(<[f64]>::to_vec),
+            polygon.is_periodic(),
+        );
+        if rebuilt.as_ref() != Ok(polygon) {
+            return Err(format!("“{}” is no polygon: {rebuilt:?}", curve.name));
+        }
+        if curve.name.trim().is_empty() {
+            return Err("a curve has no name".into());
+        }
+        for (end, target) in curve.targets.list() {
+            let directs = |way: DVec3| way.is_finite() && way != DVec3::ZERO;
+            if !(target.point.is_finite() && target.direction.is_none_or(directs)) {
+                return Err(format!("“{}”, {end:?}: {target:?}", curve.name));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What is selected is there and visible, and some of it is of the active curve, which is there.
+pub fn check_selection(document: &Document, selection: &Selection) -> Result<(), String> {
+    for (curve, vertex) in selection.vertices() {
+        let found = document
+            .curve(curve)
+            .ok_or("a curve is selected that is gone")?;
+        if !found.visible {
+            return Err(format!("vertex {vertex} of a hidden curve is selected"));
+        }
+        if vertex >= found.polygon.vertices().len() {
+            return Err(format!("vertex {vertex} is selected and does not exist"));
+        }
+    }
+    match selection.active() {
+        None if document.is_empty() => Ok(()),
+        None => Err("no curve is active".into()),
+        Some(active) if document.curve(active).is_none() => Err("the active curve is gone".into()),
+        Some(active) => {
+            let own = selection.of_curve(active).next();
+            if selection.is_empty() || own.is_some() {
+                Ok(())
+            } else {
+                Err("vertices are selected, and none of the active curve".into())
+            }
+        }
+    }
+}
+
+/// The view and the comb have numbers that can be drawn with.
+pub fn check_view(window: &Window) -> Result<(), String> {
+    let view = window.viewport();
+    if !(view.centre.is_finite() && view.scale.is_finite() && view.scale > 0.0) {
+        return Err(format!("a view of {view:?}"));
+    }
+    let comb = window.comb();
+    if !(comb.scale.is_finite() && comb.scale > 0.0) {
+        return Err(format!("a comb of {comb:?}"));
+    }
+    if window.hint().is_empty() {
+        return Err("no hint".into());
+    }
+    if window.message().is_some_and(|text| text.trim().is_empty()) {
+        return Err("a message without words".into());
+    }
+    Ok(())
+}
+
+/// Hidden and locked curves keep their shape and locked ones stay; only deleting a curve deletes one.
+pub fn check_protected(before: &Snapshot, after: &Snapshot, done: Done) -> Result<(), String> {
+    for (id, old) in before.curves() {
+        let named = &old.named.0;
+        match after.curve(*id) {
+            None if old.locked => return Err(format!("“{named}” is locked and was deleted")),
+            None if done == Done::Delete => {
+                return Err(format!("“{named}” was deleted with its vertices"));
+            }
+            None => {}
+            Some(new) => check_kept(old, new)?,
+        }
+    }
+    let gone = before.curves().iter();
+    let gone = gone.filter(|(id, _)| after.curve(*id).is_none()).count();
+    if gone > usize::from(done == Done::DeleteCurve) {
+        return Err(format!("{gone} curves are gone after {done:?}"));
+    }
+    Ok(())
+}
+
+fn check_kept(old: &Bits, new: &Bits) -> Result<(), String> {
+    let named = &old.named.0;
+    if old.shape != new.shape && old.locked {
+        return Err(format!("“{named}” is locked and changed its shape"));
+    }
+    if old.shape != new.shape && !old.visible {
+        return Err(format!("“{named}” is hidden and changed its shape"));
+    }
+    if old.targets != new.targets && !old.visible {
+        return Err(format!("“{named}” is hidden and got a target"));
+    }
+    Ok(())
+}
+
+/// What is written is read back equal.
+pub fn check_written(document: &Document) -> Result<(), String> {
+    let curves: Vec<&Curve> = document.curves().map(|(_, curve)| curve.as_ref()).collect();
+    let written = Format::Batten.write(&curves, None);
+    let written = written.map_err(|error| format!("cannot be written: {error}"))?;
+    check_read(document, Format::Batten.read(&written.bytes))
+}
+
+/// What was read is what the document holds.
+pub fn check_read<E: std::fmt::Display>(
+    document: &Document,
+    read: Result<Vec<Curve>, E>,
+) -> Result<(), String> {
+    let read = read.map_err(|error| format!("cannot be read back: {error}"))?;
+    let held: Vec<&Curve> = document.curves().map(|(_, curve)| curve.as_ref()).collect();
+    if read.iter().collect::<Vec<&Curve>>() != held {
+        return Err(format!("read back as {read:?}, not {held:?}"));
+    }
+    Ok(())
+}

@@ -1,0 +1,414 @@
+//! What a window asks of the editor besides inputs and commands, in one place: where methods of the
+//! editor move, this file follows and the matrix and the model stay as they are.
+
+use std::path::Path;
+
+use batten::analysis::{CombSettings, LevelPlot};
+use batten::document::{Colour, Curve, CurveId, Document, Edit};
+use batten::editor::{
+    AfterDiscard, Command, Division, Editor, EndFitAction, EndFitMarks, Export, Input, Request,
+    Selection, Transformation, Viewport,
+};
+use batten::geometry::{FloatPolygon, PolygonKind};
+use glam::{DVec2, DVec3};
+
+/// The canvas's width and height in screen points.
+pub const CANVAS: DVec2 = DVec2::new(1000.0, 700.0);
+
+/// A text that the clipboard may hold, good or bad.
+const TEXTS: [&str; 10] = [
+    "",
+    "no curve at all",
+    "x,y\n0,0\n1,2\n3,3\n5,1\n",
+    "0 0\n1 2\n3 3",
+    "x,y,z\n0,0,0\n1,2,1\n3,3,NaN\n",
+    "{\"format\": \"batten\", \"version\": 1, \"curves\": []}",
+    "{\"format\": \"batten\", \"version\": 1, \"curves\": [{\"name\": \"pasted\", \"degree\": 2, \
+     \"vertices\": [[0, 0], [1, 2.5], [3, 1]], \"weights\": [1, 2, 1]}]}",
+    "{\"format\": \"batten\", \"version\": 1, \"curves\": [{\"name\": \"short\", \"degree\": 5, \
+     \"vertices\": [[0, 0], [1, 2]]}]}",
+    "{\"format\": \"batten\", \"version\": 99, \"curves\": []}",
+    "# degree=1 polygon=float\nx,y\n-1e100,0\n1e100,1e-300\n",
+];
+
+/// Something that a panel, a dialog or the window asks for. Curves and vertices are counted from 0
+/// and round again, so that any number is one of those that are there.
+#[derive(Clone, Debug)]
+pub enum Panel {
+    /// A coordinate's field is dragged in the vertex table.
+    PreviewVertex(usize, usize, DVec3),
+    /// A weight's field is dragged in the vertex table.
+    PreviewWeight(usize, usize, f64),
+    /// The field is released.
+    CommitField,
+    /// The field is called off.
+    AbortField,
+    /// A coordinate is typed.
+    TypeVertex(usize, usize, DVec3),
+    /// A weight is typed.
+    TypeWeight(usize, usize, f64),
+    /// The list of curves or the inspector asks for something of a curve.
+    OfCurve(usize, OfCurve),
+    /// The end-fit panel asks for something.
+    EndFit(EndFitAction),
+    /// An angle or a factor is typed.
+    Transform(Transformation),
+    /// The pivot is typed, or centred.
+    SetPivot(Option<DVec2>),
+    /// The clipboard's text comes, by its number.
+    Paste(usize),
+    /// What is copied comes back at once.
+    CopyAndPaste,
+    /// The dialog divides the active curve at shares of it.
+    Divide(f64, Option<f64>, u32),
+    /// The dialog rounds the active curve.
+    Round(PolygonKind, usize),
+    /// A row of the vertex table is clicked, or clicked with Shift.
+    SelectVertex(usize, usize, bool),
+    /// Plots and rows are hovered, or nothing is.
+    Hover(Option<f64>, Option<usize>),
+    /// The window is resized.
+    SetCanvasSize(DVec2),
+    /// The view is turned by a drag of the compass.
+    Orbit(DVec2),
+    /// The comb's fields are dragged.
+    SetComb(f64, usize),
+    /// A feature is clicked in the list.
+    GoTo(f64),
+    /// The message is closed.
+    DismissMessage,
+    /// The question about unsaved changes is answered.
+    Discard(AfterDiscard),
+}
+
+/// Something that the list of curves or the inspector asks for of a curve.
+#[derive(Clone, Copy, Debug)]
+pub enum OfCurve {
+    /// It is clicked.
+    Activate,
+    /// Its name is typed.
+    Rename(&'static str),
+    /// Its colour is chosen.
+    Recolour(Option<[u8; 3]>),
+    /// It is dragged to another place of the list.
+    Reorder(usize),
+    /// Its degree is typed.
+    SetDegree(usize),
+    /// Its end is joined to its start, or not.
+    SetPeriodic(bool),
+    /// It is shown or hidden.
+    SetVisible(bool),
+    /// It is locked or unlocked.
+    SetLocked(bool),
+}
+
+/// Stand in for the window: hold an editor and tell it what a window would.
+pub struct Window {
+    editor: Editor,
+}
+
+impl Window {
+    /// Open a document that counts as saved.
+    pub fn open(document: Document) -> Self {
+        let mut editor = Editor::with_document(document);
+        editor.set_canvas_size(CANVAS);
+        editor.scene();
+        Self { editor }
+    }
+
+    /// Send one input, and draw the frame that follows.
+    pub fn input(&mut self, input: Input) {
+        self.editor.input(input);
+        self.editor.scene();
+    }
+
+    /// Give a command, and draw the frame that follows.
+    pub fn execute(&mut self, command: Command) -> Option<Request> {
+        let request = self.editor.execute(command);
+        self.editor.scene();
+        request
+    }
+
+    /// Do what a panel asks for, and draw the frame that follows.
+    pub fn panel(&mut self, panel: &Panel) {
+        self.tell(panel);
+        self.editor.scene();
+    }
+
+    /// The document, previews included.
+    pub fn document(&self) -> &Document {
+        self.editor.document()
+    }
+
+    /// The document without the preview of a gesture.
+    pub fn before_gesture(&self) -> &Document {
+        self.editor.history().before_gesture()
+    }
+
+    /// Whether a gesture shows a preview or may show one.
+    pub fn is_in_gesture(&self) -> bool {
+        self.editor.history().is_in_gesture()
+    }
+
+    /// Whether the pointer drags.
+    pub fn is_dragging(&self) -> bool {
+        self.editor.is_dragging()
+    }
+
+    /// Whether the primary button is held on the canvas.
+    pub fn is_holding(&self) -> bool {
+        self.editor.is_holding()
+    }
+
+    /// The number of steps that can be taken back.
+    pub fn undo_steps(&self) -> usize {
+        self.editor.history().undo_steps()
+    }
+
+    /// Whether a step can be made again.
+    pub fn can_redo(&self) -> bool {
+        self.editor.history().redo_label().is_some()
+    }
+
+    /// Whether a command is offered now.
+    pub fn is_enabled(&self, command: Command) -> bool {
+        self.editor.is_enabled(command)
+    }
+
+    /// Whether there is something to save.
+    pub fn is_modified(&self) -> bool {
+        self.editor.is_modified()
+    }
+
+    /// What is selected.
+    pub fn selection(&self) -> &Selection {
+        self.editor.selection()
+    }
+
+    /// The active curve, if there is one.
+    pub fn active(&self) -> Option<CurveId> {
+        self.editor.active()
+    }
+
+    /// The active curve's polygon.
+    pub fn active_polygon(&self) -> Option<FloatPolygon> {
+        let curve = self.document().curve(self.active()?)?;
+        Some(curve.polygon.clone())
+    }
+
+    /// Whether undo takes back a point of what is not finished, instead of a step.
+    pub fn undoes_points(&self) -> bool {
+        let label = self.editor.label(Command::Undo);
+        ["Undo first point", "Undo last point"].contains(&label.as_str())
+    }
+
+    /// How the model is mapped to the canvas.
+    pub fn viewport(&self) -> &Viewport {
+        self.editor.viewport()
+    }
+
+    /// How the comb is drawn.
+    pub fn comb(&self) -> CombSettings {
+        self.editor.comb()
+    }
+
+    /// The pivot of the tool that has one.
+    pub fn pivot(&self) -> Option<DVec2> {
+        self.editor.pivot()
+    }
+
+    /// The message's text, if there is one.
+    pub fn message(&self) -> Option<&str> {
+        self.editor.message().map(|message| message.text.as_str())
+    }
+
+    /// Every command there is.
+    pub fn commands(&self) -> Vec<Command> {
+        Command::all(self.editor.examples())
+    }
+
+    /// The teeth of the active curve's comb, as they are drawn.
+    pub fn teeth(&mut self) -> Vec<[DVec2; 2]> {
+        let scene = self.editor.scene();
+        let active = scene.curves.iter().find(|curve| curve.active);
+        active.map_or(Vec::new(), |curve| curve.teeth.clone())
+    }
+
+    /// The marks of the end that the end-fit tool works on.
+    pub fn end_marks(&mut self) -> Option<EndFitMarks> {
+        let ends = &self.editor.scene().ends;
+        let chosen = ends.iter().find(|marks| marks.chosen);
+        chosen.or(ends.first()).cloned()
+    }
+
+    /// Make all that panels, plots and the status bar read.
+    pub fn read_panels(&mut self) {
+        self.editor.features();
+        self.editor.scene();
+        self.editor.leg_plots();
+        for plot in [LevelPlot::Curvature(2), LevelPlot::Logarithmic] {
+            self.editor.level_plot(plot, true);
+        }
+        self.editor.report();
+        self.editor.end_fit();
+        self.editor.readout();
+        self.editor.cursor();
+        self.editor.hovered_vertex();
+        for command in self.commands() {
+            self.editor.is_checked(command);
+            assert!(!self.editor.label(command).is_empty(), "{command:?}");
+        }
+    }
+
+    /// What the status bar says.
+    pub fn hint(&self) -> String {
+        self.editor.hint()
+    }
+
+    /// Save the document; `false` if it could not be.
+    pub fn save(&mut self, path: &Path) -> bool {
+        self.editor.save(path)
+    }
+
+    /// Export the document.
+    pub fn export(&mut self, path: &Path, extension: &'static str, polygon: PolygonKind) {
+        let export = Export {
+            extension,
+            polygon,
+            file_name: String::new(),
+        };
+        self.editor.export(path, &export);
+    }
+
+    /// Add the curves of a file.
+    pub fn import(&mut self, path: &Path) {
+        self.editor.import(&[path.to_owned()]);
+        self.editor.scene();
+    }
+
+    fn curve(&self, number: usize) -> Option<(CurveId, &Curve)> {
+        let count = self.document().len();
+        let mut curves = self.document().curves();
+        let (id, curve) = curves.nth(number.checked_rem(count)?)?;
+        Some((id, curve))
+    }
+
+    /// The curve with a number, and its vertex with another.
+    pub fn vertex(&self, curve: usize, vertex: usize) -> Option<(CurveId, usize)> {
+        let (id, curve) = self.curve(curve)?;
+        Some((id, vertex % curve.polygon.vertices().len()))
+    }
+
+    fn tell(&mut self, panel: &Panel) {
+        match panel {
+            Panel::PreviewVertex(curve, vertex, to) => {
+                let edits = self.moved(*curve, *vertex, *to);
+                self.editor.preview_field("Set coordinate", edits);
+            }
+            Panel::PreviewWeight(curve, vertex, weight) => {
+                let edits = self.weighted(*curve, *vertex, *weight);
+                self.editor.preview_field("Set weight", edits);
+            }
+            Panel::CommitField => self.editor.commit_field(),
+            Panel::AbortField => self.editor.abort_field(),
+            Panel::TypeVertex(curve, vertex, to) => {
+                let edits = self.moved(*curve, *vertex, *to);
+                self.editor.apply("Set coordinate", edits);
+            }
+            Panel::TypeWeight(curve, vertex, weight) => {
+                let edits = self.weighted(*curve, *vertex, *weight);
+                self.editor.apply("Set weight", edits);
+            }
+            Panel::Paste(text) => self.editor.paste_text(TEXTS[text % TEXTS.len()]),
+            Panel::CopyAndPaste => {
+                if let Some(Request::CopyText(text)) = self.editor.execute(Command::Copy) {
+                    self.editor.paste_text(&text);
+                }
+            }
+            Panel::Divide(at, to, subdivisions) => self.divide(*at, *to, *subdivisions),
+            Panel::Round(kind, digits) => {
+                let _ = self.editor.try_rounding(*kind, *digits);
+                self.editor.round(*kind, *digits);
+            }
+            Panel::EndFit(action) => self.editor.end_fit_action(*action),
+            Panel::Transform(transformation) => self.editor.transform(*transformation),
+            Panel::SetPivot(pivot) => self.editor.set_pivot(*pivot),
+            Panel::Hover(length, vertex) => {
+                self.editor.hover_nothing();
+                length.iter().for_each(|at| self.editor.hover_length(*at));
+                vertex.iter().for_each(|at| self.editor.hover_vertex(*at));
+            }
+            Panel::SetCanvasSize(size) => self.editor.set_canvas_size(*size),
+            Panel::Orbit(by) => self.editor.orbit(*by),
+            Panel::SetComb(scale, density) => {
+                let (scale, density) = (*scale, *density);
+                self.editor.set_comb(CombSettings { scale, density });
+            }
+            Panel::GoTo(u) => self.editor.go_to(*u),
+            Panel::DismissMessage => self.editor.dismiss_message(),
+            Panel::Discard(after) => {
+                self.editor.discard_and(after.clone());
+            }
+            Panel::SelectVertex(curve, vertex, add) => {
+                if let Some((curve, vertex)) = self.vertex(*curve, *vertex) {
+                    self.editor.select_vertex(curve, vertex, *add);
+                }
+            }
+            Panel::OfCurve(number, asked) => {
+                if let Some((curve, _)) = self.curve(*number) {
+                    self.tell_of(curve, *asked);
+                }
+            }
+        }
+    }
+
+    fn tell_of(&mut self, curve: CurveId, asked: OfCurve) {
+        let (label, edit) = match asked {
+            OfCurve::Activate => return self.editor.activate(curve),
+            OfCurve::SetDegree(degree) => return self.editor.set_degree(curve, degree),
+            OfCurve::SetPeriodic(is) => return self.editor.set_periodic(curve, is),
+            OfCurve::SetVisible(is) => return self.editor.set_visible(curve, is),
+            OfCurve::SetLocked(is) => return self.editor.set_locked(curve, is),
+            OfCurve::Rename(name) => {
+                let name = name.to_owned();
+                ("Rename", Edit::Rename { curve, name })
+            }
+            OfCurve::Recolour(colour) => {
+                let colour = colour.map(Colour);
+                ("Set colour", Edit::Recolour { curve, colour })
+            }
+            OfCurve::Reorder(place) => ("Reorder", Edit::Reorder { curve, place }),
+        };
+        self.editor.apply(label, vec![edit]);
+    }
+
+    fn moved(&self, curve: usize, vertex: usize, to: DVec3) -> Vec<Edit> {
+        let found = self.vertex(curve, vertex).into_iter();
+        let edit = |(curve, vertex)| Edit::MoveVertices {
+            curve,
+            moves: vec![(vertex, to)],
+        };
+        found.map(edit).collect()
+    }
+
+    fn weighted(&self, curve: usize, vertex: usize, weight: f64) -> Vec<Edit> {
+        let found = self.vertex(curve, vertex).into_iter();
+        let edit = |(curve, vertex)| Edit::SetWeight {
+            curve,
+            vertex,
+            weight,
+        };
+        found.map(edit).collect()
+    }
+
+    fn divide(&mut self, from: f64, to: Option<f64>, subdivisions: u32) {
+        let polygon = self.active_polygon();
+        let last = polygon.map_or(0.0, |polygon| polygon.segments() as f64);
+        let division = match to {
+            Some(to) => Division::Trim(from * last, to * last),
+            None => Division::Split(from * last),
+        };
+        let _ = self.editor.try_division(division, subdivisions);
+        self.editor.divide(division, subdivisions);
+    }
+}
