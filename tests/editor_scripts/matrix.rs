@@ -136,24 +136,31 @@ fn every_step_of_every_command_is_undone_and_redone_between_others() {
     failures.none();
 }
 
-/// Where drags and clicks begin.
-const PLACES: [Place; 15] = [
-    Place::Own(1),
-    Place::Own(0),
-    Place::Other(1),
-    Place::Leg(1, 0.37),
-    Place::Curve(0.31),
-    Place::Clamped(1),
-    Place::Clamped(2),
-    Place::Tooth(0),
-    Place::End(End::Start),
-    Place::End(End::Finish),
-    Place::Ring(1.0),
-    Place::Target,
-    Place::Arrow,
-    Place::Pivot,
-    Place::At(DVec2::new(6.0, 6.0)),
-];
+/// Where clicks and drags of a tool begin: what every tool may meet, and handles of its own.
+fn places(tool: ToolKind) -> Vec<Place> {
+    let mut places = vec![
+        Place::Own(1),
+        Place::Own(0),
+        Place::Other(1),
+        Place::Leg(1, 0.37),
+        Place::Curve(0.31),
+        Place::Clamped(1),
+        Place::Tooth(0),
+        Place::At(DVec2::new(6.0, 6.0)),
+    ];
+    match tool {
+        ToolKind::EndFit => places.extend([
+            Place::End(End::Start),
+            Place::End(End::Finish),
+            Place::Ring(1.0),
+            Place::Target,
+            Place::Arrow,
+        ]),
+        ToolKind::Rotate | ToolKind::Scale => places.push(Place::Pivot),
+        _ => {}
+    }
+    places
+}
 
 /// What is done there: what comes between the press and the release, if there is a drag.
 fn gestures() -> Vec<(String, Gesture)> {
@@ -282,7 +289,7 @@ fn check_tool(tool: ToolKind) {
     let mut failures = Failures::default();
     let gestures = gestures();
     for case in cases() {
-        for place in PLACES {
+        for place in places(tool) {
             for (gesture_name, gesture) in &gestures {
                 let played = play(&case, |player| {
                     player.play(&[
@@ -307,10 +314,11 @@ fn check_tool(tool: ToolKind) {
 fn escape_in_the_middle_of_a_drag_leaves_no_trace() {
     let mut failures = Failures::default();
     for case in cases() {
-        for (tool, place) in ToolKind::ALL
-            .iter()
-            .flat_map(|tool| PLACES.map(|p| (*tool, p)))
-        {
+        let of_tool = |tool: &ToolKind| {
+            let tool = *tool;
+            places(tool).into_iter().map(move |place| (tool, place))
+        };
+        for (tool, place) in ToolKind::ALL.iter().flat_map(of_tool) {
             let played = play(&case, |player| {
                 player.play(&[
                     Event::Command(Command::ToggleLayer(Layer::Comb)),
