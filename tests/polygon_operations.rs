@@ -346,8 +346,8 @@ proptest! {
         let norm = clamped.amplification().norm;
         // Weights between ½ and 2 add a factor of the quotient.
         let allowed = digit * norm * if kind.rational { 32.0 } else { 2.0 };
-        for back in [clamped.nearest_periodic_float(), bezier.to_periodic_float()] {
-            let back = back.expect("closes smoothly");
+        for back in [clamped.nearest_periodic_float(), bezier.nearest_periodic_float()] {
+            let back = back.expect("closes smoothly").polygon;
             prop_assert!(back.is_periodic());
             let error = distance(back.vertices(), polygon.vertices());
             prop_assert!(error <= allowed, "{error:e} > {allowed:e}");

@@ -3,10 +3,9 @@
 use glam::{DVec3, DVec4};
 
 use super::clamped_polygon::weighted;
-use super::conversion::bezier_matrix::float_to_bezier;
-use super::conversion::exact_polygon::chain;
 use super::conversion::exact_vertices::ExactVertices;
 use super::conversion::knots::clamp;
+use super::conversion::whole_vertices::rounded_chain;
 use super::error::PolygonError;
 use super::float_polygon::{FloatPolygon, check_polygon};
 
@@ -43,17 +42,14 @@ impl BezierPolygon {
     }
 
     /// Convert a float polygon, segment by segment (the paper's SB and NSB): interpolation only,
-    /// in double-double arithmetic, so each number is the exact one rounded. A periodic curve
-    /// runs round once from u = 0.
+    /// in double-double arithmetic, and exactly where that leaves a number too few digits, so each
+    /// is the exact one rounded. A periodic curve runs round once from u = 0.
     pub fn from_float(float: &FloatPolygon) -> Self {
         let degree = float.degree();
         let count = float.segments() + degree;
         let vertices = (0..count).map(|index| (float.vertex(index), float.weight(index)));
         let vertices = ExactVertices::new(vertices, float.is_rational());
-        let matrix = float_to_bezier::<2>(degree);
-        let (vertices, weights) = vertices
-            .map(|axis| chain(degree, &matrix, axis))
-            .all_rounded();
+        let (vertices, weights) = rounded_chain(degree, &vertices);
         Self {
             degree,
             vertices,

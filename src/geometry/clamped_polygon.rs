@@ -39,8 +39,9 @@ impl ClampedPolygon {
     }
 
     /// Convert a float polygon. Every step interpolates between two vertices, in double-double
-    /// arithmetic, so each number is the exact one rounded, and the weights are positive. Vertices
-    /// that do not change stay as they are, bit for bit.
+    /// arithmetic, and exactly where that leaves a number too few digits, so each is the exact one
+    /// rounded, and the weights are positive. Vertices that do not change stay as they are, bit for
+    /// bit.
     ///
     /// A periodic curve is opened at u = 0 and runs round once.
     pub fn from_float(float: &FloatPolygon) -> Self {
@@ -60,9 +61,10 @@ impl ClampedPolygon {
         }
     }
 
-    /// Convert to the float polygon of the same curve (open, over the same segments), within one
-    /// rounding of the exact one: the steps carry three doubles a number. Vertices that do not
-    /// change stay as they are, bit for bit.
+    /// Convert to the float polygon of the same curve (open, over the same segments), each number
+    /// the exact one rounded: the steps carry three doubles a number, and whole numbers of any
+    /// length where that leaves too few digits. Vertices that do not change stay as they are, bit
+    /// for bit.
     ///
     /// The conversion extrapolates: an error that the given vertices already have, be it half a
     /// unit of their last digit, grows by up to [`ClampedPolygon::amplification`].

@@ -160,16 +160,6 @@ pub enum Problem {
         /// The polygon's kind.
         kind: PolygonKind,
     },
-    /// A clamped polygon is of so high a degree that its float polygon loses the curve.
-    #[error(
-        "the float polygon that follows from these {kind} vertices misses the curve by {distance:.1e}: its degree is too high for the digits of a number; give its float polygon"
-    )]
-    Unstable {
-        /// The polygon's kind.
-        kind: PolygonKind,
-        /// How far the curve would be off.
-        distance: f64,
-    },
     /// A target has no direction.
     #[error("the target of the {end} has a direction of length 0: give another one, or null")]
     NoDirection {

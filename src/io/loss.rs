@@ -57,6 +57,8 @@ pub enum Loss {
         kind: PolygonKind,
         /// By how much the worst one is off.
         distance: f64,
+        /// A bound of how far the curve is off.
+        curve: f64,
     },
     /// The way back: no usable float polygon can be had from the written polygon.
     NoWayBack {
@@ -107,9 +109,15 @@ impl fmt::Display for LossReport {
                     "{name}: the name is written as {}, which {format} allows",
                     quoted(written)
                 ),
-                Loss::Digits { kind, distance } => write!(
+                Loss::Digits {
+                    kind,
+                    distance,
+                    curve,
+                } => write!(
                     formatter,
-                    "{name}: converted back from the {kind} polygon written, the float vertices are off by up to {distance:.1e}"
+                    "{name}: converted back from the {kind} polygon written, the float vertices are off by up to {}, the curve by up to {}",
+                    rounded_up(*distance),
+                    rounded_up(*curve)
                 ),
                 Loss::NoWayBack { kind } => write!(
                     formatter,
@@ -161,5 +169,35 @@ impl fmt::Display for LossReport {
             )?;
         }
         Ok(())
+    }
+}
+
+/// Write a bound with two digits, rounded up.
+pub(super) fn rounded_up(bound: f64) -> String {
+    let nearest = format!("{bound:.1e}");
+    if nearest.parse().is_ok_and(|shown: f64| shown >= bound) {
+        nearest
+    } else {
+        // Less than half of the last digit is missing, which is at most a twentieth.
+        format!("{:.1e}", bound * 1.05)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rounded_up;
+
+    #[test]
+    fn bounds_are_never_shown_smaller_than_they_are() {
+        for (bound, shown) in [
+            (3.04e-10, "3.2e-10"),
+            (1.01e-5, "1.1e-5"),
+            (9.96e-3, "1.0e-2"),
+            (9.91e-3, "1.0e-2"),
+            (2.0, "2.0e0"),
+            (0.0, "0.0e0"),
+        ] {
+            assert_eq!(rounded_up(bound), shown);
+        }
     }
 }

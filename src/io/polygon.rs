@@ -6,11 +6,6 @@ use super::error::Problem;
 use super::loss::Loss;
 use crate::geometry::{BezierPolygon, ClampedPolygon, FloatPolygon, PolygonKind};
 
-/// How far, in units of the largest coordinate, the curve may move when a clamped polygon is
-/// converted to the float polygon: decimal rounding to ten digits may not be refused, a curve
-/// that is visibly another one must be.
-const UNSTABLE: f64 = 1e-9;
-
 /// Hold the vertices by which a curve is written.
 pub struct Written {
     /// The vertices.
@@ -21,6 +16,16 @@ pub struct Written {
     pub periodic: bool,
     /// What is lost by writing them.
     pub losses: Vec<Loss>,
+}
+
+/// Hold the float polygon of a curve that was given by one of its polygons.
+#[derive(Debug, PartialEq)]
+pub struct Built {
+    /// The float polygon.
+    pub polygon: FloatPolygon,
+    /// A bound of how far its curve may be from the one given, where that is more than a few
+    /// units in the last place.
+    pub off_by: Option<f64>,
 }
 
 /// Take the vertices of one of a curve's polygons. The clamped and the Bézier polygon of a
@@ -55,26 +60,23 @@ pub fn build(
     vertices: Vec<DVec3>,
     weights: Option<Vec<f64>>,
     periodic: bool,
-) -> Result<FloatPolygon, Problem> {
+) -> Result<Built, Problem> {
     if periodic && kind != PolygonKind::Float {
         return Err(Problem::PeriodicKind { kind });
     }
-    match kind {
-        PolygonKind::Float => Ok(FloatPolygon::new(degree, vertices, weights, periodic)?),
-        PolygonKind::Bezier => Ok(BezierPolygon::new(degree, vertices, weights)?.to_float()?),
-        PolygonKind::Clamped => {
-            let given = ClampedPolygon::new(degree, vertices, weights)?;
-            let float = given.to_float()?;
-            let distance = moved(&given, &ClampedPolygon::from_float(&float));
-            let scale = given.vertices().iter().map(|v| v.abs().max_element());
-            // Written so that a distance that is not a number is refused too.
-            if distance <= UNSTABLE * scale.fold(0.0, f64::max) {
-                Ok(float)
-            } else {
-                Err(Problem::Unstable { kind, distance })
-            }
+    let nearest = match kind {
+        PolygonKind::Float => {
+            let polygon = FloatPolygon::new(degree, vertices, weights, periodic)?;
+            let off_by = None;
+            return Ok(Built { polygon, off_by });
         }
-    }
+        PolygonKind::Bezier => BezierPolygon::new(degree, vertices, weights)?.nearest_float()?,
+        PolygonKind::Clamped => ClampedPolygon::new(degree, vertices, weights)?.nearest_float()?,
+    };
+    Ok(Built {
+        polygon: nearest.polygon,
+        off_by: (!nearest.is_close).then_some(nearest.deviation),
+    })
 }
 
 fn converted(
@@ -95,12 +97,17 @@ fn converted(
         weights.clone(),
         false,
     ) {
-        Ok(back) => {
+        Ok(Built { polygon: back, .. }) => {
             let open = float.unrolled();
             let pairs = open.vertices().iter().zip(back.vertices());
             let distance = pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
             if distance > 0.0 {
-                losses.push(Loss::Digits { kind, distance });
+                let curve = open.deviation(&back).unwrap_or(f64::INFINITY);
+                losses.push(Loss::Digits {
+                    kind,
+                    distance,
+                    curve,
+                });
             }
         }
         Err(_) => losses.push(Loss::NoWayBack { kind }),
@@ -113,27 +120,10 @@ fn converted(
     }
 }
 
-/// Measure how far the vertices, and by the same scale the weights, of two polygons differ.
-fn moved(before: &ClampedPolygon, after: &ClampedPolygon) -> f64 {
-    let pairs = before.vertices().iter().zip(after.vertices());
-    let points = pairs.map(|(a, b)| a.distance(*b));
-    let size = before.vertices().iter().map(|v| v.length());
-    let size = size.fold(0.0, f64::max);
-    let pairs = before.weights().into_iter().flatten();
-    let pairs = pairs.zip(after.weights().into_iter().flatten());
-    let weights = pairs.map(|(a, b)| size * (a - b).abs() / a);
-    // `f64::max` would pass over what is not a number.
-    points.chain(weights).fold(
-        0.0,
-        |worst, distance| {
-            if distance <= worst { worst } else { distance }
-        },
-    )
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::PolygonError;
 
     fn wave(degree: usize, count: usize, weighted: bool) -> FloatPolygon {
         let vertices = (0..count).map(|i| {
@@ -153,7 +143,9 @@ mod tests {
                     let Written {
                         vertices, weights, ..
                     } = written(&float, kind);
-                    let back = build(kind, degree, vertices, weights, false).unwrap();
+                    let built = build(kind, degree, vertices, weights, false).unwrap();
+                    assert_eq!(built.off_by, None, "{kind} {degree}");
+                    let back = built.polygon;
                     for u in [0.0, 0.4, float.segments() as f64] {
                         let distance = float.point(u).distance(back.point(u));
                         assert!(
@@ -198,13 +190,45 @@ mod tests {
     }
 
     #[test]
-    fn a_degree_that_loses_the_curve_is_refused() {
+    fn what_is_exported_is_read_without_a_visible_loss_at_every_degree() {
+        for degree in 1..=25 {
+            for count in [degree + 1, degree + 4, degree + 30] {
+                let float = wave(degree, count, false);
+                for kind in [PolygonKind::Clamped, PolygonKind::Bezier] {
+                    let vertices = written(&float, kind).vertices;
+                    let built = build(kind, degree, vertices, None, false).unwrap();
+                    assert_eq!(built.off_by, None, "{kind} {degree} {count}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_curve_that_needs_more_digits_is_refused_with_the_figure() {
         // (2n − 1)!! is 5.8e31 for degree 25: sixteen digits cannot carry that.
-        let vertices = wave(25, 26, false).vertices().to_vec();
-        let result = build(PolygonKind::Clamped, 25, vertices, None, false);
-        assert!(
-            matches!(result, Err(Problem::Unstable { .. })),
-            "{result:?}"
-        );
+        let corner = |index: usize| DVec3::new(index as f64, (index % 2) as f64, 0.0);
+        for kind in [PolygonKind::Clamped, PolygonKind::Bezier] {
+            let vertices = (0..26).map(corner).collect();
+            let result = build(kind, 25, vertices, None, false);
+            let Err(Problem::Polygon(PolygonError::DigitsLost { distance, .. })) = result else {
+                panic!("{result:?}");
+            };
+            assert!(distance > 25e-6, "{distance}");
+        }
+    }
+
+    #[test]
+    fn what_is_read_with_a_loss_says_how_far_the_curve_may_be_off() {
+        // Decimals of eleven digits: off by as much, and said so.
+        let float = wave(9, 14, false);
+        let vertices = written(&float, PolygonKind::Bezier).vertices;
+        let decimal = |value: f64| (value * 1e9).round() / 1e9;
+        let vertices = vertices.into_iter();
+        let vertices = vertices.map(|v| DVec3::from_array(v.to_array().map(decimal)));
+        let built = build(PolygonKind::Bezier, 9, vertices.collect(), None, false).unwrap();
+        let off_by = built.off_by.unwrap();
+        assert!((1e-10..1e-8).contains(&off_by), "{off_by:e}");
+        // Rounding moved the curve by up to 9e-10 in space.
+        assert!(float.deviation(&built.polygon).unwrap() <= off_by + 9e-10);
     }
 }

@@ -9,7 +9,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use super::error::{Place, Problem, ReadError};
 use super::loss::LossReport;
 use super::object::Object;
-use super::polygon::{Written, build, written};
+use super::polygon::{Built, Written, build, written};
 use super::project::{FORMAT, VERSION};
 use super::reading::{CurveKeys, Owner, Reading, Remark, Remarks};
 use crate::document::{Colour, Curve, EndTargets, cut};
@@ -131,8 +131,9 @@ impl CurveV1 {
         let name = given.unwrap_or_else(|| format!("curve {number}"));
         let place = |problem| Place::curve(number, &name).problem(problem);
         let weights = self.weights;
-        let polygon = build(
-            self.polygon.0,
+        let kind = self.polygon.0;
+        let Built { polygon, off_by } = build(
+            kind,
             self.degree.0,
             self.vertices
                 .into_iter()
@@ -142,6 +143,10 @@ impl CurveV1 {
             self.periodic.unwrap_or(false),
         )
         .map_err(place)?;
+        if let Some(by) = off_by {
+            let curve = (number, name.clone());
+            remarks.add(Remark::CurveOff { curve, kind, by });
+        }
         let mut forgotten = Forgotten::default();
         let targets = forgotten.strip(self.targets).unwrap_or_default();
         let targets = EndTargets {

@@ -3,8 +3,9 @@
 use std::collections::HashMap;
 use std::fmt;
 
+use super::loss::rounded_up;
 use crate::document::{Curve, Extras, quoted};
-use crate::geometry::counted;
+use crate::geometry::{PolygonKind, counted};
 
 /// The most unknown keys that are named one by one.
 const MOST_NAMED: usize = 8;
@@ -48,6 +49,15 @@ pub enum Remark {
         first: usize,
         /// Their number.
         count: usize,
+    },
+    /// A curve whose float polygon gives it back only nearly.
+    CurveOff {
+        /// The curve, counted from 1, with its name.
+        curve: (usize, String),
+        /// The polygon that it was given by.
+        kind: PolygonKind,
+        /// A bound of how far it is off.
+        by: f64,
     },
 }
 
@@ -190,6 +200,16 @@ impl fmt::Display for Remark {
                 let parts: Vec<&str> = columns.into_iter().chain(decimals).collect();
                 write!(formatter, "read with {}", parts.join(" and "))
             }
+            Self::CurveOff {
+                curve: owner,
+                kind,
+                by,
+            } => write!(
+                formatter,
+                "{}: read from its {kind} polygon, the curve may be off by up to {}",
+                curve(owner),
+                rounded_up(*by)
+            ),
             Self::Comments { first, count: 1 } => {
                 write!(formatter, "line {first} is taken as a comment")
             }

@@ -25,7 +25,7 @@ use super::decimals::Decimals;
 use super::error::{Place, Problem, ReadError, WriteError};
 use super::format::Format;
 use super::loss::{Export, Loss, LossReport};
-use super::polygon::{Written, build, written};
+use super::polygon::{Built, Written, build, written};
 use super::project::text;
 use super::reading::{Reading, Remark, Remarks};
 use super::table_header::TableHeader;
@@ -74,7 +74,7 @@ pub fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
     comments.remark(&mut remarks);
     let numbered = blocks.into_iter().enumerate();
     let curves: Result<_, _> = numbered
-        .map(|(index, block)| block.into_curve(index + 1))
+        .map(|(index, block)| block.into_curve(index + 1, &mut remarks))
         .collect();
     Ok(Reading {
         curves: curves?,
@@ -306,7 +306,7 @@ impl Block {
         Ok(())
     }
 
-    fn into_curve(self, number: usize) -> Result<Curve, ReadError> {
+    fn into_curve(self, number: usize, remarks: &mut Remarks) -> Result<Curve, ReadError> {
         let name = self.header.name;
         let name = name.unwrap_or_else(|| format!("curve {number}"));
         let place = |line: usize| Place {
@@ -320,14 +320,15 @@ impl Block {
             .columns
             .iter()
             .any(|column| COLUMNS[*column] == "weight");
-        let polygon = build(
-            self.header.kind,
+        let kind = self.header.kind;
+        let built = build(
+            kind,
             self.header.degree,
             self.vertices,
             is_rational.then_some(self.weights),
             self.header.periodic,
         );
-        let polygon = polygon.map_err(|problem| {
+        let Built { polygon, off_by } = built.map_err(|problem| {
             let vertex = match &problem {
                 Problem::Polygon(
                     PolygonError::BadCoordinate { index, .. }
@@ -337,6 +338,10 @@ impl Block {
             };
             place(vertex.copied().unwrap_or(self.line)).problem(problem)
         })?;
+        if let Some(by) = off_by {
+            let curve = (number, name.clone());
+            remarks.add(Remark::CurveOff { curve, kind, by });
+        }
         Ok(Curve::new(name, polygon))
     }
 }

@@ -15,8 +15,8 @@ pub(in crate::geometry) struct ConvertedEnds<const K: usize> {
     /// The first n and the last n vertices, or all where that is fewer: a curve of so few
     /// vertices has the same ends.
     vertices: ExactVertices<K>,
-    /// What each coordinate's numbers may have lost on the way.
-    lost: [f64; 4],
+    /// What the magnitudes that entered each coordinate's numbers sum up to at most.
+    entered: [f64; 4],
     /// The exact vertices, if some have lost too much.
     whole: Option<WholeVertices>,
     /// The largest weight that entered.
@@ -43,12 +43,10 @@ impl<const K: usize> ConvertedEnds<K> {
         let given = ExactVertices::new(ends, weights.is_some());
         let mut vertices = given.clone();
         vertices.change(|axis| direction.convert(degree, axis));
-        let lost = given
-            .largest()
-            .map(|largest| largest * norm * lost_by::<K>());
+        let entered = given.largest(0..kept).map(|largest| largest * norm);
         let changes = |index: &usize| index + 1 < degree || index + degree > kept;
         let mut changed = (0..kept).filter(changes);
-        let whole = if changed.all(|index| vertices.is_sure(index, lost)) {
+        let whole = if changed.all(|index| vertices.is_sure(index, entered)) {
             None
         } else {
             Some(WholeVertices::new(&given, degree, direction))
@@ -57,7 +55,7 @@ impl<const K: usize> ConvertedEnds<K> {
             degree,
             count,
             vertices,
-            lost,
+            entered,
             whole,
             largest_weight: given.largest_weight(),
         }
@@ -71,7 +69,7 @@ impl<const K: usize> ConvertedEnds<K> {
         let ends = (0..kept).filter(move |index| *index < changed || index + changed >= kept);
         ends.map(move |index| {
             let (point, weight) = match &self.whole {
-                Some(whole) if !self.vertices.is_sure(index, self.lost) => whole.rounded(index),
+                Some(whole) if !self.vertices.is_sure(index, self.entered) => whole.rounded(index),
                 _ => self.vertices.rounded(index),
             };
             (placed(index, self.degree, self.count), point, weight)
@@ -91,10 +89,4 @@ fn placed(index: usize, degree: usize, count: usize) -> usize {
     } else {
         index + count - 2 * degree
     }
-}
-
-/// Bound what a conversion in K doubles loses, in units of the numbers that enter it.
-fn lost_by<const K: usize>() -> f64 {
-    const STEPS: f64 = 1024.0;
-    STEPS * f64::EPSILON.powi(K as i32)
 }

@@ -1,5 +1,7 @@
 //! Homogeneous vertices with more digits than doubles hold, coordinate by coordinate.
 
+use std::ops::Range;
+
 use glam::{DVec3, DVec4};
 
 use super::expansion::Expansion;
@@ -9,6 +11,12 @@ use crate::geometry::polygon_kind::PolygonKind;
 /// What K = 3 parts may lose of the numbers that entered a vertex, in their units: a weight
 /// smaller than this cannot be told from 0.
 const LOST: f64 = 1.0 / (1u128 << 75) as f64 / (1u128 << 75) as f64;
+
+/// How many units of the last of K doubles the steps of a conversion may lose.
+const STEPS: f64 = 1024.0;
+
+/// What a number may lose of itself so that rounding it is rounding the exact one: 2⁻⁶⁰.
+const SURE: f64 = f64::EPSILON / 256.0;
 
 /// Hold the homogeneous coordinates w·x, w·y, w·z and w of some vertices.
 #[derive(Clone, Debug, PartialEq)]
@@ -117,22 +125,31 @@ impl<const K: usize> ExactVertices<K> {
         })
     }
 
-    /// Find the largest magnitude of each coordinate's numbers; 0 where it is not in use.
-    pub(in crate::geometry) fn largest(&self) -> [f64; 4] {
+    /// Find the largest magnitude of each coordinate's numbers in a range; 0 where it is not in use.
+    pub(in crate::geometry) fn largest(&self, range: Range<usize>) -> [f64; 4] {
         let axes = self.axes.each_ref();
         axes.map(|axis| {
-            let values = axis.iter().flatten().map(|number| number.value().abs());
-            values.fold(0.0, f64::max)
+            let values = axis.iter().flat_map(|axis| &axis[range.clone()]);
+            values.fold(0.0, |largest: f64, number| {
+                largest.max(number.value().abs())
+            })
         })
     }
 
-    /// Whether each number of a vertex is more than 2⁶⁰ times what it may have lost.
-    pub(in crate::geometry) fn is_sure(&self, index: usize, lost: [f64; 4]) -> bool {
-        let mut axes = self.axes.iter().zip(lost);
-        axes.all(|(axis, lost)| {
+    /// Whether converting has left enough digits of each number of a vertex to round it, when the
+    /// magnitudes that entered it sum up to `entered`.
+    pub(in crate::geometry) fn is_sure(&self, index: usize, entered: [f64; 4]) -> bool {
+        let lost = STEPS * f64::EPSILON.powi(K as i32);
+        let mut axes = self.axes.iter().zip(entered);
+        axes.all(|(axis, entered)| {
             let number = axis.as_ref().map_or(0.0, |axis| axis[index].value());
-            lost == 0.0 || number.abs() * f64::EPSILON * (1.0 / 256.0) >= lost
+            entered == 0.0 || number.abs() * SURE >= lost * entered
         })
+    }
+
+    /// Take some of the vertices.
+    pub(in crate::geometry) fn part(&self, range: Range<usize>) -> Self {
+        self.map(|axis| axis[range.clone()].to_vec())
     }
 
     /// Find the largest weight; 1 for a polynomial curve.

@@ -329,7 +329,7 @@ impl Target {
             .filter_map(|force| attempt(fit.even_forces(force)))
             .min_by(|a, b| a.deviation.total_cmp(&b.deviation));
         let loose = attempt(fit.curve_forces(FORCE));
-        let candidates = [gentle, exact.cloned(), even, loose];
+        let candidates = [exact.cloned(), gentle, even, loose];
         let deviations = candidates.iter().flatten().map(|c| c.deviation);
         let least = deviations.fold(f64::INFINITY, f64::min);
         let mut candidates = candidates.into_iter().flatten();

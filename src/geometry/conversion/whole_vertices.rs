@@ -1,4 +1,4 @@
-//! Conversions between the float and the clamped polygon in whole numbers of any length.
+//! Conversions between the float, the clamped and the Bézier polygon in whole numbers of any length.
 //!
 //! Numbers of two or three doubles lose what cancels by more digits than they hold: a vertex at 0
 //! on a curve of size 1e50, say. Multiplied once by a common denominator of all steps, whole
@@ -8,6 +8,8 @@ use glam::DVec3;
 use num_bigint::BigInt;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
+use super::bezier_matrix::float_to_bezier;
+use super::exact_polygon::{RoundedVertices, chain};
 use super::exact_vertices::ExactVertices;
 use super::knots::{Blend, Direction};
 use crate::geometry::features::whole_numbers::scaled_numbers;
@@ -64,6 +66,38 @@ impl WholeVertices {
         });
         (DVec3::from(point), weight)
     }
+}
+
+/// Convert a float polygon, segment by segment, to the chain of its Bézier polygons, each number
+/// the exact one rounded.
+pub(in crate::geometry) fn rounded_chain(
+    degree: usize,
+    given: &ExactVertices<2>,
+) -> RoundedVertices {
+    let matrix = float_to_bezier::<2>(degree);
+    let exact = given.map(|axis| chain(degree, &matrix, axis));
+    let (mut points, mut weights) = exact.all_rounded();
+    for segment in 0..given.len() - degree {
+        let window = segment..segment + degree + 1;
+        let entered = given.largest(window.clone());
+        let first = segment * degree;
+        let mut unsure = (0..=degree)
+            .filter(|row| !exact.is_sure(first + row, entered))
+            .peekable();
+        if unsure.peek().is_none() {
+            continue;
+        }
+        // Clamping one segment makes its Bézier polygon.
+        let whole = WholeVertices::new(&given.part(window), degree, Direction::Clamp);
+        for row in unsure {
+            let (point, weight) = whole.rounded(row);
+            points[first + row] = point;
+            if let Some(weights) = &mut weights {
+                weights[first + row] = weight;
+            }
+        }
+    }
+    (points, weights)
 }
 
 /// A whole number that every divisor of the steps divides.
