@@ -142,10 +142,11 @@ fn bezier_points(polygon: &BezierPolygon) -> Vec<[Exact; 3]> {
     points.collect()
 }
 
-/// Some segments of a curve: the first two, the middle one and the last.
+/// The segments of a curve next to its ends, where a clamped polygon has knots of its own.
 fn some_segments(segments: usize) -> Vec<usize> {
-    let mut some = vec![0, 1, segments / 2, segments - 1];
+    let mut some = vec![0, 1, segments - 1];
     some.retain(|segment| *segment < segments);
+    some.dedup();
     some
 }
 
@@ -285,15 +286,12 @@ fn polygons_rounded_to_ten_digits_are_read_with_a_bound_that_holds() {
         };
         let found = float_points(&nearest.polygon);
         check_bound(case, &bezier_points(&bezier), &nearest, &found);
-        let ratio = reach(nearest.polygon.vertices()) / reach(polygon.vertices());
-        println!("{case:?} {:e} {ratio:.3}", nearest.deviation);
     }
 }
 
 #[test]
 fn single_segments_are_read_with_a_bound_that_holds_or_refused_for_lost_digits() {
     let mut random = Random(24);
-    let mut refused = 0;
     for degree in 1..=25 {
         for in_space in [false, true] {
             let case = Case {
@@ -309,15 +307,12 @@ fn single_segments_are_read_with_a_bound_that_holds_or_refused_for_lost_digits()
                 Ok(nearest) => {
                     let found = float_points(&nearest.polygon);
                     check_bound(case, &bezier_points(&bezier), &nearest, &found);
-                    println!("{degree} {:e} {}", nearest.deviation, nearest.is_close);
                 }
                 Err(error) => {
-                    let expected = matches!(error, PolygonError::DigitsLost { .. });
-                    assert!(expected, "{degree}: {error}");
-                    refused += 1;
+                    let lost = matches!(error, PolygonError::DigitsLost { .. });
+                    assert!(lost && degree > 12, "{degree}: {error}");
                 }
             }
         }
     }
-    println!("{refused} refused");
 }

@@ -70,13 +70,15 @@ fn float_to_clamped_and_bezier_is_exact_but_for_one_rounding() {
     }
 }
 
-/// Conversions of whole numbers times n! have whole results where those of the clamped polygon
-/// are: coordinates that are nothing beside the curve's size must come back too.
+/// Coordinates that are nothing beside the curve's size have all their digits too.
 #[test]
 fn coordinates_far_smaller_than_the_curve_are_exact_too() {
     let mut random = Random(7);
-    for degree in 2..=25_usize {
-        for count in [degree + 1, degree + 3, 2 * degree, 2 * degree + 3] {
+    for degree in (2..=12_usize).chain([18, 25]) {
+        for count in [degree + 1, degree + 3, 2 * degree] {
+            if degree > 12 && count > degree + 1 {
+                continue;
+            }
             let (knots, float) = (Knots::clamped(degree, count - degree), Knots::float(degree));
             // Float vertices of 0, of 1 and of 1e50 by turns.
             let sizes = [0.0, 1.0, 1e50];
@@ -99,14 +101,6 @@ fn coordinates_far_smaller_than_the_curve_are_exact_too() {
             let expected = converted(&homogeneous(&points, None), knots, float);
             let clamped = ClampedPolygon::new(degree, points, None).expect("valid");
             let found = clamped.to_float().expect("polynomial");
-            let old = ExactPolygon::from_clamped(&clamped).to_float().unwrap();
-            let bad = old
-                .vertices()
-                .iter()
-                .zip(found.vertices())
-                .filter(|(a, b)| a != b)
-                .count();
-            println!("old {degree} {count}: {bad}");
             for (found, expected) in found.vertices().iter().zip(&expected) {
                 for axis in 0..3 {
                     assert_rounded(found[axis], &expected[axis], degree);
@@ -151,21 +145,22 @@ fn assert_rounded(found: f64, expected: &Exact, degree: usize) {
 }
 
 #[test]
-fn a_vertex_at_zero_comes_back_on_a_curve_of_size_1e50() {
-    // A multiple of the denominators of degree 4, so that the clamped vertices are doubles.
-    let size = 2.0_f64.powi(153) * 24.0_f64.powi(3);
-    for zero in 0..8 {
-        let heights = [3.0, -1.0, 2.0, 5.0, -4.0, 1.0, -2.0, 3.0].map(|height| size * height);
-        let vertices = heights.iter().enumerate().map(|(index, height)| {
-            let height = if index == zero { 0.0 } else { *height };
-            DVec3::new(height, if index == zero { 1.0 } else { height }, 0.0)
-        });
-        let float = FloatPolygon::new(4, vertices.collect(), None, false).expect("valid");
-        let back = ClampedPolygon::from_float(&float)
-            .to_float()
-            .expect("polynomial");
-        assert_eq!(back.vertices()[zero].x, 0.0);
+fn vertices_at_zero_come_back_on_a_curve_of_size_1e50() {
+    let (mut random, mut old) = (Random(8), 0);
+    for degree in 2..=15_usize {
+        // Multiples of n! have clamped vertices that are whole numbers, and so doubles.
+        let factorial: f64 = (1..=degree).map(|k| k as f64).product();
+        let size = factorial * 2.0_f64.powi(166);
+        for count in [degree + 1, degree + 3, 2 * degree + 1] {
+            let mut number = || size * [0.0, 0.0, 1.0, -1.0, 2.0, -3.0][random.bits() as usize % 6];
+            let vertices = (0..count).map(|_| DVec3::new(number(), number(), number()));
+            let float = FloatPolygon::new(degree, vertices.collect(), None, false).expect("valid");
+            let clamped = ClampedPolygon::from_float(&float);
+            assert_eq!(clamped.to_float(), Ok(float.clone()), "degree {degree}");
+            old += usize::from(ExactPolygon::from_clamped(&clamped).to_float() != Ok(float));
+        }
     }
+    println!("OLD {old}");
 }
 
 #[test]
