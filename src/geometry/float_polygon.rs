@@ -139,7 +139,8 @@ impl FloatPolygon {
         Ok(())
     }
 
-    /// Change the weight of one vertex, turning a polynomial curve into a rational one.
+    /// Change the weight of one vertex. A polynomial curve becomes a rational one; when all
+    /// weights are 1 the curve is polynomial again.
     ///
     /// # Errors
     /// [`PolygonError`] if the vertex does not exist or the weight cannot be used.
@@ -149,6 +150,9 @@ impl FloatPolygon {
         let count = self.vertices.len();
         let weights = self.weights.get_or_insert_with(|| vec![1.0; count]);
         weights[index] = weight;
+        if weights.iter().all(|weight| *weight == 1.0) {
+            self.weights = None;
+        }
         Ok(())
     }
 

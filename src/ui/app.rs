@@ -13,7 +13,8 @@ use super::end_fit_panel::EndFitPanel;
 use super::file_dialogs::{Chosen, FileDialogs, Purpose};
 use super::gizmo::gizmo_ui;
 use super::inspector::Inspector;
-use super::keyboard::{self, Asked, Keyboard};
+use super::key_order::KeyOrder;
+use super::keyboard::{self, Asked, Keyboard, Typing};
 use super::layer_list::layer_list_ui;
 use super::menu::menu_ui;
 use super::message::message_ui;
@@ -65,6 +66,7 @@ impl App {
         mut editor: Editor,
     ) -> Self {
         theme::install(context);
+        context.add_plugin(KeyOrder::default());
         context.options_mut(|options| options.quit_shortcuts.clear());
         let kept = storage.and_then(|storage| eframe::get_value(storage, SETTINGS));
         let shell: Shell = kept.unwrap_or_default();
@@ -142,7 +144,7 @@ impl App {
         if context.input(|input| input.key_pressed(egui::Key::F6)) {
             move_keyboard(context);
         }
-        let typing = keyboard::is_typing(context);
+        let typing = keyboard::typing(context) == Typing::Text;
         let asked = self.keyboard.asked(context, &self.editor);
         if typing && !asked.is_empty() {
             // What is being typed counts: its field gives it up before the command is done.

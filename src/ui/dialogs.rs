@@ -92,7 +92,7 @@ fn unsaved_ui(ui: &mut Ui, after: &AfterDiscard, editor: &Editor) -> Option<Deci
 }
 
 /// What the mouse does, beside the keys that the table of commands lists.
-const MOUSE: [(&str, &str); 14] = [
+const MOUSE: [(&str, &str); 20] = [
     ("Wheel, pinch", "Zoom to the pointer"),
     ("Middle button, Space and drag", "Pan"),
     ("Right button and drag", "Turn the view"),
@@ -110,6 +110,15 @@ const MOUSE: [(&str, &str); 14] = [
     ("Arrows, Shift and arrows", "Nudge, ten times as far"),
     ("Tab", "Next of what lies at the pointer"),
     ("F6", "Move the keyboard on to the panels"),
+    (
+        "Enter, Shift and Enter",
+        "Table: down, up; takes the number",
+    ),
+    ("Tab, Shift and Tab", "Table: on, back; takes the number"),
+    ("Arrows, Page Up, Page Down", "Table: to another number"),
+    ("Digit, sign, point", "Table: type another number"),
+    ("Space, double-click", "Table: edit the number as it is"),
+    ("Esc", "Table: call the edit off; leave"),
 ];
 
 fn keys_ui(ui: &mut Ui, editor: &Editor) -> Option<Decision> {

@@ -41,7 +41,8 @@ impl EndFitPanel {
             step: self.step,
             asked: None,
         };
-        panel.show(ui);
+        // Fields of their own for each end of each curve: what is typed is for no other.
+        ui.push_id((editor.active(), report.end), |ui| panel.show(ui));
         if let Some((step, action)) = panel.asked {
             self.step = Some(step);
             match action {
@@ -368,7 +369,7 @@ impl Panel<'_> {
     fn translate_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
         let has_target = report.target_point.is_some() && report.can_move();
-        let title = format!("Move {} vertices", report.terminal);
+        let title = format!("Move {}", count_vertices(report.terminal));
         step_ui(ui, 5, &title, self.is_in_place(), |ui| {
             let response = step_button(ui, "Translate", has_target, None)
                 .accessible_name("Translate terminal vertices");
@@ -383,7 +384,7 @@ impl Panel<'_> {
     fn rotate_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
         let has_target = report.target_direction.is_some() && report.tangent.is_some();
-        let title = format!("Turn {} vertices", report.terminal);
+        let title = format!("Turn {}", count_vertices(report.terminal));
         step_ui(ui, 6, &title, has_target && self.is_aligned(), |ui| {
             let response = step_button(ui, "Rotate", has_target && report.can_move(), None)
                 .accessible_name("Rotate terminal vertices");

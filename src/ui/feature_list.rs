@@ -73,20 +73,22 @@ fn verdict(report: &FeatureReport) -> (Icon, String) {
     match report.monotone {
         Verdict::Disproved if report.has_doubts => {
             let least = extrema.max(1);
-            let noun = if least == 1 { "extremum" } else { "extrema" };
-            (Icon::Spline, format!("At least {least} curvature {noun}"))
+            (Icon::Spline, format!("At least {}", count_extrema(least)))
         }
         Verdict::Proved if report.constant => {
             (Icon::Check, "Curvature constant: proved".to_owned())
         }
         Verdict::Proved => (Icon::Check, "Curvature monotone: proved".to_owned()),
-        Verdict::Disproved if extrema == 1 => (Icon::Spline, "1 curvature extremum".to_owned()),
-        Verdict::Disproved => (Icon::Spline, format!("{extrema} curvature extrema")),
+        Verdict::Disproved => (Icon::Spline, count_extrema(extrema)),
         Verdict::Undecided => (
             Icon::CircleQuestionMark,
             "Curvature monotone: undecided".to_owned(),
         ),
     }
+}
+
+fn count_extrema(count: usize) -> String {
+    figures::count(count, "curvature extremum", "curvature extrema")
 }
 
 fn colour_of(report: &FeatureReport, tokens: &Tokens) -> eframe::egui::Color32 {
@@ -121,8 +123,9 @@ pub fn chip_ui(ui: &mut Ui, editor: &mut Editor) -> Option<Response> {
     let inflections = report.count(&[FeatureKind::Inflection]);
     let undecided = report.count(&[FeatureKind::Undecided]);
     let tooltip = format!(
-        "Proved for the numbers as they are: {inflections} inflections, {undecided} pieces \
-         undecided. The inspector lists them all."
+        "Proved for the numbers as they are: {}, {} undecided. The inspector lists them all.",
+        figures::count(inflections, "inflection", "inflections"),
+        figures::count(undecided, "piece", "pieces"),
     );
     Some(response.on_hover_text(tooltip))
 }

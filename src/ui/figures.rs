@@ -69,6 +69,16 @@ pub fn degrees(radians: f64, decimals: usize) -> String {
     }
 }
 
+/// Write how many there are of something: "1 piece", "2 pieces".
+pub fn count(count: usize, one: &str, several: &str) -> String {
+    format!("{count} {}", noun(count, one, several))
+}
+
+/// What that many things are called.
+pub fn noun<'a>(count: usize, one: &'a str, several: &'a str) -> &'a str {
+    if count == 1 { one } else { several }
+}
+
 /// Write a number so that reading it gives the very same number.
 pub fn exact(value: f64) -> String {
     let magnitude = value.abs();
@@ -119,6 +129,14 @@ mod tests {
         assert_eq!(significant(-1.25e-9, 4), "-1.250e-9");
         assert_eq!(significant(123_456.0, 4), "1.235e5");
         assert_eq!(degrees(std::f64::consts::PI, 1), "180.0°");
+    }
+
+    #[test]
+    fn one_of_a_thing_is_not_called_several() {
+        let count = |number| count(number, "piece", "pieces");
+        assert_eq!(count(0), "0 pieces");
+        assert_eq!(count(1), "1 piece");
+        assert_eq!(count(12), "12 pieces");
     }
 
     #[test]

@@ -41,14 +41,14 @@ impl Inspector {
             return;
         };
         widgets::section(ui, "Inspector", true, |ui| {
-            self.curve_ui(ui, editor, id, &curve)
+            // Fields of their own for each curve: what is typed into one is for no other.
+            ui.push_id(id, |ui| self.curve_ui(ui, editor, id, &curve));
         });
         widgets::section(ui, "Figures", true, |ui| {
             if let Some(report) = editor.report() {
                 figures_ui(ui, &curve, &report);
             }
         });
-        widgets::section(ui, "Features", true, |ui| feature_list_ui(ui, editor));
         let title = format!("Vertices ({})", curve.polygon.vertices().len());
         let open = widgets::section_with_id(ui, "vertices", &title, true, |ui| {
             self.table.show(ui, editor, id, &curve);
@@ -56,6 +56,8 @@ impl Inspector {
         if open.is_none() {
             ui.add_space(STEP);
         }
+        // Last: an edit can make the list longer, and no number is to move for that.
+        widgets::section(ui, "Features", true, |ui| feature_list_ui(ui, editor));
     }
 
     fn curve_ui(&mut self, ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
@@ -104,6 +106,7 @@ impl Inspector {
 
 fn degree_ui(ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
     let degree = curve.polygon.degree();
+    let most = MAX_DEGREE.min(curve.polygon.vertices().len() - 1);
     ui.spacing_mut().item_spacing.x = STEP;
     let lower = IconButton::new(Icon::Minus, "Lower degree")
         .tooltip(Command::LowerDegree.tooltip())
@@ -113,7 +116,7 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
     }
     let field = NumberField::new("Degree", degree as f64, degree.to_string())
         .width(48.0)
-        .range(0.0..=999.0)
+        .range(1.0..=most as f64)
         .typed_only();
     if let FieldEvent::Typed(value) = field.show(ui).1 {
         editor.set_degree(id, value.round() as usize);

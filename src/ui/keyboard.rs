@@ -1,6 +1,6 @@
 //! Keys: from egui's names to the editor's, and to the commands they stand for.
 
-use eframe::egui::{self, Context, Event};
+use eframe::egui::{self, Context, Event, Id, Rect};
 
 use crate::editor::{Command, Editor, Key, Modifiers, Shortcut, ToolKind};
 
@@ -77,9 +77,47 @@ pub fn shortcut_text(shortcut: Shortcut) -> String {
     parts.join("+")
 }
 
-/// Whether a text field has the keyboard, which then owns plain keys and the clipboard's.
-pub fn is_typing(context: &Context) -> bool {
-    context.text_edit_focused()
+/// What keys that are typed go into.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Typing {
+    /// Nothing: they are commands, or the canvas's.
+    Nothing,
+    /// A cell of a table, where a digit begins a number. It owns plain keys and the clipboard's.
+    Cell,
+    /// A text that is being edited. It owns plain keys and those that edit texts.
+    Text,
+}
+
+/// What the widget that has the keyboard takes keys for.
+pub fn typing(context: &Context) -> Typing {
+    match claimed(context) {
+        Some(claim) => claim.typing,
+        None if context.text_edit_focused() => Typing::Text,
+        None => Typing::Nothing,
+    }
+}
+
+/// What a widget that takes numbers has told.
+#[derive(Clone, Copy, Debug)]
+struct Claim {
+    typing: Typing,
+    rect: Rect,
+}
+
+/// Tell what keys are for while a widget has the keyboard, and where it is. Told before it has:
+/// from the first key on they are not commands.
+pub fn claim(context: &Context, id: Id, typing: Typing, rect: Rect) {
+    context.data_mut(|data| data.insert_temp(id, Claim { typing, rect }));
+}
+
+/// Where the field or cell is that has the keyboard and takes numbers.
+pub fn number_field(context: &Context) -> Option<Rect> {
+    Some(claimed(context)?.rect)
+}
+
+fn claimed(context: &Context) -> Option<Claim> {
+    let focused = context.memory(|memory| memory.focused())?;
+    context.data(|data| data.get_temp(focused))
 }
 
 /// Whether a dialog or menu is open, so that keys are not for the window behind it.
@@ -112,7 +150,7 @@ impl Keyboard {
             self.waiting = None;
             return Vec::new();
         }
-        let typing = is_typing(context);
+        let typing = typing(context);
         let holding = editor.is_holding();
         // What is typed while drawing may be meant as coordinates.
         let is_number = |shortcut: &Shortcut| {
@@ -182,11 +220,12 @@ pub fn axis_of(event: &Event) -> Option<(usize, bool)> {
     Some((axis, *pressed))
 }
 
-fn command_of(event: &Event, table: &[(Shortcut, Command)], typing: bool) -> Option<Asked> {
+fn command_of(event: &Event, table: &[(Shortcut, Command)], typing: Typing) -> Option<Asked> {
+    let is_free = typing == Typing::Nothing;
     match event {
-        Event::Copy if !typing => Some(Asked::Command(Command::Copy)),
-        Event::Cut if !typing => Some(Asked::Command(Command::Cut)),
-        Event::Paste(text) if !typing => Some(Asked::Paste(text.clone())),
+        Event::Copy if is_free => Some(Asked::Command(Command::Copy)),
+        Event::Cut if is_free => Some(Asked::Command(Command::Cut)),
+        Event::Paste(text) if is_free => Some(Asked::Paste(text.clone())),
         Event::Key {
             key: pressed,
             pressed: true,
@@ -204,7 +243,7 @@ fn command_of(event: &Event, table: &[(Shortcut, Command)], typing: bool) -> Opt
                 command,
                 Command::Undo | Command::Redo | Command::ZoomIn | Command::ZoomOut
             );
-            let is_mine = !typing || !belongs_to_text(shortcut);
+            let is_mine = !belongs_to(typing, shortcut);
             (is_mine && (repeats || !repeat)).then_some(Asked::Command(command))
         }
         _ => None,
@@ -232,15 +271,17 @@ fn alias(shortcut: Shortcut) -> Option<Command> {
     (shortcut == redo).then_some(Command::Redo)
 }
 
-/// Whether a text field needs the key for itself.
-fn belongs_to_text(shortcut: Shortcut) -> bool {
-    let edits = matches!(
-        shortcut.key,
-        Key::Character('z' | 'y' | 'x' | 'c' | 'v' | 'a')
-    );
+/// Whether what is typed into needs the key for itself.
+fn belongs_to(typing: Typing, shortcut: Shortcut) -> bool {
+    let edits: &[char] = match typing {
+        Typing::Nothing => return false,
+        Typing::Cell => &['x', 'c', 'v'],
+        Typing::Text => &['z', 'y', 'x', 'c', 'v', 'a'],
+    };
     match shortcut.key {
         Key::Function(_) => false,
-        _ => !shortcut.modifiers.ctrl || edits,
+        Key::Character(letter) if shortcut.modifiers.ctrl => edits.contains(&letter),
+        _ => !shortcut.modifiers.ctrl,
     }
 }
 

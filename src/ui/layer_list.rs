@@ -132,6 +132,7 @@ fn comb_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Command>) {
             comb.density = value.round().max(0.0) as usize;
             editor.set_comb(comb);
         }
-        widgets::caption(ui, "teeth a segment");
+        let noun = figures::noun(comb.density, "tooth", "teeth");
+        widgets::caption(ui, &format!("{noun} a segment"));
     });
 }

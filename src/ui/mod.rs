@@ -3,9 +3,12 @@
 
 mod app;
 mod canvas;
+mod cell_entry;
+mod cell_keys;
 mod chains;
 mod curve_list;
 mod dialogs;
+mod draft;
 mod end_fit_panel;
 mod end_fit_steps;
 mod end_marks;
@@ -17,6 +20,7 @@ mod gizmo;
 mod grid;
 mod icons;
 mod inspector;
+mod key_order;
 mod keyboard;
 mod labels;
 mod layer_list;
@@ -33,6 +37,8 @@ mod status_bar;
 mod theme;
 mod tool_rail;
 mod transform_panel;
+mod vertex_columns;
+mod vertex_rows;
 mod vertex_table;
 mod widgets;
 

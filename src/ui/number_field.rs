@@ -3,11 +3,12 @@
 use std::ops::RangeInclusive;
 
 use eframe::egui::{
-    Align2, CursorIcon, Id, Key, Painter, Rect, Response, Sense, Stroke, StrokeKind, TextEdit, Ui,
-    Vec2, WidgetInfo, accesskit::Action, accesskit::ActionData, pos2, text::CCursorRange,
-    text_edit::TextEditState,
+    Align2, CursorIcon, EventFilter, Id, Key, Painter, Rect, Response, Sense, Stroke, StrokeKind,
+    Ui, Vec2, WidgetInfo, accesskit::Action, accesskit::ActionData, pos2,
 };
 
+use super::draft::{Draft, Remark};
+use super::keyboard::{self, Typing};
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
 use super::{figures, labels};
 
@@ -36,13 +37,15 @@ pub struct NumberField<'a> {
     range: RangeInclusive<f64>,
     flat: bool,
     typed_only: bool,
+    read_only: bool,
 }
 
-/// What is being typed into the field that has the keyboard.
+/// What is being typed into the field that has the keyboard, and the pass in which it was shown
+/// last: what was left longer ago does not count.
 #[derive(Clone, Default)]
-struct Typing {
-    text: String,
-    before: String,
+struct Kept {
+    draft: Draft,
+    pass: u64,
 }
 
 /// The drag that is going on.
@@ -65,6 +68,7 @@ impl<'a> NumberField<'a> {
             range: f64::NEG_INFINITY..=f64::INFINITY,
             flat: false,
             typed_only: false,
+            read_only: false,
         }
     }
 
@@ -86,7 +90,7 @@ impl<'a> NumberField<'a> {
         self
     }
 
-    /// Without a frame until it is hovered: for tables.
+    /// Without a frame until it is hovered: a cell, whose table has the keyboard.
     pub fn flat(mut self) -> Self {
         self.flat = true;
         self
@@ -98,119 +102,125 @@ impl<'a> NumberField<'a> {
         self
     }
 
+    /// Only to be read.
+    pub fn read_only(mut self, read_only: bool) -> Self {
+        self.read_only = read_only;
+        self
+    }
+
     /// Show the field.
     pub fn show(self, ui: &mut Ui) -> (Response, FieldEvent) {
         let (_, rect) = ui.allocate_space(Vec2::new(self.width, ROW));
         let id = ui.make_persistent_id(self.name);
+        keyboard::claim(ui.ctx(), id, Typing::Text, rect);
         if ui.memory(|memory| memory.has_focus(id)) && ui.is_enabled() {
-            self.typing_ui(ui, rect, id)
-        } else {
-            let typed = self.typed_before_leaving(ui, id);
-            let (response, event) = self.resting_ui(ui, rect, id);
-            (response, typed.map_or(event, FieldEvent::Typed))
+            return self.typing_ui(ui, rect, id);
         }
+        let typed = self.typed_before_leaving(ui, id);
+        let (response, event) = self.resting_ui(ui, rect, id);
+        if response.clicked() {
+            response.request_focus();
+        }
+        (response, typed.map_or(event, FieldEvent::Typed))
     }
 
     /// The field has the keyboard: it is a text field with the exact number.
     fn typing_ui(&self, ui: &mut Ui, rect: Rect, id: Id) -> (Response, FieldEvent) {
-        let kept: Option<Typing> = ui.data_mut(|data| data.remove_temp(id));
+        let kept = take_kept(ui, id);
         let is_new = kept.is_none();
-        let mut typing = kept.unwrap_or_else(|| {
-            let text = figures::exact(self.value);
-            Typing {
-                before: text.clone(),
-                text,
+        let mut draft = kept.unwrap_or_else(|| Draft::of(self.value));
+        let keys = EventFilter {
+            horizontal_arrows: true,
+            vertical_arrows: true,
+            ..EventFilter::default()
+        };
+        let response = draft.show(ui, (id, rect, self.name), &self.range, is_new, keys);
+        let is_left = !response.has_focus();
+        let entered = !is_left && ui.input(|input| input.key_pressed(Key::Enter));
+        match draft.value(&self.range) {
+            // What was typed stays, to be changed.
+            Err(reason) if entered => draft.refuse(reason),
+            value if entered || is_left => {
+                ui.memory_mut(|memory| memory.surrender_focus(id));
+                let event = self.taken(ui, id, value);
+                return (response, event.map_or(FieldEvent::Idle, FieldEvent::Typed));
             }
-        });
-        let tokens = Tokens::of(ui);
-        let is_readable = figures::read(&typing.text).is_some();
-        let edit = TextEdit::singleline(&mut typing.text)
-            .id(id)
-            .font(theme::number_font())
-            .align(Align2::RIGHT_CENTER)
-            .text_color(if is_readable {
-                tokens.strong_text
-            } else {
-                tokens.error
-            })
-            .min_size(rect.size())
-            .desired_width(rect.width());
-        let response = ui.put(rect, edit);
-        ui.ctx()
-            .accesskit_node_builder(id, |node| node.set_label(self.name));
-        if is_new {
-            select_all(ui, id, &typing.text);
+            _ => {}
         }
-        if !is_readable {
-            response.show_tooltip_text("Type a number, such as 12.5");
-        }
-        let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-        if entered && !is_readable {
-            // What was typed stays, to be mended.
-            response.request_focus();
-        } else if response.lost_focus() {
-            let event = self
-                .finished(&typing)
-                .map_or(FieldEvent::Idle, FieldEvent::Typed);
-            return (response, event);
-        }
-        ui.data_mut(|data| data.insert_temp(id, typing));
+        let pass = ui.ctx().cumulative_pass_nr();
+        ui.data_mut(|data| data.insert_temp(id, Kept { draft, pass }));
         (response, FieldEvent::Idle)
     }
 
     /// The number that was being typed when the keyboard went elsewhere, if it counts.
     fn typed_before_leaving(&self, ui: &Ui, id: Id) -> Option<f64> {
-        let typing: Typing = ui.data_mut(|data| data.remove_temp(id))?;
+        let draft = take_kept(ui, id)?;
         let called_off = ui.input(|input| input.key_pressed(Key::Escape));
         if called_off {
             None
         } else {
-            self.finished(&typing)
+            self.taken(ui, id, draft.value(&self.range))
         }
     }
 
-    fn finished(&self, typing: &Typing) -> Option<f64> {
-        let value = figures::read(&typing.text)?;
-        (typing.text != typing.before).then(|| self.clamped(value))
+    /// The number to take over; for a text that is none, a remark beside the field.
+    fn taken(&self, ui: &Ui, id: Id, value: Result<Option<f64>, String>) -> Option<f64> {
+        value.unwrap_or_else(|reason| {
+            let remark = Remark::left(ui, &reason, &self.shown);
+            ui.data_mut(|data| data.insert_temp(id, remark));
+            None
+        })
     }
 
     fn clamped(&self, value: f64) -> f64 {
         value.clamp(*self.range.start(), *self.range.end())
     }
 
-    fn resting_ui(&self, ui: &mut Ui, rect: Rect, id: Id) -> (Response, FieldEvent) {
-        let sense = if self.typed_only {
+    /// Show the field in a box as it is while nothing is typed: it can be dragged.
+    pub fn resting_ui(&self, ui: &mut Ui, rect: Rect, id: Id) -> (Response, FieldEvent) {
+        let mut sense = if self.typed_only || self.read_only {
             Sense::click()
         } else {
             Sense::click_and_drag()
         };
+        if self.flat {
+            sense -= Sense::FOCUSABLE;
+        }
         let response = ui.interact(rect, id, sense);
         if ui.is_rect_visible(rect) {
             self.paint(ui, rect, &response);
         }
         self.describe(ui, &response);
-        if response.clicked() {
-            response.request_focus();
+        self.remark_ui(ui, rect, id);
+        if self.read_only {
+            return (response, FieldEvent::Idle);
         }
         let event = self
             .requested_value(ui, id)
             .unwrap_or_else(|| self.drag(ui, &response));
+        let cursor = if self.typed_only {
+            CursorIcon::Text
+        } else {
+            CursorIcon::ResizeHorizontal
+        };
         let response = if ui.is_enabled() {
-            let drags = CursorIcon::ResizeHorizontal;
-            response.on_hover_and_drag_cursor(if self.typed_only {
-                CursorIcon::Text
-            } else {
-                drags
-            })
+            response.on_hover_and_drag_cursor(cursor)
         } else {
             response
         };
         (response, event)
     }
 
+    fn remark_ui(&self, ui: &Ui, rect: Rect, id: Id) {
+        let remark: Option<Remark> = ui.data(|data| data.get_temp(id));
+        if remark.is_some_and(|remark| !remark.show(ui, id, rect)) {
+            ui.data_mut(|data| data.remove_temp::<Remark>(id));
+        }
+    }
+
     fn paint(&self, ui: &Ui, rect: Rect, response: &Response) {
         let tokens = Tokens::of(ui);
-        let is_hot = response.hovered() || response.dragged();
+        let is_hot = !self.read_only && (response.hovered() || response.dragged());
         let visible = ui.visuals().widgets.style(response);
         if !self.flat || is_hot {
             let outline = if is_hot {
@@ -230,6 +240,8 @@ impl<'a> NumberField<'a> {
         let painter = ui.painter_at(rect);
         let colour = if is_hot {
             tokens.strong_text
+        } else if self.read_only {
+            tokens.faint_text
         } else {
             visible.text_color()
         };
@@ -275,7 +287,7 @@ impl<'a> NumberField<'a> {
     fn describe(&self, ui: &Ui, response: &Response) {
         response.widget_info(|| WidgetInfo {
             label: Some(self.name.to_owned()),
-            ..WidgetInfo::drag_value(ui.is_enabled(), self.value)
+            ..WidgetInfo::drag_value(ui.is_enabled() && !self.read_only, self.value)
         });
         ui.ctx().accesskit_node_builder(response.id, |node| {
             node.add_action(Action::SetValue);
@@ -368,10 +380,8 @@ impl<'a> NumberField<'a> {
     }
 }
 
-fn select_all(ui: &Ui, id: Id, text: &str) {
-    let mut state = TextEditState::load(ui.ctx(), id).unwrap_or_default();
-    state
-        .cursor
-        .set_char_range(Some(CCursorRange::select_all_str(text)));
-    state.store(ui.ctx(), id);
+fn take_kept(ui: &Ui, id: Id) -> Option<Draft> {
+    let kept: Kept = ui.data_mut(|data| data.remove_temp(id))?;
+    let is_fresh = ui.ctx().cumulative_pass_nr() <= kept.pass + 1;
+    is_fresh.then_some(kept.draft)
 }

@@ -73,7 +73,8 @@ impl DivisionDialog {
             if let FieldEvent::Typed(value) | FieldEvent::Preview(value) = field.show(ui).1 {
                 self.subdivisions = value.round().max(0.0) as u32;
             }
-            widgets::caption(ui, "halvings of the segments, at most");
+            let noun = figures::noun(self.subdivisions as usize, "halving", "halvings");
+            widgets::caption(ui, &format!("{noun} of the segments, at most"));
         });
         widgets::note(
             ui,
@@ -192,8 +193,10 @@ fn extrema(count: Option<ExtremaCount>) -> String {
         None => "being proved …".to_owned(),
         Some(ExtremaCount { proved, undecided }) => match undecided {
             0 => proved.to_string(),
-            1 => format!("{proved}, 1 piece undecided"),
-            doubts => format!("{proved}, {doubts} pieces undecided"),
+            doubts => {
+                let pieces = figures::count(doubts, "piece", "pieces");
+                format!("{proved}, {pieces} undecided")
+            }
         },
     }
 }

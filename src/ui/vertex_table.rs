@@ -1,264 +1,450 @@
-//! The table of a curve's vertices: every coordinate typed or dragged.
+//! The table of a curve's vertices: every number typed or dragged. It has the keyboard as a
+//! whole, and moves it from cell to cell itself.
 
-use eframe::egui::{Align2, Rect, Role, ScrollArea, Sense, Ui, Vec2, WidgetInfo, vec2};
-use glam::DVec3;
+use std::ops::Range;
 
-use super::number_field::{FieldEvent, NumberField};
-use super::theme::{self, RADIUS, ROW, STEP, Tokens};
-use super::{figures, widgets};
-use crate::document::{Curve, CurveId, Edit};
+use eframe::egui::{
+    EventFilter, Rect, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, vec2,
+};
+
+use super::cell_entry::{ANY, Cell, Entry};
+use super::cell_keys::{self, CellKey, Step};
+use super::draft::Remark;
+use super::figures;
+use super::keyboard::{self, Typing};
+use super::number_field::FieldEvent;
+use super::theme::{RADIUS, ROW, STEP, Tokens};
+use super::vertex_columns::{Column, MoreColumns, refusal};
+use super::vertex_rows::{Asked, NUMBER, Rows, heading_ui, id, name};
+use crate::document::{Curve, CurveId};
 use crate::editor::Editor;
-
-/// The width of the column of vertex numbers.
-const NUMBER: f32 = 44.0;
 
 /// The height of the table at least and at most.
 const HEIGHTS: (f32, f32) = (6.0 * ROW, 24.0 * ROW);
 
-/// What one column of fields holds.
-#[derive(Clone, Copy, PartialEq)]
-enum Column {
-    Axis(usize),
-    Weight,
-}
-
-impl Column {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Axis(axis) => ["x", "y", "z"][axis],
-            Self::Weight => "weight",
-        }
-    }
-}
+/// The keys that egui leaves to the table.
+const KEYS: EventFilter = EventFilter {
+    tab: true,
+    horizontal_arrows: true,
+    vertical_arrows: true,
+    escape: true,
+};
 
 /// The table's own state.
-#[derive(Default)]
 pub struct VertexTable {
     /// What was selected in the last frame: a change from elsewhere is scrolled to.
     selected: Vec<usize>,
-    /// The rows that were visible in the last frame.
-    visible: std::ops::Range<usize>,
+    /// The rows that were visible in the last frame, and how far they were scrolled.
+    visible: Range<usize>,
+    offset: f32,
+    more: MoreColumns,
+    /// The cell that keys are for.
+    cell: Cell,
+    entry: Option<Entry>,
+    /// Whether the cell is to be brought into sight.
+    follow: bool,
+    remark: Option<(Cell, Remark)>,
 }
 
-/// What a row asks for.
-enum Asked {
-    Select { vertex: usize, add: bool },
-    Field(Column, usize, FieldEvent),
+impl Default for VertexTable {
+    fn default() -> Self {
+        Self {
+            selected: Vec::new(),
+            visible: 0..0,
+            offset: 0.0,
+            more: MoreColumns::default(),
+            cell: Cell {
+                vertex: 0,
+                column: Column::Axis(0),
+            },
+            entry: None,
+            follow: false,
+            remark: None,
+        }
+    }
 }
 
 impl VertexTable {
     /// Show the table.
     pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
-        let columns = columns(curve);
-        let selected = editor.selected_vertices(id);
-        let plots_hover = editor.hovered_vertex();
+        self.more.show(ui, curve);
+        let columns = self.more.of(&curve.polygon);
         let count = curve.polygon.vertices().len();
+        self.keep_cell(&columns, count);
+        let ending = self.take_keys(ui, editor, id, curve, &columns);
+
+        let selected = editor.selected_vertices(id);
         let height = (count as f32 * ROW).clamp(0.0, HEIGHTS.1);
         let free = ui.available_height() - ROW - 2.0 * STEP;
         let height = height.min(free.max(HEIGHTS.0));
         let width = ui.available_width() - 3.0 * STEP;
-        let column = ((width - NUMBER) / columns.len() as f32).floor();
-        heading_ui(ui, &columns, column);
+        let rows = Rows {
+            curve,
+            columns: &columns,
+            width: ((width - NUMBER) / columns.len() as f32).floor(),
+            selected: &selected,
+            hovered: editor.hovered_vertex(),
+            pixel: editor.viewport().pixel(),
+            can_edit: refusal(curve).is_none(),
+        };
+        heading_ui(ui, &columns, rows.width);
+        let has_keyboard = has_keyboard(ui);
+        let (hovered, asked, place) = self.rows_ui(ui, &rows, height);
+        self.selected = selected;
+        if let Some(hovered) = hovered.or(has_keyboard.then_some(self.cell.vertex)) {
+            editor.hover_vertex(hovered);
+        }
+        if let Some(asked) = asked {
+            self.execute(ui, editor, id, curve, asked);
+        }
+        if let Some(key) = ending {
+            self.end_entry(ui, editor, &columns, count, key);
+        }
+        let typing = match self.entry {
+            Some(_) => Typing::Text,
+            None => Typing::Cell,
+        };
+        keyboard::claim(ui.ctx(), self::id(), typing, place);
+    }
+
+    /// The cell stays within the table, whatever the curve has become.
+    fn keep_cell(&mut self, columns: &[Column], count: usize) {
+        self.cell.vertex = self.cell.vertex.min(count.saturating_sub(1));
+        if !columns.contains(&self.cell.column)
+            && let Some(last) = columns.last()
+        {
+            self.cell.column = *last;
+        }
+    }
+
+    /// Take the keys that are the table's. Returns the one that ends an edit: it counts after
+    /// the text field has taken what was typed before it.
+    fn take_keys(
+        &mut self,
+        ui: &mut Ui,
+        editor: &mut Editor,
+        curve_id: CurveId,
+        curve: &Curve,
+        columns: &[Column],
+    ) -> Option<CellKey> {
+        let has_keyboard = has_keyboard(ui);
+        let is_other = |entry: &mut Entry| entry.curve != curve_id;
+        if let Some(entry) = self.entry.take_if(|entry| !has_keyboard || is_other(entry)) {
+            self.leave(ui, editor, entry);
+        }
+        if !self::has_keyboard(ui) {
+            return None;
+        }
+        if self.entry.is_some() {
+            let key = cell_keys::for_text(ui);
+            let typed = ui.input(|input| {
+                let mut events = input.events.iter();
+                events.any(|event| matches!(event, eframe::egui::Event::Text(_)))
+            });
+            self.follow |= typed || key.is_some();
+            return key;
+        }
+        self.idle_keys(ui, editor, curve_id, curve, columns);
+        // The key that ends an edit can come in the frame that begins it.
+        self.entry.as_ref().and_then(|_| cell_keys::for_text(ui))
+    }
+
+    /// Do what keys ask for while no number is being typed.
+    fn idle_keys(
+        &mut self,
+        ui: &mut Ui,
+        editor: &mut Editor,
+        curve_id: CurveId,
+        curve: &Curve,
+        columns: &[Column],
+    ) {
+        for key in cell_keys::for_cell(ui) {
+            self.follow = true;
+            self.remark = None;
+            match key {
+                CellKey::Step(step) => self.go(step, columns, curve.polygon.vertices().len()),
+                CellKey::Edit => self.begin(ui, curve_id, curve, None),
+                CellKey::Replace => self.begin(ui, curve_id, curve, Some("")),
+                CellKey::Copy => {
+                    if let Some(value) = self.cell.column.value(&curve.polygon, self.cell.vertex) {
+                        ui.copy_text(figures::exact(value));
+                    }
+                }
+                CellKey::Paste(text) => {
+                    let line = text.trim().lines().next().unwrap_or_default();
+                    self.begin(ui, curve_id, curve, Some(line));
+                    if let Some(entry) = self.entry.take() {
+                        self.finish(ui, editor, entry);
+                    }
+                }
+                CellKey::Escape => ui.memory_mut(|memory| memory.surrender_focus(id())),
+            }
+        }
+    }
+
+    /// Begin to edit the cell's number: as it stands, or with another text in its place.
+    fn begin(&mut self, ui: &Ui, curve_id: CurveId, curve: &Curve, text: Option<&str>) {
+        if let Some(reason) = refusal(curve) {
+            self.remark = Some((self.cell, Remark::new(ui, reason)));
+            return;
+        }
+        self.remark = None;
+        self.entry = Entry::new(curve_id, &curve.polygon, self.cell, text);
+    }
+
+    /// A key ends the edit: the number is taken, or the field says why not.
+    fn end_entry(
+        &mut self,
+        ui: &mut Ui,
+        editor: &mut Editor,
+        columns: &[Column],
+        count: usize,
+        key: CellKey,
+    ) {
+        let Some(entry) = self.entry.take() else {
+            return;
+        };
+        ui.ctx().request_repaint();
+        if let CellKey::Step(step) = key
+            && self.finish(ui, editor, entry)
+        {
+            self.go(step, columns, count);
+        }
+    }
+
+    /// Take the number over and tell whether it can be; otherwise it is edited on.
+    fn finish(&mut self, ui: &mut Ui, editor: &mut Editor, mut entry: Entry) -> bool {
+        let taken = entry.take_over(editor);
+        let is_taken = taken.is_ok();
+        if let Err(reason) = taken {
+            entry.draft.refuse(reason);
+            self.entry = Some(entry);
+        }
+        ui.ctx().request_repaint();
+        is_taken
+    }
+
+    /// The keyboard is elsewhere: the number is taken, or a remark says why not.
+    fn leave(&mut self, ui: &mut Ui, editor: &mut Editor, entry: Entry) {
+        let is_shown = editor.active() == Some(entry.curve);
+        if let Err(reason) = entry.take_over(editor)
+            && is_shown
+        {
+            let (shown, _) = entry
+                .cell
+                .column
+                .shown(entry.before, editor.viewport().pixel());
+            let remark = Remark::left(ui, &reason, &shown);
+            self.remark = Some((entry.cell, remark));
+        }
+        // After a command the table goes on; after a press the keyboard is where that leads.
+        if ui.memory(|memory| memory.focused().is_none()) {
+            ui.memory_mut(|memory| memory.request_focus(id()));
+        }
+    }
+
+    fn go(&mut self, step: Step, columns: &[Column], count: usize) {
+        let places = columns.len();
+        let place = columns
+            .iter()
+            .position(|column| *column == self.cell.column);
+        let (place, vertex) = (place.unwrap_or(0), self.cell.vertex);
+        let last = count.saturating_sub(1);
+        let page = self.visible.len().max(2) - 1;
+        let (vertex, place) = match step {
+            Step::Up => (vertex.saturating_sub(1), place),
+            Step::Down => (vertex + 1, place),
+            Step::Left => (vertex, place.saturating_sub(1)),
+            Step::Right => (vertex, place + 1),
+            Step::Next if place + 1 < places => (vertex, place + 1),
+            Step::Next if vertex < last => (vertex + 1, 0),
+            Step::Previous if place > 0 => (vertex, place - 1),
+            Step::Previous if vertex > 0 => (vertex - 1, places),
+            Step::Next | Step::Previous => (vertex, place),
+            Step::PageUp => (vertex.saturating_sub(page), place),
+            Step::PageDown => (vertex + page, place),
+            Step::RowStart => (vertex, 0),
+            Step::RowEnd => (vertex, places),
+            Step::First => (0, place),
+            Step::Last => (last, place),
+        };
+        self.cell.vertex = vertex.min(last);
+        if let Some(column) = columns.get(place.min(places.saturating_sub(1))) {
+            self.cell.column = *column;
+        }
+        self.follow = true;
+    }
+
+    /// Show the rows in sight; tells which one is hovered, what is asked for, and where the cell
+    /// is that keys are for.
+    fn rows_ui(
+        &mut self,
+        ui: &mut Ui,
+        rows: &Rows<'_>,
+        height: f32,
+    ) -> (Option<usize>, Option<Asked>, Rect) {
+        let follow = std::mem::take(&mut self.follow);
         let mut area = ScrollArea::vertical()
             .id_salt("vertex table")
             .max_height(height)
             .min_scrolled_height(height)
             .auto_shrink([false, true]);
-        if let Some(row) = self.row_to_show(&selected) {
-            let top = row as f32 * ROW - 0.4 * height;
-            area = area.vertical_scroll_offset(top.max(0.0));
+        if let Some(offset) = self.offset_to_show(rows.selected, height, follow) {
+            area = area.vertical_scroll_offset(offset);
         }
         ui.spacing_mut().item_spacing = Vec2::ZERO;
-        let mut asked = None;
-        let mut hovered = None;
-        let mut visible = 0..0;
-        area.show_rows(ui, ROW, count, |ui, rows| {
-            visible = rows.clone();
-            for vertex in rows {
-                let row = Row {
-                    vertex,
-                    curve,
-                    columns: &columns,
-                    width: column,
-                    selected: selected.binary_search(&vertex).is_ok(),
-                    hovered: plots_hover == Some(vertex),
-                    speed: editor.viewport().pixel(),
-                };
-                let (is_hovered, more) = row.show(ui);
-                if is_hovered {
+        let top = ui.cursor().min;
+        let (mut asked, mut hovered, mut visible) = (None, None, 0..0);
+        let mut focused = None;
+        let count = rows.curve.polygon.vertices().len();
+        let shown = area.show_rows(ui, ROW, count, |ui, range| {
+            visible = range.clone();
+            for vertex in range {
+                let at = ui.cursor().min;
+                let width = NUMBER + rows.width * rows.columns.len() as f32;
+                let rect = Rect::from_min_size(at, vec2(width, ROW));
+                if ui.rect_contains_pointer(rect) {
                     hovered = Some(vertex);
                 }
+                let (more, cell) = self.row_ui(ui, rows, vertex, rect);
                 asked = more.or(asked.take());
+                focused = focused.or(cell);
             }
         });
         self.visible = visible;
-        self.selected = selected;
-        if let Some(hovered) = hovered {
-            editor.hover_vertex(hovered);
+        self.offset = shown.state.clamped_offset().y;
+        if let Some(cell) = focused.filter(|_| follow) {
+            ui.scroll_to_rect_animation(cell, None, eframe::egui::style::ScrollAnimation::none());
         }
-        if let Some(asked) = asked {
-            execute(editor, id, curve, asked);
-        }
+        let place = focused.unwrap_or_else(|| {
+            // Out of sight, but the keyboard stays.
+            let nowhere = Rect::from_min_size(top, Vec2::ZERO);
+            focus_ui(ui, nowhere);
+            nowhere
+        });
+        (hovered, asked, place)
     }
 
-    /// The row that a selection made elsewhere asks to see.
-    fn row_to_show(&self, selected: &[usize]) -> Option<usize> {
+    /// How far to scroll, so that a selection made elsewhere or the cell comes into sight.
+    fn offset_to_show(&self, selected: &[usize], height: f32, follow: bool) -> Option<f32> {
+        if follow {
+            let top = self.cell.vertex as f32 * ROW;
+            let highest = top + ROW - height;
+            let offset = self.offset.min(top).max(highest);
+            return (offset != self.offset).then_some(offset);
+        }
         let first = *selected.first()?;
-        (self.selected != selected && !self.visible.contains(&first)).then_some(first)
-    }
-}
-
-fn columns(curve: &Curve) -> Vec<Column> {
-    let axes = if curve.polygon.is_planar() { 2 } else { 3 };
-    let mut columns: Vec<Column> = (0..axes).map(Column::Axis).collect();
-    if curve.polygon.weights().is_some() {
-        columns.push(Column::Weight);
-    }
-    columns
-}
-
-fn heading_ui(ui: &mut Ui, columns: &[Column], width: f32) {
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 0.0;
-        let colour = Tokens::of(ui).faint_text;
-        let mut cell = |text: &str, width: f32| {
-            let (rect, _) = ui.allocate_exact_size(vec2(width, 5.0 * STEP), Sense::hover());
-            let at = rect.right_center() - vec2(1.5 * STEP, 0.0);
-            ui.painter()
-                .text(at, Align2::RIGHT_CENTER, text, theme::small_font(), colour);
-        };
-        cell("vertex", NUMBER);
-        for column in columns {
-            cell(column.name(), width);
-        }
-    });
-}
-
-struct Row<'a> {
-    vertex: usize,
-    curve: &'a Curve,
-    columns: &'a [Column],
-    width: f32,
-    selected: bool,
-    hovered: bool,
-    speed: f64,
-}
-
-impl Row<'_> {
-    /// Show the row; tells whether it is hovered and what it asks for.
-    fn show(&self, ui: &mut Ui) -> (bool, Option<Asked>) {
-        let width = NUMBER + self.width * self.columns.len() as f32;
-        let at = ui.cursor().min;
-        let rect = Rect::from_min_size(at, vec2(width, ROW));
-        self.paint(ui, rect);
-        let mut asked = None;
-        ui.push_id(self.vertex, |ui| {
-            ui.horizontal(|ui| {
-                asked = self.number_ui(ui);
-                ui.add_enabled_ui(!self.curve.locked, |ui| {
-                    for column in self.columns {
-                        let event = self.field_ui(ui, *column);
-                        if event != FieldEvent::Idle {
-                            asked = Some(Asked::Field(*column, self.vertex, event));
-                        }
-                    }
-                });
-            });
-        });
-        (ui.rect_contains_pointer(rect), asked)
+        let is_news = self.selected != selected && !self.visible.contains(&first);
+        is_news.then_some((first as f32 * ROW - 0.4 * height).max(0.0))
     }
 
-    fn paint(&self, ui: &Ui, rect: Rect) {
-        let tokens = Tokens::of(ui);
-        if self.selected {
-            ui.painter().rect_filled(rect, RADIUS, tokens.selection);
-        } else if self.hovered || ui.rect_contains_pointer(rect) {
-            ui.painter().rect_filled(rect, RADIUS, tokens.button[0]);
-        }
-    }
-
-    fn number_ui(&self, ui: &mut Ui) -> Option<Asked> {
-        let (rect, response) = ui.allocate_exact_size(vec2(NUMBER, ROW), Sense::click());
-        let tokens = Tokens::of(ui);
-        let colour = if self.selected {
-            tokens.strong_text
-        } else {
-            tokens.faint_text
-        };
-        let inner = rect.with_max_x(rect.right() - 1.5 * STEP);
-        widgets::number_in(ui, inner, &self.vertex.to_string(), colour);
-        if response.has_focus() {
-            widgets::focus_ring(ui, rect);
-        }
-        response.widget_info(|| {
-            let name = format!("vertex {}", self.vertex);
-            WidgetInfo::selected(Role::Button, true, self.selected, name)
-        });
-        let add = ui.input(|input| input.modifiers.shift || input.modifiers.command);
-        response.clicked().then_some(Asked::Select {
-            vertex: self.vertex,
-            add,
-        })
-    }
-
-    fn field_ui(&self, ui: &mut Ui, column: Column) -> FieldEvent {
-        let value = value(self.curve, column, self.vertex);
-        let (shown, speed) = match column {
-            Column::Axis(_) => (
-                figures::to_resolution(value, 0.01 * self.speed.max(1e-300)),
-                self.speed,
-            ),
-            Column::Weight => (figures::to_resolution(value, 1e-5), 0.01),
-        };
-        let name = format!("vertex {} {}", self.vertex, column.name());
-        let field = NumberField::new(&name, value, shown)
-            .speed(speed)
-            .width(self.width)
-            .flat();
-        field.show(ui).1
-    }
-}
-
-fn value(curve: &Curve, column: Column, vertex: usize) -> f64 {
-    match column {
-        Column::Axis(axis) => curve.polygon.vertex(vertex)[axis],
-        Column::Weight => curve.polygon.weight(vertex),
-    }
-}
-
-fn execute(editor: &mut Editor, id: CurveId, curve: &Curve, asked: Asked) {
-    let (column, vertex, event) = match asked {
-        Asked::Select { vertex, add } => return editor.select_vertex(id, vertex, add),
-        Asked::Field(column, vertex, event) => (column, vertex, event),
-    };
-    let label = match column {
-        Column::Axis(_) => "Move vertex",
-        Column::Weight => "Set weight",
-    };
-    let edits = |value: f64| {
-        vec![match column {
-            Column::Axis(axis) => {
-                let mut place: DVec3 = curve.polygon.vertex(vertex);
-                place[axis] = value;
-                Edit::MoveVertices {
-                    curve: id,
-                    moves: vec![(vertex, place)],
+    /// Show a row; tells what it asks for and, if it is in this row, where the cell is that keys
+    /// are for.
+    fn row_ui(
+        &mut self,
+        ui: &mut Ui,
+        rows: &Rows<'_>,
+        vertex: usize,
+        rect: Rect,
+    ) -> (Option<Asked>, Option<Rect>) {
+        rows.paint(ui, vertex, rect);
+        let (mut asked, mut focused) = (None, None);
+        ui.horizontal(|ui| {
+            asked = rows.number_ui(ui, vertex);
+            for column in rows.columns {
+                let cell = Cell {
+                    vertex,
+                    column: *column,
+                };
+                let (_, rect) = ui.allocate_space(vec2(rows.width, ROW));
+                let is_here = cell == self.cell;
+                if !(is_here && self.entry_ui(ui, rect)) {
+                    asked = rows.cell_ui(ui, cell, rect).or(asked.take());
                 }
+                if is_here {
+                    self.cell_focus_ui(ui, rect);
+                    focused = Some(rect);
+                }
+                self.remark_ui(ui, cell, rect);
             }
-            Column::Weight => Edit::SetWeight {
-                curve: id,
-                vertex,
-                weight: value,
-            },
-        }]
-    };
-    match event {
-        FieldEvent::Idle => {}
-        FieldEvent::Preview(value) => editor.preview_field(label, edits(value)),
-        FieldEvent::Commit => editor.commit_field(),
-        FieldEvent::Abort => editor.abort_field(),
-        FieldEvent::Typed(value) => {
-            editor.apply(label, edits(value));
+        });
+        (asked, focused)
+    }
+
+    /// Show the number that is being typed, if one is.
+    fn entry_ui(&mut self, ui: &mut Ui, rect: Rect) -> bool {
+        let Some(entry) = self.entry.as_mut().filter(|_| has_keyboard(ui)) else {
+            return false;
+        };
+        let name = name(entry.cell);
+        let is_new = std::mem::take(&mut entry.is_new);
+        let field = (id(), rect, name.as_str());
+        entry.draft.show(ui, field, &ANY, is_new, KEYS);
+        true
+    }
+
+    /// Outline the cell that keys are for, and take part in the order of Tab.
+    fn cell_focus_ui(&self, ui: &mut Ui, rect: Rect) {
+        if has_keyboard(ui) {
+            let stroke = Stroke::new(2.0, Tokens::of(ui).accent);
+            ui.painter()
+                .rect_stroke(rect, RADIUS, stroke, StrokeKind::Inside);
+        }
+        if self.entry.is_none() || !has_keyboard(ui) {
+            focus_ui(ui, rect);
         }
     }
+
+    fn remark_ui(&mut self, ui: &Ui, cell: Cell, rect: Rect) {
+        if let Some((place, remark)) = &self.remark
+            && *place == cell
+            && !remark.show(ui, id().with("remark"), rect)
+        {
+            self.remark = None;
+        }
+    }
+
+    fn execute(
+        &mut self,
+        ui: &mut Ui,
+        editor: &mut Editor,
+        curve_id: CurveId,
+        curve: &Curve,
+        asked: Asked,
+    ) {
+        let (cell, event) = match asked {
+            Asked::Select { vertex, add } => return editor.select_vertex(curve_id, vertex, add),
+            Asked::Focus { cell, edit } => {
+                self.cell = cell;
+                self.remark = None;
+                ui.memory_mut(|memory| memory.request_focus(id()));
+                if edit {
+                    self.begin(ui, curve_id, curve, None);
+                }
+                return;
+            }
+            Asked::Field(cell, event) => (cell, event),
+        };
+        let label = cell.column.label();
+        let polygon = (curve_id, &curve.polygon);
+        let edits = |value: f64| vec![cell.column.edit(polygon, cell.vertex, value)];
+        match event {
+            FieldEvent::Idle => {}
+            FieldEvent::Preview(value) => editor.preview_field(label, edits(value)),
+            FieldEvent::Commit => editor.commit_field(),
+            FieldEvent::Abort => editor.abort_field(),
+            FieldEvent::Typed(value) => editor.apply(label, edits(value)),
+        }
+    }
+}
+
+fn has_keyboard(ui: &Ui) -> bool {
+    ui.memory(|memory| memory.has_focus(id()))
+}
+
+/// The table's place for the keyboard.
+fn focus_ui(ui: &mut Ui, rect: Rect) {
+    let response = ui.interact(rect, id(), Sense::focusable_noninteractive());
+    response.widget_info(|| WidgetInfo::labeled(Role::Group, true, "Vertex table"));
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(id(), KEYS));
 }

@@ -17,11 +17,15 @@ pub fn open_window() -> Window {
 }
 
 pub fn open_window_of(width: f32, height: f32) -> Window {
+    open_window_with(Editor::new(), width, height)
+}
+
+pub fn open_window_with(editor: Editor, width: f32, height: f32) -> Window {
     let builder = Harness::builder()
         .with_size(vec2(width, height))
         .with_max_steps(64);
     let mut window =
-        builder.build_eframe(|creation| App::new(&creation.egui_ctx, None, false, Editor::new()));
+        builder.build_eframe(|creation| App::new(&creation.egui_ctx, None, false, editor));
     window.run();
     window
 }

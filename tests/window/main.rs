@@ -4,6 +4,7 @@
 mod canvas;
 mod files;
 mod hand;
+mod numbers;
 
 use batten::editor::{Layer, ToolKind};
 use batten::geometry::End;

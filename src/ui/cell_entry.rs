@@ -1,0 +1,91 @@
+//! A number of a table that is being typed, and which number it is.
+
+use std::ops::RangeInclusive;
+
+use super::draft::Draft;
+use super::vertex_columns::{Column, refusal};
+use crate::document::CurveId;
+use crate::editor::Editor;
+use crate::geometry::FloatPolygon;
+
+/// The numbers that can be typed, as far as the field can tell.
+pub const ANY: RangeInclusive<f64> = f64::MIN..=f64::MAX;
+
+/// A place in the table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cell {
+    /// The row.
+    pub vertex: usize,
+    /// The column.
+    pub column: Column,
+}
+
+/// A number that is being typed, with all that tells which number it is.
+pub struct Entry {
+    /// The curve it is typed for.
+    pub curve: CurveId,
+    /// The cell it is typed into.
+    pub cell: Cell,
+    /// The number that the cell has had so far.
+    pub before: f64,
+    /// What is typed.
+    pub draft: Draft,
+    /// Whether it is yet to be shown.
+    pub is_new: bool,
+    /// How many vertices the curve has had so far.
+    count: usize,
+}
+
+impl Entry {
+    /// Begin to type a number into a cell: from the number as it stands, or with another text in
+    /// its place. `None` if there is no such vertex.
+    pub fn new(
+        curve: CurveId,
+        polygon: &FloatPolygon,
+        cell: Cell,
+        text: Option<&str>,
+    ) -> Option<Self> {
+        let before = cell.column.value(polygon, cell.vertex)?;
+        let draft = match text {
+            None => Draft::of(before),
+            Some(text) => Draft::instead_of(before, text),
+        };
+        Some(Self {
+            curve,
+            cell,
+            before,
+            draft,
+            is_new: true,
+            count: polygon.vertices().len(),
+        })
+    }
+
+    /// Give the number to the vertex it was typed for. If that vertex is gone or has changed
+    /// meanwhile, nothing is changed.
+    ///
+    /// # Errors
+    /// Why the number cannot be taken, in words.
+    pub fn take_over(&self, editor: &mut Editor) -> Result<(), String> {
+        let Some(value) = self.draft.value(&ANY)? else {
+            return Ok(());
+        };
+        let Cell { vertex, column } = self.cell;
+        let Some(curve) = editor.document().curve(self.curve) else {
+            return Ok(());
+        };
+        let polygon = &curve.polygon;
+        let is_same = polygon.vertices().len() == self.count
+            && column.value(polygon, vertex) == Some(self.before);
+        if !is_same {
+            return Ok(());
+        }
+        if let Some(reason) = refusal(curve) {
+            return Err(reason);
+        }
+        let tried = column.check(polygon, vertex, value);
+        tried.map_err(|error| error.to_string())?;
+        let edit = column.edit((self.curve, polygon), vertex, value);
+        editor.apply(column.label(), vec![edit]);
+        Ok(())
+    }
+}

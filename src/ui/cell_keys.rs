@@ -1,0 +1,138 @@
+//! What keys mean while a cell of a table has the keyboard.
+
+use eframe::egui::{Event, Key, Modifiers, Ui};
+
+/// Where the keyboard goes from a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// To the row above.
+    Up,
+    /// To the row below.
+    Down,
+    /// To the column at the left.
+    Left,
+    /// To the column at the right.
+    Right,
+    /// To the right, and from the last column to the next row.
+    Next,
+    /// To the left, and from the first column to the row before.
+    Previous,
+    /// As many rows up as are in sight.
+    PageUp,
+    /// As many rows down as are in sight.
+    PageDown,
+    /// To the row's first column.
+    RowStart,
+    /// To the row's last column.
+    RowEnd,
+    /// To the first row.
+    First,
+    /// To the last row.
+    Last,
+}
+
+/// What a key asks of a table.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum CellKey {
+    /// Take the number that is being typed, and go on.
+    Step(Step),
+    /// Edit the number as it stands.
+    Edit,
+    /// Put what is typed next in the number's place.
+    Replace,
+    /// Copy the number.
+    Copy,
+    /// Put a text in the number's place.
+    Paste(String),
+    /// Call the edit off; without one, leave the table.
+    Escape,
+}
+
+/// Take this frame's keys for a cell that is not being edited, in order. What follows one that
+/// begins an edit is left to the text field.
+pub fn for_cell(ui: &Ui) -> Vec<CellKey> {
+    let mut keys = Vec::new();
+    ui.input_mut(|input| {
+        let mut is_edited = false;
+        input.events.retain(|event| {
+            if is_edited {
+                return true;
+            }
+            let (key, stays) = match event {
+                Event::Text(text) if begins_number(text) => (Some(CellKey::Replace), true),
+                Event::Text(text) if text == " " => (Some(CellKey::Edit), false),
+                Event::Copy | Event::Cut => (Some(CellKey::Copy), false),
+                Event::Paste(text) => (Some(CellKey::Paste(text.clone())), false),
+                _ => (key_of(event, true), false),
+            };
+            is_edited = matches!(key, Some(CellKey::Replace | CellKey::Edit));
+            let is_taken = key.is_some();
+            keys.extend(key);
+            !is_taken || stays
+        });
+    });
+    keys
+}
+
+/// Take the key out of this frame that ends the edit of a cell, if there is one.
+pub fn for_text(ui: &Ui) -> Option<CellKey> {
+    let mut found = None;
+    ui.input_mut(|input| {
+        input.events.retain(|event| {
+            if found.is_none() {
+                found = key_of(event, false);
+                return found.is_none();
+            }
+            true
+        });
+    });
+    found
+}
+
+fn begins_number(text: &str) -> bool {
+    let first = text.chars().next();
+    first.is_some_and(|first| first.is_ascii_digit() || "+-−.,".contains(first))
+}
+
+/// What a key stands for; those that a text needs for itself only while there is none.
+fn key_of(event: &Event, is_idle: bool) -> Option<CellKey> {
+    let Event::Key {
+        key,
+        pressed: true,
+        modifiers,
+        ..
+    } = event
+    else {
+        return None;
+    };
+    let plain = !modifiers.any();
+    let step = match key {
+        Key::Escape if plain => return Some(CellKey::Escape),
+        Key::Backspace if plain && is_idle => return Some(CellKey::Replace),
+        Key::Enter if plain => Step::Down,
+        Key::Tab if plain => Step::Next,
+        Key::Enter if modifiers.shift_only() => Step::Up,
+        Key::Tab if modifiers.shift_only() => Step::Previous,
+        Key::ArrowUp if plain => Step::Up,
+        Key::ArrowDown if plain => Step::Down,
+        Key::PageUp if plain => Step::PageUp,
+        Key::PageDown if plain => Step::PageDown,
+        _ if is_idle => idle_step(*key, *modifiers)?,
+        _ => return None,
+    };
+    Some(CellKey::Step(step))
+}
+
+fn idle_step(key: Key, modifiers: Modifiers) -> Option<Step> {
+    let plain = !modifiers.any();
+    let ctrl = modifiers.command_only();
+    Some(match key {
+        Key::ArrowLeft if plain => Step::Left,
+        Key::ArrowRight if plain => Step::Right,
+        Key::Home if plain => Step::RowStart,
+        Key::End if plain => Step::RowEnd,
+        Key::Home if ctrl => Step::First,
+        Key::End if ctrl => Step::Last,
+        _ => return None,
+    })
+}

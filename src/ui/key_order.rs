@@ -1,0 +1,148 @@
+//! Keys in the order in which they were pressed, though several come in one frame.
+
+use eframe::egui::{Context, Event, Key, Plugin, RawInput, Rect, Ui};
+
+use super::canvas;
+use super::keyboard;
+
+/// Let whatever follows an event that moves the keyboard's focus wait for another pass of the same
+/// frame, when the focus is there: a digit typed right after a click on a field is the field's.
+///
+/// A press outside the field that has the keyboard waits too, until the field has given up its
+/// number: the number then belongs to the curve it was typed for, whatever the press makes active.
+#[derive(Default)]
+pub struct KeyOrder {
+    waiting: Vec<Event>,
+}
+
+impl Plugin for KeyOrder {
+    fn debug_name(&self) -> &'static str {
+        "key order"
+    }
+
+    fn input_hook(&mut self, context: &Context, input: &mut RawInput) {
+        let mut events = std::mem::take(&mut self.waiting);
+        events.append(&mut input.events);
+        let mut end = events.len();
+        if let Some(field) = keyboard::number_field(context)
+            && let Some(press) = events.iter().position(|event| presses_beside(event, field))
+        {
+            if !events.iter().take(press).any(is_key) {
+                context.memory_mut(|memory| memory.request_focus(canvas::id()));
+            }
+            end = press;
+        }
+        end = end_of_pass(events.get(..end).unwrap_or_default());
+        self.waiting = events.split_off(end);
+        drop_repeats(&events, &mut self.waiting);
+        input.events = events;
+    }
+
+    fn on_end_pass(&mut self, ui: &mut Ui) {
+        if !self.waiting.is_empty() {
+            // The next pass comes in this frame; what still waits then, in the next frame.
+            ui.ctx().request_discard("events wait for the keyboard");
+            ui.ctx().request_repaint();
+        }
+    }
+}
+
+fn presses_beside(event: &Event, field: Rect) -> bool {
+    matches!(event, Event::PointerButton { pos, pressed: true, .. } if !field.contains(*pos))
+}
+
+/// How many of the events belong to this pass.
+fn end_of_pass(events: &[Event]) -> usize {
+    let moved = events.iter().position(moves_keyboard);
+    let next = moved.and_then(|moved| {
+        let mut later = events.iter().enumerate().skip(moved + 1);
+        later.find(|(_, event)| is_key(event))
+    });
+    next.map_or(events.len(), |(place, _)| place)
+}
+
+/// Whether an event may give the keyboard to another widget, or to another cell of a table.
+fn moves_keyboard(event: &Event) -> bool {
+    match event {
+        Event::PointerButton { .. } => true,
+        Event::Key {
+            key, pressed: true, ..
+        } => matches!(
+            key,
+            Key::Enter | Key::Tab | Key::Escape | Key::F6 | Key::ArrowUp | Key::ArrowDown
+        ),
+        _ => false,
+    }
+}
+
+fn is_key(event: &Event) -> bool {
+    match event {
+        Event::Key { pressed, .. } => *pressed,
+        Event::Text(_) | Event::Paste(_) | Event::Copy | Event::Cut => true,
+        _ => false,
+    }
+}
+
+/// Pass over what a held key sends faster than frames are shown: it would go on when the key is
+/// up again.
+fn drop_repeats(shown: &[Event], waiting: &mut Vec<Event>) {
+    let mut held: Vec<Key> = Vec::new();
+    let mut is_repeat = |event: &Event| {
+        let Event::Key { key, pressed, .. } = event else {
+            return false;
+        };
+        let was_held = held.contains(key);
+        if *pressed && !was_held {
+            held.push(*key);
+        } else if !*pressed {
+            held.retain(|other| other != key);
+        }
+        *pressed && was_held && moves_keyboard(event)
+    };
+    for event in shown {
+        is_repeat(event);
+    }
+    waiting.retain(|event| !is_repeat(event));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use eframe::egui::Modifiers;
+
+    fn key(key: Key, pressed: bool) -> Event {
+        Event::Key {
+            key,
+            physical_key: None,
+            pressed,
+            repeat: false,
+            modifiers: Modifiers::NONE,
+        }
+    }
+
+    #[test]
+    fn what_follows_enter_waits_and_its_release_does_not() {
+        let text = |text: &str| Event::Text(text.to_owned());
+        let events = [
+            text("1"),
+            key(Key::Enter, true),
+            key(Key::Enter, false),
+            text("2"),
+            key(Key::Enter, true),
+        ];
+        assert_eq!(end_of_pass(&events), 3);
+        assert_eq!(end_of_pass(&events[..3]), 3);
+        assert_eq!(end_of_pass(&events[3..]), 2);
+    }
+
+    #[test]
+    fn repeats_of_a_held_key_do_not_pile_up_but_presses_do() {
+        let press = key(Key::Enter, true);
+        let mut waiting = vec![press.clone(), press.clone()];
+        drop_repeats(std::slice::from_ref(&press), &mut waiting);
+        assert!(waiting.is_empty());
+        let mut waiting = vec![key(Key::Enter, false), press.clone()];
+        drop_repeats(&[press], &mut waiting);
+        assert_eq!(waiting.len(), 2);
+    }
+}
