@@ -511,13 +511,13 @@ fn keys_typed_into_any_field_are_no_shortcuts() {
 
 #[test]
 fn one_thing_is_not_called_several() {
-    let polyline = FloatPolygon::planar(1, &[(0.0, 0.0), (1.0, 2.0), (3.0, 0.0)]);
-    let mut window = window_of(vec![polyline.expect("a polygon")]);
-    press(&mut window, Modifiers::NONE, Key::E);
-    window.get_by_label("Move 1 vertex");
-    window.get_by_label("Turn 1 vertex");
     let points = [(0.0, 0.0), (1.0, 2.0), (2.0, -2.0), (3.0, 0.0)];
     let mut window = window_of(vec![FloatPolygon::planar(3, &points).expect("a polygon")]);
+    press(&mut window, Modifiers::NONE, Key::Num5);
+    click(&mut window, "Comb density");
+    type_over(&mut window, "1");
+    enter(&mut window);
+    window.get_by_label("tooth a segment");
     window.get_by_label("Verdict").hover();
     window.run_steps(60);
     window.get_by_label_contains("1 inflection, 0 pieces undecided");
