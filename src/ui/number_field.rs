@@ -223,7 +223,8 @@ impl<'a> NumberField<'a> {
         let is_hot = !self.read_only && (response.hovered() || response.dragged());
         let visible = ui.visuals().widgets.style(response);
         if !self.flat || is_hot {
-            let outline = if is_hot {
+            // In a table the accent is for the cell that has the keyboard.
+            let outline = if is_hot && !self.flat {
                 tokens.accent
             } else {
                 tokens.outline
