@@ -13,7 +13,6 @@ use super::end_fit_panel::EndFitPanel;
 use super::file_dialogs::{Chosen, FileDialogs, Purpose};
 use super::gizmo::gizmo_ui;
 use super::inspector::Inspector;
-use super::key_order::KeyOrder;
 use super::keyboard::{self, Asked, Keyboard, Typing};
 use super::layer_list::layer_list_ui;
 use super::menu::menu_ui;
@@ -66,7 +65,7 @@ impl App {
         mut editor: Editor,
     ) -> Self {
         theme::install(context);
-        context.add_plugin(KeyOrder::default());
+        context.add_plugin(super::key_order::KeyOrder::default());
         context.options_mut(|options| options.quit_shortcuts.clear());
         let kept = storage.and_then(|storage| eframe::get_value(storage, SETTINGS));
         let shell: Shell = kept.unwrap_or_default();

@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use super::draft::Draft;
-use super::vertex_columns::{Column, refusal};
+use super::vertex_columns::Column;
 use crate::document::CurveId;
 use crate::editor::Editor;
 use crate::geometry::FloatPolygon;
@@ -79,9 +79,7 @@ impl Entry {
         if !is_same {
             return Ok(());
         }
-        if let Some(reason) = refusal(curve) {
-            return Err(reason);
-        }
+        curve.check_editable().map_err(|error| error.to_string())?;
         let tried = column.check(polygon, vertex, value);
         tried.map_err(|error| error.to_string())?;
         let edit = column.edit((self.curve, polygon), vertex, value);

@@ -163,13 +163,3 @@ fn protection(curve: &Curve) -> Option<(Icon, &'static str)> {
         (false, true) => None,
     }
 }
-
-/// Why a curve's numbers cannot be edited, if that is so.
-pub fn refusal(curve: &Curve) -> Option<String> {
-    let name = &curve.name;
-    match (curve.locked, curve.visible) {
-        (true, _) => Some(format!("“{name}” is locked: unlock it to edit its numbers")),
-        (false, false) => Some(format!("“{name}” is hidden: show it to edit its numbers")),
-        (false, true) => None,
-    }
-}

@@ -14,7 +14,7 @@ use super::figures;
 use super::keyboard::{self, Typing};
 use super::number_field::FieldEvent;
 use super::theme::{RADIUS, ROW, STEP, Tokens};
-use super::vertex_columns::{Column, MoreColumns, refusal};
+use super::vertex_columns::{Column, MoreColumns};
 use super::vertex_rows::{Asked, NUMBER, Rows, heading_ui, id, name};
 use crate::document::{Curve, CurveId};
 use crate::editor::Editor;
@@ -85,7 +85,7 @@ impl VertexTable {
             selected: &selected,
             hovered: editor.hovered_vertex(),
             pixel: editor.viewport().pixel(),
-            can_edit: refusal(curve).is_none(),
+            can_edit: curve.check_editable().is_ok(),
         };
         heading_ui(ui, &columns, rows.width);
         let has_keyboard = has_keyboard(ui);
@@ -184,8 +184,8 @@ impl VertexTable {
 
     /// Begin to edit the cell's number: as it stands, or with another text in its place.
     fn begin(&mut self, ui: &Ui, curve_id: CurveId, curve: &Curve, text: Option<&str>) {
-        if let Some(reason) = refusal(curve) {
-            self.remark = Some((self.cell, Remark::new(ui, reason)));
+        if let Err(reason) = curve.check_editable() {
+            self.remark = Some((self.cell, Remark::new(ui, reason.to_string())));
             return;
         }
         self.remark = None;
@@ -433,7 +433,9 @@ impl VertexTable {
             FieldEvent::Preview(value) => editor.preview_field(label, edits(value)),
             FieldEvent::Commit => editor.commit_field(),
             FieldEvent::Abort => editor.abort_field(),
-            FieldEvent::Typed(value) => editor.apply(label, edits(value)),
+            FieldEvent::Typed(value) => {
+                editor.apply(label, edits(value));
+            }
         }
     }
 }
