@@ -167,6 +167,13 @@ impl Truth {
         })
     }
 
+    /// Whether an interval touches a cusp or, if these count, a knot without curvature.
+    pub fn is_singular_within(&self, u: [f64; 2], flat_knots: bool) -> bool {
+        let flat: &[Singular] = if flat_knots { &self.flat_knots } else { &[] };
+        let mut singular = self.cusps.iter().chain(flat);
+        singular.any(|place| self.meets(&place.places, u))
+    }
+
     fn turns(&self, u: [f64; 2]) -> Vec<[BigRational; 2]> {
         let turn = whole(self.segments.len());
         let by = |turns: i64| u.map(|u| exact(u) + &turn * BigInt::from(turns));
