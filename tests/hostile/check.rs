@@ -86,7 +86,7 @@ impl Check<'_> {
                     changes.len() - regular
                 )
             });
-            self.expect(is_narrow(claim, changes.first().copied()), || {
+            self.expect(is_narrow(claim, &changes), || {
                 format!("{quantity:?} in {:?}: too wide", claim.u)
             });
             if let Some(first) = changes.iter().find(|change| !change.singular)
@@ -247,7 +247,10 @@ impl Check<'_> {
             let changed = changes
                 .clone()
                 .any(|change| truth.reaches_into(&change.places, piece.u));
-            self.expect(!changed, || format!("{piece:?} holds an extremum"));
+            // Where it is constant throughout, the whole piece may be one extremum.
+            self.expect(!changed || piece.trend == Trend::Constant, || {
+                format!("{piece:?} holds an extremum")
+            });
             let mut cusps = truth.cusps.iter();
             let broken = cusps.any(|place| truth.reaches_into(&place.places, piece.u));
             self.expect(!broken, || format!("{piece:?} holds a cusp"));
@@ -402,9 +405,9 @@ fn pieces(segment: &SegmentFeatures, quantity: Quantity) -> &[SignPiece] {
 }
 
 /// At most 1e-12 wide and one rounding of u, unless the function is 0 all along.
-fn is_narrow(claim: &Claim, change: Option<&Change>) -> bool {
+fn is_narrow(claim: &Claim, changes: &[&Change]) -> bool {
     let [low, high] = claim.u;
-    let along = change.is_some_and(|change| {
+    let along = changes.iter().any(|change| {
         let [start, end] = change.places.each_ref().map(Place::about);
         end - start > ROOT_WIDTH
     });

@@ -64,8 +64,7 @@ fn polynomial(random: &mut Random, form: Form, count: usize) -> Option<FloatPoly
     };
     let [x, y, z] = [coordinate()?, coordinate()?, coordinate()?];
     let segment = doubles([&x, &y, &z])?;
-    let (vertices, first) = surrounded(random, form, segment);
-    let _ = first;
+    let (vertices, _) = surrounded(random, form, segment);
     let weights = vec![1.0; vertices.len()];
     Some(form.curve(&vertices, &weights))
 }

@@ -23,6 +23,7 @@ mod families;
 mod form;
 mod nearly;
 mod prescribed;
+mod quotient_rule;
 mod scales;
 mod symmetric;
 mod tally;
