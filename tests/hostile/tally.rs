@@ -1,6 +1,7 @@
 //! What was found on many curves.
 
 use std::fmt::{Display, Formatter, Result};
+use std::time::Duration;
 
 use batten::geometry::features::{Features, Quantity, Verdict};
 
@@ -32,6 +33,9 @@ pub struct Tally {
     pub no_digits: usize,
     pub few_digits: usize,
     pub wrong: usize,
+    /// What the library and the witness took.
+    pub library: Duration,
+    pub witness: Duration,
 }
 
 impl Tally {
@@ -93,6 +97,8 @@ impl Tally {
         ] {
             *sum += count;
         }
+        self.library += other.library;
+        self.witness += other.witness;
     }
 }
 
@@ -103,7 +109,7 @@ impl Display for Tally {
             "{} curves, {} segments: {} of {} features proved ({} intervals with several); \
              cusps: {} true, {} intervals proved, {} in doubt for nothing; undecided pieces: {} at \
              cusps, {} elsewhere (on {} curves); {} verdicts open; values: {}, {} without a certain \
-             digit, {} with less than nine; wrong: {}",
+             digit, {} with less than nine; wrong: {}; {:.1?}, witness {:.1?}",
             self.curves,
             self.segments,
             self.proved,
@@ -120,6 +126,8 @@ impl Display for Tally {
             self.no_digits,
             self.few_digits,
             self.wrong,
+            self.library,
+            self.witness,
         )
     }
 }

@@ -7,12 +7,14 @@
 #![allow(dead_code, unused_imports)] // Each test uses a part of it.
 
 mod common_factor;
+mod fraction;
 mod isolation;
 mod modular;
 mod polynomial;
 mod segment;
 mod truth;
 
+pub use fraction::Fraction;
 pub use isolation::Root;
 pub use polynomial::Polynomial;
 pub use segment::ExactSegment;

@@ -110,11 +110,6 @@ impl Polynomial {
         sum
     }
 
-    pub fn value(&self, t: &BigRational) -> BigRational {
-        let power = t.denom().pow(self.degree() as u32);
-        BigRational::new(self.scaled_value(t), power)
-    }
-
     /// The sign at a double.
     pub fn sign_at(&self, t: f64) -> i32 {
         self.sign(&super::exact(t))

@@ -1,10 +1,13 @@
 //! One segment of a curve in powers of t, and the numerators of what is differentiated of it.
 
+use std::ops::Mul;
+
 use batten::geometry::FloatPolygon;
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Zero};
 
+use super::fraction::Fraction;
 use super::polynomial::Polynomial;
 use super::{exact, power_of_two};
 
@@ -92,32 +95,32 @@ impl ExactSegment {
     }
 
     /// κ|κ| at a number, signed if the curve is planar; `None` at a cusp.
-    pub fn curvature_at(&self, t: &BigRational, planar: bool) -> Option<BigRational> {
-        let [normal, speed] = [&self.normal, &self.tangent].map(|vector| square_at(vector, t));
-        if speed.is_zero() {
+    pub fn curvature_at(&self, t: &BigRational, planar: bool) -> Option<Fraction> {
+        let [normal, speed] = [&self.normal, &self.tangent].map(|vector| Scaled::square(vector, t));
+        if speed.value.is_zero() {
             return None;
         }
         let negative = planar && self.normal[2].sign(t) < 0;
-        let weight = self.weight[0].value(t);
-        let cube = &weight * &weight * &weight;
-        let value = normal * &cube * &cube / (&speed * &speed * &speed);
-        Some(if negative { -value } else { value })
+        let weight = Scaled::of(&self.weight[0], t);
+        let value = (normal * weight.power(6)).over(&speed.power(3), t);
+        Some(if negative { value.negated() } else { value })
     }
 
     /// τ at a number; `None` where the curvature is 0.
-    pub fn torsion_at(&self, t: &BigRational) -> Option<BigRational> {
-        let square = square_at(&self.normal, t);
-        let weight = self.weight[0].value(t);
-        (!square.is_zero()).then(|| self.determinant.value(t) * &weight * &weight / square)
+    pub fn torsion_at(&self, t: &BigRational) -> Option<Fraction> {
+        let square = Scaled::square(&self.normal, t);
+        let weight = Scaled::of(&self.weight[0], t);
+        let product = Scaled::of(&self.determinant, t) * weight.power(2);
+        (!square.value.is_zero()).then(|| product.over(&square, t))
     }
 
     /// κ|κ| at an end.
-    pub fn end_curvature(&self, at_end: bool, planar: bool) -> Option<BigRational> {
+    pub fn end_curvature(&self, at_end: bool, planar: bool) -> Option<Fraction> {
         self.curvature_at(&end(at_end), planar)
     }
 
     /// τ at an end.
-    pub fn end_torsion(&self, at_end: bool) -> Option<BigRational> {
+    pub fn end_torsion(&self, at_end: bool) -> Option<Fraction> {
         self.torsion_at(&end(at_end))
     }
 
@@ -165,12 +168,59 @@ fn end(at_end: bool) -> BigRational {
     power_of_two(0) * BigInt::from(i32::from(at_end))
 }
 
-fn square_at(vector: &Vector, t: &BigRational) -> BigRational {
-    let squares = vector.iter().map(|component| {
-        let value = component.value(t);
-        &value * &value
-    });
-    squares.sum()
+/// A number times a power of the denominator of t.
+struct Scaled {
+    value: BigInt,
+    power: u32,
+}
+
+impl Scaled {
+    fn of(polynomial: &Polynomial, t: &BigRational) -> Self {
+        Self {
+            value: polynomial.scaled_value(t),
+            power: polynomial.degree() as u32,
+        }
+    }
+
+    fn square(vector: &Vector, t: &BigRational) -> Self {
+        let power = vector.iter().map(Polynomial::degree).max();
+        let power = power.expect("components") as u32;
+        let squares = vector.iter().map(|component| {
+            let Self { value, power: own } = Self::of(component, t);
+            (value * t.denom().pow(power - own)).pow(2)
+        });
+        Self {
+            value: squares.sum(),
+            power: 2 * power,
+        }
+    }
+
+    fn power(&self, exponent: u32) -> Self {
+        Self {
+            value: self.value.pow(exponent),
+            power: self.power * exponent,
+        }
+    }
+
+    fn over(&self, other: &Self, t: &BigRational) -> Fraction {
+        let missing = t.denom().pow(self.power.abs_diff(other.power));
+        if self.power < other.power {
+            Fraction::new(&self.value * missing, other.value.clone())
+        } else {
+            Fraction::new(self.value.clone(), &other.value * missing)
+        }
+    }
+}
+
+impl Mul for Scaled {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        Self {
+            value: self.value * other.value,
+            power: self.power + other.power,
+        }
+    }
 }
 
 fn derivative(vector: &Vector) -> Vector {

@@ -7,8 +7,8 @@ use batten::geometry::FloatPolygon;
 use batten::geometry::features::Quantity;
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{Signed, Zero};
 
+use super::fraction::Fraction;
 use super::isolation::Root;
 use super::polynomial::Polynomial;
 use super::segment::ExactSegment;
@@ -206,10 +206,10 @@ impl Truth {
     }
 
     /// Enclose κ|κ| or τ at an extremum: at a jump the greater side of a maximum, the lesser one of
-    /// a minimum. The enclosure is 2⁻¹⁶⁰ of the isolating interval wide, in the parameter; it is
+    /// a minimum. The enclosure is 2⁻⁹⁶ of the isolating interval wide, in the parameter; it is
     /// widened by what the value changes over that.
-    pub fn value(&self, quantity: Quantity, change: &Change) -> [BigRational; 2] {
-        let mut values: Vec<[BigRational; 2]> = Vec::new();
+    pub fn value(&self, quantity: Quantity, change: &Change) -> [Fraction; 2] {
+        let mut values: Vec<[Fraction; 2]> = Vec::new();
         for place in &change.places {
             match place {
                 Place::Root {
@@ -239,7 +239,7 @@ impl Truth {
         best.expect("two places")
     }
 
-    fn hull(&self, quantity: Quantity, segment: usize, ends: [BigRational; 2]) -> [BigRational; 2] {
+    fn hull(&self, quantity: Quantity, segment: usize, ends: [BigRational; 2]) -> [Fraction; 2] {
         let segment = &self.segments[segment];
         let at = |t: &BigRational| match quantity {
             Quantity::TorsionExtremum => segment.torsion_at(t),
@@ -250,11 +250,9 @@ impl Truth {
             let half = power_of_two(-1);
             let aside = power_of_two(-2 * NARROW as i64);
             let aside = if *t < half { t + aside } else { t - aside };
-            at(t).unwrap_or_else(|| at(&aside).unwrap_or_default())
+            at(t).unwrap_or_else(|| at(&aside).unwrap_or_else(Fraction::zero))
         });
-        let slack = (&a - &b).abs();
-        let [low, high] = if a < b { [a, b] } else { [b, a] };
-        [low - &slack, high + slack]
+        a.widened(b)
     }
 
     fn walk(&self, quantity: Quantity, functions: &[Polynomial]) -> Vec<Change> {
@@ -348,7 +346,7 @@ impl Truth {
 }
 
 /// How many bits narrower than isolated a root is wanted for the values there.
-const NARROW: u64 = 160;
+const NARROW: u64 = 96;
 
 fn quantities(planar: bool) -> &'static [Quantity] {
     if planar {
