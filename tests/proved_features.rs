@@ -103,7 +103,7 @@ struct Tally {
 /// Compare the pieces of one segment with an exact polynomial; returns whether all is decided.
 fn check_segment(pieces: &[SignPiece], exact: &Polynomial, tally: &mut Tally) -> bool {
     let (mut start, mut roots, mut decided) = (0.0, 0, true);
-    let exact = &exact.changing();
+    let exact = &exact.odd_part();
     for piece in pieces {
         match piece.sign {
             Sign::Positive | Sign::Negative => {

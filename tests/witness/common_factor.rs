@@ -2,7 +2,7 @@
 //! multiplicity each.
 
 use num_bigint::BigInt;
-use num_traits::{One, Zero};
+use num_traits::{One, Signed, Zero};
 
 use super::modular::{Modulo, trim};
 use super::polynomial::{Polynomial, common_divisor};
@@ -69,10 +69,14 @@ impl Polynomial {
             .collect()
     }
 
-    /// The polynomial whose simple roots are the roots of odd multiplicity.
+    /// The polynomial whose simple roots are the roots of odd multiplicity; elsewhere it has the
+    /// same sign, but at the roots of even multiplicity.
     pub fn odd_part(&self) -> Self {
         let factors = self.factors_by_multiplicity().into_iter().step_by(2);
-        factors.fold(Self::constant(1), |product, factor| product.times(&factor))
+        let product = factors.fold(Self::constant(1), |product, factor| product.times(&factor));
+        // What is left out is a square times a number.
+        let [own, other] = [self, &product].map(|p| p.coefficients().last().map_or(0, sign_of));
+        product.times(&Self::constant(own * other))
     }
 
     /// The polynomial whose simple roots are all roots.
@@ -80,6 +84,10 @@ impl Polynomial {
         let factors = self.factors_by_multiplicity().into_iter();
         factors.fold(Self::constant(1), |product, factor| product.times(&factor))
     }
+}
+
+fn sign_of(value: &BigInt) -> i32 {
+    i32::from(value.is_positive()) - i32::from(value.is_negative())
 }
 
 fn quotient(a: &Polynomial, b: &Polynomial) -> Polynomial {

@@ -37,15 +37,13 @@ impl Fraction {
         Self::new(-self.numerator, self.denominator)
     }
 
-    /// Both numbers' distance, taken from the lesser and added to the greater of them.
-    pub fn widened(self, other: Self) -> [Self; 2] {
-        let [a, b] = [
-            &self.numerator * &other.denominator,
-            &other.numerator * &self.denominator,
-        ];
-        let denominator = self.denominator * other.denominator;
-        let slack = (&a - &b).abs();
-        let [low, high] = if a < b { [a, b] } else { [b, a] };
+    /// The lesser and the greater of two numbers, moved apart by the first one's distance from
+    /// another.
+    pub fn widened([a, b]: [Self; 2], other: &Self) -> [Self; 2] {
+        let denominator = &a.denominator * &b.denominator * &other.denominator;
+        let over = |value: &Self| &value.numerator * (&denominator / &value.denominator);
+        let slack = (over(&a) - over(other)).abs();
+        let [low, high] = [over(&a).min(over(&b)), over(&a).max(over(&b))];
         [low - &slack, high + slack].map(|end| Self::new(end, denominator.clone()))
     }
 

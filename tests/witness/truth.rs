@@ -206,8 +206,9 @@ impl Truth {
     }
 
     /// Enclose κ|κ| or τ at an extremum: at a jump the greater side of a maximum, the lesser one of
-    /// a minimum. The enclosure is 2⁻⁹⁶ of the isolating interval wide, in the parameter; it is
-    /// widened by what the value changes over that.
+    /// a minimum. The root is narrowed to 2⁻⁹⁶ of its isolating interval; the values at both ends
+    /// are widened by what the value changes over as much before it, which at an extremum is more
+    /// than what it changes inside.
     pub fn value(&self, quantity: Quantity, change: &Change) -> [Fraction; 2] {
         let mut values: Vec<[Fraction; 2]> = Vec::new();
         for place in &change.places {
@@ -245,14 +246,15 @@ impl Truth {
             Quantity::TorsionExtremum => segment.torsion_at(t),
             _ => segment.curvature_at(t, self.planar),
         };
-        let [a, b] = ends.each_ref().map(|t| {
+        let before = &ends[0] - (&ends[1] - &ends[0]);
+        let [before, a, b] = [&before, &ends[0], &ends[1]].map(|t| {
             // Where there is none, nearly there, towards the middle.
             let half = power_of_two(-1);
             let aside = power_of_two(-2 * NARROW as i64);
             let aside = if *t < half { t + aside } else { t - aside };
             at(t).unwrap_or_else(|| at(&aside).unwrap_or_else(Fraction::zero))
         });
-        a.widened(b)
+        Fraction::widened([a, b], &before)
     }
 
     fn walk(&self, quantity: Quantity, functions: &[Polynomial]) -> Vec<Change> {
