@@ -73,7 +73,7 @@ impl Check<'_> {
         let claims = claims(self.features, quantity);
         let truth = self.truth;
         for claim in &claims {
-            let changes = self.changes_inside(quantity, claim.u);
+            let changes = truth.changes_inside(quantity, claim.u);
             let regular = changes.iter().filter(|change| !change.singular).count();
             self.expect(regular == claim.count && changes.len() == regular, || {
                 format!(
@@ -93,22 +93,6 @@ impl Check<'_> {
             }
         }
         self.disjoint(quantity, claims.iter().map(|claim| claim.u).collect());
-    }
-
-    /// The changes in an interval in the order in which the interval has them, which may reach over
-    /// the joint of a periodic curve.
-    fn changes_inside(&self, quantity: Quantity, u: [f64; 2]) -> Vec<&Change> {
-        let changes = self.truth.changes_of(quantity);
-        let inside: Vec<bool> = changes
-            .iter()
-            .map(|change| self.truth.lies_inside(&change.places, u))
-            .collect();
-        let count = changes.len();
-        let first = (0..count).find(|index| inside[*index] && !inside[(index + count - 1) % count]);
-        let first = first.unwrap_or(0);
-        let turned = (first..first + count).map(|index| index % count);
-        let held = turned.filter(|index| inside[*index]);
-        held.map(|index| &changes[index]).collect()
     }
 
     /// The kind and the value of the first extremum of an interval.

@@ -135,6 +135,22 @@ impl Truth {
         found.map_or(&[], |(_, changes)| changes)
     }
 
+    /// The changes in an interval in the order in which the interval has them, which may reach over
+    /// the joint of a periodic curve.
+    pub fn changes_inside(&self, quantity: Quantity, u: [f64; 2]) -> Vec<&Change> {
+        let changes = self.changes_of(quantity);
+        let inside = changes
+            .iter()
+            .map(|change| self.lies_inside(&change.places, u));
+        let inside: Vec<bool> = inside.collect();
+        let count = changes.len();
+        let first = (0..count).find(|index| inside[*index] && !inside[(index + count - 1) % count]);
+        let first = first.unwrap_or(0);
+        let turned = (first..first + count).map(|index| index % count);
+        let held = turned.filter(|index| inside[*index]);
+        held.map(|index| &changes[index]).collect()
+    }
+
     /// The function of a quantity on a segment.
     pub fn function(&self, quantity: Quantity, segment: usize) -> &Polynomial {
         let found = self.functions.iter().find(|(of, _)| *of == quantity);
