@@ -20,18 +20,18 @@ const MOST_MODULI: usize = 400;
 pub(super) fn common_divisor(a: &[BigInt], b: &[BigInt]) -> Option<Vec<BigInt>> {
     match (a, b) {
         ([], other) | (other, []) => Some(primitive(other)),
-        _ => common_divisor_of_nonzero(&primitive(a), &primitive(b)),
+        _ => common_divisor_of_nonzero(a, b),
     }
 }
 
 fn common_divisor_of_nonzero(a: &[BigInt], b: &[BigInt]) -> Option<Vec<BigInt>> {
-    let lead = a.last()?.gcd(b.last()?);
+    let ends = [a.last()?, b.last()?];
+    let mut lead = None;
     // The images' common multiple by the leading coefficient, and the product of their moduli.
     let (mut sum, mut product) = (Vec::<BigInt>::new(), BigInt::one());
     let candidates = (0..).map(|index| LARGEST - 1 - 2 * index);
     let moduli = candidates.filter(|candidate| power(2, candidate - 1, *candidate) == 1);
     for modulus in moduli.take(MOST_MODULI) {
-        let scale = residue(&lead, modulus);
         let images = [a, b].map(|list| residues(list, modulus));
         let [Some(_), Some(_)] = images
             .each_ref()
@@ -51,6 +51,9 @@ fn common_divisor_of_nonzero(a: &[BigInt], b: &[BigInt]) -> Option<Vec<BigInt>> 
         if image.len() < sum.len() || sum.is_empty() {
             (sum, product) = (vec![BigInt::zero(); image.len()], BigInt::one());
         }
+        // What the divisor's own leading coefficient divides.
+        let lead = lead.get_or_insert_with(|| ends[0].gcd(ends[1]));
+        let scale = residue(lead, modulus);
         for coefficient in &mut image {
             *coefficient = multiply(*coefficient, scale, modulus);
         }
@@ -194,7 +197,9 @@ fn inverse(value: u64, modulus: u64) -> Option<u64> {
 mod tests {
     use super::*;
 
-    fn product(factors: &[&[i64]]) -> Vec<BigInt> {
+    type Factors<'a> = &'a [&'a [i64]];
+
+    fn product(factors: Factors<'_>) -> Vec<BigInt> {
         let mut result = vec![BigInt::one()];
         for factor in factors {
             let mut next = vec![BigInt::zero(); result.len() + factor.len() - 1];
@@ -212,14 +217,14 @@ mod tests {
     fn what_two_polynomials_share_is_found_and_nothing_else() {
         let (p, q, r): (&[i64], &[i64], &[i64]) =
             (&[-1, 3], &[5, 0, 7_000_000_007], &[2, -9, 4, 1]);
-        let cases: [(&[&[i64]], &[&[i64]], &[&[i64]]); 5] = [
-            (&[p, q], &[r, q], &[q]),
-            (&[p, p, q], &[p, p, p, r], &[p, p]),
-            (&[p, q], &[r], &[]),
-            (&[&[6], p], &[&[-4], p, r], &[p]),
-            (&[p], &[p, q, r], &[p]),
+        let cases: [[Factors<'_>; 3]; 5] = [
+            [&[p, q], &[r, q], &[q]],
+            [&[p, p, q], &[p, p, p, r], &[p, p]],
+            [&[p, q], &[r], &[]],
+            [&[&[6], p], &[&[-4], p, r], &[p]],
+            [&[p], &[p, q, r], &[p]],
         ];
-        for (a, b, expected) in cases {
+        for [a, b, expected] in cases {
             assert_eq!(
                 common_divisor(&product(a), &product(b)),
                 Some(product(expected))

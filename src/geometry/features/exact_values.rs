@@ -11,14 +11,15 @@ use super::floating::Floating;
 use super::numerators::Function;
 use super::whole_numbers::fraction;
 
-/// The interval is narrowed by so many binary digits at once, where a secant tells where to.
+/// The interval is narrowed by so many binary digits at once, where a secant tells where to, and
+/// by twice as many the next time.
 const STEP: u32 = 32;
 
 /// Where it does not, the interval is cut in two so often.
 const BISECTIONS: usize = 6;
 
 /// Beyond so many binary digits it is not narrowed.
-const MOST_BITS: u64 = 320;
+const MOST_BITS: u64 = 1024;
 
 /// What rounding adds to the relative error of one polynomial, and to that of the result.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
@@ -178,6 +179,7 @@ impl Bounded {
 struct Interval {
     ends: [BigInt; 2],
     bits: u64,
+    step: u32,
 }
 
 impl Interval {
@@ -191,6 +193,7 @@ impl Interval {
         Self {
             ends: [low, high],
             bits,
+            step: STEP,
         }
     }
 
@@ -212,8 +215,8 @@ impl Interval {
         low * high < 0
     }
 
-    /// Narrow the interval about the only root of a polynomial: to the part of 2⁻³² of it that a
-    /// secant points to, if the root is there, and to less otherwise.
+    /// Narrow the interval about the only root of a polynomial: to the small part of it that a
+    /// secant points to, if the root is there, and by some bisections otherwise.
     fn narrow(&mut self, simple: &ExactPolynomial) {
         let values = [0, 1].map(|end| simple.scaled_value(&self.place(end)));
         let before = values[0].sign();
@@ -221,28 +224,29 @@ impl Interval {
             .map(BigInt::into_parts)
             .map(|(_, size)| BigInt::from(size));
         let width = &self.ends[1] - &self.ends[0];
-        let share: BigInt = (&low << STEP) / (&low + &high);
-        let start = (&self.ends[0] << STEP) + share * &width;
+        let share: BigInt = (&low << self.step) / (&low + &high);
+        let start = (&self.ends[0] << self.step) + share * &width;
         let part = Self {
             ends: [start.clone(), start + width],
-            bits: self.bits + u64::from(STEP),
+            bits: self.bits + u64::from(self.step),
+            step: 2 * self.step,
         };
         let [from, to] = [0, 1].map(|end| simple.scaled_value(&part.place(end)));
         if from.is_zero() || to.is_zero() {
             let root = part.ends[usize::from(to.is_zero())].clone();
             self.ends = [root.clone(), root];
         } else if from.sign() == before && to.sign() != before {
-            self.ends = part.ends;
+            (self.ends, self.step) = (part.ends, part.step);
         } else {
             // The root is before or behind the part.
-            let [from_start, to_end] = self.ends.each_ref().map(|end| end << STEP);
+            let [from_start, to_end] = self.ends.each_ref().map(|end| end << self.step);
             let [part_start, part_end] = part.ends;
             self.ends = if from.sign() == before {
                 [part_end, to_end]
             } else {
                 [from_start, part_start]
             };
-            self.bits = part.bits;
+            (self.bits, self.step) = (part.bits, STEP);
             return self.bisect(simple, before);
         }
         self.bits = part.bits;
