@@ -39,7 +39,7 @@ fn cases(degree: usize) -> Vec<Case> {
     let mut cases = Vec::new();
     for (index, segments) in [1, 2, 3, 7, degree + 1, 30].into_iter().enumerate() {
         for rational in [false, true] {
-            let in_space = (index + degree) % 2 == 0;
+            let in_space = (index + degree).is_multiple_of(2);
             let periodic = segments > degree && index % 2 == 1;
             cases.push(Case {
                 degree,

@@ -150,8 +150,8 @@ fn quotient(a: &BigInt, b: &BigInt, exponent: i32) -> f64 {
     }
     // 66 bits at least, and one that says whether there are more.
     let shift = 66 + b.bits() as i64 - a.bits() as i64;
-    let (above, below) = match shift.try_into() {
-        Ok(shift) => (a.abs() << 0_u64.max(shift), b.abs()),
+    let (above, below) = match u64::try_from(shift) {
+        Ok(shift) => (a.abs() << shift, b.abs()),
         Err(_) => (a.abs(), b.abs() << shift.unsigned_abs()),
     };
     let rest = !(&above % &below).is_zero();
