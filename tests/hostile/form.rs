@@ -28,7 +28,10 @@ pub struct Reach {
 impl Form {
     /// Draw a form.
     pub fn random(random: &mut Random, reach: Reach) -> Self {
-        let [in_space, rational] = [random.bits() % 2 == 0, random.bits() % 2 == 0];
+        let [in_space, rational] = [
+            random.bits().is_multiple_of(2),
+            random.bits().is_multiple_of(2),
+        ];
         let highest = match (in_space, rational) {
             (false, false) => reach.planar,
             (false, true) => reach.planar_rational,
