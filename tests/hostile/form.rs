@@ -28,10 +28,7 @@ pub struct Reach {
 impl Form {
     /// Draw a form.
     pub fn random(random: &mut Random, reach: Reach) -> Self {
-        let [in_space, rational] = [
-            random.bits().is_multiple_of(2),
-            random.bits().is_multiple_of(2),
-        ];
+        let [in_space, rational] = [(); 2].map(|()| random.bits().is_multiple_of(2));
         let highest = match (in_space, rational) {
             (false, false) => reach.planar,
             (false, true) => reach.planar_rational,

@@ -47,6 +47,12 @@ impl Fraction {
         [low - &slack, high + slack].map(|end| Self::new(end, denominator.clone()))
     }
 
+    /// Whether two numbers differ by less than 2⁻⁷⁰ of the first.
+    pub fn agree([a, b]: &[Self; 2]) -> bool {
+        let [p, q] = [&a.numerator * &b.denominator, &b.numerator * &a.denominator];
+        (&p - &q).abs() << 70_u32 <= p.abs()
+    }
+
     pub fn rational(&self) -> BigRational {
         BigRational::new(self.numerator.clone(), self.denominator.clone())
     }

@@ -234,8 +234,18 @@ impl Truth {
                     polynomial,
                     root,
                 } => {
-                    let ends = root.narrowed(polynomial, root.level() + NARROW);
-                    values.push(self.hull(quantity, *segment, ends));
+                    // A root may lie much closer to a piece's end than the piece is long.
+                    let hull = (0..5).map(|times| {
+                        let bits = root.level() + (NARROW << times);
+                        let ends = root.narrowed(polynomial, bits);
+                        self.hull(quantity, *segment, ends)
+                    });
+                    let mut hull = hull.skip_while(|hull| !Fraction::agree(hull));
+                    let widest = || {
+                        let ends = root.narrowed(polynomial, root.level() + (NARROW << 4));
+                        self.hull(quantity, *segment, ends)
+                    };
+                    values.push(hull.next().unwrap_or_else(widest));
                 }
                 Place::Knot(knot) => {
                     let count = self.segments.len();
