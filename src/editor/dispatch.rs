@@ -71,6 +71,8 @@ impl Editor {
                 gesture => self.deliver(gesture),
             }
         }
+        // What panels and menus do next is no part of what the key did.
+        self.repeating = false;
     }
 
     /// Say what the mouse will do now.

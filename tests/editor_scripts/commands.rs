@@ -1,6 +1,7 @@
 //! Commands, files and the clipboard.
 
-use batten::editor::{Command, Key, ToolKind};
+use batten::editor::{Command, Input, Key, ToolKind};
+use batten::geometry::End;
 use glam::DVec2;
 
 use super::script::Script;
@@ -128,4 +129,14 @@ fn several_files_open_as_one_document_and_a_bad_one_changes_nothing() {
         .expect_err("a missing file");
     assert!(error.to_string().contains("missing.batten"), "{error}");
     assert_eq!(editor.path(), Some(paths[0].as_path()));
+}
+
+#[test]
+fn a_command_after_a_held_key_is_a_step_of_its_own() {
+    let mut script = Script::example("arc");
+    script.command(Command::Extend(End::Finish));
+    script.key(Key::Function(6));
+    script.input(Input::KeyRepeated(Key::Function(6)));
+    script.command(Command::Extend(End::Finish));
+    assert_eq!(script.editor.history().undo_steps(), 2);
 }
