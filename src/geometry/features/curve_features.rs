@@ -389,5 +389,6 @@ fn trends(walk: &SignWalk) -> Vec<TrendPiece> {
             _ => Trend::Falling,
         },
     });
-    pieces.collect()
+    // Between roots that doubles of u cannot tell apart nothing is left.
+    pieces.filter(|piece| piece.u[0] <= piece.u[1]).collect()
 }
