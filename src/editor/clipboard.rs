@@ -5,10 +5,10 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::Editor;
-use super::files::{count_curves, with_lines};
+use super::files::with_lines;
 use super::report::Request;
 use crate::document::{Curve, CurveId, Extras, free_name};
-use crate::geometry::{FloatPolygon, PolygonKind};
+use crate::geometry::{FloatPolygon, PolygonKind, counted};
 use crate::io::{Export as Exported, Format, Reading, WriteError};
 
 /// How far copies are put from what they copy, in screen points, right and down.
@@ -35,7 +35,7 @@ impl Editor {
             }) => {
                 let count = curves.len();
                 self.add_copies("Paste", curves);
-                let text = format!("{} pasted", count_curves(count));
+                let text = format!("{} pasted", counted(count, "curve", "curves"));
                 self.say_done(with_lines(text, &remarks));
             }
             Err(error) => {

@@ -3,8 +3,8 @@
 use super::Editor;
 use super::command::Command;
 use super::polygon_edits::without;
-use super::tools::count_vertices;
 use crate::document::Edit;
+use crate::geometry::counted;
 
 impl Editor {
     /// Remove the selected vertices; `false`, with the reason as message, if that cannot be.
@@ -16,7 +16,7 @@ impl Editor {
                 return false;
             }
         };
-        let count = count_vertices(self.selection.vertices().len());
+        let count = counted(self.selection.vertices().len(), "vertex", "vertices");
         let made = self.apply(&format!("{verb} {count}"), edits);
         if made {
             self.selection.clear();

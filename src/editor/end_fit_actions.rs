@@ -6,13 +6,13 @@ use super::Editor;
 use super::drawing::figure;
 use super::end_fit::{EndFitAction, EndFitReport};
 use super::layers::Layer;
-use super::tools::{ToolKind, count_vertices};
+use super::tools::ToolKind;
 use crate::document::{Curve, CurveId, Edit};
 use crate::geometry::end_correction::{
     EndDifference, EndOverlap, EndTarget, LoopOutcome, align_end, correct_in_turn, translate_end,
 };
 use crate::geometry::joint_correction::correct_jointly;
-use crate::geometry::{End, FloatPolygon};
+use crate::geometry::{End, FloatPolygon, counted};
 
 impl Editor {
     /// Collect the figures of the seven steps, if the end-fit tool is in the hand and the active
@@ -244,7 +244,7 @@ fn why_not(polygon: &FloatPolygon, outcome: &LoopOutcome) -> String {
     let reason = match EndOverlap::of(polygon) {
         EndOverlap::None => "the ends do not settle".to_owned(),
         EndOverlap::Partial { shared } => {
-            let shared = count_vertices(shared);
+            let shared = counted(shared, "vertex", "vertices");
             format!("the ends share {shared}, and correcting one keeps spoiling the other")
         }
         EndOverlap::OneSegment => {

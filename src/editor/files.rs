@@ -34,7 +34,7 @@ impl Editor {
                 let (curves, remarks) = read_together(paths)?;
                 let text = format!(
                     "{} read from {} files",
-                    count_curves(curves.len()),
+                    counted(curves.len(), "curve", "curves"),
                     paths.len()
                 );
                 self.replace(Document::from_curves(curves), None);
@@ -55,7 +55,7 @@ impl Editor {
         self.add_curves("Import curves", curves);
         self.fit_all();
         self.say(with_lines(
-            format!("{} added", count_curves(count)),
+            format!("{} added", counted(count, "curve", "curves")),
             &remarks,
         ));
     }
@@ -121,10 +121,13 @@ impl Editor {
         }
         match disk::write_file(path, &shown, self.document().extras(), polygon) {
             Ok(saved) => {
-                let count = count_curves(shown.len());
+                let count = counted(shown.len(), "curve", "curves");
                 let mut text = format!("{count} exported to {}", shown_path(path));
                 if !hidden.is_empty() {
-                    text += &format!("; {} not, being hidden", count_curves(hidden.len()));
+                    text += &format!(
+                        "; {} not, being hidden",
+                        counted(hidden.len(), "curve", "curves")
+                    );
                 }
                 self.say(with_lines(text, &saved));
             }
@@ -197,7 +200,7 @@ impl Editor {
         } = reading;
         let text = format!(
             "{} read from {}",
-            count_curves(curves.len()),
+            counted(curves.len(), "curve", "curves"),
             shown_path(path)
         );
         let document = Document::from_curves(curves).with_extras(extras);
@@ -243,11 +246,6 @@ pub(super) fn with_lines(text: String, lines: &impl fmt::Display) -> String {
 fn own_path(path: &Path) -> Option<PathBuf> {
     let is_project = Format::to_read(path).is_ok_and(|format| format == Format::Batten);
     is_project.then(|| path.to_owned())
-}
-
-/// Say "1 curve" or "7 curves".
-pub(super) fn count_curves(count: usize) -> String {
-    counted(count, "curve", "curves")
 }
 
 /// Give a path the extension if it has none that is a format's: what follows the point in

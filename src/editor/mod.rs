@@ -48,7 +48,7 @@ pub use report::{AfterDiscard, CurveReport, Export, Message, Readout, Request};
 pub use reshaping::{Division, DivisionReport, ExtremaCount, RoundingReport};
 pub use scene::{CurveScene, HoverScene, Mark, PlotScene, Scene, VertexMark};
 pub use selection::{Selection, VertexId};
-pub use tools::{Cursor, ToolKind, Transformation, count_vertices};
+pub use tools::{Cursor, ToolKind, Transformation};
 pub use viewport::Viewport;
 
 use crate::analysis::{AnalysisCache, CombSettings};

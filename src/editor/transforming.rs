@@ -3,7 +3,8 @@
 use glam::DVec2;
 
 use super::Editor;
-use super::tools::{self, Transformation, count_vertices, move_edits};
+use super::tools::{self, Transformation, move_edits};
+use crate::geometry::counted;
 
 impl Editor {
     /// The pivot of the rotate or the scale tool, if one of them is in the hand and there is
@@ -27,7 +28,7 @@ impl Editor {
             return;
         };
         let vertices = context.transformed();
-        let count = count_vertices(vertices.len());
+        let count = counted(vertices.len(), "vertex", "vertices");
         let label = match transformation {
             Transformation::Rotate(_) => format!("Rotate {count}"),
             Transformation::Scale(_) => format!("Scale {count}"),

@@ -13,9 +13,9 @@ use super::theme::{ROW, STEP, Tokens};
 use super::widgets::IconButton;
 use super::{figures, widgets};
 use crate::document::Edit;
-use crate::editor::{Editor, EndFitAction, EndFitReport, Layer, count_vertices};
-use crate::geometry::End;
+use crate::editor::{Editor, EndFitAction, EndFitReport, Layer};
 use crate::geometry::end_correction::{EndOverlap, EndTarget};
+use crate::geometry::{End, counted};
 
 /// The width of a field for a coordinate.
 const FIELD: f32 = 72.0;
@@ -369,7 +369,7 @@ impl Panel<'_> {
     fn translate_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
         let has_target = report.target_point.is_some() && report.can_move();
-        let title = format!("Move {}", count_vertices(report.terminal));
+        let title = format!("Move {}", counted(report.terminal, "vertex", "vertices"));
         step_ui(ui, 5, &title, self.is_in_place(), |ui| {
             let response = step_button(ui, "Translate", has_target, None)
                 .accessible_name("Translate terminal vertices");
@@ -384,7 +384,7 @@ impl Panel<'_> {
     fn rotate_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
         let has_target = report.target_direction.is_some() && report.tangent.is_some();
-        let title = format!("Turn {}", count_vertices(report.terminal));
+        let title = format!("Turn {}", counted(report.terminal, "vertex", "vertices"));
         step_ui(ui, 6, &title, has_target && self.is_aligned(), |ui| {
             let response = step_button(ui, "Rotate", has_target && report.can_move(), None)
                 .accessible_name("Rotate terminal vertices");
@@ -487,7 +487,7 @@ fn overlap_ui(ui: &mut Ui, report: &EndFitReport) {
             "N = {count} is less than 2n = {}: the two ends share {}. Repeating converges \
              slowly, if at all; “both ends at once” is exact.",
             2 * degree,
-            count_vertices(shared)
+            counted(shared, "vertex", "vertices")
         ),
         EndOverlap::OneSegment => format!(
             "N = {count} is n + 1: both ends share all but two vertices. Repeating does not \

@@ -9,6 +9,7 @@ use super::feature_marks::glyph;
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
 use super::{figures, icons, widgets};
 use crate::editor::{Editor, FeatureKind, FeatureReport, FeatureRow};
+use crate::geometry::counted;
 use crate::geometry::features::{Verdict, certain_digits};
 
 /// An interval wider than this is shown by both of its ends.
@@ -88,7 +89,7 @@ fn verdict(report: &FeatureReport) -> (Icon, String) {
 }
 
 fn count_extrema(count: usize) -> String {
-    figures::count(count, "curvature extremum", "curvature extrema")
+    counted(count, "curvature extremum", "curvature extrema")
 }
 
 fn colour_of(report: &FeatureReport, tokens: &Tokens) -> eframe::egui::Color32 {
@@ -124,8 +125,8 @@ pub fn chip_ui(ui: &mut Ui, editor: &mut Editor) -> Option<Response> {
     let undecided = report.count(&[FeatureKind::Undecided]);
     let tooltip = format!(
         "Proved for the numbers as they are: {}, {} undecided. The inspector lists them all.",
-        figures::count(inflections, "inflection", "inflections"),
-        figures::count(undecided, "piece", "pieces"),
+        counted(inflections, "inflection", "inflections"),
+        counted(undecided, "piece", "pieces"),
     );
     Some(response.on_hover_text(tooltip))
 }

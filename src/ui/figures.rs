@@ -69,11 +69,6 @@ pub fn degrees(radians: f64, decimals: usize) -> String {
     }
 }
 
-/// Write how many there are of something: "1 piece", "2 pieces".
-pub fn count(count: usize, one: &str, several: &str) -> String {
-    format!("{count} {}", noun(count, one, several))
-}
-
 /// What that many things are called.
 pub fn noun<'a>(count: usize, one: &'a str, several: &'a str) -> &'a str {
     if count == 1 { one } else { several }

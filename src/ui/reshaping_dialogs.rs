@@ -8,7 +8,7 @@ use super::number_field::{FieldEvent, NumberField};
 use super::theme::{ROW, STEP, Tokens};
 use super::{figures, widgets};
 use crate::editor::{Division, DivisionReport, Editor, ExtremaCount, RoundingReport};
-use crate::geometry::{MAX_SUBDIVISIONS, PolygonKind};
+use crate::geometry::{MAX_SUBDIVISIONS, PolygonKind, counted};
 
 /// The width of these dialogs.
 const WIDTH: f32 = 420.0;
@@ -194,7 +194,7 @@ fn extrema(count: Option<ExtremaCount>) -> String {
         Some(ExtremaCount { proved, undecided }) => match undecided {
             0 => proved.to_string(),
             doubts => {
-                let pieces = figures::count(doubts, "piece", "pieces");
+                let pieces = counted(doubts, "piece", "pieces");
                 format!("{proved}, {pieces} undecided")
             }
         },

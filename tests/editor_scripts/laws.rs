@@ -3,7 +3,7 @@
 use batten::document::{Curve, Document};
 use batten::editor::Selection;
 use batten::geometry::FloatPolygon;
-use batten::io::Format;
+use batten::io::{Format, Reading};
 use glam::DVec3;
 
 use super::snapshot::{Bits, Snapshot};
@@ -121,7 +121,7 @@ fn check_kept(old: &Bits, new: &Bits) -> Result<(), String> {
 /// What is written is read back equal.
 pub fn check_written(document: &Document) -> Result<(), String> {
     let curves: Vec<&Curve> = document.curves().map(|(_, curve)| curve.as_ref()).collect();
-    let written = Format::Batten.write(&curves, None);
+    let written = Format::Batten.write(&curves, document.extras(), None);
     let written = written.map_err(|error| format!("cannot be written: {error}"))?;
     check_read(document, Format::Batten.read(&written.bytes))
 }
@@ -129,9 +129,13 @@ pub fn check_written(document: &Document) -> Result<(), String> {
 /// What was read is what the document holds.
 pub fn check_read<E: std::fmt::Display>(
     document: &Document,
-    read: Result<Vec<Curve>, E>,
+    read: Result<Reading, E>,
 ) -> Result<(), String> {
     let read = read.map_err(|error| format!("cannot be read back: {error}"))?;
+    let (read, extras) = (read.curves, read.extras);
+    if extras != *document.extras() {
+        return Err(format!("{extras:?} was read back"));
+    }
     let held: Vec<&Curve> = document.curves().map(|(_, curve)| curve.as_ref()).collect();
     if read.iter().collect::<Vec<&Curve>>() != held {
         return Err(format!("read back as {read:?}, not {held:?}"));

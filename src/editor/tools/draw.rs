@@ -2,14 +2,14 @@
 
 use glam::{DVec2, DVec3};
 
-use super::tool::{Context, Effect, Tool, count_vertices};
+use super::tool::{Context, Effect, Tool};
 use crate::document::{Curve, Edit};
 use crate::editor::gesture::{Gesture, is_hasty_click};
 use crate::editor::hit::REACH;
 use crate::editor::input::Key;
 use crate::editor::scene::Mark;
 use crate::editor::snapping::{Carried, along_axis, by_fifteen_degrees};
-use crate::geometry::FloatPolygon;
+use crate::geometry::{FloatPolygon, counted};
 
 /// The degree that a drawn curve gets if there is no active curve to take it from.
 const DEGREE: usize = 5;
@@ -72,7 +72,7 @@ impl DrawTool {
                     Effect::Activate(id),
                     Effect::Say(format!(
                         "{}, degree {degree}{}",
-                        count_vertices(points.len()),
+                        counted(points.len(), "vertex", "vertices"),
                         if degree < wanted {
                             ": add vertices to raise it"
                         } else {
@@ -148,7 +148,7 @@ impl Tool for DrawTool {
                 .into(),
             count => format!(
                 "{}: Enter or right click ends; click the first vertex to make it periodic",
-                count_vertices(count)
+                counted(count, "vertex", "vertices")
             ),
         }
     }

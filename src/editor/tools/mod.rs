@@ -9,7 +9,7 @@ mod tool;
 mod transform;
 mod vertices;
 
-pub use tool::{Context, Cursor, Effect, Tool, count_vertices, move_edits};
+pub use tool::{Context, Cursor, Effect, Tool, move_edits};
 pub use transform::{Action as Transformation, NOTHING_TO_TRANSFORM};
 
 use transform::Transform;

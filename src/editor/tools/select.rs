@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3};
 
-use super::tool::{Context, Cursor, Effect, Tool, count_vertices, move_edits};
+use super::tool::{Context, Cursor, Effect, Tool, move_edits};
 use crate::document::{CurveId, Edit};
 use crate::editor::drawing::figure;
 use crate::editor::gesture::Gesture;
@@ -15,6 +15,7 @@ use crate::editor::layers::Layer;
 use crate::editor::scene::Mark;
 use crate::editor::selection::VertexId;
 use crate::editor::snapping::{Carried, along_axis};
+use crate::geometry::counted;
 
 /// How near to a leg the pointer must be to take it, in screen points: less than to a vertex.
 const LEG_REACH: f64 = 0.5 * REACH;
@@ -125,7 +126,7 @@ impl Tool for SelectTool {
         match &self.state {
             State::Moving(Moving { vertices, .. }) => format!(
                 "Moving {}: Shift keeps to an axis, X, Y, Z to the model's, Ctrl turns snapping {}, Alt shows before, Esc cancels",
-                count_vertices(vertices.len()),
+                counted(vertices.len(), "vertex", "vertices"),
                 if context.snapping { "off" } else { "on" },
             ),
             State::MovingClamped(MovingClamped { vertex, .. }) => format!(
@@ -142,7 +143,7 @@ impl Tool for SelectTool {
                 if selected > 0 {
                     format!(
                         "{} selected: drag, or nudge with the arrow keys (Shift ×10); Del deletes",
-                        count_vertices(selected)
+                        counted(selected, "vertex", "vertices")
                     )
                 } else if context.document.is_empty() {
                     "Nothing here yet: draw a polygon with D, or open a file with Ctrl+O".into()
@@ -236,7 +237,7 @@ impl SelectTool {
         let Some(held) = held else {
             return vec![refused(hit.0, context)];
         };
-        let label = format!("Move {}", count_vertices(taken.len()));
+        let label = format!("Move {}", counted(taken.len(), "vertex", "vertices"));
         let mut effects = vec![Effect::Select(taken.clone()), Effect::Activate(hit.0)];
         effects.extend(self.move_these(place, held, taken, &label, context));
         effects
@@ -252,7 +253,7 @@ impl SelectTool {
         }
         let (taken, label) = if ends.iter().all(|end| context.selection.contains(*end)) {
             let taken: Vec<VertexId> = context.selection.vertices().collect();
-            let label = format!("Move {}", count_vertices(taken.len()));
+            let label = format!("Move {}", counted(taken.len(), "vertex", "vertices"));
             (taken, label)
         } else {
             (ends.into(), "Move leg".to_owned())
@@ -444,7 +445,7 @@ fn nudge(key: Key, context: &Context) -> Vec<Effect> {
         let refused = first.map(|id| refused(id.0, context));
         return refused.into_iter().collect();
     }
-    let label = format!("Nudge {}", count_vertices(vertices.len()));
+    let label = format!("Nudge {}", counted(vertices.len(), "vertex", "vertices"));
     let places = vertices.iter().map(|(id, at)| {
         let by = context.movement(direction * step, planar.contains(&id.0));
         (*id, *at + by)

@@ -211,11 +211,3 @@ pub fn move_edits(moved: impl IntoIterator<Item = (VertexId, DVec3)>) -> Vec<Edi
     let edit = |(curve, moves)| Edit::MoveVertices { curve, moves };
     edits.into_iter().map(edit).collect()
 }
-
-/// Say "1 vertex" or "7 vertices".
-pub fn count_vertices(count: usize) -> String {
-    match count {
-        1 => "1 vertex".to_owned(),
-        count => format!("{count} vertices"),
-    }
-}

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::tool::{Context, Effect, Tool, count_vertices, move_edits};
+use super::tool::{Context, Effect, Tool, move_edits};
 use crate::analysis::Bounds;
 use crate::editor::gesture::Gesture;
 use crate::editor::hit::REACH;
@@ -11,6 +11,7 @@ use crate::editor::scene::Mark;
 use crate::editor::selection::VertexId;
 use crate::editor::snapping::{Carried, by_fifteen_degrees};
 use crate::editor::viewport::Viewport;
+use crate::geometry::counted;
 
 /// What is said where there is nothing to rotate or scale.
 pub const NOTHING_TO_TRANSFORM: &str =
@@ -74,7 +75,7 @@ impl TransformTool {
             Transform::Rotate => "Rotate",
             Transform::Scale => "Scale",
         };
-        let label = format!("{verb} {}", count_vertices(vertices.len()));
+        let label = format!("{verb} {}", counted(vertices.len(), "vertex", "vertices"));
         let origin = context.model(place);
         self.state = State::Turning {
             pivot,
