@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::Editor;
 use super::files::with_lines;
 use super::report::Request;
-use crate::document::{Curve, CurveId, Extras, free_name};
+use crate::document::{Curve, CurveId, Extras, free_name, quoted};
 use crate::geometry::{FloatPolygon, PolygonKind, counted};
 use crate::io::{Export as Exported, Format, Reading, WriteError};
 
@@ -137,7 +137,7 @@ impl Editor {
             .then(|| indices.iter().map(|index| polygon.weight(*index)).collect());
         let degree = polygon.degree().min(indices.len().saturating_sub(1)).max(1);
         let part = FloatPolygon::new(degree, vertices, weights, false);
-        let part = part.map_err(|error| format!("“{}”: {error}", curve.name))?;
+        let part = part.map_err(|error| format!("{}: {error}", quoted(&curve.name)))?;
         let part = Curve::new(curve.name.clone(), part);
         text_of(Format::Csv.write(&[part], &Extras::default(), Some(PolygonKind::Float)))
     }

@@ -3,7 +3,7 @@
 use super::Editor;
 use super::command::Command;
 use super::polygon_edits::without;
-use crate::document::Edit;
+use crate::document::{Edit, quoted};
 use crate::geometry::counted;
 
 impl Editor {
@@ -32,8 +32,8 @@ impl Editor {
                 return Err("There is no curve".into());
             };
             return Err(format!(
-                "No vertex is selected. To remove “{}” as a whole, use {}",
-                curve.name,
+                "No vertex is selected. To remove {} as a whole, use {}",
+                quoted(&curve.name),
                 delete_curve_in_words()
             ));
         }
@@ -48,13 +48,14 @@ impl Editor {
                 .map_err(|refused| refused.to_string())?;
             if indices.len() == curve.polygon.vertices().len() {
                 return Err(format!(
-                    "All vertices of “{}” are selected. To remove it as a whole, use {}",
-                    curve.name,
+                    "All vertices of {} are selected. To remove it as a whole, use {}",
+                    quoted(&curve.name),
                     delete_curve_in_words()
                 ));
             }
-            let polygon = without(&curve.polygon, &indices)
-                .map_err(|error| format!("“{}”: {error}; lower its degree first", curve.name))?;
+            let polygon = without(&curve.polygon, &indices).map_err(|error| {
+                format!("{}: {error}; lower its degree first", quoted(&curve.name))
+            })?;
             edits.push(Edit::SetPolygon { curve: id, polygon });
         }
         Ok(edits)
@@ -68,7 +69,7 @@ impl Editor {
             return self.fail(locked.to_string());
         }
         if self.apply("Delete curve", vec![Edit::Remove(id)]) {
-            self.say_done(format!("“{}” deleted", curve.name));
+            self.say_done(format!("{} deleted", quoted(&curve.name)));
         }
     }
 }

@@ -7,7 +7,7 @@ use super::drawing::figure;
 use super::end_fit::{EndFitAction, EndFitReport};
 use super::layers::Layer;
 use super::tools::ToolKind;
-use crate::document::{Curve, CurveId, Edit};
+use crate::document::{Curve, CurveId, Edit, quoted};
 use crate::geometry::end_correction::{
     EndDifference, EndOverlap, EndTarget, LoopOutcome, align_end, correct_in_turn, translate_end,
 };
@@ -41,8 +41,8 @@ impl Editor {
         };
         if curve.polygon.is_periodic() {
             self.fail(format!(
-                "“{}” is periodic and has no ends: open it first",
-                curve.name
+                "{} is periodic and has no ends: open it first",
+                quoted(&curve.name)
             ));
             return;
         }

@@ -9,7 +9,7 @@ use super::layers::Layer;
 use super::polygon_edits::reinterpreted;
 use super::report::{AfterDiscard, Export, Request};
 use super::selection::VertexId;
-use crate::document::{Curve, CurveId, Edit};
+use crate::document::{Curve, CurveId, Edit, quoted};
 use crate::geometry::PolygonKind;
 use crate::geometry::end_correction::EndTarget;
 
@@ -377,7 +377,7 @@ impl Editor {
             Ok(polygon) => {
                 self.apply(label, vec![Edit::SetPolygon { curve: id, polygon }]);
             }
-            Err(error) => self.fail(format!("“{}”: {error}", curve.name)),
+            Err(error) => self.fail(format!("{}: {error}", quoted(&curve.name))),
         }
     }
 }

@@ -5,6 +5,7 @@ use eframe::egui::{Context, Grid, Id, Key, Modal, RichText, ScrollArea, Ui, vec2
 use super::reshaping_dialogs::{DivisionDialog, RoundingDialog};
 use super::theme::{self, STEP, Tokens};
 use super::{keyboard, widgets};
+use crate::document::quoted;
 use crate::editor::{AfterDiscard, Command, Division, Editor};
 use crate::geometry::PolygonKind;
 
@@ -62,7 +63,7 @@ fn unsaved_ui(ui: &mut Ui, after: &AfterDiscard, editor: &Editor) -> Option<Deci
     ui.strong("Save the changes?");
     let name = editor.path().and_then(|path| path.file_name());
     let name = name.map_or("the document".to_owned(), |name| {
-        format!("“{}”", name.display())
+        quoted(&name.to_string_lossy())
     });
     let what = match after {
         AfterDiscard::Quit => "Batten is closed",

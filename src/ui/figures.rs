@@ -127,14 +127,6 @@ mod tests {
     }
 
     #[test]
-    fn one_of_a_thing_is_not_called_several() {
-        let count = |number| count(number, "piece", "pieces");
-        assert_eq!(count(0), "0 pieces");
-        assert_eq!(count(1), "1 piece");
-        assert_eq!(count(12), "12 pieces");
-    }
-
-    #[test]
     fn fields_show_numbers_exactly_and_read_what_people_type() {
         for value in [0.1 + 0.2, -1e-300, 12.0, f64::MAX, 8.748_581_800_695_999] {
             assert_eq!(read(&exact(value)), Some(value));

@@ -8,8 +8,9 @@ use eframe::egui::{Align2, Context, Id, Key, Label, Modal, RichText, TextEdit, U
 
 use super::theme::{ROW, STEP, Tokens};
 use super::widgets;
+use crate::document::quoted;
 use crate::editor::{AfterDiscard, Export, with_extension};
-use crate::io::Format;
+use crate::io::{Format, shown_path};
 
 /// A dialog that answers "nothing" sooner than this was never shown.
 const UNAVAILABLE: Duration = Duration::from_millis(250);
@@ -248,8 +249,8 @@ impl Prompt {
         let (text, colour) = match (&self.error, &self.replacing) {
             (Some(error), _) => (error.clone(), tokens.error),
             (None, Some(path)) => {
-                let name = path.file_name().unwrap_or_default().display();
-                let text = format!("“{name}” exists. Enter once more replaces it, Esc cancels.");
+                let name = quoted(&path.file_name().unwrap_or_default().to_string_lossy());
+                let text = format!("{name} exists. Enter once more replaces it, Esc cancels.");
                 (text, tokens.warning)
             }
             (None, None) => {
@@ -293,18 +294,18 @@ fn refused(purpose: &Purpose, path: &Path) -> Option<String> {
     if path.is_dir() {
         return Some(format!(
             "{} is a folder: add a file's name.",
-            path.display()
+            shown_path(path)
         ));
     }
     match purpose {
         Purpose::Open | Purpose::Import if !path.is_file() => {
-            Some(format!("There is no file {}.", path.display()))
+            Some(format!("There is no file {}.", shown_path(path)))
         }
         Purpose::Save(_) | Purpose::Export(_) => {
             let folder = path
                 .parent()
                 .filter(|folder| !folder.as_os_str().is_empty())?;
-            let missing = || format!("There is no folder {}.", folder.display());
+            let missing = || format!("There is no folder {}.", shown_path(folder));
             (!folder.is_dir()).then(missing)
         }
         _ => None,

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use glam::{DMat3, DVec2, DVec3};
 
 use super::tool::{Context, Cursor, Effect, Tool};
-use crate::document::{Curve, CurveId, Edit};
+use crate::document::{Curve, CurveId, Edit, quoted};
 use crate::editor::end_fit::{ARROW, EndFitAction, RING, nearest_other_end, other_ends};
 use crate::editor::gesture::Gesture;
 use crate::editor::hit::REACH;
@@ -78,8 +78,8 @@ impl<'a> Subject<'a> {
         };
         if curve.polygon.is_periodic() {
             return Err(format!(
-                "“{}” is periodic and has no ends: open it in the inspector",
-                curve.name
+                "{} is periodic and has no ends: open it in the inspector",
+                quoted(&curve.name)
             ));
         }
         curve

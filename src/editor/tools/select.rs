@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use glam::{DVec2, DVec3};
 
 use super::tool::{Context, Cursor, Effect, Tool, move_edits};
-use crate::document::{CurveId, Edit};
+use crate::document::{CurveId, Edit, quoted};
 use crate::editor::drawing::figure;
 use crate::editor::gesture::Gesture;
 use crate::editor::grid::grid_steps;
@@ -323,7 +323,7 @@ fn move_clamped((id, index): VertexId, place: DVec3, context: &Context) -> Effec
     };
     match curve.polygon.with_clamped_vertex(index, place) {
         Ok(polygon) => Effect::Preview(vec![Edit::SetPolygon { curve: id, polygon }]),
-        Err(error) => Effect::Say(format!("“{}”: {error}", curve.name)),
+        Err(error) => Effect::Say(format!("{}: {error}", quoted(&curve.name))),
     }
 }
 

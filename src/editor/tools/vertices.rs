@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::tool::{Context, Effect, Tool};
-use crate::document::{CurveId, Edit};
+use crate::document::{CurveId, Edit, quoted};
 use crate::editor::gesture::Gesture;
 use crate::editor::hit::LegHit;
 use crate::editor::polygon_edits::{inserted, without};
@@ -266,9 +266,9 @@ fn delete(curve: CurveId, index: usize, context: &Context) -> Vec<Effect> {
                 Effect::Select(Vec::new()),
                 Effect::Activate(curve),
                 Effect::Apply("Delete vertex".into(), vec![edit]),
-                Effect::Say(format!("Vertex {index} of “{}” deleted", found.name)),
+                Effect::Say(format!("Vertex {index} of {} deleted", quoted(&found.name))),
             ]
         }
-        Err(reason) => vec![Effect::Say(format!("“{}”: {reason}", found.name))],
+        Err(reason) => vec![Effect::Say(format!("{}: {reason}", quoted(&found.name)))],
     }
 }
