@@ -157,14 +157,16 @@ fn a_vertex_at_zero_is_zero_on_a_curve_of_size_1e50() {
             column.into_iter().map(|[x, ..]| x).collect()
         };
         let columns: Vec<Vec<Exact>> = (0..count).map(column).collect();
-        for vertex in 0..count {
+        let row = |vertex: usize| columns.iter().map(|column| &column[vertex]).collect();
+        let rows: Vec<Vec<&Exact>> = (0..count).map(row).collect();
+        for (vertex, row) in rows.iter().enumerate() {
             // Pairs of vertices of size 1e50 that cancel in this one.
             let mut points = vec![DVec3::new(0.0, 1.0, 0.0); count];
             for pair in 0..count / 2 {
                 let (one, other) = (2 * pair, 2 * pair + 1);
                 let size = integer(random.between(3.0, 99.0) as i64)
                     * Exact::from_integer(num_bigint::BigInt::from(1) << 150);
-                let [a, b] = [one, other].map(|index| &columns[index][vertex]);
+                let [a, b] = [row[one], row[other]];
                 let size = size * a.denom() * b.denom();
                 points[one].x = (b * &size).to_f64().expect("a number");
                 points[other].x = -(a * &size).to_f64().expect("a number");
