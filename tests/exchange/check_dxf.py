@@ -149,7 +149,8 @@ def main(folder):
         for problem in found:
             print(f"{path.stem}: {problem}")
         if not found:
-            print(f"{path.stem}: {len(curves)} curves, all as they should be")
+            count = "1 curve" if len(curves) == 1 else f"{len(curves)} curves"
+            print(f"{path.stem}: {count} as it should be")
     return 1 if wrong or not expected else 0
 
 
