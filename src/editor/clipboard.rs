@@ -84,6 +84,15 @@ impl Editor {
         }
     }
 
+    /// Say what was copied.
+    pub(super) fn say_copied(&mut self) {
+        let count = self.selection.vertices().len();
+        match self.active_curve() {
+            Some((_, curve)) if count == 0 => self.say(format!("{} copied", quoted(&curve.name))),
+            _ => self.say(format!("{} copied", counted(count, "vertex", "vertices"))),
+        }
+    }
+
     /// Add copies a little aside, named anew and unlocked. What their file said of the curves
     /// that Batten does not know, such as a number of their own, is not copied.
     pub(super) fn add_copies(&mut self, label: &str, curves: Vec<Curve>) {

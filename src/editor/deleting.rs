@@ -48,7 +48,7 @@ impl Editor {
                 .map_err(|refused| refused.to_string())?;
             if indices.len() == curve.polygon.vertices().len() {
                 return Err(format!(
-                    "All vertices of {} are selected. To remove it as a whole, use {}",
+                    "The selection holds all vertices of {}. To remove it as a whole, use {}",
                     quoted(&curve.name),
                     delete_curve_in_words()
                 ));

@@ -203,7 +203,11 @@ impl Editor {
                 let request = self.copy()?;
                 return self.delete("Cut", "cut").then_some(request);
             }
-            Command::Copy => return self.copy(),
+            Command::Copy => {
+                let request = self.copy()?;
+                self.say_copied();
+                return Some(request);
+            }
             Command::Paste => return Some(Request::Paste),
             Command::Duplicate => self.duplicate(),
             Command::Delete => {
@@ -294,6 +298,11 @@ impl Editor {
     }
 
     fn select_all(&mut self) {
+        if let Some((_, curve)) = self.active_curve()
+            && let Err(hidden) = curve.check_visible()
+        {
+            return self.fail(hidden.to_string());
+        }
         let all_of = |(id, curve): (CurveId, &Arc<Curve>)| {
             let count = if curve.visible {
                 curve.polygon.vertices().len()

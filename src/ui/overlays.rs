@@ -1,7 +1,8 @@
 //! What lies over the canvas for a moment: an empty document's advice, and files about to drop.
 
 use eframe::egui::{
-    Align2, Area, Button, Context, Id, LayerId, Order, Rect, RichText, Stroke, StrokeKind, pos2,
+    Align2, Area, Button, Context, Id, LayerId, Order, Rect, RichText, Stroke, StrokeKind,
+    TextWrapMode, pos2,
 };
 
 use super::gizmo;
@@ -41,7 +42,8 @@ pub fn orbited_ui(context: &Context, canvas: Rect, commands: &mut Vec<Command>) 
     let clicked = area.show(context, |ui| {
         let tokens = Tokens::of(ui);
         let text = RichText::new("Orbited · F2").color(tokens.strong_text);
-        let badge = Button::new(text).stroke(Stroke::new(1.0, tokens.accent));
+        let badge = Button::new(text).wrap_mode(TextWrapMode::Extend);
+        let badge = badge.stroke(Stroke::new(1.0, tokens.accent));
         let response = ui.add(badge);
         response
             .on_hover_text("The drawing is planar and seen at an angle: look at it from above")

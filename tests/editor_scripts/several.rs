@@ -191,6 +191,7 @@ fn a_single_vertex_is_copied_as_its_coordinates() {
     script.click(script.at_vertex_of(other, 3));
     let DVec3 { x, y, .. } = polygon_of(&script, other).vertex(3);
     assert_eq!(copied(&mut script), format!("{x},{y}\n"));
+    assert_eq!(script.message(), "1 vertex copied");
     // With a header only where vertices make a curve.
     script.editor.select_vertex(arc, 2, true);
     script.editor.select_vertex(arc, 5, true);
@@ -305,4 +306,15 @@ fn targets_of_any_direction_survive_a_file() {
         None
     );
     assert_eq!(script.editor.document().len(), 1);
+}
+
+#[test]
+fn select_all_says_that_the_active_curve_is_hidden_and_takes_no_other() {
+    let (mut script, [arc, _]) = two();
+    script.editor.set_visible(arc, false);
+    script.editor.activate(arc);
+    script.command(Command::SelectAll);
+    assert_eq!(script.curve(), arc);
+    assert!(script.editor.selection().is_empty());
+    assert!(script.message().contains("hidden"), "{}", script.message());
 }

@@ -78,7 +78,7 @@ impl<'a> Subject<'a> {
         };
         if curve.polygon.is_periodic() {
             return Err(format!(
-                "{} is periodic and has no ends: open it in the inspector",
+                "{} is periodic and has no ends: open it in the Curve menu",
                 quoted(&curve.name)
             ));
         }
