@@ -302,8 +302,8 @@ impl Check<'_> {
         }
     }
 
-    /// Between pieces with a trend lie an extremum, an undecided piece or a cusp, with the width to
-    /// which roots are narrowed about it, for there the slope vanishes too, or no more than rounding.
+    /// Between pieces with a trend lie an extremum, an undecided piece, a cusp, or no more than
+    /// rounding.
     fn trends_leave_nothing_out(&mut self) {
         let features = self.features;
         let end = self.truth.segments() as f64;
@@ -334,9 +334,9 @@ impl Check<'_> {
             };
             for by in shifts {
                 for u in &explained {
-                    let slack = 4.0 * f64::EPSILON * end + ROOT_WIDTH;
-                    if u[0] + by <= reached + slack && u[1] + by + ROOT_WIDTH > reached {
-                        reached = u[1] + by + ROOT_WIDTH;
+                    let rounding = 4.0 * f64::EPSILON * end;
+                    if u[0] + by <= reached + rounding && u[1] + by > reached {
+                        reached = u[1] + by;
                     }
                 }
             }

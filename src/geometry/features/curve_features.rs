@@ -2,13 +2,12 @@
 
 use super::enclosure::narrower;
 use super::exact_numerators::ExactSegment;
-use super::feature::{
-    Cusp, Extremum, ExtremumKind, Features, Quantity, Root, Trend, TrendPiece, Undecided, Verdict,
-};
+use super::feature::{Cusp, Extremum, ExtremumKind, Features, Quantity, Root, Undecided, Verdict};
 use super::segment_features::{SegmentFeatures, SegmentProver};
 use super::separation::{Found, join_neighbours, narrow_neighbours};
 use super::sign_piece::SignPiece;
 use super::sign_walk::{Place, SignWalk};
+use super::trends::trends;
 use super::values;
 use crate::geometry::float_polygon::FloatPolygon;
 
@@ -58,82 +57,66 @@ impl Features {
         };
         let planar = polygon.is_planar();
         let mut singular: Vec<_> = features.cusps.iter().map(|cusp| cusp.u).collect();
-        let walk = assembly.walk(Quantity::Inflection);
-        features.inflections =
-            features.take(&assembly, Quantity::Inflection, &walk, &singular, root);
-        let walk = assembly.walk(Quantity::CurvatureExtremum);
-        let extremum = |found: &Found| assembly.extremum(found, Quantity::CurvatureExtremum);
-        features.curvature_extrema = features.take(
-            &assembly,
-            Quantity::CurvatureExtremum,
-            &walk,
-            &singular,
-            extremum,
-        );
-        features.trends = trends(&walk);
+        let quantity = Quantity::Inflection;
+        let walk = assembly.walk(quantity);
+        let found = assembly.find(quantity, &walk, &singular);
+        let found = features.decide(&assembly, quantity, (&walk, found), &singular);
+        features.inflections = found.iter().map(root).collect();
+        let quantity = Quantity::CurvatureExtremum;
+        let walk = assembly.walk(quantity);
+        let found = assembly.find(quantity, &walk, &singular);
+        features.trends = trends(&walk.runs, &found, &features.cusps, count as f64);
+        let found = features.decide(&assembly, quantity, (&walk, found), &singular);
+        let extrema = found.iter().map(|found| assembly.extremum(found, quantity));
+        features.curvature_extrema = extrema.collect();
         features.monotone = features.verdict();
         if !planar {
-            let walk = assembly.walk(Quantity::TorsionZero);
-            features.torsion_zeros =
-                features.take(&assembly, Quantity::TorsionZero, &walk, &singular, root);
+            let quantity = Quantity::TorsionZero;
+            let walk = assembly.walk(quantity);
+            let found = assembly.find(quantity, &walk, &singular);
+            let found = features.decide(&assembly, quantity, (&walk, found), &singular);
+            features.torsion_zeros = found.iter().map(root).collect();
             let flat = assembly.flat_knots();
             singular.extend(&flat);
-            let walk = assembly.walk(Quantity::TorsionExtremum);
-            let extremum = |found: &Found| assembly.extremum(found, Quantity::TorsionExtremum);
-            features.torsion_extrema = features.take(
-                &assembly,
-                Quantity::TorsionExtremum,
-                &walk,
-                &singular,
-                extremum,
-            );
+            let quantity = Quantity::TorsionExtremum;
+            let walk = assembly.walk(quantity);
+            let found = assembly.find(quantity, &walk, &singular);
+            let found = features.decide(&assembly, quantity, (&walk, found), &singular);
+            let extrema = found.iter().map(|found| assembly.extremum(found, quantity));
+            features.torsion_extrema = extrema.collect();
             features.doubt_jumps(&flat);
         }
         features
     }
 
-    /// Turn the changes of a sign into features, but for those at a singular place, which are
-    /// added to the undecided pieces together with the walk's own. Roots that touch another one or
-    /// a singular place are narrowed first.
-    fn take<T>(
+    /// Join the changes of a sign that doubles cannot tell apart. Those at a singular place are
+    /// added to the undecided pieces instead, together with the walk's own.
+    fn decide<'a>(
         &mut self,
         assembly: &Assembly,
         quantity: Quantity,
-        walk: &SignWalk,
+        (walk, mut found): (&SignWalk, Vec<Found<'a>>),
         singular: &[[f64; 2]],
-        feature: impl Fn(&Found) -> T,
-    ) -> Vec<T> {
-        let changes = walk.changes.iter();
-        let mut found: Vec<_> = changes
-            .map(|change| Found::new(change, assembly.interval(change.places)))
-            .collect();
-        // A walk round a periodic curve sees its joint last.
-        found.sort_by(|a, b| a.u[0].total_cmp(&b.u[0]));
-        let joint = assembly.joint();
-        let narrow = |found: &mut Found| found.narrow(assembly.polygon, quantity);
-        narrow_neighbours(&mut found, joint, narrow);
+    ) -> Vec<Found<'a>> {
         let doubt = |u, certain| Undecided {
             u,
             quantity,
             certain,
         };
-        found.retain_mut(|found| {
-            if assembly.touches(singular, found.u) {
-                narrow(found);
-            }
+        found.retain(|found| {
             let is_singular = assembly.touches(singular, found.u);
             if is_singular {
                 self.undecided.push(doubt(found.u, false));
             }
             !is_singular
         });
-        join_neighbours(&mut found, joint);
+        join_neighbours(&mut found, assembly.joint());
         for found in &walk.doubts {
             let u = assembly.interval(found.places);
             let certain = found.changed && !assembly.touches(singular, u);
             self.undecided.push(doubt(u, certain));
         }
-        found.iter().map(feature).collect()
+        found
     }
 
     /// Leave open whether the torsion jumps at knots without curvature, and makes extrema there.
@@ -212,6 +195,34 @@ impl Assembly<'_> {
             }
         };
         SignWalk::new((self.segments.len(), self.is_periodic()), pieces, jump)
+    }
+
+    /// Find the intervals of the changes of a sign, in the order of u. Roots that touch another one
+    /// or a singular place are narrowed.
+    fn find<'a>(
+        &self,
+        quantity: Quantity,
+        walk: &'a SignWalk,
+        singular: &[[f64; 2]],
+    ) -> Vec<Found<'a>> {
+        let changes = walk.changes.iter();
+        let mut found: Vec<_> = changes
+            .map(|change| Found::new(change, self.interval(change.places)))
+            .collect();
+        // A walk round a periodic curve sees its joint last: a change at the joint itself comes
+        // before a root whose interval begins there.
+        found.sort_by(|a, b| {
+            let order = a.u[0].total_cmp(&b.u[0]);
+            order.then(a.u[1].total_cmp(&b.u[1]))
+        });
+        let narrow = |found: &mut Found| found.narrow(self.polygon, quantity);
+        narrow_neighbours(&mut found, self.joint(), narrow);
+        for found in &mut found {
+            if self.touches(singular, found.u) {
+                narrow(found);
+            }
+        }
+        found
     }
 
     fn pieces(&self, quantity: Quantity, segment: usize) -> &[SignPiece] {
@@ -378,17 +389,4 @@ fn root(found: &Found) -> Root {
         u: found.u,
         count: found.count,
     }
-}
-
-fn trends(walk: &SignWalk) -> Vec<TrendPiece> {
-    let pieces = walk.runs.iter().map(|run| TrendPiece {
-        u: [run.places[0].rounded_up(), run.places[1].rounded_down()],
-        trend: match run.sign {
-            0 => Trend::Constant,
-            sign if sign > 0 => Trend::Rising,
-            _ => Trend::Falling,
-        },
-    });
-    // Between roots that doubles of u cannot tell apart nothing is left.
-    pieces.filter(|piece| piece.u[0] <= piece.u[1]).collect()
 }

@@ -24,7 +24,9 @@ pub struct Features {
     /// Where a function may have roots or not; elsewhere all are counted.
     pub undecided: Vec<Undecided>,
     /// Pieces of the domain on which the curvature is proved to rise, to fall or to be
-    /// constant. What they leave out are the intervals of extrema and undecided pieces.
+    /// constant. What they leave out are the intervals of extrema, undecided pieces and cusps, and
+    /// pieces whose ends doubles of u cannot tell apart. A piece on which the curvature is constant
+    /// is listed even if it is an extremum, or undecided, as a whole.
     pub trends: Vec<TrendPiece>,
     /// Whether the curvature is monotone: without an extremum inside the domain.
     pub monotone: Verdict,

@@ -49,6 +49,7 @@ mod sign_piece;
 mod sign_walk;
 mod square_free;
 mod tables;
+mod trends;
 mod values;
 mod variations;
 pub(super) mod whole_numbers;

@@ -19,7 +19,8 @@ pub(super) struct Found<'a> {
     pub(super) count: usize,
     /// The first one.
     pub(super) change: &'a Change,
-    is_narrow: bool,
+    /// Whether the interval was narrowed beyond that of the places.
+    pub(super) is_narrow: bool,
 }
 
 impl<'a> Found<'a> {

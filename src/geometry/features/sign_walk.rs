@@ -230,8 +230,8 @@ impl SignWalk {
     fn run(&mut self, sign: i8, places: [Place; 2], continues: bool) {
         match self.runs.last_mut() {
             Some(last) if last.sign == sign && continues => last.places[1] = places[1],
-            _ if places[0] != places[1] => self.runs.push(Run { places, sign }),
-            _ => {}
+            // Even a run of no length, between two roots: the next piece may lengthen it.
+            _ => self.runs.push(Run { places, sign }),
         }
     }
 }
