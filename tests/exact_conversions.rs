@@ -411,3 +411,28 @@ fn the_amplification_is_that_of_the_exact_matrix() {
         }
     }
 }
+
+#[test]
+fn the_deviation_is_a_bound_though_the_vertices_are_far_apart() {
+    // At degree 25 the nearest float polygon has other vertices and the same curve, nearly.
+    let (degree, segments) = (25, 2);
+    let points = (0..degree + segments).map(|i| {
+        let angle = 0.3 * i as f64;
+        1000.0 * DVec3::new(angle.cos(), angle.sin(), 0.0)
+    });
+    let float = FloatPolygon::new(degree, points.collect(), None, false).expect("valid");
+    let clamped = ClampedPolygon::from_float(&float);
+    let back = clamped.nearest_float().expect("close").polygon;
+    let bound = float.deviation(&back).expect("the same knots");
+    let (from, to) = (Knots::float(degree), Knots::clamped(degree, segments));
+    let ends = [&float, &back].map(|polygon| {
+        let vertices = homogeneous(polygon.vertices(), None);
+        converted(&vertices, from, to).swap_remove(0)
+    });
+    let squared = (0..2).map(|axis| {
+        let difference = &ends[0][axis] - &ends[1][axis];
+        &difference * &difference
+    });
+    let squared = squared.fold(integer(0), |sum, part| sum + part);
+    assert!(squared <= exact(bound) * exact(bound), "{bound:e}");
+}

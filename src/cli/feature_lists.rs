@@ -1,6 +1,7 @@
 //! The proved features of a curve, as `batten inspect` prints them.
 
 use serde::Serialize;
+use serde_json::value::RawValue;
 
 use crate::geometry::features::{
     Extremum, ExtremumKind, Features, Quantity, Root, Undecided, Verdict, certain_digits,
@@ -36,7 +37,7 @@ struct CurvatureExtremum {
     count: usize,
     kind: &'static str,
     /// All digits are certain; null if none is.
-    curvature: Option<f64>,
+    curvature: Option<Box<RawValue>>,
 }
 
 #[derive(Serialize)]
@@ -46,7 +47,7 @@ struct TorsionExtremum {
     count: usize,
     kind: &'static str,
     /// All digits are certain; null if none is.
-    torsion: Option<f64>,
+    torsion: Option<Box<RawValue>>,
 }
 
 #[derive(Serialize)]
@@ -73,13 +74,13 @@ impl FeatureLists {
             u: extremum.u,
             count: extremum.count,
             kind: kind(extremum),
-            curvature: certain_digits(extremum.value, DIGITS),
+            curvature: digits(extremum),
         };
         let torsion = |extremum: &Extremum| TorsionExtremum {
             u: extremum.u,
             count: extremum.count,
             kind: kind(extremum),
-            torsion: certain_digits(extremum.value, DIGITS),
+            torsion: digits(extremum),
         };
         let cusps = features.cusps.iter().map(|cusp| PossibleCusp {
             u: cusp.u,
@@ -108,6 +109,19 @@ impl FeatureLists {
             },
         }
     }
+}
+
+/// Write the certain digits of an extremum's value and no others: with a power of ten where zeros
+/// would stand before the decimal point.
+fn digits(extremum: &Extremum) -> Option<Box<RawValue>> {
+    let number = certain_digits(extremum.value, DIGITS)?;
+    let plain = serde_json::to_string(&number).ok()?;
+    let text = if plain.ends_with("0.0") && number != 0.0 {
+        format!("{number:e}")
+    } else {
+        plain
+    };
+    RawValue::from_string(text).ok()
 }
 
 fn kind(extremum: &Extremum) -> &'static str {

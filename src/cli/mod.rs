@@ -47,8 +47,12 @@ pub fn run(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> 
         }) => convert::convert(&source, &destination, polygon, force),
         Ok(Task::Inspect { source, at }) => inspect::run(&source, &at),
         Err(error) => {
-            // Help goes to a reader that may go away; there is nobody else to tell.
-            let _ = error.print();
+            if error.use_stderr() {
+                output::usage(&error.render().to_string());
+            } else {
+                // Help goes to a reader that may go away; there is nobody else to tell.
+                let _ = error.print();
+            }
             let code = u8::try_from(error.exit_code()).unwrap_or(2);
             return Request::Done(ExitCode::from(code));
         }

@@ -2,6 +2,7 @@
 
 use std::io::{self, ErrorKind, Write};
 
+use crate::document::cut;
 use crate::io::Remarks;
 
 /// Print to the standard output. A reader that has gone away wants no more, which is no error.
@@ -25,6 +26,16 @@ pub(super) fn print_bytes(bytes: &[u8]) -> anyhow::Result<()> {
 pub(super) fn report(name: &str, remarks: &Remarks) {
     for line in remarks.to_string().lines() {
         message(&format!("{name}: {line}"));
+    }
+}
+
+/// Print what is wrong with the usage to the standard error; what was typed is made fit for it.
+pub(super) fn usage(text: &str) {
+    let mut out = io::stderr().lock();
+    for line in text.lines() {
+        let words: Vec<String> = line.split(' ').map(cut).collect();
+        // Where nobody listens there is nobody to tell.
+        let _ = writeln!(out, "{}", words.join(" "));
     }
 }
 

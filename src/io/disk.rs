@@ -250,7 +250,10 @@ fn check_writable(path: &Path, metadata: Metadata) -> Result<Metadata, FileError
     if !metadata.is_file() {
         return Err(FileError::NotAFile { path: path() });
     }
-    if metadata.permissions().readonly() {
+    // A folder that may be written to lets a file be replaced that may not be.
+    let opened = File::options().write(true).open(path());
+    let refused = opened.is_err_and(|error| error.kind() == io::ErrorKind::PermissionDenied);
+    if metadata.permissions().readonly() || refused {
         return Err(FileError::ReadOnly { path: path() });
     }
     Ok(metadata)

@@ -221,3 +221,18 @@ fn only_certain_digits_of_an_extremum_are_printed() {
         format!("{printed:e}")
     );
 }
+
+#[test]
+fn no_zero_is_printed_for_a_digit_that_is_not_certain() {
+    let vertices = "[[0,0],[1e-14,2e-14],[3e-14,1e-14],[4e-14,4e-14]]";
+    let curve = format!(r#"{{"name":"c","degree":3,"polygon":"float","vertices":{vertices}}}"#);
+    let project = format!(r#"{{"format":"batten","version":1,"curves":[{curve}]}}"#);
+    let folder = Folder::new().with("small.batten", project);
+    let (text, _) = folder.done(&["inspect", "small.batten"]);
+    let extremum = text.split("\"kind\"").nth(1).expect("an extremum");
+    let value = extremum.split("\"curvature\": ").nth(1).expect("a value");
+    let value = value.split_whitespace().next().expect("a number");
+    // About 1.2e14: without a power of ten it would have fifteen digits before the point.
+    let digits = value.strip_suffix("e14").expect("a power of ten");
+    assert!(digits.matches(char::is_numeric).count() < 15, "{value}");
+}

@@ -392,3 +392,56 @@ fn the_editor_does_not_open_on_files_that_cannot_be_read() {
         assert!(err.starts_with("batten: bad.batten: line 1"), "{err}");
     }
 }
+
+#[test]
+fn what_is_typed_wrong_neither_turns_nor_floods_the_message() {
+    let folder = Folder::new();
+    let long = "x".repeat(3000);
+    for arguments in [
+        ["convert", "-", "-", "--to-format", "d\u{202e}xf"],
+        ["convert", "-", "-", "--to-format", &long],
+        ["example", "hu\u{202e}ll", "a.batten", "--fo\u{202e}o", "1"],
+        ["inspect", "a.batten", "--at", &long, "-"],
+    ] {
+        let output = folder.run(&arguments);
+        let (_, err) = texts(&output);
+        assert_eq!(output.status.code(), Some(2), "{err}");
+        assert!(!err.contains('\u{202e}') && !err.contains(&long), "{err}");
+        assert!(err.len() < 1000, "{err}");
+    }
+    folder.misused(&["example", "hu\u{202e}ll", "a.batten"], "hu\\u{202e}ll");
+}
+
+/// The folder lets anybody replace the file, which only its owner may write.
+#[cfg(unix)]
+#[test]
+fn a_file_that_may_not_be_written_is_not_replaced() {
+    use std::os::unix::fs::PermissionsExt;
+    use std::os::unix::process::CommandExt;
+
+    const NOBODY: u32 = 65_534;
+    let folder = Folder::new().with("theirs.batten", "kept");
+    let mode = |path, mode| fs::set_permissions(path, fs::Permissions::from_mode(mode)).unwrap();
+    mode(folder.path("."), 0o777);
+    // Only root can become somebody else; others may not write to a file of their own.
+    let program = folder.path("program");
+    fs::copy(cargo_bin!("batten"), &program).unwrap();
+    mode(program.clone(), 0o755);
+    let mut process = Process::new(&program);
+    process.args(["example", "arc", "theirs.batten"]);
+    process.current_dir(folder.path("."));
+    let output = match process.uid(NOBODY).gid(NOBODY).output() {
+        Ok(output) => output,
+        Err(_) => {
+            mode(folder.path("theirs.batten"), 0o444);
+            folder.run(&["example", "arc", "theirs.batten"])
+        }
+    };
+    let (_, err) = texts(&output);
+    assert_eq!(output.status.code(), Some(1), "{err}");
+    assert!(
+        err.contains("theirs.batten: the file is read-only"),
+        "{err}"
+    );
+    assert_eq!(fs::read(folder.path("theirs.batten")).unwrap(), b"kept");
+}

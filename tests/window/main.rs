@@ -2,6 +2,7 @@
 #![cfg(feature = "gui")]
 
 mod canvas;
+mod fields;
 mod files;
 mod hand;
 mod numbers;

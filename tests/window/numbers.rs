@@ -12,7 +12,7 @@ use crate::hand::*;
 /// High enough that no field has to be scrolled to.
 const SIZE: (f32, f32) = (1480.0, 1300.0);
 
-fn window_of(polygons: Vec<FloatPolygon>) -> Window {
+pub fn window_of(polygons: Vec<FloatPolygon>) -> Window {
     let mut editor = Editor::with_document(Document::default());
     for polygon in polygons {
         let curve = Box::new(Curve::new("curve", polygon));
@@ -23,13 +23,13 @@ fn window_of(polygons: Vec<FloatPolygon>) -> Window {
     open_window_with(editor, SIZE.0, SIZE.1)
 }
 
-fn wave(count: u32, degree: usize) -> FloatPolygon {
+pub fn wave(count: u32, degree: usize) -> FloatPolygon {
     let points = (0..count).map(|i| (f64::from(i), (0.7 * f64::from(i)).sin()));
     FloatPolygon::planar(degree, &points.collect::<Vec<_>>()).expect("a polygon")
 }
 
 /// The events of a key that writes something.
-fn stroke(key: Key, text: &str) -> [Event; 3] {
+pub fn stroke(key: Key, text: &str) -> [Event; 3] {
     let key = |pressed| Event::Key {
         key,
         physical_key: None,
@@ -40,12 +40,12 @@ fn stroke(key: Key, text: &str) -> [Event; 3] {
     [key(true), Event::Text(text.to_owned()), key(false)]
 }
 
-fn digit(digit: char) -> [Event; 3] {
+pub fn digit(digit: char) -> [Event; 3] {
     let key = Key::from_name(&digit.to_string()).expect("a digit");
     stroke(key, &digit.to_string())
 }
 
-fn strike(window: &mut Window, text: &str) {
+pub fn strike(window: &mut Window, text: &str) {
     for character in text.chars() {
         let events = match character {
             '-' => stroke(Key::Minus, "-"),
@@ -59,18 +59,18 @@ fn strike(window: &mut Window, text: &str) {
     window.run();
 }
 
-fn enter(window: &mut Window) {
+pub fn enter(window: &mut Window) {
     press(window, Modifiers::NONE, Key::Enter);
 }
 
 /// Send events that all come in one frame.
-fn in_one_frame(window: &mut Window, events: Vec<Event>) {
+pub fn in_one_frame(window: &mut Window, events: Vec<Event>) {
     window.input_mut().events.extend(events);
     window.step();
     window.run();
 }
 
-fn click_events(pos: eframe::egui::Pos2) -> Vec<Event> {
+pub fn click_events(pos: eframe::egui::Pos2) -> Vec<Event> {
     let button = |pressed| Event::PointerButton {
         pos,
         button: PointerButton::Primary,
@@ -81,9 +81,9 @@ fn click_events(pos: eframe::egui::Pos2) -> Vec<Event> {
 }
 
 /// All that a shortcut could change.
-type State = (Layers, ToolKind, Vec<Curve>, DVec2, f64, Vec<usize>);
+pub type State = (Layers, ToolKind, Vec<Curve>, DVec2, f64, Vec<usize>);
 
-fn state(window: &Window) -> State {
+pub fn state(window: &Window) -> State {
     let editor = window.state().editor();
     let active = editor.active().expect("a curve");
     let curves = editor.document().curves();
@@ -97,11 +97,11 @@ fn state(window: &Window) -> State {
     )
 }
 
-fn x(window: &Window, vertex: usize) -> f64 {
+pub fn x(window: &Window, vertex: usize) -> f64 {
     curve(window).polygon.vertex(vertex).x
 }
 
-fn y(window: &Window, vertex: usize) -> f64 {
+pub fn y(window: &Window, vertex: usize) -> f64 {
     curve(window).polygon.vertex(vertex).y
 }
 
@@ -418,107 +418,4 @@ fn an_edit_moves_no_number_in_the_window() {
         "the list of features has another length"
     );
     assert_eq!(places(&window), before);
-}
-
-/// Press every key that is a shortcut somewhere, with what it writes.
-fn strike_all(window: &mut Window) {
-    for character in "123456789vaixdrsmegfh".chars() {
-        let text = character.to_string();
-        let key = Key::from_name(&text.to_uppercase()).expect("a key");
-        for event in stroke(key, &text) {
-            window.event(event);
-        }
-    }
-    for (key, text) in [(Key::Plus, "+"), (Key::Minus, "-"), (Key::Space, " ")] {
-        for event in stroke(key, text) {
-            window.event(event);
-        }
-    }
-    window.run();
-    for key in [
-        Key::ArrowLeft,
-        Key::ArrowRight,
-        Key::Backspace,
-        Key::Delete,
-        Key::Home,
-    ] {
-        press(window, Modifiers::NONE, key);
-    }
-}
-
-fn check_field(window: &mut Window, label: &str) {
-    let before = state(window);
-    let at = window.get_by_label(label).rect().center();
-    let mut events = click_events(at);
-    events.extend(digit('5'));
-    in_one_frame(window, events);
-    assert_eq!(
-        state(window),
-        before,
-        "{label}: a digit right after the click"
-    );
-    strike_all(window);
-    assert_eq!(state(window), before, "{label}");
-}
-
-#[test]
-fn keys_typed_into_any_field_are_no_shortcuts() {
-    let mut window = window_of(vec![wave(8, 3)]);
-    click(&mut window, "vertex 1");
-    click(&mut window, "Column z");
-    click(&mut window, "Column Weights");
-    press(&mut window, Modifiers::NONE, Key::Num5);
-    let table = ["vertex 1 x", "vertex 2 y", "vertex 3 z", "vertex 4 weight"];
-    let fields = ["Degree", "Comb scale", "Comb density"];
-    for label in table.into_iter().chain(fields) {
-        check_field(&mut window, label);
-        press(&mut window, Modifiers::NONE, Key::Escape);
-        press(&mut window, Modifiers::NONE, Key::Escape);
-        click(&mut window, "vertex 1");
-    }
-    for (tool, labels) in [
-        (Key::R, vec!["rotation angle", "pivot x", "pivot y"]),
-        (Key::S, vec!["scale factor"]),
-        (
-            Key::E,
-            vec!["target x", "target y", "target direction", "tolerance"],
-        ),
-    ] {
-        press(&mut window, Modifiers::NONE, tool);
-        if tool == Key::E {
-            click(&mut window, "Take actual end");
-        }
-        for label in labels {
-            check_field(&mut window, label);
-            press(&mut window, Modifiers::NONE, Key::Escape);
-        }
-    }
-    press(&mut window, Modifiers::NONE, Key::V);
-    for (dialog, labels) in [
-        ("Split or trim", ["At u", "Subdivisions"].as_slice()),
-        ("Round coordinates", ["Digits"].as_slice()),
-    ] {
-        for label in labels {
-            press(&mut window, Modifiers::COMMAND, Key::P);
-            window.event(Event::Text(dialog.to_owned()));
-            window.run();
-            enter(&mut window);
-            check_field(&mut window, label);
-            click(&mut window, "Cancel");
-        }
-    }
-}
-
-#[test]
-fn one_thing_is_not_called_several() {
-    let points = [(0.0, 0.0), (1.0, 2.0), (2.0, -2.0), (3.0, 0.0)];
-    let mut window = window_of(vec![FloatPolygon::planar(3, &points).expect("a polygon")]);
-    press(&mut window, Modifiers::NONE, Key::Num5);
-    click(&mut window, "Comb density");
-    type_over(&mut window, "1");
-    enter(&mut window);
-    window.get_by_label("tooth a segment");
-    window.get_by_label("Verdict").hover();
-    window.run_steps(60);
-    window.get_by_label_contains("1 inflection, 0 pieces undecided");
 }
