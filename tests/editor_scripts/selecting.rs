@@ -219,6 +219,9 @@ fn a_locked_curve_cannot_be_dragged_and_says_so() {
     script.drag_vertex(3, DVec2::new(40.0, 40.0));
     assert_eq!(script.polygon(), before);
     assert!(script.message().contains("locked"), "{}", script.message());
+    script.click(script.at_vertex(3));
+    let hint = script.editor.hint();
+    assert!(hint.contains("locked") && !hint.contains("Del"), "{hint}");
 }
 
 #[test]

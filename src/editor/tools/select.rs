@@ -140,7 +140,12 @@ impl Tool for SelectTool {
             State::Scaling { .. } => "Drag the tip to scale the curvature comb".into(),
             State::Idle => {
                 let selected = context.selection.vertices().len();
-                if selected > 0 {
+                if selected > 0 && context.places(context.selection.vertices()).is_empty() {
+                    format!(
+                        "{} selected, of a locked curve: unlock it in the list of curves to edit",
+                        counted(selected, "vertex", "vertices")
+                    )
+                } else if selected > 0 {
                     format!(
                         "{} selected: drag, or nudge with the arrow keys (Shift ×10); Del deletes",
                         counted(selected, "vertex", "vertices")
