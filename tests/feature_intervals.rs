@@ -2,7 +2,7 @@
 
 mod common;
 
-use batten::geometry::features::{ExtremumKind, Features};
+use batten::geometry::features::{ExtremumKind, Features, Quantity};
 use batten::geometry::{BezierPolygon, FloatPolygon};
 use common::{assert_near, counts};
 use glam::DVec3;
@@ -203,5 +203,51 @@ fn intervals_are_apart_wherever_the_joint_of_a_periodic_curve_is() {
         });
         let found: Vec<_> = found.collect();
         assert!(found.iter().all(|counts| *counts == found[0]), "{found:?}");
+    }
+}
+
+#[test]
+fn no_feature_begins_where_an_undecided_piece_ends() {
+    // Beside a near-cusp: the knot u = 1 may hold another change than the one right after it.
+    let points = [
+        (979569.5, 36463586.5, -23124210.5),
+        (564194.5, 17280011.5, -11423110.5),
+        (1204798.0, 28724386.0, -20208322.0),
+        (289969.0, 4855043.0, -3802321.0),
+        (29954.75, 271243.25, -272615.25),
+        (38189.0, -2977.0, -161621.0),
+        (3219.5, -52563.5, 15539.5),
+        (-1351.0, -12757.0, 14439.0),
+        (-1562.0, 41386.0, -16042.0),
+        (117.25, -294.25, -615.25),
+        (119.5, -6063.5, 2839.5),
+        (-255.5, 4361.5, -560.5),
+        (-50.5, 7646.5, -4230.5),
+        (367.25, -10164.25, 2694.75),
+        (29.75, -14581.75, 8509.75),
+        (-29422.0, 899446.0, -233042.0),
+        (-15615.25, 670393.25, -230705.25),
+        (-173851.0, 8956343.0, -3362861.0),
+        (-196640.5, 11605496.5, -4572960.5),
+        (-781231.0, 51583523.0, -20990961.0),
+        (-708330.5, 51541286.5, -21474110.499999996),
+        (-25791762.0, -29015732.0, 19343821.0),
+    ];
+    let weights = vec![
+        2.0, 2.0, 0.5, 1.0, 4.0, 1.0, 2.0, 1.0, 0.5, 4.0, 2.0, 2.0, 2.0, 4.0, 4.0, 0.5, 4.0, 1.0,
+        2.0, 1.0, 2.0, 4.0,
+    ];
+    let points: Vec<DVec3> = points.into_iter().map(DVec3::from).collect();
+    let polygon = FloatPolygon::new(20, points, Some(weights), false).expect("a valid polygon");
+    let features = Features::new(&polygon);
+    let doubts = features.undecided.iter();
+    let doubts = doubts.filter(|doubt| doubt.quantity == Quantity::CurvatureExtremum);
+    let doubts: Vec<[f64; 2]> = doubts.map(|doubt| doubt.u).collect();
+    assert!(!doubts.is_empty());
+    for extremum in &features.curvature_extrema {
+        for doubt in &doubts {
+            let apart = extremum.u[1] < doubt[0] || doubt[1] < extremum.u[0];
+            assert!(apart, "{extremum:?} {doubt:?}");
+        }
     }
 }

@@ -89,8 +89,9 @@ impl Features {
         features
     }
 
-    /// Join the changes of a sign that doubles cannot tell apart. Those at a singular place are
-    /// added to the undecided pieces instead, together with the walk's own.
+    /// Join the changes of a sign that doubles cannot tell apart. Those at a singular place, or at
+    /// an end of an undecided piece, which may hold another change, are added to the undecided
+    /// pieces instead, together with the walk's own.
     fn decide<'a>(
         &mut self,
         assembly: &Assembly,
@@ -103,12 +104,14 @@ impl Features {
             quantity,
             certain,
         };
+        let doubts = assembly.doubts(walk);
         found.retain(|found| {
             let is_singular = assembly.touches(singular, found.u);
-            if is_singular {
-                self.undecided.push(doubt(found.u, false));
+            let is_doubtful = is_singular || assembly.touches(&doubts, found.u);
+            if is_doubtful {
+                self.undecided.push(doubt(found.u, !is_singular));
             }
-            !is_singular
+            !is_doubtful
         });
         join_neighbours(&mut found, assembly.joint());
         for found in &walk.doubts {
@@ -197,8 +200,14 @@ impl Assembly<'_> {
         SignWalk::new((self.segments.len(), self.is_periodic()), pieces, jump)
     }
 
-    /// Find the intervals of the changes of a sign, in the order of u. Roots that touch another one
-    /// or a singular place are narrowed.
+    /// The pieces in which the walk could not count changes.
+    fn doubts(&self, walk: &SignWalk) -> Vec<[f64; 2]> {
+        let pieces = walk.doubts.iter();
+        pieces.map(|piece| self.interval(piece.places)).collect()
+    }
+
+    /// Find the intervals of the changes of a sign, in the order of u. Roots that touch another
+    /// one, a singular place or an undecided piece are narrowed.
     fn find<'a>(
         &self,
         quantity: Quantity,
@@ -217,8 +226,9 @@ impl Assembly<'_> {
         });
         let narrow = |found: &mut Found| found.narrow(self.polygon, quantity);
         narrow_neighbours(&mut found, self.joint(), narrow);
+        let doubts = self.doubts(walk);
         for found in &mut found {
-            if self.touches(singular, found.u) {
+            if self.touches(singular, found.u) || self.touches(&doubts, found.u) {
                 narrow(found);
             }
         }
