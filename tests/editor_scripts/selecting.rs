@@ -153,8 +153,8 @@ fn arrow_keys_nudge_and_shift_nudges_ten_times_as_far() {
     );
 }
 
-#[test]
-fn tab_cycles_through_vertices_that_overlap() {
+/// The arc with vertex 7 where vertex 2 is.
+fn overlapping() -> Script {
     let mut script = Script::example("arc");
     let curve = script.curve();
     let place = script.polygon().vertex(2);
@@ -162,6 +162,12 @@ fn tab_cycles_through_vertices_that_overlap() {
     script
         .editor
         .apply("overlap", vec![Edit::MoveVertices { curve, moves }]);
+    script
+}
+
+#[test]
+fn tab_cycles_through_vertices_that_overlap() {
+    let mut script = overlapping();
     let at = script.at_vertex(2);
     script.click(at);
     let first = script.selected();
@@ -177,13 +183,8 @@ fn tab_cycles_through_vertices_that_overlap() {
 
 #[test]
 fn tabs_choice_survives_jitter_and_is_what_a_drag_takes() {
-    let mut script = Script::example("arc");
-    let curve = script.curve();
+    let mut script = overlapping();
     let place = script.polygon().vertex(2);
-    let moves = vec![(7, place)];
-    script
-        .editor
-        .apply("overlap", vec![Edit::MoveVertices { curve, moves }]);
     let at = script.at_vertex(2);
     script.move_to(at);
     let first = script.editor.hovered_vertex();

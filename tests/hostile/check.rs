@@ -28,7 +28,7 @@ pub fn check(curve: &FloatPolygon, tally: &mut Tally) -> Vec<String> {
     let segments = (0..curve.segments()).map(|k| prover.segment(curve, k));
     let segments: Vec<_> = segments.collect();
     let features = Features::assemble(curve, &segments);
-    tally.library += start.elapsed();
+    tally.proving += start.elapsed();
     let start = Instant::now();
     let truth = Truth::of(curve);
     let mut check = Check {

@@ -33,8 +33,8 @@ pub struct Tally {
     pub no_digits: usize,
     pub few_digits: usize,
     pub wrong: usize,
-    /// What the library and the witness took.
-    pub library: Duration,
+    /// What proving and the witness took.
+    pub proving: Duration,
     pub witness: Duration,
 }
 
@@ -97,7 +97,7 @@ impl Tally {
         ] {
             *sum += count;
         }
-        self.library += other.library;
+        self.proving += other.proving;
         self.witness += other.witness;
     }
 }
@@ -126,7 +126,7 @@ impl Display for Tally {
             self.no_digits,
             self.few_digits,
             self.wrong,
-            self.library,
+            self.proving,
             self.witness,
         )
     }

@@ -181,18 +181,8 @@ fn variations(signs: &[i8]) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use super::super::exact_polynomial::tests::with_roots;
     use super::*;
-
-    /// Multiply factors a t − b (1 − t), which have the roots b / (a + b).
-    fn with_roots(factors: &[(i64, i64)]) -> ExactPolynomial {
-        let factor =
-            |(a, b): &(i64, i64)| ExactPolynomial::new([-b, *a].map(BigInt::from).to_vec());
-        let one = ExactPolynomial::constant(1);
-        factors
-            .iter()
-            .map(factor)
-            .fold(one, |product, factor| product.times(&factor))
-    }
 
     fn signs(polynomial: &ExactPolynomial) -> Vec<SignPiece> {
         let mut pieces = Vec::new();

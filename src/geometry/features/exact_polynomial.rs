@@ -148,11 +148,11 @@ impl ExactPolynomial {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
     /// Multiply factors a t − b (1 − t), which have the roots b / (a + b).
-    fn with_roots(factors: &[(i64, i64)]) -> ExactPolynomial {
+    pub(in super::super) fn with_roots(factors: &[(i64, i64)]) -> ExactPolynomial {
         let factor =
             |(a, b): &(i64, i64)| ExactPolynomial::new([-b, *a].map(BigInt::from).to_vec());
         let one = ExactPolynomial::constant(1);
