@@ -34,9 +34,10 @@ impl Editor {
                 curves, remarks, ..
             }) => {
                 let count = curves.len();
-                self.add_copies("Paste", curves);
-                let text = format!("{} pasted", counted(count, "curve", "curves"));
-                self.say_done(with_lines(text, &remarks));
+                if self.add_copies("Paste", curves) {
+                    let text = format!("{} pasted", counted(count, "curve", "curves"));
+                    self.say_done(with_lines(text, &remarks));
+                }
             }
             Err(error) => {
                 self.fail(format!(
@@ -94,8 +95,9 @@ impl Editor {
     }
 
     /// Add copies a little aside, named anew and unlocked. What their file said of the curves
-    /// that Batten does not know, such as a number of their own, is not copied.
-    pub(super) fn add_copies(&mut self, label: &str, curves: Vec<Curve>) {
+    /// that Batten does not know, such as a number of their own, is not copied. An error becomes
+    /// the message. Returns whether they were added.
+    pub(super) fn add_copies(&mut self, label: &str, curves: Vec<Curve>) -> bool {
         let offset = OFFSET * self.viewport.pixel() * DVec3::new(1.0, -1.0, 0.0);
         let mut names: Vec<String> = self
             .document()
@@ -124,7 +126,7 @@ impl Editor {
             }
             copies.push(copy);
         }
-        self.add_curves(label, copies);
+        self.add_curves(label, copies)
     }
 
     /// The selected vertices of a curve as a table, with a header line if they make a curve: its

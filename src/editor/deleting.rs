@@ -32,9 +32,9 @@ impl Editor {
                 return Err("There is no curve".into());
             };
             return Err(format!(
-                "No vertex is selected. To remove {} as a whole, use {}",
+                "No vertex is selected. To remove {} as a whole, use “{}”",
                 quoted(&curve.name),
-                delete_curve_in_words()
+                Command::DeleteCurve.label()
             ));
         }
         let mut edits = Vec::new();
@@ -48,9 +48,9 @@ impl Editor {
                 .map_err(|refused| refused.to_string())?;
             if indices.len() == curve.polygon.vertices().len() {
                 return Err(format!(
-                    "The selection holds all vertices of {}. To remove it as a whole, use {}",
+                    "The selection holds all vertices of {}. To remove it as a whole, use “{}”",
                     quoted(&curve.name),
-                    delete_curve_in_words()
+                    Command::DeleteCurve.label()
                 ));
             }
             let polygon = without(&curve.polygon, &indices).map_err(|error| {
@@ -72,9 +72,4 @@ impl Editor {
             self.say_done(format!("{} deleted", quoted(&curve.name)));
         }
     }
-}
-
-/// How the command that removes a whole curve is given.
-fn delete_curve_in_words() -> String {
-    format!("“{}” (Ctrl+Del)", Command::DeleteCurve.label())
 }

@@ -61,18 +61,16 @@ impl Editor {
             self.commit_field();
             self.message = None;
         }
-        self.repeating = matches!(input, Input::KeyRepeated(_));
+        let repeats = matches!(input, Input::KeyRepeated(_));
         for gesture in self.gestures.input(input) {
             match gesture {
                 Gesture::Pan(by) => self.viewport.pan(by),
                 Gesture::Orbit(by) => self.orbit(by),
                 Gesture::Zoom(at, factor) => self.viewport.zoom(at, factor),
                 Gesture::Key(Key::Tab) => self.cycle.next(self.gestures.pointer()),
-                gesture => self.deliver(gesture),
+                gesture => self.deliver(gesture, repeats),
             }
         }
-        // What panels and menus do next is no part of what the key did.
-        self.repeating = false;
     }
 
     /// Say what the mouse will do now.
@@ -97,15 +95,16 @@ impl Editor {
         self.tool_state.cursor(&self.context())
     }
 
-    /// Hand a gesture to the tool and do what it wants.
-    pub(super) fn deliver(&mut self, gesture: Gesture) {
+    /// Hand a gesture to the tool and do what it wants. What a key that `repeats` does belongs to
+    /// the step that it began.
+    pub(super) fn deliver(&mut self, gesture: Gesture, repeats: bool) {
         let mut tool = std::mem::replace(&mut self.tool_state, ToolKind::Select.take());
         let effects = tool.gesture(gesture, &self.context());
         self.tool_state = tool;
         let active = self.selection.active();
         let mut step = Step::None;
         for effect in effects {
-            self.take_effect(effect, &mut step);
+            self.take_effect(effect, repeats, &mut step);
         }
         self.document_changed();
         if self.selection.active() != active {
@@ -139,7 +138,7 @@ impl Editor {
         }
     }
 
-    fn take_effect(&mut self, effect: Effect, step: &mut Step) {
+    fn take_effect(&mut self, effect: Effect, repeats: bool, step: &mut Step) {
         match effect {
             Effect::Begin(label) => {
                 self.end_fit.begin_anew();
@@ -155,7 +154,7 @@ impl Editor {
             }
             Effect::Abort => self.history.abort(),
             Effect::Apply(label, edits) => {
-                let made = self.make(&label, edits);
+                let made = self.make(&label, edits, repeats);
                 *step = if made { Step::Made } else { Step::Refused };
             }
             Effect::Select(vertices) => self.selection.set(vertices),

@@ -52,12 +52,11 @@ impl Editor {
             Err(error) => return self.fail(error.to_string()),
         };
         let count = curves.len();
-        self.add_curves("Import curves", curves);
-        self.fit_all();
-        self.say(with_lines(
-            format!("{} added", counted(count, "curve", "curves")),
-            &remarks,
-        ));
+        if self.add_curves("Import curves", curves) {
+            self.fit_all();
+            let text = format!("{} added", counted(count, "curve", "curves"));
+            self.say_done(with_lines(text, &remarks));
+        }
     }
 
     /// Save the document. An error becomes the message. Returns whether it is saved.
@@ -174,17 +173,20 @@ impl Editor {
         }
     }
 
-    pub(super) fn add_curves(&mut self, label: &str, curves: Vec<Curve>) {
+    /// Add curves as one step and make the first of them active. An error becomes the message.
+    /// Returns whether they were added.
+    pub(super) fn add_curves(&mut self, label: &str, curves: Vec<Curve>) -> bool {
         let first = self.document().next_id();
         let edits = curves
             .into_iter()
             .map(|curve| Edit::Add(Box::new(curve)))
             .collect();
-        self.apply(label, edits);
+        let added = self.apply(label, edits);
         if self.document().curve(first).is_some() {
             self.selection.clear();
             self.selection.activate(first);
         }
+        added
     }
 
     pub(super) fn curves(&self) -> Vec<Curve> {

@@ -45,11 +45,8 @@ impl Editor {
             .curvature()
             .map_or(0.0, |range| range.high.abs().max(range.low.abs()));
         let segments = analysis.curve().polygon.segments();
-        let usual = CombSettings::default();
-        self.set_comb(CombSettings {
-            density: (TEETH / segments.max(1)).clamp(1, usual.density),
-            ..usual
-        });
+        self.comb.density = (TEETH / segments.max(1)).clamp(1, self.comb.density);
+        // Without curvature there is no scale to choose.
         self.set_comb(CombSettings {
             scale: COMB_HEIGHT * extent / largest,
             ..self.comb

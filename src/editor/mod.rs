@@ -84,8 +84,6 @@ pub struct Editor {
     /// Whether a number field is being dragged.
     field: bool,
     cycle: Cycle,
-    /// Whether a key that is held repeats: what it does belongs to one step.
-    repeating: bool,
     hovered: Hovered,
     /// What panels said in the frame before: those that are shown first read it.
     hovered_before: Hovered,
@@ -139,7 +137,6 @@ impl Editor {
             message: None,
             field: false,
             cycle: Cycle::default(),
-            repeating: false,
             hovered: Hovered::default(),
             features: None,
             hovered_before: Hovered::default(),
@@ -304,15 +301,15 @@ impl Editor {
             self.call_off();
         }
         self.message = None;
-        self.make(label, edits)
+        self.make(label, edits, false)
     }
 
-    /// Make edits as one step, or as a part of the last one while a key repeats. An error becomes
+    /// Make edits as one step, or as a part of the last one where a key `repeats`. An error becomes
     /// the message, and nothing is changed. The first curve of a document is brought into view.
-    fn make(&mut self, label: &str, edits: Vec<Edit>) -> bool {
+    fn make(&mut self, label: &str, edits: Vec<Edit>, repeats: bool) -> bool {
         self.end_fit.begin_anew();
         let was_empty = self.document().is_empty();
-        let made = if self.repeating {
+        let made = if repeats {
             self.history.extend(label, edits)
         } else {
             self.history.apply(label, edits)
@@ -405,7 +402,7 @@ impl Editor {
     fn call_off(&mut self) {
         self.abort_field();
         if self.gestures.is_dragging() {
-            self.deliver(gesture::Gesture::Cancel);
+            self.deliver(gesture::Gesture::Cancel, false);
         }
         self.gestures.reset();
     }

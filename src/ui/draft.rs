@@ -9,12 +9,10 @@ use eframe::egui::{
 
 use super::figures;
 use super::theme::{self, Tokens};
+use crate::document::quoted;
 
 /// How long a remark stays, in seconds.
 const SECONDS: f64 = 6.0;
-
-/// The most characters of a text that a remark repeats.
-const LONGEST: usize = 24;
 
 /// A number while it is being typed.
 #[derive(Clone, Debug, Default)]
@@ -55,7 +53,7 @@ impl Draft {
         let Some(value) = figures::read(&self.text) else {
             return Err(match self.text.trim() {
                 "" => "Type a number, such as 12.5".to_owned(),
-                text => format!("“{}” is not a number", cut(text)),
+                text => format!("{} is not a number", quoted(text)),
             });
         };
         if range.contains(&value) {
@@ -166,13 +164,6 @@ fn remark_ui(ui: &Ui, id: Id, rect: Rect, text: &str) {
     tooltip.show(|ui| {
         ui.label(text);
     });
-}
-
-fn cut(text: &str) -> String {
-    if text.chars().count() <= LONGEST {
-        return text.to_owned();
-    }
-    text.chars().take(LONGEST).chain(['…']).collect()
 }
 
 #[cfg(test)]

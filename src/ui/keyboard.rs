@@ -157,11 +157,11 @@ impl Keyboard {
             shortcut.modifiers == Modifiers::NONE
                 && matches!(shortcut.key, Key::Character('0'..='9' | '+' | '-'))
         };
-        let numbers_are_mine = editor.tool() != ToolKind::Draw;
+        let draws = editor.tool() == ToolKind::Draw;
         let table: Vec<(Shortcut, Command)> = Command::all(editor.examples())
             .into_iter()
             .filter_map(|command| Some((command.shortcut()?, command)))
-            .filter(|(shortcut, _)| numbers_are_mine || !is_number(shortcut))
+            .filter(|(shortcut, _)| !(draws && is_number(shortcut)))
             .collect();
         let mut asked = Vec::new();
         context.input_mut(|input| {

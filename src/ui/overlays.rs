@@ -5,8 +5,8 @@ use eframe::egui::{
     TextWrapMode, pos2,
 };
 
-use super::gizmo;
 use super::theme::{RADIUS, STEP, Tokens};
+use super::{gizmo, keyboard};
 use crate::editor::{Command, NamedView};
 
 /// Tell what to do with an empty document.
@@ -41,7 +41,9 @@ pub fn orbited_ui(context: &Context, canvas: Rect, commands: &mut Vec<Command>) 
         .fixed_pos(pos2(canvas.right() - 2.0 * STEP, top + STEP));
     let clicked = area.show(context, |ui| {
         let tokens = Tokens::of(ui);
-        let text = RichText::new("Orbited · F2").color(tokens.strong_text);
+        let key = Command::View(NamedView::Xy).shortcut();
+        let key = key.map(keyboard::shortcut_text).unwrap_or_default();
+        let text = RichText::new(format!("Orbited · {key}")).color(tokens.strong_text);
         let badge = Button::new(text).wrap_mode(TextWrapMode::Extend);
         let badge = badge.stroke(Stroke::new(1.0, tokens.accent));
         let response = ui.add(badge);

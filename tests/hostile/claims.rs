@@ -1,4 +1,4 @@
-//! What the library states of a curve, in one form for all quantities.
+//! What is said of a curve, in one form for all quantities.
 
 use batten::geometry::features::{Extremum, ExtremumKind, Features, Quantity, Root};
 
