@@ -108,17 +108,10 @@ impl BezierPolygon {
     /// segments; and as [`BezierPolygon::nearest_float`].
     pub fn nearest_periodic_float(&self) -> Result<NearestFloat, PolygonError> {
         check_periodic(self.degree(), self.segments())?;
-        let target = Target::new(ExactPolygon::from_bezier(self), true);
-        let exact = periodic(&ExactPolygon::from_bezier(self).periodic_blossoms());
-        let nearest = target.nearest(exact, None)?;
-        target.checked(nearest, SMOOTHNESS_TOLERANCE, |polygon| {
-            let (index, distance) = self.worst_vertex(polygon);
-            PolygonError::NotPeriodic {
-                from: PolygonKind::Bezier,
-                index,
-                distance,
-            }
-        })
+        let given = ExactPolygon::from_bezier(self);
+        let exact = periodic(&given.periodic_blossoms());
+        let worst = |polygon: &FloatPolygon| self.worst_vertex(polygon);
+        nearest_periodic(given, exact, PolygonKind::Bezier, worst)
     }
 
     fn worst_vertex(&self, polygon: &FloatPolygon) -> (usize, f64) {
@@ -164,16 +157,8 @@ impl ClampedPolygon {
         check_periodic(self.degree(), self.segments())?;
         let given = ExactPolygon::from_clamped(self);
         let exact = periodic(&given.converted(PolygonKind::Float).folded());
-        let target = Target::new(given, true);
-        let nearest = target.nearest(exact, None)?;
-        target.checked(nearest, SMOOTHNESS_TOLERANCE, |polygon| {
-            let (index, distance) = self.worst_vertex(polygon);
-            PolygonError::NotPeriodic {
-                from: PolygonKind::Clamped,
-                index,
-                distance,
-            }
-        })
+        let worst = |polygon: &FloatPolygon| self.worst_vertex(polygon);
+        nearest_periodic(given, exact, PolygonKind::Clamped, worst)
     }
 
     fn worst_vertex(&self, polygon: &FloatPolygon) -> (usize, f64) {
@@ -212,6 +197,26 @@ impl ClampedPolygon {
         let changed = self.degree() - 1;
         index >= changed && index + changed < self.vertices().len()
     }
+}
+
+/// Find the float polygon whose periodic curve is nearest to a given polygon's; `exact` is what it
+/// is but for rounding, `worst` finds the vertex of the given one that another curve misses most.
+fn nearest_periodic(
+    given: ExactPolygon,
+    exact: Result<FloatPolygon, PolygonError>,
+    from: PolygonKind,
+    worst: impl FnOnce(&FloatPolygon) -> (usize, f64),
+) -> Result<NearestFloat, PolygonError> {
+    let target = Target::new(given, true);
+    let nearest = target.nearest(exact, None)?;
+    target.checked(nearest, SMOOTHNESS_TOLERANCE, |polygon| {
+        let (index, distance) = worst(polygon);
+        PolygonError::NotPeriodic {
+            from,
+            index,
+            distance,
+        }
+    })
 }
 
 fn both_ends<T: Copy>(list: &[T], kept: usize) -> Vec<T> {

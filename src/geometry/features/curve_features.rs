@@ -40,8 +40,8 @@ impl Features {
     /// extremum sits on the knot where the slope changes its sign there. At degree 2 (torsion:
     /// 3) the quantity itself jumps, and the jump counts as a vertical piece of its graph: rising,
     /// up, falling is one maximum; rising, down, rising is a maximum and a minimum, both at the
-    /// knot, in one interval; rising, up, rising is none. Polylines, of degree 1, have curvature 0; their corners
-    /// are not features. The ends of an open curve are not inside its domain.
+    /// knot, in one interval; rising, up, rising is none. Polylines, of degree 1, have curvature 0;
+    /// their corners are not features. The ends of an open curve are not inside its domain.
     pub fn assemble(polygon: &FloatPolygon, segments: &[SegmentFeatures]) -> Self {
         let count = segments.len().min(polygon.segments());
         let Some(segments) = segments
