@@ -436,3 +436,40 @@ fn the_deviation_is_a_bound_though_the_vertices_are_far_apart() {
     let squared = squared.fold(integer(0), |sum, part| sum + part);
     assert!(squared <= exact(bound) * exact(bound), "{bound:e}");
 }
+
+#[test]
+fn an_axis_keeps_its_digits_though_another_is_fitted() {
+    let mut random = Random(79);
+    let mut fitted = 0;
+    for round in 0..200 {
+        let (degree, segments) = (8 + round % 4, 1 + round % 5);
+        let mut point = || {
+            let size = 10_f64.powf(random.between(0.0, 50.0));
+            DVec3::new(
+                size * random.between(-9.0, 9.0),
+                random.between(-9.0, 9.0),
+                0.0,
+            )
+        };
+        let points: Vec<DVec3> = (0..degree + segments).map(|_| point()).collect();
+        let clamped = ClampedPolygon::new(degree, points, None).expect("valid");
+        let exact = clamped.to_float().expect("polynomial");
+        let Ok(nearest) = clamped.nearest_float() else {
+            continue;
+        };
+        let axis = |polygon: &FloatPolygon, axis: usize| -> Vec<f64> {
+            polygon
+                .vertices()
+                .iter()
+                .map(|vertex| vertex[axis])
+                .collect()
+        };
+        fitted += usize::from(axis(&nearest.polygon, 0) != axis(&exact, 0));
+        assert_eq!(
+            axis(&nearest.polygon, 1),
+            axis(&exact, 1),
+            "degree {degree}"
+        );
+    }
+    assert!(fitted > 5, "{fitted} of 200 were fitted");
+}

@@ -265,8 +265,31 @@ impl Target {
         {
             return measured;
         }
-        let fitted = self.nearest_fit(measured.as_ref().ok(), kept);
-        fitted.map_or(measured, Ok)
+        match (self.nearest_fit(measured.as_ref().ok(), kept), measured) {
+            (Some(fitted), Ok(exact)) => Ok(self.with_axes_of(&exact, fitted)),
+            (Some(fitted), Err(_)) => Ok(fitted),
+            (None, measured) => measured,
+        }
+    }
+
+    /// Put the exact coordinates of an axis, each rounded by itself, in place of those of a fit,
+    /// as far as the curve allows: the axes of a polynomial curve do not depend on each other.
+    fn with_axes_of(&self, exact: &NearestFloat, fitted: NearestFloat) -> NearestFloat {
+        if self.chain.is_rational() {
+            return fitted;
+        }
+        (0..3).fold(fitted, |nearest, axis| {
+            let mut vertices = nearest.polygon.vertices().to_vec();
+            for (vertex, exact) in vertices.iter_mut().zip(exact.polygon.vertices()) {
+                vertex[axis] = exact[axis];
+            }
+            let polygon = FloatPolygon::new(self.degree, vertices, None, self.periodic);
+            let tried = polygon.map(|polygon| self.measured(polygon));
+            tried
+                .ok()
+                .filter(|tried| tried.is_close || tried.deviation <= nearest.deviation)
+                .unwrap_or(nearest)
+        })
     }
 
     /// Whether the rounding of the given weights explains that a weight is lost.
