@@ -210,7 +210,7 @@ impl Editor {
         self.replace(document, own_path(path));
         let mut text = with_lines(text, &remarks);
         if keeps {
-            text += "\nSaving keeps what is not known.";
+            text += "\nUnknown keys are kept when you save.";
         }
         self.say(text);
     }

@@ -1,7 +1,7 @@
 //! The list of proved features in the inspector, and the chip that tells the verdict.
 
 use eframe::egui::{
-    Button, Response, RichText, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2,
+    Button, Response, RichText, Role, ScrollArea, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
 use lucide_icons::Icon;
 
@@ -18,44 +18,51 @@ const WIDE: f64 = 1e-4;
 /// The most digits of a curvature or torsion.
 const DIGITS: usize = 4;
 
-/// The most rows that are in sight at once.
-const MOST_ROWS: usize = 7;
+/// The rows that there is room for, however many features there are: nothing below the list moves
+/// when a drag or a typed number makes some or takes some away.
+const ROWS: usize = 3;
 
 /// Show the verdict and the features of the active curve; choosing one goes to it.
 pub fn feature_list_ui(ui: &mut Ui, editor: &mut Editor) {
-    let Some(report) = editor.known_features() else {
-        proving_ui(ui, editor);
-        return;
-    };
-    verdict_ui(ui, &report);
-    if report.rows.is_empty() {
-        return;
+    let report = editor.known_features();
+    let width = ui.available_width();
+    ui.spacing_mut().item_spacing.y = 0.0;
+    let room = |ui: &mut Ui, rows: usize| ui.allocate_space(vec2(width, rows as f32 * ROW)).1;
+    let heading = room(ui, 1);
+    let list = room(ui, ROWS);
+    let in_place = |rect| UiBuilder::new().max_rect(rect);
+    ui.scope_builder(in_place(heading), |ui| match &report {
+        Some(report) => verdict_ui(ui, report),
+        None => proving_ui(ui, editor),
+    });
+    let chosen = ui.scope_builder(in_place(list), |ui| {
+        report.as_ref().and_then(|report| rows_ui(ui, report))
+    });
+    if let Some(u) = chosen.inner {
+        editor.go_to(u);
     }
-    let rows = report.rows.len();
-    let height = rows.min(MOST_ROWS) as f32 * ROW;
+}
+
+/// Show the features; returns the parameter of the one that is chosen.
+fn rows_ui(ui: &mut Ui, report: &FeatureReport) -> Option<f64> {
     let area = ScrollArea::vertical()
         .id_salt("features")
-        .max_height(height)
-        .min_scrolled_height(height)
-        .auto_shrink([false, true]);
-    ui.spacing_mut().item_spacing.y = 0.0;
+        .auto_shrink([false, false]);
     let mut chosen = None;
-    area.show_rows(ui, ROW, rows, |ui, range| {
+    area.show_rows(ui, ROW, report.rows.len(), |ui, range| {
         for row in report.rows.get(range).unwrap_or_default() {
             if row_ui(ui, row).clicked() {
                 chosen = Some(row.middle);
             }
         }
     });
-    if let Some(u) = chosen {
-        editor.go_to(u);
-    }
+    chosen
 }
 
 fn verdict_ui(ui: &mut Ui, report: &FeatureReport) {
     let (icon, text) = verdict(report);
     let colour = colour_of(report, Tokens::of(ui));
-    ui.horizontal(|ui| {
+    ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = 1.5 * STEP;
         ui.label(icons::text(icon).color(colour));
         ui.label(RichText::new(text).color(colour));

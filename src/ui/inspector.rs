@@ -49,6 +49,7 @@ impl Inspector {
                 figures_ui(ui, &curve, &report);
             }
         });
+        widgets::section(ui, "Features", true, |ui| feature_list_ui(ui, editor));
         let title = format!("Vertices ({})", curve.polygon.vertices().len());
         let open = widgets::section_with_id(ui, "vertices", &title, true, |ui| {
             self.table.show(ui, editor, id, &curve);
@@ -56,8 +57,6 @@ impl Inspector {
         if open.is_none() {
             ui.add_space(STEP);
         }
-        // Last: an edit can make the list longer, and no number is to move for that.
-        widgets::section(ui, "Features", true, |ui| feature_list_ui(ui, editor));
     }
 
     fn curve_ui(&mut self, ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {

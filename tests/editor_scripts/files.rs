@@ -49,7 +49,7 @@ fn unknown_keys_are_told_when_a_project_is_opened() {
         "1 curve read from {}\n\
          the project's key “made by” is not known and has no effect\n\
          curve 1 “arc”: the key “weigths” is not known and has no effect\n\
-         Saving keeps what is not known.",
+         Unknown keys are kept when you save.",
         path.display()
     );
     assert_eq!(opened(&path).message(), expected);
