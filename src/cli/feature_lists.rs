@@ -4,7 +4,7 @@ use serde::Serialize;
 use serde_json::value::RawValue;
 
 use crate::geometry::features::{
-    Extremum, ExtremumKind, Features, Quantity, Root, Undecided, Verdict, certain_digits,
+    Extremum, ExtremumKind, Features, Quantity, Root, Undecided, Verdict, certain_text,
 };
 
 /// The most digits of a number that are printed.
@@ -111,17 +111,9 @@ impl FeatureLists {
     }
 }
 
-/// Write the certain digits of an extremum's value and no others: with a power of ten where zeros
-/// would stand before the decimal point.
+/// The certain digits of an extremum's value, as they are written.
 fn digits(extremum: &Extremum) -> Option<Box<RawValue>> {
-    let number = certain_digits(extremum.value, DIGITS)?;
-    let plain = serde_json::to_string(&number).ok()?;
-    let text = if plain.ends_with("0.0") && number != 0.0 {
-        format!("{number:e}")
-    } else {
-        plain
-    };
-    RawValue::from_string(text).ok()
+    RawValue::from_string(certain_text(extremum.value, DIGITS)?).ok()
 }
 
 fn kind(extremum: &Extremum) -> &'static str {

@@ -2,8 +2,12 @@
 
 /// Say a number with its noun: "1 vertex", but "0 vertices" and "7 vertices".
 pub fn counted(count: usize, one: &str, many: &str) -> String {
-    let noun = if count == 1 { one } else { many };
-    format!("{count} {noun}")
+    format!("{count} {}", noun(count, one, many))
+}
+
+/// What so many things are called.
+pub fn noun<'a>(count: usize, one: &'a str, many: &'a str) -> &'a str {
+    if count == 1 { one } else { many }
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use super::theme::{self, RADIUS, ROW, STEP, Tokens};
 use super::{figures, icons, widgets};
 use crate::editor::{Editor, FeatureKind, FeatureReport, FeatureRow};
 use crate::geometry::counted;
-use crate::geometry::features::{Verdict, certain_digits};
+use crate::geometry::features::{Verdict, certain_text};
 
 /// An interval wider than this is shown by both of its ends.
 const WIDE: f64 = 1e-4;
@@ -187,8 +187,7 @@ fn row_ui(ui: &mut Ui, row: &FeatureRow) -> Response {
     };
     widgets::number_in(ui, place, &u, tokens.text);
     let value = row.value.map_or(String::new(), |bounds| {
-        let certain = certain_digits(bounds, DIGITS);
-        certain.map_or("?".to_owned(), figures::shortest)
+        certain_text(bounds, DIGITS).unwrap_or_else(|| "?".to_owned())
     });
     widgets::number_in(ui, inner, &value, tokens.text);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{name} at {u}")));

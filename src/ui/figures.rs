@@ -50,16 +50,6 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
-/// Write all digits that a number has, and no more: plainly where that is short, otherwise with an
-/// exponent.
-pub fn shortest(value: f64) -> String {
-    if value == 0.0 || (1e-4..1e6).contains(&value.abs()) {
-        without_negative_zero(value.to_string())
-    } else {
-        format!("{value:e}")
-    }
-}
-
 /// Write an angle given in radians as degrees.
 pub fn degrees(radians: f64, decimals: usize) -> String {
     if radians.is_finite() {
@@ -67,11 +57,6 @@ pub fn degrees(radians: f64, decimals: usize) -> String {
     } else {
         "–".to_owned()
     }
-}
-
-/// What that many things are called.
-pub fn noun<'a>(count: usize, one: &'a str, several: &'a str) -> &'a str {
-    if count == 1 { one } else { several }
 }
 
 /// Write a number so that reading it gives the very same number.

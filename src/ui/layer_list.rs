@@ -9,6 +9,7 @@ use super::widgets::{self, IconButton};
 use super::{figures, icons, keyboard};
 use crate::analysis::CombSettings;
 use crate::editor::{Command, Editor, Layer};
+use crate::geometry::noun;
 
 /// Show the layers.
 pub fn layer_list_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Command>) {
@@ -132,7 +133,7 @@ fn comb_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Command>) {
             comb.density = value.round().max(0.0) as usize;
             editor.set_comb(comb);
         }
-        let noun = figures::noun(comb.density, "tooth", "teeth");
+        let noun = noun(comb.density, "tooth", "teeth");
         widgets::caption(ui, &format!("{noun} a segment"));
     });
 }

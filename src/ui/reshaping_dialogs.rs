@@ -8,7 +8,7 @@ use super::number_field::{FieldEvent, NumberField};
 use super::theme::{ROW, STEP, Tokens};
 use super::{figures, widgets};
 use crate::editor::{Division, DivisionReport, Editor, ExtremaCount, RoundingReport};
-use crate::geometry::{MAX_SUBDIVISIONS, PolygonKind, counted};
+use crate::geometry::{MAX_SUBDIVISIONS, PolygonKind, counted, noun};
 
 /// The width of these dialogs.
 const WIDTH: f32 = 420.0;
@@ -73,7 +73,7 @@ impl DivisionDialog {
             if let FieldEvent::Typed(value) | FieldEvent::Preview(value) = field.show(ui).1 {
                 self.subdivisions = value.round().max(0.0) as u32;
             }
-            let noun = figures::noun(self.subdivisions as usize, "halving", "halvings");
+            let noun = noun(self.subdivisions as usize, "halving", "halvings");
             widgets::caption(ui, &format!("{noun} of the segments, at most"));
         });
         widgets::note(

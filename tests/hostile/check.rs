@@ -5,7 +5,7 @@ use std::time::Instant;
 use batten::geometry::FloatPolygon;
 use batten::geometry::features::{
     ExtremumKind, Features, Quantity, SegmentFeatures, SegmentProver, Sign, SignPiece, Trend,
-    TrendPiece, Verdict, certain_digits,
+    TrendPiece, Verdict, certain_text,
 };
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -129,7 +129,8 @@ impl Check<'_> {
                 truth[0].written()
             )
         });
-        let digits = certain_digits(value, DIGITS);
+        let printed = certain_text(value, DIGITS);
+        let digits = printed.map(|text| text.parse().expect("a number"));
         tally.value(value, digits);
         if let Some(printed) = digits {
             let [low, high] = rounding_to(printed);

@@ -6,7 +6,7 @@ const ENOUGH: usize = 17;
 /// Find the number with the most significant digits, up to `most` of them, that both bounds round
 /// to, as the double whose shortest decimal form it is. `None` if not even the first digit is
 /// certain, or a bound is not finite.
-pub fn certain_digits([low, high]: [f64; 2], most: usize) -> Option<f64> {
+fn certain_digits([low, high]: [f64; 2], most: usize) -> Option<f64> {
     if !(low.is_finite() && high.is_finite()) {
         return None;
     }
@@ -21,6 +21,21 @@ pub fn certain_digits([low, high]: [f64; 2], most: usize) -> Option<f64> {
         let same =
             decimal == written(high, digits) && (digits == ENOUGH || is_shortest(&decimal, number));
         (same && number != 0.0).then_some(number)
+    })
+}
+
+/// Write the number that [`certain_digits`] finds with those digits and no others: with a power of
+/// ten where zeros would stand beside them that are not certain, or many zeros in front.
+pub fn certain_text(bounds: [f64; 2], most: usize) -> Option<String> {
+    /// Smaller numbers are written with a power of ten.
+    const LEAST: f64 = 1e-4;
+    let number = certain_digits(bounds, most)?;
+    let plain = number.to_string();
+    let is_padded = plain.len() > 1 && plain.ends_with('0') && !plain.contains('.');
+    Some(if number != 0.0 && (is_padded || number.abs() < LEAST) {
+        format!("{number:e}")
+    } else {
+        plain
     })
 }
 
@@ -65,6 +80,30 @@ mod tests {
                 "{low} … {high}"
             );
         }
+    }
+
+    #[test]
+    fn no_digit_is_written_that_is_not_certain() {
+        for (low, high, expected) in [
+            (9.96, 10.04, "1e1"),
+            (11.99, 12.01, "12"),
+            (-0.125, -0.125, "-0.125"),
+            (
+                -827_492_733_192_208.7,
+                -827_492_733_192_162.3,
+                "-8.274927331922e14",
+            ),
+            (2e-7, 2e-7, "2e-7"),
+            (1e300, 1e300, "1e300"),
+            (0.0, 0.0, "0"),
+        ] {
+            assert_eq!(certain_text([low, high], 17).as_deref(), Some(expected));
+        }
+        assert_eq!(
+            certain_text([120_338.1, 120_338.2], 4).as_deref(),
+            Some("1.203e5")
+        );
+        assert_eq!(certain_text([-1.0, 1.0], 17), None);
     }
 
     #[test]

@@ -54,7 +54,7 @@ mod values;
 mod variations;
 pub(super) mod whole_numbers;
 
-pub use certain_digits::certain_digits;
+pub use certain_digits::certain_text;
 pub use feature::{
     Cusp, Extremum, ExtremumKind, Features, Quantity, Root, Trend, TrendPiece, Undecided, Verdict,
 };
