@@ -37,16 +37,16 @@ fn dragging(count: usize, close: bool) -> (Editor, DVec2) {
     if close {
         // A dozen legs across the canvas, around the vertex.
         let leg = polygon.vertex(count / 2 + 1).truncate().distance(vertex);
-        let factor = CANVAS.x / (12.0 * leg) / editor.viewport().scale;
-        let at = editor.viewport().to_screen(vertex);
+        let factor = CANVAS.x / (12.0 * leg) / editor.view().viewport().scale;
+        let at = editor.view().viewport().to_screen(vertex);
         editor.input(Input::Zoomed { at, factor });
-        let at = editor.viewport().to_screen(vertex);
+        let at = editor.view().viewport().to_screen(vertex);
         editor.input(Input::Panned {
             by: 0.5 * CANVAS - at,
         });
     }
     editor.scene();
-    let at = editor.viewport().to_screen(vertex);
+    let at = editor.view().viewport().to_screen(vertex);
     editor.select_vertex(curve, count / 2, false);
     editor.input(Input::Moved { at });
     editor.input(Input::Pressed {
@@ -54,7 +54,7 @@ fn dragging(count: usize, close: bool) -> (Editor, DVec2) {
         at,
     });
     editor.input(Input::Moved { at: at + 10.0 });
-    assert!(editor.is_dragging());
+    assert!(editor.hand().is_dragging());
     let before = editor.document().curve(curve).expect("the curve").clone();
     editor.input(Input::Moved { at: at + 20.0 });
     let after = editor.document().curve(curve).expect("the curve").clone();

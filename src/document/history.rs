@@ -134,6 +134,25 @@ impl History {
         Ok(())
     }
 
+    /// Make other edits in place of the last step, from the document before it; without edits, or
+    /// if they change nothing, the step is gone. What was undone cannot be made again.
+    ///
+    /// # Errors
+    /// [`EditError`] of the first edit that cannot be made; the last step stays then.
+    pub fn amend(&mut self, label: &str, edits: Vec<Edit>) -> Result<(), EditError> {
+        self.commit();
+        let Some(last) = self.undo.pop() else {
+            return self.apply(label, edits);
+        };
+        let amended = std::mem::replace(&mut self.document, last.document.clone());
+        let result = self.apply(label, edits);
+        if result.is_err() {
+            self.document = amended;
+            self.undo.push(last);
+        }
+        result
+    }
+
     /// Take back the last step, or abort the running gesture. Returns its label.
     pub fn undo(&mut self) -> Option<String> {
         if let Some(step) = self.gesture.take() {
@@ -184,8 +203,8 @@ impl History {
         !self.document.is_same(&self.saved)
     }
 
-    /// Take the document as it is now as saved.
+    /// Count the document as saved, without what a running gesture shows.
     pub fn mark_saved(&mut self) {
-        self.saved = self.document.clone();
+        self.saved = self.before_gesture().clone();
     }
 }

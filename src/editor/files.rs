@@ -3,198 +3,111 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use super::Editor;
-use super::examples;
-use super::report::{AfterDiscard, Export, Request};
-use crate::document::{Curve, Document, Edit, History};
+use crate::document::{Curve, Document, Edit};
+use crate::editor::reply::{Note, Refusal, Reply};
+use crate::editor::{Editor, Export, Message};
 use crate::geometry::counted;
 use crate::io::examples::EXAMPLES;
 use crate::io::{FileError, Format, Reading, disk, shown_path};
 
 impl Editor {
-    /// Open a file in place of the document. An error becomes the message, and nothing is
-    /// changed.
-    pub fn open(&mut self, path: &Path) {
-        match disk::read_file(path) {
-            Ok(reading) => self.replace_by_file(reading, path),
-            Err(error) => self.fail(error.to_string()),
-        }
+    /// Begin an empty document.
+    pub fn begin_empty(&mut self) {
+        self.message = None;
+        self.replace(Document::default(), None);
+    }
+
+    /// Open a file in place of the document. The reply is told.
+    ///
+    /// # Errors
+    /// [`Refusal`] if it cannot be read; nothing is changed then.
+    pub fn open(&mut self, path: &Path) -> Reply {
+        let reply = self.replace_by_files(&[path.to_owned()]);
+        self.tell(reply.map_err(Refusal::from))
     }
 
     /// Open several files as one document in place of the present one. Only a single project is
-    /// saved back to where it came from, with what it says of itself that is not known.
+    /// saved back to where it came from, with what it says of itself that is not known. The reply
+    /// is told.
     ///
     /// # Errors
     /// [`FileError`] of the first file that cannot be read; nothing is changed then.
     pub fn open_all(&mut self, paths: &[PathBuf]) -> Result<(), FileError> {
-        match paths {
-            [] => {}
-            [path] => self.replace_by_file(disk::read_file(path)?, path),
-            _ => {
-                let (curves, remarks) = read_together(paths)?;
-                let text = format!(
-                    "{} read from {} files",
-                    counted(curves.len(), "curve", "curves"),
-                    paths.len()
-                );
-                self.replace(Document::from_curves(curves), None);
-                self.say(with_lines(text, &remarks));
-            }
+        if !paths.is_empty() {
+            let note = self.replace_by_files(paths)?;
+            self.message = Message::of(&Ok(note));
         }
         Ok(())
     }
 
-    /// Add the curves of some files to the document, as one step. An error becomes the message,
-    /// and nothing is changed.
-    pub fn import(&mut self, paths: &[PathBuf]) {
-        let (curves, remarks) = match read_together(paths) {
-            Ok(read) => read,
-            Err(error) => return self.fail(error.to_string()),
-        };
-        let count = curves.len();
-        if self.add_curves("Import curves", curves) {
-            self.fit_all();
-            let text = format!("{} added", counted(count, "curve", "curves"));
-            self.say_done(with_lines(text, &remarks));
-        }
+    /// Open a built-in example in place of the document, by its number. The reply is told.
+    ///
+    /// # Errors
+    /// [`Refusal`] if there is no such example.
+    pub fn open_example(&mut self, index: usize) -> Reply {
+        let reply = self.replace_by_example(index);
+        self.tell(reply)
     }
 
-    /// Save the document. An error becomes the message. Returns whether it is saved.
-    pub fn save(&mut self, path: &Path) -> bool {
-        self.commit_field();
-        let path = &with_extension(path, Format::Batten.extension());
-        match Format::to_write(path) {
-            Ok(Format::Batten) => {}
-            Ok(other) => {
-                self.fail(format!(
-                    "{}: a {other} does not hold all of a document: save as .batten, or export",
-                    shown_path(path)
-                ));
-                return false;
-            }
-            Err(error) => {
-                self.fail(format!("{}: {error}", shown_path(path)));
-                return false;
-            }
-        }
-        let extras = self.document().extras();
-        match disk::write_file(path, &self.curves(), extras, None) {
-            Ok(saved) => {
-                self.path = Some(path.clone());
-                self.history.mark_saved();
-                self.say(with_lines(format!("Saved to {}", shown_path(path)), &saved));
-                true
-            }
-            Err(error) => {
-                self.fail(error.to_string());
-                false
-            }
-        }
+    /// Add the curves of some files to the document, as one step. The reply is told.
+    ///
+    /// # Errors
+    /// [`Refusal`] if one of them cannot be read; nothing is changed then.
+    pub fn import(&mut self, paths: &[PathBuf]) -> Reply {
+        let reply = self.add_files(paths);
+        self.tell(reply)
     }
 
-    /// Export the document's visible curves. An error becomes the message, and so does what the
-    /// format could not hold.
-    pub fn export(&mut self, path: &Path, export: &Export) {
-        let path = &with_extension(path, export.extension);
-        match Format::to_write(path) {
-            Ok(format) if format.extension() == export.extension => {}
-            Ok(other) => {
-                self.fail(format!(
-                    "{}: that would be a {other}: give it the extension .{}",
-                    shown_path(path),
-                    export.extension
-                ));
-                return;
-            }
-            Err(error) => {
-                self.fail(format!("{}: {error}", shown_path(path)));
-                return;
-            }
-        }
-        let polygon = (export.extension == Format::Csv.extension()).then_some(export.polygon);
-        let (shown, hidden): (Vec<Curve>, Vec<Curve>) =
-            self.curves().into_iter().partition(|curve| curve.visible);
-        if shown.is_empty() {
-            self.fail("Every curve is hidden: show what shall be exported");
-            return;
-        }
-        match disk::write_file(path, &shown, self.document().extras(), polygon) {
-            Ok(saved) => {
-                let count = counted(shown.len(), "curve", "curves");
-                let mut text = format!("{count} exported to {}", shown_path(path));
-                if !hidden.is_empty() {
-                    text += &format!(
-                        "; {} not, being hidden",
-                        counted(hidden.len(), "curve", "curves")
-                    );
-                }
-                self.say(with_lines(text, &saved));
-            }
-            Err(error) => self.fail(error.to_string()),
-        }
+    /// Save the document, without what is being tried out, which goes on. The reply is told.
+    ///
+    /// # Errors
+    /// [`Refusal`] if it cannot be written.
+    pub fn save(&mut self, path: &Path) -> Reply {
+        let reply = self.write_document(path);
+        self.tell(reply)
     }
 
-    /// Go on with what was wanted, whether or not there are unsaved changes.
-    pub fn discard_and(&mut self, after: AfterDiscard) -> Option<Request> {
-        match after {
-            AfterDiscard::New => self.replace(Document::default(), None),
-            AfterDiscard::Open => return Some(Request::Open),
-            AfterDiscard::OpenFile(path) => self.open(&path),
-            AfterDiscard::OpenExample(index) => self.open_example(index),
-            AfterDiscard::Quit => return Some(Request::Quit),
-        }
-        None
+    /// Export the document's visible curves, without what is being tried out, which goes on. The
+    /// reply, also of what the format could not hold, is told.
+    ///
+    /// # Errors
+    /// [`Refusal`] if they cannot be written.
+    pub fn export(&mut self, path: &Path, export: &Export) -> Reply {
+        let reply = self.write_export(path, export);
+        self.tell(reply)
     }
 
-    /// Ask about unsaved changes if there are any, otherwise go on.
-    pub fn confirmed(&mut self, after: AfterDiscard) -> Option<Request> {
-        self.commit_field();
-        if self.is_modified() {
-            Some(Request::ConfirmDiscard(after))
-        } else {
-            self.discard_and(after)
-        }
-    }
-
-    pub(super) fn open_example(&mut self, index: usize) {
-        let Some(example) = EXAMPLES.get(index) else {
-            return;
-        };
-        match example.curves() {
-            Ok(curves) => {
-                self.replace(Document::from_curves(curves), None);
-                self.say(format!(
-                    "{}: {}",
-                    examples::title(index),
-                    examples::description(index)
-                ));
-            }
-            Err(error) => self.fail(error.to_string()),
-        }
-    }
-
-    /// Add curves as one step and make the first of them active. An error becomes the message.
-    /// Returns whether they were added.
-    pub(super) fn add_curves(&mut self, label: &str, curves: Vec<Curve>) -> bool {
+    /// Add curves as one step and make the first of them active.
+    pub(in crate::editor) fn add_curves(&mut self, label: &str, curves: Vec<Curve>) -> Reply {
+        self.interrupt();
         let first = self.document().next_id();
         let edits = curves
             .into_iter()
             .map(|curve| Edit::Add(Box::new(curve)))
             .collect();
-        let added = self.apply(label, edits);
+        let added = self.make(label, edits, false)?;
         if self.document().curve(first).is_some() {
-            self.selection.clear();
-            self.selection.activate(first);
+            self.hand.selection.clear();
+            self.hand.selection.activate(first);
         }
-        added
+        Ok(added)
     }
 
-    pub(super) fn curves(&self) -> Vec<Curve> {
-        let curves = self.document().curves();
-        curves.map(|(_, curve)| Curve::clone(curve)).collect()
+    fn replace_by_files(&mut self, paths: &[PathBuf]) -> Result<Note, FileError> {
+        if let [path] = paths {
+            return Ok(self.replace_by_file(disk::read_file(path)?, path));
+        }
+        let (curves, remarks) = read_together(paths)?;
+        let text = format!(
+            "{} read from {} files",
+            counted(curves.len(), "curve", "curves"),
+            paths.len()
+        );
+        self.replace(Document::from_curves(curves), None);
+        Ok(Note::told(with_lines(text, &remarks)))
     }
 
-    fn replace_by_file(&mut self, reading: Reading, path: &Path) {
+    fn replace_by_file(&mut self, reading: Reading, path: &Path) -> Note {
         let Reading {
             curves,
             extras,
@@ -212,15 +125,86 @@ impl Editor {
         if keeps {
             text += "\nUnknown keys are kept when you save.";
         }
-        self.say(text);
+        Note::told(text)
     }
 
-    fn replace(&mut self, document: Document, path: Option<PathBuf>) {
-        self.call_off();
-        self.history = History::new(document);
-        self.path = path;
+    fn replace_by_example(&mut self, index: usize) -> Reply {
+        let example = EXAMPLES.get(index).ok_or("There is no such example")?;
+        let curves = example.curves().map_err(|error| error.to_string())?;
+        self.replace(Document::from_curves(curves), None);
+        let (title, description) = (example.title, example.description);
+        Ok(Note::told(format!("{title}: {description}")))
+    }
+
+    fn add_files(&mut self, paths: &[PathBuf]) -> Reply {
+        let (curves, remarks) = read_together(paths)?;
+        let count = curves.len();
+        self.add_curves("Import curves", curves)?;
+        self.fit_all();
+        let text = format!("{} added", counted(count, "curve", "curves"));
+        Ok(Note::done(with_lines(text, &remarks)))
+    }
+
+    fn write_document(&mut self, path: &Path) -> Reply {
+        let path = with_extension(path, Format::Batten.extension());
+        let shown = shown_path(&path);
+        match Format::to_write(&path).map_err(|error| format!("{shown}: {error}"))? {
+            Format::Batten => {}
+            other => {
+                return Err(Refusal(format!(
+                    "{shown}: a {other} does not hold all of a document: save as .batten, or export"
+                )));
+            }
+        }
+        let document = self.workspace.settled();
+        let saved = disk::write_file(&path, &curves_of(document), document.extras(), None)?;
+        self.workspace.mark_saved(path);
+        Ok(Note::told(with_lines(format!("Saved to {shown}"), &saved)))
+    }
+
+    fn write_export(&self, path: &Path, export: &Export) -> Reply {
+        let path = with_extension(path, export.extension);
+        let shown = shown_path(&path);
+        let format = Format::to_write(&path).map_err(|error| format!("{shown}: {error}"))?;
+        if format.extension() != export.extension {
+            return Err(Refusal(format!(
+                "{shown}: that would be a {format}: give it the extension .{}",
+                export.extension
+            )));
+        }
+        let polygon = (export.extension == Format::Csv.extension()).then_some(export.polygon);
+        let document = self.workspace.settled();
+        let (visible, hidden): (Vec<Curve>, Vec<Curve>) = curves_of(document)
+            .into_iter()
+            .partition(|curve| curve.visible);
+        if visible.is_empty() {
+            return Err(Refusal::from(
+                "Every curve is hidden: show what you want to export",
+            ));
+        }
+        let saved = disk::write_file(&path, &visible, document.extras(), polygon)?;
+        let count = counted(visible.len(), "curve", "curves");
+        let mut text = format!("{count} exported to {shown}");
+        if !hidden.is_empty() {
+            text += &format!(
+                "; {} not, being hidden",
+                counted(hidden.len(), "curve", "curves")
+            );
+        }
+        Ok(Note::told(with_lines(text, &saved)))
+    }
+
+    /// Put another document in the place of this one.
+    pub(in crate::editor) fn replace(&mut self, document: Document, path: Option<PathBuf>) {
+        self.interrupt();
+        self.workspace.replace(document, path);
         self.document_replaced();
     }
+}
+
+fn curves_of(document: &Document) -> Vec<Curve> {
+    let curves = document.curves();
+    curves.map(|(_, curve)| Curve::clone(curve)).collect()
 }
 
 /// Read the curves of several files, with what there is to tell of each.
@@ -240,7 +224,7 @@ fn read_together(paths: &[PathBuf]) -> Result<(Vec<Curve>, String), FileError> {
 }
 
 /// Add lines to a message, if there are any.
-pub(super) fn with_lines(text: String, lines: &impl fmt::Display) -> String {
+pub(in crate::editor) fn with_lines(text: String, lines: &impl fmt::Display) -> String {
     format!("{text}\n{lines}").trim_end().to_owned()
 }
 

@@ -42,4 +42,4 @@ pub use nearest::Nearest;
 pub use polygon_figures::Range;
 pub use polygon_kind::PolygonKind;
 pub use sampler::{BATCH_ORDER, Batch, Sampler};
-pub use wording::{counted, noun};
+pub use wording::{counted, figure, noun};

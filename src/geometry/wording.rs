@@ -10,6 +10,19 @@ pub fn noun<'a>(count: usize, one: &'a str, many: &'a str) -> &'a str {
     if count == 1 { one } else { many }
 }
 
+/// Write a figure for reading: seven significant digits.
+pub fn figure(value: f64) -> String {
+    let magnitude = value.abs();
+    if value == 0.0 {
+        "0".into()
+    } else if !(1e-4..1e7).contains(&magnitude) {
+        format!("{value:.6e}")
+    } else {
+        let decimals = (6 - magnitude.log10().floor() as i32).clamp(0, 10) as usize;
+        format!("{value:.decimals$}")
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

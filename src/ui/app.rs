@@ -6,11 +6,12 @@ use eframe::egui::{
     self, CentralPanel, Context, Frame, Margin, Panel, ScrollArea, Ui, ViewportCommand,
 };
 
+use super::action::Action;
 use super::canvas::Canvas;
 use super::curve_list::CurveList;
 use super::dialogs::{self, Decision, Dialog};
 use super::end_fit_panel::EndFitPanel;
-use super::file_dialogs::{Chosen, FileDialogs, Purpose};
+use super::file_dialogs::{AfterDiscard, Chosen, FileDialogs, Purpose};
 use super::gizmo::gizmo_ui;
 use super::inspector::Inspector;
 use super::keyboard::{self, Asked, Keyboard, Typing};
@@ -25,7 +26,9 @@ use super::status_bar::{self, status_bar_ui};
 use super::theme::{self, Tokens};
 use super::tool_rail::{self, tool_rail_ui};
 use super::{canvas, overlays, widgets};
-use crate::editor::{AfterDiscard, Command, Editor, Layer, Request, ToolKind};
+use crate::editor::{Editor, Export, Layer, Refusal, ToolKind, told};
+use crate::geometry::PolygonKind;
+use crate::io::Format;
 
 /// Under which name the settings are kept.
 const SETTINGS: &str = "window";
@@ -47,8 +50,8 @@ pub struct App {
     palette: Palette,
     files: FileDialogs,
     dialog: Option<Dialog>,
-    /// Commands that wait for the end of the frame.
-    commands: Vec<Command>,
+    /// Actions that wait for the end of the frame.
+    actions: Vec<Action>,
     /// The title that the window has now.
     title: String,
     /// Whether the window may close without being asked again.
@@ -91,7 +94,7 @@ impl App {
             palette: Palette::default(),
             files: FileDialogs::new(native_dialogs),
             dialog: None,
-            commands: Vec::new(),
+            actions: Vec::new(),
             title: String::new(),
             leaving: false,
         }
@@ -117,12 +120,12 @@ impl App {
         self.editor.features();
         // Panels read what is hovered from the scene: bring it up to date before they do.
         self.editor.update_hover();
-        self.editor.hover_nothing();
+        self.editor.view_mut().hover_nothing();
         self.panels_ui(ui);
         self.overlays_ui(&context);
-        let commands = std::mem::take(&mut self.commands);
-        for command in commands {
-            self.execute(&context, command);
+        let actions = std::mem::take(&mut self.actions);
+        for action in actions {
+            self.perform(&context, action);
             // The panels above have shown what was before.
             context.request_repaint();
         }
@@ -151,9 +154,9 @@ impl App {
         }
         for asked in asked {
             match asked {
-                Asked::Command(command) if typing => self.commands.push(command),
-                Asked::Command(command) => self.execute(context, command),
-                Asked::Paste(text) => self.editor.paste_text(&text),
+                Asked::Action(action) if typing => self.actions.push(action),
+                Asked::Action(action) => self.perform(context, action),
+                Asked::Paste(text) => told(self.editor.paste_text(&text)),
             }
         }
     }
@@ -166,10 +169,9 @@ impl App {
         match dropped.as_slice() {
             [] => {}
             [one] if is_project(one) => {
-                let request = self.editor.confirmed(AfterDiscard::OpenFile(one.clone()));
-                self.grant(context, request);
+                self.confirm(context, AfterDiscard::OpenFile(one.clone()));
             }
-            several => self.editor.import(several),
+            several => told(self.editor.import(several)),
         }
     }
 
@@ -184,7 +186,7 @@ impl App {
             .frame(bar(4, 2))
             .resizable(false)
             .show(ui, |ui| {
-                menu_ui(ui, &mut self.editor, &self.shell, &mut self.commands);
+                menu_ui(ui, &mut self.editor, &self.shell, &mut self.actions);
             });
         let status = Panel::bottom("status").frame(bar(12, 0)).resizable(false);
         status
@@ -192,7 +194,7 @@ impl App {
             .show(ui, |ui| status_bar_ui(ui, &self.editor));
         let rail = Panel::left("tools").frame(bar(4, 4)).resizable(false);
         rail.exact_size(tool_rail::WIDTH).show(ui, |ui| {
-            tool_rail_ui(ui, &self.editor, &mut self.commands);
+            tool_rail_ui(ui, &self.editor, &mut self.actions);
         });
         let side = Panel::right("side").frame(Frame::NONE.fill(tokens.panel));
         side.default_size(320.0)
@@ -204,7 +206,7 @@ impl App {
             .show(ui, |ui| {
                 self.canvas.show(ui, &mut self.editor);
                 if let Some(rect) = self.canvas.rect() {
-                    gizmo_ui(ui, rect, &mut self.editor, &mut self.commands);
+                    gizmo_ui(ui, rect, &mut self.editor, &mut self.actions);
                 }
             });
     }
@@ -216,10 +218,10 @@ impl App {
             .default_size(116.0)
             .size_range(72.0..=400.0)
             .show(ui, |ui| {
-                self.curves.show(ui, &mut self.editor, &mut self.commands);
+                self.curves.show(ui, &mut self.editor, &mut self.actions);
             });
         // In a low window the layers scroll with the rest, so that nothing is squeezed out.
-        let is_end_fit = self.editor.tool() == ToolKind::EndFit;
+        let is_end_fit = self.editor.hand().tool() == ToolKind::EndFit;
         let pinned = ui.available_height() >= PINNED[usize::from(is_end_fit)];
         if pinned {
             let layers = Panel::bottom("layers").frame(pad).resizable(false);
@@ -249,7 +251,7 @@ impl App {
 
     fn layers_ui(&mut self, ui: &mut Ui) {
         widgets::section(ui, "Layers", true, |ui| {
-            layer_list_ui(ui, &mut self.editor, &mut self.commands);
+            layer_list_ui(ui, &mut self.editor, &mut self.actions);
         });
     }
 
@@ -262,7 +264,7 @@ impl App {
             let bar = Panel::bottom("plots folded").frame(frame).resizable(false);
             bar.exact_size(plots::BAR).show(ui, |ui| {
                 self.plots
-                    .bar_ui(ui, &self.editor, false, &mut self.commands);
+                    .bar_ui(ui, &self.editor, false, &mut self.actions);
             });
             return;
         }
@@ -272,8 +274,7 @@ impl App {
             .size_range(168.0..=640.0)
             .show(ui, |ui| {
                 ui.allocate_ui(egui::vec2(ui.available_width(), plots::BAR), |ui| {
-                    self.plots
-                        .bar_ui(ui, &self.editor, true, &mut self.commands);
+                    self.plots.bar_ui(ui, &self.editor, true, &mut self.actions);
                 });
                 self.plots.show(ui, &mut self.editor);
             });
@@ -281,16 +282,16 @@ impl App {
 
     fn overlays_ui(&mut self, context: &Context) {
         if let Some(rect) = self.canvas.rect() {
-            message_ui(context, rect, &mut self.editor, &mut self.commands);
+            message_ui(context, rect, &mut self.editor, &mut self.actions);
             if self.editor.is_orbited() {
-                overlays::orbited_ui(context, rect, &mut self.commands);
+                overlays::orbited_ui(context, rect, &mut self.actions);
             }
             overlays::drop_ui(context, rect);
-            if self.editor.document().is_empty() && self.editor.tool() != ToolKind::Draw {
+            if self.editor.document().is_empty() && self.editor.hand().tool() != ToolKind::Draw {
                 overlays::empty_ui(context, rect);
             }
         }
-        self.palette.show(context, &self.editor, &mut self.commands);
+        self.palette.show(context, &self.editor, &mut self.actions);
         if let Some(chosen) = self.files.show(context) {
             self.use_chosen(context, chosen);
         }
@@ -305,47 +306,78 @@ impl App {
         }
     }
 
-    fn execute(&mut self, context: &Context, command: Command) {
-        let request = self.editor.execute(command);
-        self.grant(context, request);
-    }
-
-    fn grant(&mut self, context: &Context, request: Option<Request>) {
-        let Some(request) = request else {
+    fn perform(&mut self, context: &Context, action: Action) {
+        if !action.is_enabled(&self.editor) {
             return;
-        };
-        match request {
-            Request::Open => self.files.ask(context, Purpose::Open, self.folder()),
-            Request::Import => self.files.ask(context, Purpose::Import, self.folder()),
-            Request::SaveAs => self.ask_save(context, None),
-            Request::Export(export) => {
-                let proposal = self.folder().join(&export.file_name);
-                self.files.ask(context, Purpose::Export(export), proposal);
-            }
-            Request::ConfirmDiscard(after) => self.dialog = Some(Dialog::Unsaved(after)),
-            Request::Quit => {
-                self.leaving = true;
-                context.send_viewport_cmd(ViewportCommand::Close);
-            }
-            Request::CopyText(text) => context.copy_text(text),
-            Request::Paste => context.send_viewport_cmd(ViewportCommand::RequestPaste),
-            Request::ToggleTheme => {
+        }
+        match action {
+            Action::Command(command) => told(self.editor.execute(command)),
+            Action::New => self.confirm(context, AfterDiscard::New),
+            Action::Open => self.confirm(context, AfterDiscard::Open),
+            Action::OpenExample(index) => self.confirm(context, AfterDiscard::OpenExample(index)),
+            Action::Quit => self.confirm(context, AfterDiscard::Quit),
+            Action::Import => self.files.ask(context, Purpose::Import, self.folder()),
+            Action::Save => match self.editor.workspace().path().map(Path::to_owned) {
+                Some(path) => told(self.editor.save(&path)),
+                None => self.ask_save(context, None),
+            },
+            Action::SaveAs => self.ask_save(context, None),
+            Action::ExportDxf => self.ask_export(context, Format::Dxf, PolygonKind::Float),
+            Action::ExportCsv(polygon) => self.ask_export(context, Format::Csv, polygon),
+            Action::Cut => copy(context, self.editor.cut()),
+            Action::Copy => copy(context, self.editor.copy()),
+            Action::Paste => context.send_viewport_cmd(ViewportCommand::RequestPaste),
+            Action::Divide => self.dialog = Some(Dialog::Divide(DivisionDialog::new(&self.editor))),
+            Action::Round => self.dialog = Some(Dialog::Round(Box::default())),
+            Action::ToggleTheme => {
                 self.shell.dark = !self.shell.dark;
                 theme::choose(context, self.shell.dark);
             }
-            Request::TogglePlots => self.shell.plots = !self.shell.plots,
-            Request::Palette => self.palette.open(),
-            Request::Divide => {
-                self.dialog = Some(Dialog::Divide(DivisionDialog::new(&self.editor)));
-            }
-            Request::Round => self.dialog = Some(Dialog::Round(Box::default())),
-            Request::Keys => self.dialog = Some(Dialog::Keys),
-            Request::About => self.dialog = Some(Dialog::About),
+            Action::TogglePlots => self.shell.plots = !self.shell.plots,
+            Action::Palette => self.palette.open(),
+            Action::Keys => self.dialog = Some(Dialog::Keys),
+            Action::About => self.dialog = Some(Dialog::About),
         }
     }
 
+    /// Ask about unsaved changes if there are any, otherwise go on.
+    fn confirm(&mut self, context: &Context, after: AfterDiscard) {
+        self.editor.end_preview();
+        if self.editor.workspace().is_modified() {
+            self.dialog = Some(Dialog::Unsaved(after));
+        } else {
+            self.go_on(context, after);
+        }
+    }
+
+    /// Go on with what was wanted: nothing is unsaved, or may be lost.
+    fn go_on(&mut self, context: &Context, after: AfterDiscard) {
+        match after {
+            AfterDiscard::New => self.editor.begin_empty(),
+            AfterDiscard::Open => self.files.ask(context, Purpose::Open, self.folder()),
+            AfterDiscard::OpenFile(path) => told(self.editor.open(&path)),
+            AfterDiscard::OpenExample(index) => told(self.editor.open_example(index)),
+            AfterDiscard::Quit => {
+                self.leaving = true;
+                context.send_viewport_cmd(ViewportCommand::Close);
+            }
+        }
+    }
+
+    fn ask_export(&mut self, context: &Context, format: Format, polygon: PolygonKind) {
+        let extension = format.extension();
+        let stem = self.editor.workspace().path().and_then(Path::file_stem);
+        let name = stem.map(|stem| stem.to_string_lossy().into_owned());
+        let active = || self.editor.document().curve(self.editor.active()?);
+        let name = name.or_else(|| Some(active()?.name.clone()));
+        let name = name.unwrap_or_else(|| "curves".into());
+        let proposal = self.folder().join(format!("{name}.{extension}"));
+        let export = Export { extension, polygon };
+        self.files.ask(context, Purpose::Export(export), proposal);
+    }
+
     fn ask_save(&mut self, context: &Context, after: Option<AfterDiscard>) {
-        let named = self.editor.path().map(Path::to_owned);
+        let named = self.editor.workspace().path().map(Path::to_owned);
         let proposal = named.unwrap_or_else(|| self.folder().join("untitled.batten"));
         self.files.ask(context, Purpose::Save(after), proposal);
     }
@@ -355,6 +387,7 @@ impl App {
     fn folder(&self) -> PathBuf {
         let beside = self
             .editor
+            .workspace()
             .path()
             .and_then(Path::parent)
             .map(Path::to_owned);
@@ -368,13 +401,12 @@ impl App {
     fn decide(&mut self, context: &Context, decision: Decision) {
         match decision {
             Decision::Close => {}
-            Decision::Divide(division, subdivisions) => self.editor.divide(division, subdivisions),
-            Decision::Round(kind, digits) => self.editor.round(kind, digits),
-            Decision::Discard(after) => {
-                let request = self.editor.discard_and(after);
-                self.grant(context, request);
+            Decision::Divide(division, subdivisions) => {
+                told(self.editor.divide(division, subdivisions));
             }
-            Decision::Save(after) => match self.editor.path().map(Path::to_owned) {
+            Decision::Round(kind, digits) => told(self.editor.round(kind, digits)),
+            Decision::Discard(after) => self.go_on(context, after),
+            Decision::Save(after) => match self.editor.workspace().path().map(Path::to_owned) {
                 Some(path) => self.save_and(context, &path, Some(after)),
                 None => self.ask_save(context, Some(after)),
             },
@@ -382,11 +414,13 @@ impl App {
     }
 
     fn save_and(&mut self, context: &Context, path: &Path, after: Option<AfterDiscard>) {
-        if !self.editor.save(path) {
-            self.ask_again(Purpose::Save(after), path);
-        } else if let Some(after) = after {
-            let request = self.editor.discard_and(after);
-            self.grant(context, request);
+        match self.editor.save(path) {
+            Err(refusal) => self.ask_again(Purpose::Save(after), path, refusal),
+            Ok(_) => {
+                if let Some(after) = after {
+                    self.go_on(context, after);
+                }
+            }
         }
     }
 
@@ -395,38 +429,31 @@ impl App {
         let Some(path) = paths.first() else {
             return;
         };
-        match &purpose {
+        let reply = match &purpose {
             Purpose::Save(after) => return self.save_and(context, path, after.clone()),
             Purpose::Open => self.editor.open(path),
             Purpose::Import => self.editor.import(&paths),
             Purpose::Export(export) => self.editor.export(path, export),
-        }
-        if self
-            .editor
-            .message()
-            .is_some_and(|message| message.is_error)
-        {
-            self.ask_again(purpose, path);
+        };
+        if let Err(refusal) = reply {
+            self.ask_again(purpose, path, refusal);
         }
         context.request_repaint();
     }
 
-    /// Where the window's own prompt was in use, an error is told there; otherwise it stays the
+    /// Where the window's own prompt was in use, a refusal is told there; otherwise it stays the
     /// message.
-    fn ask_again(&mut self, purpose: Purpose, path: &Path) {
-        if self.files.is_native() {
-            return;
-        }
-        if let Some(message) = self.editor.message().cloned() {
+    fn ask_again(&mut self, purpose: Purpose, path: &Path, refusal: Refusal) {
+        if !self.files.is_native() {
             self.editor.dismiss_message();
-            self.files.ask_again(purpose, path, message.text);
+            self.files.ask_again(purpose, path, refusal.to_string());
         }
     }
 
     fn update_title(&mut self, context: &Context) {
-        let name = self.editor.path().and_then(Path::file_name);
+        let name = self.editor.workspace().path().and_then(Path::file_name);
         let name = name.map_or("Untitled".into(), |name| name.to_string_lossy());
-        let dot = if self.editor.is_modified() {
+        let dot = if self.editor.workspace().is_modified() {
             "• "
         } else {
             ""
@@ -441,14 +468,14 @@ impl App {
     /// A window that is closed from outside asks about unsaved changes first.
     fn watch_closing(&mut self, context: &Context) {
         let asked = context.input(|input| input.viewport().close_requested());
-        if asked && !self.leaving && self.editor.is_modified() {
+        if asked && !self.leaving && self.editor.workspace().is_modified() {
             context.send_viewport_cmd(ViewportCommand::CancelClose);
             self.dialog = Some(Dialog::Unsaved(AfterDiscard::Quit));
         }
     }
 
     fn settings(&self) -> Shell {
-        let layers = self.editor.chosen_layers();
+        let layers = self.editor.view().chosen_layers();
         let hidden = Layer::ALL
             .into_iter()
             .enumerate()
@@ -475,6 +502,12 @@ impl eframe::App for App {
     }
 }
 
+fn copy(context: &Context, copied: Result<String, Refusal>) {
+    if let Ok(text) = copied {
+        context.copy_text(text);
+    }
+}
+
 fn is_project(path: &Path) -> bool {
     path.extension()
         .is_some_and(|extension| extension.eq_ignore_ascii_case("batten"))
@@ -494,7 +527,7 @@ fn move_keyboard(context: &Context) {
 fn hide_layers(editor: &mut Editor, hidden: &[usize]) {
     for (place, layer) in Layer::ALL.into_iter().enumerate() {
         if editor.layers().shows(layer) == hidden.contains(&place) {
-            editor.execute(layer.command());
+            told(editor.execute(layer.command()));
         }
     }
 }

@@ -63,7 +63,7 @@ impl Canvas {
 
     fn send_event(&mut self, context: &Context, editor: &mut Editor, rect: Rect, event: &Event) {
         if let Some((axis, pressed)) = keyboard::axis_of(event) {
-            let mine = editor.is_holding() || self.has_keyboard(context);
+            let mine = editor.hand().is_holding() || self.has_keyboard(context);
             self.hold_axis(editor, axis, pressed && mine);
         }
         match event {
@@ -321,7 +321,7 @@ impl Canvas {
         let tokens = Tokens::of(ui);
         painter.rect_filled(rect, 0, tokens.background);
         let has_grid = editor.layers().shows(Layer::Grid);
-        let viewport = *editor.viewport();
+        let viewport = *editor.view().viewport();
         if has_grid {
             grid::paint(&painter, rect, &viewport, tokens);
         }

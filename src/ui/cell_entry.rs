@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use super::draft::Draft;
 use super::vertex_columns::Column;
 use crate::document::CurveId;
-use crate::editor::Editor;
+use crate::editor::{Editor, told};
 use crate::geometry::FloatPolygon;
 
 /// The numbers that can be typed, as far as the field can tell.
@@ -83,7 +83,7 @@ impl Entry {
         let tried = column.check(polygon, vertex, value);
         tried.map_err(|error| error.to_string())?;
         let edit = column.edit((self.curve, polygon), vertex, value);
-        editor.apply(column.label(), vec![edit]);
+        told(editor.apply(column.label(), vec![edit]));
         Ok(())
     }
 }

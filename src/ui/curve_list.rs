@@ -6,10 +6,11 @@ use eframe::egui::{
 };
 use lucide_icons::Icon;
 
+use super::action::Action;
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
 use crate::document::{Curve, CurveId, Edit};
-use crate::editor::{Command, Editor};
+use crate::editor::{Command, Editor, told};
 
 /// The list's own state: the name that is being typed.
 #[derive(Default)]
@@ -36,7 +37,7 @@ enum Asked {
 
 impl CurveList {
     /// Show the list with its heading.
-    pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Command>) {
+    pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
         heading_ui(ui, editor, commands);
         if editor.document().is_empty() {
             widgets::note(
@@ -72,10 +73,10 @@ impl CurveList {
         match asked {
             Some(Asked::Activate(curve)) => editor.activate(curve),
             Some(Asked::Rename(curve)) => self.begin_renaming(editor, curve),
-            Some(Asked::Lock(curve, locked)) => editor.set_locked(curve, locked),
-            Some(Asked::Show(curve, visible)) => editor.set_visible(curve, visible),
+            Some(Asked::Lock(curve, locked)) => told(editor.set_locked(curve, locked)),
+            Some(Asked::Show(curve, visible)) => told(editor.set_visible(curve, visible)),
             Some(Asked::Edit(label, edit)) => {
-                editor.apply(label, vec![edit]);
+                told(editor.apply(label, vec![edit]));
             }
             None => {}
         }
@@ -160,7 +161,7 @@ impl CurveList {
     }
 }
 
-fn heading_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Command>) {
+fn heading_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
     ui.horizontal(|ui| {
         ui.strong("Curves");
         widgets::at_right(ui, |ui| {
@@ -172,7 +173,7 @@ fn heading_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Command>) {
                 let name = command.label();
                 let button = IconButton::new(icon, &name).enabled(editor.is_enabled(command));
                 if button.tooltip(command.tooltip()).show(ui).clicked() {
-                    commands.push(command);
+                    commands.push(command.into());
                 }
             }
             let place = editor.active().and_then(|active| {
@@ -190,7 +191,7 @@ fn heading_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Command>) {
             ] {
                 let response = IconButton::new(icon, name).enabled(to.is_some()).show(ui);
                 if let (true, Some((curve, place))) = (response.clicked(), to) {
-                    editor.apply("Reorder curves", vec![Edit::Reorder { curve, place }]);
+                    told(editor.apply("Reorder curves", vec![Edit::Reorder { curve, place }]));
                 }
             }
         });

@@ -2,11 +2,13 @@
 
 use eframe::egui::{Context, Grid, Id, Key, Modal, RichText, ScrollArea, Ui, vec2};
 
+use super::action::Action;
+use super::file_dialogs::AfterDiscard;
 use super::reshaping_dialogs::{DivisionDialog, RoundingDialog};
 use super::theme::{self, STEP, Tokens};
 use super::{keyboard, widgets};
 use crate::document::quoted;
-use crate::editor::{AfterDiscard, Command, Division, Editor};
+use crate::editor::{Division, Editor};
 use crate::geometry::PolygonKind;
 
 /// What is asked or told.
@@ -50,7 +52,7 @@ pub fn dialog_ui(context: &Context, dialog: &mut Dialog, editor: &Editor) -> Opt
                 Dialog::Unsaved(after) => unsaved_ui(ui, after, editor),
                 Dialog::Divide(dialog) => dialog.show(ui, editor),
                 Dialog::Round(dialog) => dialog.show(ui, editor),
-                Dialog::Keys => keys_ui(ui, editor),
+                Dialog::Keys => keys_ui(ui),
                 Dialog::About => about_ui(ui),
             }
         });
@@ -61,7 +63,7 @@ pub fn dialog_ui(context: &Context, dialog: &mut Dialog, editor: &Editor) -> Opt
 fn unsaved_ui(ui: &mut Ui, after: &AfterDiscard, editor: &Editor) -> Option<Decision> {
     ui.set_width(400.0);
     ui.strong("Save the changes?");
-    let name = editor.path().and_then(|path| path.file_name());
+    let name = editor.workspace().path().and_then(|path| path.file_name());
     let name = name.map_or("the document".to_owned(), |name| {
         quoted(&name.to_string_lossy())
     });
@@ -122,7 +124,7 @@ const MOUSE: [(&str, &str); 20] = [
     ("Esc", "Table: call the edit off; leave"),
 ];
 
-fn keys_ui(ui: &mut Ui, editor: &Editor) -> Option<Decision> {
+fn keys_ui(ui: &mut Ui) -> Option<Decision> {
     let window = ui.ctx().content_rect().size();
     ui.set_width((window.x - 80.0).clamp(200.0, 1080.0));
     ui.strong("Keys and mouse");
@@ -133,7 +135,7 @@ fn keys_ui(ui: &mut Ui, editor: &Editor) -> Option<Decision> {
         .max_height(height)
         .min_scrolled_height(height);
     area.show(ui, |ui| {
-        let keys: Vec<(String, String)> = Command::all(editor.examples())
+        let keys: Vec<(String, String)> = Action::all()
             .into_iter()
             .filter_map(|command| {
                 Some((

@@ -37,7 +37,7 @@ impl EndFitPanel {
         let mut panel = Panel {
             report: &report,
             closed: !editor.layers().shows(Layer::Float),
-            pixel: editor.viewport().pixel(),
+            pixel: editor.view().viewport().pixel(),
             step: self.step,
             asked: None,
         };
@@ -48,8 +48,8 @@ impl EndFitPanel {
             match action {
                 Asked::Action(action) => editor.end_fit_action(action),
                 Asked::Preview(action) => preview(editor, &report, action),
-                Asked::Commit => editor.commit_field(),
-                Asked::Abort => editor.abort_field(),
+                Asked::Commit => editor.commit_preview(),
+                Asked::Abort => editor.abort_preview(),
             }
         }
     }
@@ -73,7 +73,7 @@ fn preview(editor: &mut Editor, report: &EndFitReport, action: EndFitAction) {
         end: report.end,
         target: Some(target),
     };
-    editor.preview_field("Set target", vec![edit]);
+    editor.preview("Set target", vec![edit]);
 }
 
 fn empty_ui(ui: &mut Ui, editor: &Editor) {

@@ -9,11 +9,26 @@ use eframe::egui::{Align2, Context, Id, Key, Label, Modal, RichText, TextEdit, U
 use super::theme::{ROW, STEP, Tokens};
 use super::widgets;
 use crate::document::quoted;
-use crate::editor::{AfterDiscard, Export, with_extension};
+use crate::editor::{Export, with_extension};
 use crate::io::{Format, shown_path};
 
 /// A dialog that answers "nothing" sooner than this was never shown.
 const UNAVAILABLE: Duration = Duration::from_millis(250);
+
+/// What goes on once unsaved changes are saved or given up.
+#[derive(Clone, Debug, PartialEq)]
+pub enum AfterDiscard {
+    /// Begin an empty document.
+    New,
+    /// Ask for a file to open.
+    Open,
+    /// Open this file.
+    OpenFile(PathBuf),
+    /// Open a built-in example.
+    OpenExample(usize),
+    /// Leave.
+    Quit,
+}
 
 /// What a path is wanted for.
 #[derive(Clone, Debug, PartialEq)]

@@ -7,6 +7,7 @@ use eframe::egui::{
 };
 use glam::{DVec2, DVec3};
 
+use super::action::Action;
 use super::theme::{self, STEP, Tokens};
 use crate::analysis::Orientation;
 use crate::editor::{Command, Editor, NamedView};
@@ -33,14 +34,14 @@ pub fn place(canvas: Rect) -> Option<Rect> {
 }
 
 /// Show the gizmo over the canvas.
-pub fn gizmo_ui(ui: &mut Ui, canvas: Rect, editor: &mut Editor, commands: &mut Vec<Command>) {
+pub fn gizmo_ui(ui: &mut Ui, canvas: Rect, editor: &mut Editor, commands: &mut Vec<Action>) {
     let Some(rect) = place(canvas) else {
         return;
     };
     let response = ui.interact(rect, Id::unique("gizmo"), Sense::click_and_drag());
     let label = "Axes: drag to turn the view, click a tip to look along an axis";
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, label));
-    let view = editor.viewport().orientation;
+    let view = editor.view().viewport().orientation;
     paint(ui, rect, &view, &response);
     if response.dragged() {
         let by = response.drag_delta();
@@ -51,7 +52,7 @@ pub fn gizmo_ui(ui: &mut Ui, canvas: Rect, editor: &mut Editor, commands: &mut V
         && let Some(at) = response.interact_pointer_pos()
         && let Some(named) = clicked_view(rect.center(), &view, at)
     {
-        commands.push(Command::View(named));
+        commands.push(Command::View(named).into());
     }
     if !response.dragged() {
         response.on_hover_text(label);

@@ -3,6 +3,7 @@
 use eframe::egui::RichText;
 use lucide_icons::Icon;
 
+use super::action::Action;
 use super::theme;
 use crate::editor::{Command, Layer, ToolKind};
 
@@ -35,21 +36,33 @@ pub fn of_layer(layer: Layer) -> Icon {
     }
 }
 
-/// The icon of a command, for those that have one.
-pub fn of_command(command: Command) -> Option<Icon> {
+/// The icon of an action, for those that have one.
+pub fn of_action(action: Action) -> Option<Icon> {
+    Some(match action {
+        Action::Command(command) => return of_command(command),
+        Action::New => Icon::FilePlus,
+        Action::Open => Icon::FolderOpen,
+        Action::Import => Icon::Import,
+        Action::Save => Icon::Save,
+        Action::ExportDxf => Icon::Share,
+        Action::ExportCsv(_) => Icon::Table,
+        Action::OpenExample(_) => Icon::Spline,
+        Action::Cut => Icon::Scissors,
+        Action::Copy => Icon::Copy,
+        Action::Paste => Icon::ClipboardPaste,
+        Action::ToggleTheme => Icon::SunMoon,
+        Action::TogglePlots => Icon::ChartSpline,
+        Action::Palette => Icon::Search,
+        Action::Keys => Icon::Keyboard,
+        Action::About => Icon::Info,
+        _ => return None,
+    })
+}
+
+fn of_command(command: Command) -> Option<Icon> {
     Some(match command {
-        Command::New => Icon::FilePlus,
-        Command::Open => Icon::FolderOpen,
-        Command::Import => Icon::Import,
-        Command::Save => Icon::Save,
-        Command::ExportDxf => Icon::Share,
-        Command::ExportCsv(_) => Icon::Table,
-        Command::OpenExample(_) => Icon::Spline,
         Command::Undo => Icon::Undo2,
         Command::Redo => Icon::Redo2,
-        Command::Cut => Icon::Scissors,
-        Command::Copy => Icon::Copy,
-        Command::Paste => Icon::ClipboardPaste,
         Command::Duplicate => Icon::CopyPlus,
         Command::Delete | Command::DeleteCurve => Icon::Trash2,
         Command::Reverse => Icon::ArrowLeftRight,
@@ -64,11 +77,6 @@ pub fn of_command(command: Command) -> Option<Icon> {
         Command::ToggleSnapping => Icon::Magnet,
         Command::ToggleLayer(layer) => of_layer(layer),
         Command::Tool(tool) => of_tool(tool),
-        Command::ToggleTheme => Icon::SunMoon,
-        Command::TogglePlots => Icon::ChartSpline,
-        Command::Palette => Icon::Search,
-        Command::Keys => Icon::Keyboard,
-        Command::About => Icon::Info,
         _ => return None,
     })
 }

@@ -14,7 +14,7 @@ use super::transform_panel::TransformPanel;
 use super::vertex_table::VertexTable;
 use super::widgets::{self, IconButton};
 use crate::document::{Colour, Curve, CurveId, Edit};
-use crate::editor::{Command, CurveReport, Editor};
+use crate::editor::{Command, CurveReport, Editor, told};
 use crate::geometry::{MAX_DEGREE, Range};
 
 /// The inspector's own state.
@@ -69,11 +69,11 @@ impl Inspector {
         widgets::form_row(ui, "State", |ui| {
             let mut visible = curve.visible;
             if ui.checkbox(&mut visible, "Visible").clicked() {
-                editor.set_visible(id, visible);
+                told(editor.set_visible(id, visible));
             }
             let mut locked = curve.locked;
             if ui.checkbox(&mut locked, "Locked").clicked() {
-                editor.set_locked(id, locked);
+                told(editor.set_locked(id, locked));
             }
         });
     }
@@ -89,13 +89,13 @@ impl Inspector {
         if response.lost_focus() {
             let called_off = ui.input(|input| input.key_pressed(Key::Escape));
             if !called_off && text.trim() != curve.name {
-                editor.apply(
+                told(editor.apply(
                     "Rename curve",
                     vec![Edit::Rename {
                         curve: id,
                         name: text,
                     }],
-                );
+                ));
             }
         } else if response.has_focus() {
             self.name = Some((id, text));
@@ -111,20 +111,20 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
         .tooltip(Command::LowerDegree.tooltip())
         .enabled(degree > 1);
     if lower.show(ui).clicked() {
-        editor.set_degree(id, degree - 1);
+        told(editor.set_degree(id, degree - 1));
     }
     let field = NumberField::new("Degree", degree as f64, degree.to_string())
         .width(48.0)
         .range(1.0..=most as f64)
         .typed_only();
     if let FieldEvent::Typed(value) = field.show(ui).1 {
-        editor.set_degree(id, value.round() as usize);
+        told(editor.set_degree(id, value.round() as usize));
     }
     let raise = IconButton::new(Icon::Plus, "Raise degree")
         .tooltip(Command::RaiseDegree.tooltip())
         .enabled(degree < MAX_DEGREE);
     if raise.show(ui).clicked() {
-        editor.set_degree(id, degree + 1);
+        told(editor.set_degree(id, degree + 1));
     }
 }
 
@@ -134,7 +134,7 @@ fn ends_ui(ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
     for (name, wanted) in [("Open", false), ("Periodic", true)] {
         let response = ui.add(Button::selectable(periodic == wanted, name));
         if response.clicked() && periodic != wanted {
-            editor.set_periodic(id, wanted);
+            told(editor.set_periodic(id, wanted));
         }
     }
 }
@@ -188,7 +188,7 @@ fn choice_ui(ui: &mut Ui, name: &str, colour: Color32) -> eframe::egui::Response
 }
 
 fn recolour(editor: &mut Editor, curve: CurveId, colour: Option<Colour>) {
-    editor.apply("Recolour curve", vec![Edit::Recolour { curve, colour }]);
+    told(editor.apply("Recolour curve", vec![Edit::Recolour { curve, colour }]));
 }
 
 fn figures_ui(ui: &mut Ui, curve: &Curve, report: &CurveReport) {

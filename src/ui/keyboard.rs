@@ -2,6 +2,7 @@
 
 use eframe::egui::{self, Context, Event, Id, Rect};
 
+use super::action::Action;
 use crate::editor::{Command, Editor, Key, Modifiers, Shortcut, ToolKind};
 
 /// Translate modifier keys.
@@ -127,8 +128,8 @@ pub fn is_covered(context: &Context) -> bool {
 
 /// What this frame's keys ask for.
 pub enum Asked {
-    /// A command of the table.
-    Command(Command),
+    /// An action of the table.
+    Action(Action),
     /// The clipboard's text, already at hand.
     Paste(String),
 }
@@ -140,7 +141,7 @@ pub enum Asked {
 #[derive(Debug, Default)]
 pub struct Keyboard {
     /// The axis whose key is held, and the command that waits for its release.
-    waiting: Option<(usize, Command)>,
+    waiting: Option<(usize, Action)>,
 }
 
 impl Keyboard {
@@ -151,14 +152,14 @@ impl Keyboard {
             return Vec::new();
         }
         let typing = typing(context);
-        let holding = editor.is_holding();
+        let holding = editor.hand().is_holding();
         // What is typed while drawing may be meant as coordinates.
         let is_number = |shortcut: &Shortcut| {
             shortcut.modifiers == Modifiers::NONE
                 && matches!(shortcut.key, Key::Character('0'..='9' | '+' | '-'))
         };
-        let draws = editor.tool() == ToolKind::Draw;
-        let table: Vec<(Shortcut, Command)> = Command::all(editor.examples())
+        let draws = editor.hand().tool() == ToolKind::Draw;
+        let table: Vec<(Shortcut, Action)> = Action::all()
             .into_iter()
             .filter_map(|command| Some((command.shortcut()?, command)))
             .filter(|(shortcut, _)| !(draws && is_number(shortcut)))
@@ -170,7 +171,7 @@ impl Keyboard {
                 let found = command_of(event, &table, typing);
                 match (found, axis_of(event)) {
                     (None, _) => true,
-                    (Some(Asked::Command(command)), Some((axis, _))) => {
+                    (Some(Asked::Action(command)), Some((axis, _))) => {
                         self.waiting = (!holding).then_some((axis, command));
                         true
                     }
@@ -194,7 +195,7 @@ impl Keyboard {
             }
             _ if axis_of(event) == Some((waiting, false)) => {
                 self.waiting = None;
-                Some(Asked::Command(command))
+                Some(Asked::Action(command))
             }
             _ => None,
         }
@@ -220,11 +221,11 @@ pub fn axis_of(event: &Event) -> Option<(usize, bool)> {
     Some((axis, *pressed))
 }
 
-fn command_of(event: &Event, table: &[(Shortcut, Command)], typing: Typing) -> Option<Asked> {
+fn command_of(event: &Event, table: &[(Shortcut, Action)], typing: Typing) -> Option<Asked> {
     let is_free = typing == Typing::Nothing;
     match event {
-        Event::Copy if is_free => Some(Asked::Command(Command::Copy)),
-        Event::Cut if is_free => Some(Asked::Command(Command::Cut)),
+        Event::Copy if is_free => Some(Asked::Action(Action::Copy)),
+        Event::Cut if is_free => Some(Asked::Action(Action::Cut)),
         Event::Paste(text) if is_free => Some(Asked::Paste(text.clone())),
         Event::Key {
             key: pressed,
@@ -241,10 +242,10 @@ fn command_of(event: &Event, table: &[(Shortcut, Command)], typing: Typing) -> O
             let command = found.or_else(|| alias(shortcut))?;
             let repeats = matches!(
                 command,
-                Command::Undo | Command::Redo | Command::ZoomIn | Command::ZoomOut
+                Action::Command(Command::Undo | Command::Redo | Command::ZoomIn | Command::ZoomOut)
             );
             let is_mine = !belongs_to(typing, shortcut);
-            (is_mine && (repeats || !repeat)).then_some(Asked::Command(command))
+            (is_mine && (repeats || !repeat)).then_some(Asked::Action(command))
         }
         _ => None,
     }
@@ -263,12 +264,12 @@ fn pressed_shortcut(pressed: egui::Key, held: egui::Modifiers) -> Option<Shortcu
 }
 
 /// Keys that people know from elsewhere.
-fn alias(shortcut: Shortcut) -> Option<Command> {
+fn alias(shortcut: Shortcut) -> Option<Action> {
     let redo = Shortcut {
         modifiers: Modifiers::CTRL,
         key: Key::Character('y'),
     };
-    (shortcut == redo).then_some(Command::Redo)
+    (shortcut == redo).then_some(Command::Redo.into())
 }
 
 /// Whether what is typed into needs the key for itself.
@@ -301,7 +302,7 @@ mod tests {
 
     #[test]
     fn every_command_has_a_key_of_its_own() {
-        let commands = Command::all(0);
+        let commands = Action::all();
         let keys: Vec<Shortcut> = commands
             .iter()
             .filter_map(|command| command.shortcut())

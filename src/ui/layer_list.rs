@@ -3,6 +3,7 @@
 use eframe::egui::{Color32, Role, Sense, Stroke, Ui, WidgetInfo, vec2};
 use lucide_icons::Icon;
 
+use super::action::Action;
 use super::number_field::{FieldEvent, NumberField};
 use super::theme::{ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
@@ -12,7 +13,7 @@ use crate::editor::{Command, Editor, Layer};
 use crate::geometry::noun;
 
 /// Show the layers.
-pub fn layer_list_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Command>) {
+pub fn layer_list_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
     ui.spacing_mut().item_spacing.y = 0.0;
     for layer in Layer::ALL {
         row_ui(ui, editor, layer, commands);
@@ -37,7 +38,7 @@ fn colour(tokens: &Tokens, layer: Layer) -> Color32 {
     }
 }
 
-fn row_ui(ui: &mut Ui, editor: &Editor, layer: Layer, commands: &mut Vec<Command>) {
+fn row_ui(ui: &mut Ui, editor: &Editor, layer: Layer, commands: &mut Vec<Action>) {
     let shown = editor.layers().shows(layer);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
     let tokens = Tokens::of(ui);
@@ -96,13 +97,13 @@ fn row_ui(ui: &mut Ui, editor: &Editor, layer: Layer, commands: &mut Vec<Command
     }
     response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, shown, layer.label()));
     if response.on_hover_text(layer.command().tooltip()).clicked() {
-        commands.push(layer.command());
+        commands.push(layer.command().into());
     }
 }
 
 /// The comb's scale and density, while there is a comb.
-fn comb_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Command>) {
-    let mut comb = editor.comb();
+fn comb_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
+    let mut comb = editor.view().comb();
     widgets::form_row(ui, "Comb scale", |ui| {
         let shown = figures::significant(comb.scale, 4);
         let field = NumberField::new("Comb scale", comb.scale, shown)
@@ -111,7 +112,7 @@ fn comb_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Command>) {
             .width(96.0);
         if let FieldEvent::Typed(value) | FieldEvent::Preview(value) = field.show(ui).1 {
             comb.scale = value;
-            editor.set_comb(comb);
+            editor.view_mut().set_comb(comb);
         }
         let reset = IconButton::new(Icon::RotateCcw, "Reset comb scale");
         if reset
@@ -119,7 +120,7 @@ fn comb_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Command>) {
             .show(ui)
             .clicked()
         {
-            commands.push(Command::ResetComb);
+            commands.push(Command::ResetComb.into());
         }
     });
     widgets::form_row(ui, "Comb density", |ui| {
@@ -131,7 +132,7 @@ fn comb_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Command>) {
             .width(96.0);
         if let FieldEvent::Typed(value) | FieldEvent::Preview(value) = field.show(ui).1 {
             comb.density = value.round().max(0.0) as usize;
-            editor.set_comb(comb);
+            editor.view_mut().set_comb(comb);
         }
         let noun = noun(comb.density, "tooth", "teeth");
         widgets::caption(ui, &format!("{noun} a segment"));

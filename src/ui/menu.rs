@@ -3,34 +3,40 @@
 use eframe::egui::{Button, Color32, MenuBar, RichText, Ui};
 use lucide_icons::Icon;
 
+use super::action::Action;
 use super::feature_list::chip_ui;
 use super::shell::Shell;
 use super::theme::Tokens;
 use super::{icons, keyboard, widgets};
 use crate::editor::{Command, Editor, Layer, NamedView, ToolKind};
 use crate::geometry::{End, PolygonKind};
+use crate::io::examples::EXAMPLES;
 
 /// The least width of an open menu.
 const WIDTH: f32 = 240.0;
 
 /// One line of a menu.
 enum Entry {
-    Command(Command),
+    Action(Action),
     Divider,
     Examples,
 }
 
-use Entry::{Command as Item, Divider};
+use Entry::{Action as Item, Divider};
+
+fn command(command: Command) -> Entry {
+    Item(Action::Command(command))
+}
 
 /// Show the menu bar, and the verdict on the active curve at its right end.
-pub fn menu_ui(ui: &mut Ui, editor: &mut Editor, shell: &Shell, commands: &mut Vec<Command>) {
+pub fn menu_ui(ui: &mut Ui, editor: &mut Editor, shell: &Shell, commands: &mut Vec<Action>) {
     MenuBar::new().ui(ui, |ui| {
         for (title, entries) in menus() {
             ui.menu_button(title, |ui| {
                 ui.set_min_width(WIDTH);
                 for entry in entries {
                     match entry {
-                        Item(command) => item_ui(ui, editor, shell, command, commands),
+                        Item(action) => item_ui(ui, editor, shell, action, commands),
                         Divider => {
                             ui.separator();
                         }
@@ -45,7 +51,7 @@ pub fn menu_ui(ui: &mut Ui, editor: &mut Editor, shell: &Shell, commands: &mut V
             let chip = chip_ui(ui, editor);
             let shown = editor.layers().shows(Layer::Features);
             if chip.is_some_and(|chip| chip.clicked()) && !shown {
-                commands.push(Layer::Features.command());
+                commands.push(Layer::Features.command().into());
             }
         });
     });
@@ -53,75 +59,77 @@ pub fn menu_ui(ui: &mut Ui, editor: &mut Editor, shell: &Shell, commands: &mut V
 
 fn menus() -> [(&'static str, Vec<Entry>); 6] {
     let mut file = vec![
-        Item(Command::New),
-        Item(Command::Open),
-        Item(Command::Import),
+        Item(Action::New),
+        Item(Action::Open),
+        Item(Action::Import),
         Entry::Examples,
         Divider,
-        Item(Command::Save),
-        Item(Command::SaveAs),
+        Item(Action::Save),
+        Item(Action::SaveAs),
         Divider,
-        Item(Command::ExportDxf),
+        Item(Action::ExportDxf),
     ];
-    file.extend(PolygonKind::ALL.map(|kind| Item(Command::ExportCsv(kind))));
-    file.extend([Divider, Item(Command::Quit)]);
+    file.extend(PolygonKind::ALL.map(|kind| Item(Action::ExportCsv(kind))));
+    file.extend([Divider, Item(Action::Quit)]);
     let edit = vec![
-        Item(Command::Undo),
-        Item(Command::Redo),
+        command(Command::Undo),
+        command(Command::Redo),
         Divider,
-        Item(Command::Cut),
-        Item(Command::Copy),
-        Item(Command::Paste),
-        Item(Command::Delete),
+        Item(Action::Cut),
+        Item(Action::Copy),
+        Item(Action::Paste),
+        command(Command::Delete),
         Divider,
-        Item(Command::SelectAll),
-        Item(Command::SelectNone),
+        command(Command::SelectAll),
+        command(Command::SelectNone),
         Divider,
-        Item(Command::ToggleSnapping),
+        command(Command::ToggleSnapping),
     ];
     let curve = vec![
-        Item(Command::Duplicate),
-        Item(Command::DeleteCurve),
+        command(Command::Duplicate),
+        command(Command::DeleteCurve),
         Divider,
-        Item(Command::RaiseDegree),
-        Item(Command::LowerDegree),
-        Item(Command::TogglePeriodic),
-        Item(Command::Reverse),
+        command(Command::RaiseDegree),
+        command(Command::LowerDegree),
+        command(Command::TogglePeriodic),
+        command(Command::Reverse),
         Divider,
-        Item(Command::RaiseCurveDegree),
-        Item(Command::LowerCurveDegree),
-        Item(Command::Subdivide),
-        Item(Command::Extend(End::Start)),
-        Item(Command::Extend(End::Finish)),
-        Item(Command::Divide),
-        Item(Command::Round),
+        command(Command::RaiseCurveDegree),
+        command(Command::LowerCurveDegree),
+        command(Command::Subdivide),
+        command(Command::Extend(End::Start)),
+        command(Command::Extend(End::Finish)),
+        Item(Action::Divide),
+        Item(Action::Round),
         Divider,
-        Item(Command::ToggleVisible),
-        Item(Command::ToggleLocked),
+        command(Command::ToggleVisible),
+        command(Command::ToggleLocked),
     ];
     let mut view = vec![
-        Item(Command::Fit),
-        Item(Command::FitAll),
-        Item(Command::ZoomIn),
-        Item(Command::ZoomOut),
+        command(Command::Fit),
+        command(Command::FitAll),
+        command(Command::ZoomIn),
+        command(Command::ZoomOut),
         Divider,
     ];
-    view.extend(Layer::ALL.map(|layer| Item(layer.command())));
+    view.extend(Layer::ALL.map(|layer| command(layer.command())));
     view.push(Divider);
-    view.extend(NamedView::ALL.map(|view| Item(Command::View(view))));
+    view.extend(NamedView::ALL.map(|view| command(Command::View(view))));
     view.extend([
         Divider,
-        Item(Command::ResetComb),
+        command(Command::ResetComb),
         Divider,
-        Item(Command::TogglePlots),
-        Item(Command::ToggleTheme),
+        Item(Action::TogglePlots),
+        Item(Action::ToggleTheme),
     ]);
-    let tools = ToolKind::ALL.map(|tool| Item(Command::Tool(tool))).into();
+    let tools = ToolKind::ALL
+        .map(|tool| command(Command::Tool(tool)))
+        .into();
     let help = vec![
-        Item(Command::Palette),
-        Item(Command::Keys),
+        Item(Action::Palette),
+        Item(Action::Keys),
         Divider,
-        Item(Command::About),
+        Item(Action::About),
     ];
     [
         ("File", file),
@@ -133,12 +141,12 @@ fn menus() -> [(&'static str, Vec<Entry>); 6] {
     ]
 }
 
-fn examples_ui(ui: &mut Ui, editor: &Editor, shell: &Shell, commands: &mut Vec<Command>) {
+fn examples_ui(ui: &mut Ui, editor: &Editor, shell: &Shell, commands: &mut Vec<Action>) {
     let title = (blank(), "Examples");
     let response = ui.menu_button(title, |ui| {
         ui.set_min_width(WIDTH);
-        for example in 0..editor.examples() {
-            item_ui(ui, editor, shell, Command::OpenExample(example), commands);
+        for example in 0..EXAMPLES.len() {
+            item_ui(ui, editor, shell, Action::OpenExample(example), commands);
         }
     });
     response.response.accessible_name("Examples");
@@ -148,27 +156,27 @@ fn item_ui(
     ui: &mut Ui,
     editor: &Editor,
     shell: &Shell,
-    command: Command,
-    commands: &mut Vec<Command>,
+    action: Action,
+    commands: &mut Vec<Action>,
 ) {
-    let label = editor.label(command);
-    let checked = shell.is_checked(editor, command);
+    let label = action.label_now(editor);
+    let checked = action.is_checked(editor, shell);
     let mark = if checked == Some(true) {
         icons::text(Icon::Check)
     } else {
         blank()
     };
     let mut button = Button::new((mark, label.clone())).min_size(eframe::egui::vec2(WIDTH, 0.0));
-    if let Some(shortcut) = command.shortcut() {
+    if let Some(shortcut) = action.shortcut() {
         let keys =
             RichText::new(keyboard::shortcut_text(shortcut)).color(Tokens::of(ui).faint_text);
         button = button.shortcut_text(keys);
     }
     let response = ui
-        .add_enabled(editor.is_enabled(command), button)
+        .add_enabled(action.is_enabled(editor), button)
         .accessible_name(&label);
-    if response.on_hover_text(command.tooltip()).clicked() {
-        commands.push(command);
+    if response.on_hover_text(action.tooltip()).clicked() {
+        commands.push(action);
         ui.close();
     }
 }

@@ -3,6 +3,7 @@
 use eframe::egui::{Align2, Area, Context, Frame, Id, Label, Order, Rect, RichText, Stroke, vec2};
 use lucide_icons::Icon;
 
+use super::action::Action;
 use super::icons;
 use super::theme::{STEP, Tokens};
 use super::widgets::IconButton;
@@ -16,7 +17,7 @@ pub fn message_ui(
     context: &Context,
     canvas: Rect,
     editor: &mut Editor,
-    commands: &mut Vec<Command>,
+    commands: &mut Vec<Action>,
 ) {
     let Some(message) = editor.message().cloned() else {
         return;
@@ -54,7 +55,7 @@ pub fn message_ui(
                     ui.add(Label::new(text).wrap().selectable(true));
                 });
                 if message.offers_undo && ui.small_button("Undo").clicked() {
-                    commands.push(Command::Undo);
+                    commands.push(Command::Undo.into());
                 }
                 IconButton::new(Icon::X, "Dismiss message")
                     .size(5.0 * STEP)

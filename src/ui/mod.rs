@@ -1,6 +1,7 @@
 //! The window: egui only. It shows what the editor says and sends what the hand does; it
 //! computes no geometry.
 
+mod action;
 mod app;
 mod canvas;
 mod cell_entry;

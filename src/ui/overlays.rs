@@ -5,6 +5,7 @@ use eframe::egui::{
     TextWrapMode, pos2,
 };
 
+use super::action::Action;
 use super::theme::{RADIUS, STEP, Tokens};
 use super::{gizmo, keyboard};
 use crate::editor::{Command, NamedView};
@@ -33,7 +34,7 @@ pub fn empty_ui(context: &Context, canvas: Rect) {
 }
 
 /// Say that a planar drawing is seen at an angle, with the way back.
-pub fn orbited_ui(context: &Context, canvas: Rect, commands: &mut Vec<Command>) {
+pub fn orbited_ui(context: &Context, canvas: Rect, commands: &mut Vec<Action>) {
     let top = gizmo::place(canvas).map_or(canvas.top(), |gizmo| gizmo.bottom());
     let area = Area::new(Id::unique("orbited"))
         .order(Order::Middle)
@@ -52,7 +53,7 @@ pub fn orbited_ui(context: &Context, canvas: Rect, commands: &mut Vec<Command>) 
             .clicked()
     });
     if clicked.inner {
-        commands.push(Command::View(NamedView::Xy));
+        commands.push(Command::View(NamedView::Xy).into());
     }
 }
 

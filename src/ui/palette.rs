@@ -7,9 +7,10 @@ use eframe::egui::{
 use nucleo_matcher::pattern::{CaseMatching, Normalization, Pattern};
 use nucleo_matcher::{Config, Matcher, Utf32Str};
 
+use super::action::Action;
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
 use super::{icons, keyboard, widgets};
-use crate::editor::{Command, Editor};
+use crate::editor::Editor;
 
 const WIDTH: f32 = 440.0;
 
@@ -39,7 +40,7 @@ impl Palette {
     }
 
     /// Show it over the canvas, if it is open.
-    pub fn show(&mut self, context: &Context, editor: &Editor, commands: &mut Vec<Command>) {
+    pub fn show(&mut self, context: &Context, editor: &Editor, commands: &mut Vec<Action>) {
         if !self.open {
             return;
         }
@@ -55,8 +56,8 @@ impl Palette {
                 })
         });
         let chosen = shown.inner.inner;
-        if let Some(command) = chosen {
-            commands.push(command);
+        if let Some(action) = chosen {
+            commands.push(action);
             self.open = false;
         } else if shown.response.clicked_elsewhere() && !self.fresh {
             self.open = false;
@@ -64,7 +65,7 @@ impl Palette {
         self.fresh = false;
     }
 
-    fn contents_ui(&mut self, ui: &mut Ui, editor: &Editor) -> Option<Command> {
+    fn contents_ui(&mut self, ui: &mut Ui, editor: &Editor) -> Option<Action> {
         let keys = self.take_keys(ui);
         let field = ui.add(
             TextEdit::singleline(&mut self.typed)
@@ -78,7 +79,7 @@ impl Palette {
         if field.changed() {
             self.chosen = 0;
         }
-        let found = matches(&self.typed, editor);
+        let found = matches(&self.typed);
         if keys.escape {
             self.open = false;
         }
@@ -90,16 +91,16 @@ impl Palette {
         let by_hand = self.list_ui(ui, editor, &found, keys.steps != 0);
         by_key
             .or(by_hand)
-            .filter(|command| editor.is_enabled(*command))
+            .filter(|action| action.is_enabled(editor))
     }
 
     fn list_ui(
         &mut self,
         ui: &mut Ui,
         editor: &Editor,
-        found: &[Command],
+        found: &[Action],
         follow: bool,
-    ) -> Option<Command> {
+    ) -> Option<Action> {
         if found.is_empty() {
             widgets::note(ui, "No command is called that. Try another word.");
         }
@@ -110,13 +111,13 @@ impl Palette {
             .min_scrolled_height(12.0 * ROW)
             .show(ui, |ui| {
                 ui.spacing_mut().item_spacing.y = 0.0;
-                for (index, command) in found.iter().enumerate() {
-                    let response = row_ui(ui, editor, *command, index == self.chosen);
+                for (index, action) in found.iter().enumerate() {
+                    let response = row_ui(ui, editor, *action, index == self.chosen);
                     if index == self.chosen && follow {
                         response.scroll_to_me(None);
                     }
                     if response.clicked() {
-                        clicked = Some(*command);
+                        clicked = Some(*action);
                     }
                 }
             });
@@ -154,9 +155,9 @@ struct Keys {
     escape: bool,
 }
 
-fn row_ui(ui: &mut Ui, editor: &Editor, command: Command, chosen: bool) -> eframe::egui::Response {
+fn row_ui(ui: &mut Ui, editor: &Editor, action: Action, chosen: bool) -> eframe::egui::Response {
     let width = ui.available_width();
-    let enabled = editor.is_enabled(command);
+    let enabled = action.is_enabled(editor);
     let (rect, response) = ui.allocate_exact_size(Vec2::new(width, ROW), Sense::click());
     let tokens = Tokens::of(ui);
     if chosen || response.hovered() {
@@ -167,14 +168,14 @@ fn row_ui(ui: &mut Ui, editor: &Editor, command: Command, chosen: bool) -> efram
         };
         ui.painter().rect_filled(rect, RADIUS, fill);
     }
-    let label = editor.label(command);
+    let label = action.label_now(editor);
     let colour = match (enabled, chosen) {
         (false, _) => tokens.faint_text,
         (true, true) => tokens.strong_text,
         (true, false) => tokens.text,
     };
     let inner = rect.shrink2(Vec2::new(2.0 * STEP, 0.0));
-    if let Some(icon) = icons::of_command(command) {
+    if let Some(icon) = icons::of_action(action) {
         let place = inner.with_max_x(inner.left() + theme::ICON);
         widgets::icon(ui, place, icon, colour);
     }
@@ -184,7 +185,7 @@ fn row_ui(ui: &mut Ui, editor: &Editor, command: Command, chosen: bool) -> efram
         &label,
         colour,
     );
-    if let Some(shortcut) = command.shortcut() {
+    if let Some(shortcut) = action.shortcut() {
         let text = keyboard::shortcut_text(shortcut);
         let at = inner.right_center();
         let font = theme::small_font();
@@ -192,12 +193,12 @@ fn row_ui(ui: &mut Ui, editor: &Editor, command: Command, chosen: bool) -> efram
             .text(at, Align2::RIGHT_CENTER, text, font, tokens.faint_text);
     }
     response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, enabled, chosen, &label));
-    response.on_hover_text(command.tooltip())
+    response.on_hover_text(action.tooltip())
 }
 
 /// The commands whose names resemble what was typed, best first; all of them if nothing was.
-fn matches(typed: &str, editor: &Editor) -> Vec<Command> {
-    let all = Command::all(editor.examples());
+fn matches(typed: &str) -> Vec<Action> {
+    let all = Action::all();
     if typed.trim().is_empty() {
         return all;
     }
@@ -206,13 +207,13 @@ fn matches(typed: &str, editor: &Editor) -> Vec<Command> {
     let mut buffer = Vec::new();
     let mut scored: Vec<_> = all
         .into_iter()
-        .filter_map(|command| {
-            let label = command.label();
+        .filter_map(|action| {
+            let label = action.label();
             let score = pattern.score(Utf32Str::new(&label, &mut buffer), &mut matcher)?;
             // Of two that match as well, the shorter name is meant.
-            Some(((std::cmp::Reverse(score), label.len()), command))
+            Some(((std::cmp::Reverse(score), label.len()), action))
         })
         .collect();
     scored.sort_by_key(|(rank, _)| *rank);
-    scored.into_iter().map(|(_, command)| command).collect()
+    scored.into_iter().map(|(_, action)| action).collect()
 }

@@ -2,8 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::editor::{Command, Editor};
-
 /// What the window shows beside the document, kept from run to run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -22,17 +20,6 @@ impl Default for Shell {
             plots: true,
             legs: false,
             hidden: None,
-        }
-    }
-}
-
-impl Shell {
-    /// Whether a switch is on, the window's own switches included.
-    pub fn is_checked(&self, editor: &Editor, command: Command) -> Option<bool> {
-        match command {
-            Command::ToggleTheme => Some(!self.dark),
-            Command::TogglePlots => Some(self.plots),
-            _ => editor.is_checked(command),
         }
     }
 }

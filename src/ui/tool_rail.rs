@@ -3,6 +3,7 @@
 use eframe::egui::scroll_area::ScrollBarVisibility;
 use eframe::egui::{Align2, Role, ScrollArea, Sense, Ui, Vec2, WidgetInfo};
 
+use super::action::Action;
 use super::theme::{self, RADIUS, STEP, Tokens};
 use super::{icons, keyboard, widgets};
 use crate::editor::{Command, Editor, ToolKind};
@@ -14,7 +15,7 @@ pub const WIDTH: f32 = 48.0;
 const SIDE: f32 = 40.0;
 
 /// Show the tools, and below them what acts on every tool.
-pub fn tool_rail_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<Command>) {
+pub fn tool_rail_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<Action>) {
     ui.spacing_mut().item_spacing = Vec2::splat(STEP);
     let area = ScrollArea::vertical().scroll_bar_visibility(ScrollBarVisibility::AlwaysHidden);
     area.show(ui, |ui| {
@@ -22,7 +23,7 @@ pub fn tool_rail_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<Command>) {
     });
 }
 
-fn tools_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<Command>) {
+fn tools_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<Action>) {
     for tool in ToolKind::ALL {
         let starts_group = matches!(
             tool,
@@ -43,7 +44,7 @@ fn divider(ui: &mut Ui) {
     ui.painter().rect_filled(rect, 0, Tokens::of(ui).outline);
 }
 
-fn button_ui(ui: &mut Ui, editor: &Editor, command: Command, commands: &mut Vec<Command>) {
+fn button_ui(ui: &mut Ui, editor: &Editor, command: Command, commands: &mut Vec<Action>) {
     let enabled = editor.is_enabled(command);
     let checked = editor.is_checked(command);
     let name = command.label();
@@ -69,7 +70,7 @@ fn button_ui(ui: &mut Ui, editor: &Editor, command: Command, commands: &mut Vec<
             } else {
                 tokens.text
             };
-            if let Some(icon) = icons::of_command(command) {
+            if let Some(icon) = icons::of_action(command.into()) {
                 widgets::icon(ui, rect.translate(Vec2::new(-2.0, -2.0)), icon, colour);
             }
             if let Some(shortcut) = command.shortcut() {
@@ -94,6 +95,6 @@ fn button_ui(ui: &mut Ui, editor: &Editor, command: Command, commands: &mut Vec<
         .on_hover_text(format!("{name}\n{}", command.tooltip()))
         .clicked()
     {
-        commands.push(command);
+        commands.push(command.into());
     }
 }

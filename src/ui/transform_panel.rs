@@ -6,7 +6,7 @@ use glam::DVec2;
 use super::figures;
 use super::number_field::{FieldEvent, NumberField};
 use super::widgets;
-use crate::editor::{Editor, ToolKind, Transformation};
+use crate::editor::{Editor, ToolKind, Transformation, told};
 
 /// What is typed into the fields, until it is applied.
 pub struct TransformPanel {
@@ -26,7 +26,7 @@ impl Default for TransformPanel {
 impl TransformPanel {
     /// Show the panel, if one of its tools is in the hand.
     pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor) {
-        match editor.tool() {
+        match editor.hand().tool() {
             ToolKind::Rotate => widgets::section(ui, "Rotate", true, |ui| {
                 pivot_ui(ui, editor);
                 widgets::form_row(ui, "Angle", |ui| self.angle_ui(ui, editor));
@@ -44,7 +44,7 @@ impl TransformPanel {
         let field = NumberField::new("rotation angle", self.degrees, shown);
         keep(&mut self.degrees, field.speed(0.5).show(ui).1);
         if apply_ui(ui, editor, "Apply rotation") {
-            editor.transform(Transformation::Rotate(self.degrees.to_radians()));
+            told(editor.transform(Transformation::Rotate(self.degrees.to_radians())));
         }
     }
 
@@ -53,7 +53,7 @@ impl TransformPanel {
         let field = NumberField::new("scale factor", self.factor, shown);
         keep(&mut self.factor, field.speed(0.01).show(ui).1);
         if apply_ui(ui, editor, "Apply scaling") {
-            editor.transform(Transformation::Scale(self.factor));
+            told(editor.transform(Transformation::Scale(self.factor)));
         }
     }
 }
@@ -67,7 +67,7 @@ fn pivot_ui(ui: &mut Ui, editor: &mut Editor) {
         return;
     };
     widgets::form_row(ui, "Pivot", |ui| {
-        let pixel = editor.viewport().pixel();
+        let pixel = editor.view().viewport().pixel();
         let axes = [("pivot x", DVec2::X), ("pivot y", DVec2::Y)];
         for (name, axis) in axes {
             let value = pivot.dot(axis);

@@ -17,7 +17,7 @@ use super::theme::{RADIUS, ROW, STEP, Tokens};
 use super::vertex_columns::{Column, MoreColumns};
 use super::vertex_rows::{Asked, NUMBER, Rows, heading_ui, id, name};
 use crate::document::{Curve, CurveId};
-use crate::editor::Editor;
+use crate::editor::{Editor, told};
 
 /// The height of the table at least and at most.
 const HEIGHTS: (f32, f32) = (6.0 * ROW, 24.0 * ROW);
@@ -73,7 +73,11 @@ impl VertexTable {
         self.keep_cell(&columns, count);
         let ending = self.take_keys(ui, editor, id, curve, &columns);
 
-        let selected = editor.selected_vertices(id);
+        let selected = editor
+            .hand()
+            .selection()
+            .of_curve(id)
+            .collect::<Vec<usize>>();
         let height = (count as f32 * ROW).clamp(0.0, HEIGHTS.1);
         let free = ui.available_height() - ROW - 2.0 * STEP;
         let height = height.min(free.max(HEIGHTS.0));
@@ -84,7 +88,7 @@ impl VertexTable {
             width: ((width - NUMBER) / columns.len() as f32).floor(),
             selected: &selected,
             hovered: editor.hovered_vertex(),
-            pixel: editor.viewport().pixel(),
+            pixel: editor.view().viewport().pixel(),
             can_edit: curve.check_editable().is_ok(),
         };
         heading_ui(ui, &columns, rows.width);
@@ -92,7 +96,7 @@ impl VertexTable {
         let (hovered, asked, place) = self.rows_ui(ui, &rows, height);
         self.selected = selected;
         if let Some(hovered) = hovered.or(has_keyboard.then_some(self.cell.vertex)) {
-            editor.hover_vertex(hovered);
+            editor.view_mut().hover_vertex(hovered);
         }
         if let Some(asked) = asked {
             self.execute(ui, editor, id, curve, asked);
@@ -233,7 +237,7 @@ impl VertexTable {
             let (shown, _) = entry
                 .cell
                 .column
-                .shown(entry.before, editor.viewport().pixel());
+                .shown(entry.before, editor.view().viewport().pixel());
             let remark = Remark::left(ui, &reason, &shown);
             self.remark = Some((entry.cell, remark));
         }
@@ -430,11 +434,11 @@ impl VertexTable {
         let edits = |value: f64| vec![cell.column.edit(polygon, cell.vertex, value)];
         match event {
             FieldEvent::Idle => {}
-            FieldEvent::Preview(value) => editor.preview_field(label, edits(value)),
-            FieldEvent::Commit => editor.commit_field(),
-            FieldEvent::Abort => editor.abort_field(),
+            FieldEvent::Preview(value) => editor.preview(label, edits(value)),
+            FieldEvent::Commit => editor.commit_preview(),
+            FieldEvent::Abort => editor.abort_preview(),
             FieldEvent::Typed(value) => {
-                editor.apply(label, edits(value));
+                told(editor.apply(label, edits(value)));
             }
         }
     }

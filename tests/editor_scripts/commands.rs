@@ -62,13 +62,13 @@ fn what_only_shows_leaves_a_drag_going_on() {
     script.move_to(at + 30.0);
     for command in Command::all(7).into_iter().filter(|c| c.only_shows()) {
         script.command(command);
-        assert!(script.editor.is_dragging(), "{command:?}");
+        assert!(script.editor.hand().is_dragging(), "{command:?}");
     }
     let to = at + 60.0;
     script.move_to(to);
     script.release(to);
     assert_ne!(script.polygon().vertex(3), before);
-    assert_eq!(script.editor.history().undo_steps(), 1);
+    assert_eq!(script.editor.workspace().history().undo_steps(), 1);
 }
 
 #[test]
@@ -120,15 +120,15 @@ fn several_files_open_as_one_document_and_a_bad_one_changes_nothing() {
     let mut editor = batten::editor::Editor::new();
     editor.open_all(&paths).expect("two files");
     assert_eq!(editor.document().len(), 2);
-    assert_eq!(editor.path(), None);
+    assert_eq!(editor.workspace().path(), None);
     editor.open_all(&paths[..1]).expect("a file");
-    assert_eq!(editor.path(), Some(paths[0].as_path()));
+    assert_eq!(editor.workspace().path(), Some(paths[0].as_path()));
     let missing = folder.path().join("missing.batten");
     let error = editor
         .open_all(&[paths[1].clone(), missing])
         .expect_err("a missing file");
     assert!(error.to_string().contains("missing.batten"), "{error}");
-    assert_eq!(editor.path(), Some(paths[0].as_path()));
+    assert_eq!(editor.workspace().path(), Some(paths[0].as_path()));
 }
 
 #[test]
@@ -138,5 +138,5 @@ fn a_command_after_a_held_key_is_a_step_of_its_own() {
     script.key(Key::Function(6));
     script.input(Input::KeyRepeated(Key::Function(6)));
     script.command(Command::Extend(End::Finish));
-    assert_eq!(script.editor.history().undo_steps(), 2);
+    assert_eq!(script.editor.workspace().history().undo_steps(), 2);
 }

@@ -69,7 +69,7 @@ fn every_deletion_offers_to_be_undone() {
     script.tool(ToolKind::Delete);
     script.click(script.at_vertex(3));
     assert!(offers(&script), "{}", script.message());
-    assert_eq!(script.editor.history().undo_steps(), 1);
+    assert_eq!(script.editor.workspace().history().undo_steps(), 1);
     script.command(Command::Undo);
     assert_eq!(script.polygon(), before);
     script.command(Command::DeleteCurve);
@@ -109,7 +109,7 @@ fn shift_click_on_another_curve_keeps_the_selection_and_its_curve() {
     script.modifiers(Modifiers::SHIFT);
     let polygon = script.editor.document().curve(other).expect("a curve");
     let place = polygon.polygon.point(2.3).truncate();
-    script.click(script.editor.viewport().to_screen(place));
+    script.click(script.editor.view().viewport().to_screen(place));
     assert_eq!(script.curve(), arc);
     assert_eq!(script.selected(), [0]);
     script.key(Key::Escape);

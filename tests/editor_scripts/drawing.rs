@@ -79,29 +79,32 @@ fn undo_is_offered_for_points_in_an_empty_document_too() {
 #[test]
 fn the_first_curve_that_is_drawn_is_fitted_with_a_comb_of_its_own() {
     let mut script = Script::example("periodic");
-    script.editor.set_comb(CombSettings {
+    script.editor.view_mut().set_comb(CombSettings {
         scale: 1e5,
         density: 3,
     });
     script.command(Command::New);
-    assert_eq!(script.editor.comb(), CombSettings::default());
+    assert_eq!(script.editor.view().comb(), CombSettings::default());
     script.tool(ToolKind::Draw);
     // Small, in a corner.
     for corner in CORNERS {
         script.click(0.1 * corner);
     }
     script.key(Key::Enter);
-    let view = *script.editor.viewport();
+    let view = *script.editor.view().viewport();
     let seen = |index| view.to_screen(script.polygon().vertex(index).truncate());
     assert!(seen(0).distance(seen(4)) > 0.3 * view.size.x);
-    assert_ne!(script.editor.comb().scale, CombSettings::default().scale);
+    assert_ne!(
+        script.editor.view().comb().scale,
+        CombSettings::default().scale
+    );
     // The second one leaves the view as it is.
     script.tool(ToolKind::Draw);
     for corner in CORNERS {
         script.click(0.1 * corner);
     }
     script.key(Key::Enter);
-    assert_eq!(*script.editor.viewport(), view);
+    assert_eq!(*script.editor.view().viewport(), view);
 }
 
 /// The distance that the measure tool tells.
@@ -118,7 +121,7 @@ fn a_measurement_stays_true_from_another_side() {
     script.click(DVec2::new(200.0, 500.0));
     script.click(DVec2::new(500.0, 350.0));
     let hint = script.editor.hint();
-    let expected = DVec2::new(300.0, 150.0) / script.editor.viewport().scale;
+    let expected = DVec2::new(300.0, 150.0) / script.editor.view().viewport().scale;
     assert!((told(&script) - expected.length()).abs() < 1e-5);
     assert!(hint.contains(" dx ") && hint.contains(" dy "), "{hint}");
     for view in NamedView::ALL {
@@ -162,7 +165,7 @@ fn hasty_clicks_measure_as_clicks_do() {
     let jerk = DVec2::new(4.0, 0.0);
     script.drag(from, from + jerk);
     script.drag(to - jerk, to);
-    let expected = (to - from).length() / script.editor.viewport().scale;
+    let expected = (to - from).length() / script.editor.view().viewport().scale;
     assert!(
         (told(&script) - expected).abs() < 1e-5,
         "{}",
@@ -177,9 +180,9 @@ fn hasty_clicks_measure_as_clicks_do() {
     );
     // Undo takes back a first point that waits for the second.
     script.click(from);
-    let steps = script.editor.history().undo_steps();
+    let steps = script.editor.workspace().history().undo_steps();
     script.command(Command::Undo);
-    assert_eq!(script.editor.history().undo_steps(), steps);
+    assert_eq!(script.editor.workspace().history().undo_steps(), steps);
     assert!(script.editor.hint().starts_with("Click two points"));
 }
 
@@ -195,11 +198,11 @@ fn a_key_that_is_held_makes_one_step() {
     }
     let moved = script.polygon().vertex(3).x - before.vertex(3).x;
     assert!((moved / once - 21.0).abs() < 1e-9, "{moved} against {once}");
-    assert_eq!(script.editor.history().undo_steps(), 1);
+    assert_eq!(script.editor.workspace().history().undo_steps(), 1);
     // Released and pressed again it is another step.
     script.key(Key::Right);
     script.input(Input::KeyRepeated(Key::Right));
-    assert_eq!(script.editor.history().undo_steps(), 2);
+    assert_eq!(script.editor.workspace().history().undo_steps(), 2);
     script.command(Command::Undo);
     script.command(Command::Undo);
     assert_eq!(script.polygon(), before);

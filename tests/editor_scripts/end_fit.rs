@@ -20,8 +20,8 @@ fn the_end_follows_its_target_by_dragging_the_body_and_the_ring() {
     script
         .editor
         .end_fit_action(EndFitAction::SetDirection(Some(direction)));
-    let steps = script.editor.history().undo_steps();
-    let viewport = *script.editor.viewport();
+    let steps = script.editor.workspace().history().undo_steps();
+    let viewport = *script.editor.view().viewport();
     // The body is taken by a terminal vertex and let go a few points beside the target.
     let last = script.polygon().vertices().len() - 1;
     let way = (goal - end.point).truncate() * viewport.scale;
@@ -42,7 +42,7 @@ fn the_end_follows_its_target_by_dragging_the_body_and_the_ring() {
     let report = script.editor.end_fit().expect("figures");
     assert!(report.angle.abs() < 1e-12, "{}", report.angle);
     assert!(report.difference.length() < 1e-12 * script.polygon().size());
-    assert_eq!(script.editor.history().undo_steps(), steps + 2);
+    assert_eq!(script.editor.workspace().history().undo_steps(), steps + 2);
 }
 
 /// Find an angle at which the ring is not covered by another handle.
@@ -105,7 +105,11 @@ fn a_target_is_picked_from_another_curves_end() {
         .editor
         .end_fit_action(EndFitAction::Choose(End::Start));
     script.editor.end_fit_action(EndFitAction::PickFromCurve);
-    let place = script.editor.viewport().to_screen(other.point.truncate());
+    let place = script
+        .editor
+        .view()
+        .viewport()
+        .to_screen(other.point.truncate());
     script.click(place);
     let report = script.editor.end_fit().expect("figures");
     assert_eq!(report.target_point, Some(other.point));
@@ -124,7 +128,7 @@ fn showing_the_closed_polygon_ends_with_the_tool() {
     script.tool(ToolKind::EndFit);
     script.editor.end_fit_action(EndFitAction::ShowClosed(true));
     assert!(!script.editor.layers().shows(Layer::Float));
-    assert!(script.editor.chosen_layers().shows(Layer::Float));
+    assert!(script.editor.view().chosen_layers().shows(Layer::Float));
     script.tool(ToolKind::Select);
     assert!(script.editor.layers().shows(Layer::Float));
 }
@@ -140,7 +144,7 @@ fn a_target_that_no_file_could_hold_is_refused() {
         let (text, failed) = report.outcome.expect("an outcome");
         assert!(failed && text.contains("up to 1e100"), "{text}");
     }
-    assert!(!script.editor.is_modified());
+    assert!(!script.editor.workspace().is_modified());
 }
 
 #[test]
@@ -179,7 +183,7 @@ fn a_dragged_target_is_not_held_by_its_own_old_place() {
     let mut script = Script::example("hull");
     script.tool(ToolKind::EndFit);
     let end = script.polygon().end_jet(End::Finish).point;
-    let view = *script.editor.viewport();
+    let view = *script.editor.view().viewport();
     let target = view.to_model(view.to_screen(end.truncate()) + DVec2::new(63.0, 77.0));
     script
         .editor
@@ -190,7 +194,7 @@ fn a_dragged_target_is_not_held_by_its_own_old_place() {
         at: view.to_screen(target),
         factor: 1.37,
     });
-    let from = script.editor.viewport().to_screen(target);
+    let from = script.editor.view().viewport().to_screen(target);
     script.drag(from, from + DVec2::new(6.0, 0.0));
     let moved = script
         .editor
@@ -212,7 +216,11 @@ fn the_ring_snaps_to_the_target_direction_across_a_half_turn() {
         script
             .editor
             .end_fit_action(EndFitAction::SetDirection(Some(direction.extend(0.0))));
-        let centre = script.editor.viewport().to_screen(end.point.truncate());
+        let centre = script
+            .editor
+            .view()
+            .viewport()
+            .to_screen(end.point.truncate());
         let on_ring = |angle: f64| centre + 40.0 * DVec2::new(angle.cos(), -angle.sin());
         let start = clear_of_handles(&mut script, &on_ring);
         let past = start + turn + sense * 1.0_f64.to_radians();
@@ -227,7 +235,7 @@ fn on_the_ring_the_ring_is_taken_although_a_vertex_lies_there() {
     let mut script = Script::example("hull");
     script.tool(ToolKind::EndFit);
     let end = script.polygon().end_jet(End::Finish).point.truncate();
-    let centre = script.editor.viewport().to_screen(end);
+    let centre = script.editor.view().viewport().to_screen(end);
     // Zoom about the end until a terminal vertex lies on the ring.
     let last = script.polygon().vertices().len() - 1;
     let reach = script.at_vertex(last).distance(centre);
@@ -252,9 +260,9 @@ fn the_panel_calls_off_a_drag_instead_of_keeping_half_of_it() {
     script.move_to(at + 30.0);
     assert_ne!(script.polygon(), before);
     script.editor.end_fit_action(EndFitAction::TargetActual);
-    assert!(!script.editor.is_dragging());
+    assert!(!script.editor.hand().is_dragging());
     script.move_to(at + 60.0);
     script.release(at + 60.0);
     assert_eq!(script.polygon(), before);
-    assert_eq!(script.editor.history().undo_steps(), 1);
+    assert_eq!(script.editor.workspace().history().undo_steps(), 1);
 }

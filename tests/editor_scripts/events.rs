@@ -234,7 +234,7 @@ impl Player {
             Command::Redo => Done::Redo,
             Command::Delete | Command::Cut => Done::Delete,
             Command::DeleteCurve => Done::DeleteCurve,
-            Command::New | Command::OpenExample(_) if request.is_none() => Done::Replace,
+            Command::New | OPEN_EXAMPLE(_) if request.is_none() => Done::Replace,
             _ => Done::Other,
         };
         if matches!(request, Some(Request::ConfirmDiscard(_))) && !self.window.is_modified() {

@@ -18,10 +18,10 @@ fn the_list_holds_every_feature_in_order_and_choosing_one_goes_there() {
     assert_eq!(report.count(&extrema), 4);
     assert_eq!(report.count(&[FeatureKind::Inflection]), 1);
     assert!(report.rows.is_sorted_by(|a, b| a.u[0] <= b.u[0]));
-    let scale = script.editor.viewport().scale;
+    let scale = script.editor.view().viewport().scale;
     let row = report.rows[2];
     script.editor.go_to(row.middle);
-    let viewport = *script.editor.viewport();
+    let viewport = *script.editor.view().viewport();
     assert!(viewport.scale > scale);
     let at = viewport.flatten(script.polygon().point(row.middle));
     let middle = 0.5 * viewport.size;
@@ -73,7 +73,7 @@ fn lines_and_circles_are_told_from_monotone_curves() {
 fn hovering_a_mark_names_the_feature() {
     let mut script = Script::example("s-curve");
     let mark = script.editor.scene().curves[0].features[0];
-    let place = script.editor.viewport().to_screen(mark.at);
+    let place = script.editor.view().viewport().to_screen(mark.at);
     script.move_to(place + DVec2::new(3.0, 2.0));
     let hover = script.editor.scene().hover.clone();
     let Some(HoverScene::Curve { u, text, .. }) = hover else {
@@ -152,7 +152,7 @@ fn the_curvature_of_the_curve_at_length_1_is_plotted_over_shares() {
 fn every_example_has_every_plot() {
     for example in 0..7 {
         let mut script = Script::example("arc");
-        script.command(Command::OpenExample(example));
+        script.command(OPEN_EXAMPLE(example));
         let planar = script.editor.active_is_planar();
         assert_eq!(planar, Some(true));
         for level in 1..=LEVELS {

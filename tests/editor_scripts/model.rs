@@ -158,7 +158,7 @@ fn is_too_much(event: &Event, player: &Player) -> bool {
     match event {
         Event::Command(Command::RaiseDegree | Command::RaiseCurveDegree) => is_high || is_large,
         Event::Command(
-            Command::Subdivide | Command::Duplicate | Command::Extend(_) | Command::OpenExample(_),
+            Command::Subdivide | Command::Duplicate | Command::Extend(_) | OPEN_EXAMPLE(_),
         ) => is_large,
         Event::Panel(Panel::Divide(..) | Panel::Paste(_) | Panel::CopyAndPaste) => is_large,
         _ => false,

@@ -13,7 +13,7 @@ const ROUNDING: f64 = 1e-13;
 /// Where a vertex of the closed S-polygon is on the canvas.
 fn at_closed(script: &Script, index: usize) -> DVec2 {
     let clamped = ClampedPolygon::from_float(&script.polygon());
-    let viewport = script.editor.viewport();
+    let viewport = script.editor.view().viewport();
     viewport.to_screen(viewport.flatten(clamped.vertices()[index]))
 }
 
@@ -33,7 +33,7 @@ fn dragging_a_closed_vertex_moves_it_alone_and_the_float_polygon_follows() {
     script.drag(at, at + DVec2::new(5.0, 0.0));
     let after = script.polygon();
     let moved = ClampedPolygon::from_float(&after);
-    let way = 5.0 * script.editor.viewport().pixel();
+    let way = 5.0 * script.editor.view().viewport().pixel();
     let size = after.size();
     for (index, (a, b)) in closed.vertices().iter().zip(moved.vertices()).enumerate() {
         let expected = if index == 9 { way } else { 0.0 };
@@ -47,7 +47,7 @@ fn dragging_a_closed_vertex_moves_it_alone_and_the_float_polygon_follows() {
     let farthest = before.vertices().iter().zip(after.vertices());
     let farthest = farthest.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
     assert!(farthest > 3e5 * way, "{farthest}");
-    assert_eq!(script.editor.history().undo_steps(), 1);
+    assert_eq!(script.editor.workspace().history().undo_steps(), 1);
     script.command(Command::Undo);
     assert_eq!(script.polygon(), before);
 }
@@ -132,7 +132,7 @@ fn splitting_at_a_knot_is_exact_and_makes_two_curves() {
         message.contains("extrema: 2 before, 1 and 1 now"),
         "{message}"
     );
-    assert_eq!(script.editor.history().undo_steps(), 1);
+    assert_eq!(script.editor.workspace().history().undo_steps(), 1);
     script.command(Command::Undo);
     script.editor.divide(Division::Trim(0.5, 1.75), 2);
     assert!(

@@ -57,7 +57,7 @@ impl Script {
 
     /// Where a vertex of a curve is on the canvas.
     pub fn at_vertex_of(&self, curve: CurveId, index: usize) -> DVec2 {
-        let viewport = self.editor.viewport();
+        let viewport = self.editor.view().viewport();
         let curve = self.editor.document().curve(curve).expect("a curve");
         viewport.to_screen(viewport.flatten(curve.polygon.vertex(index)))
     }
@@ -156,6 +156,9 @@ impl Script {
         assert!(!self.editor.hint().is_empty());
         let document = self.editor.document();
         assert_eq!(check_document(document), Ok(()));
-        assert_eq!(check_selection(document, self.editor.selection()), Ok(()));
+        assert_eq!(
+            check_selection(document, self.editor.hand().selection()),
+            Ok(())
+        );
     }
 }

@@ -13,7 +13,7 @@ fn dragging_a_vertex_moves_just_that_vertex_by_the_pointers_way() {
     let grabbed = script.at_vertex(3) + DVec2::new(2.0, -1.0);
     script.drag(grabbed, grabbed + DVec2::new(40.0, 25.0));
     let after = script.polygon();
-    let way = DVec3::new(40.0, -25.0, 0.0) * script.editor.viewport().pixel();
+    let way = DVec3::new(40.0, -25.0, 0.0) * script.editor.view().viewport().pixel();
     for (index, vertex) in after.vertices().iter().enumerate() {
         let expected = before.vertex(index) + if index == 3 { way } else { DVec3::ZERO };
         assert!(
@@ -30,13 +30,13 @@ fn one_drag_is_one_step_and_undo_and_redo_are_exact() {
     script.drag_vertex(2, DVec2::new(31.0, 17.0));
     let after = script.polygon();
     assert_ne!(before, after);
-    assert_eq!(script.editor.history().undo_steps(), 1);
+    assert_eq!(script.editor.workspace().history().undo_steps(), 1);
     script.command(Command::Undo);
     assert_eq!(script.polygon(), before);
-    assert!(!script.editor.is_modified());
+    assert!(!script.editor.workspace().is_modified());
     script.command(Command::Redo);
     assert_eq!(script.polygon(), after);
-    assert!(script.editor.is_modified());
+    assert!(script.editor.workspace().is_modified());
 }
 
 #[test]
@@ -52,8 +52,8 @@ fn escape_in_mid_drag_restores_bit_for_bit_and_leaves_no_step() {
     script.move_to(at + DVec2::new(90.0, 10.0));
     script.release(at + DVec2::new(90.0, 10.0));
     assert_eq!(script.polygon(), before);
-    assert_eq!(script.editor.history().undo_steps(), 0);
-    assert!(!script.editor.is_modified());
+    assert_eq!(script.editor.workspace().history().undo_steps(), 0);
+    assert!(!script.editor.workspace().is_modified());
 }
 
 #[test]
@@ -64,8 +64,8 @@ fn a_drag_that_ends_where_it_began_leaves_no_step() {
     script.move_to(at + 50.0);
     script.move_to(at);
     script.release(at);
-    assert_eq!(script.editor.history().undo_steps(), 0);
-    assert!(!script.editor.is_modified());
+    assert_eq!(script.editor.workspace().history().undo_steps(), 0);
+    assert!(!script.editor.workspace().is_modified());
 }
 
 #[test]
@@ -101,11 +101,11 @@ fn many_vertices_are_dragged_as_one_body() {
     let before = script.polygon();
     script.command(Command::SelectAll);
     script.drag_vertex(3, DVec2::new(20.0, 30.0));
-    let way = DVec3::new(20.0, -30.0, 0.0) * script.editor.viewport().pixel();
+    let way = DVec3::new(20.0, -30.0, 0.0) * script.editor.view().viewport().pixel();
     for (index, vertex) in script.polygon().vertices().iter().enumerate() {
         assert!(vertex.distance(before.vertex(index) + way) < 1e-12 * before.size());
     }
-    assert_eq!(script.editor.history().undo_steps(), 1);
+    assert_eq!(script.editor.workspace().history().undo_steps(), 1);
 }
 
 #[test]
@@ -127,13 +127,13 @@ fn a_dragged_vertex_snaps_to_the_grid_and_control_turns_that_round() {
     let mut script = Script::example("arc");
     script.command(Command::ToggleSnapping);
     let goal = DVec2::new(4.0, 4.0);
-    let near = script.editor.viewport().to_screen(goal) + DVec2::new(2.0, -2.0);
+    let near = script.editor.view().viewport().to_screen(goal) + DVec2::new(2.0, -2.0);
     script.drag(script.at_vertex(5), near);
     assert_eq!(script.polygon().vertex(5).truncate(), goal);
     script.modifiers(Modifiers::CTRL);
     let near = near + DVec2::new(40.0, 0.0);
     script.drag(script.at_vertex(5), near);
-    let free = script.editor.viewport().to_model(near);
+    let free = script.editor.view().viewport().to_model(near);
     assert!(script.polygon().vertex(5).truncate().distance(free) < 1e-9);
 }
 

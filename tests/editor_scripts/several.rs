@@ -46,7 +46,7 @@ fn what_is_hovered_is_told_of_the_curve_it_is_on() {
     let polygon = polygon_of(&script, other);
     let u = 4.5;
     let place = polygon.point(u).truncate();
-    script.move_to(script.editor.viewport().to_screen(place));
+    script.move_to(script.editor.view().viewport().to_screen(place));
     let hover = script.editor.scene().hover.clone();
     let Some(HoverScene::Curve { curve, text, .. }) = hover else {
         panic!("{hover:?}");
@@ -146,7 +146,7 @@ fn a_leg_of_a_selection_takes_the_selection_along() {
         let moved = polygon_of(&script, id).vertex(0) - before.vertex(0);
         assert!(moved.y < 0.0 && moved.x.abs() < 1e-9, "{moved}");
     }
-    assert_eq!(script.editor.history().undo_steps(), 2);
+    assert_eq!(script.editor.workspace().history().undo_steps(), 2);
 }
 
 #[test]
@@ -232,7 +232,7 @@ fn pasting_in_the_middle_of_a_drag_calls_the_drag_off() {
             .map(|c| c.polygon.clone())
     };
     assert_eq!(polygon(&script), Some(before));
-    assert_eq!(script.editor.history().undo_steps(), 1);
+    assert_eq!(script.editor.workspace().history().undo_steps(), 1);
     script.command(Command::Undo);
     assert_eq!(script.editor.document().len(), 1);
 }
@@ -315,6 +315,6 @@ fn select_all_says_that_the_active_curve_is_hidden_and_takes_no_other() {
     script.editor.activate(arc);
     script.command(Command::SelectAll);
     assert_eq!(script.curve(), arc);
-    assert!(script.editor.selection().is_empty());
+    assert!(script.editor.hand().selection().is_empty());
     assert!(script.message().contains("hidden"), "{}", script.message());
 }

@@ -42,7 +42,7 @@ fn views_along_the_axes_keep_the_third_coordinate_exactly() {
     let by = DVec2::new(40.0, -25.0);
     for (view, kept) in [(NamedView::Xy, 2), (NamedView::Xz, 1), (NamedView::Yz, 0)] {
         let mut script = helix(view);
-        let pixel = script.editor.viewport().pixel();
+        let pixel = script.editor.view().viewport().pixel();
         let moved = dragged(&mut script, by);
         assert_eq!(moved[kept], 0.0, "{view:?}");
         let flat: Vec<f64> = (0..3).filter(|a| *a != kept).map(|a| moved[a]).collect();
@@ -59,7 +59,7 @@ fn views_along_the_axes_keep_the_third_coordinate_exactly() {
 #[test]
 fn a_drag_from_a_corner_stays_in_the_view_plane_and_under_the_hand() {
     let mut script = helix(NamedView::Isometric);
-    let towards = script.editor.viewport().orientation.towards();
+    let towards = script.editor.view().viewport().orientation.towards();
     let at = script.at_vertex(5);
     let moved = dragged(&mut script, DVec2::new(40.0, -25.0));
     assert!(moved.length() > 0.0);
@@ -104,15 +104,21 @@ fn a_planar_curve_stays_planar_from_a_corner_unless_it_is_moved_off() {
 fn the_right_button_orbits_and_named_views_come_back() {
     let mut script = helix(NamedView::Xy);
     let before = script.polygon();
-    let view = *script.editor.viewport();
+    let view = *script.editor.view().viewport();
     let from = DVec2::new(400.0, 300.0);
     script.drag_with(Button::Secondary, from, from + DVec2::new(120.0, -70.0));
-    assert_ne!(script.editor.viewport().orientation, view.orientation);
-    assert!(script.editor.viewport().orientation.axes().is_none());
+    assert_ne!(
+        script.editor.view().viewport().orientation,
+        view.orientation
+    );
+    assert!(script.editor.view().viewport().orientation.axes().is_none());
     assert_eq!(script.polygon(), before);
-    assert_eq!(script.editor.history().undo_label(), Some("Replace"));
+    assert_eq!(
+        script.editor.workspace().history().undo_label(),
+        Some("Replace")
+    );
     script.command(Command::View(NamedView::Xy));
-    let back = script.editor.viewport();
+    let back = script.editor.view().viewport();
     assert_eq!(back.orientation, view.orientation);
     assert!(back.centre.distance(view.centre) <= 1e-12);
 }
@@ -121,7 +127,7 @@ fn the_right_button_orbits_and_named_views_come_back() {
 fn hovering_finds_the_curve_as_it_is_seen() {
     let mut script = helix(NamedView::Isometric);
     let point = script.polygon().point(3.3);
-    let viewport = *script.editor.viewport();
+    let viewport = *script.editor.view().viewport();
     let place = viewport.to_screen(viewport.flatten(point));
     script.move_to(place + DVec2::new(2.0, 1.0));
     let hover = script.editor.scene().hover.clone();

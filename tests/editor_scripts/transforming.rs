@@ -12,7 +12,7 @@ fn rotating_keeps_distances_and_shift_keeps_to_fifteen_degrees() {
     let before = script.polygon();
     script.tool(ToolKind::Rotate);
     script.modifiers(Modifiers::SHIFT);
-    let centre = 0.5 * script.editor.viewport().size;
+    let centre = 0.5 * script.editor.view().viewport().size;
     script.drag(
         centre + DVec2::new(200.0, 0.0),
         centre + DVec2::new(0.0, -190.0),
@@ -29,7 +29,7 @@ fn rotating_keeps_distances_and_shift_keeps_to_fifteen_degrees() {
     );
     assert!(turned.abs() > 1.0);
     assert!((leg(&before).length() - leg(&after).length()).abs() < 1e-9);
-    assert_eq!(script.editor.history().undo_steps(), 1);
+    assert_eq!(script.editor.workspace().history().undo_steps(), 1);
 }
 
 #[test]
@@ -80,7 +80,7 @@ fn typed_figures_rotate_and_scale_as_dragging_does() {
         let expected = pivot + 2.0 * (turned.vertex(index).truncate() - pivot);
         assert!(vertex.truncate().distance(expected) < 1e-12 * before.size());
     }
-    assert_eq!(script.editor.history().undo_steps(), 2);
+    assert_eq!(script.editor.workspace().history().undo_steps(), 2);
     // What cannot be used changes nothing.
     let scaled = script.polygon();
     script.editor.transform(Transformation::Scale(f64::NAN));

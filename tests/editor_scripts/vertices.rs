@@ -14,9 +14,9 @@ fn the_add_tool_adds_at_the_nearer_end() {
         script.click(place);
         let polygon = script.polygon();
         assert_eq!(polygon.vertices().len(), 11);
-        let expected = script.editor.viewport().to_model(place);
+        let expected = script.editor.view().viewport().to_model(place);
         assert!(polygon.vertex(index).truncate().distance(expected) < 1e-9);
-        assert_eq!(script.editor.history().undo_steps(), 1);
+        assert_eq!(script.editor.workspace().history().undo_steps(), 1);
     }
 }
 
@@ -47,7 +47,7 @@ fn inserting_and_dragging_is_one_step_and_escape_takes_it_back() {
     assert_eq!(script.polygon(), before);
     script.drag(middle, middle + 40.0);
     assert_eq!(script.polygon().vertices().len(), 11);
-    assert_eq!(script.editor.history().undo_steps(), 1);
+    assert_eq!(script.editor.workspace().history().undo_steps(), 1);
 }
 
 #[test]
@@ -92,7 +92,7 @@ fn drawing_ends_with_enter_and_a_click_on_the_first_vertex_makes_it_periodic() {
         assert_eq!(polygon.vertices().len(), 5);
         assert_eq!(polygon.is_periodic(), periodic);
         assert_eq!(polygon.degree(), 4);
-        assert_eq!(script.editor.tool(), ToolKind::Select);
+        assert_eq!(script.editor.hand().tool(), ToolKind::Select);
         script.command(Command::Undo);
         assert_eq!(script.editor.document().len(), 1);
     }
@@ -104,12 +104,12 @@ fn measuring_says_the_distance_and_changes_nothing() {
     let before = script.polygon();
     script.tool(ToolKind::Measure);
     script.drag(DVec2::new(100.0, 100.0), DVec2::new(400.0, 500.0));
-    let length = 500.0 * script.editor.viewport().pixel();
+    let length = 500.0 * script.editor.view().viewport().pixel();
     assert!(
         script.editor.hint().starts_with(&format!("{length:.6}")),
         "{}",
         script.editor.hint()
     );
     assert_eq!(script.polygon(), before);
-    assert!(!script.editor.is_modified());
+    assert!(!script.editor.workspace().is_modified());
 }

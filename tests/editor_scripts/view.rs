@@ -16,7 +16,7 @@ fn a_drag_does_the_same_zoomed_and_panned() {
         let mut script = Script::example("arc");
         prepare(&mut script);
         let at = script.at_vertex(5);
-        let to = at + DVec2::new(way.x, -way.y) * script.editor.viewport().scale;
+        let to = at + DVec2::new(way.x, -way.y) * script.editor.view().viewport().scale;
         script.drag(at, to);
         script.polygon().vertex(5)
     };
@@ -35,33 +35,41 @@ fn a_drag_does_the_same_zoomed_and_panned() {
 fn zooming_keeps_the_place_under_the_pointer() {
     let mut script = Script::example("arc");
     let at = DVec2::new(200.0, 300.0);
-    let before = script.editor.viewport().to_model(at);
+    let before = script.editor.view().viewport().to_model(at);
     for factor in [1.7, 0.2, 40.0] {
         script.input(Input::Zoomed { at, factor });
-        assert!(script.editor.viewport().to_model(at).distance(before) < 1e-10);
+        assert!(
+            script
+                .editor
+                .view()
+                .viewport()
+                .to_model(at)
+                .distance(before)
+                < 1e-10
+        );
     }
-    let scale = script.editor.viewport().scale;
+    let scale = script.editor.view().viewport().scale;
     script.input(Input::Zoomed {
         at,
         factor: f64::NAN,
     });
     script.input(Input::Zoomed { at, factor: 0.0 });
-    assert_eq!(script.editor.viewport().scale, scale);
+    assert_eq!(script.editor.view().viewport().scale, scale);
 }
 
 #[test]
 fn the_middle_button_and_space_push_the_view_and_change_nothing() {
     let mut script = Script::example("arc");
-    let before = (script.polygon(), script.editor.viewport().centre);
+    let before = (script.polygon(), script.editor.view().viewport().centre);
     let at = script.at_vertex(4);
     script.input(Input::SpaceHeld(true));
     script.drag(at, at + DVec2::new(50.0, 0.0));
     script.input(Input::SpaceHeld(false));
     assert_eq!(script.polygon(), before.0);
-    let moved = before.1 - script.editor.viewport().centre;
-    assert!((moved.x * script.editor.viewport().scale - 50.0).abs() < 1e-9);
+    let moved = before.1 - script.editor.view().viewport().centre;
+    assert!((moved.x * script.editor.view().viewport().scale - 50.0).abs() < 1e-9);
     script.drag_with(Button::Middle, at, at - DVec2::new(50.0, 0.0));
-    assert!(script.editor.viewport().centre.distance(before.1) < 1e-9);
+    assert!(script.editor.view().viewport().centre.distance(before.1) < 1e-9);
     assert_eq!(script.polygon(), before.0);
 }
 
@@ -74,7 +82,7 @@ fn hovering_tells_of_vertices_and_of_the_curve() {
         other => panic!("{other:?}"),
     }
     let middle = script.polygon().point(0.5).truncate();
-    script.move_to(script.editor.viewport().to_screen(middle));
+    script.move_to(script.editor.view().viewport().to_screen(middle));
     match script.editor.scene().hover.clone() {
         Some(HoverScene::Curve {
             u, centre, text, ..
@@ -96,29 +104,32 @@ fn the_comb_is_scaled_by_the_tip_of_a_tooth() {
     let scene = script.editor.scene().clone();
     let teeth = &scene.curves[0].teeth;
     let tooth = teeth[teeth.len() / 2];
-    let viewport = *script.editor.viewport();
-    let before = script.editor.comb().scale;
+    let viewport = *script.editor.view().viewport();
+    let before = script.editor.view().comb().scale;
     let longer = tooth[0] + 1.5 * (tooth[1] - tooth[0]);
     script.drag(viewport.to_screen(tooth[1]), viewport.to_screen(longer));
-    let after = script.editor.comb().scale;
+    let after = script.editor.view().comb().scale;
     assert!(
         (after / before - 1.5).abs() < 0.01,
         "{after} against {before}"
     );
-    assert_eq!(script.editor.history().undo_steps(), 0);
+    assert_eq!(script.editor.workspace().history().undo_steps(), 0);
 }
 
 #[test]
 fn fitting_makes_the_comb_legible_and_shows_it() {
     let mut script = Script::example("arc");
     script.command(Command::ToggleLayer(Layer::Comb));
-    let fresh = script.editor.comb();
+    let fresh = script.editor.view().comb();
     for (scale, fit) in [(30.0, Command::FitAll), (1e6, Command::Fit)] {
-        script.editor.set_comb(CombSettings { scale, density: 3 });
+        script
+            .editor
+            .view_mut()
+            .set_comb(CombSettings { scale, density: 3 });
         script.command(fit);
-        assert_eq!(script.editor.comb(), fresh);
+        assert_eq!(script.editor.view().comb(), fresh);
         let scale = fresh.scale;
-        let viewport = *script.editor.viewport();
+        let viewport = *script.editor.view().viewport();
         let polygon = script.polygon();
         let middle = polygon.jet(0.5);
         let normal = DVec2::new(0.0, 1.0);
@@ -136,16 +147,16 @@ fn fitting_makes_the_comb_legible_and_shows_it() {
 
 #[test]
 fn no_document_inherits_the_comb_of_another() {
-    let fresh = |name| Script::example(name).editor.comb();
+    let fresh = |name| Script::example(name).editor.view().comb();
     let mut script = Script::example("arc");
     for name in ["hull", "arc", "bottle"] {
-        script.editor.set_comb(CombSettings {
+        script.editor.view_mut().set_comb(CombSettings {
             scale: 1e7,
             density: 60,
         });
         let index = EXAMPLES.iter().position(|example| example.name == name);
         script.command(Command::OpenExample(index.expect("an example")));
-        assert_eq!(script.editor.comb(), fresh(name), "{name}");
+        assert_eq!(script.editor.view().comb(), fresh(name), "{name}");
     }
 }
 
@@ -160,16 +171,19 @@ fn tips_of_the_comb_yield_to_legs_and_to_what_is_beside_a_vertex() {
         script.command(Command::ToggleLayer(Layer::Comb));
         let arc = script.curve();
         let teeth = script.editor.scene().curves[0].teeth.clone();
-        let viewport = *script.editor.viewport();
+        let viewport = *script.editor.view().viewport();
         let tip = viewport.to_screen(teeth[teeth.len() / 2][1]);
         let ends = [from, to].map(|off| viewport.to_model(tip + off));
         let ends = ends.map(|end| (end.x, end.y));
         let other = Curve::new("other", FloatPolygon::planar(1, &ends).expect("a leg"));
         script.editor.apply("add", vec![Edit::Add(Box::new(other))]);
         script.editor.activate(arc);
-        let before = (script.editor.document().clone(), script.editor.comb());
+        let before = (
+            script.editor.document().clone(),
+            script.editor.view().comb(),
+        );
         script.drag(tip, tip + DVec2::new(5.0, 25.0));
-        assert_eq!(script.editor.comb(), before.1);
+        assert_eq!(script.editor.view().comb(), before.1);
         assert_eq!(!script.editor.document().is_same(&before.0), taken);
     }
 }

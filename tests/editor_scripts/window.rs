@@ -142,32 +142,32 @@ impl Window {
 
     /// The document without the preview of a gesture.
     pub fn before_gesture(&self) -> &Document {
-        self.editor.history().before_gesture()
+        self.editor.workspace().history().before_gesture()
     }
 
     /// Whether a gesture shows a preview or may show one.
     pub fn is_in_gesture(&self) -> bool {
-        self.editor.history().is_in_gesture()
+        self.editor.workspace().history().is_in_gesture()
     }
 
     /// Whether the pointer drags.
     pub fn is_dragging(&self) -> bool {
-        self.editor.is_dragging()
+        self.editor.hand().is_dragging()
     }
 
     /// Whether the primary button is held on the canvas.
     pub fn is_holding(&self) -> bool {
-        self.editor.is_holding()
+        self.editor.hand().is_holding()
     }
 
     /// The number of steps that can be taken back.
     pub fn undo_steps(&self) -> usize {
-        self.editor.history().undo_steps()
+        self.editor.workspace().history().undo_steps()
     }
 
     /// Whether a step can be made again.
     pub fn can_redo(&self) -> bool {
-        self.editor.history().redo_label().is_some()
+        self.editor.workspace().history().redo_label().is_some()
     }
 
     /// Whether a command is offered now.
@@ -177,12 +177,12 @@ impl Window {
 
     /// Whether there is something to save.
     pub fn is_modified(&self) -> bool {
-        self.editor.is_modified()
+        self.editor.workspace().is_modified()
     }
 
     /// What is selected.
     pub fn selection(&self) -> &Selection {
-        self.editor.selection()
+        self.editor.hand().selection()
     }
 
     /// The active curve, if there is one.
@@ -204,12 +204,12 @@ impl Window {
 
     /// How the model is mapped to the canvas.
     pub fn viewport(&self) -> &Viewport {
-        self.editor.viewport()
+        self.editor.view().viewport()
     }
 
     /// How the comb is drawn.
     pub fn comb(&self) -> CombSettings {
-        self.editor.comb()
+        self.editor.view().comb()
     }
 
     /// The pivot of the tool that has one.
@@ -303,14 +303,14 @@ impl Window {
         match panel {
             Panel::PreviewVertex(curve, vertex, to) => {
                 let edits = self.moved(*curve, *vertex, *to);
-                self.editor.preview_field("Set coordinate", edits);
+                self.editor.preview("Set coordinate", edits);
             }
             Panel::PreviewWeight(curve, vertex, weight) => {
                 let edits = self.weighted(*curve, *vertex, *weight);
-                self.editor.preview_field("Set weight", edits);
+                self.editor.preview("Set weight", edits);
             }
-            Panel::CommitField => self.editor.commit_field(),
-            Panel::AbortField => self.editor.abort_field(),
+            Panel::CommitField => self.editor.commit_preview(),
+            Panel::AbortField => self.editor.abort_preview(),
             Panel::TypeVertex(curve, vertex, to) => {
                 let edits = self.moved(*curve, *vertex, *to);
                 self.editor.apply("Set coordinate", edits);
@@ -334,15 +334,21 @@ impl Window {
             Panel::Transform(transformation) => self.editor.transform(*transformation),
             Panel::SetPivot(pivot) => self.editor.set_pivot(*pivot),
             Panel::Hover(length, vertex) => {
-                self.editor.hover_nothing();
-                length.iter().for_each(|at| self.editor.hover_length(*at));
-                vertex.iter().for_each(|at| self.editor.hover_vertex(*at));
+                self.editor.view_mut().hover_nothing();
+                length
+                    .iter()
+                    .for_each(|at| self.editor.view_mut().hover_length(*at));
+                vertex
+                    .iter()
+                    .for_each(|at| self.editor.view_mut().hover_vertex(*at));
             }
             Panel::SetCanvasSize(size) => self.editor.set_canvas_size(*size),
             Panel::Orbit(by) => self.editor.orbit(*by),
             Panel::SetComb(scale, density) => {
                 let (scale, density) = (*scale, *density);
-                self.editor.set_comb(CombSettings { scale, density });
+                self.editor
+                    .view_mut()
+                    .set_comb(CombSettings { scale, density });
             }
             Panel::GoTo(u) => self.editor.go_to(*u),
             Panel::DismissMessage => self.editor.dismiss_message(),

@@ -53,12 +53,12 @@ fn a_badge_leads_back_from_a_stray_turn_of_the_view() {
         window.run();
     }
     assert_ne!(
-        window.state().editor().viewport().orientation,
+        window.state().editor().view().viewport().orientation,
         Orientation::XY
     );
     click(&mut window, "Orbited · F2");
     assert_eq!(
-        window.state().editor().viewport().orientation,
+        window.state().editor().view().viewport().orientation,
         Orientation::XY
     );
     assert!(window.query_by_label("Orbited · F2").is_none());
@@ -84,7 +84,10 @@ fn an_arrow_key_that_is_held_makes_one_step() {
         window.run();
     }
     assert_ne!(curve(&window), before);
-    assert_eq!(window.state().editor().history().undo_steps(), 1);
+    assert_eq!(
+        window.state().editor().workspace().history().undo_steps(),
+        1
+    );
     press(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(curve(&window), before);
 }

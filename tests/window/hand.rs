@@ -61,7 +61,7 @@ pub fn curve(window: &Window) -> Curve {
 /// Where a point of the model is in the window.
 pub fn place(window: &Window, point: DVec2) -> Pos2 {
     let canvas = window.state().canvas_rect().expect("the canvas was shown");
-    let at = window.state().editor().viewport().to_screen(point);
+    let at = window.state().editor().view().viewport().to_screen(point);
     canvas.min + vec2(at.x as f32, at.y as f32)
 }
 

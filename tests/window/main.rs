@@ -59,11 +59,11 @@ fn the_main_job_through_the_window() {
     let from = vertex(&window, 5);
     drag(&mut window, from, from + vec2(40.0, -30.0));
     let dragged = curve(&window);
-    let scale = window.state().editor().viewport().scale;
+    let scale = window.state().editor().view().viewport().scale;
     let moved = dragged.polygon.vertex(5) - original.polygon.vertex(5);
     let expected = DVec2::new(40.0, 30.0) / scale;
     assert!(moved.truncate().distance(expected) < 1e-4, "{moved}");
-    assert!(window.state().editor().is_modified());
+    assert!(window.state().editor().workspace().is_modified());
 
     press(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(curve(&window), original, "undo is exact");
@@ -74,7 +74,7 @@ fn the_main_job_through_the_window() {
     let path = folder.path().join("dragged.batten");
     press(&mut window, Modifiers::COMMAND, Key::S);
     answer(&mut window, &path);
-    assert!(!window.state().editor().is_modified());
+    assert!(!window.state().editor().workspace().is_modified());
     let saved = disk::read_file(&path).expect("the saved file").curves;
     assert_eq!(saved[0].polygon, dragged.polygon, "numbers survive exactly");
 
@@ -172,13 +172,13 @@ fn coordinates_are_typed_and_dragged_in_the_inspector() {
     // Leaving a field as it was changes nothing, though it shows fewer digits than there are.
     click(&mut window, "vertex 3 x");
     press(&mut window, Modifiers::NONE, Key::Enter);
-    assert!(!window.state().editor().is_modified());
+    assert!(!window.state().editor().workspace().is_modified());
 
     // What cannot be read changes nothing either.
     click(&mut window, "vertex 3 x");
     type_over(&mut window, "one");
     press(&mut window, Modifiers::NONE, Key::Enter);
-    assert!(!window.state().editor().is_modified());
+    assert!(!window.state().editor().workspace().is_modified());
 
     let field = window.get_by_label("vertex 3 y").rect().center();
     drag(&mut window, field, field + vec2(30.0, 0.0));
@@ -206,7 +206,7 @@ fn escape_calls_a_dragged_field_off() {
     window.drop_at(field + vec2(60.0, 0.0));
     window.run();
     assert_eq!(curve(&window), original);
-    assert!(!window.state().editor().is_modified());
+    assert!(!window.state().editor().workspace().is_modified());
 }
 
 #[test]
@@ -240,19 +240,19 @@ fn letters_are_typed_into_fields_and_are_commands_elsewhere() {
     let mut window = open_window();
     click(&mut window, "Name");
     press(&mut window, Modifiers::NONE, Key::D);
-    assert_eq!(window.state().editor().tool(), ToolKind::Select);
+    assert_eq!(window.state().editor().hand().tool(), ToolKind::Select);
     press(&mut window, Modifiers::NONE, Key::Escape);
     press(&mut window, Modifiers::NONE, Key::D);
-    assert_eq!(window.state().editor().tool(), ToolKind::Draw);
+    assert_eq!(window.state().editor().hand().tool(), ToolKind::Draw);
 
     // Esc in a field is the field's alone: the tool stays in the hand.
     press(&mut window, Modifiers::NONE, Key::M);
     click(&mut window, "Name");
     press(&mut window, Modifiers::NONE, Key::Escape);
-    assert_eq!(window.state().editor().tool(), ToolKind::Measure);
+    assert_eq!(window.state().editor().hand().tool(), ToolKind::Measure);
     press(&mut window, Modifiers::COMMAND, Key::P);
     press(&mut window, Modifiers::NONE, Key::Escape);
-    assert_eq!(window.state().editor().tool(), ToolKind::Measure);
+    assert_eq!(window.state().editor().hand().tool(), ToolKind::Measure);
 }
 
 #[test]
@@ -283,10 +283,10 @@ fn an_axis_key_held_before_a_drag_steers_it_and_keeps_the_tool() {
     window.run();
     let after = curve(&window).polygon.vertex(4);
     assert!(after.x > before.x && after.y == before.y, "{after}");
-    assert_eq!(window.state().editor().tool(), ToolKind::Select);
+    assert_eq!(window.state().editor().hand().tool(), ToolKind::Select);
     // Without a drag the key chooses its tool, and the next drag is free again.
     press(&mut window, Modifiers::NONE, Key::X);
-    assert_eq!(window.state().editor().tool(), ToolKind::Delete);
+    assert_eq!(window.state().editor().hand().tool(), ToolKind::Delete);
     press(&mut window, Modifiers::NONE, Key::V);
     let from = vertex(&window, 4);
     drag(&mut window, from, from + vec2(0.0, 30.0));
@@ -297,7 +297,7 @@ fn an_axis_key_held_before_a_drag_steers_it_and_keeps_the_tool() {
 fn the_wheel_zooms_to_the_pointer_and_the_middle_button_pans() {
     let mut window = open_window();
     let at = vertex(&window, 2);
-    let before = window.state().editor().viewport().scale;
+    let before = window.state().editor().view().viewport().scale;
     window.hover_at(at);
     window.run();
     window.event(Event::MouseWheel {
@@ -308,7 +308,7 @@ fn the_wheel_zooms_to_the_pointer_and_the_middle_button_pans() {
         modifiers: Modifiers::NONE,
     });
     window.run();
-    assert!(window.state().editor().viewport().scale > 1.2 * before);
+    assert!(window.state().editor().view().viewport().scale > 1.2 * before);
     assert!(
         vertex(&window, 2).distance(at) < 0.1,
         "the place under the pointer stays"
@@ -350,7 +350,7 @@ fn every_panel_and_dialog_has_names_in_both_themes_and_when_it_is_small() {
             for tool in ToolKind::ALL {
                 let letter = Key::from_name(&tool.letter().to_uppercase().to_string());
                 press(&mut window, Modifiers::NONE, letter.expect("a letter"));
-                assert_eq!(window.state().editor().tool(), tool);
+                assert_eq!(window.state().editor().hand().tool(), tool);
             }
             click(&mut window, "Take actual end");
             press(&mut window, Modifiers::NONE, Key::V);

@@ -89,10 +89,10 @@ pub fn state(window: &Window) -> State {
     let curves = editor.document().curves();
     (
         editor.layers(),
-        editor.tool(),
+        editor.hand().tool(),
         curves.map(|(_, curve)| Curve::clone(curve)).collect(),
-        editor.viewport().centre,
-        editor.viewport().scale,
+        editor.view().viewport().centre,
+        editor.view().viewport().scale,
         editor.selected_vertices(active),
     )
 }
@@ -129,7 +129,7 @@ fn enter_goes_down_the_table_and_the_next_digit_is_a_number() {
     assert_eq!([x(&window, 1), x(&window, 2)], [9.0, 7.0]);
     assert_eq!(window.state().editor().layers(), layers);
     assert_eq!(
-        window.state().editor().history().undo_steps(),
+        window.state().editor().workspace().history().undo_steps(),
         6,
         "one a number, after Add"
     );
@@ -182,7 +182,7 @@ fn escape_calls_an_edit_off_and_then_leaves_the_table() {
     assert_eq!(y(&window, 2), 4.0, "the cell has kept the keyboard");
     press(&mut window, Modifiers::NONE, Key::Escape);
     press(&mut window, Modifiers::NONE, Key::D);
-    assert_eq!(window.state().editor().tool(), ToolKind::Draw);
+    assert_eq!(window.state().editor().hand().tool(), ToolKind::Draw);
 }
 
 #[test]

@@ -26,7 +26,7 @@ fn legend(flank: f64) -> &'static str {
 impl Plots {
     pub(super) fn curvature_ui(&mut self, ui: &mut Ui, editor: &mut Editor) {
         let tokens = Tokens::of(ui);
-        let dragging = editor.is_dragging();
+        let dragging = editor.hand().is_dragging();
         let scene = editor.plots();
         self.legend = legend(scene.flank);
         let whole = scene.length;
@@ -102,10 +102,10 @@ impl Plots {
         let along = hovered.filter(|x| (0.0..=length).contains(x));
         let along = along.map(|x| x * whole / length);
         if let Some(along) = along {
-            editor.hover_length(along);
+            editor.view_mut().hover_length(along);
         }
         if let Some(vertex) = vertex {
-            editor.hover_vertex(vertex);
+            editor.view_mut().hover_vertex(vertex);
         }
     }
 }

@@ -14,7 +14,7 @@ use crate::ui::theme::{STEP, Tokens};
 impl Plots {
     pub(super) fn legs_ui(&mut self, ui: &mut Ui, editor: &mut Editor) {
         let tokens = Tokens::of(ui);
-        let dragging = editor.is_dragging();
+        let dragging = editor.hand().is_dragging();
         let scene = editor.leg_plots();
         let count = scene.legs.len().max(scene.turns.len()) as f64;
         let width = (0.5 * (ui.available_width() - 2.0 * STEP)).max(80.0);
@@ -52,7 +52,7 @@ impl Plots {
         });
         let vertex = hovered.map(|x| x.round()).filter(|x| *x >= 0.0);
         if let Some(vertex) = vertex.filter(|x| *x <= count) {
-            editor.hover_vertex(vertex as usize);
+            editor.view_mut().hover_vertex(vertex as usize);
         }
     }
 }

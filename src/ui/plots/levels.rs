@@ -94,7 +94,7 @@ impl Plots {
 
     pub(super) fn levels_ui(&mut self, ui: &mut Ui, editor: &mut Editor, which: LevelPlot) {
         let tokens = Tokens::of(ui);
-        let dragging = editor.is_dragging();
+        let dragging = editor.hand().is_dragging();
         let normalised = self.normalised && which != LevelPlot::Logarithmic;
         let scene = editor.level_plot(which, normalised);
         let is_graph = which == LevelPlot::Logarithmic;
@@ -160,7 +160,7 @@ impl Plots {
             .filter(|x| !is_graph && (0.0..=extent).contains(x))
             .map(|x| x * length / extent);
         if let Some(along) = along {
-            editor.hover_length(along);
+            editor.view_mut().hover_length(along);
         }
     }
 }

@@ -14,8 +14,9 @@ use lucide_icons::Icon;
 use super::theme::STEP;
 use super::widgets::{self, IconButton};
 use crate::analysis::LevelPlot;
-use crate::editor::{Command, Editor};
+use crate::editor::Editor;
 use crate::geometry::LEVELS;
+use crate::ui::action::Action;
 use frame::Frame;
 use levels::{explanation, tab_name};
 
@@ -93,7 +94,7 @@ impl Plots {
         ui: &mut Ui,
         editor: &Editor,
         shown: bool,
-        commands: &mut Vec<Command>,
+        commands: &mut Vec<Action>,
     ) {
         ui.horizontal_centered(|ui| {
             ui.spacing_mut().item_spacing.x = STEP;
@@ -108,7 +109,7 @@ impl Plots {
                 if response.clicked() {
                     self.tab = tab;
                     if !shown {
-                        commands.push(Command::TogglePlots);
+                        commands.push(Action::TogglePlots);
                     }
                 }
             }
@@ -119,7 +120,7 @@ impl Plots {
                     (Icon::ChevronUp, "Unfold the plots")
                 };
                 if IconButton::new(icon, name).show(ui).clicked() {
-                    commands.push(Command::TogglePlots);
+                    commands.push(Action::TogglePlots);
                 }
                 match self.tab {
                     _ if !shown => {}

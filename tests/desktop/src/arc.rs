@@ -31,7 +31,7 @@ pub fn place(canvas: Rect, polygon: &FloatPolygon, vertex: usize) -> Pos2 {
 
 /// The place of a point of the model in the window, as an editor's view shows it.
 pub fn on_canvas(canvas: Rect, editor: &Editor, point: DVec2) -> Pos2 {
-    let at = editor.viewport().to_screen(point);
+    let at = editor.view().viewport().to_screen(point);
     canvas.min + vec2(at.x as f32, at.y as f32)
 }
 

@@ -1,0 +1,180 @@
+//! Copy and paste, as the text of a project: other programs and other windows can read it.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use crate::document::{Curve, CurveId, Extras, free_name, quoted};
+use crate::editor::Editor;
+use crate::editor::files::with_lines;
+use crate::editor::reply::{Note, Refusal, Reply};
+use crate::geometry::{FloatPolygon, PolygonKind, counted};
+use crate::io::{Export as Exported, Format, Reading, WriteError};
+
+/// How far copies are put from what they copy, in screen points, right and down.
+const OFFSET: f64 = 24.0;
+
+impl Editor {
+    /// Add the curves of a text as one step: a project or a CSV table, as files hold them. The
+    /// reply is told.
+    ///
+    /// # Errors
+    /// [`Refusal`] if the text cannot be read; nothing is changed then.
+    pub fn paste_text(&mut self, text: &str) -> Reply {
+        let reply = self.paste(text);
+        self.tell(reply)
+    }
+
+    /// Make the text of what is selected, or of the active curve if nothing is: whole curves as a
+    /// project, which keeps all of them, otherwise tables of the selected vertices. What it came
+    /// to is told.
+    ///
+    /// # Errors
+    /// [`Refusal`] if there is nothing to copy.
+    pub fn copy(&mut self) -> Result<String, Refusal> {
+        let copied = self.text_of_selection();
+        let reply = copied.clone().map(|_| self.copied());
+        self.tell(reply)?;
+        copied
+    }
+
+    /// Copy the selected vertices and remove them, as one step. What it came to is told.
+    ///
+    /// # Errors
+    /// [`Refusal`] if they cannot be removed; nothing is changed then.
+    pub fn cut(&mut self) -> Result<String, Refusal> {
+        self.interrupt();
+        let copied = self.text_of_selection();
+        let reply = copied.clone().and_then(|_| self.delete("Cut", "cut"));
+        self.tell(reply)?;
+        copied
+    }
+
+    fn paste(&mut self, text: &str) -> Reply {
+        let project = Format::Batten.read(text.as_bytes());
+        let read = match &project {
+            Ok(_) => project,
+            // Text that begins like a project is judged as one.
+            Err(_) if text.trim_start().starts_with('{') => project,
+            Err(_) => Format::Csv.read(text.as_bytes()),
+        };
+        let Reading {
+            curves, remarks, ..
+        } = read.map_err(|error| {
+            Refusal(format!(
+                "The clipboard holds no curve that can be read: {error}"
+            ))
+        })?;
+        if curves.is_empty() {
+            return Ok(Note::told("There are no curves on the clipboard"));
+        }
+        let count = curves.len();
+        self.add_copies("Paste", curves)?;
+        let text = format!("{} pasted", counted(count, "curve", "curves"));
+        Ok(Note::done(with_lines(text, &remarks)))
+    }
+
+    fn text_of_selection(&self) -> Result<String, Refusal> {
+        let selected: Vec<(CurveId, Arc<Curve>)> = self
+            .document()
+            .curves()
+            .filter(|(id, _)| self.hand.selection.of_curve(*id).next().is_some())
+            .map(|(id, curve)| (id, curve.clone()))
+            .collect();
+        let is_whole = |(id, curve): &(CurveId, Arc<Curve>)| {
+            self.hand.selection.of_curve(*id).count() == curve.polygon.vertices().len()
+        };
+        let text = if selected.iter().all(is_whole) {
+            let whole = selected.into_iter().map(|(_, curve)| curve);
+            let mut copied: Vec<Curve> = whole.map(Arc::unwrap_or_clone).collect();
+            if copied.is_empty() {
+                let (_, curve) = self.active_curve().ok_or("There is no curve")?;
+                copied.push(Curve::clone(&curve));
+            }
+            for curve in &mut copied {
+                curve.extras = Extras::default();
+            }
+            text_of(Format::Batten.write(&copied, &Extras::default(), None))
+        } else {
+            let tables = selected
+                .iter()
+                .map(|(id, curve)| self.selected_table(*id, curve));
+            let tables: Result<Vec<String>, String> = tables.collect();
+            tables.map(|tables| tables.join("\n"))
+        };
+        text.map_err(Refusal)
+    }
+
+    /// What was copied.
+    fn copied(&self) -> Note {
+        let count = self.hand.selection.vertices().len();
+        Note::told(match self.active_curve() {
+            Some((_, curve)) if count == 0 => format!("{} copied", quoted(&curve.name)),
+            _ => format!("{} copied", counted(count, "vertex", "vertices")),
+        })
+    }
+
+    /// Add copies a little aside, named anew and unlocked. What their file said of the curves
+    /// that Batten does not know, such as a number of their own, is not copied.
+    pub(in crate::editor) fn add_copies(&mut self, label: &str, curves: Vec<Curve>) -> Reply {
+        let offset = OFFSET * self.view.viewport.pixel() * DVec3::new(1.0, -1.0, 0.0);
+        let mut names: Vec<String> = self
+            .document()
+            .curves()
+            .map(|(_, c)| c.name.clone())
+            .collect();
+        let mut copies = Vec::new();
+        for curve in curves {
+            let mut copy = curve.clone();
+            copy.locked = false;
+            copy.visible = true;
+            copy.extras = Extras::default();
+            copy.name = free_name(&curve.name, |name| names.iter().any(|taken| taken == name));
+            names.push(copy.name.clone());
+            let vertices = curve.polygon.vertices().iter().enumerate();
+            let moved: Vec<(usize, DVec3)> =
+                vertices.map(|(i, vertex)| (i, *vertex + offset)).collect();
+            if copy.polygon.move_vertices(moved).is_ok() {
+                for end in crate::geometry::End::BOTH {
+                    let target = copy.targets.get(end).map(|mut target| {
+                        target.point += offset;
+                        target
+                    });
+                    copy.targets.set(end, target);
+                }
+            }
+            copies.push(copy);
+        }
+        self.add_curves(label, copies)
+    }
+
+    /// The selected vertices of a curve as a table, with a header line if they make a curve: its
+    /// degree is lowered if they are few. A single vertex is just its coordinates.
+    fn selected_table(&self, id: CurveId, curve: &Curve) -> Result<String, String> {
+        let polygon = &curve.polygon;
+        let indices: Vec<usize> = self.hand.selection.of_curve(id).collect();
+        if let [only] = indices.as_slice() {
+            let DVec3 { x, y, z } = polygon.vertex(*only);
+            return Ok(if polygon.is_planar() {
+                format!("{x},{y}\n")
+            } else {
+                format!("{x},{y},{z}\n")
+            });
+        }
+        let vertices: Vec<DVec3> = indices.iter().map(|index| polygon.vertex(*index)).collect();
+        let weights = polygon
+            .is_rational()
+            .then(|| indices.iter().map(|index| polygon.weight(*index)).collect());
+        let degree = polygon.degree().min(indices.len().saturating_sub(1)).max(1);
+        let part = FloatPolygon::new(degree, vertices, weights, false);
+        let part = part.map_err(|error| format!("{}: {error}", quoted(&curve.name)))?;
+        let part = Curve::new(curve.name.clone(), part);
+        text_of(Format::Csv.write(&[part], &Extras::default(), Some(PolygonKind::Float)))
+    }
+}
+
+/// The text of an export, or why there is none.
+fn text_of(export: Result<Exported, WriteError>) -> Result<String, String> {
+    let export = export.map_err(|error| error.to_string())?;
+    Ok(String::from_utf8_lossy(&export.bytes).into_owned())
+}

@@ -1,0 +1,257 @@
+//! The table of commands: menus, keys, buttons and the command palette all read it.
+
+use crate::editor::hand::input::{Key, Modifiers};
+use crate::editor::hand::tools::ToolKind;
+use crate::editor::view::layers::Layer;
+use crate::editor::view::orbit::NamedView;
+use crate::geometry::End;
+
+/// Something that the user can ask for by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Command {
+    /// Take back the last step.
+    Undo,
+    /// Make the last undone step again.
+    Redo,
+    /// Add a copy of the active curve.
+    Duplicate,
+    /// Remove the selected vertices.
+    Delete,
+    /// Remove the active curve.
+    DeleteCurve,
+    /// Select all vertices of the active curve, then of all curves.
+    SelectAll,
+    /// Select nothing.
+    SelectNone,
+    /// Reverse the active curve's direction.
+    Reverse,
+    /// Make the active curve periodic, or open.
+    TogglePeriodic,
+    /// Raise the active curve's degree by one; the polygon stays.
+    RaiseDegree,
+    /// Lower the active curve's degree by one; the polygon stays.
+    LowerDegree,
+    /// Raise the active curve's degree by one; the curve stays, as nearly as it can.
+    RaiseCurveDegree,
+    /// Lower the active curve's degree by one; the curve stays, as nearly as it can.
+    LowerCurveDegree,
+    /// Halve every segment of the active curve.
+    Subdivide,
+    /// Continue the active curve at one end by a segment.
+    Extend(End),
+    /// Show or hide the active curve.
+    ToggleVisible,
+    /// Lock or unlock the active curve.
+    ToggleLocked,
+    /// Fit the selection, or everything.
+    Fit,
+    /// Fit everything.
+    FitAll,
+    /// Zoom in about the middle.
+    ZoomIn,
+    /// Zoom out about the middle.
+    ZoomOut,
+    /// See the model from a certain side.
+    View(NamedView),
+    /// Give the comb a legible scale.
+    ResetComb,
+    /// Show or hide a layer.
+    ToggleLayer(Layer),
+    /// Snap to grid, vertices and targets, or not.
+    ToggleSnapping,
+    /// Take a tool into the hand.
+    Tool(ToolKind),
+}
+
+/// A key with its modifiers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Shortcut {
+    /// The modifiers that must be held, and no others.
+    pub modifiers: Modifiers,
+    /// The key.
+    pub key: Key,
+}
+
+impl Shortcut {
+    /// A key alone.
+    pub const fn plain(key: Key) -> Self {
+        Self {
+            modifiers: Modifiers::NONE,
+            key,
+        }
+    }
+
+    /// A letter with Ctrl.
+    pub const fn ctrl(letter: char) -> Self {
+        Self {
+            modifiers: Modifiers::CTRL,
+            key: Key::Character(letter),
+        }
+    }
+
+    /// A letter with Ctrl and Shift.
+    pub const fn ctrl_shift(letter: char) -> Self {
+        Self {
+            modifiers: Modifiers::CTRL_SHIFT,
+            key: Key::Character(letter),
+        }
+    }
+}
+
+impl Command {
+    /// Whether it changes only how things are shown: it ends nothing that is being tried out.
+    pub fn only_shows(self) -> bool {
+        matches!(
+            self,
+            Self::Fit
+                | Self::FitAll
+                | Self::ZoomIn
+                | Self::ZoomOut
+                | Self::View(_)
+                | Self::ResetComb
+                | Self::ToggleLayer(_)
+                | Self::ToggleSnapping
+        )
+    }
+
+    /// List every command there is, in the order in which the palette offers them.
+    pub fn all() -> Vec<Self> {
+        let mut all = vec![
+            Self::Undo,
+            Self::Redo,
+            Self::Duplicate,
+            Self::Delete,
+            Self::DeleteCurve,
+            Self::SelectAll,
+            Self::SelectNone,
+            Self::Reverse,
+            Self::TogglePeriodic,
+            Self::RaiseDegree,
+            Self::LowerDegree,
+            Self::RaiseCurveDegree,
+            Self::LowerCurveDegree,
+            Self::Subdivide,
+            Self::Extend(End::Start),
+            Self::Extend(End::Finish),
+            Self::ToggleVisible,
+            Self::ToggleLocked,
+            Self::Fit,
+            Self::FitAll,
+            Self::ZoomIn,
+            Self::ZoomOut,
+        ];
+        all.extend(NamedView::ALL.map(Self::View));
+        all.push(Self::ResetComb);
+        all.extend(Layer::ALL.map(Self::ToggleLayer));
+        all.push(Self::ToggleSnapping);
+        all.extend(ToolKind::ALL.map(Self::Tool));
+        all
+    }
+
+    /// What menus and buttons call the command.
+    pub fn label(self) -> String {
+        let label = match self {
+            Self::Undo => "Undo",
+            Self::Redo => "Redo",
+            Self::Duplicate => "Duplicate curve",
+            Self::Delete => "Delete vertices",
+            Self::DeleteCurve => "Delete curve",
+            Self::SelectAll => "Select all",
+            Self::SelectNone => "Select nothing",
+            Self::Reverse => "Reverse direction",
+            Self::TogglePeriodic => "Periodic",
+            Self::RaiseDegree => "Raise degree",
+            Self::LowerDegree => "Lower degree",
+            Self::RaiseCurveDegree => "Raise degree, keep curve",
+            Self::LowerCurveDegree => "Lower degree, keep curve",
+            Self::Subdivide => "Subdivide",
+            Self::Extend(End::Start) => "Extend start",
+            Self::Extend(End::Finish) => "Extend end",
+            Self::ToggleVisible => "Visible",
+            Self::ToggleLocked => "Locked",
+            Self::Fit => "Fit selection",
+            Self::FitAll => "Fit all",
+            Self::ZoomIn => "Zoom in",
+            Self::ZoomOut => "Zoom out",
+            Self::View(view) => view.label(),
+            Self::ResetComb => "Reset comb scale",
+            Self::ToggleLayer(layer) => layer.label(),
+            Self::ToggleSnapping => "Snapping",
+            Self::Tool(tool) => tool.label(),
+        };
+        label.to_owned()
+    }
+
+    /// One sentence that says what the command does.
+    pub fn tooltip(self) -> String {
+        let tooltip = match self {
+            Self::Undo => "Take back the last step",
+            Self::Redo => "Make the last undone step again",
+            Self::Duplicate => "Add a copy of the active curve",
+            Self::Delete => "Remove the selected vertices",
+            Self::DeleteCurve => "Remove the active curve as a whole",
+            Self::SelectAll => "Select all vertices of the active curve; again, of all curves",
+            Self::SelectNone => "Select nothing",
+            Self::Reverse => "Let the curve run the other way; its shape stays",
+            Self::TogglePeriodic => {
+                "Join the curve's end to its start, or open it; the polygon stays"
+            }
+            Self::RaiseDegree => {
+                "Raise the degree by one; the polygon stays, the curve becomes smoother"
+            }
+            Self::LowerDegree => {
+                "Lower the degree by one; the polygon stays, the curve follows it closer"
+            }
+            Self::RaiseCurveDegree => {
+                "Raise the degree by one; the curve stays, exactly if it is one segment"
+            }
+            Self::LowerCurveDegree => {
+                "Lower the degree by one; the curve stays as nearly as it can, and the error is told"
+            }
+            Self::Subdivide => "Halve every segment; the curve stays",
+            Self::Extend(_) => "Continue the curve's end by one segment, exactly as it runs",
+            Self::ToggleVisible => "Show or hide the active curve",
+            Self::ToggleLocked => "Protect the active curve's shape from edits, or release it",
+            Self::Fit => "Show the selected vertices, or everything if fewer than two are selected",
+            Self::FitAll => "Show everything",
+            Self::ZoomIn => "Show less, larger",
+            Self::ZoomOut => "Show more, smaller",
+            Self::View(_) => "See the model from this side; drag with the right button to orbit",
+            Self::ResetComb => "Give the curvature comb a legible scale",
+            Self::ToggleLayer(_) => "Show or hide this layer",
+            Self::ToggleSnapping => {
+                "Let dragged points snap to the grid, to vertices and to targets"
+            }
+            Self::Tool(tool) => tool.tooltip(),
+        };
+        tooltip.to_owned()
+    }
+
+    /// The key that gives the command.
+    pub fn shortcut(self) -> Option<Shortcut> {
+        let plain = |key| Some(Shortcut::plain(key));
+        let ctrl = |letter| Some(Shortcut::ctrl(letter));
+        let ctrl_shift = |letter| Some(Shortcut::ctrl_shift(letter));
+        match self {
+            Self::Undo => ctrl('z'),
+            Self::Redo => ctrl_shift('z'),
+            Self::Duplicate => ctrl('d'),
+            Self::Delete => plain(Key::Delete),
+            Self::DeleteCurve => Some(Shortcut {
+                modifiers: Modifiers::CTRL,
+                key: Key::Delete,
+            }),
+            Self::SelectAll => ctrl('a'),
+            Self::SelectNone => ctrl_shift('a'),
+            Self::Fit => plain(Key::Character('f')),
+            Self::FitAll => plain(Key::Character('h')),
+            Self::ZoomIn => plain(Key::Character('+')),
+            Self::ZoomOut => plain(Key::Character('-')),
+            Self::View(view) => plain(Key::Function(2 + view as u8)),
+            Self::ToggleLayer(layer) => plain(Key::Character(char::from(b'1' + layer as u8))),
+            Self::ToggleSnapping => plain(Key::Character('g')),
+            Self::Tool(tool) => plain(Key::Character(tool.letter())),
+            _ => None,
+        }
+    }
+}

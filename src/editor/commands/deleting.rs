@@ -1,0 +1,61 @@
+//! Removing vertices and curves: never one by a command that is meant for the other.
+
+use crate::document::{Curve, CurveId, Edit, quoted};
+use crate::editor::Editor;
+use crate::editor::commands::command::Command;
+use crate::editor::commands::polygon_edits::without;
+use crate::editor::reply::{Note, Reply};
+use crate::geometry::counted;
+
+impl Editor {
+    /// Remove the selected vertices.
+    pub(in crate::editor) fn delete(&mut self, verb: &str, done: &str) -> Reply {
+        let edits = self.deletion()?;
+        let count = counted(self.hand.selection.vertices().len(), "vertex", "vertices");
+        self.apply(&format!("{verb} {count}"), edits)?;
+        self.hand.selection.clear();
+        Ok(Note::done(format!("{count} {done}")))
+    }
+
+    /// The edits that remove the selected vertices. A curve is never removed that way.
+    fn deletion(&self) -> Result<Vec<Edit>, String> {
+        if self.hand.selection.is_empty() {
+            let Some((_, curve)) = self.active_curve() else {
+                return Err("There is no curve".into());
+            };
+            return Err(format!(
+                "No vertex is selected. To remove {} as a whole, use “{}”",
+                quoted(&curve.name),
+                Command::DeleteCurve.label()
+            ));
+        }
+        let mut edits = Vec::new();
+        for (id, curve) in self.document().curves() {
+            let indices: Vec<usize> = self.hand.selection.of_curve(id).collect();
+            if indices.is_empty() {
+                continue;
+            }
+            curve
+                .check_editable()
+                .map_err(|refused| refused.to_string())?;
+            if indices.len() == curve.polygon.vertices().len() {
+                return Err(format!(
+                    "The selection holds all vertices of {}. To remove it as a whole, use “{}”",
+                    quoted(&curve.name),
+                    Command::DeleteCurve.label()
+                ));
+            }
+            let polygon = without(&curve.polygon, &indices).map_err(|error| {
+                format!("{}: {error}; lower its degree first", quoted(&curve.name))
+            })?;
+            edits.push(Edit::SetPolygon { curve: id, polygon });
+        }
+        Ok(edits)
+    }
+
+    pub(in crate::editor) fn delete_curve(&mut self, id: CurveId, curve: &Curve) -> Reply {
+        curve.check_unlocked()?;
+        self.apply("Delete curve", vec![Edit::Remove(id)])?;
+        Ok(Note::done(format!("{} deleted", quoted(&curve.name))))
+    }
+}

@@ -1,0 +1,348 @@
+//! Doing what the commands say.
+
+use std::sync::Arc;
+
+use crate::document::{Curve, CurveId, Edit, quoted};
+use crate::editor::commands::command::Command;
+use crate::editor::commands::polygon_edits::reinterpreted;
+use crate::editor::hand::selection::VertexId;
+use crate::editor::reply::{Note, Reply};
+use crate::editor::view::layers::Layer;
+use crate::editor::{Editor, Refusal};
+use crate::geometry::end_correction::EndTarget;
+
+/// The factor by which the zoom commands change the scale.
+const ZOOM: f64 = 1.25;
+
+impl Editor {
+    /// Do what a command says, if it can be given now. The reply is told.
+    ///
+    /// # Errors
+    /// [`Refusal`] if it cannot be done; nothing is changed then.
+    pub fn execute(&mut self, command: Command) -> Reply {
+        if !self.is_enabled(command) {
+            return Ok(Note::silent());
+        }
+        self.message = None;
+        let reply = match command {
+            Command::Undo => Ok(self.undo()),
+            Command::Redo => Ok(self.redo()),
+            _ if command.only_shows() => {
+                self.show(command);
+                return Ok(Note::silent());
+            }
+            _ => {
+                self.interrupt();
+                self.execute_idle(command)
+            }
+        };
+        self.tell(reply)
+    }
+
+    /// Whether a command can be given now.
+    pub fn is_enabled(&self, command: Command) -> bool {
+        let curve = self.active_curve();
+        let editable = curve
+            .as_ref()
+            .is_some_and(|(_, curve)| curve.check_editable().is_ok());
+        match command {
+            Command::Undo => self.undo_label().is_some(),
+            Command::Redo => {
+                self.workspace.history().redo_label().is_some()
+                    && self.hand.tool_state.undo_label().is_none()
+                    && self.workspace.preview().is_none()
+            }
+            Command::Duplicate
+            | Command::Delete
+            | Command::DeleteCurve
+            | Command::ToggleVisible
+            | Command::ToggleLocked => curve.is_some(),
+            Command::Reverse => editable,
+            Command::TogglePeriodic => editable,
+            Command::RaiseDegree => editable && self.can_have_degree(1),
+            Command::LowerDegree => editable && self.can_have_degree(-1),
+            Command::RaiseCurveDegree => editable && self.can_change_degree(true),
+            Command::LowerCurveDegree => editable && self.can_change_degree(false),
+            Command::Subdivide => editable,
+            Command::Extend(_) => {
+                editable && curve.is_some_and(|(_, curve)| !curve.polygon.is_periodic())
+            }
+            Command::SelectAll | Command::Fit | Command::FitAll => !self.document().is_empty(),
+            Command::SelectNone => !self.hand.selection.is_empty(),
+            // What is dragged is dragged in the plane that is seen.
+            Command::View(_) => !self.hand.is_dragging(),
+            _ => true,
+        }
+    }
+
+    /// Whether a switch is on; `None` for commands that are no switches.
+    pub fn is_checked(&self, command: Command) -> Option<bool> {
+        let curve = self.active_curve().map(|(_, curve)| curve);
+        match command {
+            Command::ToggleLayer(layer) => Some(self.layers().shows(layer)),
+            Command::ToggleSnapping => Some(self.hand.snapping),
+            Command::Tool(tool) => Some(self.hand.tool == tool),
+            Command::View(view) => Some(self.view.viewport.orientation == view.orientation()),
+            Command::TogglePeriodic => Some(curve.is_some_and(|c| c.polygon.is_periodic())),
+            Command::ToggleVisible => Some(curve.is_some_and(|c| c.visible)),
+            Command::ToggleLocked => Some(curve.is_some_and(|c| c.locked)),
+            _ => None,
+        }
+    }
+
+    /// What a menu calls the command now: undo and redo name their step.
+    pub fn label(&self, command: Command) -> String {
+        let named = |label: &str| {
+            let mut letters = label.chars();
+            let first = letters
+                .next()
+                .map(|letter| letter.to_lowercase().to_string());
+            format!(
+                "{} {}{}",
+                command.label(),
+                first.unwrap_or_default(),
+                letters.as_str()
+            )
+        };
+        match command {
+            Command::Undo => self.undo_label().map(named),
+            Command::Redo => self.workspace.history().redo_label().map(named),
+            _ => None,
+        }
+        .unwrap_or_else(|| command.label())
+    }
+
+    /// Give a curve another degree; the polygon stays. The reply is told.
+    ///
+    /// # Errors
+    /// [`Refusal`] if the curve cannot have this degree.
+    pub fn set_degree(&mut self, curve: CurveId, degree: usize) -> Reply {
+        self.reinterpret(curve, &format!("Set degree {degree}"), Some(degree), None)
+    }
+
+    /// Make a curve periodic, or open it; the polygon stays. The reply is told.
+    ///
+    /// # Errors
+    /// [`Refusal`] if the curve cannot be so.
+    pub fn set_periodic(&mut self, curve: CurveId, periodic: bool) -> Reply {
+        let label = if periodic {
+            "Make periodic"
+        } else {
+            "Open curve"
+        };
+        self.reinterpret(curve, label, None, Some(periodic))
+    }
+
+    pub(in crate::editor) fn active_curve(&self) -> Option<(CurveId, Arc<Curve>)> {
+        let id = self.hand.selection.active()?;
+        Some((id, self.document().curve(id)?.clone()))
+    }
+
+    /// What undo would take back: a point of what the tool has not finished comes first.
+    fn undo_label(&self) -> Option<&str> {
+        let point = self.hand.tool_state.undo_label();
+        point.or_else(|| self.workspace.history().undo_label())
+    }
+
+    /// Take back what a drag shows or what the tool has not finished, otherwise the last step.
+    fn undo(&mut self) -> Note {
+        if self.interrupt() {
+            return Note::silent();
+        }
+        if self.hand.tool_state.undo_label().is_some() {
+            self.hand.tool_state.undo();
+            return Note::silent();
+        }
+        self.hand.end_fit.begin_anew();
+        let before: Vec<CurveId> = self.document().ids().collect();
+        let undone = self.workspace.undo();
+        self.activate_returned(&before);
+        undone.map_or_else(Note::silent, |label| Note::told(format!("Undone: {label}")))
+    }
+
+    fn redo(&mut self) -> Note {
+        self.interrupt();
+        self.hand.end_fit.begin_anew();
+        let before: Vec<CurveId> = self.document().ids().collect();
+        let redone = self.workspace.redo();
+        self.activate_returned(&before);
+        redone.map_or_else(Note::silent, |label| Note::told(format!("Redone: {label}")))
+    }
+
+    /// Make the first curve active that was not there before: the one that was waited for.
+    fn activate_returned(&mut self, before: &[CurveId]) {
+        self.document_changed();
+        let returned = self
+            .document()
+            .curves()
+            .map(|(id, _)| id)
+            .find(|id| !before.contains(id));
+        if let Some(returned) = returned {
+            self.activate(returned);
+        }
+    }
+
+    /// Do what changes nothing but how things are shown.
+    fn show(&mut self, command: Command) {
+        let viewport = &mut self.view.viewport;
+        let middle = 0.5 * viewport.size;
+        match command {
+            Command::ZoomIn => viewport.zoom(middle, ZOOM),
+            Command::ZoomOut => viewport.zoom(middle, 1.0 / ZOOM),
+            Command::Fit => self.fit(),
+            Command::FitAll => self.fit_all(),
+            Command::View(view) => self.set_orientation(view.orientation()),
+            Command::ResetComb => self.reset_comb(),
+            Command::ToggleLayer(layer) => self.toggle_layer(layer),
+            Command::ToggleSnapping => self.hand.snapping = !self.hand.snapping,
+            _ => {}
+        }
+    }
+
+    fn execute_idle(&mut self, command: Command) -> Reply {
+        match command {
+            Command::Delete => return self.delete("Delete", "deleted"),
+            Command::SelectAll => self.select_all()?,
+            Command::SelectNone => self.hand.selection.clear(),
+            Command::Tool(tool) => self.take(tool),
+            _ => {
+                let Some((id, curve)) = self.active_curve() else {
+                    return Err(Refusal::from("There is no curve"));
+                };
+                return self.execute_on(command, id, &curve);
+            }
+        }
+        Ok(Note::silent())
+    }
+
+    /// Do what is done to the active curve.
+    fn execute_on(&mut self, command: Command, id: CurveId, curve: &Arc<Curve>) -> Reply {
+        let degree = curve.polygon.degree();
+        match command {
+            Command::Duplicate => self.add_copies("Duplicate curve", vec![Curve::clone(curve)]),
+            Command::DeleteCurve => self.delete_curve(id, curve),
+            Command::Reverse => self.reverse(id, curve),
+            Command::TogglePeriodic => self.set_periodic(id, !curve.polygon.is_periodic()),
+            Command::RaiseDegree => self.set_degree(id, degree + 1),
+            Command::LowerDegree => self.set_degree(id, degree - 1),
+            Command::RaiseCurveDegree => self.change_degree(true),
+            Command::LowerCurveDegree => self.change_degree(false),
+            Command::Subdivide => self.subdivide(),
+            Command::Extend(end) => self.extend(end),
+            Command::ToggleVisible => self.set_visible(id, !curve.visible),
+            Command::ToggleLocked => self.set_locked(id, !curve.locked),
+            _ => Ok(Note::silent()),
+        }
+    }
+
+    fn toggle_layer(&mut self, layer: Layer) {
+        let shown = self.layers().shows(layer);
+        if matches!(layer, Layer::Float | Layer::Clamped) {
+            self.hand.end_fit.closed = false;
+        }
+        self.view.layers.set(layer, !shown);
+    }
+
+    /// Show or hide a curve, as one step. The reply is told.
+    ///
+    /// # Errors
+    /// [`Refusal`] if there is no such curve.
+    pub fn set_visible(&mut self, curve: CurveId, visible: bool) -> Reply {
+        let label = if visible { "Show curve" } else { "Hide curve" };
+        self.apply(label, vec![Edit::SetVisible { curve, visible }])
+    }
+
+    /// Protect a curve's shape or release it, as one step. The reply is told.
+    ///
+    /// # Errors
+    /// [`Refusal`] if there is no such curve.
+    pub fn set_locked(&mut self, curve: CurveId, locked: bool) -> Reply {
+        let label = if locked { "Lock curve" } else { "Unlock curve" };
+        self.apply(label, vec![Edit::SetLocked { curve, locked }])
+    }
+
+    fn select_all(&mut self) -> Result<(), Refusal> {
+        if let Some((_, curve)) = self.active_curve() {
+            curve.check_visible()?;
+        }
+        let all_of = |(id, curve): (CurveId, &Arc<Curve>)| {
+            let count = if curve.visible {
+                curve.polygon.vertices().len()
+            } else {
+                0
+            };
+            (0..count)
+                .map(move |index| (id, index))
+                .collect::<Vec<VertexId>>()
+        };
+        let active = self.hand.selection.active();
+        let own: Vec<VertexId> = self
+            .document()
+            .curves()
+            .filter(|(id, _)| Some(*id) == active)
+            .flat_map(all_of)
+            .collect();
+        if own
+            .iter()
+            .all(|vertex| self.hand.selection.contains(*vertex))
+        {
+            let all: Vec<VertexId> = self.document().curves().flat_map(all_of).collect();
+            self.hand.selection.set(all);
+        } else {
+            self.hand.selection.set(own);
+        }
+        Ok(())
+    }
+
+    fn reverse(&mut self, id: CurveId, curve: &Curve) -> Reply {
+        let polygon = curve.polygon.reversed();
+        let mut edits = vec![Edit::SetPolygon { curve: id, polygon }];
+        for end in crate::geometry::End::BOTH {
+            let target = curve.targets.get(end.other()).map(EndTarget::turned);
+            if target != curve.targets.get(end) {
+                edits.push(Edit::SetTarget {
+                    curve: id,
+                    end,
+                    target,
+                });
+            }
+        }
+        let made = self.apply("Reverse direction", edits)?;
+        self.hand.selection.clear();
+        Ok(made)
+    }
+
+    fn can_have_degree(&self, change: isize) -> bool {
+        let Some((_, curve)) = self.active_curve() else {
+            return false;
+        };
+        let polygon = &curve.polygon;
+        let degree = polygon.degree().checked_add_signed(change);
+        degree.is_some_and(|degree| {
+            (1..=crate::geometry::MAX_DEGREE).contains(&degree) && degree < polygon.vertices().len()
+        })
+    }
+
+    fn reinterpret(
+        &mut self,
+        id: CurveId,
+        label: &str,
+        degree: Option<usize>,
+        periodic: Option<bool>,
+    ) -> Reply {
+        let Some(curve) = self.document().curve(id).cloned() else {
+            return Ok(Note::silent());
+        };
+        let polygon = &curve.polygon;
+        let degree = degree.unwrap_or(polygon.degree());
+        let periodic = periodic.unwrap_or(polygon.is_periodic());
+        if degree == polygon.degree() && periodic == polygon.is_periodic() {
+            return Ok(Note::silent());
+        }
+        let reply = match reinterpreted(polygon, degree, periodic) {
+            Ok(polygon) => return self.apply(label, vec![Edit::SetPolygon { curve: id, polygon }]),
+            Err(error) => Err(Refusal(format!("{}: {error}", quoted(&curve.name)))),
+        };
+        self.tell(reply)
+    }
+}

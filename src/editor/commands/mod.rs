@@ -1,0 +1,11 @@
+//! What is asked for by name: the table of commands, and doing what they say.
+
+mod clipboard;
+pub(in crate::editor) mod command;
+mod deleting;
+mod execute;
+pub(in crate::editor) mod polygon_edits;
+pub(in crate::editor) mod reshaping;
+
+pub use command::{Command, Shortcut};
+pub use reshaping::{Division, DivisionReport, ExtremaCount, RoundingReport};

@@ -1,0 +1,32 @@
+//! Choosing among things that lie at one place.
+
+use glam::DVec2;
+
+use crate::editor::hand::gesture::THRESHOLD;
+
+/// Which of several things at one place Tab has chosen, as long as the pointer stays there.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Cycle {
+    count: usize,
+    at: Option<DVec2>,
+}
+
+impl Cycle {
+    /// How many times Tab was pressed here.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Choose the next of what lies here.
+    pub fn next(&mut self, at: Option<DVec2>) {
+        self.count = self.count.wrapping_add(1);
+        self.at = at;
+    }
+
+    /// Forget the choice once the pointer has moved by more than a hand that trembles.
+    pub fn moved(&mut self, to: DVec2) {
+        if self.at.is_none_or(|at| at.distance(to) > THRESHOLD) {
+            *self = Self::default();
+        }
+    }
+}

@@ -1,0 +1,171 @@
+//! From inputs to gestures, to the tool in the hand, and from its effects to the document.
+
+use crate::editor::Editor;
+use crate::editor::hand::gesture::Gesture;
+use crate::editor::hand::input::{Input, Key};
+use crate::editor::hand::tools::{Context, Cursor, Effect, ToolKind};
+use crate::editor::reply::{Message, Note, Refusal};
+use crate::editor::view::hit::HitTest;
+use crate::editor::workspace::Interruption;
+
+/// What came of the step that a tool's effects make.
+enum Step {
+    None,
+    Made,
+    Refused,
+}
+
+impl Editor {
+    /// Take what the hand does on the canvas.
+    pub fn input(&mut self, input: Input) {
+        if let Input::Modifiers(modifiers) = input {
+            self.hand.modifiers = modifiers;
+        }
+        if let Input::AxisHeld(axis) = input {
+            self.hand.axis = axis;
+        }
+        let is_escape = input == Input::Key(Key::Escape);
+        if is_escape && self.workspace.preview().is_some() && !self.hand.is_dragging() {
+            self.abort_preview();
+            return;
+        }
+        if let Input::Moved { at } = input
+            && !self.hand.gestures.is_holding()
+        {
+            self.hand.cycle.moved(at);
+        }
+        if matches!(
+            input,
+            Input::Pressed { .. } | Input::Key(_) | Input::KeyRepeated(_)
+        ) {
+            self.message = None;
+        }
+        let repeats = matches!(input, Input::KeyRepeated(_));
+        for gesture in self.hand.gestures.input(input) {
+            match gesture {
+                Gesture::Pan(by) => self.view.viewport.pan(by),
+                Gesture::Orbit(by) => self.orbit(by),
+                Gesture::Zoom(at, factor) => self.view.viewport.zoom(at, factor),
+                Gesture::Key(Key::Tab) => self.hand.cycle.next(self.hand.gestures.pointer()),
+                gesture => self.deliver(gesture, repeats),
+            }
+        }
+    }
+
+    /// Say what the mouse will do now.
+    pub fn hint(&self) -> String {
+        if self.hand.gestures.is_panning() {
+            return "Drag to push the view".into();
+        }
+        if self.hand.gestures.is_orbiting() {
+            return "Drag to turn the view; F2, F3, F4 look along the axes again".into();
+        }
+        self.hand.tool_state.hint(&self.context())
+    }
+
+    /// The shape of the pointer while it rests here.
+    pub fn cursor(&self) -> Cursor {
+        if self.hand.gestures.is_panning() {
+            return Cursor::Grab;
+        }
+        if self.hand.gestures.is_orbiting() {
+            return Cursor::Grabbing;
+        }
+        self.hand.tool_state.cursor(&self.context())
+    }
+
+    /// Hand a gesture to the tool and do what it wants. What a key that `repeats` does belongs to
+    /// the step that it began.
+    pub(in crate::editor) fn deliver(&mut self, gesture: Gesture, repeats: bool) {
+        let mut tool = std::mem::replace(&mut self.hand.tool_state, ToolKind::Select.take());
+        let effects = tool.gesture(gesture, &self.context());
+        self.hand.tool_state = tool;
+        let active = self.hand.selection.active();
+        let mut step = Step::None;
+        for effect in effects {
+            self.take_effect(effect, repeats, &mut step);
+        }
+        self.document_changed();
+        if self.hand.selection.active() != active {
+            self.hand.end_fit.begin_anew();
+        }
+    }
+
+    pub(in crate::editor) fn context(&self) -> Context<'_> {
+        let active = self.hand.selection.active();
+        let shown = self
+            .view
+            .scene
+            .curves
+            .iter()
+            .find(|curve| curve.id == active);
+        Context {
+            document: self.workspace.document(),
+            before: self.workspace.settled(),
+            selection: &self.hand.selection,
+            viewport: &self.view.viewport,
+            hits: HitTest {
+                document: self.workspace.document(),
+                analyses: &self.analyses,
+                viewport: &self.view.viewport,
+                layers: self.layers(),
+                active,
+                cycle: self.hand.cycle.count(),
+            },
+            modifiers: self.hand.modifiers,
+            axis: self.hand.axis,
+            snapping: self.hand.snapping,
+            comb: self.view.comb,
+            teeth: shown.map_or(&[], |curve| &curve.teeth),
+            end_fit: &self.hand.end_fit,
+            pointer: self
+                .hand
+                .gestures
+                .pointer()
+                .map(|at| self.view.viewport.to_model(at)),
+        }
+    }
+
+    fn take_effect(&mut self, effect: Effect, repeats: bool, step: &mut Step) {
+        match effect {
+            Effect::Begin(label) => {
+                self.hand.end_fit.begin_anew();
+                self.workspace.begin(&label, Interruption::Aborts);
+            }
+            Effect::Preview(edits) => self.update(edits),
+            Effect::Commit => {
+                self.workspace.commit();
+            }
+            Effect::Abort => self.workspace.abort(),
+            Effect::Apply(label, edits) => {
+                let reply = self.make(&label, edits, repeats);
+                *step = match self.tell(reply) {
+                    Ok(_) => Step::Made,
+                    Err(_) => Step::Refused,
+                };
+            }
+            Effect::Select(vertices) => self.hand.selection.set(vertices),
+            Effect::SelectMore(vertices) => self.hand.selection.add(vertices),
+            Effect::ToggleSelected(vertex) => self.hand.selection.toggle(vertex),
+            Effect::Activate(curve) => self.hand.selection.activate(curve),
+            Effect::SetComb(comb) => self.view.set_comb(comb),
+            Effect::FitAll => self.fit_all(),
+            Effect::Say(text) if self.workspace.preview().is_some() => {
+                self.tell_of_update(Some(Refusal(text)));
+            }
+            Effect::Say(text) => {
+                self.message = match step {
+                    Step::None => Message::of(&Ok(Note::told(text))),
+                    Step::Made => Message::of(&Ok(Note::done(text))),
+                    // The message says why not.
+                    Step::Refused => self.message.take(),
+                };
+            }
+            Effect::Finish => self.take(ToolKind::Select),
+            Effect::EndFit(action) => {
+                // The panel says what it came to.
+                self.end_fit_action(action);
+            }
+        }
+    }
+}

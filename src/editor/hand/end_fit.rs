@@ -1,0 +1,340 @@
+//! The end-fit tool's words and state: the paper's seven steps.
+
+use glam::{DQuat, DVec2, DVec3};
+
+use crate::analysis::CurveAnalysis;
+use crate::document::{Curve, CurveId, Document};
+use crate::editor::view::hit::REACH;
+use crate::editor::view::viewport::Viewport;
+use crate::geometry::end_correction::{EndDifference, EndOverlap, EndTarget};
+use crate::geometry::{End, Jet, Range, rotation_between};
+
+/// The length of a target direction's arrow, in screen points.
+pub const ARROW: f64 = 64.0;
+
+/// The radius of the ring that rotates the terminal vertices, in screen points.
+pub const RING: f64 = 40.0;
+
+/// Chords in the arc that shows the difference angle.
+const ARC_STEPS: u8 = 48;
+
+/// The loop's tolerance that is offered, in units of the polygon's size.
+const TOLERANCE: f64 = 1e-9;
+
+/// What evaluating an end point costs in accuracy, in units of its coordinates.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// What the seven steps say of one end, in figures.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EndFitReport {
+    /// The end that is being corrected.
+    pub end: End,
+    /// Whether the curve is planar: figures in z are left out then.
+    pub planar: bool,
+    /// Why the curve's shape cannot be changed now: of a locked curve only the targets can be
+    /// set.
+    pub refusal: Option<String>,
+    /// The degree n.
+    pub degree: usize,
+    /// The number of terminal vertices, which steps 5 and 6 move.
+    pub terminal: usize,
+    /// The number of vertices N.
+    pub vertices: usize,
+    /// Step 1: the smallest and largest leg.
+    pub legs: Option<Range>,
+    /// Step 1: the smallest and largest turning angle, in radians.
+    pub turns: Option<Range>,
+    /// The actual end point.
+    pub point: DVec3,
+    /// The actual unit tangent; `None` at a cusp.
+    pub tangent: Option<DVec3>,
+    /// The angle of a planar curve's tangent from the x axis, in radians.
+    pub tangent_angle: Option<f64>,
+    /// The target point; `None` until it is set.
+    pub target_point: Option<DVec3>,
+    /// The target direction.
+    pub target_direction: Option<DVec3>,
+    /// The angle of a planar curve's target direction from the x axis, in radians.
+    pub target_angle: Option<f64>,
+    /// Step 3: the difference vector; what is mere rounding of it is 0.
+    pub difference: DVec3,
+    /// Step 3: the difference angle, in radians.
+    pub angle: f64,
+    /// The larger of the position difference and the difference angle's arc, over both ends
+    /// that have targets.
+    pub residual: f64,
+    /// The tolerance that the loop works to, as a length.
+    pub tolerance: f64,
+    /// Whether every end that has a target is within the tolerance.
+    pub within: bool,
+    /// The number of ends that have a target.
+    pub targets: usize,
+    /// Passes made by "repeat" since the targets last changed.
+    pub passes: usize,
+    /// Whether the next click on the canvas picks a target from another curve.
+    pub picking: bool,
+    /// How the two ends share their vertices.
+    pub overlap: EndOverlap,
+    /// What the last action came to, in words; `true` if it failed.
+    pub outcome: Option<(String, bool)>,
+    /// The largest move of a vertex by the last "both ends at once", and which vertex.
+    pub largest_move: Option<(f64, usize)>,
+}
+
+impl EndFitReport {
+    /// Whether the curve's vertices can be moved.
+    pub fn can_move(&self) -> bool {
+        self.refusal.is_none()
+    }
+}
+
+/// Something that the end-fit panel asks for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum EndFitAction {
+    /// Work on this end.
+    Choose(End),
+    /// Show the closed S-polygon (step 2), or go back to the float one (step 4).
+    ShowClosed(bool),
+    /// Put the target where the actual end is.
+    TargetActual,
+    /// Type the target point.
+    SetPoint(DVec3),
+    /// Type the target direction, or free it.
+    SetDirection(Option<DVec3>),
+    /// Forget the target.
+    ClearTarget,
+    /// Pick the target from another curve's end by the next click.
+    PickFromCurve,
+    /// Turn the target direction round.
+    TurnRound,
+    /// Take this target, picked from another curve's end.
+    Picked(EndTarget),
+    /// Translate the terminal vertices by the difference vector (step 5).
+    Translate,
+    /// Rotate them by the difference angle (step 6).
+    Rotate,
+    /// Repeat steps 2 to 6 on every end that has a target until within the tolerance (step 7).
+    Repeat,
+    /// Correct both ends at once by the least disturbance.
+    BothAtOnce,
+    /// Set the tolerance, as a length.
+    SetTolerance(f64),
+}
+
+/// One end's marks on the canvas.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EndFitMarks {
+    /// Whether the end-fit tool works on this end now; otherwise only the target is drawn.
+    pub chosen: bool,
+    /// The actual end point.
+    pub actual: DVec2,
+    /// The tip of the actual tangent's arrow.
+    pub tangent_tip: Option<DVec2>,
+    /// The target point.
+    pub target: Option<DVec2>,
+    /// The tip of the target direction's arrow; a handle.
+    pub target_tip: Option<DVec2>,
+    /// The radius of the ring that rotates the terminal vertices, in units of the model.
+    pub ring: f64,
+    /// The terminal vertices.
+    pub terminal: Vec<DVec2>,
+    /// The difference angle in radians.
+    pub angle: f64,
+    /// The way that the unit tangent takes through the difference angle, as it is seen.
+    pub arc: Vec<DVec2>,
+}
+
+/// Hold what the end-fit tool remembers between actions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EndFitState {
+    /// The end that is being corrected.
+    pub end: End,
+    /// Whether the next click picks a target from another curve.
+    pub picking: bool,
+    /// Whether the closed S-polygon stands in for the float one, as in steps 2 and 3.
+    pub closed: bool,
+    /// The tolerance that was typed; `None` offers one by the curve's size.
+    pub tolerance: Option<f64>,
+    /// Passes made by "repeat" since the targets last changed.
+    pub passes: usize,
+    /// What the last action came to; `true` if it failed.
+    pub outcome: Option<(String, bool)>,
+    /// The largest vertex move of the last joint correction.
+    pub largest_move: Option<(f64, usize)>,
+    /// The curve before the last correction: drawn as a ghost until something else happens.
+    pub ghost: Option<(CurveId, std::sync::Arc<Curve>)>,
+}
+
+impl Default for EndFitState {
+    fn default() -> Self {
+        Self {
+            end: End::Finish,
+            picking: false,
+            closed: false,
+            tolerance: None,
+            passes: 0,
+            outcome: None,
+            largest_move: None,
+            ghost: None,
+        }
+    }
+}
+
+impl EndFitState {
+    /// Forget what earlier actions came to, as when targets or curve change.
+    pub fn begin_anew(&mut self) {
+        self.passes = 0;
+        self.outcome = None;
+        self.largest_move = None;
+        self.ghost = None;
+    }
+
+    /// The tolerance for a curve, as a length.
+    pub fn tolerance_for(&self, curve: &Curve) -> f64 {
+        self.tolerance.unwrap_or(TOLERANCE * curve.polygon.size())
+    }
+
+    /// Collect the figures of the seven steps.
+    pub fn report(&self, analysis: &mut CurveAnalysis) -> EndFitReport {
+        let curve = analysis.curve().clone();
+        let polygon = &curve.polygon;
+        let figures = analysis.float().figures();
+        let jet = polygon.end_jet(self.end);
+        let target = curve.targets.get(self.end);
+        let difference = target.map(|target| EndDifference::between(polygon, self.end, &target));
+        let target_direction = target.and_then(|target| target.direction);
+        let planar_angle = |direction: DVec3| {
+            Some(direction.truncate().to_angle()).filter(|_| analysis.is_planar())
+        };
+        let size = polygon.size();
+        let tolerance = self.tolerance_for(&curve);
+        let targets = curve.targets.list();
+        let residuals = targets
+            .iter()
+            .map(|(end, target)| EndDifference::between(polygon, *end, target).residual(size));
+        let residual = residuals.fold(0.0, f64::max);
+        EndFitReport {
+            end: self.end,
+            planar: analysis.is_planar(),
+            refusal: curve.check_editable().err().map(|error| error.to_string()),
+            degree: polygon.degree(),
+            terminal: polygon.terminal_vertices(self.end).len(),
+            vertices: polygon.vertices().len(),
+            legs: figures.legs,
+            turns: figures.turns,
+            point: jet.point,
+            tangent: jet.tangent(),
+            tangent_angle: jet.tangent().and_then(planar_angle),
+            target_point: target.map(|target| target.point),
+            target_direction,
+            target_angle: target_direction.and_then(planar_angle),
+            difference: difference.map_or(DVec3::ZERO, |difference| {
+                let far = jet.point.abs().max_element().max(size);
+                above(difference.vector, ROUNDING * far)
+            }),
+            angle: difference.map_or(0.0, |difference| difference.angle),
+            residual,
+            tolerance,
+            within: !targets.is_empty() && residual <= tolerance,
+            targets: targets.len(),
+            passes: self.passes,
+            overlap: EndOverlap::of(polygon),
+            picking: self.picking,
+            outcome: self.outcome.clone(),
+            largest_move: self.largest_move,
+        }
+    }
+}
+
+/// Put components that are not above the rounding at 0.
+fn above(vector: DVec3, rounding: f64) -> DVec3 {
+    DVec3::from_array(vector.to_array().map(|component| {
+        if component.abs() > rounding {
+            component
+        } else {
+            0.0
+        }
+    }))
+}
+
+/// Find the end of another curve seen nearest to a place of the view plane, as a target for an
+/// end of one's own: its point, and
+/// its direction so that the tangents continue each other.
+pub fn nearest_other_end(
+    document: &Document,
+    own: CurveId,
+    end: End,
+    place: DVec2,
+    viewport: &Viewport,
+) -> Option<EndTarget> {
+    let ends = other_ends(document, Some(own));
+    let near = ends
+        .map(|(end, jet)| (viewport.flatten(jet.point).distance(place), end, jet))
+        .filter(|(distance, ..)| *distance <= 2.0 * REACH * viewport.pixel());
+    let (_, picked, jet) = near.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    // An end goes on into a start; two ends, or two starts, run towards each other.
+    let direction = jet.tangent();
+    Some(EndTarget {
+        point: jet.point,
+        direction: direction.map(|along| if picked == end { -along } else { along }),
+    })
+}
+
+/// List the ends of the visible curves other than `own`, with their jets.
+pub fn other_ends(
+    document: &Document,
+    own: Option<CurveId>,
+) -> impl Iterator<Item = (End, Jet)> + '_ {
+    let others = document.curves().filter(move |(id, curve)| {
+        Some(*id) != own && curve.visible && !curve.polygon.is_periodic()
+    });
+    others.flat_map(|(_, curve)| End::BOTH.map(|end| (end, curve.polygon.end_jet(end))))
+}
+
+/// Make the marks of one end.
+pub fn marks(curve: &Curve, end: End, chosen: bool, viewport: &Viewport) -> Option<EndFitMarks> {
+    let target = curve.targets.get(end);
+    if target.is_none() && !chosen {
+        return None;
+    }
+    let polygon = &curve.polygon;
+    let jet = polygon.end_jet(end);
+    let arrow = ARROW * viewport.pixel();
+    let along = |direction: DVec3| {
+        viewport
+            .flatten(direction)
+            .try_normalize()
+            .map(|d| arrow * d)
+    };
+    let actual = viewport.flatten(jet.point);
+    let terminal = polygon.terminal_vertices(end).filter(|_| chosen);
+    let difference = target.map(|target| EndDifference::between(polygon, end, &target));
+    let direction = target.and_then(|target| target.direction);
+    let turn = jet.tangent().zip(direction.filter(|_| chosen));
+    Some(EndFitMarks {
+        chosen,
+        actual,
+        tangent_tip: jet.tangent().and_then(along).map(|arm| actual + arm),
+        target: target.map(|target| viewport.flatten(target.point)),
+        target_tip: target
+            .and_then(|target| Some(viewport.flatten(target.point) + along(target.direction?)?)),
+        ring: RING * viewport.pixel(),
+        terminal: terminal
+            .map(|index| viewport.flatten(polygon.vertex(index)))
+            .collect(),
+        angle: difference.map_or(0.0, |difference| difference.angle),
+        arc: turn.map_or(Vec::new(), |(from, to)| turning(from, to, viewport)),
+    })
+}
+
+/// Follow a unit vector as it turns to a direction the shortest way, as it is seen.
+fn turning(from: DVec3, to: DVec3, viewport: &Viewport) -> Vec<DVec2> {
+    let Some(rotation) = rotation_between(from, to) else {
+        return Vec::new();
+    };
+    let whole = DQuat::from_mat3(&rotation);
+    let steps = (0..=ARC_STEPS).map(|step| f64::from(step) / f64::from(ARC_STEPS));
+    steps
+        .map(|share| viewport.flatten(DQuat::IDENTITY.slerp(whole, share) * from))
+        .collect()
+}

@@ -1,0 +1,66 @@
+//! What the hand holds.
+
+use crate::editor::hand::cycle::Cycle;
+use crate::editor::hand::end_fit::EndFitState;
+use crate::editor::hand::gesture::GestureMachine;
+use crate::editor::hand::input::Modifiers;
+use crate::editor::hand::selection::Selection;
+use crate::editor::hand::tools::{Tool, ToolKind};
+
+/// Hold the tool, its gesture, the selection, and which keys are held.
+#[derive(Debug)]
+pub struct Hand {
+    pub(in crate::editor) selection: Selection,
+    pub(in crate::editor) tool: ToolKind,
+    pub(in crate::editor) tool_state: Box<dyn Tool>,
+    pub(in crate::editor) end_fit: EndFitState,
+    pub(in crate::editor) gestures: GestureMachine,
+    pub(in crate::editor) modifiers: Modifiers,
+    /// The axis of the model (0 x, 1 y, 2 z) whose key is held.
+    pub(in crate::editor) axis: Option<usize>,
+    pub(in crate::editor) snapping: bool,
+    pub(in crate::editor) cycle: Cycle,
+}
+
+impl Default for Hand {
+    fn default() -> Self {
+        Self {
+            selection: Selection::default(),
+            tool: ToolKind::default(),
+            tool_state: ToolKind::default().take(),
+            end_fit: EndFitState::default(),
+            gestures: GestureMachine::default(),
+            modifiers: Modifiers::NONE,
+            axis: None,
+            snapping: false,
+            cycle: Cycle::default(),
+        }
+    }
+}
+
+impl Hand {
+    /// What is selected.
+    pub fn selection(&self) -> &Selection {
+        &self.selection
+    }
+
+    /// The tool in the hand.
+    pub fn tool(&self) -> ToolKind {
+        self.tool
+    }
+
+    /// Whether points snap.
+    pub fn snaps(&self) -> bool {
+        self.snapping
+    }
+
+    /// Whether a drag is going on.
+    pub fn is_dragging(&self) -> bool {
+        self.gestures.is_dragging()
+    }
+
+    /// Whether the primary button is held on the canvas: a drag goes on, or may begin.
+    pub fn is_holding(&self) -> bool {
+        self.gestures.is_holding()
+    }
+}

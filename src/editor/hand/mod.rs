@@ -1,0 +1,20 @@
+//! What the hand holds and does: the tool, its gesture, the selection, and the keys that are held.
+
+mod cycle;
+mod dispatch;
+pub mod end_fit;
+mod end_fit_actions;
+pub(in crate::editor) mod gesture;
+#[allow(clippy::module_inception)]
+mod hand;
+pub(in crate::editor) mod input;
+pub(in crate::editor) mod selection;
+pub(in crate::editor) mod snapping;
+pub(in crate::editor) mod tools;
+mod transforming;
+
+pub use end_fit::{EndFitAction, EndFitMarks, EndFitReport};
+pub use hand::Hand;
+pub use input::{Button, Input, Key, Modifiers};
+pub use selection::{Selection, VertexId};
+pub use tools::{Cursor, ToolKind, Transformation};

@@ -1,0 +1,89 @@
+//! Snapping: dragged points prefer vertices, ends, targets and the grid.
+
+use std::collections::BTreeSet;
+
+use glam::{DVec2, DVec3};
+
+use crate::document::{CurveId, Document};
+use crate::editor::hand::selection::VertexId;
+use crate::editor::view::grid::grid_steps;
+use crate::editor::view::hit::REACH;
+use crate::editor::view::viewport::Viewport;
+use crate::geometry::End;
+
+/// Screen points within which the grid attracts: less than vertices do.
+const GRID_REACH: f64 = 5.0;
+
+/// What goes along with a dragged point, and does not attract it.
+#[derive(Clone, Debug, Default)]
+pub struct Carried {
+    /// The vertices.
+    pub vertices: BTreeSet<VertexId>,
+    /// The target of a curve's end.
+    pub target: Option<(CurveId, End)>,
+}
+
+/// Find the point of the model that a dragged place of the view plane snaps to, or `None` if
+/// nothing is near.
+///
+/// What is carried along does not attract. Vertices, end points and targets come before the
+/// grid's minor crossings.
+pub fn snap(
+    place: DVec2,
+    document: &Document,
+    carried: &Carried,
+    viewport: &Viewport,
+) -> Option<DVec3> {
+    let reach = REACH * viewport.pixel();
+    let mut best: Option<(f64, DVec3)> = None;
+    let mut consider = |candidate: DVec3| {
+        let distance = viewport.flatten(candidate).distance(place);
+        if distance <= reach && best.is_none_or(|(nearest, _)| distance < nearest) {
+            best = Some((distance, candidate));
+        }
+    };
+    for (id, curve) in document.curves().filter(|(_, curve)| curve.visible) {
+        let polygon = &curve.polygon;
+        for (index, vertex) in polygon.vertices().iter().enumerate() {
+            let near = viewport.flatten(*vertex).distance(place) <= reach;
+            if near && !carried.vertices.contains(&(id, index)) {
+                consider(*vertex);
+            }
+        }
+        for end in End::BOTH {
+            if let Some(target) = curve.targets.get(end)
+                && carried.target != Some((id, end))
+            {
+                consider(target.point);
+            }
+            let feels = |index| carried.vertices.contains(&(id, index));
+            if !polygon.is_periodic() && !polygon.terminal_vertices(end).any(feels) {
+                consider(polygon.end_jet(end).point);
+            }
+        }
+    }
+    consider(DVec3::ZERO);
+    best.map(|(_, point)| point).or_else(|| {
+        // Only a view along an axis of the model shows the grid.
+        viewport.orientation.axes()?;
+        let (minor, _) = grid_steps(viewport);
+        let crossing = (place / minor).round() * minor;
+        let near = crossing.distance(place) <= GRID_REACH * viewport.pixel();
+        (near && crossing.is_finite()).then(|| viewport.grounded(crossing))
+    })
+}
+
+/// Constrain a movement to the nearer axis.
+pub fn along_axis(movement: DVec2) -> DVec2 {
+    if movement.x.abs() >= movement.y.abs() {
+        DVec2::new(movement.x, 0.0)
+    } else {
+        DVec2::new(0.0, movement.y)
+    }
+}
+
+/// Constrain an angle in radians to whole multiples of 15°.
+pub fn by_fifteen_degrees(angle: f64) -> f64 {
+    let step = 15f64.to_radians();
+    (angle / step).round() * step
+}

@@ -1,0 +1,458 @@
+//! Select and move: click, shift-click, box; drag one vertex or many; nudge with the arrows.
+
+use std::collections::BTreeSet;
+
+use glam::{DVec2, DVec3};
+
+use super::tool::{Context, Cursor, Effect, Tool, move_edits};
+use crate::document::{CurveId, Edit, quoted};
+use crate::editor::hand::gesture::Gesture;
+use crate::editor::hand::input::Key;
+use crate::editor::hand::selection::VertexId;
+use crate::editor::hand::snapping::{Carried, along_axis};
+use crate::editor::view::grid::grid_steps;
+use crate::editor::view::hit::{LegHit, REACH};
+use crate::editor::view::layers::Layer;
+use crate::editor::view::scene::Mark;
+use crate::geometry::{counted, figure};
+
+/// How near to a leg the pointer must be to take it, in screen points: less than to a vertex.
+const LEG_REACH: f64 = 0.5 * REACH;
+
+/// The smallest length of a comb's tooth, in screen points, that can be dragged by its tip.
+const SHORTEST_TOOTH: f64 = 4.0;
+
+/// The select tool's state.
+#[derive(Debug, Default)]
+pub struct SelectTool {
+    state: State,
+}
+
+#[derive(Debug, Default)]
+enum State {
+    #[default]
+    Idle,
+    /// Vertices are dragged.
+    Moving(Moving),
+    /// A vertex of the closed S-polygon is dragged.
+    MovingClamped(MovingClamped),
+    /// A box is drawn, by its corners on the canvas.
+    Boxing { from: DVec2, to: DVec2 },
+    /// The comb is scaled by the tip of a tooth.
+    Scaling { foot: DVec2, tip: DVec2, scale: f64 },
+}
+
+#[derive(Debug)]
+struct Moving {
+    origin: DVec2,
+    /// Where the vertex under the hand was seen.
+    held: DVec2,
+    vertices: Vec<(VertexId, DVec3)>,
+    carried: Carried,
+    /// The curves that lie in the plane z = 0.
+    planar: BTreeSet<CurveId>,
+    snap: Option<DVec2>,
+}
+
+impl Moving {
+    fn drag(&mut self, place: DVec2, context: &Context) -> Effect {
+        let (by, snap) = movement(self.origin, self.held, place, &self.carried, context);
+        self.snap = snap;
+        let places = self.vertices.iter().map(|(id, at)| {
+            let is_planar = self.planar.contains(&id.0);
+            (*id, *at + context.movement(by, is_planar))
+        });
+        Effect::Preview(move_edits(places))
+    }
+}
+
+#[derive(Debug)]
+struct MovingClamped {
+    origin: DVec2,
+    /// Where the vertex was.
+    held: DVec3,
+    vertex: VertexId,
+    planar: bool,
+}
+
+impl MovingClamped {
+    fn drag(&self, place: DVec2, context: &Context) -> Effect {
+        let seen = context.viewport.flatten(self.held);
+        let (by, _) = movement(self.origin, seen, place, &Carried::default(), context);
+        let to = self.held + context.movement(by, self.planar);
+        move_clamped(self.vertex, to, context)
+    }
+}
+
+impl Tool for SelectTool {
+    fn gesture(&mut self, gesture: Gesture, context: &Context) -> Vec<Effect> {
+        if let Gesture::Drag(place) = gesture {
+            return self.drag(place, context);
+        }
+        match (std::mem::take(&mut self.state), gesture) {
+            (State::Idle, Gesture::Click(place)) => click(place, context),
+            (State::Idle, Gesture::DoubleClick(place)) => double_click(place, context),
+            (State::Idle, Gesture::DragStart(place)) => self.start(place, context),
+            (State::Idle, Gesture::Key(key)) => nudge(key, context),
+            (State::Moving(_) | State::MovingClamped(_), Gesture::DragEnd(_)) => {
+                vec![Effect::Commit]
+            }
+            (State::Moving(_) | State::MovingClamped(_), Gesture::Cancel) => {
+                vec![Effect::Abort]
+            }
+            (State::Boxing { from, .. }, Gesture::DragEnd(to)) => {
+                let found = context.hits.vertices_in_box(from, to);
+                if context.modifiers.shift {
+                    vec![Effect::SelectMore(found)]
+                } else {
+                    vec![Effect::Select(found)]
+                }
+            }
+            (State::Scaling { scale, .. }, Gesture::Cancel) => {
+                let mut comb = context.comb;
+                comb.scale = scale;
+                vec![Effect::SetComb(comb)]
+            }
+            (_, Gesture::Cancel | Gesture::DragEnd(_)) => Vec::new(),
+            (state, _) => {
+                self.state = state;
+                Vec::new()
+            }
+        }
+    }
+
+    fn hint(&self, context: &Context) -> String {
+        match &self.state {
+            State::Moving(Moving { vertices, .. }) => format!(
+                "Moving {}: Shift keeps to an axis, X, Y, Z to the model's, Ctrl turns snapping {}, Alt shows before, Esc cancels",
+                counted(vertices.len(), "vertex", "vertices"),
+                if context.snapping { "off" } else { "on" },
+            ),
+            State::MovingClamped(MovingClamped { vertex, .. }) => format!(
+                "Moving vertex {} of the closed S-polygon: {}; Esc cancels",
+                vertex.1,
+                amplified(*vertex, context)
+            ),
+            State::Boxing { .. } => {
+                "Release to select what is in the box; Shift adds to the selection".into()
+            }
+            State::Scaling { .. } => "Drag the tip to scale the curvature comb".into(),
+            State::Idle => {
+                let selected = context.selection.vertices().len();
+                if selected > 0 && context.places(context.selection.vertices()).is_empty() {
+                    format!(
+                        "{} selected, of a locked curve: unlock it in the list of curves to edit",
+                        counted(selected, "vertex", "vertices")
+                    )
+                } else if selected > 0 {
+                    format!(
+                        "{} selected: drag, or nudge with the arrow keys (Shift ×10); Del deletes",
+                        counted(selected, "vertex", "vertices")
+                    )
+                } else if context.document.is_empty() {
+                    "Nothing here yet: draw a polygon with D, or open a file with Ctrl+O".into()
+                } else {
+                    "Drag a vertex to shape the curve; drag over empty space selects by a box"
+                        .into()
+                }
+            }
+        }
+    }
+
+    fn marks(&self, context: &Context) -> Vec<Mark> {
+        match &self.state {
+            State::Boxing { from, to } => {
+                vec![Mark::SelectionBox([
+                    context.model(*from),
+                    context.model(*to),
+                ])]
+            }
+            State::Moving(Moving {
+                snap: Some(snap), ..
+            }) => vec![Mark::Snap(*snap)],
+            _ => Vec::new(),
+        }
+    }
+
+    fn cursor(&self, context: &Context) -> Cursor {
+        let place = context
+            .pointer
+            .map(|pointer| context.viewport.to_screen(pointer));
+        match self.state {
+            State::Moving(_) | State::MovingClamped(_) | State::Scaling { .. } => Cursor::Move,
+            State::Idle if place.is_some_and(|place| takes_vertex(place, context)) => Cursor::Move,
+            _ => Cursor::Default,
+        }
+    }
+}
+
+impl SelectTool {
+    fn drag(&mut self, place: DVec2, context: &Context) -> Vec<Effect> {
+        match &mut self.state {
+            State::Idle => Vec::new(),
+            State::Moving(moving) => vec![moving.drag(place, context)],
+            State::MovingClamped(moving) => vec![moving.drag(place, context)],
+            State::Boxing { to, .. } => {
+                *to = place;
+                Vec::new()
+            }
+            State::Scaling { foot, tip, scale } => {
+                let arm = *tip - *foot;
+                let reach = (context.model(place) - *foot).dot(arm) / arm.length_squared();
+                let mut comb = context.comb;
+                comb.scale = *scale * reach.max(1e-3);
+                vec![Effect::SetComb(comb)]
+            }
+        }
+    }
+
+    fn start(&mut self, place: DVec2, context: &Context) -> Vec<Effect> {
+        if let Some(vertex) = context.hits.vertex(place) {
+            return self.start_moving(place, vertex, context);
+        }
+        if let Some(vertex) = context.hits.clamped_vertex(place) {
+            return self.start_moving_clamped(place, vertex, context);
+        }
+        if let Some(leg) = context.hits.leg(place, LEG_REACH) {
+            return self.start_moving_leg(place, leg, context);
+        }
+        if let Some(([foot, tip], scale)) = tooth(place, context) {
+            self.state = State::Scaling { foot, tip, scale };
+            return Vec::new();
+        }
+        self.state = State::Boxing {
+            from: place,
+            to: place,
+        };
+        Vec::new()
+    }
+
+    fn start_moving(&mut self, place: DVec2, hit: VertexId, context: &Context) -> Vec<Effect> {
+        let taken: Vec<VertexId> = if context.selection.contains(hit) {
+            context.selection.vertices().collect()
+        } else if context.modifiers.shift {
+            context.selection.vertices().chain([hit]).collect()
+        } else {
+            vec![hit]
+        };
+        let places = context.places([hit]);
+        let held = places.first();
+        let held = held.map(|(_, at)| context.viewport.flatten(*at));
+        let Some(held) = held else {
+            return vec![refused(hit.0, context)];
+        };
+        let label = format!("Move {}", counted(taken.len(), "vertex", "vertices"));
+        let mut effects = vec![Effect::Select(taken.clone()), Effect::Activate(hit.0)];
+        effects.extend(self.move_these(place, held, taken, &label, context));
+        effects
+    }
+
+    /// A leg moves as its two vertices do: they are selected, or all that is selected goes along
+    /// if both were.
+    fn start_moving_leg(&mut self, place: DVec2, leg: LegHit, context: &Context) -> Vec<Effect> {
+        let count = vertex_count(leg.curve, context).max(1);
+        let ends = [leg.index, (leg.index + 1) % count].map(|index| (leg.curve, index));
+        if context.places(ends).is_empty() {
+            return vec![refused(leg.curve, context)];
+        }
+        let (taken, label) = if ends.iter().all(|end| context.selection.contains(*end)) {
+            let taken: Vec<VertexId> = context.selection.vertices().collect();
+            let label = format!("Move {}", counted(taken.len(), "vertex", "vertices"));
+            (taken, label)
+        } else {
+            (ends.into(), "Move leg".to_owned())
+        };
+        let mut effects = vec![Effect::Select(taken.clone()), Effect::Activate(leg.curve)];
+        effects.extend(self.move_these(place, leg.point, taken, &label, context));
+        effects
+    }
+
+    fn start_moving_clamped(
+        &mut self,
+        place: DVec2,
+        vertex: VertexId,
+        context: &Context,
+    ) -> Vec<Effect> {
+        let (id, index) = vertex;
+        let analysis = context.hits.analyses.peek(id);
+        let held = analysis.and_then(|analysis| analysis.clamped_vertices().get(index));
+        let (Some(held), Some(curve)) = (held, context.before.curve(id)) else {
+            return Vec::new();
+        };
+        if curve.check_editable().is_err() {
+            return vec![refused(id, context)];
+        }
+        self.state = State::MovingClamped(MovingClamped {
+            origin: context.model(place),
+            held: *held,
+            vertex,
+            planar: curve.polygon.is_planar(),
+        });
+        let label = format!("Move vertex {index} of closed S-polygon");
+        vec![Effect::Select(Vec::new()), Effect::Begin(label)]
+    }
+
+    fn move_these(
+        &mut self,
+        place: DVec2,
+        held: DVec2,
+        taken: Vec<VertexId>,
+        label: &str,
+        context: &Context,
+    ) -> Vec<Effect> {
+        let vertices = context.places(taken.iter().copied());
+        self.state = State::Moving(Moving {
+            origin: context.model(place),
+            held,
+            carried: Carried {
+                vertices: taken.into_iter().collect(),
+                target: None,
+            },
+            planar: context.planar_curves(&vertices),
+            vertices,
+            snap: None,
+        });
+        vec![Effect::Begin(label.to_owned())]
+    }
+}
+
+fn takes_vertex(place: DVec2, context: &Context) -> bool {
+    context.hits.vertex(place).is_some() || context.hits.clamped_vertex(place).is_some()
+}
+
+/// Put a vertex of the closed S-polygon somewhere else: the float S-polygon follows.
+fn move_clamped((id, index): VertexId, place: DVec3, context: &Context) -> Effect {
+    let Some(curve) = context.before.curve(id) else {
+        return Effect::Preview(Vec::new());
+    };
+    match curve.polygon.with_clamped_vertex(index, place) {
+        Ok(polygon) => Effect::Preview(vec![Edit::SetPolygon { curve: id, polygon }]),
+        Err(error) => Effect::Say(format!("{}: {error}", quoted(&curve.name))),
+    }
+}
+
+/// Say how much a move of a vertex of the closed S-polygon is amplified.
+fn amplified((id, index): VertexId, context: &Context) -> String {
+    let curve = context.document.curve(id);
+    let times = curve.and_then(|curve| curve.polygon.clamped_vertex_amplification(index));
+    times.map_or(String::new(), |times| {
+        format!(
+            "the float S-polygon moves up to {} times as far",
+            figure(times)
+        )
+    })
+}
+
+fn vertex_count(curve: CurveId, context: &Context) -> usize {
+    let curve = context.document.curve(curve);
+    curve.map_or(0, |curve| curve.polygon.vertices().len())
+}
+
+/// Say why a curve cannot be edited.
+fn refused(curve: CurveId, context: &Context) -> Effect {
+    let found = context
+        .document
+        .curve(curve)
+        .map(|curve| curve.check_editable());
+    let refused = found.and_then(Result::err);
+    Effect::Say(refused.map_or_else(String::new, |refused| refused.to_string()))
+}
+
+fn click(place: DVec2, context: &Context) -> Vec<Effect> {
+    if let Some(vertex) = context.hits.vertex(place) {
+        return vec![if context.modifiers.shift {
+            Effect::ToggleSelected(vertex)
+        } else {
+            Effect::Select(vec![vertex])
+        }];
+    }
+    let curve = context.hits.curve(place).map(|hit| hit.curve);
+    let curve = curve.or_else(|| context.hits.leg(place, LEG_REACH).map(|hit| hit.curve));
+    match curve {
+        // Shift keeps what is selected, and no other curve's vertices than the active one's are.
+        Some(_) if context.modifiers.shift && !context.selection.is_empty() => Vec::new(),
+        Some(curve) => vec![Effect::Select(Vec::new()), Effect::Activate(curve)],
+        None if context.modifiers.shift => Vec::new(),
+        None => vec![Effect::Select(Vec::new())],
+    }
+}
+
+fn double_click(place: DVec2, context: &Context) -> Vec<Effect> {
+    if context.hits.vertex(place).is_some() {
+        return Vec::new();
+    }
+    match context.hits.curve(place) {
+        Some(hit) => {
+            let all = (0..vertex_count(hit.curve, context)).map(|index| (hit.curve, index));
+            vec![Effect::Activate(hit.curve), Effect::Select(all.collect())]
+        }
+        None => vec![Effect::FitAll],
+    }
+}
+
+/// How far the vertices move, and the place that the held one snaps to.
+fn movement(
+    origin: DVec2,
+    held: DVec2,
+    place: DVec2,
+    carried: &Carried,
+    context: &Context,
+) -> (DVec2, Option<DVec2>) {
+    let free = context.model(place) - origin;
+    if context.axis.is_some() {
+        return (free, None);
+    }
+    if context.modifiers.shift {
+        return (along_axis(free), None);
+    }
+    let wanted = held + free;
+    let snapped = context.snapped(wanted, carried);
+    let snap = (snapped != wanted).then_some(snapped);
+    (snap.map_or(free, |snap| snap - held), snap)
+}
+
+/// Find the tooth of the comb whose tip is under a place. Beside a vertex it was the vertex that
+/// was aimed at.
+fn tooth(place: DVec2, context: &Context) -> Option<([DVec2; 2], f64)> {
+    if !context.hits.layers.shows(Layer::Comb) || context.hits.is_beside_vertex(place) {
+        return None;
+    }
+    let distance = |tooth: &[DVec2; 2]| context.viewport.to_screen(tooth[1]).distance(place);
+    let long = |tooth: &&[DVec2; 2]| {
+        tooth[0].distance(tooth[1]) > SHORTEST_TOOTH * context.viewport.pixel()
+    };
+    let teeth = context.teeth.iter().filter(long);
+    let nearest = teeth.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+    (distance(nearest) <= REACH).then_some((*nearest, context.comb.scale))
+}
+
+/// Move the selection by an arrow key: a tenth of the grid's minor step, or all of it with Shift.
+fn nudge(key: Key, context: &Context) -> Vec<Effect> {
+    let direction = match key {
+        Key::Left => DVec2::NEG_X,
+        Key::Right => DVec2::X,
+        Key::Up => DVec2::Y,
+        Key::Down => DVec2::NEG_Y,
+        Key::Escape => return vec![Effect::Select(Vec::new())],
+        _ => return Vec::new(),
+    };
+    let (minor, _) = grid_steps(context.viewport);
+    let step = if context.modifiers.shift {
+        minor
+    } else {
+        0.1 * minor
+    };
+    let vertices = context.places(context.selection.vertices());
+    let planar = context.planar_curves(&vertices);
+    if vertices.is_empty() {
+        let first = context.selection.vertices().next();
+        let refused = first.map(|id| refused(id.0, context));
+        return refused.into_iter().collect();
+    }
+    let label = format!("Nudge {}", counted(vertices.len(), "vertex", "vertices"));
+    let places = vertices.iter().map(|(id, at)| {
+        let by = context.movement(direction * step, planar.contains(&id.0));
+        (*id, *at + by)
+    });
+    vec![Effect::Apply(label, move_edits(places))]
+}

@@ -1,0 +1,213 @@
+//! What every tool is: a state machine from gestures to effects.
+
+use std::collections::BTreeSet;
+
+use glam::{DVec2, DVec3};
+
+use crate::analysis::CombSettings;
+use crate::document::{CurveId, Document, Edit};
+use crate::editor::hand::end_fit::{EndFitAction, EndFitState};
+use crate::editor::hand::gesture::Gesture;
+use crate::editor::hand::input::Modifiers;
+use crate::editor::hand::selection::{Selection, VertexId};
+use crate::editor::hand::snapping::{self, Carried};
+use crate::editor::view::hit::HitTest;
+use crate::editor::view::scene::Mark;
+use crate::editor::view::viewport::Viewport;
+
+/// What a tool may look at. It changes nothing itself: it returns [`Effect`]s.
+pub struct Context<'a> {
+    /// The document, a running gesture's preview included.
+    pub document: &'a Document,
+    /// The document as it was when the running gesture began.
+    pub before: &'a Document,
+    /// What is selected.
+    pub selection: &'a Selection,
+    /// How the model is mapped to the canvas.
+    pub viewport: &'a Viewport,
+    /// What lies where.
+    pub hits: HitTest<'a>,
+    /// The modifier keys that are held.
+    pub modifiers: Modifiers,
+    /// The axis of the model (0 x, 1 y, 2 z) whose key is held: drags keep to it.
+    pub axis: Option<usize>,
+    /// Whether snapping is on; Ctrl turns it round.
+    pub snapping: bool,
+    /// The comb's settings.
+    pub comb: CombSettings,
+    /// The teeth of the active curve's comb, if it is shown.
+    pub teeth: &'a [[DVec2; 2]],
+    /// The state of the end-fit tool.
+    pub end_fit: &'a EndFitState,
+    /// Where the pointer is, in the view plane.
+    pub pointer: Option<DVec2>,
+}
+
+/// What a tool wants done.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Effect {
+    /// Begin a gesture with this label.
+    Begin(String),
+    /// Show what these edits make of the document that the gesture began with.
+    Preview(Vec<Edit>),
+    /// End the gesture and keep it as one step.
+    Commit,
+    /// End the gesture and restore.
+    Abort,
+    /// Make edits as one step.
+    Apply(String, Vec<Edit>),
+    /// Select just these vertices.
+    Select(Vec<VertexId>),
+    /// Select these vertices too.
+    SelectMore(Vec<VertexId>),
+    /// Turn round whether a vertex is selected.
+    ToggleSelected(VertexId),
+    /// Make a curve the active one.
+    Activate(CurveId),
+    /// Change how the comb is drawn.
+    SetComb(CombSettings),
+    /// Show everything.
+    FitAll,
+    /// Tell the user something.
+    Say(String),
+    /// Take the select tool.
+    Finish,
+    /// Do what the end-fit panel could ask for too.
+    EndFit(EndFitAction),
+}
+
+/// A tool in the hand.
+pub trait Tool: std::fmt::Debug + Send {
+    /// Take a gesture and tell what it does.
+    fn gesture(&mut self, gesture: Gesture, context: &Context) -> Vec<Effect>;
+
+    /// Say what the mouse will do now, in a sentence.
+    fn hint(&self, context: &Context) -> String;
+
+    /// Draw what the tool shows besides the document.
+    fn marks(&self, _context: &Context) -> Vec<Mark> {
+        Vec::new()
+    }
+
+    /// The shape of the pointer while it rests here.
+    fn cursor(&self, _context: &Context) -> Cursor {
+        Cursor::Crosshair
+    }
+
+    /// What undo takes back before it takes back a step of the document: the last point of what
+    /// is not finished.
+    fn undo_label(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// Take back the last point of what is not finished.
+    fn undo(&mut self) {}
+
+    /// The pivot, of a tool that has one.
+    fn pivot(&self, _context: &Context) -> Option<DVec2> {
+        None
+    }
+
+    /// Put the pivot somewhere, or let it follow the selection again.
+    fn set_pivot(&mut self, _pivot: Option<DVec2>) {}
+}
+
+/// A shape of the pointer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Cursor {
+    /// The arrow.
+    #[default]
+    Default,
+    /// An open hand: a press would push the view.
+    Grab,
+    /// A closed hand.
+    Grabbing,
+    /// A cross: a click sets a point.
+    Crosshair,
+    /// Four arrows: a drag moves what is here.
+    Move,
+}
+
+impl Context<'_> {
+    /// The movement in space of what is pushed by a vector of the view plane: along the axis
+    /// whose key is held; otherwise within the view plane or, for a planar curve in a view turned
+    /// against the model, within the curve's plane.
+    pub fn movement(&self, by: DVec2, planar: bool) -> DVec3 {
+        match self.axis {
+            Some(axis) => self.viewport.movement_along(axis, by),
+            None => self.viewport.movement(by, planar),
+        }
+    }
+
+    /// The curves, of those that some vertices belong to, that lie in the plane z = 0.
+    pub fn planar_curves(&self, vertices: &[(VertexId, DVec3)]) -> BTreeSet<CurveId> {
+        let curves: BTreeSet<CurveId> = vertices.iter().map(|((curve, _), _)| *curve).collect();
+        let is_planar = |id: &CurveId| {
+            let curve = self.before.curve(*id);
+            curve.is_some_and(|curve| curve.polygon.is_planar())
+        };
+        curves.into_iter().filter(is_planar).collect()
+    }
+
+    /// Map a place on the canvas to the view plane.
+    pub fn model(&self, place: DVec2) -> DVec2 {
+        self.viewport.to_model(place)
+    }
+
+    /// Let a place of the view plane snap, if snapping is on and something is near.
+    pub fn snapped(&self, place: DVec2, carried: &Carried) -> DVec2 {
+        let point = self.snapped_point(place, carried);
+        point.map_or(place, |point| self.viewport.flatten(point))
+    }
+
+    /// The point of the model that a place of the view plane snaps to, if snapping is on and
+    /// something is near.
+    pub fn snapped_point(&self, place: DVec2, carried: &Carried) -> Option<DVec3> {
+        let snaps = self.snapping != self.modifiers.ctrl;
+        let near = || snapping::snap(place, self.before, carried, self.viewport);
+        snaps.then(near).flatten()
+    }
+
+    /// The vertices that a transformation takes: the selected ones that can be moved, or all of
+    /// the active curve if none is selected. What is hidden is left out.
+    pub fn transformed(&self) -> Vec<(VertexId, DVec3)> {
+        let chosen: Vec<VertexId> = if self.selection.is_empty() {
+            let active = self
+                .selection
+                .active()
+                .and_then(|id| Some((id, self.before.curve(id)?)));
+            let all = active.into_iter().flat_map(|(id, curve)| {
+                (0..curve.polygon.vertices().len()).map(move |index| (id, index))
+            });
+            all.collect()
+        } else {
+            self.selection.vertices().collect()
+        };
+        self.places(chosen)
+    }
+
+    /// Look up where vertices were when the gesture began; those of locked and of hidden curves
+    /// are left out.
+    pub fn places(&self, vertices: impl IntoIterator<Item = VertexId>) -> Vec<(VertexId, DVec3)> {
+        let place = |(curve, index): VertexId| {
+            let found = self.before.curve(curve)?;
+            found.check_editable().ok()?;
+            let vertex = found.polygon.vertices().get(index)?;
+            Some(((curve, index), *vertex))
+        };
+        vertices.into_iter().filter_map(place).collect()
+    }
+}
+
+/// Turn moved vertices into edits, one a curve.
+pub fn move_edits(moved: impl IntoIterator<Item = (VertexId, DVec3)>) -> Vec<Edit> {
+    let mut edits: Vec<(CurveId, Vec<(usize, DVec3)>)> = Vec::new();
+    for ((curve, index), place) in moved {
+        match edits.iter_mut().find(|(other, _)| *other == curve) {
+            Some((_, moves)) => moves.push((index, place)),
+            None => edits.push((curve, vec![(index, place)])),
+        }
+    }
+    let edit = |(curve, moves)| Edit::MoveVertices { curve, moves };
+    edits.into_iter().map(edit).collect()
+}

@@ -1,0 +1,261 @@
+//! Rotate and scale the selection about a movable pivot.
+
+use glam::{DVec2, DVec3};
+
+use super::tool::{Context, Effect, Tool, move_edits};
+use crate::analysis::Bounds;
+use crate::editor::hand::gesture::Gesture;
+use crate::editor::hand::input::Key;
+use crate::editor::hand::selection::VertexId;
+use crate::editor::hand::snapping::{Carried, by_fifteen_degrees};
+use crate::editor::view::hit::REACH;
+use crate::editor::view::scene::Mark;
+use crate::editor::view::viewport::Viewport;
+use crate::geometry::counted;
+
+/// What is said where there is nothing to rotate or scale.
+pub const NOTHING_TO_TRANSFORM: &str =
+    "Nothing to transform: select vertices, or a curve that is neither locked nor hidden";
+
+/// What a drag does to the vertices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Transform {
+    /// Turn them about the pivot.
+    Rotate,
+    /// Scale them about the pivot.
+    Scale,
+}
+
+/// The rotate or the scale tool's state.
+#[derive(Debug)]
+pub struct TransformTool {
+    transform: Transform,
+    /// Where the user has put the pivot; `None` while it follows the selection.
+    pivot: Option<DVec2>,
+    state: State,
+}
+
+#[derive(Debug, Default)]
+enum State {
+    #[default]
+    Idle,
+    MovingPivot {
+        before: Option<DVec2>,
+    },
+    Turning {
+        pivot: DVec2,
+        origin: DVec2,
+        vertices: Vec<(VertexId, DVec3)>,
+        now: DVec2,
+        label: String,
+    },
+}
+
+impl TransformTool {
+    /// Take a tool that rotates or scales.
+    pub fn new(transform: Transform) -> Self {
+        Self {
+            transform,
+            pivot: None,
+            state: State::Idle,
+        }
+    }
+
+    fn start(&mut self, place: DVec2, context: &Context) -> Vec<Effect> {
+        let vertices = context.transformed();
+        let Some(pivot) = self.pivot(context) else {
+            return vec![Effect::Say(NOTHING_TO_TRANSFORM.into())];
+        };
+        let from_pivot = context.viewport.to_screen(pivot).distance(place);
+        if from_pivot <= REACH {
+            self.state = State::MovingPivot { before: self.pivot };
+            return Vec::new();
+        }
+        let verb = match self.transform {
+            Transform::Rotate => "Rotate",
+            Transform::Scale => "Scale",
+        };
+        let label = format!("{verb} {}", counted(vertices.len(), "vertex", "vertices"));
+        let origin = context.model(place);
+        self.state = State::Turning {
+            pivot,
+            origin,
+            vertices,
+            now: origin,
+            label: String::new(),
+        };
+        vec![Effect::Begin(label)]
+    }
+
+    /// What the drag from `origin` to `now` does, with a label of it.
+    fn action(
+        &self,
+        pivot: DVec2,
+        origin: DVec2,
+        now: DVec2,
+        context: &Context,
+    ) -> (Action, String) {
+        let (from, to) = (origin - pivot, now - pivot);
+        match self.transform {
+            Transform::Rotate => {
+                let free = from.angle_to(to);
+                let angle = if context.modifiers.shift {
+                    by_fifteen_degrees(free)
+                } else {
+                    free
+                };
+                (Action::Rotate(angle), format!("{:.2}°", angle.to_degrees()))
+            }
+            Transform::Scale => {
+                let free = to.length() / from.length();
+                let factor = if context.modifiers.shift {
+                    (free * 10.0).round().max(1.0) / 10.0
+                } else {
+                    free
+                };
+                (Action::Scale(factor), format!("× {factor:.3}"))
+            }
+        }
+    }
+}
+
+/// A transformation about a pivot, as it is dragged or typed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Action {
+    /// Turn by an angle in radians, counterclockwise as it is seen.
+    Rotate(f64),
+    /// Scale by a factor, in all directions.
+    Scale(f64),
+}
+
+impl Action {
+    /// Carry one vertex along, about a pivot of the view plane: turned in the view plane, or
+    /// scaled about the pivot's place on the ground.
+    pub fn apply(self, pivot: DVec2, vertex: DVec3, viewport: &Viewport) -> DVec3 {
+        match self {
+            Self::Rotate(angle) => {
+                let arm = viewport.flatten(vertex) - pivot;
+                let turned = pivot + DVec2::from_angle(angle).rotate(arm);
+                viewport.orientation.point_at(turned, vertex)
+            }
+            Self::Scale(factor) => {
+                let pivot = viewport.grounded(pivot);
+                pivot + factor * (vertex - pivot)
+            }
+        }
+    }
+}
+
+impl Tool for TransformTool {
+    fn gesture(&mut self, gesture: Gesture, context: &Context) -> Vec<Effect> {
+        match (std::mem::take(&mut self.state), gesture) {
+            (State::Idle, Gesture::DragStart(place)) => self.start(place, context),
+            (State::Idle, Gesture::Click(place)) => match context.hits.vertex(place) {
+                Some(vertex) if context.modifiers.shift => vec![Effect::ToggleSelected(vertex)],
+                Some(vertex) => vec![Effect::Select(vec![vertex])],
+                None => Vec::new(),
+            },
+            (State::Idle, Gesture::DoubleClick(_)) => {
+                self.pivot = None;
+                Vec::new()
+            }
+            (State::Idle, Gesture::Key(Key::Escape)) => vec![Effect::Finish],
+            (State::MovingPivot { before }, Gesture::Drag(place)) => {
+                self.pivot = Some(context.snapped(context.model(place), &Carried::default()));
+                self.state = State::MovingPivot { before };
+                Vec::new()
+            }
+            (State::MovingPivot { before }, Gesture::Cancel) => {
+                self.pivot = before;
+                Vec::new()
+            }
+            (
+                State::Turning {
+                    pivot,
+                    origin,
+                    vertices,
+                    ..
+                },
+                Gesture::Drag(place),
+            ) => {
+                let now = context.model(place);
+                let (action, label) = self.action(pivot, origin, now, context);
+                let moved = vertices
+                    .iter()
+                    .map(|(id, at)| (*id, action.apply(pivot, *at, context.viewport)));
+                let effects = vec![Effect::Preview(move_edits(moved))];
+                self.state = State::Turning {
+                    pivot,
+                    origin,
+                    vertices,
+                    now,
+                    label,
+                };
+                effects
+            }
+            (State::Turning { .. }, Gesture::DragEnd(_)) => vec![Effect::Commit],
+            (State::Turning { .. }, Gesture::Cancel) => vec![Effect::Abort],
+            (State::MovingPivot { .. }, Gesture::DragEnd(_)) => Vec::new(),
+            (state, _) => {
+                self.state = state;
+                Vec::new()
+            }
+        }
+    }
+
+    fn hint(&self, context: &Context) -> String {
+        let verb = match self.transform {
+            Transform::Rotate => "rotate",
+            Transform::Scale => "scale",
+        };
+        match self.state {
+            State::Turning { .. } if self.transform == Transform::Rotate => {
+                "Shift keeps to 15°, Alt shows before, Esc cancels".into()
+            }
+            State::Turning { .. } => "Shift keeps to tenths, Alt shows before, Esc cancels".into(),
+            State::MovingPivot { .. } => "Release to leave the pivot here".into(),
+            State::Idle if context.transformed().is_empty() => {
+                format!("Select vertices or a curve to {verb}; Esc ends")
+            }
+            State::Idle => {
+                format!(
+                    "Drag to {verb} about the pivot; drag the pivot itself to move it, double-click to centre it; Esc ends"
+                )
+            }
+        }
+    }
+
+    fn marks(&self, context: &Context) -> Vec<Mark> {
+        if let State::Turning {
+            pivot,
+            origin,
+            now,
+            label,
+            ..
+        } = &self.state
+        {
+            return vec![
+                Mark::Guide([*pivot, *origin]),
+                Mark::Arm([*pivot, *now]),
+                Mark::Pivot(*pivot),
+                Mark::Label(*now, label.clone()),
+            ];
+        }
+        self.pivot(context).map(Mark::Pivot).into_iter().collect()
+    }
+
+    fn set_pivot(&mut self, pivot: Option<DVec2>) {
+        self.pivot = pivot;
+    }
+
+    fn pivot(&self, context: &Context) -> Option<DVec2> {
+        if let Some(pivot) = self.pivot {
+            return Some(pivot);
+        }
+        let mut bounds = Bounds::EMPTY;
+        for (_, vertex) in context.transformed() {
+            bounds.add(context.viewport.flatten(vertex));
+        }
+        (!bounds.is_empty()).then(|| 0.5 * (bounds.low + bounds.high))
+    }
+}

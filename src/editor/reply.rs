@@ -1,0 +1,102 @@
+//! What something that was asked for came to, and the message on screen that says so.
+
+use thiserror::Error;
+
+use crate::document::EditError;
+use crate::io::FileError;
+
+/// What something that was asked for came to.
+pub type Reply = Result<Note, Refusal>;
+
+/// Leave a reply to the message on screen, which tells it: there is nothing more to do about it.
+pub fn told<T>(_: Result<T, Refusal>) {}
+
+/// What there is to tell of something that was done.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Note {
+    /// The text; empty if there is nothing to tell.
+    pub text: String,
+    /// Whether it tells of a step that can be undone on the spot.
+    pub offers_undo: bool,
+}
+
+impl Note {
+    /// There is nothing to tell.
+    pub fn silent() -> Self {
+        Self::default()
+    }
+
+    /// Tell something.
+    pub fn told(text: impl Into<String>) -> Self {
+        Self {
+            text: text.into(),
+            offers_undo: false,
+        }
+    }
+
+    /// Tell of the step that was just made, with the offer to undo it.
+    pub fn done(text: impl Into<String>) -> Self {
+        Self {
+            text: text.into(),
+            offers_undo: true,
+        }
+    }
+}
+
+/// Why something that was asked for was not done, in words; nothing is changed then.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("{0}")]
+pub struct Refusal(pub String);
+
+impl From<String> for Refusal {
+    fn from(text: String) -> Self {
+        Self(text)
+    }
+}
+
+impl From<&str> for Refusal {
+    fn from(text: &str) -> Self {
+        Self(text.to_owned())
+    }
+}
+
+impl From<EditError> for Refusal {
+    fn from(error: EditError) -> Self {
+        Self(error.to_string())
+    }
+}
+
+impl From<FileError> for Refusal {
+    fn from(error: FileError) -> Self {
+        Self(error.to_string())
+    }
+}
+
+/// A message to the user, shown until the next action.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Message {
+    /// The text.
+    pub text: String,
+    /// Whether something failed.
+    pub is_error: bool,
+    /// Whether it tells of a step that can be undone on the spot.
+    pub offers_undo: bool,
+    /// Whether it tells of an update of the preview: the next one that succeeds takes it away.
+    pub(in crate::editor) of_update: bool,
+}
+
+impl Message {
+    /// The message that tells of a reply, if there is anything to tell.
+    pub(in crate::editor) fn of(reply: &Reply) -> Option<Self> {
+        let (text, is_error, offers_undo) = match reply {
+            Ok(note) => (note.text.clone(), false, note.offers_undo),
+            Err(Refusal(reason)) => (reason.clone(), true, false),
+        };
+        (!text.is_empty()).then_some(Self {
+            text,
+            is_error,
+            offers_undo,
+            of_update: false,
+        })
+    }
+}

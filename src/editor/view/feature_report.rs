@@ -1,0 +1,278 @@
+//! The proved features of the active curve: for the list, for the canvas, and to go to.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+
+use crate::analysis::{Bounds, Orientation, ViewBox};
+use crate::editor::Editor;
+use crate::editor::view::layers::Layer;
+use crate::geometry::FloatPolygon;
+use crate::geometry::features::{
+    Extremum, ExtremumKind, Features, Quantity, Root, Trend, TrendPiece, Verdict,
+};
+
+/// How much of a segment is shown around a feature, on either side.
+const SURROUNDINGS: f64 = 0.6;
+
+/// Marks nearer together than this, in screen points, are thinned out.
+const MARK_SPACING: f64 = 9.0;
+
+/// A kind of feature.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FeatureKind {
+    /// The curvature of a planar curve changes its sign.
+    Inflection,
+    /// The curvature is greatest.
+    CurvatureMaximum,
+    /// The curvature is least.
+    CurvatureMinimum,
+    /// The torsion changes its sign.
+    TorsionZero,
+    /// The torsion is greatest.
+    TorsionMaximum,
+    /// The torsion is least.
+    TorsionMinimum,
+    /// The tangent vanishes, or may vanish.
+    Cusp,
+    /// Something may lie here that could not be counted.
+    Undecided,
+}
+
+impl FeatureKind {
+    /// What the feature is called on screen.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Inflection => "Inflection",
+            Self::CurvatureMaximum => "Curvature maximum",
+            Self::CurvatureMinimum => "Curvature minimum",
+            Self::TorsionZero => "Torsion zero",
+            Self::TorsionMaximum => "Torsion maximum",
+            Self::TorsionMinimum => "Torsion minimum",
+            Self::Cusp => "Cusp",
+            Self::Undecided => "Undecided",
+        }
+    }
+}
+
+/// One feature, as the list shows it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FeatureRow {
+    /// What it is.
+    pub kind: FeatureKind,
+    /// The interval of u that holds it.
+    pub u: [f64; 2],
+    /// How many features the interval holds: 1 unless they are too close to tell apart.
+    pub count: usize,
+    /// Bounds of the curvature or torsion of an extremum.
+    pub value: Option<[f64; 2]>,
+    /// What is not decided, or what is not proved of a cusp, in words.
+    pub remark: &'static str,
+    /// The parameter in the middle of the interval, within the domain.
+    pub middle: f64,
+    /// The point there.
+    pub point: DVec3,
+}
+
+/// The features of the active curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FeatureReport {
+    /// Whether the curvature is proved to be monotone.
+    pub monotone: Verdict,
+    /// Whether it is proved to be constant, as on a line or a circle.
+    pub constant: bool,
+    /// Whether there are pieces on which curvature extrema could not be counted.
+    pub has_doubts: bool,
+    /// Whether the curve is of degree 1: its corners have no curvature.
+    pub polyline: bool,
+    /// The features in the order of u.
+    pub rows: Vec<FeatureRow>,
+}
+
+impl FeatureReport {
+    /// How many features of a kind there are.
+    pub fn count(&self, kinds: &[FeatureKind]) -> usize {
+        let fits = |row: &&FeatureRow| kinds.contains(&row.kind);
+        self.rows.iter().filter(fits).map(|row| row.count).sum()
+    }
+
+    fn of(features: &Features, polygon: &FloatPolygon) -> Self {
+        let last = polygon.segments() as f64;
+        let row = |kind, u: [f64; 2]| {
+            let middle = 0.5 * (u[0] + u[1]);
+            // On a periodic curve it may lie behind the joint.
+            let middle = if middle > last { middle - last } else { middle };
+            FeatureRow {
+                kind,
+                u,
+                count: 1,
+                value: None,
+                remark: "",
+                middle,
+                point: polygon.point(middle),
+            }
+        };
+        let zero = |kind, root: &Root| FeatureRow {
+            count: root.count,
+            ..row(kind, root.u)
+        };
+        let inflections = features.inflections.iter();
+        let torsion_zeros = features.torsion_zeros.iter();
+        let curvature = features.curvature_extrema.iter();
+        let torsion = features.torsion_extrema.iter();
+        let extremum = |[maximum, minimum]: [FeatureKind; 2]| {
+            move |extremum: &Extremum| {
+                let kind = match extremum.kind {
+                    ExtremumKind::Maximum => maximum,
+                    ExtremumKind::Minimum => minimum,
+                };
+                FeatureRow {
+                    count: extremum.count,
+                    value: Some(extremum.value),
+                    ..row(kind, extremum.u)
+                }
+            }
+        };
+        let extrema = curvature
+            .map(extremum([
+                FeatureKind::CurvatureMaximum,
+                FeatureKind::CurvatureMinimum,
+            ]))
+            .chain(torsion.map(extremum([
+                FeatureKind::TorsionMaximum,
+                FeatureKind::TorsionMinimum,
+            ])));
+        let mut rows: Vec<FeatureRow> = Vec::new();
+        rows.extend(inflections.map(|root| zero(FeatureKind::Inflection, root)));
+        rows.extend(torsion_zeros.map(|root| zero(FeatureKind::TorsionZero, root)));
+        rows.extend(extrema);
+        rows.extend(features.cusps.iter().map(|cusp| FeatureRow {
+            remark: if cusp.proved { "" } else { "cusp?" },
+            ..row(FeatureKind::Cusp, cusp.u)
+        }));
+        rows.extend(features.undecided.iter().map(|doubt| FeatureRow {
+            remark: doubtful(doubt.quantity),
+            ..row(FeatureKind::Undecided, doubt.u)
+        }));
+        rows.sort_by(|a, b| a.u[0].total_cmp(&b.u[0]));
+        let mut trends = features.trends.iter();
+        let is_constant = |piece: &TrendPiece| piece.trend == Trend::Constant;
+        let mut doubts = features.undecided.iter();
+        Self {
+            monotone: features.monotone,
+            constant: features.monotone == Verdict::Proved && trends.all(is_constant),
+            has_doubts: doubts.any(|doubt| doubt.quantity == Quantity::CurvatureExtremum),
+            polyline: polygon.degree() == 1,
+            rows,
+        }
+    }
+}
+
+/// Name what could not be counted.
+fn doubtful(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Inflection => "inflections?",
+        Quantity::CurvatureExtremum => "κ extrema?",
+        Quantity::TorsionZero => "τ zeros?",
+        Quantity::TorsionExtremum => "τ extrema?",
+    }
+}
+
+/// A feature as it is marked on the canvas.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FeatureMark {
+    /// What it is.
+    pub kind: FeatureKind,
+    /// Where it is.
+    pub at: DVec2,
+    /// The parameter.
+    pub u: f64,
+}
+
+impl Editor {
+    /// Go on proving the features of the active curve, and return them once all are known: of a
+    /// long curve after some calls.
+    pub fn features(&mut self) -> Option<Arc<FeatureReport>> {
+        self.analyses.update(self.workspace.document());
+        self.analyses.get(self.hand.selection.active()?)?.features();
+        self.known_features()
+    }
+
+    /// The features of the active curve, if all are known.
+    pub fn known_features(&mut self) -> Option<Arc<FeatureReport>> {
+        self.analyses.update(self.workspace.document());
+        let analysis = self.analyses.get(self.hand.selection.active()?)?;
+        let curve = analysis.curve().clone();
+        match &self.view.features {
+            Some((known, report)) if Arc::ptr_eq(known, &curve) => Some(report.clone()),
+            _ => {
+                let report = FeatureReport::of(analysis.known_features()?, &curve.polygon);
+                let report = Arc::new(report);
+                self.view.features = Some((curve, report.clone()));
+                Some(report)
+            }
+        }
+    }
+
+    /// The share of the active curve whose features are known.
+    pub fn proof_progress(&self) -> Option<f64> {
+        Some(
+            self.analyses
+                .peek(self.hand.selection.active()?)?
+                .proof_progress(),
+        )
+    }
+
+    /// Show the surroundings of a parameter of the active curve, and the layer of its features.
+    pub fn go_to(&mut self, u: f64) {
+        let Some((_, curve)) = self.active_curve() else {
+            return;
+        };
+        let last = curve.polygon.segments() as f64;
+        let u = u.clamp(0.0, last);
+        let jet = curve.polygon.jet(u);
+        let reach = SURROUNDINGS * jet.speed();
+        let at = self.view.viewport.flatten(jet.point);
+        let mut bounds = Bounds::EMPTY;
+        bounds.add(at - reach);
+        bounds.add(at + reach);
+        self.view.viewport = self.view.viewport.fitted(&bounds);
+        self.view.layers.set(Layer::Features, true);
+        self.view.layers.set(Layer::Curve, true);
+    }
+
+    /// The mark of a feature under a place on the canvas.
+    pub(in crate::editor) fn feature_mark(&self, place: DVec2, reach: f64) -> Option<FeatureMark> {
+        let active = self.view.scene.curves.iter().find(|curve| curve.active)?;
+        let distance = |mark: &&FeatureMark| self.view.viewport.to_screen(mark.at).distance(place);
+        let near = active
+            .features
+            .iter()
+            .filter(|mark| distance(mark) <= reach);
+        near.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+            .copied()
+    }
+}
+
+/// Append the marks of features that are visible, unless they crowd.
+pub(in crate::editor) fn append_marks(
+    report: &FeatureReport,
+    orientation: &Orientation,
+    view: &ViewBox,
+    out: &mut Vec<FeatureMark>,
+) {
+    let mut kept: Option<DVec2> = None;
+    for row in &report.rows {
+        let at = orientation.flatten(row.point);
+        let is_visible = at.cmpge(view.low).all() && at.cmple(view.high).all();
+        let apart = kept.is_none_or(|kept| kept.distance(at) >= MARK_SPACING * view.pixel);
+        if is_visible && apart {
+            kept = Some(at);
+            out.push(FeatureMark {
+                kind: row.kind,
+                at,
+                u: row.middle,
+            });
+        }
+    }
+}

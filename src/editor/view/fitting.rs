@@ -1,0 +1,95 @@
+//! Fitting what is shown into the canvas, with a comb of legible size.
+
+use crate::analysis::{Bounds, CombSettings};
+use crate::document::CurveId;
+use crate::editor::Editor;
+use crate::editor::view::layers::Layer;
+
+/// The height of the comb after a reset, as a share of the smaller side of the curve's box.
+const COMB_HEIGHT: f64 = 0.35;
+
+/// The teeth that the comb of a long curve has after a reset, about.
+const TEETH: usize = 256;
+
+/// How far beside curve and polygon a fitted view follows the comb, in units of their extent.
+const COMB_REACH: f64 = 1.0;
+
+impl Editor {
+    /// Fit everything into the canvas, and give the comb a legible scale.
+    pub(in crate::editor) fn fit_all(&mut self) {
+        self.reset_comb();
+        let mut bounds = Bounds::EMPTY;
+        let shown: Vec<CurveId> = self
+            .document()
+            .curves()
+            .filter(|(_, curve)| curve.visible)
+            .map(|(id, _)| id)
+            .collect();
+        for id in shown {
+            bounds.unite(&self.bounds_of(id));
+        }
+        self.view.viewport = self.view.viewport.fitted(&bounds);
+    }
+
+    /// Give the comb a scale at which its longest tooth is a good part of the active curve's box,
+    /// and teeth of which a long curve has no more a segment than can be told apart.
+    pub(in crate::editor) fn reset_comb(&mut self) {
+        self.analyses.update(self.workspace.document());
+        self.view.comb = CombSettings::default();
+        let Some(analysis) = self
+            .hand
+            .selection
+            .active()
+            .and_then(|id| self.analyses.get(id))
+        else {
+            return;
+        };
+        let bounds = analysis.bounds();
+        let extent = (bounds.high - bounds.low).max_element();
+        let largest = analysis
+            .curvature()
+            .map_or(0.0, |range| range.high.abs().max(range.low.abs()));
+        let segments = analysis.curve().polygon.segments();
+        self.view.comb.density = (TEETH / segments.max(1)).clamp(1, self.view.comb.density);
+        // Without curvature there is no scale to choose.
+        self.view.set_comb(CombSettings {
+            scale: COMB_HEIGHT * extent / largest,
+            ..self.view.comb
+        });
+    }
+
+    /// Fit the selected vertices, or everything; the comb is legible again.
+    pub(in crate::editor) fn fit(&mut self) {
+        // A single vertex has no extent that could be fitted.
+        if self.hand.selection.vertices().len() < 2 {
+            self.fit_all();
+        } else {
+            self.reset_comb();
+            let mut bounds = Bounds::EMPTY;
+            for (curve, index) in self.hand.selection.vertices() {
+                if let Some(curve) = self.document().curve(curve) {
+                    bounds.add(self.view.viewport.flatten(curve.polygon.vertex(index)));
+                }
+            }
+            self.view.viewport = self.view.viewport.fitted(&bounds);
+        }
+    }
+
+    fn bounds_of(&mut self, id: CurveId) -> Bounds {
+        let (layers, scale) = (self.layers(), self.view.comb.scale);
+        let is_active = self.hand.selection.active() == Some(id);
+        let Some(analysis) = self.analyses.get(id) else {
+            return Bounds::EMPTY;
+        };
+        let mut bounds = analysis.bounds();
+        if layers.shows(Layer::Float) {
+            bounds.unite(&analysis.float().figures().bounds);
+        }
+        if layers.shows(Layer::Comb) && is_active {
+            // Long teeth are cut off: the curve must not become a speck.
+            let around = bounds.grown(COMB_REACH);
+            bounds.unite(&analysis.comb_bounds(scale).within(&around));
+        }
+        bounds
+    }
+}

@@ -1,0 +1,209 @@
+//! What lies under a place on the canvas.
+
+use glam::{DVec2, DVec3};
+
+use crate::analysis::AnalysisCache;
+use crate::document::{Curve, CurveId, Document};
+use crate::editor::view::layers::{Layer, Layers};
+use crate::editor::view::viewport::Viewport;
+
+/// How near the pointer must come to something, in screen points, whatever the zoom.
+pub const REACH: f64 = 8.0;
+
+/// How near to a vertex, in screen points, a press is still meant for it rather than for the tip
+/// of a comb's tooth.
+const BESIDE: f64 = 2.0 * REACH;
+
+/// Find what lies under a place; vertices come before legs and curves.
+#[derive(Clone, Copy)]
+pub struct HitTest<'a> {
+    /// The document.
+    pub document: &'a Document,
+    /// The analyses of its curves.
+    pub analyses: &'a AnalysisCache,
+    /// How the model is mapped to the canvas.
+    pub viewport: &'a Viewport,
+    /// Which layers are shown, and can therefore be hit.
+    pub layers: Layers,
+    /// The curve that is preferred among equals.
+    pub active: Option<CurveId>,
+    /// How many times Tab was pressed over things that overlap.
+    pub cycle: usize,
+}
+
+/// A place on a curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurveHit {
+    /// The curve.
+    pub curve: CurveId,
+    /// The parameter.
+    pub u: f64,
+    /// The point.
+    pub point: DVec2,
+}
+
+/// A place on a leg of a float S-polygon.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LegHit {
+    /// The curve.
+    pub curve: CurveId,
+    /// The vertex where the leg begins.
+    pub index: usize,
+    /// The share of the leg before the place.
+    pub share: f64,
+    /// The place.
+    pub point: DVec2,
+}
+
+impl<'a> HitTest<'a> {
+    /// Find the vertex under a place; where several overlap, Tab has chosen which.
+    pub fn vertex(&self, place: DVec2) -> Option<(CurveId, usize)> {
+        if !self.layers.shows(Layer::Float) {
+            return None;
+        }
+        let mut found: Vec<(f64, bool, (CurveId, usize))> = self
+            .vertices_within(place, REACH)
+            .map(|(distance, id)| (distance, self.active != Some(id.0), id))
+            .collect();
+        // The nearest wins; of equals, the active curve's, then the one drawn on top.
+        found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(b.2.cmp(&a.2)));
+        let chosen = self.cycle.checked_rem(found.len())?;
+        found.get(chosen).map(|hit| hit.2)
+    }
+
+    /// Whether a place lies so near to a vertex that is shown, of either S-polygon, that it may
+    /// be the vertex that is meant.
+    pub fn is_beside_vertex(&self, place: DVec2) -> bool {
+        let float = self.layers.shows(Layer::Float);
+        (float && self.vertices_within(place, BESIDE).next().is_some())
+            || self.clamped_vertex_within(place, BESIDE).is_some()
+    }
+
+    /// Find the vertex of the active curve's closed S-polygon under a place, if it is shown.
+    pub fn clamped_vertex(&self, place: DVec2) -> Option<(CurveId, usize)> {
+        self.clamped_vertex_within(place, REACH)
+    }
+
+    /// The vertices within some screen points of a place, with their distances in the model.
+    fn vertices_within(
+        &self,
+        place: DVec2,
+        reach: f64,
+    ) -> impl Iterator<Item = (f64, (CurveId, usize))> {
+        let model = self.viewport.to_model(place);
+        let reach = reach * self.viewport.pixel();
+        let all = self.shown().flat_map(|(id, curve)| {
+            let vertices = curve.polygon.vertices().iter().enumerate();
+            vertices.map(move |(index, vertex)| (*vertex, (id, index)))
+        });
+        let distances =
+            all.map(move |(vertex, id)| (self.viewport.flatten(vertex).distance(model), id));
+        distances.filter(move |(distance, _)| *distance <= reach)
+    }
+
+    fn clamped_vertex_within(&self, place: DVec2, reach: f64) -> Option<(CurveId, usize)> {
+        if !self.layers.shows(Layer::Clamped) {
+            return None;
+        }
+        let id = self.active?;
+        self.document.curve(id).filter(|curve| curve.visible)?;
+        let model = self.viewport.to_model(place);
+        let vertices = self.analyses.peek(id)?.clamped_vertices();
+        let distance = |vertex: &DVec3| self.viewport.flatten(*vertex).distance(model);
+        let distances = vertices.iter().map(distance).enumerate();
+        let (index, nearest) = distances.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        (nearest <= reach * self.viewport.pixel()).then_some((id, index))
+    }
+
+    /// Find the place on a curve under a place on the canvas.
+    pub fn curve(&self, place: DVec2) -> Option<CurveHit> {
+        if !self.layers.shows(Layer::Curve) {
+            return None;
+        }
+        let model = self.viewport.to_model(place);
+        let reach = REACH * self.viewport.pixel();
+        let hits = self.shown().filter_map(|(id, _)| {
+            let (u, point, distance) = self.analyses.peek(id)?.nearest(model, reach)?;
+            Some((
+                distance,
+                CurveHit {
+                    curve: id,
+                    u,
+                    point,
+                },
+            ))
+        });
+        hits.min_by(|a, b| a.0.total_cmp(&b.0)).map(|hit| hit.1)
+    }
+
+    /// Find the leg nearest to a place, within `reach` screen points.
+    pub fn leg(&self, place: DVec2, reach: f64) -> Option<LegHit> {
+        if !self.layers.shows(Layer::Float) {
+            return None;
+        }
+        let model = self.viewport.to_model(place);
+        let mut best: Option<(f64, LegHit)> = None;
+        for (id, curve) in self.shown() {
+            let polygon = &curve.polygon;
+            let count = polygon.vertices().len();
+            let legs = if polygon.is_periodic() {
+                count
+            } else {
+                count - 1
+            };
+            for index in 0..legs {
+                let from = self.viewport.flatten(polygon.vertices()[index]);
+                let leg = self
+                    .viewport
+                    .flatten(polygon.vertices()[(index + 1) % count])
+                    - from;
+                let along = (model - from).dot(leg) / leg.length_squared();
+                let share = if along.is_nan() {
+                    0.5
+                } else {
+                    along.clamp(0.0, 1.0)
+                };
+                let point = from + share * leg;
+                let distance = point.distance(model);
+                if best.as_ref().is_none_or(|(nearest, _)| distance < *nearest) {
+                    let hit = LegHit {
+                        curve: id,
+                        index,
+                        share,
+                        point,
+                    };
+                    best = Some((distance, hit));
+                }
+            }
+        }
+        let (distance, hit) = best?;
+        (distance <= reach * self.viewport.pixel()).then_some(hit)
+    }
+
+    /// List the vertices inside a box, by opposite corners on the canvas.
+    pub fn vertices_in_box(&self, a: DVec2, b: DVec2) -> Vec<(CurveId, usize)> {
+        if !self.layers.shows(Layer::Float) {
+            return Vec::new();
+        }
+        let (a, b) = (self.viewport.to_model(a), self.viewport.to_model(b));
+        let (low, high) = (a.min(b), a.max(b));
+        let mut found = Vec::new();
+        for (id, curve) in self.shown().filter(|(_, curve)| !curve.locked) {
+            for (index, vertex) in curve.polygon.vertices().iter().enumerate() {
+                let at = self.viewport.flatten(*vertex);
+                if at.cmpge(low).all() && at.cmple(high).all() {
+                    found.push((id, index));
+                }
+            }
+        }
+        found
+    }
+
+    /// The curves that can be hit.
+    pub fn shown(&self) -> impl Iterator<Item = (CurveId, &'a Curve)> {
+        let curves = self.document.curves();
+        curves
+            .filter(|(_, curve)| curve.visible)
+            .map(|(id, curve)| (id, curve.as_ref()))
+    }
+}

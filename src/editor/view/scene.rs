@@ -1,0 +1,191 @@
+//! What the canvas shows, in model coordinates: the ui only paints it.
+
+use glam::DVec2;
+
+use crate::document::{Colour, CurveId};
+use crate::editor::hand::end_fit::EndFitMarks;
+use crate::editor::view::feature_report::FeatureMark;
+
+/// All that is on the canvas, from back to front. Chains are points in the model's plane; a NaN
+/// point ([`crate::analysis::GAP`]) breaks them.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    /// The curves that are shown.
+    pub curves: Vec<CurveScene>,
+    /// The curve as it was before the gesture or the correction, drawn faintly.
+    pub ghost: Vec<DVec2>,
+    /// What the tool in the hand draws.
+    pub marks: Vec<Mark>,
+    /// The end-fit tool's marks, and the targets of all curves.
+    pub ends: Vec<EndFitMarks>,
+    /// What is under the pointer.
+    pub hover: Option<HoverScene>,
+}
+
+/// One curve's layers; those that are not shown are empty.
+#[derive(Clone, Debug, Default)]
+pub struct CurveScene {
+    /// The curve.
+    pub id: Option<CurveId>,
+    /// Whether it is the active one; the others step back.
+    pub active: bool,
+    /// Whether it is locked.
+    pub locked: bool,
+    /// Its own colour.
+    pub colour: Option<Colour>,
+    /// The comb's teeth.
+    pub teeth: Vec<[DVec2; 2]>,
+    /// The comb's envelope.
+    pub comb: Vec<DVec2>,
+    /// The evolute.
+    pub evolute: Vec<DVec2>,
+    /// The closed S-polygon's legs.
+    pub clamped: Vec<DVec2>,
+    /// The closed S-polygon's vertices.
+    pub clamped_vertices: Vec<DVec2>,
+    /// The float S-polygon's legs.
+    pub float: Vec<DVec2>,
+    /// The float S-polygon's vertices.
+    pub vertices: Vec<VertexMark>,
+    /// The curve itself.
+    pub curve: Vec<DVec2>,
+    /// Its pieces of rising, falling and undecided curvature, in the order of
+    /// [`crate::analysis::PieceTrend::ALL`].
+    pub pieces: [Vec<DVec2>; 3],
+    /// Its proved features.
+    pub features: Vec<FeatureMark>,
+    /// The joints between segments: points with the curve's unit normals.
+    pub joints: Vec<[DVec2; 2]>,
+}
+
+/// A vertex of a float S-polygon, as it is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VertexMark {
+    /// Its number, counted from 0.
+    pub index: usize,
+    /// Where it is.
+    pub at: DVec2,
+    /// Whether it is selected.
+    pub selected: bool,
+}
+
+/// Something that a tool draws.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Mark {
+    /// A dashed line, such as the leg that a click would add.
+    Guide([DVec2; 2]),
+    /// A line that measures.
+    Ruler([DVec2; 2]),
+    /// A box that selects, by opposite corners.
+    SelectionBox([DVec2; 2]),
+    /// A vertex that a click would add.
+    NewVertex(DVec2),
+    /// The pivot of a rotation or scaling.
+    Pivot(DVec2),
+    /// The handle that rotates or scales, on its arm from the pivot.
+    Arm([DVec2; 2]),
+    /// A place that the pointer snapped to.
+    Snap(DVec2),
+    /// A short text at a place.
+    Label(DVec2, String),
+}
+
+/// What the pointer is over.
+#[derive(Clone, Debug, PartialEq)]
+pub enum HoverScene {
+    /// A vertex of a float S-polygon.
+    Vertex {
+        /// Where it is.
+        at: DVec2,
+        /// Its number and coordinates, in words.
+        text: String,
+    },
+    /// A place on a curve.
+    Curve {
+        /// The curve.
+        curve: CurveId,
+        /// The parameter u.
+        u: f64,
+        /// The curvature: signed for a planar curve, not negative in space.
+        curvature: f64,
+        /// The point.
+        at: DVec2,
+        /// The centre of the osculating circle of a planar curve seen from above; `None` where it
+        /// is straight, or seen otherwise.
+        centre: Option<DVec2>,
+        /// The osculating circle of a curve in space, or seen from elsewhere, as a chain.
+        circle: Vec<DVec2>,
+        /// u, point, curvature and radius, in words, a line each.
+        text: String,
+    },
+    /// A leg, a target or another handle.
+    Handle {
+        /// Where it is.
+        at: DVec2,
+        /// What it is, in words.
+        text: String,
+    },
+}
+
+impl Scene {
+    /// The parameter and curvature of the place that is hovered, if it is on this curve.
+    pub fn hovered_on(&self, id: CurveId) -> Option<(f64, f64)> {
+        match self.hover {
+            Some(HoverScene::Curve {
+                curve,
+                u,
+                curvature,
+                ..
+            }) if curve == id => Some((u, curvature)),
+            _ => None,
+        }
+    }
+}
+
+impl PlotScene {
+    /// The plot of the curvature of the curve scaled to length 1, over shares of its length.
+    pub fn at_length_one(&self) -> Self {
+        let place = |point: &DVec2| DVec2::new(point.x / self.length, point.y * self.length);
+        let dots = self.discrete.iter();
+        Self {
+            curvature: self.curvature.iter().map(place).collect(),
+            discrete: dots.map(|(index, at)| (*index, place(at))).collect(),
+            hovered: self.hovered.as_ref().map(place),
+            flank: self.flank / self.length,
+            length: 1.0,
+            planar: self.planar,
+            hovered_vertex: self.hovered_vertex,
+            ..Self::default()
+        }
+    }
+}
+
+/// The plots of the active curve.
+#[derive(Clone, Debug, Default)]
+pub struct PlotScene {
+    /// Whether curvature is signed.
+    pub planar: bool,
+    /// Curvature over arc length; NaN points are gaps.
+    pub curvature: Vec<DVec2>,
+    /// The polygon's discrete curvature at its vertices, over arc length, by vertex number.
+    /// Vertices that lie beyond the curve's ends stand evenly spaced in a flank beside either.
+    pub discrete: Vec<(usize, DVec2)>,
+    /// How wide the flank beside either end is; 0 if there is none.
+    pub flank: f64,
+    /// The plot of levels that was asked for; NaN points are gaps.
+    pub levels: Vec<DVec2>,
+    /// The place on it of what is hovered on the canvas.
+    pub hovered_level: Option<DVec2>,
+    /// The slope of the straight line through the logarithmic graph, and how well it fits: r².
+    pub slope: Option<(f64, f64)>,
+    /// Leg lengths over the number of the vertex where each begins.
+    pub legs: Vec<DVec2>,
+    /// Turning angles in degrees over the vertices' numbers.
+    pub turns: Vec<DVec2>,
+    /// The arc length of the whole curve.
+    pub length: f64,
+    /// The arc length and curvature at what is hovered on the canvas.
+    pub hovered: Option<DVec2>,
+    /// The vertex that is hovered on the canvas.
+    pub hovered_vertex: Option<usize>,
+}

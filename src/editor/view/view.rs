@@ -1,0 +1,82 @@
+//! What is seen, and how.
+
+use std::sync::Arc;
+
+use crate::analysis::CombSettings;
+use crate::document::Curve;
+use crate::editor::view::drawing::Ghost;
+use crate::editor::view::feature_report::FeatureReport;
+use crate::editor::view::layers::Layers;
+use crate::editor::view::scene::{PlotScene, Scene};
+use crate::editor::view::viewport::Viewport;
+
+/// Hold how the model is seen, what is hovered, and what canvas and plots show.
+#[derive(Debug, Default)]
+pub struct View {
+    pub(in crate::editor) viewport: Viewport,
+    /// Whether the canvas has been given its size and the document fitted into it.
+    pub(in crate::editor) placed: bool,
+    pub(in crate::editor) layers: Layers,
+    pub(in crate::editor) comb: CombSettings,
+    pub(in crate::editor) hovered: Hovered,
+    /// What panels said in the frame before: those that are shown first read it.
+    pub(in crate::editor) hovered_before: Hovered,
+    /// The report of the active curve's features, for the curve that it was made of.
+    pub(in crate::editor) features: Option<(Arc<Curve>, Arc<FeatureReport>)>,
+    pub(in crate::editor) scene: Scene,
+    pub(in crate::editor) plots: PlotScene,
+    pub(in crate::editor) ghost: Ghost,
+}
+
+/// What panels say is hovered there, to be marked on the canvas.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(in crate::editor) struct Hovered {
+    pub(in crate::editor) length: Option<f64>,
+    pub(in crate::editor) vertex: Option<usize>,
+}
+
+impl View {
+    /// How the model is mapped to the canvas.
+    pub fn viewport(&self) -> &Viewport {
+        &self.viewport
+    }
+
+    /// How the comb is drawn.
+    pub fn comb(&self) -> CombSettings {
+        self.comb
+    }
+
+    /// Draw the comb differently. A scale that is not a positive number is passed over.
+    pub fn set_comb(&mut self, comb: CombSettings) {
+        if comb.scale > 0.0 && comb.scale.is_finite() {
+            self.comb = CombSettings {
+                scale: comb.scale,
+                density: comb
+                    .density
+                    .clamp(*CombSettings::DENSITY.start(), *CombSettings::DENSITY.end()),
+            };
+        }
+    }
+
+    /// Which layers the user has chosen, whatever the tool in the hand makes of them.
+    pub fn chosen_layers(&self) -> Layers {
+        self.layers
+    }
+
+    /// Forget what panels marked, before they are shown anew.
+    pub fn hover_nothing(&mut self) {
+        self.hovered_before = std::mem::take(&mut self.hovered);
+    }
+
+    /// Mark the point at an arc length of the active curve, as while the plot is hovered, until
+    /// [`View::hover_nothing`].
+    pub fn hover_length(&mut self, arc_length: f64) {
+        self.hovered.length = Some(arc_length);
+    }
+
+    /// Mark a vertex of the active curve, as while its row is hovered, until
+    /// [`View::hover_nothing`].
+    pub fn hover_vertex(&mut self, vertex: usize) {
+        self.hovered.vertex = Some(vertex);
+    }
+}

@@ -1,0 +1,277 @@
+//! The document that is worked on: its history, its file, and the one preview.
+
+use std::path::{Path, PathBuf};
+
+use crate::document::{Document, Edit, EditError, History};
+
+/// Hold the document with its history and its file, and what is being tried out on it.
+///
+/// Drags, number fields and operations share one preview: it is begun, updated any number of
+/// times from the document as it was then, and committed as one step or aborted.
+#[derive(Debug, Default)]
+pub struct Workspace {
+    history: History,
+    path: Option<PathBuf>,
+    preview: Option<Preview>,
+    /// How many previews there have been.
+    previews: u64,
+    /// How often the document was changed for good.
+    revision: u64,
+}
+
+/// A preview, which is told from every other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PreviewId(u64);
+
+/// What becomes of a preview when something else is begun.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interruption {
+    /// It is kept as a step: what a number field shows counts.
+    Commits,
+    /// It is taken back: a drag or an operation has not come to its end.
+    Aborts,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Preview {
+    id: PreviewId,
+    interruption: Interruption,
+}
+
+impl Workspace {
+    /// Begin with a document that counts as saved, and the file that it is saved back to.
+    pub fn new(document: Document, path: Option<PathBuf>) -> Self {
+        Self {
+            history: History::new(document),
+            path,
+            ..Self::default()
+        }
+    }
+
+    /// Put another document in this one's place. Nothing of the old one can be undone.
+    pub fn replace(&mut self, document: Document, path: Option<PathBuf>) {
+        *self = Self {
+            previews: self.previews,
+            revision: self.revision + 1,
+            ..Self::new(document, path)
+        };
+    }
+
+    /// The document, with what is being tried out.
+    pub fn document(&self) -> &Document {
+        self.history.document()
+    }
+
+    /// The document without what is being tried out.
+    pub fn settled(&self) -> &Document {
+        self.history.before_gesture()
+    }
+
+    /// Its history.
+    pub fn history(&self) -> &History {
+        &self.history
+    }
+
+    /// The file that the document was opened from or saved to.
+    pub fn path(&self) -> Option<&Path> {
+        self.path.as_deref()
+    }
+
+    /// Whether there is something to save.
+    pub fn is_modified(&self) -> bool {
+        self.history.is_modified()
+    }
+
+    /// A number that grows with every step, undo and redo.
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
+    /// Take the document without what is being tried out as saved under a path.
+    pub fn mark_saved(&mut self, path: PathBuf) {
+        self.path = Some(path);
+        self.history.mark_saved();
+    }
+
+    /// The preview that runs.
+    pub fn preview(&self) -> Option<PreviewId> {
+        self.preview.map(|preview| preview.id)
+    }
+
+    /// Begin a preview; one that still runs is interrupted.
+    pub fn begin(&mut self, label: &str, interruption: Interruption) -> PreviewId {
+        self.interrupt();
+        self.previews += 1;
+        let id = PreviewId(self.previews);
+        self.preview = Some(Preview { id, interruption });
+        self.history.begin(label);
+        id
+    }
+
+    /// Show what edits make of the document that the preview began with. Without a preview
+    /// nothing is shown.
+    ///
+    /// # Errors
+    /// [`EditError`] of the first edit that cannot be made; what was shown before stays.
+    pub fn update(&mut self, edits: Vec<Edit>) -> Result<(), EditError> {
+        self.history.preview(edits)
+    }
+
+    /// End the preview and keep what it shows as one step. Returns whether there is a step.
+    pub fn commit(&mut self) -> bool {
+        let made = self.preview.take().is_some() && self.history.commit();
+        self.revision += u64::from(made);
+        made
+    }
+
+    /// End the preview and restore the document that it began with.
+    pub fn abort(&mut self) {
+        if self.preview.take().is_some() {
+            self.history.abort();
+        }
+    }
+
+    /// End the preview because something else is begun. Returns what became of it, if one ran.
+    pub fn interrupt(&mut self) -> Option<Interruption> {
+        let ended = self.preview.map(|preview| preview.interruption);
+        match ended {
+            None => {}
+            Some(Interruption::Commits) => {
+                self.commit();
+            }
+            Some(Interruption::Aborts) => self.abort(),
+        }
+        ended
+    }
+
+    /// Make edits as one step. A preview that runs is interrupted.
+    ///
+    /// # Errors
+    /// [`EditError`] of the first edit that cannot be made; none is made then.
+    pub fn apply(&mut self, label: &str, edits: Vec<Edit>) -> Result<(), EditError> {
+        self.change(|history| history.apply(label, edits))
+    }
+
+    /// Make edits as a part of the last step if it bears this label, otherwise as a step of their
+    /// own: so that a key that is held makes one step.
+    ///
+    /// # Errors
+    /// [`EditError`] of the first edit that cannot be made; none is made then.
+    pub fn extend(&mut self, label: &str, edits: Vec<Edit>) -> Result<(), EditError> {
+        self.change(|history| history.extend(label, edits))
+    }
+
+    /// Make other edits in place of the last step, from the document before it. Without edits the
+    /// step is gone.
+    ///
+    /// # Errors
+    /// [`EditError`] of the first edit that cannot be made; the last step stays then.
+    pub fn amend(&mut self, label: &str, edits: Vec<Edit>) -> Result<(), EditError> {
+        self.change(|history| history.amend(label, edits))
+    }
+
+    /// Take back the last step. Returns its label.
+    pub fn undo(&mut self) -> Option<String> {
+        self.interrupt();
+        self.revision += 1;
+        self.history.undo()
+    }
+
+    /// Make the last undone step again. Returns its label.
+    pub fn redo(&mut self) -> Option<String> {
+        self.interrupt();
+        self.revision += 1;
+        self.history.redo()
+    }
+
+    fn change(
+        &mut self,
+        change: impl FnOnce(&mut History) -> Result<(), EditError>,
+    ) -> Result<(), EditError> {
+        self.interrupt();
+        self.revision += 1;
+        change(&mut self.history)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::Curve;
+    use crate::geometry::FloatPolygon;
+
+    fn workspace() -> Workspace {
+        let vertices = [[0.0, 0.0, 0.0], [1.0, 2.0, 0.0], [3.0, 1.0, 0.0]];
+        let polygon = FloatPolygon::new(2, vertices.map(Into::into).into(), None, false);
+        let curve = Curve::new("arc".to_owned(), polygon.expect("a polygon"));
+        Workspace::new(Document::from_curves([curve]), None)
+    }
+
+    fn rename(workspace: &Workspace, name: &str) -> Vec<Edit> {
+        let curve = workspace.document().ids().next().expect("a curve");
+        let name = name.to_owned();
+        vec![Edit::Rename { curve, name }]
+    }
+
+    fn name(document: &Document) -> &str {
+        let (_, curve) = document.curves().next().expect("a curve");
+        &curve.name
+    }
+
+    /// Begin a preview that shows another name.
+    fn trying(interruption: Interruption) -> Workspace {
+        let mut workspace = workspace();
+        workspace.begin("Try", interruption);
+        let edits = rename(&workspace, "tried");
+        assert_eq!(workspace.update(edits), Ok(()));
+        workspace
+    }
+
+    #[test]
+    fn what_is_begun_next_keeps_a_field_and_takes_back_a_drag() {
+        for (interruption, expected, steps) in [
+            (Interruption::Commits, "tried", 2),
+            (Interruption::Aborts, "arc", 1),
+        ] {
+            let mut workspace = trying(interruption);
+            let first = workspace.preview();
+            assert_ne!(Some(workspace.begin("Next", Interruption::Aborts)), first);
+            assert_eq!(name(workspace.settled()), expected);
+            let edits = rename(&workspace, "next");
+            assert_eq!(workspace.apply("Apply", edits), Ok(()));
+            assert_eq!(workspace.preview(), None);
+            assert_eq!(workspace.history().undo_steps(), steps);
+        }
+    }
+
+    #[test]
+    fn what_is_tried_is_not_saved() {
+        let mut workspace = trying(Interruption::Aborts);
+        assert_eq!(name(workspace.document()), "tried");
+        assert_eq!(name(workspace.settled()), "arc");
+        workspace.mark_saved(PathBuf::from("arc.batten"));
+        assert!(workspace.is_modified());
+        assert!(workspace.preview().is_some(), "saving ends nothing");
+        workspace.abort();
+        assert!(!workspace.is_modified());
+    }
+
+    #[test]
+    fn amending_replaces_the_last_step() {
+        let mut workspace = workspace();
+        let edits = rename(&workspace, "one");
+        workspace.apply("Rename", edits).expect("a rename");
+        let revision = workspace.revision();
+        let edits = rename(&workspace, "two");
+        workspace.amend("Rename", edits).expect("a rename");
+        assert_eq!(name(workspace.document()), "two");
+        assert_eq!(workspace.history().undo_steps(), 1);
+        assert!(workspace.revision() > revision);
+        let edits = rename(&workspace, " ");
+        assert_eq!(workspace.amend("Rename", edits), Err(EditError::EmptyName));
+        assert_eq!(name(workspace.document()), "two");
+        workspace.amend("Rename", Vec::new()).expect("no edit");
+        assert_eq!(name(workspace.document()), "arc");
+        assert_eq!(workspace.history().undo_steps(), 0);
+    }
+}

@@ -1,0 +1,203 @@
+//! The table of actions: the editor's commands, and what only a window can do. Menus, keys,
+//! buttons and the command palette all read it.
+
+use crate::editor::{Command, Editor, Key, Shortcut};
+use crate::geometry::PolygonKind;
+use crate::io::examples::EXAMPLES;
+use crate::ui::shell::Shell;
+
+/// Something that the user can ask for by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Action {
+    /// Do what the editor does.
+    Command(Command),
+    /// Begin an empty document.
+    New,
+    /// Open a file.
+    Open,
+    /// Open a built-in example, by its number.
+    OpenExample(usize),
+    /// Add the curves of a file to the document.
+    Import,
+    /// Save under the present path.
+    Save,
+    /// Save under another path.
+    SaveAs,
+    /// Write a drawing for CAD.
+    ExportDxf,
+    /// Write a table of polygon vertices.
+    ExportCsv(PolygonKind),
+    /// Leave.
+    Quit,
+    /// Copy the selected vertices and remove them.
+    Cut,
+    /// Copy the selected curve or vertices.
+    Copy,
+    /// Add what was copied.
+    Paste,
+    /// Divide the active curve: split it or trim it.
+    Divide,
+    /// Round the coordinates of one of the active curve's polygons.
+    Round,
+    /// Switch between the dark and the light theme.
+    ToggleTheme,
+    /// Show or hide the plots.
+    TogglePlots,
+    /// Find an action by its name.
+    Palette,
+    /// List the keys.
+    Keys,
+    /// Tell what this program is.
+    About,
+}
+
+impl From<Command> for Action {
+    fn from(command: Command) -> Self {
+        Self::Command(command)
+    }
+}
+
+impl Action {
+    /// List every action there is, in the order in which the palette offers them.
+    pub fn all() -> Vec<Self> {
+        let mut all = vec![
+            Self::New,
+            Self::Open,
+            Self::Import,
+            Self::Save,
+            Self::SaveAs,
+            Self::ExportDxf,
+        ];
+        all.extend(PolygonKind::ALL.map(Self::ExportCsv));
+        all.extend((0..EXAMPLES.len()).map(Self::OpenExample));
+        all.extend([Self::Quit, Self::Cut, Self::Copy, Self::Paste]);
+        all.extend([Self::Divide, Self::Round]);
+        all.extend(Command::all().into_iter().map(Self::Command));
+        all.extend([
+            Self::ToggleTheme,
+            Self::TogglePlots,
+            Self::Palette,
+            Self::Keys,
+            Self::About,
+        ]);
+        all
+    }
+
+    /// What menus and buttons call the action.
+    pub fn label(self) -> String {
+        let label = match self {
+            Self::Command(command) => return command.label(),
+            Self::New => "New",
+            Self::Open => "Open…",
+            Self::OpenExample(index) => EXAMPLES.get(index).map_or("", |example| example.title),
+            Self::Import => "Import curves…",
+            Self::Save => "Save",
+            Self::SaveAs => "Save as…",
+            Self::ExportDxf => "Export DXF…",
+            Self::ExportCsv(PolygonKind::Float) => "Export float S-polygon as CSV…",
+            Self::ExportCsv(PolygonKind::Clamped) => "Export closed S-polygon as CSV…",
+            Self::ExportCsv(PolygonKind::Bezier) => "Export Bézier polygons as CSV…",
+            Self::Quit => "Quit",
+            Self::Cut => "Cut",
+            Self::Copy => "Copy",
+            Self::Paste => "Paste",
+            Self::Divide => "Split or trim…",
+            Self::Round => "Round coordinates…",
+            Self::ToggleTheme => "Light theme",
+            Self::TogglePlots => "Plots",
+            Self::Palette => "Find a command…",
+            Self::Keys => "Keys and mouse",
+            Self::About => "About Batten",
+        };
+        label.to_owned()
+    }
+
+    /// What a menu calls the action now: undo and redo name their step.
+    pub fn label_now(self, editor: &Editor) -> String {
+        match self {
+            Self::Command(command) => editor.label(command),
+            _ => self.label(),
+        }
+    }
+
+    /// One sentence that says what the action does.
+    pub fn tooltip(self) -> String {
+        let tooltip = match self {
+            Self::Command(command) => return command.tooltip(),
+            Self::New => "Begin an empty document",
+            Self::Open => "Open a .batten project or a CSV table in place of this document",
+            Self::OpenExample(index) => EXAMPLES
+                .get(index)
+                .map_or("", |example| example.description),
+            Self::Import => "Add the curves of a file to this document",
+            Self::Save => "Save the document to its file",
+            Self::SaveAs => "Save the document to another file",
+            Self::ExportDxf => {
+                "Write curves and polygons as DXF: clamped splines, and both S-polygons on layers of their own"
+            }
+            Self::ExportCsv(_) => "Write a table of vertices, with degree and kind in its header",
+            Self::Quit => "Leave Batten",
+            Self::Cut => "Copy the selected vertices and remove them",
+            Self::Copy => "Copy the active curve, or only its selected vertices",
+            Self::Paste => "Add what was copied as a curve of its own",
+            Self::Divide => "Split the curve at a parameter, or keep a part of it",
+            Self::Round => {
+                "Round the float or the closed S-polygon to some digits, and tell what that does to the curve"
+            }
+            Self::ToggleTheme => "Switch between the dark and the light theme",
+            Self::TogglePlots => "Show or hide the plots under the canvas",
+            Self::Palette => "Find a command by typing a part of its name",
+            Self::Keys => "List what keys and mouse do",
+            Self::About => "Tell version and licence",
+        };
+        tooltip.to_owned()
+    }
+
+    /// The key that asks for the action.
+    pub fn shortcut(self) -> Option<Shortcut> {
+        Some(match self {
+            Self::Command(command) => return command.shortcut(),
+            Self::New => Shortcut::ctrl('n'),
+            Self::Open => Shortcut::ctrl('o'),
+            Self::Import => Shortcut::ctrl('i'),
+            Self::Save => Shortcut::ctrl('s'),
+            Self::SaveAs => Shortcut::ctrl_shift('s'),
+            Self::ExportDxf => Shortcut::ctrl('e'),
+            Self::Quit => Shortcut::ctrl('q'),
+            Self::Cut => Shortcut::ctrl('x'),
+            Self::Copy => Shortcut::ctrl('c'),
+            Self::Paste => Shortcut::ctrl('v'),
+            Self::ToggleTheme => Shortcut::plain(Key::Function(9)),
+            Self::TogglePlots => Shortcut::plain(Key::Function(8)),
+            Self::Palette => Shortcut::ctrl('p'),
+            Self::Keys => Shortcut::plain(Key::Function(1)),
+            Self::OpenExample(_)
+            | Self::ExportCsv(_)
+            | Self::Divide
+            | Self::Round
+            | Self::About => return None,
+        })
+    }
+
+    /// Whether the action can be asked for now.
+    pub fn is_enabled(self, editor: &Editor) -> bool {
+        let active = || editor.document().curve(editor.active()?);
+        match self {
+            Self::Command(command) => editor.is_enabled(command),
+            Self::ExportDxf | Self::ExportCsv(_) => !editor.document().is_empty(),
+            Self::Cut | Self::Copy => active().is_some(),
+            Self::Divide | Self::Round => active().is_some_and(|c| c.check_editable().is_ok()),
+            _ => true,
+        }
+    }
+
+    /// Whether a switch is on; `None` for actions that are no switches.
+    pub fn is_checked(self, editor: &Editor, shell: &Shell) -> Option<bool> {
+        match self {
+            Self::Command(command) => editor.is_checked(command),
+            Self::ToggleTheme => Some(!shell.dark),
+            Self::TogglePlots => Some(shell.plots),
+            _ => None,
+        }
+    }
+}
