@@ -14,21 +14,22 @@ use glam::DVec2;
 pub use commands::{Command, Division, DivisionReport, ExtremaCount, RoundingReport, Shortcut};
 pub use files::with_extension;
 pub use hand::{
-    Button, Cursor, EndFitAction, EndFitMarks, EndFitReport, Hand, Input, Key, Modifiers,
-    Selection, ToolKind, Transformation, VertexId,
+    Button, Cursor, EndFitAction, EndFitReport, Hand, Input, Key, Modifiers, Selection, ToolKind,
+    Transformation, VertexId,
 };
 pub use reply::{Message, Note, Refusal, Reply, told};
 pub use report::{CurveReport, Export, Readout};
 pub use view::{
-    CurveScene, FeatureKind, FeatureMark, FeatureReport, FeatureRow, HoverScene, Layer, Layers,
-    Mark, NamedView, PlotScene, REACH, Scene, VertexMark, View, Viewport, grid_steps,
+    CurveScene, EndFitMarks, FeatureKind, FeatureMark, FeatureReport, FeatureRow, HoverScene,
+    Layer, Layers, Mark, NamedView, PlotScene, REACH, Scene, VertexMark, View, Viewport,
+    grid_steps,
 };
 pub use workspace::{Interruption, PreviewId, Workspace};
 
 use crate::analysis::AnalysisCache;
 use crate::document::{CurveId, Document, Edit};
-use hand::end_fit::EndFitState;
 use hand::gesture::Gesture;
+use hand::tools::Tools;
 
 /// Hold the running application: what is worked on, how it is seen, and what works on it.
 #[derive(Debug, Default)]
@@ -93,7 +94,6 @@ impl Editor {
             let own: Vec<VertexId> = selection.of_curve(curve).map(|i| (curve, i)).collect();
             selection.set(own);
             selection.activate(curve);
-            self.hand.end_fit.begin_anew();
         }
     }
 
@@ -110,11 +110,7 @@ impl Editor {
     /// Take a tool into the hand; what is being tried out is ended.
     pub fn take(&mut self, tool: ToolKind) {
         self.interrupt();
-        self.hand.tool = tool;
-        self.hand.tool_state = tool.take();
-        self.hand.end_fit.picking = false;
-        self.hand.end_fit.closed = false;
-        self.hand.end_fit.ghost = None;
+        self.hand.tools.choose(tool);
     }
 
     /// The message to the user, if there is one.
@@ -143,7 +139,7 @@ impl Editor {
     /// Which layers are shown now.
     pub fn layers(&self) -> Layers {
         let mut layers = self.view.layers;
-        if self.hand.tool == ToolKind::EndFit && self.hand.end_fit.closed {
+        if self.hand.tool() == ToolKind::EndFit && self.hand.tools.end_fit.settings.closed {
             layers.set(Layer::Clamped, true);
             layers.set(Layer::Float, false);
         }
@@ -163,7 +159,6 @@ impl Editor {
     /// Make edits as one step, or as a part of the last one where a key `repeats`. The first curve
     /// of a document is brought into view.
     fn make(&mut self, label: &str, edits: Vec<Edit>, repeats: bool) -> Reply {
-        self.hand.end_fit.begin_anew();
         let was_empty = self.document().is_empty();
         let made = if repeats {
             self.workspace.extend(label, edits)
@@ -183,7 +178,6 @@ impl Editor {
     pub fn preview(&mut self, label: &str, edits: Vec<Edit>) {
         if self.workspace.preview().is_none() || self.hand.is_dragging() {
             self.interrupt();
-            self.hand.end_fit.begin_anew();
             self.workspace.begin(label, Interruption::Commits);
         }
         self.update(edits);
@@ -254,9 +248,10 @@ impl Editor {
     /// Put right what depends on the document after it was replaced by another.
     fn document_replaced(&mut self) {
         self.hand.selection = Selection::default();
-        self.hand.end_fit = EndFitState::default();
         self.document_changed();
-        self.hand.tool_state = self.hand.tool.take();
+        let used = self.hand.tool();
+        self.hand.tools = Tools::default();
+        self.hand.tools.choose(used);
         self.hand.gestures.reset();
         if self.view.placed {
             if self.document().is_empty() {

@@ -26,7 +26,7 @@ use super::status_bar::{self, status_bar_ui};
 use super::theme::{self, Tokens};
 use super::tool_rail::{self, tool_rail_ui};
 use super::{canvas, overlays, widgets};
-use crate::editor::{Editor, Export, Layer, Refusal, ToolKind, told};
+use crate::editor::{Command, Editor, Export, Layer, Refusal, ToolKind, told};
 use crate::geometry::PolygonKind;
 use crate::io::Format;
 
@@ -527,7 +527,7 @@ fn move_keyboard(context: &Context) {
 fn hide_layers(editor: &mut Editor, hidden: &[usize]) {
     for (place, layer) in Layer::ALL.into_iter().enumerate() {
         if editor.layers().shows(layer) == hidden.contains(&place) {
-            told(editor.execute(layer.command()));
+            told(editor.execute(Command::ToggleLayer(layer)));
         }
     }
 }

@@ -13,7 +13,7 @@ use super::theme::{ROW, STEP, Tokens};
 use super::widgets::IconButton;
 use super::{figures, widgets};
 use crate::document::Edit;
-use crate::editor::{Editor, EndFitAction, EndFitReport, Layer};
+use crate::editor::{Editor, EndFitAction, EndFitReport, Layer, Refusal, told};
 use crate::geometry::end_correction::{EndOverlap, EndTarget};
 use crate::geometry::{End, counted};
 
@@ -46,7 +46,7 @@ impl EndFitPanel {
         if let Some((step, action)) = panel.asked {
             self.step = Some(step);
             match action {
-                Asked::Action(action) => editor.end_fit_action(action),
+                Asked::Action(action) => told(editor.end_fit_action(action)),
                 Asked::Preview(action) => preview(editor, &report, action),
                 Asked::Commit => editor.commit_preview(),
                 Asked::Abort => editor.abort_preview(),
@@ -420,7 +420,7 @@ impl Panel<'_> {
         });
         self.outcome_ui(ui, 7);
         // Once the ends are met, or the loop has said the same, there is nothing to warn of.
-        let failed = report.outcome.as_ref().is_some_and(|(_, failed)| *failed);
+        let failed = report.outcome.as_ref().is_some_and(Result::is_err);
         if !report.within && !failed {
             overlap_ui(ui, report);
         }
@@ -461,15 +461,17 @@ impl Panel<'_> {
 
     /// Tell what the last action came to, below the button that was pressed.
     fn outcome_ui(&self, ui: &mut Ui, step: usize) {
-        let Some((text, failed)) = &self.report.outcome else {
-            return;
+        let (text, failed) = match &self.report.outcome {
+            None => return,
+            Some(Ok(note)) => (&note.text, false),
+            Some(Err(Refusal(reason))) => (reason, true),
         };
         let place = self.step.unwrap_or(7);
-        if place != step {
+        if place != step || text.is_empty() {
             return;
         }
         let tokens = Tokens::of(ui);
-        let (icon, colour) = if *failed {
+        let (icon, colour) = if failed {
             (Icon::TriangleAlert, tokens.error)
         } else {
             (Icon::Check, tokens.good)

@@ -67,7 +67,7 @@ fn row_ui(ui: &mut Ui, editor: &Editor, layer: Layer, commands: &mut Vec<Action>
         .with_max_x(rect.right() - 12.0 * STEP);
     widgets::label_in(ui, left, layer.label(), text);
     let switch = rect.with_min_x(rect.right() - ROW);
-    if let Some(shortcut) = layer.command().shortcut() {
+    if let Some(shortcut) = Command::ToggleLayer(layer).shortcut() {
         let at = rect.with_max_x(switch.left() - STEP);
         widgets::number_in(
             ui,
@@ -96,8 +96,11 @@ fn row_ui(ui: &mut Ui, editor: &Editor, layer: Layer, commands: &mut Vec<Action>
         ui.painter().line_segment(edge, Stroke::new(2.0, own));
     }
     response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, shown, layer.label()));
-    if response.on_hover_text(layer.command().tooltip()).clicked() {
-        commands.push(layer.command().into());
+    if response
+        .on_hover_text(Command::ToggleLayer(layer).tooltip())
+        .clicked()
+    {
+        commands.push(Command::ToggleLayer(layer).into());
     }
 }
 

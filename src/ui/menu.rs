@@ -51,7 +51,7 @@ pub fn menu_ui(ui: &mut Ui, editor: &mut Editor, shell: &Shell, commands: &mut V
             let chip = chip_ui(ui, editor);
             let shown = editor.layers().shows(Layer::Features);
             if chip.is_some_and(|chip| chip.clicked()) && !shown {
-                commands.push(Layer::Features.command().into());
+                commands.push(Command::ToggleLayer(Layer::Features).into());
             }
         });
     });
@@ -112,7 +112,7 @@ fn menus() -> [(&'static str, Vec<Entry>); 6] {
         command(Command::ZoomOut),
         Divider,
     ];
-    view.extend(Layer::ALL.map(|layer| command(layer.command())));
+    view.extend(Layer::ALL.map(|layer| command(Command::ToggleLayer(layer))));
     view.push(Divider);
     view.extend(NamedView::ALL.map(|view| command(Command::View(view))));
     view.extend([

@@ -49,7 +49,7 @@ impl Editor {
             Command::Undo => self.undo_label().is_some(),
             Command::Redo => {
                 self.workspace.history().redo_label().is_some()
-                    && self.hand.tool_state.undo_label().is_none()
+                    && self.hand.tools.used().undo_label().is_none()
                     && self.workspace.preview().is_none()
             }
             Command::Duplicate
@@ -81,7 +81,7 @@ impl Editor {
         match command {
             Command::ToggleLayer(layer) => Some(self.layers().shows(layer)),
             Command::ToggleSnapping => Some(self.hand.snapping),
-            Command::Tool(tool) => Some(self.hand.tool == tool),
+            Command::Tool(tool) => Some(self.hand.tool() == tool),
             Command::View(view) => Some(self.view.viewport.orientation == view.orientation()),
             Command::TogglePeriodic => Some(curve.is_some_and(|c| c.polygon.is_periodic())),
             Command::ToggleVisible => Some(curve.is_some_and(|c| c.visible)),
@@ -140,7 +140,7 @@ impl Editor {
 
     /// What undo would take back: a point of what the tool has not finished comes first.
     fn undo_label(&self) -> Option<&str> {
-        let point = self.hand.tool_state.undo_label();
+        let point = self.hand.tools.used().undo_label();
         point.or_else(|| self.workspace.history().undo_label())
     }
 
@@ -149,11 +149,10 @@ impl Editor {
         if self.interrupt() {
             return Note::silent();
         }
-        if self.hand.tool_state.undo_label().is_some() {
-            self.hand.tool_state.undo();
+        if self.hand.tools.used().undo_label().is_some() {
+            self.hand.tools.used_mut().undo();
             return Note::silent();
         }
-        self.hand.end_fit.begin_anew();
         let before: Vec<CurveId> = self.document().ids().collect();
         let undone = self.workspace.undo();
         self.activate_returned(&before);
@@ -162,7 +161,6 @@ impl Editor {
 
     fn redo(&mut self) -> Note {
         self.interrupt();
-        self.hand.end_fit.begin_anew();
         let before: Vec<CurveId> = self.document().ids().collect();
         let redone = self.workspace.redo();
         self.activate_returned(&before);
@@ -238,7 +236,7 @@ impl Editor {
     fn toggle_layer(&mut self, layer: Layer) {
         let shown = self.layers().shows(layer);
         if matches!(layer, Layer::Float | Layer::Clamped) {
-            self.hand.end_fit.closed = false;
+            self.hand.tools.end_fit.settings.closed = false;
         }
         self.view.layers.set(layer, !shown);
     }

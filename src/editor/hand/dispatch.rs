@@ -3,9 +3,10 @@
 use crate::editor::Editor;
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::{Input, Key};
-use crate::editor::hand::tools::{Context, Cursor, Effect, ToolKind};
+use crate::editor::hand::tools::{Context, Cursor, Effect, Look, ToolKind};
 use crate::editor::reply::{Message, Note, Refusal};
 use crate::editor::view::hit::HitTest;
+use crate::editor::view::layers::Layers;
 use crate::editor::workspace::Interruption;
 
 /// What came of the step that a tool's effects make.
@@ -60,7 +61,7 @@ impl Editor {
         if self.hand.gestures.is_orbiting() {
             return "Drag to turn the view; F2, F3, F4 look along the axes again".into();
         }
-        self.hand.tool_state.hint(&self.context())
+        self.hand.tools.used().hint(&self.context())
     }
 
     /// The shape of the pointer while it rests here.
@@ -71,27 +72,30 @@ impl Editor {
         if self.hand.gestures.is_orbiting() {
             return Cursor::Grabbing;
         }
-        self.hand.tool_state.cursor(&self.context())
+        self.hand.tools.used().cursor(&self.context())
     }
 
     /// Hand a gesture to the tool and do what it wants. What a key that `repeats` does belongs to
     /// the step that it began.
     pub(in crate::editor) fn deliver(&mut self, gesture: Gesture, repeats: bool) {
-        let mut tool = std::mem::replace(&mut self.hand.tool_state, ToolKind::Select.take());
-        let effects = tool.gesture(gesture, &self.context());
-        self.hand.tool_state = tool;
-        let active = self.hand.selection.active();
+        let layers = self.layers();
+        let mut tools = std::mem::take(&mut self.hand.tools);
+        let effects = tools
+            .used_mut()
+            .gesture(gesture, &self.context_with(layers));
+        self.hand.tools = tools;
         let mut step = Step::None;
         for effect in effects {
             self.take_effect(effect, repeats, &mut step);
         }
         self.document_changed();
-        if self.hand.selection.active() != active {
-            self.hand.end_fit.begin_anew();
-        }
     }
 
     pub(in crate::editor) fn context(&self) -> Context<'_> {
+        self.context_with(self.layers())
+    }
+
+    fn context_with(&self, layers: Layers) -> Context<'_> {
         let active = self.hand.selection.active();
         let shown = self
             .view
@@ -108,7 +112,7 @@ impl Editor {
                 document: self.workspace.document(),
                 analyses: &self.analyses,
                 viewport: &self.view.viewport,
-                layers: self.layers(),
+                layers,
                 active,
                 cycle: self.hand.cycle.count(),
             },
@@ -117,7 +121,6 @@ impl Editor {
             snapping: self.hand.snapping,
             comb: self.view.comb,
             teeth: shown.map_or(&[], |curve| &curve.teeth),
-            end_fit: &self.hand.end_fit,
             pointer: self
                 .hand
                 .gestures
@@ -129,7 +132,6 @@ impl Editor {
     fn take_effect(&mut self, effect: Effect, repeats: bool, step: &mut Step) {
         match effect {
             Effect::Begin(label) => {
-                self.hand.end_fit.begin_anew();
                 self.workspace.begin(&label, Interruption::Aborts);
             }
             Effect::Preview(edits) => self.update(edits),
@@ -148,8 +150,8 @@ impl Editor {
             Effect::SelectMore(vertices) => self.hand.selection.add(vertices),
             Effect::ToggleSelected(vertex) => self.hand.selection.toggle(vertex),
             Effect::Activate(curve) => self.hand.selection.activate(curve),
-            Effect::SetComb(comb) => self.view.set_comb(comb),
-            Effect::FitAll => self.fit_all(),
+            Effect::Look(Look::FitAll) => self.fit_all(),
+            Effect::Look(Look::Comb(comb)) => self.view.set_comb(comb),
             Effect::Say(text) if self.workspace.preview().is_some() => {
                 self.tell_of_update(Some(Refusal(text)));
             }
@@ -162,10 +164,6 @@ impl Editor {
                 };
             }
             Effect::Finish => self.take(ToolKind::Select),
-            Effect::EndFit(action) => {
-                // The panel says what it came to.
-                self.end_fit_action(action);
-            }
         }
     }
 }

@@ -1,22 +1,16 @@
 //! The end-fit tool's words and state: the paper's seven steps.
 
-use glam::{DQuat, DVec2, DVec3};
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
 
 use crate::analysis::CurveAnalysis;
 use crate::document::{Curve, CurveId, Document};
+use crate::editor::reply::Reply;
 use crate::editor::view::hit::REACH;
 use crate::editor::view::viewport::Viewport;
 use crate::geometry::end_correction::{EndDifference, EndOverlap, EndTarget};
-use crate::geometry::{End, Jet, Range, rotation_between};
-
-/// The length of a target direction's arrow, in screen points.
-pub const ARROW: f64 = 64.0;
-
-/// The radius of the ring that rotates the terminal vertices, in screen points.
-pub const RING: f64 = 40.0;
-
-/// Chords in the arc that shows the difference angle.
-const ARC_STEPS: u8 = 48;
+use crate::geometry::{End, Jet, Range};
 
 /// The loop's tolerance that is offered, in units of the polygon's size.
 const TOLERANCE: f64 = 1e-9;
@@ -75,8 +69,8 @@ pub struct EndFitReport {
     pub picking: bool,
     /// How the two ends share their vertices.
     pub overlap: EndOverlap,
-    /// What the last action came to, in words; `true` if it failed.
-    pub outcome: Option<(String, bool)>,
+    /// What the last action came to.
+    pub outcome: Option<Reply>,
     /// The largest move of a vertex by the last "both ends at once", and which vertex.
     pub largest_move: Option<(f64, usize)>,
 }
@@ -107,8 +101,6 @@ pub enum EndFitAction {
     PickFromCurve,
     /// Turn the target direction round.
     TurnRound,
-    /// Take this target, picked from another curve's end.
-    Picked(EndTarget),
     /// Translate the terminal vertices by the difference vector (step 5).
     Translate,
     /// Rotate them by the difference angle (step 6).
@@ -121,32 +113,9 @@ pub enum EndFitAction {
     SetTolerance(f64),
 }
 
-/// One end's marks on the canvas.
+/// Hold what the end-fit tool works on, and how.
 #[derive(Clone, Debug, PartialEq)]
-pub struct EndFitMarks {
-    /// Whether the end-fit tool works on this end now; otherwise only the target is drawn.
-    pub chosen: bool,
-    /// The actual end point.
-    pub actual: DVec2,
-    /// The tip of the actual tangent's arrow.
-    pub tangent_tip: Option<DVec2>,
-    /// The target point.
-    pub target: Option<DVec2>,
-    /// The tip of the target direction's arrow; a handle.
-    pub target_tip: Option<DVec2>,
-    /// The radius of the ring that rotates the terminal vertices, in units of the model.
-    pub ring: f64,
-    /// The terminal vertices.
-    pub terminal: Vec<DVec2>,
-    /// The difference angle in radians.
-    pub angle: f64,
-    /// The way that the unit tangent takes through the difference angle, as it is seen.
-    pub arc: Vec<DVec2>,
-}
-
-/// Hold what the end-fit tool remembers between actions.
-#[derive(Clone, Debug, PartialEq)]
-pub struct EndFitState {
+pub struct EndFitSettings {
     /// The end that is being corrected.
     pub end: End,
     /// Whether the next click picks a target from another curve.
@@ -155,47 +124,45 @@ pub struct EndFitState {
     pub closed: bool,
     /// The tolerance that was typed; `None` offers one by the curve's size.
     pub tolerance: Option<f64>,
-    /// Passes made by "repeat" since the targets last changed.
-    pub passes: usize,
-    /// What the last action came to; `true` if it failed.
-    pub outcome: Option<(String, bool)>,
-    /// The largest vertex move of the last joint correction.
-    pub largest_move: Option<(f64, usize)>,
-    /// The curve before the last correction: drawn as a ghost until something else happens.
-    pub ghost: Option<(CurveId, std::sync::Arc<Curve>)>,
 }
 
-impl Default for EndFitState {
+impl Default for EndFitSettings {
     fn default() -> Self {
         Self {
             end: End::Finish,
             picking: false,
             closed: false,
             tolerance: None,
-            passes: 0,
-            outcome: None,
-            largest_move: None,
-            ghost: None,
         }
     }
 }
 
-impl EndFitState {
-    /// Forget what earlier actions came to, as when targets or curve change.
-    pub fn begin_anew(&mut self) {
-        self.passes = 0;
-        self.outcome = None;
-        self.largest_move = None;
-        self.ghost = None;
-    }
+/// What the last action of the end-fit panel came to. It counts for the curve and the revision of
+/// the document that it was told of.
+#[derive(Clone, Debug)]
+pub struct LastAction {
+    /// The curve.
+    pub curve: CurveId,
+    /// The document's revision afterwards.
+    pub revision: u64,
+    /// What it came to.
+    pub reply: Reply,
+    /// Passes made since the targets last changed.
+    pub passes: usize,
+    /// The largest move of a vertex by a joint correction, and which vertex.
+    pub largest_move: Option<(f64, usize)>,
+    /// The curve before a correction.
+    pub before: Option<Arc<Curve>>,
+}
 
+impl EndFitSettings {
     /// The tolerance for a curve, as a length.
     pub fn tolerance_for(&self, curve: &Curve) -> f64 {
         self.tolerance.unwrap_or(TOLERANCE * curve.polygon.size())
     }
 
     /// Collect the figures of the seven steps.
-    pub fn report(&self, analysis: &mut CurveAnalysis) -> EndFitReport {
+    pub fn report(&self, analysis: &mut CurveAnalysis, last: Option<&LastAction>) -> EndFitReport {
         let curve = analysis.curve().clone();
         let polygon = &curve.polygon;
         let figures = analysis.float().figures();
@@ -237,11 +204,11 @@ impl EndFitState {
             tolerance,
             within: !targets.is_empty() && residual <= tolerance,
             targets: targets.len(),
-            passes: self.passes,
+            passes: last.map_or(0, |last| last.passes),
             overlap: EndOverlap::of(polygon),
             picking: self.picking,
-            outcome: self.outcome.clone(),
-            largest_move: self.largest_move,
+            outcome: last.map(|last| last.reply.clone()),
+            largest_move: last.and_then(|last| last.largest_move),
         }
     }
 }
@@ -289,52 +256,4 @@ pub fn other_ends(
         Some(*id) != own && curve.visible && !curve.polygon.is_periodic()
     });
     others.flat_map(|(_, curve)| End::BOTH.map(|end| (end, curve.polygon.end_jet(end))))
-}
-
-/// Make the marks of one end.
-pub fn marks(curve: &Curve, end: End, chosen: bool, viewport: &Viewport) -> Option<EndFitMarks> {
-    let target = curve.targets.get(end);
-    if target.is_none() && !chosen {
-        return None;
-    }
-    let polygon = &curve.polygon;
-    let jet = polygon.end_jet(end);
-    let arrow = ARROW * viewport.pixel();
-    let along = |direction: DVec3| {
-        viewport
-            .flatten(direction)
-            .try_normalize()
-            .map(|d| arrow * d)
-    };
-    let actual = viewport.flatten(jet.point);
-    let terminal = polygon.terminal_vertices(end).filter(|_| chosen);
-    let difference = target.map(|target| EndDifference::between(polygon, end, &target));
-    let direction = target.and_then(|target| target.direction);
-    let turn = jet.tangent().zip(direction.filter(|_| chosen));
-    Some(EndFitMarks {
-        chosen,
-        actual,
-        tangent_tip: jet.tangent().and_then(along).map(|arm| actual + arm),
-        target: target.map(|target| viewport.flatten(target.point)),
-        target_tip: target
-            .and_then(|target| Some(viewport.flatten(target.point) + along(target.direction?)?)),
-        ring: RING * viewport.pixel(),
-        terminal: terminal
-            .map(|index| viewport.flatten(polygon.vertex(index)))
-            .collect(),
-        angle: difference.map_or(0.0, |difference| difference.angle),
-        arc: turn.map_or(Vec::new(), |(from, to)| turning(from, to, viewport)),
-    })
-}
-
-/// Follow a unit vector as it turns to a direction the shortest way, as it is seen.
-fn turning(from: DVec3, to: DVec3, viewport: &Viewport) -> Vec<DVec2> {
-    let Some(rotation) = rotation_between(from, to) else {
-        return Vec::new();
-    };
-    let whole = DQuat::from_mat3(&rotation);
-    let steps = (0..=ARC_STEPS).map(|step| f64::from(step) / f64::from(ARC_STEPS));
-    steps
-        .map(|share| viewport.flatten(DQuat::IDENTITY.slerp(whole, share) * from))
-        .collect()
 }

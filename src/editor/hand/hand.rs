@@ -1,41 +1,22 @@
 //! What the hand holds.
 
 use crate::editor::hand::cycle::Cycle;
-use crate::editor::hand::end_fit::EndFitState;
 use crate::editor::hand::gesture::GestureMachine;
 use crate::editor::hand::input::Modifiers;
 use crate::editor::hand::selection::Selection;
-use crate::editor::hand::tools::{Tool, ToolKind};
+use crate::editor::hand::tools::{ToolKind, Tools};
 
 /// Hold the tool, its gesture, the selection, and which keys are held.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Hand {
     pub(in crate::editor) selection: Selection,
-    pub(in crate::editor) tool: ToolKind,
-    pub(in crate::editor) tool_state: Box<dyn Tool>,
-    pub(in crate::editor) end_fit: EndFitState,
+    pub(in crate::editor) tools: Tools,
     pub(in crate::editor) gestures: GestureMachine,
     pub(in crate::editor) modifiers: Modifiers,
     /// The axis of the model (0 x, 1 y, 2 z) whose key is held.
     pub(in crate::editor) axis: Option<usize>,
     pub(in crate::editor) snapping: bool,
     pub(in crate::editor) cycle: Cycle,
-}
-
-impl Default for Hand {
-    fn default() -> Self {
-        Self {
-            selection: Selection::default(),
-            tool: ToolKind::default(),
-            tool_state: ToolKind::default().take(),
-            end_fit: EndFitState::default(),
-            gestures: GestureMachine::default(),
-            modifiers: Modifiers::NONE,
-            axis: None,
-            snapping: false,
-            cycle: Cycle::default(),
-        }
-    }
 }
 
 impl Hand {
@@ -46,7 +27,7 @@ impl Hand {
 
     /// The tool in the hand.
     pub fn tool(&self) -> ToolKind {
-        self.tool
+        self.tools.kind()
     }
 
     /// Whether points snap.

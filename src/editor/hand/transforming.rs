@@ -11,13 +11,15 @@ impl Editor {
     /// The pivot of the rotate or the scale tool, if one of them is in the hand and there is
     /// something to take.
     pub fn pivot(&self) -> Option<DVec2> {
-        self.hand.tool_state.pivot(&self.context())
+        self.hand.tools.transform()?.pivot(&self.context())
     }
 
     /// Put the pivot somewhere, or let it follow the selection again.
     pub fn set_pivot(&mut self, pivot: Option<DVec2>) {
-        if pivot.is_none_or(|pivot| pivot.is_finite()) {
-            self.hand.tool_state.set_pivot(pivot);
+        if let Some(tool) = self.hand.tools.transform_mut()
+            && pivot.is_none_or(|pivot| pivot.is_finite())
+        {
+            tool.set_pivot(pivot);
         }
     }
 
@@ -28,7 +30,8 @@ impl Editor {
     /// [`crate::editor::Refusal`] if there is nothing to transform.
     pub fn transform(&mut self, transformation: Transformation) -> Reply {
         let context = self.context();
-        let Some(pivot) = self.hand.tool_state.pivot(&context) else {
+        let tool = self.hand.tools.transform();
+        let Some(pivot) = tool.and_then(|tool| tool.pivot(&context)) else {
             return self.tell(Err(tools::NOTHING_TO_TRANSFORM.into()));
         };
         let vertices = context.transformed();

@@ -8,8 +8,8 @@ use glam::{DVec2, DVec3};
 use crate::analysis::{CurveAnalysis, GAP, Orientation, PieceTrend, ViewBox};
 use crate::document::{Curve, CurveId};
 use crate::editor::Editor;
-use crate::editor::hand::end_fit;
 use crate::editor::hand::tools::ToolKind;
+use crate::editor::view::end_marks;
 use crate::editor::view::feature_report::append_marks;
 use crate::editor::view::hit::REACH;
 use crate::editor::view::layers::Layer;
@@ -66,14 +66,14 @@ impl Editor {
         self.draw_curves(&view, &mut scene.curves);
         self.draw_ghost(&view, &mut scene.ghost);
         scene.ends.clear();
-        if self.layers().shows(Layer::Targets) || self.hand.tool == ToolKind::EndFit {
+        if self.layers().shows(Layer::Targets) || self.hand.tool() == ToolKind::EndFit {
             self.draw_ends(&mut scene);
         }
         // Tools look at the scene's teeth, so it is put back before they draw.
         scene.hover = None;
         scene.marks.clear();
         self.view.scene = scene;
-        let marks = self.hand.tool_state.marks(&self.context());
+        let marks = self.hand.tools.used().marks(&self.context());
         let hover = self.hover();
         self.view.scene.marks = marks;
         self.view.scene.hover = hover;
@@ -184,11 +184,8 @@ impl Editor {
                 .and_then(|id| self.workspace.settled().curve(id))
                 .cloned()
         } else {
-            let ghost = self.hand.end_fit.ghost.as_ref();
-            let active = self.hand.selection.active();
-            ghost
-                .filter(|(id, _)| Some(*id) == active)
-                .map(|(_, curve)| curve.clone())
+            let last = self.last_end_fit_action();
+            last.and_then(|last| last.before.clone())
         };
         if let Some(before) = before {
             self.view
@@ -198,15 +195,16 @@ impl Editor {
     }
 
     fn draw_ends(&self, scene: &mut Scene) {
-        let fitting = self.hand.tool == ToolKind::EndFit;
+        let fitting = self.hand.tool() == ToolKind::EndFit;
         let active = self.hand.selection.active();
         for (id, curve) in self.workspace.document().curves() {
             if !curve.visible || curve.polygon.is_periodic() {
                 continue;
             }
             for end in End::BOTH {
-                let chosen = fitting && Some(id) == active && end == self.hand.end_fit.end;
-                let marks = end_fit::marks(curve, end, chosen, &self.view.viewport);
+                let chosen =
+                    fitting && Some(id) == active && end == self.hand.tools.end_fit.settings.end;
+                let marks = end_marks::marks(curve, end, chosen, &self.view.viewport);
                 scene.ends.extend(marks.map(|mut marks| {
                     if !self.layers().shows(Layer::Float) {
                         marks.terminal.clear();
@@ -229,7 +227,7 @@ impl Editor {
         }
         if self.hand.gestures.is_panning()
             || !matches!(
-                self.hand.tool,
+                self.hand.tool(),
                 ToolKind::Select
                     | ToolKind::Delete
                     | ToolKind::EndFit
@@ -243,7 +241,7 @@ impl Editor {
             return self.vertex_hover(vertex);
         }
         if let (ToolKind::Select, Some((id, index))) =
-            (self.hand.tool, context.hits.clamped_vertex(place))
+            (self.hand.tool(), context.hits.clamped_vertex(place))
         {
             return self.clamped_hover(id, index);
         }
@@ -267,7 +265,7 @@ impl Editor {
     fn held_vertex(&self) -> Option<(CurveId, usize)> {
         let mut selected = self.hand.selection.vertices();
         let only = selected.next().filter(|_| selected.next().is_none());
-        only.filter(|_| self.hand.tool == ToolKind::Select && self.workspace.preview().is_some())
+        only.filter(|_| self.hand.tool() == ToolKind::Select && self.workspace.preview().is_some())
     }
 
     fn hover_from_panels(&self) -> Option<HoverScene> {

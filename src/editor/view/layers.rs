@@ -1,7 +1,5 @@
 //! The canvas's layers and which of them are shown.
 
-use crate::editor::commands::command::Command;
-
 /// A layer of the canvas.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Layer {
@@ -48,11 +46,6 @@ impl Layer {
             Self::Grid => "Grid and axes",
             Self::Features => "Proved features",
         }
-    }
-
-    /// The command that switches the layer.
-    pub fn command(self) -> Command {
-        Command::ToggleLayer(self)
     }
 }
 

@@ -1,6 +1,7 @@
 //! What is seen: the viewport, the layers, what is hovered, and the scene in model coordinates.
 
 mod drawing;
+pub(in crate::editor) mod end_marks;
 mod feature_report;
 mod fitting;
 pub(in crate::editor) mod grid;
@@ -13,6 +14,7 @@ pub(in crate::editor) mod scene;
 mod view;
 pub(in crate::editor) mod viewport;
 
+pub use end_marks::EndFitMarks;
 pub use feature_report::{FeatureKind, FeatureMark, FeatureReport, FeatureRow};
 pub use grid::grid_steps;
 pub use hit::REACH;

@@ -54,7 +54,7 @@ impl Editor {
         self.view.viewport.orientation = orientation;
         self.view.viewport.centre += self.view.viewport.flatten(pivot) - before;
         self.analyses.set_orientation(orientation);
-        self.hand.tool_state.set_pivot(None);
+        self.set_pivot(None);
     }
 
     /// Turn the view by a drag of some screen points.

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use crate::document::{Colour, CurveId};
-use crate::editor::hand::end_fit::EndFitMarks;
+use crate::editor::view::end_marks::EndFitMarks;
 use crate::editor::view::feature_report::FeatureMark;
 
 /// All that is on the canvas, from back to front. Chains are points in the model's plane; a NaN

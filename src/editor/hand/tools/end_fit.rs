@@ -6,10 +6,11 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::tool::{Context, Cursor, Effect, Tool};
 use crate::document::{Curve, CurveId, Edit, quoted};
-use crate::editor::hand::end_fit::{ARROW, EndFitAction, RING, nearest_other_end, other_ends};
+use crate::editor::hand::end_fit::{EndFitSettings, LastAction, nearest_other_end, other_ends};
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
 use crate::editor::hand::snapping::{Carried, along_axis, by_fifteen_degrees};
+use crate::editor::view::end_marks::{ARROW, RING};
 use crate::editor::view::hit::REACH;
 use crate::editor::view::scene::Mark;
 use crate::geometry::End;
@@ -23,6 +24,10 @@ const SNAP_ANGLE: f64 = 2.5;
 /// The end-fit tool's state.
 #[derive(Debug, Default)]
 pub struct EndFitTool {
+    /// What it works on, and how.
+    pub settings: EndFitSettings,
+    /// What the last action of its panel came to.
+    pub last: Option<LastAction>,
     state: State,
 }
 
@@ -63,7 +68,7 @@ struct Subject<'a> {
 }
 
 impl<'a> Subject<'a> {
-    fn of(context: &Context<'a>, before: bool) -> Result<Self, String> {
+    fn of(context: &Context<'a>, end: End, before: bool) -> Result<Self, String> {
         let document = if before {
             context.before
         } else {
@@ -85,7 +90,6 @@ impl<'a> Subject<'a> {
         curve
             .check_visible()
             .map_err(|refused| refused.to_string())?;
-        let end = context.end_fit.end;
         Ok(Self {
             id,
             curve,
@@ -159,23 +163,27 @@ impl<'a> Subject<'a> {
         }
     }
 
-    fn with_target(&self, target: EndTarget) -> Effect {
-        Effect::Preview(vec![Edit::SetTarget {
+    fn with_target(&self, target: EndTarget) -> Edit {
+        Edit::SetTarget {
             curve: self.id,
             end: self.end,
             target: Some(target),
-        }])
+        }
+    }
+
+    fn set_target(&self, label: &str, target: EndTarget) -> Effect {
+        Effect::Apply(label.to_owned(), vec![self.with_target(target)])
     }
 }
 
 impl Tool for EndFitTool {
     fn gesture(&mut self, gesture: Gesture, context: &Context) -> Vec<Effect> {
-        let subject = match Subject::of(context, true) {
+        let subject = match Subject::of(context, self.settings.end, true) {
             Ok(subject) => subject,
             Err(reason) => return without_subject(gesture, reason, context),
         };
         match (std::mem::take(&mut self.state), gesture) {
-            (State::Idle, Gesture::Click(place)) => click(place, &subject, context),
+            (State::Idle, Gesture::Click(place)) => self.click(place, &subject, context),
             (State::Idle, Gesture::DragStart(place)) => self.start(place, &subject, context),
             (State::Idle, Gesture::Key(Key::Escape)) => vec![Effect::Finish],
             (state @ State::Idle, _) => {
@@ -196,11 +204,11 @@ impl Tool for EndFitTool {
     }
 
     fn hint(&self, context: &Context) -> String {
-        let subject = match Subject::of(context, false) {
+        let subject = match Subject::of(context, self.settings.end, false) {
             Ok(subject) => subject,
             Err(reason) => return reason,
         };
-        if context.end_fit.picking {
+        if self.settings.picking {
             return "Click another curve's end to take its point and direction as the target; Esc ends".into();
         }
         let name = subject.end.name();
@@ -236,7 +244,7 @@ impl Tool for EndFitTool {
     }
 
     fn marks(&self, context: &Context) -> Vec<Mark> {
-        if context.end_fit.picking {
+        if self.settings.picking {
             let own = context.selection.active();
             let ends = other_ends(context.document, own)
                 .map(|(_, jet)| context.viewport.flatten(jet.point));
@@ -255,7 +263,7 @@ impl Tool for EndFitTool {
         let place = context
             .pointer
             .map(|pointer| context.viewport.to_screen(pointer));
-        let handle = Subject::of(context, false)
+        let handle = Subject::of(context, self.settings.end, false)
             .ok()
             .zip(place)
             .and_then(|(subject, place)| subject.handle(place, context));
@@ -278,39 +286,54 @@ fn without_subject(gesture: Gesture, reason: String, context: &Context) -> Vec<E
     }
 }
 
-fn click(place: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
-    if context.end_fit.picking {
-        return match nearest_other_end(
-            context.document,
-            subject.id,
-            subject.end,
-            context.model(place),
-            context.viewport,
-        ) {
-            Some(target) => vec![Effect::EndFit(EndFitAction::Picked(target))],
+impl EndFitTool {
+    /// Begin anew, on the same end with the same tolerance, as when the tool is taken up again.
+    pub fn reset(&mut self) {
+        self.state = State::Idle;
+        self.settings.picking = false;
+        self.settings.closed = false;
+    }
+
+    fn click(&mut self, place: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
+        if self.settings.picking {
+            return self.pick(place, subject, context);
+        }
+        match subject.handle(place, context) {
+            Some(Handle::OtherEnd(end)) => {
+                self.settings.end = end;
+                Vec::new()
+            }
+            Some(_) => Vec::new(),
+            None if subject.target.is_none() => {
+                let at = context.snapped(context.model(place), &subject.carried());
+                let jet = subject.curve.polygon.end_jet(subject.end);
+                let by = at - context.viewport.flatten(jet.point);
+                let target = EndTarget {
+                    point: jet.point + context.movement(by, subject.is_planar()),
+                    direction: jet.tangent(),
+                };
+                vec![subject.set_target("Set target point", target)]
+            }
+            None => match context.hits.curve(place) {
+                Some(hit) if hit.curve != subject.id => vec![Effect::Activate(hit.curve)],
+                _ => Vec::new(),
+            },
+        }
+    }
+
+    fn pick(&mut self, place: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
+        let (at, view) = (context.model(place), context.viewport);
+        match nearest_other_end(context.document, subject.id, subject.end, at, view) {
+            Some(target) => {
+                self.settings.picking = false;
+                vec![subject.set_target("Pick target", target)]
+            }
             None => vec![Effect::Say(
                 "There is no other curve's end here: click nearer to one".into(),
             )],
-        };
-    }
-    match subject.handle(place, context) {
-        Some(Handle::OtherEnd(end)) => vec![Effect::EndFit(EndFitAction::Choose(end))],
-        Some(_) => Vec::new(),
-        None if subject.target.is_none() => {
-            let at = context.snapped(context.model(place), &subject.carried());
-            let end = subject.curve.polygon.end_jet(subject.end).point;
-            let by = at - context.viewport.flatten(end);
-            let point = end + context.movement(by, subject.is_planar());
-            vec![Effect::EndFit(EndFitAction::SetPoint(point))]
         }
-        None => match context.hits.curve(place) {
-            Some(hit) if hit.curve != subject.id => vec![Effect::Activate(hit.curve)],
-            _ => Vec::new(),
-        },
     }
-}
 
-impl EndFitTool {
     fn start(&mut self, place: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
         let origin = context.model(place);
         let name = subject.end.name();
@@ -383,7 +406,8 @@ fn drag_target(wanted: DVec2, subject: &Subject, context: &Context) -> Vec<Effec
     };
     let movement = context.movement(to - from, subject.is_planar());
     let point = target.point + movement;
-    vec![subject.with_target(EndTarget { point, ..target })]
+    let moved = subject.with_target(EndTarget { point, ..target });
+    vec![Effect::Preview(vec![moved])]
 }
 
 fn drag_direction(at: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
@@ -411,7 +435,7 @@ fn drag_direction(at: DVec2, subject: &Subject, context: &Context) -> Vec<Effect
         direction,
         ..target
     };
-    vec![subject.with_target(target)]
+    vec![Effect::Preview(vec![subject.with_target(target)])]
 }
 
 fn is_near(place: DVec2, target: &EndTarget, context: &Context) -> bool {

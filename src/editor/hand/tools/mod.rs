@@ -9,12 +9,116 @@ mod tool;
 mod transform;
 mod vertices;
 
-pub use tool::{Context, Cursor, Effect, Tool, move_edits};
+pub use tool::{Context, Cursor, Effect, Look, Tool, move_edits};
 pub use transform::{Action as Transformation, NOTHING_TO_TRANSFORM};
 
-use transform::Transform;
+use draw::DrawTool;
+use end_fit::EndFitTool;
+use measure::MeasureTool;
+use select::SelectTool;
+use transform::{Transform, TransformTool};
+use vertices::{AddVertexTool, DeleteTool, InsertTool};
 
-/// A tool that can be taken into the hand.
+/// Hold every tool, and which of them is in use.
+#[derive(Debug)]
+pub struct Tools {
+    used: ToolKind,
+    select: SelectTool,
+    add_vertex: AddVertexTool,
+    insert: InsertTool,
+    delete: DeleteTool,
+    draw: DrawTool,
+    rotate: TransformTool,
+    scale: TransformTool,
+    measure: MeasureTool,
+    /// The end-fit tool: its panel works on it too.
+    pub end_fit: EndFitTool,
+}
+
+impl Default for Tools {
+    fn default() -> Self {
+        Self {
+            used: ToolKind::default(),
+            select: SelectTool::default(),
+            add_vertex: AddVertexTool::default(),
+            insert: InsertTool::default(),
+            delete: DeleteTool,
+            draw: DrawTool::default(),
+            rotate: TransformTool::new(Transform::Rotate),
+            scale: TransformTool::new(Transform::Scale),
+            measure: MeasureTool::default(),
+            end_fit: EndFitTool::default(),
+        }
+    }
+}
+
+impl Tools {
+    /// Which tool is in use.
+    pub fn kind(&self) -> ToolKind {
+        self.used
+    }
+
+    /// Use another tool, or the same anew: it begins in its first state.
+    pub fn choose(&mut self, kind: ToolKind) {
+        let mut end_fit = std::mem::take(&mut self.end_fit);
+        end_fit.reset();
+        *self = Self {
+            used: kind,
+            end_fit,
+            ..Self::default()
+        };
+    }
+
+    /// The tool in use.
+    pub fn used(&self) -> &dyn Tool {
+        match self.used {
+            ToolKind::Select => &self.select,
+            ToolKind::AddVertex => &self.add_vertex,
+            ToolKind::Insert => &self.insert,
+            ToolKind::Delete => &self.delete,
+            ToolKind::Draw => &self.draw,
+            ToolKind::Rotate => &self.rotate,
+            ToolKind::Scale => &self.scale,
+            ToolKind::Measure => &self.measure,
+            ToolKind::EndFit => &self.end_fit,
+        }
+    }
+
+    /// The tool in use, to be worked with.
+    pub fn used_mut(&mut self) -> &mut dyn Tool {
+        match self.used {
+            ToolKind::Select => &mut self.select,
+            ToolKind::AddVertex => &mut self.add_vertex,
+            ToolKind::Insert => &mut self.insert,
+            ToolKind::Delete => &mut self.delete,
+            ToolKind::Draw => &mut self.draw,
+            ToolKind::Rotate => &mut self.rotate,
+            ToolKind::Scale => &mut self.scale,
+            ToolKind::Measure => &mut self.measure,
+            ToolKind::EndFit => &mut self.end_fit,
+        }
+    }
+
+    /// The rotate or the scale tool, if one of them is in use.
+    pub fn transform(&self) -> Option<&TransformTool> {
+        match self.used {
+            ToolKind::Rotate => Some(&self.rotate),
+            ToolKind::Scale => Some(&self.scale),
+            _ => None,
+        }
+    }
+
+    /// The rotate or the scale tool, if one of them is in use, to be set up.
+    pub fn transform_mut(&mut self) -> Option<&mut TransformTool> {
+        match self.used {
+            ToolKind::Rotate => Some(&mut self.rotate),
+            ToolKind::Scale => Some(&mut self.scale),
+            _ => None,
+        }
+    }
+}
+
+/// A tool that can be used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub enum ToolKind {
     /// Select and move vertices.
@@ -51,21 +155,6 @@ impl ToolKind {
         Self::Measure,
         Self::EndFit,
     ];
-
-    /// Take the tool into the hand, in its first state.
-    pub fn take(self) -> Box<dyn Tool> {
-        match self {
-            Self::Select => Box::new(select::SelectTool::default()),
-            Self::AddVertex => Box::new(vertices::AddVertexTool::default()),
-            Self::Insert => Box::new(vertices::InsertTool::default()),
-            Self::Delete => Box::new(vertices::DeleteTool),
-            Self::Draw => Box::new(draw::DrawTool::default()),
-            Self::Rotate => Box::new(transform::TransformTool::new(Transform::Rotate)),
-            Self::Scale => Box::new(transform::TransformTool::new(Transform::Scale)),
-            Self::Measure => Box::new(measure::MeasureTool::default()),
-            Self::EndFit => Box::new(end_fit::EndFitTool::default()),
-        }
-    }
 
     /// What the tool is called on screen.
     pub fn label(self) -> &'static str {

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3};
 
-use super::tool::{Context, Cursor, Effect, Tool, move_edits};
+use super::tool::{Context, Cursor, Effect, Look, Tool, move_edits};
 use crate::document::{CurveId, Edit, quoted};
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
@@ -111,7 +111,7 @@ impl Tool for SelectTool {
             (State::Scaling { scale, .. }, Gesture::Cancel) => {
                 let mut comb = context.comb;
                 comb.scale = scale;
-                vec![Effect::SetComb(comb)]
+                vec![Effect::Look(Look::Comb(comb))]
             }
             (_, Gesture::Cancel | Gesture::DragEnd(_)) => Vec::new(),
             (state, _) => {
@@ -201,7 +201,7 @@ impl SelectTool {
                 let reach = (context.model(place) - *foot).dot(arm) / arm.length_squared();
                 let mut comb = context.comb;
                 comb.scale = *scale * reach.max(1e-3);
-                vec![Effect::SetComb(comb)]
+                vec![Effect::Look(Look::Comb(comb))]
             }
         }
     }
@@ -386,7 +386,7 @@ fn double_click(place: DVec2, context: &Context) -> Vec<Effect> {
             let all = (0..vertex_count(hit.curve, context)).map(|index| (hit.curve, index));
             vec![Effect::Activate(hit.curve), Effect::Select(all.collect())]
         }
-        None => vec![Effect::FitAll],
+        None => vec![Effect::Look(Look::FitAll)],
     }
 }
 

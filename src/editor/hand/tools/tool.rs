@@ -6,7 +6,6 @@ use glam::{DVec2, DVec3};
 
 use crate::analysis::CombSettings;
 use crate::document::{CurveId, Document, Edit};
-use crate::editor::hand::end_fit::{EndFitAction, EndFitState};
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Modifiers;
 use crate::editor::hand::selection::{Selection, VertexId};
@@ -37,8 +36,6 @@ pub struct Context<'a> {
     pub comb: CombSettings,
     /// The teeth of the active curve's comb, if it is shown.
     pub teeth: &'a [[DVec2; 2]],
-    /// The state of the end-fit tool.
-    pub end_fit: &'a EndFitState,
     /// Where the pointer is, in the view plane.
     pub pointer: Option<DVec2>,
 }
@@ -64,16 +61,21 @@ pub enum Effect {
     ToggleSelected(VertexId),
     /// Make a curve the active one.
     Activate(CurveId),
-    /// Change how the comb is drawn.
-    SetComb(CombSettings),
-    /// Show everything.
-    FitAll,
+    /// Change how the model is seen.
+    Look(Look),
     /// Tell the user something.
     Say(String),
     /// Take the select tool.
     Finish,
-    /// Do what the end-fit panel could ask for too.
-    EndFit(EndFitAction),
+}
+
+/// A change of how the model is seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Look {
+    /// Show everything.
+    FitAll,
+    /// Draw the comb differently.
+    Comb(CombSettings),
 }
 
 /// A tool in the hand.
@@ -102,14 +104,6 @@ pub trait Tool: std::fmt::Debug + Send {
 
     /// Take back the last point of what is not finished.
     fn undo(&mut self) {}
-
-    /// The pivot, of a tool that has one.
-    fn pivot(&self, _context: &Context) -> Option<DVec2> {
-        None
-    }
-
-    /// Put the pivot somewhere, or let it follow the selection again.
-    fn set_pivot(&mut self, _pivot: Option<DVec2>) {}
 }
 
 /// A shape of the pointer.

@@ -61,6 +61,24 @@ impl TransformTool {
         }
     }
 
+    /// Put the pivot somewhere, or let it follow the selection again.
+    pub fn set_pivot(&mut self, pivot: Option<DVec2>) {
+        self.pivot = pivot;
+    }
+
+    /// The pivot: where it was put, or the middle of what would be transformed, if there is
+    /// anything.
+    pub fn pivot(&self, context: &Context) -> Option<DVec2> {
+        if let Some(pivot) = self.pivot {
+            return Some(pivot);
+        }
+        let mut bounds = Bounds::EMPTY;
+        for (_, vertex) in context.transformed() {
+            bounds.add(context.viewport.flatten(vertex));
+        }
+        (!bounds.is_empty()).then(|| 0.5 * (bounds.low + bounds.high))
+    }
+
     fn start(&mut self, place: DVec2, context: &Context) -> Vec<Effect> {
         let vertices = context.transformed();
         let Some(pivot) = self.pivot(context) else {
@@ -242,20 +260,5 @@ impl Tool for TransformTool {
             ];
         }
         self.pivot(context).map(Mark::Pivot).into_iter().collect()
-    }
-
-    fn set_pivot(&mut self, pivot: Option<DVec2>) {
-        self.pivot = pivot;
-    }
-
-    fn pivot(&self, context: &Context) -> Option<DVec2> {
-        if let Some(pivot) = self.pivot {
-            return Some(pivot);
-        }
-        let mut bounds = Bounds::EMPTY;
-        for (_, vertex) in context.transformed() {
-            bounds.add(context.viewport.flatten(vertex));
-        }
-        (!bounds.is_empty()).then(|| 0.5 * (bounds.low + bounds.high))
     }
 }
