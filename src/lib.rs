@@ -1,7 +1,7 @@
 //! Batten: an editor for fair curves, shaped by their float S-polygons.
 //!
 //! The layers and which way they look:
-//! `geometry ← document ← { analysis, io } ← editor ← ui`, with `cli` beside the editor.
+//! `geometry ← document ← { analysis, io, operations } ← editor ← ui`, with `cli` beside the editor.
 #![forbid(unsafe_code)]
 
 pub mod analysis;
@@ -10,5 +10,6 @@ pub mod document;
 pub mod editor;
 pub mod geometry;
 pub mod io;
+pub mod operations;
 #[cfg(feature = "gui")]
 pub mod ui;

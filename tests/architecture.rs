@@ -1,20 +1,37 @@
 //! The layers of the library and what each of them may know, read from the sources themselves.
 //!
-//! `geometry ← document ← { analysis, io } ← editor ← ui`, with `cli` beside the editor.
+//! `geometry ← document ← { analysis, io, operations } ← editor ← ui`, with `cli` beside the editor.
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What each folder of src may look at, besides itself.
-const LAYERS: [(&str, &[&str]); 7] = [
+const LAYERS: [(&str, &[&str]); 8] = [
     ("geometry", &[]),
     ("document", &["geometry"]),
     ("analysis", &["document", "geometry"]),
     ("io", &["document", "geometry"]),
-    ("editor", &["analysis", "io", "document", "geometry"]),
-    ("ui", &["editor", "analysis", "io", "document", "geometry"]),
-    ("cli", &["io", "analysis", "document", "geometry"]),
+    ("operations", &["document", "geometry"]),
+    (
+        "editor",
+        &["analysis", "io", "operations", "document", "geometry"],
+    ),
+    (
+        "ui",
+        &[
+            "editor",
+            "analysis",
+            "io",
+            "operations",
+            "document",
+            "geometry",
+        ],
+    ),
+    (
+        "cli",
+        &["io", "analysis", "operations", "document", "geometry"],
+    ),
 ];
 
 /// What main.rs may look at: it only picks one of the two.

@@ -23,9 +23,34 @@ pub fn figure(value: f64) -> String {
     }
 }
 
+/// Write a bound with two digits, rounded up.
+pub fn rounded_up(bound: f64) -> String {
+    let nearest = format!("{bound:.1e}");
+    if nearest.parse().is_ok_and(|shown: f64| shown >= bound) {
+        nearest
+    } else {
+        // Less than half of the last digit is missing, which is at most a twentieth.
+        format!("{:.1e}", bound * 1.05)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn bounds_are_never_shown_smaller_than_they_are() {
+        for (bound, shown) in [
+            (3.04e-10, "3.2e-10"),
+            (1.01e-5, "1.1e-5"),
+            (9.96e-3, "1.0e-2"),
+            (9.91e-3, "1.0e-2"),
+            (2.0, "2.0e0"),
+            (0.0, "0.0e0"),
+        ] {
+            assert_eq!(rounded_up(bound), shown);
+        }
+    }
 
     #[test]
     fn one_thing_is_not_said_in_the_plural() {

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::format::Format;
 use crate::document::{Curve, quoted};
-use crate::geometry::PolygonKind;
+use crate::geometry::{PolygonKind, rounded_up};
 
 /// Hold a written file's bytes and what is lost with them.
 #[derive(Clone, Debug, PartialEq)]
@@ -169,35 +169,5 @@ impl fmt::Display for LossReport {
             )?;
         }
         Ok(())
-    }
-}
-
-/// Write a bound with two digits, rounded up.
-pub(super) fn rounded_up(bound: f64) -> String {
-    let nearest = format!("{bound:.1e}");
-    if nearest.parse().is_ok_and(|shown: f64| shown >= bound) {
-        nearest
-    } else {
-        // Less than half of the last digit is missing, which is at most a twentieth.
-        format!("{:.1e}", bound * 1.05)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::rounded_up;
-
-    #[test]
-    fn bounds_are_never_shown_smaller_than_they_are() {
-        for (bound, shown) in [
-            (3.04e-10, "3.2e-10"),
-            (1.01e-5, "1.1e-5"),
-            (9.96e-3, "1.0e-2"),
-            (9.91e-3, "1.0e-2"),
-            (2.0, "2.0e0"),
-            (0.0, "0.0e0"),
-        ] {
-            assert_eq!(rounded_up(bound), shown);
-        }
     }
 }

@@ -3,9 +3,8 @@
 use std::collections::HashMap;
 use std::fmt;
 
-use super::loss::rounded_up;
 use crate::document::{Curve, Extras, quoted};
-use crate::geometry::{PolygonKind, counted};
+use crate::geometry::{PolygonKind, counted, rounded_up};
 
 /// The most unknown keys that are named one by one.
 const MOST_NAMED: usize = 8;

@@ -1,0 +1,49 @@
+//! What splitting and trimming share.
+
+use std::ops::Bound;
+
+use super::amount::Amount;
+use super::error::OperationError;
+use super::input::Input;
+use super::parameter::{Kind, Parameter, Range, Unit};
+use crate::document::{Curve, CurveId, Edit};
+use crate::geometry::{End, MAX_SUBDIVISIONS};
+
+/// How often segments may be halved to bring a knot to where the curve is cut.
+pub(super) const SUBDIVISIONS: Parameter = Parameter {
+    name: "subdivisions",
+    label: "Subdivisions",
+    help: "How often segments may be halved so that a knot lies at the cut and the part is exact; without a knot there it comes near",
+    kind: Kind::Whole {
+        range: Range {
+            from: Bound::Included(Amount::Number(0.0)),
+            to: Bound::Included(Amount::Number(MAX_SUBDIVISIONS as f64)),
+        },
+        default: Amount::Number(0.0),
+        unit: Unit::None,
+    },
+};
+
+/// Where a cut is offered: at the knot in the middle.
+pub(super) const MIDDLE: Amount = Amount::Of {
+    words: "the knot in the middle (0.5 for one segment)",
+    value: middle,
+};
+
+fn middle(input: &Input) -> Result<f64, OperationError> {
+    let segments = input.polygon()?.segments();
+    Ok(if segments > 1 {
+        (segments / 2) as f64
+    } else {
+        0.5
+    })
+}
+
+/// Forget the target of an end that is cut off, if it has one.
+pub(super) fn without_target(id: CurveId, curve: &Curve, end: End) -> Option<Edit> {
+    curve.targets.get(end).map(|_| Edit::SetTarget {
+        curve: id,
+        end,
+        target: None,
+    })
+}

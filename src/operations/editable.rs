@@ -1,0 +1,36 @@
+//! What most operations ask of their curve beforehand.
+
+use super::error::OperationError;
+use super::input::Input;
+use crate::document::Curve;
+use crate::geometry::PolygonError;
+
+/// Refuse a curve that is locked or hidden.
+///
+/// # Errors
+/// [`OperationError::Edit`], or [`OperationError::Inputs`] if there is no curve.
+pub(super) fn check_editable(input: &Input) -> Result<(), OperationError> {
+    editable(input).map(drop)
+}
+
+/// Refuse a curve that is locked, hidden or periodic, so that it cannot be `done`.
+///
+/// # Errors
+/// As [`check_editable`], and [`PolygonError::PeriodicCurve`].
+pub(super) fn open<'a>(input: &'a Input, done: &'static str) -> Result<&'a Curve, OperationError> {
+    let curve = editable(input)?;
+    if curve.polygon.is_periodic() {
+        return Err(PolygonError::PeriodicCurve { done }.into());
+    }
+    Ok(curve)
+}
+
+/// The curve, if it is neither locked nor hidden.
+///
+/// # Errors
+/// As [`check_editable`].
+pub(super) fn editable(input: &Input) -> Result<&Curve, OperationError> {
+    let (_, curve) = input.curve()?;
+    curve.check_editable()?;
+    Ok(curve)
+}

@@ -1,0 +1,72 @@
+//! A higher degree for the same curve.
+
+use std::ops::Bound;
+
+use super::amount::Amount;
+use super::editable::editable;
+use super::error::OperationError;
+use super::input::Input;
+use super::operation::{Inputs, Operation};
+use super::outcome::{Deviation, Outcome};
+use super::parameter::{Kind, Parameter, Range, Unit};
+use super::values::Values;
+use crate::geometry::{FloatPolygon, MAX_DEGREE, Progress};
+
+const DEGREE: Parameter = Parameter {
+    name: "degree",
+    label: "Degree",
+    help: "The degree that the curve gets",
+    kind: Kind::Whole {
+        range: Range {
+            from: Bound::Included(Amount::Degree(1)),
+            to: Bound::Included(Amount::Of {
+                words: "25 (a periodic curve: the number of segments − 1 at the most)",
+                value: |input| Ok(highest(input.polygon()?) as f64),
+            }),
+        },
+        default: Amount::Degree(1),
+        unit: Unit::None,
+    },
+};
+
+pub(super) static OPERATION: Operation = Operation {
+    name: "elevate-degree",
+    label: "Raise degree, keep curve",
+    help: "Raise the degree: exact for a curve of one segment, otherwise as near as a uniform curve comes",
+    inputs: Inputs::One,
+    parameters: &[DEGREE],
+    check,
+    run,
+};
+
+fn check(input: &Input) -> Result<(), OperationError> {
+    let polygon = &editable(input)?.polygon;
+    let degree = polygon.degree();
+    if degree >= highest(polygon) {
+        let highest = true;
+        return Err(OperationError::DegreeAtLimit { degree, highest });
+    }
+    Ok(())
+}
+
+fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
+    let (id, curve) = input.curve()?;
+    let raised = curve.polygon.with_degree(values.whole(&DEGREE))?;
+    let deviation = Deviation::of(&raised);
+    let mut outcome = Outcome::reshaped(id, raised.polygon, deviation);
+    outcome.renumbered = true;
+    if !raised.exact {
+        let why = "With more than one segment, raising the degree would double the knots: a uniform curve can only come near";
+        outcome.remarks.push(why.to_owned());
+    }
+    Ok(outcome)
+}
+
+/// The highest degree that the curve can have with as many segments.
+fn highest(polygon: &FloatPolygon) -> usize {
+    if polygon.is_periodic() {
+        MAX_DEGREE.min(polygon.segments() - 1)
+    } else {
+        MAX_DEGREE
+    }
+}

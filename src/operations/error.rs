@@ -1,0 +1,90 @@
+//! Why an operation cannot run.
+
+use thiserror::Error;
+
+use super::operation::Inputs;
+use crate::document::EditError;
+use crate::geometry::joint_correction::CorrectionError;
+use crate::geometry::{End, MAX_DEGREE, PolygonError};
+
+/// Why an operation cannot run on an input, or with some values.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum OperationError {
+    /// The input is not what the operation wants.
+    #[error("{}", .needed.request())]
+    Inputs {
+        /// What it wants.
+        needed: Inputs,
+    },
+    /// The curve cannot be changed, or not so.
+    #[error(transparent)]
+    Edit(#[from] EditError),
+    /// What was asked for makes no curve.
+    #[error(transparent)]
+    Polygon(#[from] PolygonError),
+    /// The ends cannot be corrected at once.
+    #[error(transparent)]
+    Correction(#[from] CorrectionError),
+    /// The degree is the lowest or highest already.
+    #[error("the degree is {degree} already, the {} that {}", if *.highest { "highest" } else { "lowest" }, why_no_more(*.degree, *.highest))]
+    DegreeAtLimit {
+        /// The degree.
+        degree: usize,
+        /// Whether it is the highest.
+        highest: bool,
+    },
+    /// No end has a target, or not the one that was chosen.
+    #[error("{}", no_target(*.end))]
+    NoTarget {
+        /// The end that was chosen.
+        end: Option<End>,
+    },
+    /// The target leaves the direction free.
+    #[error("the target of the {} has no direction: set a target direction first", .end.name())]
+    NoTargetDirection {
+        /// The end.
+        end: End,
+    },
+    /// A parameter that the operation does not have.
+    #[error("there is no parameter “{name}”")]
+    NoSuchParameter {
+        /// The name given.
+        name: String,
+    },
+    /// A value of another kind than the parameter's.
+    #[error("{label}: {needed} is needed")]
+    WrongKind {
+        /// The parameter, as it is shown.
+        label: &'static str,
+        /// What it takes.
+        needed: String,
+    },
+    /// A value out of the parameter's range.
+    #[error("{label}: {value} is out of range: {needed} is needed")]
+    OutOfRange {
+        /// The parameter, as it is shown.
+        label: &'static str,
+        /// The value given.
+        value: String,
+        /// The range.
+        needed: String,
+    },
+    /// The result is no longer wanted.
+    #[error("cancelled")]
+    Cancelled,
+}
+
+fn why_no_more(degree: usize, highest: bool) -> &'static str {
+    match (highest, degree) {
+        (true, MAX_DEGREE) => "there is",
+        (true, _) => "a periodic curve of so few segments can have",
+        (false, _) => "there is",
+    }
+}
+
+fn no_target(end: Option<End>) -> String {
+    match end {
+        Some(end) => format!("the {} has no target: set one first", end.name()),
+        None => "no end of the curve has a target: set one first".to_owned(),
+    }
+}

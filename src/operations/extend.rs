@@ -1,0 +1,51 @@
+//! A longer curve: its end segment's polynomial continued.
+
+use std::ops::Bound;
+
+use super::amount::Amount;
+use super::editable::open;
+use super::error::OperationError;
+use super::input::Input;
+use super::operation::{Inputs, Operation};
+use super::outcome::{Deviation, Figure, Mark, Outcome};
+use super::parameter::{Kind, Parameter, Range, Unit};
+use super::values::Values;
+use super::which_end::{END, end};
+use crate::geometry::{MAX_ADDED_SEGMENTS, Progress};
+
+const SEGMENTS: Parameter = Parameter {
+    name: "segments",
+    label: "Segments",
+    help: "How many segments are added",
+    kind: Kind::Whole {
+        range: Range {
+            from: Bound::Included(Amount::Number(1.0)),
+            to: Bound::Included(Amount::Number(MAX_ADDED_SEGMENTS as f64)),
+        },
+        default: Amount::Number(1.0),
+        unit: Unit::None,
+    },
+};
+
+pub(super) static OPERATION: Operation = Operation {
+    name: "extend",
+    label: "Extend curve",
+    help: "Continue an end of the curve by whole segments, exactly as it runs",
+    inputs: Inputs::One,
+    parameters: &[END, SEGMENTS],
+    check: |input| open(input, "extended").map(drop),
+    run,
+};
+
+fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
+    let (id, curve) = input.curve()?;
+    let end = end(values);
+    let polygon = curve.polygon.extended(end, values.whole(&SEGMENTS))?;
+    let segments = Figure::count("segments", "Segments", polygon.segments());
+    let mut outcome = Outcome::reshaped(id, polygon, Deviation::Exact);
+    outcome.figures.push(segments);
+    outcome
+        .marks
+        .push(Mark::Point(curve.polygon.end_jet(end).point));
+    Ok(outcome)
+}

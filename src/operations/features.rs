@@ -1,0 +1,158 @@
+//! Proved features of the curves that an operation concerns, before and after it.
+
+use std::sync::Arc;
+
+use super::input::Input;
+use super::outcome::Outcome;
+use crate::document::{Curve, CurveId, Document};
+use crate::geometry::features::{Features, Quantity, SegmentProver, Verdict};
+use crate::geometry::{FloatPolygon, Progress};
+
+/// Hold how many features each curve has that an operation concerns: those that were chosen, and
+/// those that it changes, adds or removes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FeatureComparison {
+    /// The curves before the operation.
+    pub before: Vec<FeatureCounts>,
+    /// The curves afterwards.
+    pub after: Vec<FeatureCounts>,
+}
+
+/// Count the proved features of a curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FeatureCounts {
+    /// The curve's name.
+    pub name: String,
+    /// Inflections of a planar curve.
+    pub inflections: usize,
+    /// Extrema of the curvature.
+    pub curvature_extrema: usize,
+    /// Zeros of the torsion.
+    pub torsion_zeros: usize,
+    /// Extrema of the torsion.
+    pub torsion_extrema: usize,
+    /// Cusps.
+    pub cusps: usize,
+    /// Places where there may be features that could not be counted.
+    pub undecided: usize,
+    /// Whether the curvature is monotone.
+    pub monotone: Verdict,
+}
+
+impl FeatureComparison {
+    /// Prove the features, segment by segment; `None` if `progress` is cancelled meanwhile.
+    pub fn prove(input: &Input, outcome: &Outcome, progress: &Progress) -> Option<Self> {
+        let after = outcome.after(input);
+        let concerned = concerned(input, &after);
+        let find = |document: &Document| -> Vec<Arc<Curve>> {
+            let found = concerned.iter();
+            found
+                .filter_map(|id| document.curve(*id).cloned())
+                .collect()
+        };
+        let [before, after] = [input.document(), &after].map(find);
+        let mut proof = Proof {
+            progress,
+            done: 0,
+            segments: segments(&before) + segments(&after),
+            proved: Vec::new(),
+        };
+        Some(Self {
+            before: proof.counts(&before)?,
+            after: proof.counts(&after)?,
+        })
+    }
+}
+
+impl FeatureCounts {
+    fn of(curve: &Curve, features: &Features) -> Self {
+        let cusps = features.cusps.iter().filter(|cusp| cusp.proved).count();
+        Self {
+            name: curve.name.clone(),
+            inflections: features.count(Quantity::Inflection),
+            curvature_extrema: features.count(Quantity::CurvatureExtremum),
+            torsion_zeros: features.count(Quantity::TorsionZero),
+            torsion_extrema: features.count(Quantity::TorsionExtremum),
+            cusps,
+            undecided: features.undecided.len() + features.cusps.len() - cusps,
+            monotone: features.monotone,
+        }
+    }
+}
+
+/// List the curves that were chosen, then those whose polygon differs, in the documents' order.
+fn concerned(input: &Input, after: &Document) -> Vec<CurveId> {
+    let before = input.document();
+    let polygon = |document: &Document, id| document.curve(id).map(|curve| curve.polygon.clone());
+    let differs = |id: &CurveId| match (before.curve(*id), after.curve(*id)) {
+        (Some(a), Some(b)) if Arc::ptr_eq(a, b) => false,
+        _ => polygon(before, *id) != polygon(after, *id),
+    };
+    let mut concerned: Vec<CurveId> = input.curves().iter().map(|(id, _)| *id).collect();
+    for id in before.ids().chain(after.ids()) {
+        if differs(&id) && !concerned.contains(&id) {
+            concerned.push(id);
+        }
+    }
+    concerned
+}
+
+fn segments(curves: &[Arc<Curve>]) -> usize {
+    curves.iter().map(|curve| curve.polygon.segments()).sum()
+}
+
+/// The proofs of some curves, one after the other.
+struct Proof<'a> {
+    progress: &'a Progress,
+    /// How many segments are proved, of how many.
+    done: usize,
+    segments: usize,
+    /// What is proved: a curve that an operation leaves as it is needs no second proof.
+    proved: Vec<(FloatPolygon, Features)>,
+}
+
+impl Proof<'_> {
+    fn counts(&mut self, curves: &[Arc<Curve>]) -> Option<Vec<FeatureCounts>> {
+        let counts = curves.iter();
+        let counts = counts.map(|curve| {
+            let features = self.features(&curve.polygon)?;
+            Some(FeatureCounts::of(curve, features))
+        });
+        counts.collect()
+    }
+
+    fn features(&mut self, polygon: &FloatPolygon) -> Option<&Features> {
+        let known = self.proved.iter().position(|(known, _)| known == polygon);
+        let index = match known {
+            Some(index) => {
+                self.advance(polygon.segments());
+                index
+            }
+            None => {
+                let features = self.proof(polygon)?;
+                self.proved.push((polygon.clone(), features));
+                self.proved.len() - 1
+            }
+        };
+        self.proved.get(index).map(|(_, features)| features)
+    }
+
+    fn proof(&mut self, polygon: &FloatPolygon) -> Option<Features> {
+        let mut prover = SegmentProver::new(polygon.is_planar());
+        let mut segments = Vec::with_capacity(polygon.segments());
+        for segment in 0..polygon.segments() {
+            if self.progress.is_cancelled() {
+                return None;
+            }
+            segments.push(prover.segment(polygon, segment));
+            self.advance(1);
+        }
+        Some(Features::assemble(polygon, &segments))
+    }
+
+    fn advance(&mut self, segments: usize) {
+        self.done += segments;
+        self.progress
+            .set_done(self.done as f64 / self.segments as f64);
+    }
+}

@@ -1,0 +1,79 @@
+//! What an operation works on.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::error::OperationError;
+use super::operation::Inputs;
+use crate::document::{Curve, CurveId, Document, EditError};
+use crate::geometry::FloatPolygon;
+
+/// Hold a snapshot of a document with what was chosen in it: curves, or a table of points.
+#[derive(Clone, Debug)]
+pub struct Input {
+    document: Document,
+    curves: Vec<(CurveId, Arc<Curve>)>,
+    points: Vec<DVec3>,
+}
+
+impl Input {
+    /// Choose curves of a document, in the order in which the operation takes them.
+    ///
+    /// # Errors
+    /// [`EditError::NoSuchCurve`] if the document has no such curve.
+    pub fn new(
+        document: &Document,
+        curves: impl IntoIterator<Item = CurveId>,
+    ) -> Result<Self, OperationError> {
+        let found = |id| {
+            let curve = document.curve(id).ok_or(EditError::NoSuchCurve)?;
+            Ok((id, curve.clone()))
+        };
+        let curves: Result<_, EditError> = curves.into_iter().map(found).collect();
+        Ok(Self {
+            document: document.clone(),
+            curves: curves?,
+            points: Vec::new(),
+        })
+    }
+
+    /// Add a table of points with finite coordinates.
+    pub fn with_points(self, points: Vec<DVec3>) -> Self {
+        Self { points, ..self }
+    }
+
+    /// The document as it is before the operation.
+    pub fn document(&self) -> &Document {
+        &self.document
+    }
+
+    /// The curves that were chosen.
+    pub fn curves(&self) -> &[(CurveId, Arc<Curve>)] {
+        &self.curves
+    }
+
+    /// The points of the table.
+    pub fn points(&self) -> &[DVec3] {
+        &self.points
+    }
+
+    /// The first curve that was chosen.
+    ///
+    /// # Errors
+    /// [`OperationError::Inputs`] if none was.
+    pub fn curve(&self) -> Result<(CurveId, &Curve), OperationError> {
+        let needed = Inputs::One;
+        let first = self.curves.first();
+        let (id, curve) = first.ok_or(OperationError::Inputs { needed })?;
+        Ok((*id, curve))
+    }
+
+    /// The polygon of the first curve that was chosen.
+    ///
+    /// # Errors
+    /// As [`Input::curve`].
+    pub fn polygon(&self) -> Result<&FloatPolygon, OperationError> {
+        Ok(&self.curve()?.1.polygon)
+    }
+}

@@ -1,0 +1,65 @@
+//! Operations: what makes curves from curves, or from parameters alone, on request.
+//!
+//! An operation is a value ([`Operation`]): its name and words, the inputs it wants, its
+//! parameters described once, and one function from an [`Input`] and checked [`Values`] to an
+//! [`Outcome`]: edits, figures and marks. Menus, the operation panel and the command line all read
+//! that description. Nothing in here opens windows or threads, or changes a document.
+//!
+//! A new operation is a file here that exports a `pub(super) static OPERATION`, and a line in the
+//! table below.
+
+mod amount;
+mod cutting;
+mod editable;
+mod error;
+mod features;
+mod input;
+mod operation;
+mod outcome;
+mod parameter;
+mod report;
+mod report_json;
+mod summary;
+mod targets;
+mod values;
+mod which_end;
+
+pub use amount::Amount;
+pub use error::OperationError;
+pub use features::{FeatureComparison, FeatureCounts};
+pub use input::Input;
+pub use operation::{Inputs, Operation};
+pub use outcome::{Deviation, Figure, Mark, Outcome};
+pub use parameter::{Choice, Kind, Limits, Parameter, Range, Unit};
+pub use report::{LargestMove, Report};
+pub use values::{Value, Values};
+
+/// Declare the modules of operations, and list what they export in this order.
+macro_rules! table {
+    ($($module:ident,)*) => {
+        $(mod $module;)*
+
+        /// Every operation, in the order in which they are offered.
+        pub static ALL: &[&Operation] = &[$(&$module::OPERATION,)*];
+    };
+}
+
+table! {
+    reverse,
+    reinterpret_degree,
+    elevate_degree,
+    reduce_degree,
+    subdivide,
+    extend,
+    split,
+    trim,
+    round,
+    translate_end,
+    rotate_end,
+    correct_ends,
+}
+
+/// Find an operation by its name.
+pub fn find(name: &str) -> Option<&'static Operation> {
+    ALL.iter().copied().find(|operation| operation.name == name)
+}

@@ -1,0 +1,110 @@
+//! An operation, described once for menus, panel and command line.
+
+use super::error::OperationError;
+use super::input::Input;
+use super::outcome::Outcome;
+use super::parameter::Parameter;
+use super::values::{Value, Values};
+use crate::geometry::Progress;
+
+/// Describe an operation and how it is done.
+#[derive(Debug)]
+pub struct Operation {
+    /// What the command line calls it.
+    pub name: &'static str,
+    /// What menus, the panel and the step of undo call it.
+    pub label: &'static str,
+    /// What it does, in one line.
+    pub help: &'static str,
+    /// What it works on.
+    pub inputs: Inputs,
+    /// What can be chosen, in the order in which it is offered.
+    pub parameters: &'static [Parameter],
+    /// Tell why it cannot run on this input, whatever the values.
+    pub(super) check: fn(&Input) -> Result<(), OperationError>,
+    /// Do it.
+    pub(super) run: fn(&Input, &Values, &Progress) -> Result<Outcome, OperationError>,
+}
+
+/// What an operation works on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Inputs {
+    /// Nothing: the parameters tell all.
+    None,
+    /// A curve.
+    One,
+    /// Two curves, in an order.
+    Two,
+    /// A table of points.
+    Points,
+}
+
+impl Inputs {
+    /// Ask for what is missing, in words.
+    pub(super) fn request(self) -> &'static str {
+        match self {
+            Self::None => "this works on no curve: choose none",
+            Self::One => "choose one curve",
+            Self::Two => "choose two different curves",
+            Self::Points => "a table of points is needed",
+        }
+    }
+
+    fn are_given(self, input: &Input) -> bool {
+        let (curves, points) = (input.curves(), input.points().len());
+        match self {
+            Self::None => curves.is_empty() && points == 0,
+            Self::One => curves.len() == 1 && points == 0,
+            Self::Two => curves.len() == 2 && curves[0].0 != curves[1].0 && points == 0,
+            Self::Points => curves.is_empty() && points > 0,
+        }
+    }
+}
+
+impl Operation {
+    /// Tell beforehand why the operation cannot run on this input, whatever the values: the curve
+    /// is locked or hidden, it has no ends, its degree is the highest already.
+    ///
+    /// # Errors
+    /// [`OperationError`].
+    pub fn check(&self, input: &Input) -> Result<(), OperationError> {
+        let needed = self.inputs;
+        if !needed.are_given(input) {
+            return Err(OperationError::Inputs { needed });
+        }
+        (self.check)(input)
+    }
+
+    /// Check values given by the parameters' names; what is not given has its default. Of values
+    /// given twice the last counts.
+    ///
+    /// # Errors
+    /// As [`Operation::check`], and if a parameter does not exist or its value is not in range.
+    pub fn values<'a>(
+        &self,
+        input: &Input,
+        given: impl IntoIterator<Item = (&'a str, Value)>,
+    ) -> Result<Values, OperationError> {
+        self.check(input)?;
+        Values::new(self.parameters, input, given)
+    }
+
+    /// Run the operation with values that were checked for this input.
+    ///
+    /// The document accepts the edits of the outcome. Where what was asked for is not reached, the
+    /// outcome says so and has no edits.
+    ///
+    /// # Errors
+    /// As [`Operation::check`]; if the values make no curve; or [`OperationError::Cancelled`].
+    pub fn run(
+        &self,
+        input: &Input,
+        values: &Values,
+        progress: &Progress,
+    ) -> Result<Outcome, OperationError> {
+        self.check(input)?;
+        let outcome = (self.run)(input, values, progress)?;
+        outcome.applied_to(input.document())?;
+        Ok(outcome)
+    }
+}

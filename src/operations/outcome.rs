@@ -1,0 +1,157 @@
+//! What an operation comes to.
+
+use glam::DVec3;
+
+use super::parameter::Unit;
+use super::values::Value;
+use crate::document::{CurveId, Document, Edit, EditError};
+use crate::geometry::{Approximation, FloatPolygon};
+
+/// Hold what an operation comes to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// Whether what was asked for is reached; there are no edits if not.
+    pub reached: bool,
+    /// What is left of a target or tolerance, as a length.
+    pub residual: Option<f64>,
+    /// The edits to make, in this order.
+    pub edits: Vec<Edit>,
+    /// How far the curve moves.
+    pub deviation: Deviation,
+    /// Whether vertices get other numbers, so that moves of vertices mean nothing.
+    pub renumbered: bool,
+    /// The operation's own figures.
+    pub figures: Vec<Figure>,
+    /// What else is to say: sentences without a full stop at the end.
+    pub remarks: Vec<String>,
+    /// What to draw on the canvas.
+    pub marks: Vec<Mark>,
+}
+
+/// How far a curve moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Deviation {
+    /// It is the same curve, but for the rounding of numbers to doubles.
+    Exact,
+    /// Its points move by no more than this length: a proved bound.
+    AtMost(f64),
+    /// It is another curve; the distance is not measured.
+    Unmeasured,
+}
+
+impl Deviation {
+    /// The deviation of an approximation.
+    pub(super) fn of(approximation: &Approximation) -> Self {
+        if approximation.exact {
+            Self::Exact
+        } else {
+            Self::AtMost(approximation.deviation)
+        }
+    }
+
+    /// The larger of two.
+    pub(super) fn or(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Unmeasured, _) | (_, Self::Unmeasured) => Self::Unmeasured,
+            (Self::AtMost(a), Self::AtMost(b)) => Self::AtMost(a.max(b)),
+            (Self::Exact, other) => other,
+            (this, Self::Exact) => this,
+        }
+    }
+}
+
+/// A figure that belongs to one operation only.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Figure {
+    /// Its key in JSON.
+    pub name: &'static str,
+    /// What the panel calls it.
+    pub label: &'static str,
+    /// The figure.
+    pub value: Value,
+    /// Its unit.
+    pub unit: Unit,
+}
+
+impl Figure {
+    /// Tell a number of things.
+    pub(super) fn count(name: &'static str, label: &'static str, count: usize) -> Self {
+        Self {
+            name,
+            label,
+            value: Value::Whole(count),
+            unit: Unit::None,
+        }
+    }
+
+    /// Tell a length.
+    pub(super) fn length(name: &'static str, label: &'static str, length: f64) -> Self {
+        Self {
+            name,
+            label,
+            value: Value::Real(length),
+            unit: Unit::Length,
+        }
+    }
+
+    /// Tell an angle, in radians.
+    pub(super) fn angle(name: &'static str, label: &'static str, radians: f64) -> Self {
+        Self {
+            name,
+            label,
+            value: Value::Real(radians),
+            unit: Unit::Angle,
+        }
+    }
+}
+
+/// Something to draw on the canvas, in model space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mark {
+    /// A point, such as one where a curve is cut.
+    Point(DVec3),
+    /// An arrow, such as one from an end to its target.
+    Arrow {
+        /// Where it begins.
+        from: DVec3,
+        /// Where its tip is.
+        to: DVec3,
+    },
+}
+
+impl Outcome {
+    /// Give a curve another polygon; vertices keep their numbers.
+    pub(super) fn reshaped(curve: CurveId, polygon: FloatPolygon, deviation: Deviation) -> Self {
+        Self {
+            edits: vec![Edit::SetPolygon { curve, polygon }],
+            ..Self::unchanged(deviation)
+        }
+    }
+
+    /// Change nothing.
+    pub(super) fn unchanged(deviation: Deviation) -> Self {
+        Self {
+            reached: true,
+            residual: None,
+            edits: Vec::new(),
+            deviation,
+            renumbered: false,
+            figures: Vec::new(),
+            remarks: Vec::new(),
+            marks: Vec::new(),
+        }
+    }
+
+    /// Make the edits in a copy of a document.
+    ///
+    /// # Errors
+    /// [`EditError`] of the first edit that cannot be made; never for the document that the
+    /// operation ran on.
+    pub fn applied_to(&self, document: &Document) -> Result<Document, EditError> {
+        let mut document = document.clone();
+        for edit in &self.edits {
+            document.apply(edit.clone())?;
+        }
+        Ok(document)
+    }
+}

@@ -1,0 +1,307 @@
+//! A parameter of an operation, described once.
+
+use std::fmt::Display;
+use std::ops::Bound;
+
+use super::amount::Amount;
+use super::error::OperationError;
+use super::input::Input;
+use super::values::Value;
+
+/// Describe a parameter.
+#[derive(Clone, Copy, Debug)]
+pub struct Parameter {
+    /// What the command line calls it.
+    pub name: &'static str,
+    /// What the panel calls it.
+    pub label: &'static str,
+    /// What it does, in one line.
+    pub help: &'static str,
+    /// What values it takes.
+    pub kind: Kind,
+}
+
+/// What values a parameter takes.
+#[derive(Clone, Copy, Debug)]
+pub enum Kind {
+    /// Whole numbers.
+    Whole {
+        /// The numbers that are allowed.
+        range: Range,
+        /// What it is if it is not given.
+        default: Amount,
+        /// The unit.
+        unit: Unit,
+    },
+    /// Finite numbers.
+    Real {
+        /// The numbers that are allowed.
+        range: Range,
+        /// What it is if it is not given.
+        default: Amount,
+        /// The unit.
+        unit: Unit,
+    },
+    /// One of several words.
+    Choice {
+        /// The words.
+        options: &'static [Choice],
+        /// Which one it is if it is not given, counted from 0.
+        default: usize,
+    },
+    /// On or off.
+    Switch {
+        /// What it is if it is not given.
+        default: bool,
+    },
+}
+
+/// A word that can be chosen.
+#[derive(Clone, Copy, Debug)]
+pub struct Choice {
+    /// What the command line calls it.
+    pub name: &'static str,
+    /// What the panel calls it.
+    pub label: &'static str,
+}
+
+/// The numbers that a parameter allows.
+#[derive(Clone, Copy, Debug)]
+pub struct Range {
+    /// Where they begin.
+    pub from: Bound<Amount>,
+    /// Where they end.
+    pub to: Bound<Amount>,
+}
+
+/// The numbers that a parameter allows for one input.
+pub type Limits = (Bound<f64>, Bound<f64>);
+
+/// The unit of a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unit {
+    /// A mere number.
+    None,
+    /// A length, in the units of the coordinates.
+    Length,
+    /// An angle: in radians, written in degrees.
+    Angle,
+    /// A parameter u of a curve.
+    Parameter,
+}
+
+impl Parameter {
+    /// What it is for an input if it is not given.
+    ///
+    /// # Errors
+    /// As [`Amount::of`].
+    pub fn default(&self, input: &Input) -> Result<Value, OperationError> {
+        Ok(match self.kind {
+            // Defaults of whole numbers are small: no digit is lost.
+            Kind::Whole { default, .. } => Value::Whole(default.of(input)? as usize),
+            Kind::Real { default, .. } => Value::Real(default.of(input)?),
+            Kind::Choice { default, .. } => Value::Choice(default),
+            Kind::Switch { default } => Value::Switch(default),
+        })
+    }
+
+    /// The numbers that are allowed for an input; `None` if the values are no numbers.
+    ///
+    /// # Errors
+    /// As [`Amount::of`].
+    pub fn limits(&self, input: &Input) -> Result<Option<Limits>, OperationError> {
+        let Some(range) = self.range() else {
+            return Ok(None);
+        };
+        let of = |bound: Bound<Amount>| {
+            Ok::<_, OperationError>(match bound {
+                Bound::Included(amount) => Bound::Included(amount.of(input)?),
+                Bound::Excluded(amount) => Bound::Excluded(amount.of(input)?),
+                Bound::Unbounded => Bound::Unbounded,
+            })
+        };
+        Ok(Some((of(range.from)?, of(range.to)?)))
+    }
+
+    /// Refuse a value that is of another kind, or not allowed for an input.
+    ///
+    /// # Errors
+    /// [`OperationError::WrongKind`], [`OperationError::OutOfRange`], or as [`Amount::of`].
+    pub fn check(&self, value: Value, input: &Input) -> Result<(), OperationError> {
+        self.check_kind(value)?;
+        match self.limits(input)? {
+            Some(limits) => self.check_limits(value, limits),
+            None => Ok(()),
+        }
+    }
+
+    /// Read a value as it is typed, angles in degrees. Of the limits those are checked that are the
+    /// same for every input.
+    ///
+    /// # Errors
+    /// As [`Parameter::check`].
+    pub fn read(&self, text: &str) -> Result<Value, OperationError> {
+        let text = text.trim();
+        let value = match self.kind {
+            Kind::Whole { .. } => text.parse().ok().map(Value::Whole),
+            Kind::Real { unit, .. } => text.parse().ok().map(|number: f64| {
+                Value::Real(if unit == Unit::Angle {
+                    number.to_radians()
+                } else {
+                    number
+                })
+            }),
+            Kind::Choice { options, .. } => {
+                let mut names = options.iter().map(|option| option.name);
+                names.position(|name| name == text).map(Value::Choice)
+            }
+            Kind::Switch { .. } => match text {
+                "on" => Some(Value::Switch(true)),
+                "off" => Some(Value::Switch(false)),
+                _ => None,
+            },
+        };
+        let value = value.ok_or_else(|| self.wrong_kind())?;
+        self.check_kind(value)?;
+        let fixed = |bound: Bound<Amount>| match bound {
+            Bound::Included(Amount::Number(number)) => Bound::Included(number),
+            Bound::Excluded(Amount::Number(number)) => Bound::Excluded(number),
+            _ => Bound::Unbounded,
+        };
+        if let Some(range) = self.range() {
+            self.check_limits(value, (fixed(range.from), fixed(range.to)))?;
+        }
+        Ok(value)
+    }
+
+    /// Write a value as [`Parameter::read`] reads it.
+    pub fn text(&self, value: Value) -> String {
+        match (self.kind, value) {
+            (Kind::Choice { options, .. }, Value::Choice(index)) => options
+                .get(index)
+                .map_or_else(String::new, |option| option.name.to_owned()),
+            (_, Value::Real(number)) if self.unit() == Unit::Angle => {
+                number.to_degrees().to_string()
+            }
+            (_, Value::Whole(number)) => number.to_string(),
+            (_, Value::Real(number)) => number.to_string(),
+            (_, Value::Choice(index)) => index.to_string(),
+            (_, Value::Switch(on)) => if on { "on" } else { "off" }.to_owned(),
+        }
+    }
+
+    /// The unit of its numbers.
+    pub fn unit(&self) -> Unit {
+        match self.kind {
+            Kind::Whole { unit, .. } | Kind::Real { unit, .. } => unit,
+            Kind::Choice { .. } | Kind::Switch { .. } => Unit::None,
+        }
+    }
+
+    /// Say which values it takes, for any input: "a whole number, 1 to the degree − 1".
+    pub fn range_words(&self) -> String {
+        let noun = match self.kind {
+            Kind::Whole { .. } => "a whole number",
+            Kind::Real { .. } => self.unit().noun(),
+            Kind::Choice { options, .. } => {
+                let names: Vec<&str> = options.iter().map(|option| option.name).collect();
+                return names.join(" or ");
+            }
+            Kind::Switch { .. } => return "on or off".to_owned(),
+        };
+        let words = self.range().map(|range| {
+            let words = |amount: Amount| self.amount_words(amount);
+            bounds_words(range.from.map(words), range.to.map(words))
+        });
+        match words.flatten() {
+            Some(words) => format!("{noun}, {words}"),
+            None => noun.to_owned(),
+        }
+    }
+
+    /// Say what it is if it is not given.
+    pub fn default_words(&self) -> String {
+        match self.kind {
+            Kind::Whole { default, .. } | Kind::Real { default, .. } => self.amount_words(default),
+            Kind::Choice { default, .. } => self.text(Value::Choice(default)),
+            Kind::Switch { default } => self.text(Value::Switch(default)),
+        }
+    }
+
+    fn amount_words(&self, amount: Amount) -> String {
+        match amount {
+            Amount::Number(number) => self.text(Value::Real(number)),
+            amount => amount.to_string(),
+        }
+    }
+
+    fn range(&self) -> Option<Range> {
+        match self.kind {
+            Kind::Whole { range, .. } | Kind::Real { range, .. } => Some(range),
+            Kind::Choice { .. } | Kind::Switch { .. } => None,
+        }
+    }
+
+    fn check_kind(&self, value: Value) -> Result<(), OperationError> {
+        let fits = match (self.kind, value) {
+            (Kind::Whole { .. }, Value::Whole(_)) | (Kind::Switch { .. }, Value::Switch(_)) => true,
+            (Kind::Real { .. }, Value::Real(number)) => number.is_finite(),
+            (Kind::Choice { options, .. }, Value::Choice(index)) => index < options.len(),
+            _ => false,
+        };
+        if fits { Ok(()) } else { Err(self.wrong_kind()) }
+    }
+
+    fn wrong_kind(&self) -> OperationError {
+        OperationError::WrongKind {
+            label: self.label,
+            needed: self.range_words(),
+        }
+    }
+
+    fn check_limits(&self, value: Value, limits: Limits) -> Result<(), OperationError> {
+        use std::ops::RangeBounds;
+        let number = match value {
+            Value::Whole(number) => number as f64,
+            Value::Real(number) => number,
+            Value::Choice(_) | Value::Switch(_) => return Ok(()),
+        };
+        if limits.contains(&number) {
+            return Ok(());
+        }
+        let words = |number: f64| self.text(Value::Real(number));
+        let needed = bounds_words(limits.0.map(words), limits.1.map(words));
+        Err(OperationError::OutOfRange {
+            label: self.label,
+            value: self.text(value),
+            needed: needed.unwrap_or_else(|| self.range_words()),
+        })
+    }
+}
+
+impl Unit {
+    fn noun(self) -> &'static str {
+        match self {
+            Self::None => "a number",
+            Self::Length => "a length",
+            Self::Angle => "an angle in degrees",
+            Self::Parameter => "a parameter u",
+        }
+    }
+}
+
+/// Say where numbers begin and end; `None` if they do neither.
+fn bounds_words(from: Bound<impl Display>, to: Bound<impl Display>) -> Option<String> {
+    use Bound::{Excluded, Included, Unbounded};
+    Some(match (from, to) {
+        (Included(from), Included(to)) => format!("{from} to {to}"),
+        (Excluded(from), Excluded(to)) => format!("more than {from} and less than {to}"),
+        (Included(from), Excluded(to)) => format!("at least {from} and less than {to}"),
+        (Excluded(from), Included(to)) => format!("more than {from} and at most {to}"),
+        (Included(from), Unbounded) => format!("at least {from}"),
+        (Excluded(from), Unbounded) => format!("more than {from}"),
+        (Unbounded, Included(to)) => format!("at most {to}"),
+        (Unbounded, Excluded(to)) => format!("less than {to}"),
+        (Unbounded, Unbounded) => return None,
+    })
+}

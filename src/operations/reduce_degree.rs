@@ -1,0 +1,55 @@
+//! A lower degree for nearly the same curve.
+
+use std::ops::Bound;
+
+use super::amount::Amount;
+use super::editable::editable;
+use super::error::OperationError;
+use super::input::Input;
+use super::operation::{Inputs, Operation};
+use super::outcome::{Deviation, Outcome};
+use super::parameter::{Kind, Parameter, Range, Unit};
+use super::values::Values;
+use crate::geometry::Progress;
+
+const DEGREE: Parameter = Parameter {
+    name: "degree",
+    label: "Degree",
+    help: "The degree that the curve gets",
+    kind: Kind::Whole {
+        range: Range {
+            from: Bound::Included(Amount::Number(1.0)),
+            to: Bound::Included(Amount::Degree(-1)),
+        },
+        default: Amount::Degree(-1),
+        unit: Unit::None,
+    },
+};
+
+pub(super) static OPERATION: Operation = Operation {
+    name: "reduce-degree",
+    label: "Lower degree, keep curve",
+    help: "Lower the degree and stay as near to the curve as a uniform curve comes",
+    inputs: Inputs::One,
+    parameters: &[DEGREE],
+    check,
+    run,
+};
+
+fn check(input: &Input) -> Result<(), OperationError> {
+    let degree = editable(input)?.polygon.degree();
+    if degree <= 1 {
+        let highest = false;
+        return Err(OperationError::DegreeAtLimit { degree, highest });
+    }
+    Ok(())
+}
+
+fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
+    let (id, curve) = input.curve()?;
+    let lowered = curve.polygon.with_degree(values.whole(&DEGREE))?;
+    let deviation = Deviation::of(&lowered);
+    let mut outcome = Outcome::reshaped(id, lowered.polygon, deviation);
+    outcome.renumbered = true;
+    Ok(outcome)
+}

@@ -1,0 +1,67 @@
+//! Another degree on the same polygon.
+
+use std::ops::Bound;
+
+use super::amount::Amount;
+use super::editable::check_editable;
+use super::error::OperationError;
+use super::input::Input;
+use super::operation::{Inputs, Operation};
+use super::outcome::{Deviation, Outcome};
+use super::parameter::{Kind, Parameter, Range, Unit};
+use super::values::Values;
+use crate::geometry::{FloatPolygon, MAX_DEGREE, Progress};
+
+const DEGREE: Parameter = Parameter {
+    name: "degree",
+    label: "Degree",
+    help: "The degree that the curve gets",
+    kind: Kind::Whole {
+        range: Range {
+            from: Bound::Included(Amount::Number(1.0)),
+            to: Bound::Included(Amount::Of {
+                words: "the number of vertices − 1 (25 at the most)",
+                value: |input| Ok(highest(input.polygon()?) as f64),
+            }),
+        },
+        default: Amount::Of {
+            words: "the degree + 1, if the polygon has vertices enough",
+            value: |input| {
+                let polygon = input.polygon()?;
+                Ok(highest(polygon).min(polygon.degree() + 1) as f64)
+            },
+        },
+        unit: Unit::None,
+    },
+};
+
+pub(super) static OPERATION: Operation = Operation {
+    name: "reinterpret-degree",
+    label: "Change degree, keep polygon",
+    help: "Give the polygon another degree: higher ones make a smoother curve, lower ones follow the polygon closer",
+    inputs: Inputs::One,
+    parameters: &[DEGREE],
+    check: check_editable,
+    run,
+};
+
+fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
+    let (id, curve) = input.curve()?;
+    let (polygon, degree) = (&curve.polygon, values.whole(&DEGREE));
+    if degree == polygon.degree() {
+        let mut outcome = Outcome::unchanged(Deviation::Exact);
+        outcome
+            .remarks
+            .push(format!("The degree is {degree} already"));
+        return Ok(outcome);
+    }
+    let weights = polygon.weights().map(<[f64]>::to_vec);
+    let vertices = polygon.vertices().to_vec();
+    let polygon = FloatPolygon::new(degree, vertices, weights, polygon.is_periodic())?;
+    Ok(Outcome::reshaped(id, polygon, Deviation::Unmeasured))
+}
+
+/// The highest degree that so many vertices make a curve of.
+fn highest(polygon: &FloatPolygon) -> usize {
+    MAX_DEGREE.min(polygon.vertices().len() - 1)
+}

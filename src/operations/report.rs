@@ -1,0 +1,110 @@
+//! What an operation did, in figures.
+
+use std::sync::Arc;
+
+use super::features::FeatureComparison;
+use super::input::Input;
+use super::operation::Operation;
+use super::outcome::{Deviation, Figure, Outcome};
+use crate::document::Document;
+use crate::geometry::Progress;
+
+/// Hold what an operation did: one schema for all of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// The operation's name.
+    pub name: &'static str,
+    /// What the step of undo is called.
+    pub label: &'static str,
+    /// Whether what was asked for is reached; nothing is changed if not.
+    pub reached: bool,
+    /// What is left of a target or tolerance, as a length.
+    pub residual: Option<f64>,
+    /// How far the curve moves.
+    pub deviation: Deviation,
+    /// The largest move of a vertex; `None` where vertices have no counterparts.
+    pub largest_move: Option<LargestMove>,
+    /// The operation's own figures.
+    pub figures: Vec<Figure>,
+    /// What else is to say: sentences without a full stop at the end.
+    pub remarks: Vec<String>,
+    /// Proved features before and afterwards; `None` until they are proved.
+    pub features: Option<FeatureComparison>,
+}
+
+/// The vertex that moves farthest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LargestMove {
+    /// How far it moves.
+    pub distance: f64,
+    /// Its number, counted from 0.
+    pub vertex: usize,
+}
+
+impl Report {
+    /// Tell at once what an operation did, without features.
+    pub fn new(operation: &Operation, input: &Input, outcome: &Outcome) -> Self {
+        Self {
+            name: operation.name,
+            label: operation.label,
+            reached: outcome.reached,
+            residual: outcome.residual,
+            deviation: outcome.deviation,
+            largest_move: largest_move(input, outcome),
+            figures: outcome.figures.clone(),
+            remarks: outcome.remarks.clone(),
+            features: None,
+        }
+    }
+
+    /// Tell what an operation did, features included; `None` if `progress` is cancelled while
+    /// they are proved.
+    pub fn of(
+        operation: &Operation,
+        input: &Input,
+        outcome: &Outcome,
+        progress: &Progress,
+    ) -> Option<Self> {
+        let features = FeatureComparison::prove(input, outcome, progress)?;
+        Some(Self {
+            features: Some(features),
+            ..Self::new(operation, input, outcome)
+        })
+    }
+}
+
+impl Outcome {
+    /// The document afterwards; as it was if an edit cannot be made, which [`Operation::run`] has
+    /// ruled out.
+    pub(super) fn after(&self, input: &Input) -> Document {
+        let document = input.document();
+        self.applied_to(document)
+            .unwrap_or_else(|_| document.clone())
+    }
+}
+
+/// Find the vertex that moves farthest, of all curves that an operation changes and that keep the
+/// number of their vertices; of equal moves the first counts.
+fn largest_move(input: &Input, outcome: &Outcome) -> Option<LargestMove> {
+    if outcome.renumbered {
+        return None;
+    }
+    let after = outcome.after(input);
+    let mut largest: Option<LargestMove> = None;
+    for (id, before) in input.document().curves() {
+        let Some(after) = after.curve(id).filter(|after| !Arc::ptr_eq(before, after)) else {
+            continue;
+        };
+        let [before, after] = [before, after].map(|curve| curve.polygon.vertices());
+        if before.len() != after.len() {
+            continue;
+        }
+        for (vertex, (a, b)) in before.iter().zip(after).enumerate() {
+            let distance = a.distance(*b);
+            if largest.is_none_or(|largest| distance > largest.distance) {
+                largest = Some(LargestMove { distance, vertex });
+            }
+        }
+    }
+    largest
+}

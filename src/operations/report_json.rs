@@ -1,0 +1,73 @@
+//! A report as JSON: one schema for all operations.
+
+use serde::ser::{Serialize, SerializeMap, Serializer};
+use serde_json::{Value as Json, json};
+
+use super::features::FeatureCounts;
+use super::outcome::Deviation;
+use super::parameter::Unit;
+use super::report::Report;
+use super::values::Value;
+use crate::geometry::features::Verdict;
+
+impl Serialize for Report {
+    /// Write the keys `operation`, `reached`, `residual`, `deviation` (0 where the curve is the
+    /// same, null where it is another and the distance is not measured), `largest_move`,
+    /// `features_before`, `features_after` (null where they are not proved), `remarks`, and the
+    /// operation's own figures under their names, angles in degrees.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("operation", self.name)?;
+        map.serialize_entry("reached", &self.reached)?;
+        map.serialize_entry("residual", &self.residual)?;
+        let deviation = match self.deviation {
+            Deviation::Exact => Some(0.0),
+            Deviation::AtMost(bound) => Some(bound),
+            Deviation::Unmeasured => None,
+        };
+        map.serialize_entry("deviation", &deviation)?;
+        let largest = self.largest_move.map(|largest| {
+            json!({
+                "distance": largest.distance,
+                "vertex": largest.vertex,
+            })
+        });
+        map.serialize_entry("largest_move", &largest)?;
+        let features = self.features.as_ref();
+        let before = features.map(|features| counts(&features.before));
+        map.serialize_entry("features_before", &before)?;
+        let after = features.map(|features| counts(&features.after));
+        map.serialize_entry("features_after", &after)?;
+        for figure in &self.figures {
+            let value = match figure.value {
+                Value::Whole(count) | Value::Choice(count) => json!(count),
+                Value::Real(number) if figure.unit == Unit::Angle => json!(number.to_degrees()),
+                Value::Real(number) => json!(number),
+                Value::Switch(on) => json!(on),
+            };
+            map.serialize_entry(figure.name, &value)?;
+        }
+        map.serialize_entry("remarks", &self.remarks)?;
+        map.end()
+    }
+}
+
+fn counts(counts: &[FeatureCounts]) -> Vec<Json> {
+    let of = |counts: &FeatureCounts| {
+        json!({
+            "name": counts.name,
+            "inflections": counts.inflections,
+            "curvature_extrema": counts.curvature_extrema,
+            "torsion_zeros": counts.torsion_zeros,
+            "torsion_extrema": counts.torsion_extrema,
+            "cusps": counts.cusps,
+            "undecided": counts.undecided,
+            "monotone": match counts.monotone {
+                Verdict::Proved => "proved",
+                Verdict::Disproved => "disproved",
+                Verdict::Undecided => "undecided",
+            },
+        })
+    };
+    counts.iter().map(of).collect()
+}

@@ -1,0 +1,39 @@
+//! The same curve, run through the other way.
+
+use super::editable::check_editable;
+use super::error::OperationError;
+use super::input::Input;
+use super::operation::{Inputs, Operation};
+use super::outcome::{Deviation, Outcome};
+use super::values::Values;
+use crate::document::Edit;
+use crate::geometry::end_correction::EndTarget;
+use crate::geometry::{End, Progress};
+
+pub(super) static OPERATION: Operation = Operation {
+    name: "reverse",
+    label: "Reverse direction",
+    help: "Let the curve run the other way; its shape stays",
+    inputs: Inputs::One,
+    parameters: &[],
+    check: check_editable,
+    run,
+};
+
+fn run(input: &Input, _: &Values, _: &Progress) -> Result<Outcome, OperationError> {
+    let (id, curve) = input.curve()?;
+    let mut outcome = Outcome::reshaped(id, curve.polygon.reversed(), Deviation::Exact);
+    outcome.renumbered = true;
+    // The targets stay where they are: each becomes the other end's.
+    for end in End::BOTH {
+        let target = curve.targets.get(end.other()).map(EndTarget::turned);
+        if target != curve.targets.get(end) {
+            outcome.edits.push(Edit::SetTarget {
+                curve: id,
+                end,
+                target,
+            });
+        }
+    }
+    Ok(outcome)
+}

@@ -1,0 +1,45 @@
+//! Step 6 of the end fit: rotate the terminal vertices of an end.
+
+use super::error::OperationError;
+use super::input::Input;
+use super::operation::{Inputs, Operation};
+use super::outcome::{Deviation, Figure, Outcome};
+use super::targets::{check_targets, corrected, marks, target};
+use super::values::Values;
+use super::which_end::{END, end};
+use crate::geometry::Progress;
+use crate::geometry::end_correction::{EndDifference, align_end};
+
+pub(super) static OPERATION: Operation = Operation {
+    name: "rotate-end",
+    label: "Rotate end",
+    help: "Rotate the terminal vertices of an end about it so that it has its target direction (step 6)",
+    inputs: Inputs::One,
+    parameters: &[END],
+    check: check_targets,
+    run,
+};
+
+fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
+    let (id, curve) = input.curve()?;
+    let end = end(values);
+    let target = target(curve, end)?;
+    let direction = target.direction;
+    let direction = direction.ok_or(OperationError::NoTargetDirection { end })?;
+    let size = curve.polygon.size();
+    if curve.polygon.end_jet(end).tangent().is_none() {
+        let name = end.name();
+        let mut outcome = Outcome::unchanged(Deviation::Exact);
+        outcome.reached = false;
+        outcome.remarks = vec![format!("The curve has no direction at its {name}: a cusp")];
+        return Ok(outcome);
+    }
+    let angle = EndDifference::between(&curve.polygon, end, &target).angle;
+    let polygon = align_end(&curve.polygon, end, direction)?;
+    let left = EndDifference::between(&polygon, end, &target).angle;
+    let mut outcome = corrected(id, curve, polygon)?;
+    outcome.residual = Some(left.abs() * size);
+    outcome.figures = vec![Figure::angle("rotation", "Rotation", angle)];
+    outcome.marks = marks(curve, end);
+    Ok(outcome)
+}

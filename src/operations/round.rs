@@ -1,0 +1,94 @@
+//! Coordinates rounded to some digits.
+
+use std::ops::Bound;
+
+use super::amount::Amount;
+use super::editable::check_editable;
+use super::error::OperationError;
+use super::input::Input;
+use super::operation::{Inputs, Operation};
+use super::outcome::{Deviation, Figure, Outcome};
+use super::parameter::{Choice, Kind, Parameter, Range, Unit};
+use super::values::Values;
+use crate::geometry::{ClampedPolygon, FloatPolygon, PolygonError, Progress, Rounded};
+
+type Rounding = fn(&FloatPolygon, usize) -> Result<Rounded<FloatPolygon>, PolygonError>;
+
+const POLYGON: Parameter = Parameter {
+    name: "polygon",
+    label: "Polygon",
+    help: "The polygon whose coordinates are rounded",
+    kind: Kind::Choice {
+        options: &[
+            Choice {
+                name: "float",
+                label: "Float S-polygon",
+            },
+            Choice {
+                name: "clamped",
+                label: "Closed S-polygon",
+            },
+        ],
+        default: 0,
+    },
+};
+
+const DIGITS: Parameter = Parameter {
+    name: "digits",
+    label: "Digits",
+    help: "How many digits each coordinate keeps after the decimal point",
+    kind: Kind::Whole {
+        range: Range {
+            from: Bound::Included(Amount::Number(0.0)),
+            to: Bound::Included(Amount::Number(17.0)),
+        },
+        default: Amount::Number(3.0),
+        unit: Unit::None,
+    },
+};
+
+pub(super) static OPERATION: Operation = Operation {
+    name: "round",
+    label: "Round coordinates",
+    help: "Round the coordinates of the float or the closed S-polygon, and tell what that does to the curve",
+    inputs: Inputs::One,
+    parameters: &[POLYGON, DIGITS],
+    check: check_editable,
+    run,
+};
+
+fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
+    let (id, curve) = input.curve()?;
+    let rounding: Rounding = values.choice(
+        &POLYGON,
+        &[FloatPolygon::rounded as Rounding, closed_rounded],
+    );
+    let rounded = rounding(&curve.polygon, values.whole(&DIGITS))?;
+    let moved = Figure::length("rounding", "Largest rounding of a vertex", rounded.moved);
+    let deviation = Deviation::AtMost(rounded.deviation);
+    let mut outcome = Outcome::reshaped(id, rounded.polygon, deviation);
+    outcome.figures.push(moved);
+    Ok(outcome)
+}
+
+/// Round the closed S-polygon and find the float one of the curve.
+fn closed_rounded(
+    polygon: &FloatPolygon,
+    digits: usize,
+) -> Result<Rounded<FloatPolygon>, PolygonError> {
+    let Rounded {
+        polygon: closed,
+        moved,
+        deviation,
+    } = ClampedPolygon::from_float(polygon).rounded(digits)?;
+    let polygon = if polygon.is_periodic() {
+        closed.nearest_periodic_float()?.polygon
+    } else {
+        closed.to_float()?
+    };
+    Ok(Rounded {
+        polygon,
+        moved,
+        deviation,
+    })
+}

@@ -1,0 +1,61 @@
+//! One curve cut into two.
+
+use std::ops::Bound;
+
+use super::amount::Amount;
+use super::cutting::{MIDDLE, SUBDIVISIONS, without_target};
+use super::editable::open;
+use super::error::OperationError;
+use super::input::Input;
+use super::operation::{Inputs, Operation};
+use super::outcome::{Deviation, Figure, Mark, Outcome};
+use super::parameter::{Kind, Parameter, Range, Unit};
+use super::values::Values;
+use crate::document::{Curve, Edit};
+use crate::geometry::{End, Progress};
+
+const AT: Parameter = Parameter {
+    name: "at",
+    label: "At u",
+    help: "Where the curve is cut",
+    kind: Kind::Real {
+        range: Range {
+            from: Bound::Excluded(Amount::Number(0.0)),
+            to: Bound::Excluded(Amount::Segments),
+        },
+        default: MIDDLE,
+        unit: Unit::Parameter,
+    },
+};
+
+pub(super) static OPERATION: Operation = Operation {
+    name: "split",
+    label: "Split curve",
+    help: "Cut the curve into two; at knots (whole u) the parts are exact",
+    inputs: Inputs::One,
+    parameters: &[AT, SUBDIVISIONS],
+    check: |input| open(input, "cut in two at one place").map(drop),
+    run,
+};
+
+fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
+    let (id, curve) = input.curve()?;
+    let at = values.real(&AT);
+    let subdivisions = values.whole(&SUBDIVISIONS) as u32;
+    let (first, second) = curve.polygon.split(at, subdivisions)?;
+    let deviation = Deviation::of(&first).or(Deviation::of(&second));
+    let counts = [&first, &second].map(|part| part.polygon.vertices().len());
+    let mut outcome = Outcome::reshaped(id, first.polygon, deviation);
+    outcome.renumbered = true;
+    outcome.edits.extend(without_target(id, curve, End::Finish));
+    let mut added = Curve::new(input.document().free_name(&curve.name), second.polygon);
+    added.colour = curve.colour;
+    added.targets.finish = curve.targets.finish;
+    outcome.edits.push(Edit::Add(Box::new(added)));
+    outcome.figures = vec![
+        Figure::count("first_vertices", "Vertices of the first part", counts[0]),
+        Figure::count("second_vertices", "Vertices of the second part", counts[1]),
+    ];
+    outcome.marks.push(Mark::Point(curve.polygon.point(at)));
+    Ok(outcome)
+}

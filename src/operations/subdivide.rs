@@ -1,0 +1,28 @@
+//! The same curve by twice as many segments.
+
+use super::editable::check_editable;
+use super::error::OperationError;
+use super::input::Input;
+use super::operation::{Inputs, Operation};
+use super::outcome::{Deviation, Figure, Outcome};
+use super::values::Values;
+use crate::geometry::Progress;
+
+pub(super) static OPERATION: Operation = Operation {
+    name: "subdivide",
+    label: "Subdivide",
+    help: "Halve every segment; the curve stays",
+    inputs: Inputs::One,
+    parameters: &[],
+    check: check_editable,
+    run,
+};
+
+fn run(input: &Input, _: &Values, _: &Progress) -> Result<Outcome, OperationError> {
+    let (id, curve) = input.curve()?;
+    let polygon = curve.polygon.subdivided()?;
+    let segments = Figure::count("segments", "Segments", polygon.segments());
+    let mut outcome = Outcome::reshaped(id, polygon, Deviation::Exact);
+    outcome.figures.push(segments);
+    Ok(outcome)
+}

@@ -1,0 +1,62 @@
+//! A report in words: one line for messages.
+
+use super::features::FeatureCounts;
+use super::outcome::Deviation;
+use super::report::Report;
+use crate::geometry::{counted, rounded_up};
+
+impl Report {
+    /// Say in one line what the operation did: "Trim curve: off the curve by at most 1.2e-3;
+    /// curvature extrema: 2 before, 3 now".
+    pub fn summary(&self) -> String {
+        let mut parts = Vec::new();
+        if self.reached {
+            match self.deviation {
+                Deviation::Exact => parts.push("the curve is the same".to_owned()),
+                Deviation::AtMost(bound) => {
+                    parts.push(format!("off the curve by at most {}", rounded_up(bound)));
+                }
+                Deviation::Unmeasured => {}
+            }
+        } else {
+            parts.push("not reached, nothing is changed".to_owned());
+        }
+        if let Some(residual) = self.residual {
+            parts.push(format!("{} is left", rounded_up(residual)));
+        }
+        if let Some(features) = self.features.as_ref().filter(|_| self.reached) {
+            let [before, after] = [&features.before, &features.after].map(|counts| extrema(counts));
+            parts.push(match (before, after) {
+                (Some(before), Some(after)) => {
+                    format!("curvature extrema: {before} before, {after} now")
+                }
+                (None, Some(now)) => format!("curvature extrema: {now}"),
+                (_, None) => "no curve is left".to_owned(),
+            });
+        }
+        let mut text = self.label.to_owned();
+        if !parts.is_empty() {
+            text += &format!(": {}", parts.join("; "));
+        }
+        for remark in &self.remarks {
+            text += &format!(". {remark}");
+        }
+        text
+    }
+}
+
+/// Say how many curvature extrema each curve has, if there is one.
+fn extrema(counts: &[FeatureCounts]) -> Option<String> {
+    let said = |counts: &FeatureCounts| {
+        let proved = counts.curvature_extrema;
+        match counts.undecided {
+            0 => proved.to_string(),
+            doubts => {
+                let doubts = counted(doubts, "place", "places");
+                format!("{proved} ({doubts} undecided)")
+            }
+        }
+    };
+    let said: Vec<String> = counts.iter().map(said).collect();
+    (!said.is_empty()).then(|| said.join(" and "))
+}

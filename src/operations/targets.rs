@@ -1,0 +1,58 @@
+//! What operations on ends share: the targets of a curve, and what is left of them.
+
+use super::editable::open;
+use super::error::OperationError;
+use super::input::Input;
+use super::outcome::{Deviation, Mark, Outcome};
+use crate::document::{Curve, CurveId};
+use crate::geometry::end_correction::{EndDifference, EndTarget};
+use crate::geometry::{End, FloatPolygon};
+
+/// Refuse a curve that is locked or hidden, has no ends, or no target.
+pub(super) fn check_targets(input: &Input) -> Result<(), OperationError> {
+    let curve = open(input, "corrected at its ends")?;
+    if curve.targets.list().is_empty() {
+        return Err(OperationError::NoTarget { end: None });
+    }
+    Ok(())
+}
+
+/// The target of an end.
+///
+/// # Errors
+/// [`OperationError::NoTarget`].
+pub(super) fn target(curve: &Curve, end: End) -> Result<EndTarget, OperationError> {
+    let target = curve.targets.get(end);
+    target.ok_or(OperationError::NoTarget { end: Some(end) })
+}
+
+/// What is left of a curve's targets, as a length: the largest of both ends.
+pub(super) fn residual(curve: &Curve, polygon: &FloatPolygon) -> f64 {
+    let size = polygon.size();
+    let left = curve.targets.list().into_iter();
+    left.map(|(end, target)| EndDifference::between(polygon, end, &target).residual(size))
+        .fold(0.0, f64::max)
+}
+
+/// Put a corrected polygon in place, and tell how far the curve moves.
+///
+/// # Errors
+/// [`OperationError::Polygon`] if that cannot be measured.
+pub(super) fn corrected(
+    id: CurveId,
+    curve: &Curve,
+    polygon: FloatPolygon,
+) -> Result<Outcome, OperationError> {
+    let deviation = Deviation::AtMost(curve.polygon.deviation(&polygon)?);
+    Ok(Outcome::reshaped(id, polygon, deviation))
+}
+
+/// Mark the target of an end, and the way to it.
+pub(super) fn marks(curve: &Curve, end: End) -> Vec<Mark> {
+    let Some(target) = curve.targets.get(end) else {
+        return Vec::new();
+    };
+    let from = curve.polygon.end_jet(end).point;
+    let to = target.point;
+    vec![Mark::Arrow { from, to }, Mark::Point(to)]
+}

@@ -1,0 +1,37 @@
+//! Step 5 of the end fit: translate the terminal vertices of an end.
+
+use super::error::OperationError;
+use super::input::Input;
+use super::operation::{Inputs, Operation};
+use super::outcome::{Figure, Outcome};
+use super::targets::{check_targets, corrected, marks, target};
+use super::values::Values;
+use super::which_end::{END, end};
+use crate::geometry::Progress;
+use crate::geometry::end_correction::{EndDifference, translate_end};
+
+pub(super) static OPERATION: Operation = Operation {
+    name: "translate-end",
+    label: "Translate end",
+    help: "Translate the terminal vertices of an end so that it meets its target point (step 5)",
+    inputs: Inputs::One,
+    parameters: &[END],
+    check: check_targets,
+    run,
+};
+
+fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
+    let (id, curve) = input.curve()?;
+    let end = end(values);
+    let target = target(curve, end)?;
+    let way = EndDifference::between(&curve.polygon, end, &target).vector;
+    let polygon = translate_end(&curve.polygon, end, way)?;
+    let left = EndDifference::between(&polygon, end, &target)
+        .vector
+        .length();
+    let mut outcome = corrected(id, curve, polygon)?;
+    outcome.residual = Some(left);
+    outcome.figures = vec![Figure::length("translation", "Translation", way.length())];
+    outcome.marks = marks(curve, end);
+    Ok(outcome)
+}

@@ -1,0 +1,83 @@
+//! A part of a curve.
+
+use std::ops::Bound;
+
+use super::amount::Amount;
+use super::cutting::{MIDDLE, SUBDIVISIONS, without_target};
+use super::editable::check_editable;
+use super::error::OperationError;
+use super::input::Input;
+use super::operation::{Inputs, Operation};
+use super::outcome::{Deviation, Figure, Mark, Outcome};
+use super::parameter::{Kind, Parameter, Range, Unit};
+use super::values::Values;
+use crate::geometry::{End, Progress};
+
+const FROM: Parameter = Parameter {
+    name: "from",
+    label: "From u",
+    help: "Where the part that is kept begins",
+    kind: Kind::Real {
+        range: Range {
+            from: Bound::Included(Amount::Number(0.0)),
+            to: Bound::Excluded(Amount::Segments),
+        },
+        default: MIDDLE,
+        unit: Unit::Parameter,
+    },
+};
+
+const TO: Parameter = Parameter {
+    name: "to",
+    label: "To u",
+    help: "Where the part that is kept ends; on a periodic curve it may lie past the joint, up to one turn after its beginning",
+    kind: Kind::Real {
+        range: Range {
+            from: Bound::Excluded(Amount::Number(0.0)),
+            to: Bound::Included(Amount::Of {
+                words: "the number of segments (a periodic curve: twice that)",
+                value: last,
+            }),
+        },
+        default: Amount::Segments,
+        unit: Unit::Parameter,
+    },
+};
+
+pub(super) static OPERATION: Operation = Operation {
+    name: "trim",
+    label: "Trim curve",
+    help: "Keep a part of the curve; between knots (whole u) it is exact",
+    inputs: Inputs::One,
+    parameters: &[FROM, TO, SUBDIVISIONS],
+    check: check_editable,
+    run,
+};
+
+fn last(input: &Input) -> Result<f64, OperationError> {
+    let polygon = input.polygon()?;
+    let turns = if polygon.is_periodic() { 2.0 } else { 1.0 };
+    Ok(turns * polygon.segments() as f64)
+}
+
+fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
+    let (id, curve) = input.curve()?;
+    let polygon = &curve.polygon;
+    let (from, to) = (values.real(&FROM), values.real(&TO));
+    let subdivisions = values.whole(&SUBDIVISIONS) as u32;
+    let part = polygon.trimmed(from, to, subdivisions)?;
+    let deviation = Deviation::of(&part);
+    let vertices = Figure::count("vertices", "Vertices", part.polygon.vertices().len());
+    let ends = End::BOTH.map(|end| Mark::Point(part.polygon.end_jet(end).point));
+    let mut outcome = Outcome::reshaped(id, part.polygon, deviation);
+    outcome.renumbered = true;
+    if from > 0.0 {
+        outcome.edits.extend(without_target(id, curve, End::Start));
+    }
+    if to < polygon.segments() as f64 {
+        outcome.edits.extend(without_target(id, curve, End::Finish));
+    }
+    outcome.figures.push(vertices);
+    outcome.marks.extend(ends);
+    Ok(outcome)
+}
