@@ -6,6 +6,8 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Error, Parser, Subcommand};
 
+use super::apply::Application;
+use super::apply_arguments::ApplyArguments;
 use super::ends::{Destination, Source};
 use crate::document::quoted;
 use crate::geometry::PolygonKind;
@@ -19,7 +21,7 @@ const LEAST_LIKENESS: f64 = 0.7;
 #[derive(Debug, Parser)]
 #[command(name = "batten", version, args_conflicts_with_subcommands = true)]
 #[command(
-    after_help = "Formats are told by their extensions: .batten and .csv are read and written, .dxf is written.\n“-” stands for the standard input and output; --from-format and --to-format tell the format then.\nExit codes: 0 done; 1 bad input, with a message that names file and place; 2 bad usage."
+    after_help = "Formats are told by their extensions: .batten and .csv are read and written, .dxf is written.\n“-” stands for the standard input and output; --from-format and --to-format tell the format then.\nExit codes: 0 done; 1 bad input, with a message that names file and place, or what was asked for is not reached; 2 bad usage."
 )]
 pub(super) struct Arguments {
     #[command(subcommand)]
@@ -81,6 +83,11 @@ enum Command {
         #[arg(long)]
         force: bool,
     },
+    /// Apply an operation to a curve of a file, and print what it did as JSON
+    ///
+    /// The file that is written holds everything that was read, with the changes made. Nothing is
+    /// written, and the exit code is 1, if what was asked for is not reached.
+    Apply(ApplyArguments),
     /// Print the curves of a file as JSON, with full double precision
     Inspect {
         /// The file to read, or - for the standard input; its extension tells the format
@@ -124,6 +131,10 @@ pub(super) enum Task {
         /// Whether to write what cannot be read back.
         force: bool,
     },
+    /// List the operations.
+    Operations,
+    /// Apply an operation.
+    Apply(Application),
     /// Print curves in figures.
     Inspect {
         /// What is read.
@@ -170,6 +181,17 @@ impl Arguments {
                 polygon,
                 force,
             },
+            Some(Command::Apply(ApplyArguments::List)) => Task::Operations,
+            Some(Command::Apply(ApplyArguments::Run(given))) => Task::Apply(Application {
+                operation: given.operation,
+                source: given
+                    .input
+                    .map(|input| source("apply", input, given.from_format))
+                    .transpose()?,
+                destination: destination("apply", given.out, given.to_format)?,
+                curves: given.curves,
+                values: given.values,
+            }),
             Some(Command::Inspect {
                 file,
                 from_format,
@@ -220,7 +242,10 @@ fn missing(subcommand: &str, text: &str) -> Error {
     }
 }
 
-fn format_parser(formats: impl Iterator<Item = Format>) -> impl TypedValueParser<Value = Format> {
+/// Read a format by its extension.
+pub(super) fn format_parser(
+    formats: impl Iterator<Item = Format>,
+) -> impl TypedValueParser<Value = Format> {
     let names = PossibleValuesParser::new(formats.map(Format::extension));
     names.try_map(|name| Format::find(&name).ok_or("no such format"))
 }

@@ -89,6 +89,11 @@ impl Destination {
         }
     }
 
+    /// Whether it is the standard output.
+    pub(super) fn is_standard(&self) -> bool {
+        matches!(self, Self::Standard(_))
+    }
+
     /// Whether it is the file that a source is.
     pub(super) fn is(&self, source: &Source) -> bool {
         match (self, source.path()) {

@@ -36,7 +36,12 @@ pub(super) fn run(source: &Source, at: &[f64]) -> anyhow::Result<()> {
     let count = curves.len();
     let curves = curves.iter().enumerate().map(|(index, curve)| {
         let segments = curve.polygon.segments();
-        let told = |segment| progress.tell((index, count), (segment, segments));
+        let told = |segment| {
+            let (curve, segment) = (index + 1, segment + 1);
+            progress.tell(format_args!(
+                "proving features: curve {curve} of {count}, segment {segment} of {segments}"
+            ));
+        };
         let features = Features::with_progress(&curve.polygon, told);
         inspected(curve, at, &features)
     });

@@ -1,6 +1,8 @@
 //! The command line: the library from a shell. It reads files, calls the library and prints; it
 //! holds no logic of its own.
 
+mod apply;
+mod apply_arguments;
 mod arguments;
 mod convert;
 mod ends;
@@ -45,6 +47,10 @@ pub fn run(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> 
             polygon,
             force,
         }) => convert::convert(&source, &destination, polygon, force),
+        Ok(Task::Operations) => apply::list(),
+        Ok(Task::Apply(application)) => {
+            return Request::Done(exit_code(apply::run(&application)));
+        }
         Ok(Task::Inspect { source, at }) => inspect::run(&source, &at),
         Err(error) => {
             if error.use_stderr() {
@@ -57,12 +63,14 @@ pub fn run(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> 
             return Request::Done(ExitCode::from(code));
         }
     };
-    Request::Done(match result {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            output::message(&format!("{error:#}"));
-            ExitCode::FAILURE
-        }
+    Request::Done(exit_code(result.map(|()| ExitCode::SUCCESS)))
+}
+
+/// The exit code of what was done; an error is printed.
+fn exit_code(result: anyhow::Result<ExitCode>) -> ExitCode {
+    result.unwrap_or_else(|error| {
+        output::message(&format!("{error:#}"));
+        ExitCode::FAILURE
     })
 }
 

@@ -10,6 +10,12 @@ pub(super) fn print(text: &str) -> anyhow::Result<()> {
     print_bytes(text.as_bytes())
 }
 
+/// Print to the standard error what is meant for the standard output, where curves go there.
+pub(super) fn print_error(text: &str) {
+    // Where nobody listens there is nobody to tell.
+    let _ = io::stderr().lock().write_all(text.as_bytes());
+}
+
 /// Print bytes, as [`print`] does text.
 pub(super) fn print_bytes(bytes: &[u8]) -> anyhow::Result<()> {
     let mut out = io::stdout().lock();

@@ -1,5 +1,6 @@
-//! Telling on the standard error how far long proofs have come.
+//! Telling on the standard error how far long computations have come.
 
+use std::fmt::Display;
 use std::io::{self, IsTerminal, Stderr, Write};
 use std::time::{Duration, Instant};
 
@@ -15,7 +16,7 @@ const ELSEWHERE: Duration = Duration::from_secs(10);
 /// Goes back to the start of a terminal's line and empties it.
 const EMPTY_LINE: &str = "\r\x1b[2K";
 
-/// A line that tells how far the proofs have come: renewed in place on a terminal, repeated now
+/// A line that tells how far a computation has come: renewed in place on a terminal, repeated now
 /// and then elsewhere.
 #[derive(Debug)]
 pub(super) struct Progress<W: Write> {
@@ -45,12 +46,12 @@ impl<W: Write> Progress<W> {
         }
     }
 
-    /// Tell that a segment of a curve comes next; pairs of an index and how many there are.
-    pub(super) fn tell(&mut self, curve: (usize, usize), segment: (usize, usize)) {
-        self.tell_at(self.begin.elapsed(), curve, segment);
+    /// Tell how far it has come now.
+    pub(super) fn tell(&mut self, text: impl Display) {
+        self.tell_at(self.begin.elapsed(), text);
     }
 
-    fn tell_at(&mut self, now: Duration, curve: (usize, usize), segment: (usize, usize)) {
+    fn tell_at(&mut self, now: Duration, text: impl Display) {
         let pause = if self.on_terminal {
             ON_TERMINAL
         } else {
@@ -66,14 +67,7 @@ impl<W: Write> Progress<W> {
             ("", "\n")
         };
         // Where nobody listens there is nobody to tell.
-        let _ = write!(
-            self.out,
-            "{start}batten: proving features: curve {} of {}, segment {} of {}{end}",
-            curve.0 + 1,
-            curve.1,
-            segment.0 + 1,
-            segment.1
-        );
+        let _ = write!(self.out, "{start}batten: {text}{end}");
         let _ = self.out.flush();
     }
 }
@@ -96,7 +90,10 @@ mod tests {
         let mut out = Vec::new();
         let mut progress = Progress::begin(&mut out, on_terminal);
         for (segment, time) in milliseconds.iter().enumerate() {
-            progress.tell_at(Duration::from_millis(*time), (1, 5), (segment, 99));
+            progress.tell_at(
+                Duration::from_millis(*time),
+                format_args!("segment {segment}"),
+            );
         }
         drop(progress);
         String::from_utf8(out).expect("text")
@@ -110,10 +107,9 @@ mod tests {
 
     #[test]
     fn long_proofs_are_told_in_place_or_line_by_line() {
-        let line =
-            |segment| format!("batten: proving features: curve 2 of 5, segment {segment} of 99");
+        let line = |segment| format!("batten: segment {segment}");
         let times = [0, 1000, 1050, 1100, 11_100];
-        let [second, fourth, fifth] = [2, 4, 5].map(line);
+        let [second, fourth, fifth] = [1, 3, 4].map(line);
         let expected = [&second, &fourth, &fifth].map(|line| format!("{EMPTY_LINE}{line}"));
         assert_eq!(written(true, &times), expected.concat() + EMPTY_LINE);
         assert_eq!(written(false, &times), format!("{second}\n{fifth}\n"));

@@ -2,8 +2,11 @@
 
 use std::sync::Arc;
 
+use serde::Serialize;
+
 use super::input::Input;
 use super::outcome::Outcome;
+use super::report_json::verdict;
 use crate::document::{Curve, CurveId, Document};
 use crate::geometry::features::{Features, Quantity, SegmentProver, Verdict};
 use crate::geometry::{FloatPolygon, Progress};
@@ -19,7 +22,7 @@ pub struct FeatureComparison {
 }
 
 /// Count the proved features of a curve.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FeatureCounts {
     /// The curve's name.
     pub name: String,
@@ -36,6 +39,7 @@ pub struct FeatureCounts {
     /// Places where there may be features that could not be counted.
     pub undecided: usize,
     /// Whether the curvature is monotone.
+    #[serde(serialize_with = "verdict")]
     pub monotone: Verdict,
 }
 

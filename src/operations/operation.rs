@@ -21,9 +21,9 @@ pub struct Operation {
     /// What can be chosen, in the order in which it is offered.
     pub parameters: &'static [Parameter],
     /// Tell why it cannot run on this input, whatever the values.
-    pub(super) check: fn(&Input) -> Result<(), OperationError>,
+    pub(crate) check: fn(&Input) -> Result<(), OperationError>,
     /// Do it.
-    pub(super) run: fn(&Input, &Values, &Progress) -> Result<Outcome, OperationError>,
+    pub(crate) run: fn(&Input, &Values, &Progress) -> Result<Outcome, OperationError>,
 }
 
 /// What an operation works on.

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use serde::Serialize;
+
 use super::features::FeatureComparison;
 use super::input::Input;
 use super::operation::Operation;
@@ -33,7 +35,7 @@ pub struct Report {
 }
 
 /// The vertex that moves farthest.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LargestMove {
     /// How far it moves.
     pub distance: f64,

@@ -1,9 +1,8 @@
 //! A report as JSON: one schema for all operations.
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
-use serde_json::{Value as Json, json};
+use serde_json::json;
 
-use super::features::FeatureCounts;
 use super::outcome::Deviation;
 use super::parameter::Unit;
 use super::report::Report;
@@ -26,17 +25,11 @@ impl Serialize for Report {
             Deviation::Unmeasured => None,
         };
         map.serialize_entry("deviation", &deviation)?;
-        let largest = self.largest_move.map(|largest| {
-            json!({
-                "distance": largest.distance,
-                "vertex": largest.vertex,
-            })
-        });
-        map.serialize_entry("largest_move", &largest)?;
+        map.serialize_entry("largest_move", &self.largest_move)?;
         let features = self.features.as_ref();
-        let before = features.map(|features| counts(&features.before));
+        let before = features.map(|features| &features.before);
         map.serialize_entry("features_before", &before)?;
-        let after = features.map(|features| counts(&features.after));
+        let after = features.map(|features| &features.after);
         map.serialize_entry("features_after", &after)?;
         for figure in &self.figures {
             let value = match figure.value {
@@ -52,22 +45,11 @@ impl Serialize for Report {
     }
 }
 
-fn counts(counts: &[FeatureCounts]) -> Vec<Json> {
-    let of = |counts: &FeatureCounts| {
-        json!({
-            "name": counts.name,
-            "inflections": counts.inflections,
-            "curvature_extrema": counts.curvature_extrema,
-            "torsion_zeros": counts.torsion_zeros,
-            "torsion_extrema": counts.torsion_extrema,
-            "cusps": counts.cusps,
-            "undecided": counts.undecided,
-            "monotone": match counts.monotone {
-                Verdict::Proved => "proved",
-                Verdict::Disproved => "disproved",
-                Verdict::Undecided => "undecided",
-            },
-        })
-    };
-    counts.iter().map(of).collect()
+/// Write a verdict as a word.
+pub(super) fn verdict<S: Serializer>(verdict: &Verdict, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(match verdict {
+        Verdict::Proved => "proved",
+        Verdict::Disproved => "disproved",
+        Verdict::Undecided => "undecided",
+    })
 }

@@ -1,0 +1,205 @@
+//! `batten apply`: an operation on curves of a file.
+
+use std::process::ExitCode;
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::Duration;
+
+use anyhow::{Context, anyhow, bail};
+
+use super::ends::{Destination, Source};
+use super::output;
+use super::progress::Progress as Line;
+use crate::document::{CurveId, Document, quoted};
+use crate::geometry::Progress;
+use crate::io::{Reading, json_layout};
+use crate::operations::{ALL, Input, Inputs, Operation, OperationError, Outcome, Report, Value};
+
+/// How often a long operation is asked how far it has come.
+const PAUSE: Duration = Duration::from_millis(100);
+
+/// An operation with where its input comes from and its result goes.
+pub(super) struct Application {
+    /// The operation.
+    pub(super) operation: &'static Operation,
+    /// What is read; `None` if the operation works on nothing.
+    pub(super) source: Option<Source>,
+    /// What is written.
+    pub(super) destination: Destination,
+    /// The names of the curves that were chosen.
+    pub(super) curves: Vec<String>,
+    /// The values of the parameters that are given.
+    pub(super) values: Vec<(&'static str, Value)>,
+}
+
+/// List the operations.
+///
+/// # Errors
+/// If the standard output cannot be written.
+pub(super) fn list() -> anyhow::Result<()> {
+    let width = ALL.iter().map(|operation| operation.name.len());
+    let width = width.max().unwrap_or_default();
+    let line = |operation: &&Operation| format!("{:width$}  {}\n", operation.name, operation.help);
+    output::print(&ALL.iter().map(line).collect::<String>())
+}
+
+/// Apply an operation, write the document, and print the report as JSON: to the standard error if
+/// the document goes to the standard output. The exit code is 1, and nothing is written, if what
+/// was asked for is not reached.
+///
+/// # Errors
+/// If the source cannot be read, the operation cannot run, or the destination cannot be written;
+/// nothing is written then.
+pub(super) fn run(application: &Application) -> anyhow::Result<ExitCode> {
+    let format = application.destination.format()?;
+    let input = application.input()?;
+    let done = application.applied(&input);
+    let (outcome, report) = done.with_context(|| application.place())?;
+    if outcome.reached {
+        let document = outcome.applied_to(input.document())?;
+        let curves: Vec<_> = document.curves().map(|(_, curve)| curve.clone()).collect();
+        let export = format.write(&curves, document.extras(), None);
+        let destination = &application.destination;
+        destination.write(export.with_context(|| destination.name())?)?;
+    }
+    let text = json_layout::to_text(&report);
+    if application.destination.is_standard() {
+        output::print_error(&text);
+    } else {
+        output::print(&text)?;
+        if !outcome.reached {
+            output::message(&report.summary());
+        }
+    }
+    Ok(if outcome.reached {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    })
+}
+
+impl Application {
+    /// What messages name as the place of an error.
+    fn place(&self) -> String {
+        match &self.source {
+            Some(source) => source.name(),
+            None => self.operation.name.to_owned(),
+        }
+    }
+
+    fn input(&self) -> anyhow::Result<Input> {
+        let reading = match &self.source {
+            Some(source) => source.read()?,
+            None => Reading::default(),
+        };
+        self.chosen(reading).with_context(|| self.place())
+    }
+
+    /// Choose what the operation works on of what was read.
+    fn chosen(&self, reading: Reading) -> anyhow::Result<Input> {
+        let document = Document::from_curves(reading.curves).with_extras(reading.extras);
+        match self.operation.inputs {
+            Inputs::None => Ok(Input::new(&document, [])?),
+            Inputs::One => Ok(Input::new(&document, self.curves(&document, 1)?)?),
+            Inputs::Two => Ok(Input::new(&document, self.curves(&document, 2)?)?),
+            Inputs::Points => {
+                let mut curves = document.curves();
+                let (Some((_, table)), None) = (curves.next(), curves.next()) else {
+                    bail!(
+                        "a table of points is needed, and there are {} curves",
+                        document.len()
+                    );
+                };
+                let points = table.polygon.vertices().to_vec();
+                Ok(Input::new(&Document::default(), [])?.with_points(points))
+            }
+        }
+    }
+
+    /// Find the curves that were named; without names, all if there are just so many.
+    fn curves(&self, document: &Document, count: usize) -> anyhow::Result<Vec<CurveId>> {
+        if document.is_empty() {
+            bail!("there is no curve");
+        }
+        if !self.curves.is_empty() {
+            let named = self.curves.iter();
+            return named.map(|name| curve_named(document, name)).collect();
+        }
+        if document.len() == count {
+            return Ok(document.ids().collect());
+        }
+        let options = if count == 1 {
+            "one with --curve"
+        } else {
+            "two with --curve and --with"
+        };
+        bail!("choose {options}: {}", there_are(document))
+    }
+
+    /// Run the operation on another thread, and tell how far it has come while it takes long.
+    fn applied(&self, input: &Input) -> Result<(Outcome, Report), OperationError> {
+        let progress = Progress::default();
+        thread::scope(|scope| {
+            let (sender, receiver) = mpsc::channel();
+            let shared = progress.clone();
+            scope.spawn(move || {
+                // The receiver waits below until it has this.
+                let _ = sender.send(self.outcome(input, &shared));
+            });
+            let mut line = Line::new();
+            loop {
+                match receiver.recv_timeout(PAUSE) {
+                    Ok(result) => return result,
+                    Err(RecvTimeoutError::Timeout) => {
+                        let percent = 100.0 * progress.done();
+                        line.tell(format_args!("{}: {percent:.0} %", self.operation.name));
+                    }
+                    // The thread panicked, and so does the end of its scope.
+                    Err(RecvTimeoutError::Disconnected) => return Err(OperationError::Cancelled),
+                }
+            }
+        })
+    }
+
+    fn outcome(
+        &self,
+        input: &Input,
+        progress: &Progress,
+    ) -> Result<(Outcome, Report), OperationError> {
+        let operation = self.operation;
+        let values = operation.values(input, self.values.iter().copied())?;
+        let outcome = operation.run(input, &values, progress)?;
+        let report = Report::of(operation, input, &outcome, progress);
+        Ok((outcome, report.ok_or(OperationError::Cancelled)?))
+    }
+}
+
+fn curve_named(document: &Document, name: &str) -> anyhow::Result<CurveId> {
+    let named = document.curves().filter(|(_, curve)| curve.name == name);
+    let found: Vec<CurveId> = named.map(|(id, _)| id).collect();
+    match found[..] {
+        [id] => Ok(id),
+        [] => Err(anyhow!(
+            "there is no curve {}: {}",
+            quoted(name),
+            there_are(document)
+        )),
+        _ => Err(anyhow!(
+            "there are {} curves {}: give them different names first",
+            found.len(),
+            quoted(name)
+        )),
+    }
+}
+
+/// List the curves of a document by their names.
+fn there_are(document: &Document) -> String {
+    let names: Vec<String> = document
+        .curves()
+        .map(|(_, curve)| quoted(&curve.name))
+        .collect();
+    match &names[..] {
+        [name] => format!("there is {name}"),
+        names => format!("there are {}", names.join(", ")),
+    }
+}

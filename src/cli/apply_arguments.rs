@@ -1,0 +1,213 @@
+//! The arguments of `batten apply`, made from the descriptions of the operations.
+
+use std::path::PathBuf;
+
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser, ValueParser};
+use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches, value_parser};
+
+use super::arguments::format_parser;
+use crate::io::Format;
+use crate::operations::{ALL, Inputs, Kind, Operation, Parameter, Unit, Value, find};
+
+const LIST: &str = "list";
+const IN: &str = "IN";
+const OUT: &str = "OUT";
+const CURVE: &str = "curve";
+const WITH: &str = "with";
+const FROM_FORMAT: &str = "from-format";
+const TO_FORMAT: &str = "to-format";
+
+/// What `batten apply` is asked for.
+#[derive(Debug)]
+pub(super) enum ApplyArguments {
+    /// To list the operations.
+    List,
+    /// To apply one.
+    Run(Given),
+}
+
+/// An operation with what it is applied to.
+#[derive(Debug)]
+pub(super) struct Given {
+    /// The operation.
+    pub(super) operation: &'static Operation,
+    /// The file to read; `None` if the operation works on nothing.
+    pub(super) input: Option<PathBuf>,
+    /// The format to read, if it is told.
+    pub(super) from_format: Option<Format>,
+    /// The file to write.
+    pub(super) out: PathBuf,
+    /// The format to write, if it is told.
+    pub(super) to_format: Option<Format>,
+    /// The names of the curves that were chosen.
+    pub(super) curves: Vec<String>,
+    /// The values of the parameters that are given.
+    pub(super) values: Vec<(&'static str, Value)>,
+}
+
+impl Args for ApplyArguments {
+    fn augment_args(command: Command) -> Command {
+        let list = Arg::new(LIST)
+            .long(LIST)
+            .action(ArgAction::SetTrue)
+            .help("List the operations instead");
+        command
+            .arg(list)
+            .args_conflicts_with_subcommands(true)
+            .arg_required_else_help(true)
+            .subcommand_value_name("OPERATION")
+            .subcommand_help_heading("Operations")
+            .disable_help_subcommand(true)
+            .subcommands(ALL.iter().map(|operation| command_of(operation)))
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl FromArgMatches for ApplyArguments {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
+        let chosen = matches.subcommand();
+        let chosen = chosen.and_then(|(name, matches)| Some((find(name)?, matches)));
+        Ok(match chosen {
+            Some((operation, matches)) => Self::Run(Given::new(operation, matches)),
+            None => Self::List,
+        })
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+impl Given {
+    /// Take what was given for an operation, by the command that was made of it.
+    fn new(operation: &'static Operation, matches: &ArgMatches) -> Self {
+        let path = |name| matches.try_get_one::<PathBuf>(name).ok().flatten().cloned();
+        let format = |name| matches.try_get_one::<Format>(name).ok().flatten().copied();
+        let name = |name| matches.try_get_one::<String>(name).ok().flatten().cloned();
+        let parameters = operation.parameters.iter();
+        let values = parameters.filter_map(|parameter| {
+            let value = matches.get_one::<Value>(parameter.name)?;
+            Some((parameter.name, *value))
+        });
+        Self {
+            operation,
+            input: path(IN),
+            from_format: format(FROM_FORMAT),
+            out: path(OUT).unwrap_or_default(),
+            to_format: format(TO_FORMAT),
+            curves: [CURVE, WITH].into_iter().filter_map(name).collect(),
+            values: values.collect(),
+        }
+    }
+}
+
+/// Describe an operation as a command.
+fn command_of(operation: &'static Operation) -> Command {
+    let (input, has_curves, has_other) = match operation.inputs {
+        Inputs::None => (None, false, false),
+        Inputs::One => (Some(CURVES), true, false),
+        Inputs::Two => (Some(CURVES), true, true),
+        Inputs::Points => (Some(POINTS), false, false),
+    };
+    let mut command = Command::new(operation.name).about(operation.help);
+    if let Some(help) = input {
+        command = command.arg(path_argument(IN, help)).arg(format_argument(
+            FROM_FORMAT,
+            "The format to read, whatever the file's extension; needed for the standard input",
+            format_parser(Format::readable()),
+        ));
+    }
+    command = command.arg(path_argument(OUT, "The file to write, or - for the standard output, the report going to stderr then; its extension tells the format"));
+    command = command.arg(format_argument(
+        TO_FORMAT,
+        "The format to write, whatever the file's extension; needed for the standard output",
+        format_parser(Format::writable()),
+    ));
+    if has_curves {
+        let curve = name_argument(CURVE, "The curve; needed where the file has several");
+        command = command.arg(if has_other {
+            curve.requires(WITH)
+        } else {
+            curve
+        });
+    }
+    if has_other {
+        let other = name_argument(
+            WITH,
+            "The other curve; needed where the file has not just two",
+        );
+        command = command.arg(other.requires(CURVE));
+    }
+    command.args(operation.parameters.iter().map(parameter_argument))
+}
+
+const CURVES: &str =
+    "The file to read, or - for the standard input; its extension tells the format";
+const POINTS: &str = "The table of points to read, or - for the standard input: the vertices of a file with one curve, such as a .csv file that begins with the line “# degree=1”";
+
+fn path_argument(name: &'static str, help: &'static str) -> Arg {
+    let parser = value_parser!(PathBuf);
+    Arg::new(name)
+        .required(true)
+        .value_parser(parser)
+        .help(help)
+}
+
+fn format_argument(name: &'static str, help: &'static str, parser: impl Into<ValueParser>) -> Arg {
+    option(name)
+        .value_name("FORMAT")
+        .value_parser(parser)
+        .help(help)
+}
+
+fn name_argument(name: &'static str, help: &'static str) -> Arg {
+    option(name).value_name("NAME").help(help)
+}
+
+fn parameter_argument(parameter: &'static Parameter) -> Arg {
+    let default = format!("default: {}", parameter.default_words());
+    let about = match parameter.kind {
+        // Their values are listed by themselves.
+        Kind::Choice { .. } => default,
+        _ => format!("{}; {default}", parameter.range_words()),
+    };
+    let read = |text: &str| parameter.read(text);
+    let argument = option(parameter.name)
+        .value_name(value_name(parameter))
+        .allow_negative_numbers(true)
+        .help(format!("{} [{about}]", parameter.help));
+    match parameter.kind {
+        Kind::Choice { options, .. } => {
+            let names = options.iter();
+            let names = names.map(|option| PossibleValue::new(option.name).help(option.label));
+            let parser = PossibleValuesParser::new(names);
+            argument.value_parser(parser.try_map(move |name| parameter.read(&name)))
+        }
+        Kind::Switch { .. } => argument
+            .value_parser(read)
+            .num_args(0..=1)
+            .require_equals(true)
+            .default_missing_value("on"),
+        Kind::Whole { .. } | Kind::Real { .. } => argument.value_parser(read),
+    }
+}
+
+fn value_name(parameter: &Parameter) -> &'static str {
+    match (parameter.kind, parameter.unit()) {
+        (Kind::Choice { .. }, _) => "WORD",
+        (Kind::Switch { .. }, _) => "on|off",
+        (_, Unit::Length) => "LENGTH",
+        (_, Unit::Angle) => "DEGREES",
+        (_, Unit::Parameter) => "U",
+        (Kind::Whole { .. }, Unit::None) => "N",
+        (Kind::Real { .. }, Unit::None) => "X",
+    }
+}
+
+fn option(name: &'static str) -> Arg {
+    Arg::new(name).long(name)
+}
