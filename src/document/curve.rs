@@ -1,6 +1,6 @@
 //! One curve of a document.
 
-use super::edit::EditError;
+use super::error::EditError;
 use super::extras::Extras;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{End, FloatPolygon};

@@ -3,11 +3,10 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use thiserror::Error;
 
 use super::curve::{Colour, Curve, CurveId};
 use super::document::Document;
-use super::wording::quoted;
+use super::error::EditError;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{End, FloatPolygon, PolygonError};
 
@@ -85,40 +84,6 @@ pub enum Edit {
         /// Its new place, counted from 0; the last place if it lies beyond.
         place: usize,
     },
-}
-
-/// Why an edit cannot be made; the document is as it was.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum EditError {
-    /// The curve is not in the document.
-    #[error("the curve is no longer in the document")]
-    NoSuchCurve,
-    /// The curve is locked.
-    #[error("{} is locked: unlock it in the list of curves to change its shape", quoted(.name))]
-    Locked {
-        /// The curve's name.
-        name: String,
-    },
-    /// The curve is hidden: nobody would see what is done to it.
-    #[error("“{name}” is hidden: show it in the list of curves to change it")]
-    Hidden {
-        /// The curve's name.
-        name: String,
-    },
-    /// The curve's new shape is not one.
-    #[error("{}: {error}", quoted(.name))]
-    Polygon {
-        /// The curve's name.
-        name: String,
-        /// What is wrong with it.
-        error: PolygonError,
-    },
-    /// A target has a number that cannot be used.
-    #[error("a target needs numbers up to 1e100, and a direction that is not 0")]
-    BadTarget,
-    /// A name is empty.
-    #[error("a curve needs a name: type at least one character")]
-    EmptyName,
 }
 
 impl Document {

@@ -1,7 +1,8 @@
 //! Undo and redo: labelled snapshots of the document.
 
 use super::document::Document;
-use super::edit::{Edit, EditError};
+use super::edit::Edit;
+use super::error::EditError;
 
 /// Hold the document with every state it can be taken back to.
 ///

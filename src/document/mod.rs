@@ -5,6 +5,7 @@ mod curve;
 #[allow(clippy::module_inception)]
 mod document;
 mod edit;
+mod error;
 mod extras;
 mod history;
 mod names;
@@ -12,7 +13,8 @@ mod wording;
 
 pub use curve::{Colour, Curve, CurveId, EndTargets};
 pub use document::Document;
-pub use edit::{Edit, EditError};
+pub use edit::Edit;
+pub use error::EditError;
 pub use extras::Extras;
 pub use history::History;
 pub use names::free_name;
