@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::format::Format;
+use super::format::{Format, FormatError};
 use crate::document::{cut, escaped, quoted};
 use crate::geometry::{MAX_DEGREE, PolygonError, PolygonKind, counted};
 
@@ -274,33 +274,6 @@ pub enum WriteError {
         vertices: usize,
         /// The most that can be written.
         most: usize,
-    },
-}
-
-/// A reason why a format cannot be told from a file's name, or not be used.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum FormatError {
-    /// The name has no extension.
-    #[error("the name has no extension that tells its format: add one of {known}")]
-    NoExtension {
-        /// The extensions that could be used.
-        known: String,
-    },
-    /// The name has an extension that is not known.
-    #[error("“.{}” is not a format Batten knows: use one of {known}", cut(.extension))]
-    UnknownExtension {
-        /// The extension.
-        extension: String,
-        /// The extensions that could be used.
-        known: String,
-    },
-    /// The format is only written.
-    #[error("{format} files can be written but not read: the formats that can be read are {known}")]
-    NotReadable {
-        /// The format.
-        format: Format,
-        /// The extensions that can be read.
-        known: String,
     },
 }
 

@@ -1,15 +1,11 @@
-//! The formats, and how a file's name tells its own.
+//! The formats by name, and how a file's name tells its own.
 
-use std::borrow::Borrow;
 use std::fmt;
 use std::path::Path;
 
-use super::error::{FormatError, ReadError, WriteError};
-use super::loss::Export;
-use super::reading::Reading;
-use super::{dxf, project, table};
-use crate::document::{Curve, Extras};
-use crate::geometry::PolygonKind;
+use thiserror::Error;
+
+use crate::document::cut;
 
 /// A file format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -93,43 +89,6 @@ impl Format {
         formats.find(|format| extension.eq_ignore_ascii_case(format.extension()))
     }
 
-    /// Read the curves of a file's bytes.
-    ///
-    /// # Errors
-    /// [`ReadError`] with the place. A format that [cannot be read](Self::can_read) says so.
-    pub fn read(self, bytes: &[u8]) -> Result<Reading, ReadError> {
-        match self {
-            Self::Batten => project::read(bytes),
-            Self::Csv => table::read(bytes),
-            Self::Dxf => Err(ReadError::from(super::Problem::Unreadable(self))),
-        }
-    }
-
-    /// Write curves to bytes.
-    ///
-    /// `polygon` chooses by which polygon each curve is held (project and table) or which
-    /// polygon is drawn beside it (DXF); without it a project and a table hold the float
-    /// polygon, and a DXF draws the float and the clamped one. `extras` are those of the
-    /// project, which only a project holds.
-    ///
-    /// # Errors
-    /// [`WriteError`] if the format cannot hold the curves at all.
-    pub fn write<C: Borrow<Curve>>(
-        self,
-        curves: &[C],
-        extras: &Extras,
-        polygon: Option<PolygonKind>,
-    ) -> Result<Export, WriteError> {
-        let curves: Vec<&Curve> = curves.iter().map(Borrow::borrow).collect();
-        let mut export = match self {
-            Self::Batten => project::write(&curves, extras, polygon.unwrap_or_default()),
-            Self::Csv => table::write(&curves, polygon.unwrap_or_default())?,
-            Self::Dxf => dxf::write(&curves, polygon)?,
-        };
-        export.losses.project_keys = self != Self::Batten && !extras.is_empty();
-        Ok(export)
-    }
-
     fn from_extension(path: &Path, known: impl Fn() -> String) -> Result<Self, FormatError> {
         let Some(extension) = path.extension() else {
             return Err(FormatError::NoExtension { known: known() });
@@ -140,6 +99,33 @@ impl Format {
             known: known(),
         })
     }
+}
+
+/// A reason why a format cannot be told from a file's name, or not be used.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum FormatError {
+    /// The name has no extension.
+    #[error("the name has no extension that tells its format: add one of {known}")]
+    NoExtension {
+        /// The extensions that could be used.
+        known: String,
+    },
+    /// The name has an extension that is not known.
+    #[error("“.{}” is not a format Batten knows: use one of {known}", cut(.extension))]
+    UnknownExtension {
+        /// The extension.
+        extension: String,
+        /// The extensions that could be used.
+        known: String,
+    },
+    /// The format is only written.
+    #[error("{format} files can be written but not read: the formats that can be read are {known}")]
+    NotReadable {
+        /// The format.
+        format: Format,
+        /// The extensions that can be read.
+        known: String,
+    },
 }
 
 impl fmt::Display for Format {

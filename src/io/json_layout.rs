@@ -4,7 +4,7 @@
 use std::io::{self, Write};
 
 use serde::Serialize;
-use serde_json::ser::{CharEscape, CompactFormatter, Formatter, Serializer};
+use serde_json::ser::{CompactFormatter, Formatter, Serializer};
 
 /// Write a value as JSON text that ends with a new line. Numbers have the digits that it takes
 /// to read the very same number again; what is infinite or not a number becomes `null`.
@@ -98,17 +98,8 @@ impl Formatter for Layout {
         write_u128(value: u128);
         write_f32(value: f32);
         write_f64(value: f64);
-        write_number_str(value: &str);
         write_raw_fragment(value: &str);
         begin_string();
-    }
-
-    fn write_char_escape<W: ?Sized + Write>(
-        &mut self,
-        writer: &mut W,
-        escape: CharEscape,
-    ) -> io::Result<()> {
-        CompactFormatter.write_char_escape(writer, escape)
     }
 
     fn begin_array<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {

@@ -87,6 +87,21 @@ impl LossReport {
         self.losses.push((curve.name.clone(), loss));
     }
 
+    /// Add losses of one curve.
+    pub fn extend(&mut self, curve: &Curve, losses: impl IntoIterator<Item = Loss>) {
+        for loss in losses {
+            self.add(curve, loss);
+        }
+    }
+
+    /// Add what every format but Batten's own loses of a curve.
+    pub fn add_attributes(&mut self, curve: &Curve) {
+        self.add_if(curve.colour.is_some(), curve, Loss::Colour);
+        let has_targets = !curve.targets.list().is_empty();
+        self.add_if(has_targets, curve, Loss::Targets);
+        self.add_if(!curve.extras.is_empty(), curve, Loss::UnknownKeys);
+    }
+
     /// Add a loss of one curve where `is_lost`.
     pub fn add_if(&mut self, is_lost: bool, curve: &Curve, loss: Loss) {
         if is_lost {
@@ -97,77 +112,45 @@ impl LossReport {
 
 impl fmt::Display for LossReport {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (index, (name, loss)) in self.losses.iter().enumerate() {
-            if index > 0 {
-                writeln!(formatter)?;
-            }
-            let format = self.format;
-            let name = quoted(name);
-            match loss {
-                Loss::Name { written } => write!(
-                    formatter,
-                    "{name}: the name is written as {}, which {format} allows",
-                    quoted(written)
-                ),
+        let format = self.format;
+        let lost = |what: &str| format!("the {format} does not hold {what}");
+        let of_curves = self.losses.iter().map(|(name, loss)| {
+            let text = match loss {
+                Loss::Name { written } => {
+                    let written = quoted(written);
+                    format!("the name is written as {written}, which {format} allows")
+                }
                 Loss::Digits {
                     kind,
                     distance,
                     curve,
-                } => write!(
-                    formatter,
-                    "{name}: converted back from the {kind} polygon written, the float vertices are off by up to {}, the curve by up to {}",
+                } => format!(
+                    "converted back from the {kind} polygon written, the float vertices are off by up to {}, the curve by up to {}",
                     rounded_up(*distance),
                     rounded_up(*curve)
                 ),
-                Loss::NoWayBack { kind } => write!(
-                    formatter,
-                    "{name}: the {kind} polygon written cannot be converted back to a float polygon"
-                ),
-                Loss::Periodic => write!(
-                    formatter,
-                    "{name}: written as an open curve that ends where it begins, not as a periodic one"
-                ),
-                Loss::PolygonWeights { kind } => write!(
-                    formatter,
-                    "{name}: the {kind} polygon is drawn without its weights"
-                ),
-                Loss::Colour => write!(formatter, "{name}: the {format} does not hold its colour"),
-                Loss::Hidden => {
-                    write!(
-                        formatter,
-                        "{name}: the {format} does not hold that it is hidden"
-                    )
+                Loss::NoWayBack { kind } => {
+                    format!("the {kind} polygon written cannot be converted back to a float polygon")
                 }
-                Loss::Locked => {
-                    write!(
-                        formatter,
-                        "{name}: the {format} does not hold that it is locked"
-                    )
+                Loss::Periodic => {
+                    "written as an open curve that ends where it begins, not as a periodic one"
+                        .to_owned()
                 }
-                Loss::Targets => {
-                    write!(
-                        formatter,
-                        "{name}: the {format} does not hold the targets of its ends"
-                    )
+                Loss::PolygonWeights { kind } => {
+                    format!("the {kind} polygon is drawn without its weights")
                 }
-                Loss::UnknownKeys => {
-                    write!(
-                        formatter,
-                        "{name}: the {format} does not hold its unknown keys"
-                    )
-                }
-            }?;
-        }
-        if self.project_keys {
-            if !self.losses.is_empty() {
-                writeln!(formatter)?;
-            }
-            let format = self.format;
-            write!(
-                formatter,
-                "the {format} does not hold the project's unknown keys"
-            )?;
-        }
-        Ok(())
+                Loss::Colour => lost("its colour"),
+                Loss::Hidden => lost("that it is hidden"),
+                Loss::Locked => lost("that it is locked"),
+                Loss::Targets => lost("the targets of its ends"),
+                Loss::UnknownKeys => lost("its unknown keys"),
+            };
+            format!("{}: {text}", quoted(name))
+        });
+        let of_project = self
+            .project_keys
+            .then(|| lost("the project's unknown keys"));
+        let lines: Vec<String> = of_curves.chain(of_project).collect();
+        formatter.write_str(&lines.join("\n"))
     }
 }

@@ -6,6 +6,7 @@
 //! the bytes together with a [`LossReport`] of what the format could not hold. Nothing in here
 //! opens dialogs or changes a document.
 
+mod codec;
 mod decimals;
 pub mod disk;
 pub mod dxf;
@@ -22,8 +23,9 @@ mod project_v1;
 mod reading;
 pub mod table;
 mod table_header;
+mod text;
 
-pub use error::{FileError, FormatError, Place, Problem, ReadError, WriteError, shown_path};
-pub use format::Format;
+pub use error::{FileError, Place, Problem, ReadError, WriteError, shown_path};
+pub use format::{Format, FormatError};
 pub use loss::{Export, Loss, LossReport};
 pub use reading::{Owner, Reading, Remark, Remarks};

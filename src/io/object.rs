@@ -7,7 +7,7 @@ use std::fmt;
 
 use serde::de::{DeserializeSeed, IntoDeserializer, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, forward_to_deserialize_any};
-use serde_json::value::RawValue;
+use serde_json::value::{RawValue, to_raw_value};
 
 use crate::document::Extras;
 
@@ -46,18 +46,8 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Object<T> {
 fn serialize_extras<S: Serializer>(extras: &Extras, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_map(extras.iter().map(|(key, text)| {
         let raw = RawValue::from_string(text.to_owned());
-        (
-            key,
-            raw.map_err(|_| text).map_or_else(Text::Plain, Text::Raw),
-        )
+        (key, raw.or_else(|_| to_raw_value(text)).ok())
     }))
-}
-
-#[derive(Serialize)]
-#[serde(untagged)]
-enum Text<'a> {
-    Raw(Box<RawValue>),
-    Plain(&'a str),
 }
 
 struct ObjectDeserializer<'a, D> {

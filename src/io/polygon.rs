@@ -1,122 +1,131 @@
-//! What the text formats share: a curve by any of its polygons, there and back.
+//! What the formats share: a curve by any of its polygons, there and back.
 
 use glam::DVec3;
 
 use super::error::Problem;
 use super::loss::Loss;
+use super::reading::{Remark, Remarks};
+use crate::document::Curve;
 use crate::geometry::{BezierPolygon, ClampedPolygon, FloatPolygon, PolygonKind};
 
-/// Hold the vertices by which a curve is written.
-pub struct Written {
+/// A curve as a file holds it: by one of its polygons.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct FilePolygon {
+    /// Which polygon it is.
+    pub kind: PolygonKind,
+    /// The degree.
+    pub degree: usize,
     /// The vertices.
     pub vertices: Vec<DVec3>,
     /// The weights of a rational curve.
     pub weights: Option<Vec<f64>>,
     /// Whether they are those of a periodic curve.
     pub periodic: bool,
-    /// What is lost by writing them.
-    pub losses: Vec<Loss>,
 }
 
-/// Hold the float polygon of a curve that was given by one of its polygons.
-#[derive(Debug, PartialEq)]
-pub struct Built {
-    /// The float polygon.
-    pub polygon: FloatPolygon,
-    /// A bound of how far its curve may be from the one given, where that is more than a few
-    /// units in the last place.
-    pub off_by: Option<f64>,
-}
-
-/// Take the vertices of one of a curve's polygons. The clamped and the Bézier polygon of a
-/// periodic curve are those of the open curve that runs round once from u = 0.
-pub fn written(float: &FloatPolygon, kind: PolygonKind) -> Written {
-    let (vertices, weights) = match kind {
-        PolygonKind::Float => (float.vertices().to_vec(), float.weights()),
-        PolygonKind::Clamped => {
-            let clamped = ClampedPolygon::from_float(float);
-            return converted(float, kind, clamped.vertices(), clamped.weights());
-        }
-        PolygonKind::Bezier => {
-            let bezier = BezierPolygon::from_float(float);
-            return converted(float, kind, bezier.vertices(), bezier.weights());
-        }
-    };
-    Written {
-        vertices,
-        weights: weights.map(<[f64]>::to_vec),
-        periodic: float.is_periodic(),
-        losses: Vec::new(),
-    }
-}
-
-/// Make the float polygon of a curve that is given by one of its polygons.
-///
-/// # Errors
-/// [`Problem`] if the vertices do not make a curve, or none that a float polygon can hold.
-pub fn build(
-    kind: PolygonKind,
-    degree: usize,
-    vertices: Vec<DVec3>,
-    weights: Option<Vec<f64>>,
-    periodic: bool,
-) -> Result<Built, Problem> {
-    if periodic && kind != PolygonKind::Float {
-        return Err(Problem::PeriodicKind { kind });
-    }
-    let nearest = match kind {
-        PolygonKind::Float => {
-            let polygon = FloatPolygon::new(degree, vertices, weights, periodic)?;
-            let off_by = None;
-            return Ok(Built { polygon, off_by });
-        }
-        PolygonKind::Bezier => BezierPolygon::new(degree, vertices, weights)?.nearest_float()?,
-        PolygonKind::Clamped => ClampedPolygon::new(degree, vertices, weights)?.nearest_float()?,
-    };
-    Ok(Built {
-        polygon: nearest.polygon,
-        off_by: (!nearest.is_close).then_some(nearest.deviation),
-    })
-}
-
-fn converted(
-    float: &FloatPolygon,
-    kind: PolygonKind,
-    vertices: &[DVec3],
-    weights: Option<&[f64]>,
-) -> Written {
-    let (vertices, weights) = (vertices.to_vec(), weights.map(<[f64]>::to_vec));
-    let mut losses = Vec::new();
-    if float.is_periodic() {
-        losses.push(Loss::Periodic);
-    }
-    match build(
-        kind,
-        float.degree(),
-        vertices.clone(),
-        weights.clone(),
-        false,
-    ) {
-        Ok(Built { polygon: back, .. }) => {
-            let open = float.unrolled();
-            let pairs = open.vertices().iter().zip(back.vertices());
-            let distance = pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
-            if distance > 0.0 {
-                let curve = open.deviation(&back).unwrap_or(f64::INFINITY);
-                losses.push(Loss::Digits {
-                    kind,
-                    distance,
-                    curve,
-                });
+impl FilePolygon {
+    /// Take one of a curve's polygons. The clamped and the Bézier polygon of a periodic curve are
+    /// those of the open curve that runs round once from u = 0.
+    pub(super) fn of(float: &FloatPolygon, kind: PolygonKind) -> Self {
+        let owned = |vertices: &[DVec3], weights: Option<&[f64]>| {
+            (vertices.to_vec(), weights.map(<[f64]>::to_vec))
+        };
+        let (vertices, weights) = match kind {
+            PolygonKind::Float => owned(float.vertices(), float.weights()),
+            PolygonKind::Clamped => {
+                let clamped = ClampedPolygon::from_float(float);
+                owned(clamped.vertices(), clamped.weights())
             }
+            PolygonKind::Bezier => {
+                let bezier = BezierPolygon::from_float(float);
+                owned(bezier.vertices(), bezier.weights())
+            }
+        };
+        Self {
+            kind,
+            degree: float.degree(),
+            vertices,
+            weights,
+            periodic: float.is_periodic() && kind == PolygonKind::Float,
         }
-        Err(_) => losses.push(Loss::NoWayBack { kind }),
     }
-    Written {
-        vertices,
-        weights,
-        periodic: false,
-        losses,
+
+    /// List what is lost by holding a curve, given by its float polygon, by this one.
+    pub(super) fn losses(&self, float: &FloatPolygon) -> Vec<Loss> {
+        let kind = self.kind;
+        let mut losses = Vec::new();
+        if kind == PolygonKind::Float {
+            return losses;
+        }
+        if float.is_periodic() {
+            losses.push(Loss::Periodic);
+        }
+        let Ok((back, _)) = self.clone().into_float() else {
+            losses.push(Loss::NoWayBack { kind });
+            return losses;
+        };
+        let open = float.unrolled();
+        let pairs = open.vertices().iter().zip(back.vertices());
+        let distance = pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+        if distance > 0.0 {
+            losses.push(Loss::Digits {
+                kind,
+                distance,
+                curve: open.deviation(&back).unwrap_or(f64::INFINITY),
+            });
+        }
+        losses
+    }
+
+    /// Make the float polygon of the curve, and a bound of how far its curve may be from the one
+    /// given, where that is more than a few units in the last place.
+    ///
+    /// # Errors
+    /// [`Problem`] if the vertices do not make a curve, or none that a float polygon can hold.
+    pub(super) fn into_float(self) -> Result<(FloatPolygon, Option<f64>), Problem> {
+        let Self {
+            kind,
+            degree,
+            vertices,
+            weights,
+            periodic,
+        } = self;
+        if periodic && kind != PolygonKind::Float {
+            return Err(Problem::PeriodicKind { kind });
+        }
+        let nearest = match kind {
+            PolygonKind::Float => {
+                let polygon = FloatPolygon::new(degree, vertices, weights, periodic)?;
+                return Ok((polygon, None));
+            }
+            PolygonKind::Bezier => {
+                BezierPolygon::new(degree, vertices, weights)?.nearest_float()?
+            }
+            PolygonKind::Clamped => {
+                ClampedPolygon::new(degree, vertices, weights)?.nearest_float()?
+            }
+        };
+        let off_by = (!nearest.is_close).then_some(nearest.deviation);
+        Ok((nearest.polygon, off_by))
+    }
+
+    /// Make the curve with this number, counted from 1, and this name.
+    ///
+    /// # Errors
+    /// As for [`Self::into_float`].
+    pub(super) fn into_curve(
+        self,
+        number: usize,
+        name: &str,
+        remarks: &mut Remarks,
+    ) -> Result<Curve, Problem> {
+        let kind = self.kind;
+        let (polygon, off_by) = self.into_float()?;
+        if let Some(by) = off_by {
+            let curve = (number, name.to_owned());
+            remarks.add(Remark::CurveOff { curve, kind, by });
+        }
+        Ok(Curve::new(name, polygon))
     }
 }
 
@@ -140,12 +149,8 @@ mod tests {
             for (degree, count) in [(1, 2), (2, 9), (3, 4), (5, 14)] {
                 for weighted in [false, true] {
                     let float = wave(degree, count, weighted);
-                    let Written {
-                        vertices, weights, ..
-                    } = written(&float, kind);
-                    let built = build(kind, degree, vertices, weights, false).unwrap();
-                    assert_eq!(built.off_by, None, "{kind} {degree}");
-                    let back = built.polygon;
+                    let (back, off_by) = FilePolygon::of(&float, kind).into_float().unwrap();
+                    assert_eq!(off_by, None, "{kind} {degree}");
                     for u in [0.0, 0.4, float.segments() as f64] {
                         let distance = float.point(u).distance(back.point(u));
                         assert!(
@@ -161,32 +166,33 @@ mod tests {
     #[test]
     fn lost_digits_are_measured() {
         let float = wave(9, 10, false);
-        let losses = written(&float, PolygonKind::Clamped).losses;
-        let [Loss::Digits { distance, .. }] = losses[..] else {
-            panic!("{losses:?}");
+        let losses = |kind| FilePolygon::of(&float, kind).losses(&float);
+        let clamped = losses(PolygonKind::Clamped);
+        let [Loss::Digits { distance, .. }] = clamped[..] else {
+            panic!("{clamped:?}");
         };
         assert!((1e-12..1e-5).contains(&distance), "{distance}");
-        assert_eq!(written(&float, PolygonKind::Float).losses, []);
+        assert_eq!(losses(PolygonKind::Float), []);
     }
 
     #[test]
     fn a_periodic_polygon_is_opened() {
         let float = wave(3, 8, false);
         let periodic = FloatPolygon::new(3, float.vertices().to_vec(), None, true).unwrap();
-        let result = written(&periodic, PolygonKind::Clamped);
-        assert_eq!(result.losses.first(), Some(&Loss::Periodic));
-        assert!(!result.periodic);
+        let kind = PolygonKind::Clamped;
+        let clamped = FilePolygon::of(&periodic, kind);
+        assert_eq!(clamped.losses(&periodic).first(), Some(&Loss::Periodic));
+        assert!(!clamped.periodic);
         let ends = (
-            result.vertices[0],
-            result.vertices[result.vertices.len() - 1],
+            clamped.vertices[0],
+            clamped.vertices[clamped.vertices.len() - 1],
         );
         assert!(ends.0.distance(ends.1) < 1e-12);
-        assert_eq!(
-            build(PolygonKind::Bezier, 3, result.vertices, None, true),
-            Err(Problem::PeriodicKind {
-                kind: PolygonKind::Bezier
-            }),
-        );
+        let claimed = FilePolygon {
+            periodic: true,
+            ..clamped
+        };
+        assert_eq!(claimed.into_float(), Err(Problem::PeriodicKind { kind }));
     }
 
     #[test]
@@ -195,9 +201,8 @@ mod tests {
             for count in [degree + 1, degree + 4, degree + 30] {
                 let float = wave(degree, count, false);
                 for kind in [PolygonKind::Clamped, PolygonKind::Bezier] {
-                    let vertices = written(&float, kind).vertices;
-                    let built = build(kind, degree, vertices, None, false).unwrap();
-                    assert_eq!(built.off_by, None, "{kind} {degree} {count}");
+                    let (_, off_by) = FilePolygon::of(&float, kind).into_float().unwrap();
+                    assert_eq!(off_by, None, "{kind} {degree} {count}");
                 }
             }
         }
@@ -208,8 +213,14 @@ mod tests {
         // (2n − 1)!! is 5.8e31 for degree 25: sixteen digits cannot carry that.
         let corner = |index: usize| DVec3::new(index as f64, (index % 2) as f64, 0.0);
         for kind in [PolygonKind::Clamped, PolygonKind::Bezier] {
-            let vertices = (0..26).map(corner).collect();
-            let result = build(kind, 25, vertices, None, false);
+            let given = FilePolygon {
+                kind,
+                degree: 25,
+                vertices: (0..26).map(corner).collect(),
+                weights: None,
+                periodic: false,
+            };
+            let result = given.into_float();
             let Err(Problem::Polygon(PolygonError::DigitsLost { distance, .. })) = result else {
                 panic!("{result:?}");
             };
@@ -221,14 +232,15 @@ mod tests {
     fn what_is_read_with_a_loss_says_how_far_the_curve_may_be_off() {
         // Decimals of eleven digits: off by as much, and said so.
         let float = wave(9, 14, false);
-        let vertices = written(&float, PolygonKind::Bezier).vertices;
+        let mut given = FilePolygon::of(&float, PolygonKind::Bezier);
         let decimal = |value: f64| (value * 1e9).round() / 1e9;
-        let vertices = vertices.into_iter();
-        let vertices = vertices.map(|v| DVec3::from_array(v.to_array().map(decimal)));
-        let built = build(PolygonKind::Bezier, 9, vertices.collect(), None, false).unwrap();
-        let off_by = built.off_by.unwrap();
+        for vertex in &mut given.vertices {
+            *vertex = DVec3::from_array(vertex.to_array().map(decimal));
+        }
+        let (back, off_by) = given.into_float().unwrap();
+        let off_by = off_by.unwrap();
         assert!((1e-10..1e-8).contains(&off_by), "{off_by:e}");
         // Rounding moved the curve by up to 9e-10 in space.
-        assert!(float.deviation(&built.polygon).unwrap() <= off_by + 9e-10);
+        assert!(float.deviation(&back).unwrap() <= off_by + 9e-10);
     }
 }

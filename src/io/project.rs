@@ -18,16 +18,12 @@ use super::error::{Place, Problem, ReadError};
 use super::format::Format;
 use super::loss::{Export, LossReport};
 use super::object::Object;
+use super::project_v1::{FORMAT, Project, VERSION};
 use super::reading::Reading;
+use super::text::text;
 use super::{json_layout, project_v1};
 use crate::document::{Curve, Extras, escaped};
 use crate::geometry::PolygonKind;
-
-/// What a file says to be a project.
-pub(super) const FORMAT: &str = "batten";
-
-/// The newest version, which is the one written.
-pub(super) const VERSION: u64 = 1;
 
 /// Read a project.
 ///
@@ -43,31 +39,13 @@ pub fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
     if !text.trim_start().starts_with('{') {
         return Err(Problem::WrongFormat { found: None }.into());
     }
-    let header: Header = parse(text).map_err(|error| {
+    let project = parse::<Project>(text);
+    match parse::<Header>(text) {
+        Ok(header) => header.check()?,
         // The types of the version know in which curve the JSON is malformed.
-        let located = parse::<project_v1::Project>(text).err();
-        located
-            .filter(|located| located.place.line == error.place.line)
-            .unwrap_or(error)
-    })?;
-    if header.format != Some(Value::from(FORMAT)) {
-        let found = header.format.map(|format| format.to_string());
-        return Err(Problem::WrongFormat { found }.into());
+        Err(error) => return Err(project.err().unwrap_or(error)),
     }
-    match header.version.as_ref().and_then(Value::as_u64) {
-        Some(1) => parse::<project_v1::Project>(text)?.into_reading(),
-        Some(found) if found > VERSION => Err(Problem::NewerVersion {
-            found,
-            newest: VERSION,
-        }
-        .into()),
-        _ => Err(Problem::BadVersion {
-            found: header
-                .version
-                .map_or("not given".to_owned(), |version| version.to_string()),
-        }
-        .into()),
-    }
+    project?.into_reading()
 }
 
 /// Write a project with each curve held by one of its polygons; by the float polygon nothing is
@@ -84,28 +62,6 @@ pub fn write(curves: &[&Curve], extras: &Extras, kind: PolygonKind) -> Export {
     }
 }
 
-/// Take a file's bytes as text, without the mark that some editors put before it.
-///
-/// # Errors
-/// [`Problem::Empty`] or [`Problem::NotUtf8`].
-pub(super) fn text(bytes: &[u8]) -> Result<&str, ReadError> {
-    let text = std::str::from_utf8(bytes).map_err(|error| {
-        let valid = &bytes[..error.valid_up_to()];
-        let line_start = valid.iter().rposition(|byte| *byte == b'\n');
-        let place = Place {
-            line: Some(1 + valid.iter().filter(|byte| **byte == b'\n').count()),
-            column: Some(valid.len() - line_start.map_or(0, |start| start + 1) + 1),
-            ..Place::default()
-        };
-        place.problem(Problem::NotUtf8)
-    })?;
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    if text.trim().is_empty() {
-        return Err(Problem::Empty.into());
-    }
-    Ok(text)
-}
-
 /// What every version has, however the rest of it looks.
 #[derive(Deserialize)]
 #[serde(expecting = "a Batten project, which is a JSON object")]
@@ -114,6 +70,26 @@ struct Header {
     format: Option<Value>,
     #[serde(default)]
     version: Option<Value>,
+}
+
+impl Header {
+    fn check(&self) -> Result<(), Problem> {
+        let shown = |value: &Option<Value>| value.as_ref().map(Value::to_string);
+        if self.format != Some(Value::from(FORMAT)) {
+            let found = shown(&self.format);
+            return Err(Problem::WrongFormat { found });
+        }
+        match self.version.as_ref().and_then(Value::as_u64) {
+            Some(VERSION) => Ok(()),
+            Some(found) if found > VERSION => Err(Problem::NewerVersion {
+                found,
+                newest: VERSION,
+            }),
+            _ => Err(Problem::BadVersion {
+                found: shown(&self.version).unwrap_or("not given".to_owned()),
+            }),
+        }
+    }
 }
 
 fn parse<T: DeserializeOwned>(text: &str) -> Result<T, ReadError> {
@@ -154,7 +130,13 @@ fn json_problem(text: &str, mut place: Place, error: &serde_json::Error) -> Read
             // The place is said in front, so it need not be said again.
             let suffix = format!(" at line {} column {}", error.line(), error.column());
             let message = error.to_string();
-            Problem::Json(shortened(message.trim_end_matches(&suffix)))
+            let message = message.trim_end_matches(&suffix);
+            // What serde calls a number.
+            let message = match message.strip_suffix("expected f64") {
+                Some(start) => format!("{start}expected a number"),
+                None => message.to_owned(),
+            };
+            Problem::Json(shortened(&message))
         }
     };
     place.problem(problem)

@@ -1,20 +1,23 @@
 //! Version 1 of the project file.
 
-use std::fmt;
-
 use glam::DVec3;
-use serde::de::{Error, IgnoredAny, SeqAccess, Unexpected, Visitor};
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::de::{Error, IgnoredAny, Unexpected};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::error::{Place, Problem, ReadError};
 use super::loss::LossReport;
 use super::object::Object;
-use super::polygon::{Built, Written, build, written};
-use super::project::{FORMAT, VERSION};
+use super::polygon::FilePolygon;
 use super::reading::{CurveKeys, Owner, Reading, Remark, Remarks};
-use crate::document::{Colour, Curve, EndTargets, cut};
+use crate::document::{Colour, Curve, EndTargets, quoted};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{End, MAX_DEGREE, MAX_MAGNITUDE, PolygonKind};
+
+/// What a file says to be a project.
+pub(super) const FORMAT: &str = "batten";
+
+/// The version.
+pub(super) const VERSION: u64 = 1;
 
 /// A project as it is read.
 pub(super) type Project = Object<ProjectV1>;
@@ -53,7 +56,7 @@ struct CurveV1 {
     locked: Option<bool>,
     vertices: Vec<Coordinates>,
     #[serde(default)]
-    weights: Option<Vec<Number>>,
+    weights: Option<Vec<f64>>,
     #[serde(default)]
     periodic: Option<bool>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -130,23 +133,14 @@ impl CurveV1 {
         let given = self.name.filter(|name| !name.trim().is_empty());
         let name = given.unwrap_or_else(|| format!("curve {number}"));
         let place = |problem| Place::curve(number, &name).problem(problem);
-        let weights = self.weights;
-        let kind = self.polygon.0;
-        let Built { polygon, off_by } = build(
-            kind,
-            self.degree.0,
-            self.vertices
-                .into_iter()
-                .map(|vertex| vertex.point)
-                .collect(),
-            weights.map(|weights| weights.into_iter().map(|weight| weight.0).collect()),
-            self.periodic.unwrap_or(false),
-        )
-        .map_err(place)?;
-        if let Some(by) = off_by {
-            let curve = (number, name.clone());
-            remarks.add(Remark::CurveOff { curve, kind, by });
-        }
+        let polygon = FilePolygon {
+            kind: self.polygon.0,
+            degree: self.degree.0,
+            vertices: self.vertices.into_iter().map(DVec3::from).collect(),
+            weights: self.weights,
+            periodic: self.periodic.unwrap_or(false),
+        };
+        let curve = polygon.into_curve(number, &name, remarks).map_err(place)?;
         let mut forgotten = Forgotten::default();
         let targets = forgotten.strip(self.targets).unwrap_or_default();
         let targets = EndTargets {
@@ -163,15 +157,15 @@ impl CurveV1 {
             visible: self.visible.unwrap_or(true),
             locked: self.locked.unwrap_or(false),
             targets,
-            ..Curve::new(name, polygon)
+            ..curve
         })
     }
 
     fn from_curve(curve: &Curve, kind: PolygonKind, losses: &mut LossReport) -> Self {
         let planar = curve.polygon.is_planar();
-        let coordinates = |point: DVec3| Coordinates {
-            point,
-            dimension: if planar && point.z == 0.0 { 2 } else { 3 },
+        let coordinates = |DVec3 { x, y, z }| {
+            let third = (!planar || z != 0.0).then_some(z);
+            Coordinates(x, y, third, ())
         };
         let target = |target: EndTarget| {
             Object::new(Target {
@@ -183,25 +177,18 @@ impl CurveV1 {
             start: curve.targets.start.map(target),
             end: curve.targets.finish.map(target),
         };
-        let Written {
-            vertices,
-            weights,
-            periodic,
-            losses: lost,
-        } = written(&curve.polygon, kind);
-        for loss in lost {
-            losses.add(curve, loss);
-        }
+        let polygon = FilePolygon::of(&curve.polygon, kind);
+        losses.extend(curve, polygon.losses(&curve.polygon));
         Self {
             name: Some(curve.name.clone()),
-            degree: Degree(curve.polygon.degree()),
+            degree: Degree(polygon.degree),
             polygon: Kind(kind),
             colour: curve.colour.map(HexColour),
             visible: (!curve.visible).then_some(false),
             locked: curve.locked.then_some(true),
-            vertices: vertices.into_iter().map(coordinates).collect(),
-            weights: weights.map(|weights| weights.into_iter().map(Number).collect()),
-            periodic: Some(periodic),
+            vertices: polygon.vertices.into_iter().map(coordinates).collect(),
+            weights: polygon.weights,
+            periodic: Some(polygon.periodic),
             targets: (targets.start.is_some() || targets.end.is_some())
                 .then(|| Object::new(targets)),
         }
@@ -222,170 +209,126 @@ impl Forgotten {
 }
 
 fn checked(target: Option<Target>, end: End) -> Result<Option<EndTarget>, Problem> {
-    let Some(target) = target else {
+    let Some(Target { point, direction }) = target else {
         return Ok(None);
     };
-    let direction = target.direction.map(|direction| direction.point);
-    for value in [Some(target.point.point), direction]
-        .into_iter()
-        .flatten()
-        .flat_map(|vector| vector.to_array())
-    {
-        if value.abs() > MAX_MAGNITUDE {
-            let end = end.name();
-            return Err(Problem::TargetOutOfRange { end, value });
-        }
+    let target = EndTarget {
+        point: point.into(),
+        direction: direction.map(DVec3::from),
+    };
+    let end = end.name();
+    let vectors = [target.point, target.direction.unwrap_or_default()];
+    let mut values = vectors.into_iter().flat_map(|vector| vector.to_array());
+    if let Some(value) = values.find(|value| value.abs() > MAX_MAGNITUDE) {
+        return Err(Problem::TargetOutOfRange { end, value });
     }
-    if direction == Some(DVec3::ZERO) {
-        return Err(Problem::NoDirection { end: end.name() });
+    if target.direction == Some(DVec3::ZERO) {
+        return Err(Problem::NoDirection { end });
     }
-    Ok(Some(EndTarget {
-        point: target.point.point,
-        direction,
-    }))
-}
-
-/// A number. JSON has no infinite ones; serde_json refuses those that overflow.
-#[derive(Clone, Copy, Serialize)]
-struct Number(f64);
-
-impl<'de> Deserialize<'de> for Number {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_f64(NumberVisitor).map(Self)
-    }
-}
-
-struct NumberVisitor;
-
-impl Visitor<'_> for NumberVisitor {
-    type Value = f64;
-
-    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str("a number")
-    }
-
-    fn visit_f64<E: Error>(self, value: f64) -> Result<f64, E> {
-        Ok(value)
-    }
-
-    fn visit_u64<E: Error>(self, value: u64) -> Result<f64, E> {
-        Ok(value as f64)
-    }
-
-    fn visit_i64<E: Error>(self, value: i64) -> Result<f64, E> {
-        Ok(value as f64)
-    }
+    Ok(Some(target))
 }
 
 /// A whole number; whether it is a possible degree the polygon checks.
+#[derive(Deserialize, Serialize)]
+#[serde(try_from = "f64")]
 struct Degree(usize);
 
-impl Serialize for Degree {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_u64(self.0 as u64)
-    }
-}
+impl TryFrom<f64> for Degree {
+    type Error = String;
 
-impl<'de> Deserialize<'de> for Degree {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let Number(value) = Number::deserialize(deserializer)?;
+    fn try_from(value: f64) -> Result<Self, String> {
         if value >= 0.0 && value.fract() == 0.0 {
             // The cast keeps what is too large at the largest number, which is refused too.
             Ok(Self(value as usize))
         } else {
-            Err(Error::custom(format!(
+            Err(format!(
                 "degree {value} is out of range: a whole number from 1 to {MAX_DEGREE} is needed"
-            )))
+            ))
         }
     }
 }
 
-#[derive(Default)]
+/// A polygon by its name.
+#[derive(Clone, Default, Deserialize, Serialize)]
+#[serde(try_from = "String", into = "&str")]
 struct Kind(PolygonKind);
 
-impl Serialize for Kind {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.0.name())
-    }
-}
+impl TryFrom<String> for Kind {
+    type Error = String;
 
-impl<'de> Deserialize<'de> for Kind {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let name = String::deserialize(deserializer)?;
+    fn try_from(name: String) -> Result<Self, String> {
         let kind = PolygonKind::from_name(&name).map(Self);
         kind.ok_or_else(|| {
-            Error::invalid_value(Unexpected::Str(&cut(&name)), &"float, clamped or bezier")
+            let name = quoted(&name);
+            format!("{name} is not a polygon: float, clamped or bezier is needed")
         })
     }
 }
 
-struct HexColour(Colour);
-
-impl Serialize for HexColour {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Colour([red, green, blue]) = self.0;
-        serializer.serialize_str(&format!("#{red:02x}{green:02x}{blue:02x}"))
+impl From<Kind> for &str {
+    fn from(kind: Kind) -> Self {
+        kind.0.name()
     }
 }
 
-impl<'de> Deserialize<'de> for HexColour {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let text = String::deserialize(deserializer)?;
+/// A colour such as #1f77b4.
+#[derive(Clone, Deserialize, Serialize)]
+#[serde(try_from = "String", into = "String")]
+struct HexColour(Colour);
+
+impl TryFrom<String> for HexColour {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
         let digits = text.strip_prefix('#').filter(|digits| {
             digits.len() == 6 && digits.bytes().all(|digit| digit.is_ascii_hexdigit())
         });
         let value = digits.and_then(|digits| u32::from_str_radix(digits, 16).ok());
         let value = value.ok_or_else(|| {
-            Error::invalid_value(Unexpected::Str(&cut(&text)), &"a colour like #1f77b4")
+            let text = quoted(&text);
+            format!("{text} is not a colour: one like #1f77b4 is needed")
         })?;
         let [_, red, green, blue] = value.to_be_bytes();
         Ok(Self(Colour([red, green, blue])))
     }
 }
 
-/// A point or vector, written with 2 or 3 numbers.
-struct Coordinates {
-    point: DVec3,
-    dimension: usize,
-}
-
-impl Serialize for Coordinates {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(self.point.to_array().iter().take(self.dimension))
+impl From<HexColour> for String {
+    fn from(HexColour(Colour([red, green, blue])): HexColour) -> Self {
+        format!("#{red:02x}{green:02x}{blue:02x}")
     }
 }
 
-impl<'de> Deserialize<'de> for Coordinates {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_seq(CoordinatesVisitor)
-    }
+/// A point or vector: 2 or 3 numbers. That more are refused in their place, and a third that is
+/// `null`, takes functions of their own.
+#[derive(Deserialize, Serialize)]
+#[serde(expecting = "2 or 3 numbers in brackets")]
+struct Coordinates(
+    f64,
+    f64,
+    #[serde(
+        default,
+        deserialize_with = "given",
+        skip_serializing_if = "Option::is_none"
+    )]
+    Option<f64>,
+    #[serde(default, deserialize_with = "refused", skip_serializing)] (),
+);
+
+fn given<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
+    f64::deserialize(deserializer).map(Some)
 }
 
-struct CoordinatesVisitor;
+fn refused<'de, D: Deserializer<'de>>(_: D) -> Result<(), D::Error> {
+    let found = Unexpected::Other("a fourth number");
+    Err(D::Error::invalid_value(
+        found,
+        &"2 or 3 numbers in brackets",
+    ))
+}
 
-impl<'de> Visitor<'de> for CoordinatesVisitor {
-    type Value = Coordinates;
-
-    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str("2 or 3 numbers in brackets")
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, mut sequence: A) -> Result<Coordinates, A::Error> {
-        let mut values = [0.0; 3];
-        let mut dimension = 0;
-        while let Some(Number(value)) = sequence.next_element()? {
-            match values.get_mut(dimension) {
-                Some(place) => *place = value,
-                None => return Err(Error::invalid_length(dimension + 1, &self)),
-            }
-            dimension += 1;
-        }
-        if dimension < 2 {
-            return Err(Error::invalid_length(dimension, &self));
-        }
-        Ok(Coordinates {
-            point: DVec3::from_array(values),
-            dimension,
-        })
+impl From<Coordinates> for DVec3 {
+    fn from(Coordinates(x, y, z, ()): Coordinates) -> Self {
+        Self::new(x, y, z.unwrap_or_default())
     }
 }

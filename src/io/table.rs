@@ -25,10 +25,10 @@ use super::decimals::Decimals;
 use super::error::{Place, Problem, ReadError, WriteError};
 use super::format::Format;
 use super::loss::{Export, Loss, LossReport};
-use super::polygon::{Built, Written, build, written};
-use super::project::text;
+use super::polygon::FilePolygon;
 use super::reading::{Reading, Remark, Remarks};
 use super::table_header::TableHeader;
+use super::text::text;
 use crate::document::Curve;
 use crate::geometry::{PolygonError, PolygonKind};
 
@@ -100,33 +100,23 @@ pub fn write(curves: &[&Curve], kind: PolygonKind) -> Result<Export, WriteError>
         }
         let block = block_bytes(curve, kind, &mut losses);
         bytes.extend(block.expect("a table of text can be written to memory"));
-        losses.add_if(curve.colour.is_some(), curve, Loss::Colour);
+        losses.add_attributes(curve);
         losses.add_if(!curve.visible, curve, Loss::Hidden);
         losses.add_if(curve.locked, curve, Loss::Locked);
-        let has_targets = !curve.targets.list().is_empty();
-        losses.add_if(has_targets, curve, Loss::Targets);
-        losses.add_if(!curve.extras.is_empty(), curve, Loss::UnknownKeys);
     }
     Ok(Export { bytes, losses })
 }
 
 fn block_bytes(curve: &Curve, kind: PolygonKind, losses: &mut LossReport) -> csv::Result<Vec<u8>> {
-    let Written {
-        vertices,
-        weights,
-        periodic,
-        losses: lost,
-    } = written(&curve.polygon, kind);
-    for loss in lost {
-        losses.add(curve, loss);
-    }
+    let polygon = FilePolygon::of(&curve.polygon, kind);
+    losses.extend(curve, polygon.losses(&curve.polygon));
     let header = TableHeader {
-        degree: curve.polygon.degree(),
+        degree: polygon.degree,
         kind,
-        periodic,
+        periodic: polygon.periodic,
         name: Some(curve.name.clone()),
     };
-    let columns = match (&weights, curve.polygon.is_planar()) {
+    let columns = match (&polygon.weights, curve.polygon.is_planar()) {
         (Some(_), _) => 4,
         (None, false) => 3,
         (None, true) => 2,
@@ -134,8 +124,11 @@ fn block_bytes(curve: &Curve, kind: PolygonKind, losses: &mut LossReport) -> csv
     let mut writer = WriterBuilder::new().flexible(true).from_writer(Vec::new());
     writer.write_record([header.to_line()])?;
     writer.write_record(&COLUMNS[..columns])?;
-    for (index, vertex) in vertices.iter().enumerate() {
-        let weight = weights.as_ref().map_or(1.0, |weights| weights[index]);
+    for (index, vertex) in polygon.vertices.iter().enumerate() {
+        let weight = polygon
+            .weights
+            .as_ref()
+            .map_or(1.0, |weights| weights[index]);
         let values = [vertex.x, vertex.y, vertex.z, weight].map(|value| format!("{value:?}"));
         writer.write_record(&values[..columns])?;
     }
@@ -320,15 +313,15 @@ impl Block {
             .columns
             .iter()
             .any(|column| COLUMNS[*column] == "weight");
-        let kind = self.header.kind;
-        let built = build(
-            kind,
-            self.header.degree,
-            self.vertices,
-            is_rational.then_some(self.weights),
-            self.header.periodic,
-        );
-        let Built { polygon, off_by } = built.map_err(|problem| {
+        let polygon = FilePolygon {
+            kind: self.header.kind,
+            degree: self.header.degree,
+            vertices: self.vertices,
+            weights: is_rational.then_some(self.weights),
+            periodic: self.header.periodic,
+        };
+        let curve = polygon.into_curve(number, &name, remarks);
+        curve.map_err(|problem| {
             let vertex = match &problem {
                 Problem::Polygon(
                     PolygonError::BadCoordinate { index, .. }
@@ -337,12 +330,7 @@ impl Block {
                 _ => None,
             };
             place(vertex.copied().unwrap_or(self.line)).problem(problem)
-        })?;
-        if let Some(by) = off_by {
-            let curve = (number, name.clone());
-            remarks.add(Remark::CurveOff { curve, kind, by });
-        }
-        Ok(Curve::new(name, polygon))
+        })
     }
 }
 

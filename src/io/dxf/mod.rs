@@ -12,7 +12,7 @@ use crate::io::error::WriteError;
 use crate::io::format::Format;
 use crate::io::layer_names::LayerNames;
 use crate::io::loss::{Export, Loss, LossReport};
-use crate::io::polygon::written;
+use crate::io::polygon::FilePolygon;
 
 mod frame;
 mod writer;
@@ -118,10 +118,7 @@ fn report(curve: &Curve, layer: &str, kinds: &[PolygonKind], losses: &mut LossRe
         let written = layer.to_owned();
         losses.add(curve, Loss::Name { written });
     }
-    losses.add_if(curve.colour.is_some(), curve, Loss::Colour);
-    let has_targets = !curve.targets.list().is_empty();
-    losses.add_if(has_targets, curve, Loss::Targets);
-    losses.add_if(!curve.extras.is_empty(), curve, Loss::UnknownKeys);
+    losses.add_attributes(curve);
     losses.add_if(curve.polygon.is_periodic(), curve, Loss::Periodic);
     for &kind in kinds {
         let is_rational = curve.polygon.is_rational();
@@ -165,7 +162,7 @@ fn spline(writer: &mut Writer, curve: &Curve, layer: &str, reach: &mut Reach) {
 }
 
 fn polyline(writer: &mut Writer, curve: &Curve, kind: PolygonKind, layer: &str, reach: &mut Reach) {
-    let polygon = written(&curve.polygon, kind);
+    let polygon = FilePolygon::of(&curve.polygon, kind);
     let closed = i64::from(polygon.periodic);
     reach.add(&polygon.vertices);
     if curve.polygon.is_planar() {

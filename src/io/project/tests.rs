@@ -227,7 +227,15 @@ fn content_of_the_wrong_kind_is_refused_with_its_place() {
     );
     check_curve(
         r#"{"degree":1,"vertices":[[0,0],[1,2,3,4]]}"#,
-        "line 2, column 39, curve 2, vertex 1: invalid length 4, expected 2 or 3 numbers in brackets",
+        "line 2, column 37, curve 2, vertex 1: invalid value: a fourth number, expected 2 or 3 numbers in brackets",
+    );
+    check_curve(
+        r#"{"degree":1,"vertices":[[0,0],[1,2,null]]}"#,
+        "line 2, column 39, curve 2, vertex 1: invalid type: null, expected a number",
+    );
+    check_curve(
+        r#"{"degree":1,"vertices":[[0,0],7]}"#,
+        "line 2, column 31, curve 2, vertex 1: invalid type: integer `7`, expected 2 or 3 numbers in brackets",
     );
     check_curve(
         r#"{"degree":1,"vertices":[[0,0],[1,"2"]]}"#,
@@ -252,11 +260,11 @@ fn content_of_the_wrong_kind_is_refused_with_its_place() {
     }
     check_curve(
         r#"{"degree":1,"polygon":"closed"}"#,
-        "line 2, column 31, curve 2: invalid value: string \"closed\", expected float, clamped or bezier",
+        "line 2, column 31, curve 2: “closed” is not a polygon: float, clamped or bezier is needed",
     );
     check_curve(
         r#"{"degree":1,"colour":"red"}"#,
-        "line 2, column 27, curve 2: invalid value: string \"red\", expected a colour like #1f77b4",
+        "line 2, column 27, curve 2: “red” is not a colour: one like #1f77b4 is needed",
     );
 }
 

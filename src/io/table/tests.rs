@@ -78,9 +78,9 @@ fn what_a_table_does_not_hold_is_reported() {
     let expected = [
         Loss::Periodic,
         Loss::Colour,
+        Loss::Targets,
         Loss::Hidden,
         Loss::Locked,
-        Loss::Targets,
     ];
     assert_eq!(losses, expected);
     assert!(matches!(

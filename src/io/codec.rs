@@ -1,0 +1,50 @@
+//! What reads and writes each format: the one file that knows all of them.
+
+use std::borrow::Borrow;
+
+use super::error::{Problem, ReadError, WriteError};
+use super::format::Format;
+use super::loss::Export;
+use super::reading::Reading;
+use super::{dxf, project, table};
+use crate::document::{Curve, Extras};
+use crate::geometry::PolygonKind;
+
+impl Format {
+    /// Read the curves of a file's bytes.
+    ///
+    /// # Errors
+    /// [`ReadError`] with the place. A format that [cannot be read](Self::can_read) says so.
+    pub fn read(self, bytes: &[u8]) -> Result<Reading, ReadError> {
+        match self {
+            Self::Batten => project::read(bytes),
+            Self::Csv => table::read(bytes),
+            Self::Dxf => Err(ReadError::from(Problem::Unreadable(self))),
+        }
+    }
+
+    /// Write curves to bytes.
+    ///
+    /// `polygon` chooses by which polygon each curve is held (project and table) or which
+    /// polygon is drawn beside it (DXF); without it a project and a table hold the float
+    /// polygon, and a DXF draws the float and the clamped one. `extras` are those of the
+    /// project, which only a project holds.
+    ///
+    /// # Errors
+    /// [`WriteError`] if the format cannot hold the curves at all.
+    pub fn write<C: Borrow<Curve>>(
+        self,
+        curves: &[C],
+        extras: &Extras,
+        polygon: Option<PolygonKind>,
+    ) -> Result<Export, WriteError> {
+        let curves: Vec<&Curve> = curves.iter().map(Borrow::borrow).collect();
+        let mut export = match self {
+            Self::Batten => project::write(&curves, extras, polygon.unwrap_or_default()),
+            Self::Csv => table::write(&curves, polygon.unwrap_or_default())?,
+            Self::Dxf => dxf::write(&curves, polygon)?,
+        };
+        export.losses.project_keys = self != Self::Batten && !extras.is_empty();
+        Ok(export)
+    }
+}
