@@ -4,14 +4,17 @@
 mod commands;
 mod files;
 mod hand;
+mod patience;
 mod reply;
 mod report;
+mod trial;
 mod view;
+mod worker;
 mod workspace;
 
 use glam::DVec2;
 
-pub use commands::{Command, Division, DivisionReport, ExtremaCount, RoundingReport, Shortcut};
+pub use commands::{Command, Shortcut};
 pub use files::with_extension;
 pub use hand::{
     Button, Cursor, EndFitAction, EndFitReport, Hand, Input, Key, Modifiers, Selection, ToolKind,
@@ -19,6 +22,7 @@ pub use hand::{
 };
 pub use reply::{Message, Note, Refusal, Reply, told};
 pub use report::{CurveReport, Export, Readout};
+pub use trial::{Run, Trial};
 pub use view::{
     CurveScene, EndFitMarks, FeatureKind, FeatureMark, FeatureReport, FeatureRow, HoverScene,
     Layer, Layers, Mark, NamedView, PlotScene, REACH, Scene, VertexMark, View, Viewport,
@@ -30,6 +34,8 @@ use crate::analysis::AnalysisCache;
 use crate::document::{CurveId, Document, Edit};
 use hand::gesture::Gesture;
 use hand::tools::Tools;
+use patience::Patience;
+use trial::Operations;
 
 /// Hold the running application: what is worked on, how it is seen, and what works on it.
 #[derive(Debug, Default)]
@@ -38,6 +44,8 @@ pub struct Editor {
     view: View,
     hand: Hand,
     analyses: AnalysisCache,
+    operations: Operations,
+    patience: Patience,
     message: Option<Message>,
 }
 
@@ -55,6 +63,18 @@ impl Editor {
         let mut editor = Self::default();
         editor.replace(document, None);
         editor
+    }
+
+    /// Do slow work on threads of their own from now on; `wake` is called there when something is
+    /// new to show.
+    pub fn run_in_background(&mut self, wake: impl Fn() + Clone + Send + 'static) {
+        self.operations.run_in_background(wake);
+    }
+
+    /// Begin a frame: take what was done beside the last one.
+    pub fn begin_frame(&mut self) {
+        self.patience.renew();
+        self.receive_operations();
     }
 
     /// What is worked on: the document, its history and its file.
@@ -94,6 +114,7 @@ impl Editor {
             let own: Vec<VertexId> = selection.of_curve(curve).map(|i| (curve, i)).collect();
             selection.set(own);
             selection.activate(curve);
+            self.leave_stale_trial();
         }
     }
 
@@ -105,6 +126,7 @@ impl Editor {
             self.hand.selection.set([(curve, vertex)]);
         }
         self.document_changed();
+        self.leave_stale_trial();
     }
 
     /// Take a tool into the hand; what is being tried out is ended.
@@ -195,6 +217,9 @@ impl Editor {
 
     /// Take back what is being tried out.
     pub fn abort_preview(&mut self) {
+        if self.is_trying() {
+            self.leave_trial();
+        }
         self.workspace.abort();
         self.document_changed();
     }
@@ -235,14 +260,24 @@ impl Editor {
             self.deliver(Gesture::Cancel, false);
         }
         self.hand.gestures.reset();
+        if self.is_trying() {
+            self.leave_trial();
+            return true;
+        }
         let ended = self.workspace.interrupt();
         self.document_changed();
         drags || ended == Some(Interruption::Aborts)
     }
 
-    /// Put right what depends on the document after it has changed.
+    /// Put right what depends on the document after it has changed. What is selected is selected of
+    /// the document without what an operation tries out on it.
     fn document_changed(&mut self) {
-        self.hand.selection.retain_valid(self.workspace.document());
+        let document = if self.is_trying() {
+            self.workspace.settled()
+        } else {
+            self.workspace.document()
+        };
+        self.hand.selection.retain_valid(document);
     }
 
     /// Put right what depends on the document after it was replaced by another.

@@ -57,7 +57,8 @@ const TOLERANCE: Parameter = Parameter {
     },
 };
 
-pub(super) static OPERATION: Operation = Operation {
+/// Describes it.
+pub static OPERATION: Operation = Operation {
     name: "correct-ends",
     label: "Correct ends",
     help: "Bring the ends of the curve to their targets; at once, an end without a target keeps its point and direction",

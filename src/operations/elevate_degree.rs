@@ -29,7 +29,8 @@ const DEGREE: Parameter = Parameter {
     },
 };
 
-pub(super) static OPERATION: Operation = Operation {
+/// Describes it.
+pub static OPERATION: Operation = Operation {
     name: "elevate-degree",
     label: "Raise degree, keep curve",
     help: "Raise the degree: exact for a curve of one segment, otherwise as near as a uniform curve comes",

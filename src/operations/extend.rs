@@ -27,7 +27,8 @@ const SEGMENTS: Parameter = Parameter {
     },
 };
 
-pub(super) static OPERATION: Operation = Operation {
+/// Describes it.
+pub static OPERATION: Operation = Operation {
     name: "extend",
     label: "Extend curve",
     help: "Continue an end of the curve by whole segments, exactly as it runs",

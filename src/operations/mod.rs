@@ -5,7 +5,7 @@
 //! [`Outcome`]: edits, figures and marks. Menus, the operation panel and the command line all read
 //! that description. Nothing in here opens windows or threads, or changes a document.
 //!
-//! A new operation is a file here that exports a `pub(super) static OPERATION`, and a line in the
+//! A new operation is a file here that exports a `pub static OPERATION`, and a line in the
 //! table below.
 
 mod amount;
@@ -37,7 +37,7 @@ pub use values::{Value, Values};
 /// Declare the modules of operations, and list what they export in this order.
 macro_rules! table {
     ($($module:ident,)*) => {
-        $(mod $module;)*
+        $(pub mod $module;)*
 
         /// Every operation, in the order in which they are offered.
         pub static ALL: &[&Operation] = &[$(&$module::OPERATION,)*];

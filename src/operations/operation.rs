@@ -1,5 +1,7 @@
 //! An operation, described once for menus, panel and command line.
 
+use std::hash::{Hash, Hasher};
+
 use super::error::OperationError;
 use super::input::Input;
 use super::outcome::Outcome;
@@ -24,6 +26,21 @@ pub struct Operation {
     pub(crate) check: fn(&Input) -> Result<(), OperationError>,
     /// Do it.
     pub(crate) run: fn(&Input, &Values, &Progress) -> Result<Outcome, OperationError>,
+}
+
+impl PartialEq for Operation {
+    /// Operations are told apart by their names.
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl Eq for Operation {}
+
+impl Hash for Operation {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.name.hash(state);
+    }
 }
 
 /// What an operation works on.
@@ -87,6 +104,22 @@ impl Operation {
     ) -> Result<Values, OperationError> {
         self.check(input)?;
         Values::new(self.parameters, input, given)
+    }
+
+    /// Replace one of some values that were checked for this input.
+    ///
+    /// # Errors
+    /// As [`Operation::values`].
+    pub fn values_with(
+        &self,
+        input: &Input,
+        values: &Values,
+        name: &str,
+        value: Value,
+    ) -> Result<Values, OperationError> {
+        let kept = self.parameters.iter();
+        let kept = kept.map(|parameter| (parameter.name, values.get(parameter)));
+        self.values(input, kept.chain([(name, value)]))
     }
 
     /// Run the operation with values that were checked for this input.

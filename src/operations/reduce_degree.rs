@@ -26,7 +26,8 @@ const DEGREE: Parameter = Parameter {
     },
 };
 
-pub(super) static OPERATION: Operation = Operation {
+/// Describes it.
+pub static OPERATION: Operation = Operation {
     name: "reduce-degree",
     label: "Lower degree, keep curve",
     help: "Lower the degree and stay as near to the curve as a uniform curve comes",

@@ -35,7 +35,8 @@ const DEGREE: Parameter = Parameter {
     },
 };
 
-pub(super) static OPERATION: Operation = Operation {
+/// Describes it.
+pub static OPERATION: Operation = Operation {
     name: "reinterpret-degree",
     label: "Change degree, keep polygon",
     help: "Give the polygon another degree: higher ones make a smoother curve, lower ones follow the polygon closer",

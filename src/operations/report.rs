@@ -8,6 +8,7 @@ use super::features::FeatureComparison;
 use super::input::Input;
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
+use super::values::Value;
 use crate::document::Document;
 use crate::geometry::Progress;
 
@@ -44,6 +45,12 @@ pub struct LargestMove {
 }
 
 impl Report {
+    /// Find one of the operation's own figures.
+    pub fn figure(&self, name: &str) -> Option<Value> {
+        let mut figures = self.figures.iter();
+        Some(figures.find(|figure| figure.name == name)?.value)
+    }
+
     /// Tell at once what an operation did, without features.
     pub fn new(operation: &Operation, input: &Input, outcome: &Outcome) -> Self {
         Self {

@@ -10,7 +10,8 @@ use crate::document::Edit;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{End, Progress};
 
-pub(super) static OPERATION: Operation = Operation {
+/// Describes it.
+pub static OPERATION: Operation = Operation {
     name: "reverse",
     label: "Reverse direction",
     help: "Let the curve run the other way; its shape stays",

@@ -10,7 +10,8 @@ use super::which_end::{END, end};
 use crate::geometry::Progress;
 use crate::geometry::end_correction::{EndDifference, align_end};
 
-pub(super) static OPERATION: Operation = Operation {
+/// Describes it.
+pub static OPERATION: Operation = Operation {
     name: "rotate-end",
     label: "Rotate end",
     help: "Rotate the terminal vertices of an end about it so that it has its target direction (step 6)",

@@ -47,7 +47,8 @@ const DIGITS: Parameter = Parameter {
     },
 };
 
-pub(super) static OPERATION: Operation = Operation {
+/// Describes it.
+pub static OPERATION: Operation = Operation {
     name: "round",
     label: "Round coordinates",
     help: "Round the coordinates of the float or the closed S-polygon, and tell what that does to the curve",

@@ -28,7 +28,8 @@ const AT: Parameter = Parameter {
     },
 };
 
-pub(super) static OPERATION: Operation = Operation {
+/// Describes it.
+pub static OPERATION: Operation = Operation {
     name: "split",
     label: "Split curve",
     help: "Cut the curve into two; at knots (whole u) the parts are exact",

@@ -8,7 +8,8 @@ use super::outcome::{Deviation, Figure, Outcome};
 use super::values::Values;
 use crate::geometry::Progress;
 
-pub(super) static OPERATION: Operation = Operation {
+/// Describes it.
+pub static OPERATION: Operation = Operation {
     name: "subdivide",
     label: "Subdivide",
     help: "Halve every segment; the curve stays",

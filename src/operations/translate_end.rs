@@ -10,7 +10,8 @@ use super::which_end::{END, end};
 use crate::geometry::Progress;
 use crate::geometry::end_correction::{EndDifference, translate_end};
 
-pub(super) static OPERATION: Operation = Operation {
+/// Describes it.
+pub static OPERATION: Operation = Operation {
     name: "translate-end",
     label: "Translate end",
     help: "Translate the terminal vertices of an end so that it meets its target point (step 5)",

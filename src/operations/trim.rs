@@ -44,7 +44,8 @@ const TO: Parameter = Parameter {
     },
 };
 
-pub(super) static OPERATION: Operation = Operation {
+/// Describes it.
+pub static OPERATION: Operation = Operation {
     name: "trim",
     label: "Trim curve",
     help: "Keep a part of the curve; between knots (whole u) it is exact",

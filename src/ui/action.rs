@@ -35,10 +35,6 @@ pub enum Action {
     Copy,
     /// Add what was copied.
     Paste,
-    /// Divide the active curve: split it or trim it.
-    Divide,
-    /// Round the coordinates of one of the active curve's polygons.
-    Round,
     /// Switch between the dark and the light theme.
     ToggleTheme,
     /// Show or hide the plots.
@@ -71,7 +67,6 @@ impl Action {
         all.extend(PolygonKind::ALL.map(Self::ExportCsv));
         all.extend((0..EXAMPLES.len()).map(Self::OpenExample));
         all.extend([Self::Quit, Self::Cut, Self::Copy, Self::Paste]);
-        all.extend([Self::Divide, Self::Round]);
         all.extend(Command::all().into_iter().map(Self::Command));
         all.extend([
             Self::ToggleTheme,
@@ -101,8 +96,6 @@ impl Action {
             Self::Cut => "Cut",
             Self::Copy => "Copy",
             Self::Paste => "Paste",
-            Self::Divide => "Split or trim…",
-            Self::Round => "Round coordinates…",
             Self::ToggleTheme => "Light theme",
             Self::TogglePlots => "Plots",
             Self::Palette => "Find a command…",
@@ -140,10 +133,6 @@ impl Action {
             Self::Cut => "Copy the selected vertices and remove them",
             Self::Copy => "Copy the active curve, or only its selected vertices",
             Self::Paste => "Add what was copied as a curve of its own",
-            Self::Divide => "Split the curve at a parameter, or keep a part of it",
-            Self::Round => {
-                "Round the float or the closed S-polygon to some digits, and tell what that does to the curve"
-            }
             Self::ToggleTheme => "Switch between the dark and the light theme",
             Self::TogglePlots => "Show or hide the plots under the canvas",
             Self::Palette => "Find a command by typing a part of its name",
@@ -171,11 +160,7 @@ impl Action {
             Self::TogglePlots => Shortcut::plain(Key::Function(8)),
             Self::Palette => Shortcut::ctrl('p'),
             Self::Keys => Shortcut::plain(Key::Function(1)),
-            Self::OpenExample(_)
-            | Self::ExportCsv(_)
-            | Self::Divide
-            | Self::Round
-            | Self::About => return None,
+            Self::OpenExample(_) | Self::ExportCsv(_) | Self::About => return None,
         })
     }
 
@@ -186,7 +171,6 @@ impl Action {
             Self::Command(command) => editor.is_enabled(command),
             Self::ExportDxf | Self::ExportCsv(_) => !editor.document().is_empty(),
             Self::Cut | Self::Copy => active().is_some(),
-            Self::Divide | Self::Round => active().is_some_and(|c| c.check_editable().is_ok()),
             _ => true,
         }
     }

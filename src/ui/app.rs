@@ -18,9 +18,9 @@ use super::keyboard::{self, Asked, Keyboard, Typing};
 use super::layer_list::layer_list_ui;
 use super::menu::menu_ui;
 use super::message::message_ui;
+use super::operation_panel::OperationPanel;
 use super::palette::Palette;
 use super::plots::{self, Plots, Tab};
-use super::reshaping_dialogs::DivisionDialog;
 use super::shell::Shell;
 use super::status_bar::{self, status_bar_ui};
 use super::theme::{self, Tokens};
@@ -46,6 +46,7 @@ pub struct App {
     curves: CurveList,
     inspector: Inspector,
     end_fit: EndFitPanel,
+    operation: OperationPanel,
     plots: Plots,
     palette: Palette,
     files: FileDialogs,
@@ -90,6 +91,7 @@ impl App {
             curves: CurveList::default(),
             inspector: Inspector::default(),
             end_fit: EndFitPanel::default(),
+            operation: OperationPanel::default(),
             plots,
             palette: Palette::default(),
             files: FileDialogs::new(native_dialogs),
@@ -113,6 +115,7 @@ impl App {
     /// Show one frame of the window.
     pub fn show(&mut self, ui: &mut Ui) {
         let context = ui.ctx().clone();
+        self.editor.begin_frame();
         self.take_answers(&context);
         self.take_dropped_files(&context);
         self.take_keys(&context);
@@ -222,6 +225,7 @@ impl App {
             });
         // In a low window the layers scroll with the rest, so that nothing is squeezed out.
         let is_end_fit = self.editor.hand().tool() == ToolKind::EndFit;
+        let tries = self.editor.is_trying();
         let pinned = ui.available_height() >= PINNED[usize::from(is_end_fit)];
         if pinned {
             let layers = Panel::bottom("layers").frame(pad).resizable(false);
@@ -229,7 +233,13 @@ impl App {
         }
         CentralPanel::default().frame(pad).show(ui, |ui| {
             // Each has its own place in its own scroll area.
-            let name = if is_end_fit { "end fit" } else { "inspector" };
+            let name = if tries {
+                "operation"
+            } else if is_end_fit {
+                "end fit"
+            } else {
+                "inspector"
+            };
             let area = ScrollArea::vertical()
                 .id_salt(name)
                 .auto_shrink([false, false]);
@@ -237,9 +247,12 @@ impl App {
             let width = ui.available_width() - ui.spacing().scroll.allocated_width();
             area.show(ui, |ui| {
                 ui.set_max_width(width);
-                if is_end_fit {
+                if tries {
+                    self.operation.show(ui, &mut self.editor);
+                } else if is_end_fit {
                     self.end_fit.show(ui, &mut self.editor);
                 } else {
+                    self.last_operation_ui(ui);
                     self.inspector.show(ui, &mut self.editor);
                 }
                 if !pinned {
@@ -247,6 +260,15 @@ impl App {
                 }
             });
         });
+    }
+
+    /// The operation that was applied last stays at hand: its values can be changed.
+    fn last_operation_ui(&mut self, ui: &mut Ui) {
+        let trial = self.editor.trial();
+        if trial.is_some_and(|trial| !trial.operation().parameters.is_empty()) {
+            self.operation.show(ui, &mut self.editor);
+            ui.separator();
+        }
     }
 
     fn layers_ui(&mut self, ui: &mut Ui) {
@@ -327,8 +349,6 @@ impl App {
             Action::Cut => copy(context, self.editor.cut()),
             Action::Copy => copy(context, self.editor.copy()),
             Action::Paste => context.send_viewport_cmd(ViewportCommand::RequestPaste),
-            Action::Divide => self.dialog = Some(Dialog::Divide(DivisionDialog::new(&self.editor))),
-            Action::Round => self.dialog = Some(Dialog::Round(Box::default())),
             Action::ToggleTheme => {
                 self.shell.dark = !self.shell.dark;
                 theme::choose(context, self.shell.dark);
@@ -401,10 +421,6 @@ impl App {
     fn decide(&mut self, context: &Context, decision: Decision) {
         match decision {
             Decision::Close => {}
-            Decision::Divide(division, subdivisions) => {
-                told(self.editor.divide(division, subdivisions));
-            }
-            Decision::Round(kind, digits) => told(self.editor.round(kind, digits)),
             Decision::Discard(after) => self.go_on(context, after),
             Decision::Save(after) => match self.editor.workspace().path().map(Path::to_owned) {
                 Some(path) => self.save_and(context, &path, Some(after)),

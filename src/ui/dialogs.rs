@@ -4,22 +4,16 @@ use eframe::egui::{Context, Grid, Id, Key, Modal, RichText, ScrollArea, Ui, vec2
 
 use super::action::Action;
 use super::file_dialogs::AfterDiscard;
-use super::reshaping_dialogs::{DivisionDialog, RoundingDialog};
 use super::theme::{self, STEP, Tokens};
 use super::{keyboard, widgets};
 use crate::document::quoted;
-use crate::editor::{Division, Editor};
-use crate::geometry::PolygonKind;
+use crate::editor::Editor;
 
 /// What is asked or told.
 #[derive(Debug)]
 pub enum Dialog {
     /// Save, discard or go back, before something replaces the document.
     Unsaved(AfterDiscard),
-    /// Split or trim the active curve.
-    Divide(DivisionDialog),
-    /// Round coordinates.
-    Round(Box<RoundingDialog>),
     /// What keys and mouse do.
     Keys,
     /// What this program is.
@@ -33,10 +27,6 @@ pub enum Decision {
     Save(AfterDiscard),
     /// Go on without saving.
     Discard(AfterDiscard),
-    /// Divide the active curve.
-    Divide(Division, u32),
-    /// Round the coordinates of one of the active curve's polygons.
-    Round(PolygonKind, usize),
     /// Close the dialog.
     Close,
 }
@@ -50,8 +40,6 @@ pub fn dialog_ui(context: &Context, dialog: &mut Dialog, editor: &Editor) -> Opt
             ui.spacing_mut().item_spacing.y = 2.0 * STEP;
             match dialog {
                 Dialog::Unsaved(after) => unsaved_ui(ui, after, editor),
-                Dialog::Divide(dialog) => dialog.show(ui, editor),
-                Dialog::Round(dialog) => dialog.show(ui, editor),
                 Dialog::Keys => keys_ui(ui),
                 Dialog::About => about_ui(ui),
             }

@@ -16,6 +16,7 @@ use crate::document::Edit;
 use crate::editor::{Editor, EndFitAction, EndFitReport, Layer, Refusal, told};
 use crate::geometry::end_correction::{EndOverlap, EndTarget};
 use crate::geometry::{End, counted};
+use crate::operations::LargestMove;
 
 /// The width of a field for a coordinate.
 const FIELD: f32 = 72.0;
@@ -453,7 +454,7 @@ impl Panel<'_> {
         if response.on_hover_text(tooltip).clicked() {
             self.ask(7, EndFitAction::BothAtOnce);
         }
-        if let Some((distance, vertex)) = report.largest_move {
+        if let Some(LargestMove { distance, vertex }) = report.largest_move {
             let text = format!("{} at vertex {vertex}", figures::significant(distance, 4));
             widgets::figure_row(ui, "Largest move", &text);
         }

@@ -14,8 +14,9 @@ use super::transform_panel::TransformPanel;
 use super::vertex_table::VertexTable;
 use super::widgets::{self, IconButton};
 use crate::document::{Colour, Curve, CurveId, Edit};
-use crate::editor::{Command, CurveReport, Editor, told};
+use crate::editor::{CurveReport, Editor, told};
 use crate::geometry::{MAX_DEGREE, Range};
+use crate::operations::{Value, reinterpret_degree};
 
 /// The inspector's own state.
 #[derive(Default)]
@@ -63,7 +64,7 @@ impl Inspector {
         widgets::form_row(ui, "Name", |ui| self.name_ui(ui, editor, id, curve));
         widgets::form_row(ui, "Colour", |ui| colour_ui(ui, editor, id, curve));
         ui.add_enabled_ui(curve.check_editable().is_ok(), |ui| {
-            widgets::form_row(ui, "Degree", |ui| degree_ui(ui, editor, id, curve));
+            widgets::form_row(ui, "Degree", |ui| degree_ui(ui, editor, curve));
             widgets::form_row(ui, "Ends", |ui| ends_ui(ui, editor, id, curve));
         });
         widgets::form_row(ui, "State", |ui| {
@@ -103,29 +104,35 @@ impl Inspector {
     }
 }
 
-fn degree_ui(ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
+fn degree_ui(ui: &mut Ui, editor: &mut Editor, curve: &Curve) {
     let degree = curve.polygon.degree();
     let most = MAX_DEGREE.min(curve.polygon.vertices().len() - 1);
     ui.spacing_mut().item_spacing.x = STEP;
     let lower = IconButton::new(Icon::Minus, "Lower degree")
-        .tooltip(Command::LowerDegree.tooltip())
+        .tooltip("Lower the degree by one; the polygon stays, the curve follows it closer")
         .enabled(degree > 1);
     if lower.show(ui).clicked() {
-        told(editor.set_degree(id, degree - 1));
+        set_degree(editor, degree - 1);
     }
     let field = NumberField::new("Degree", degree as f64, degree.to_string())
         .width(48.0)
         .range(1.0..=most as f64)
         .typed_only();
     if let FieldEvent::Typed(value) = field.show(ui).1 {
-        told(editor.set_degree(id, value.round() as usize));
+        set_degree(editor, value.round() as usize);
     }
     let raise = IconButton::new(Icon::Plus, "Raise degree")
-        .tooltip(Command::RaiseDegree.tooltip())
+        .tooltip("Raise the degree by one; the polygon stays, the curve becomes smoother")
         .enabled(degree < MAX_DEGREE);
     if raise.show(ui).clicked() {
-        told(editor.set_degree(id, degree + 1));
+        set_degree(editor, degree + 1);
     }
+}
+
+/// Give the active curve another degree; the polygon stays.
+fn set_degree(editor: &mut Editor, degree: usize) {
+    let values = [("degree", Value::Whole(degree))];
+    told(editor.apply_operation(&reinterpret_degree::OPERATION, &values));
 }
 
 fn ends_ui(ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {

@@ -9,8 +9,9 @@ use super::shell::Shell;
 use super::theme::Tokens;
 use super::{icons, keyboard, widgets};
 use crate::editor::{Command, Editor, Layer, NamedView, ToolKind};
-use crate::geometry::{End, PolygonKind};
+use crate::geometry::PolygonKind;
 use crate::io::examples::EXAMPLES;
+use crate::operations;
 
 /// The least width of an open menu.
 const WIDTH: f32 = 240.0;
@@ -85,26 +86,20 @@ fn menus() -> [(&'static str, Vec<Entry>); 6] {
         Divider,
         command(Command::ToggleSnapping),
     ];
-    let curve = vec![
+    let mut curve = vec![
         command(Command::Duplicate),
         command(Command::DeleteCurve),
         Divider,
-        command(Command::RaiseDegree),
-        command(Command::LowerDegree),
         command(Command::TogglePeriodic),
-        command(Command::Reverse),
         Divider,
-        command(Command::RaiseCurveDegree),
-        command(Command::LowerCurveDegree),
-        command(Command::Subdivide),
-        command(Command::Extend(End::Start)),
-        command(Command::Extend(End::Finish)),
-        Item(Action::Divide),
-        Item(Action::Round),
+    ];
+    let operations = operations::ALL.iter().copied();
+    curve.extend(operations.map(|operation| command(Command::Operation(operation))));
+    curve.extend([
         Divider,
         command(Command::ToggleVisible),
         command(Command::ToggleLocked),
-    ];
+    ]);
     let mut view = vec![
         command(Command::Fit),
         command(Command::FitAll),

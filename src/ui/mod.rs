@@ -28,11 +28,11 @@ mod layer_list;
 mod menu;
 mod message;
 mod number_field;
+mod operation_panel;
 mod overlays;
 mod painting;
 mod palette;
 mod plots;
-mod reshaping_dialogs;
 mod shell;
 mod status_bar;
 mod theme;
@@ -80,6 +80,8 @@ pub fn run(files: &[PathBuf]) -> anyhow::Result<()> {
         ..Default::default()
     };
     let create: eframe::AppCreator<'_> = Box::new(move |creation| {
+        let context = creation.egui_ctx.clone();
+        editor.run_in_background(move || context.request_repaint());
         let app = App::new(&creation.egui_ctx, creation.storage, true, editor);
         Ok(Box::new(app))
     });

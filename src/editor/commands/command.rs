@@ -4,7 +4,7 @@ use crate::editor::hand::input::{Key, Modifiers};
 use crate::editor::hand::tools::ToolKind;
 use crate::editor::view::layers::Layer;
 use crate::editor::view::orbit::NamedView;
-use crate::geometry::End;
+use crate::operations::{self, Operation};
 
 /// Something that the user can ask for by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -23,22 +23,10 @@ pub enum Command {
     SelectAll,
     /// Select nothing.
     SelectNone,
-    /// Reverse the active curve's direction.
-    Reverse,
     /// Make the active curve periodic, or open.
     TogglePeriodic,
-    /// Raise the active curve's degree by one; the polygon stays.
-    RaiseDegree,
-    /// Lower the active curve's degree by one; the polygon stays.
-    LowerDegree,
-    /// Raise the active curve's degree by one; the curve stays, as nearly as it can.
-    RaiseCurveDegree,
-    /// Lower the active curve's degree by one; the curve stays, as nearly as it can.
-    LowerCurveDegree,
-    /// Halve every segment of the active curve.
-    Subdivide,
-    /// Continue the active curve at one end by a segment.
-    Extend(End),
+    /// Do an operation on the active curve.
+    Operation(&'static Operation),
     /// Show or hide the active curve.
     ToggleVisible,
     /// Lock or unlock the active curve.
@@ -124,22 +112,12 @@ impl Command {
             Self::DeleteCurve,
             Self::SelectAll,
             Self::SelectNone,
-            Self::Reverse,
             Self::TogglePeriodic,
-            Self::RaiseDegree,
-            Self::LowerDegree,
-            Self::RaiseCurveDegree,
-            Self::LowerCurveDegree,
-            Self::Subdivide,
-            Self::Extend(End::Start),
-            Self::Extend(End::Finish),
             Self::ToggleVisible,
             Self::ToggleLocked,
-            Self::Fit,
-            Self::FitAll,
-            Self::ZoomIn,
-            Self::ZoomOut,
         ];
+        all.extend(operations::ALL.iter().copied().map(Self::Operation));
+        all.extend([Self::Fit, Self::FitAll, Self::ZoomIn, Self::ZoomOut]);
         all.extend(NamedView::ALL.map(Self::View));
         all.push(Self::ResetComb);
         all.extend(Layer::ALL.map(Self::ToggleLayer));
@@ -158,15 +136,10 @@ impl Command {
             Self::DeleteCurve => "Delete curve",
             Self::SelectAll => "Select all",
             Self::SelectNone => "Select nothing",
-            Self::Reverse => "Reverse direction",
             Self::TogglePeriodic => "Periodic",
-            Self::RaiseDegree => "Raise degree",
-            Self::LowerDegree => "Lower degree",
-            Self::RaiseCurveDegree => "Raise degree, keep curve",
-            Self::LowerCurveDegree => "Lower degree, keep curve",
-            Self::Subdivide => "Subdivide",
-            Self::Extend(End::Start) => "Extend start",
-            Self::Extend(End::Finish) => "Extend end",
+            Self::Operation(operation) if operation.parameters.is_empty() => operation.label,
+            // What asks for more before anything is done.
+            Self::Operation(operation) => return format!("{}…", operation.label),
             Self::ToggleVisible => "Visible",
             Self::ToggleLocked => "Locked",
             Self::Fit => "Fit selection",
@@ -192,24 +165,10 @@ impl Command {
             Self::DeleteCurve => "Remove the active curve as a whole",
             Self::SelectAll => "Select all vertices of the active curve; again, of all curves",
             Self::SelectNone => "Select nothing",
-            Self::Reverse => "Let the curve run the other way; its shape stays",
             Self::TogglePeriodic => {
                 "Join the curve's end to its start, or open it; the polygon stays"
             }
-            Self::RaiseDegree => {
-                "Raise the degree by one; the polygon stays, the curve becomes smoother"
-            }
-            Self::LowerDegree => {
-                "Lower the degree by one; the polygon stays, the curve follows it closer"
-            }
-            Self::RaiseCurveDegree => {
-                "Raise the degree by one; the curve stays, exactly if it is one segment"
-            }
-            Self::LowerCurveDegree => {
-                "Lower the degree by one; the curve stays as nearly as it can, and the error is told"
-            }
-            Self::Subdivide => "Halve every segment; the curve stays",
-            Self::Extend(_) => "Continue the curve's end by one segment, exactly as it runs",
+            Self::Operation(operation) => operation.help,
             Self::ToggleVisible => "Show or hide the active curve",
             Self::ToggleLocked => "Protect the active curve's shape from edits, or release it",
             Self::Fit => "Show the selected vertices, or everything if fewer than two are selected",

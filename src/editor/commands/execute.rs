@@ -4,12 +4,11 @@ use std::sync::Arc;
 
 use crate::document::{Curve, CurveId, Edit, quoted};
 use crate::editor::commands::command::Command;
-use crate::editor::commands::polygon_edits::reinterpreted;
+use crate::editor::commands::polygon_edits::made_periodic;
 use crate::editor::hand::selection::VertexId;
 use crate::editor::reply::{Note, Reply};
 use crate::editor::view::layers::Layer;
 use crate::editor::{Editor, Refusal};
-use crate::geometry::end_correction::EndTarget;
 
 /// The factor by which the zoom commands change the scale.
 const ZOOM: f64 = 1.25;
@@ -57,16 +56,8 @@ impl Editor {
             | Command::DeleteCurve
             | Command::ToggleVisible
             | Command::ToggleLocked => curve.is_some(),
-            Command::Reverse => editable,
             Command::TogglePeriodic => editable,
-            Command::RaiseDegree => editable && self.can_have_degree(1),
-            Command::LowerDegree => editable && self.can_have_degree(-1),
-            Command::RaiseCurveDegree => editable && self.can_change_degree(true),
-            Command::LowerCurveDegree => editable && self.can_change_degree(false),
-            Command::Subdivide => editable,
-            Command::Extend(_) => {
-                editable && curve.is_some_and(|(_, curve)| !curve.polygon.is_periodic())
-            }
+            Command::Operation(operation) => self.check_operation(operation).is_ok(),
             Command::SelectAll | Command::Fit | Command::FitAll => !self.document().is_empty(),
             Command::SelectNone => !self.hand.selection.is_empty(),
             // What is dragged is dragged in the plane that is seen.
@@ -110,27 +101,6 @@ impl Editor {
             _ => None,
         }
         .unwrap_or_else(|| command.label())
-    }
-
-    /// Give a curve another degree; the polygon stays. The reply is told.
-    ///
-    /// # Errors
-    /// [`Refusal`] if the curve cannot have this degree.
-    pub fn set_degree(&mut self, curve: CurveId, degree: usize) -> Reply {
-        self.reinterpret(curve, &format!("Set degree {degree}"), Some(degree), None)
-    }
-
-    /// Make a curve periodic, or open it; the polygon stays. The reply is told.
-    ///
-    /// # Errors
-    /// [`Refusal`] if the curve cannot be so.
-    pub fn set_periodic(&mut self, curve: CurveId, periodic: bool) -> Reply {
-        let label = if periodic {
-            "Make periodic"
-        } else {
-            "Open curve"
-        };
-        self.reinterpret(curve, label, None, Some(periodic))
     }
 
     pub(in crate::editor) fn active_curve(&self) -> Option<(CurveId, Arc<Curve>)> {
@@ -203,6 +173,7 @@ impl Editor {
             Command::SelectAll => self.select_all()?,
             Command::SelectNone => self.hand.selection.clear(),
             Command::Tool(tool) => self.take(tool),
+            Command::Operation(operation) => return self.try_operation(operation),
             _ => {
                 let Some((id, curve)) = self.active_curve() else {
                     return Err(Refusal::from("There is no curve"));
@@ -215,18 +186,10 @@ impl Editor {
 
     /// Do what is done to the active curve.
     fn execute_on(&mut self, command: Command, id: CurveId, curve: &Arc<Curve>) -> Reply {
-        let degree = curve.polygon.degree();
         match command {
             Command::Duplicate => self.add_copies("Duplicate curve", vec![Curve::clone(curve)]),
             Command::DeleteCurve => self.delete_curve(id, curve),
-            Command::Reverse => self.reverse(id, curve),
             Command::TogglePeriodic => self.set_periodic(id, !curve.polygon.is_periodic()),
-            Command::RaiseDegree => self.set_degree(id, degree + 1),
-            Command::LowerDegree => self.set_degree(id, degree - 1),
-            Command::RaiseCurveDegree => self.change_degree(true),
-            Command::LowerCurveDegree => self.change_degree(false),
-            Command::Subdivide => self.subdivide(),
-            Command::Extend(end) => self.extend(end),
             Command::ToggleVisible => self.set_visible(id, !curve.visible),
             Command::ToggleLocked => self.set_locked(id, !curve.locked),
             _ => Ok(Note::silent()),
@@ -292,52 +255,23 @@ impl Editor {
         Ok(())
     }
 
-    fn reverse(&mut self, id: CurveId, curve: &Curve) -> Reply {
-        let polygon = curve.polygon.reversed();
-        let mut edits = vec![Edit::SetPolygon { curve: id, polygon }];
-        for end in crate::geometry::End::BOTH {
-            let target = curve.targets.get(end.other()).map(EndTarget::turned);
-            if target != curve.targets.get(end) {
-                edits.push(Edit::SetTarget {
-                    curve: id,
-                    end,
-                    target,
-                });
-            }
-        }
-        let made = self.apply("Reverse direction", edits)?;
-        self.hand.selection.clear();
-        Ok(made)
-    }
-
-    fn can_have_degree(&self, change: isize) -> bool {
-        let Some((_, curve)) = self.active_curve() else {
-            return false;
-        };
-        let polygon = &curve.polygon;
-        let degree = polygon.degree().checked_add_signed(change);
-        degree.is_some_and(|degree| {
-            (1..=crate::geometry::MAX_DEGREE).contains(&degree) && degree < polygon.vertices().len()
-        })
-    }
-
-    fn reinterpret(
-        &mut self,
-        id: CurveId,
-        label: &str,
-        degree: Option<usize>,
-        periodic: Option<bool>,
-    ) -> Reply {
+    /// Make a curve periodic, or open it; the polygon stays. The reply is told.
+    ///
+    /// # Errors
+    /// [`Refusal`] if the curve cannot be so.
+    pub fn set_periodic(&mut self, id: CurveId, periodic: bool) -> Reply {
         let Some(curve) = self.document().curve(id).cloned() else {
             return Ok(Note::silent());
         };
-        let polygon = &curve.polygon;
-        let degree = degree.unwrap_or(polygon.degree());
-        let periodic = periodic.unwrap_or(polygon.is_periodic());
-        if degree == polygon.degree() && periodic == polygon.is_periodic() {
+        if periodic == curve.polygon.is_periodic() {
             return Ok(Note::silent());
         }
-        let reply = match reinterpreted(polygon, degree, periodic) {
+        let label = if periodic {
+            "Make periodic"
+        } else {
+            "Open curve"
+        };
+        let reply = match made_periodic(&curve.polygon, periodic) {
             Ok(polygon) => return self.apply(label, vec![Edit::SetPolygon { curve: id, polygon }]),
             Err(error) => Err(Refusal(format!("{}: {error}", quoted(&curve.name)))),
         };

@@ -5,7 +5,5 @@ pub(in crate::editor) mod command;
 mod deleting;
 mod execute;
 pub(in crate::editor) mod polygon_edits;
-pub(in crate::editor) mod reshaping;
 
 pub use command::{Command, Shortcut};
-pub use reshaping::{Division, DivisionReport, ExtremaCount, RoundingReport};

@@ -52,15 +52,16 @@ pub fn without(polygon: &FloatPolygon, indices: &[usize]) -> Result<FloatPolygon
     FloatPolygon::new(polygon.degree(), vertices, weights, polygon.is_periodic())
 }
 
-/// Keep the polygon and change the degree or whether it is periodic.
+/// Keep the polygon and make its curve periodic, or open it.
 ///
 /// # Errors
-/// [`PolygonError`] if there are too few vertices, or the degree is out of range.
-pub fn reinterpreted(
-    polygon: &FloatPolygon,
-    degree: usize,
-    periodic: bool,
-) -> Result<FloatPolygon, PolygonError> {
+/// [`PolygonError`] if there are too few vertices.
+pub fn made_periodic(polygon: &FloatPolygon, periodic: bool) -> Result<FloatPolygon, PolygonError> {
     let weights = polygon.weights().map(<[f64]>::to_vec);
-    FloatPolygon::new(degree, polygon.vertices().to_vec(), weights, periodic)
+    FloatPolygon::new(
+        polygon.degree(),
+        polygon.vertices().to_vec(),
+        weights,
+        periodic,
+    )
 }

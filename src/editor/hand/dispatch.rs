@@ -4,7 +4,7 @@ use crate::editor::Editor;
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::{Input, Key};
 use crate::editor::hand::tools::{Context, Cursor, Effect, Look, ToolKind};
-use crate::editor::reply::{Message, Note, Refusal};
+use crate::editor::reply::{Message, Note, Refusal, told};
 use crate::editor::view::hit::HitTest;
 use crate::editor::view::layers::Layers;
 use crate::editor::workspace::Interruption;
@@ -25,10 +25,12 @@ impl Editor {
         if let Input::AxisHeld(axis) = input {
             self.hand.axis = axis;
         }
-        let is_escape = input == Input::Key(Key::Escape);
-        if is_escape && self.workspace.preview().is_some() && !self.hand.is_dragging() {
-            self.abort_preview();
-            return;
+        if !self.hand.is_dragging() && self.workspace.preview().is_some() {
+            match input {
+                Input::Key(Key::Escape) => return self.abort_preview(),
+                Input::Key(Key::Enter) if self.is_trying() => return told(self.apply_trial()),
+                _ => {}
+            }
         }
         if let Input::Moved { at } = input
             && !self.hand.gestures.is_holding()
@@ -89,6 +91,7 @@ impl Editor {
             self.take_effect(effect, repeats, &mut step);
         }
         self.document_changed();
+        self.leave_stale_trial();
     }
 
     pub(in crate::editor) fn context(&self) -> Context<'_> {

@@ -1,7 +1,5 @@
 //! The end-fit tool's words and state: the paper's seven steps.
 
-use std::sync::Arc;
-
 use glam::{DVec2, DVec3};
 
 use crate::analysis::CurveAnalysis;
@@ -11,6 +9,7 @@ use crate::editor::view::hit::REACH;
 use crate::editor::view::viewport::Viewport;
 use crate::geometry::end_correction::{EndDifference, EndOverlap, EndTarget};
 use crate::geometry::{End, Jet, Range};
+use crate::operations::LargestMove;
 
 /// The loop's tolerance that is offered, in units of the polygon's size.
 const TOLERANCE: f64 = 1e-9;
@@ -72,7 +71,7 @@ pub struct EndFitReport {
     /// What the last action came to.
     pub outcome: Option<Reply>,
     /// The largest move of a vertex by the last "both ends at once", and which vertex.
-    pub largest_move: Option<(f64, usize)>,
+    pub largest_move: Option<LargestMove>,
 }
 
 impl EndFitReport {
@@ -150,9 +149,7 @@ pub struct LastAction {
     /// Passes made since the targets last changed.
     pub passes: usize,
     /// The largest move of a vertex by a joint correction, and which vertex.
-    pub largest_move: Option<(f64, usize)>,
-    /// The curve before a correction.
-    pub before: Option<Arc<Curve>>,
+    pub largest_move: Option<LargestMove>,
 }
 
 impl EndFitSettings {

@@ -73,7 +73,8 @@ impl Editor {
         scene.hover = None;
         scene.marks.clear();
         self.view.scene = scene;
-        let marks = self.hand.tools.used().marks(&self.context());
+        let mut marks = self.hand.tools.used().marks(&self.context());
+        marks.extend(self.operation_marks());
         let hover = self.hover();
         self.view.scene.marks = marks;
         self.view.scene.hover = hover;
@@ -184,8 +185,7 @@ impl Editor {
                 .and_then(|id| self.workspace.settled().curve(id))
                 .cloned()
         } else {
-            let last = self.last_end_fit_action();
-            last.and_then(|last| last.before.clone())
+            self.before_operation()
         };
         if let Some(before) = before {
             self.view

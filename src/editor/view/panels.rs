@@ -4,9 +4,9 @@ use glam::DVec2;
 
 use crate::analysis::LevelPlot;
 use crate::editor::Editor;
-use crate::editor::commands::reshaping::clamped_amplification;
 use crate::editor::report::{CurveReport, Readout};
 use crate::editor::view::scene::{HoverScene, PlotScene};
+use crate::geometry::{Amplification, FloatPolygon, PolygonKind};
 
 impl Editor {
     /// Bring the plots of the active curve up to date and return them.
@@ -175,4 +175,10 @@ fn straight_slope(points: &[DVec2]) -> Option<(f64, f64)> {
     });
     let (slope, fit) = (xy / xx, xy * xy / (xx * yy));
     (slope.is_finite() && fit.is_finite()).then_some((slope, fit))
+}
+
+/// How much an error in a vertex of the closed S-polygon grows in the float S-polygon.
+fn clamped_amplification(polygon: &FloatPolygon) -> Option<Amplification> {
+    let (degree, segments) = (polygon.degree(), polygon.segments());
+    Amplification::of(PolygonKind::Clamped, PolygonKind::Float, degree, segments).ok()
 }

@@ -1,0 +1,359 @@
+//! The operation panel: the parameters of the operation that is tried out, and what it does.
+
+use std::ops::{Bound, RangeInclusive};
+
+use eframe::egui::{Button, Key, Label, ProgressBar, RichText, Ui};
+use lucide_icons::Icon;
+
+use super::keyboard::{self, Typing};
+use super::number_field::{FieldEvent, NumberField};
+use super::theme::{STEP, Tokens};
+use super::widgets::IconButton;
+use super::{figures, widgets};
+use crate::editor::{Editor, Trial, told};
+use crate::geometry::features::Verdict;
+use crate::geometry::rounded_up;
+use crate::operations::{
+    Choice, Deviation, FeatureCounts, Figure, Kind, Limits, Parameter, Report, Unit, Value,
+};
+
+/// The width of a field for a number.
+const FIELD: f32 = 120.0;
+
+/// The resolution to which numbers are shown while they are not typed.
+const RESOLUTION: f64 = 1e-6;
+
+/// The panel's own state.
+#[derive(Default)]
+pub struct OperationPanel {
+    /// The parameter whose field is dragged, with its value before.
+    dragged: Option<(&'static str, Value)>,
+    /// Why the last value was not accepted.
+    refusal: Option<String>,
+}
+
+/// What the user asks for.
+enum Asked {
+    Set(&'static Parameter, Value),
+    Apply,
+    Leave,
+}
+
+impl OperationPanel {
+    /// Show the panel of the operation that is tried out, or was applied last.
+    pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor) {
+        let Some(trial) = editor.trial() else {
+            *self = Self::default();
+            return;
+        };
+        let mut asked = heading_ui(ui, trial);
+        for parameter in trial.operation().parameters {
+            let set = self.parameter_ui(ui, trial, parameter);
+            asked = set.map(|value| Asked::Set(parameter, value)).or(asked);
+        }
+        if let Some(refusal) = &self.refusal {
+            error_ui(ui, refusal);
+        }
+        ui.add_space(STEP);
+        came_to_ui(ui, trial);
+        progress_ui(ui, editor.operation_progress());
+        asked = buttons_ui(ui, trial).or(asked);
+        match asked {
+            None => {}
+            Some(Asked::Set(parameter, value)) => {
+                let set = editor.set_value(parameter.name, value);
+                self.refusal = set.err().map(|error| error.to_string());
+            }
+            Some(Asked::Apply) => told(editor.apply_trial()),
+            Some(Asked::Leave) => editor.leave_trial(),
+        }
+    }
+
+    fn parameter_ui(
+        &mut self,
+        ui: &mut Ui,
+        trial: &Trial,
+        parameter: &'static Parameter,
+    ) -> Option<Value> {
+        let value = trial.values().get(parameter);
+        let row = widgets::form_row(ui, parameter.label, |ui| match (parameter.kind, value) {
+            (Kind::Choice { options, .. }, Value::Choice(chosen)) => choice_ui(ui, options, chosen),
+            (Kind::Switch { .. }, Value::Switch(mut on)) => {
+                let switch = ui.checkbox(&mut on, "");
+                switch.clicked().then_some(Value::Switch(on))
+            }
+            _ => self.number_ui(ui, trial, parameter, value),
+        });
+        row.response.on_hover_text(parameter.help);
+        row.inner
+    }
+
+    fn number_ui(
+        &mut self,
+        ui: &mut Ui,
+        trial: &Trial,
+        parameter: &'static Parameter,
+        value: Value,
+    ) -> Option<Value> {
+        let limits = parameter.limits(trial.input()).ok().flatten();
+        let number = shown_number(value, parameter.unit());
+        let range = field_range(limits, parameter.unit());
+        let whole = matches!(value, Value::Whole(_));
+        let shown = if whole {
+            number.to_string()
+        } else {
+            figures::to_resolution(number, RESOLUTION.min(1e-3 * number.abs()))
+        };
+        let speed = if whole { 0.05 } else { speed(&range, number) };
+        let field = NumberField::new(parameter.label, number, shown)
+            .range(range)
+            .speed(speed)
+            .width(FIELD);
+        let event = field.show(ui).1;
+        if parameter.unit() == Unit::Angle {
+            widgets::caption(ui, "°");
+        }
+        let of = |number: f64| given_number(number, value, parameter.unit());
+        match event {
+            FieldEvent::Idle => None,
+            FieldEvent::Typed(number) => Some(of(number)),
+            FieldEvent::Preview(number) => {
+                self.dragged.get_or_insert((parameter.name, value));
+                Some(of(number))
+            }
+            FieldEvent::Commit => {
+                self.dragged = None;
+                None
+            }
+            FieldEvent::Abort => {
+                let before = self.dragged.take();
+                before
+                    .filter(|(name, _)| *name == parameter.name)
+                    .map(|(_, value)| value)
+            }
+        }
+    }
+}
+
+fn heading_ui(ui: &mut Ui, trial: &Trial) -> Option<Asked> {
+    let mut left = false;
+    ui.horizontal(|ui| {
+        ui.strong(trial.operation().label);
+        if trial.is_applied() {
+            widgets::caption(ui, "applied");
+            widgets::at_right(ui, |ui| {
+                let close = IconButton::new(Icon::X, "Close operation");
+                left = close.size(5.0 * STEP).show(ui).clicked();
+            });
+        }
+    });
+    widgets::note(ui, trial.operation().help);
+    left.then_some(Asked::Leave)
+}
+
+fn choice_ui(ui: &mut Ui, options: &'static [Choice], chosen: usize) -> Option<Value> {
+    let mut clicked = None;
+    ui.spacing_mut().item_spacing.x = STEP;
+    for (index, option) in options.iter().enumerate() {
+        let button = Button::selectable(index == chosen, option.label);
+        if ui.add(button).clicked() && index != chosen {
+            clicked = Some(Value::Choice(index));
+        }
+    }
+    clicked
+}
+
+/// A number as its field shows it: angles in degrees.
+fn shown_number(value: Value, unit: Unit) -> f64 {
+    match value {
+        Value::Whole(number) => number as f64,
+        Value::Real(number) if unit == Unit::Angle => number.to_degrees(),
+        Value::Real(number) => number,
+        Value::Choice(_) | Value::Switch(_) => 0.0,
+    }
+}
+
+/// The value that a field's number stands for, of the kind of another value.
+fn given_number(number: f64, like: Value, unit: Unit) -> Value {
+    match like {
+        Value::Whole(_) => Value::Whole(number.round().max(0.0) as usize),
+        _ if unit == Unit::Angle => Value::Real(number.to_radians()),
+        _ => Value::Real(number),
+    }
+}
+
+fn field_range(limits: Option<Limits>, unit: Unit) -> RangeInclusive<f64> {
+    let shown = |number: f64| match unit {
+        Unit::Angle => number.to_degrees(),
+        _ => number,
+    };
+    let (from, to) = limits.unwrap_or((Bound::Unbounded, Bound::Unbounded));
+    let from = match from {
+        Bound::Included(from) => shown(from),
+        Bound::Excluded(from) => shown(from).next_up(),
+        Bound::Unbounded => f64::NEG_INFINITY,
+    };
+    let to = match to {
+        Bound::Included(to) => shown(to),
+        Bound::Excluded(to) => shown(to).next_down(),
+        Bound::Unbounded => f64::INFINITY,
+    };
+    from..=to
+}
+
+/// By how much a number changes when its field is dragged by a point: a good way through a range
+/// that has an end, otherwise a share of the number.
+fn speed(range: &RangeInclusive<f64>, number: f64) -> f64 {
+    let width = range.end() - range.start();
+    if width.is_finite() && width > 0.0 {
+        (0.005 * width).min(0.05)
+    } else {
+        (0.01 * number.abs()).max(f64::MIN_POSITIVE)
+    }
+}
+
+fn came_to_ui(ui: &mut Ui, trial: &Trial) {
+    match trial.run() {
+        None => {}
+        Some(Err(error)) => error_ui(ui, &error.to_string()),
+        Some(Ok(run)) => report_ui(ui, &run.report),
+    }
+}
+
+fn report_ui(ui: &mut Ui, report: &Report) {
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing.y = 0.0;
+        if !report.reached {
+            error_ui(ui, "Not reached: nothing would be changed");
+        }
+        let length = |value: f64| figures::significant(value, 4);
+        let deviation = match report.deviation {
+            _ if !report.reached => None,
+            Deviation::Exact => Some("none: the same curve".to_owned()),
+            Deviation::AtMost(bound) => Some(format!("at most {}", rounded_up(bound))),
+            Deviation::Unmeasured => None,
+        };
+        if let Some(deviation) = deviation {
+            widgets::figure_row(ui, "Deviation", &deviation);
+        }
+        if let Some(residual) = report.residual {
+            widgets::figure_row(ui, "Residual", &length(residual));
+        }
+        if let Some(largest) = report.largest_move {
+            let text = format!("{} at vertex {}", length(largest.distance), largest.vertex);
+            widgets::figure_row(ui, "Largest move", &text);
+        }
+        for figure in &report.figures {
+            widgets::figure_row(ui, figure.label, &figure_text(figure));
+        }
+        features_ui(ui, report);
+    });
+    for remark in &report.remarks {
+        widgets::note(ui, remark);
+    }
+}
+
+fn figure_text(figure: &Figure) -> String {
+    match figure.value {
+        Value::Whole(number) => number.to_string(),
+        Value::Real(number) if figure.unit == Unit::Angle => figures::degrees(number, 4),
+        Value::Real(number) => figures::significant(number, 4),
+        Value::Choice(index) => index.to_string(),
+        Value::Switch(on) => if on { "yes" } else { "no" }.to_owned(),
+    }
+}
+
+/// The proved features, before and afterwards, of each kind that there is.
+fn features_ui(ui: &mut Ui, report: &Report) {
+    let Some(features) = &report.features else {
+        if report.reached {
+            widgets::figure_row(ui, "Features", "being proved …");
+        }
+        return;
+    };
+    let kinds: [(&str, fn(&FeatureCounts) -> usize, bool); 6] = [
+        ("Curvature extrema", |counts| counts.curvature_extrema, true),
+        ("Inflections", |counts| counts.inflections, false),
+        ("Torsion extrema", |counts| counts.torsion_extrema, false),
+        ("Torsion zeros", |counts| counts.torsion_zeros, false),
+        ("Cusps", |counts| counts.cusps, false),
+        ("Undecided", |counts| counts.undecided, false),
+    ];
+    let (before, after) = (&features.before, &features.after);
+    for (name, count, always) in kinds {
+        let mut all = before.iter().chain(after);
+        if always || all.any(|counts| count(counts) > 0) {
+            let listed = |counts: &[FeatureCounts]| joined(counts, |c| count(c).to_string());
+            widgets::figure_row(ui, name, &change(&listed(before), &listed(after)));
+        }
+    }
+    let verdicts = |counts: &[FeatureCounts]| joined(counts, |c| verdict(c.monotone).to_owned());
+    let monotone = change(&verdicts(before), &verdicts(after));
+    widgets::figure_row(ui, "Monotone", &monotone);
+}
+
+fn joined(counts: &[FeatureCounts], text: impl Fn(&FeatureCounts) -> String) -> String {
+    let texts: Vec<String> = counts.iter().map(text).collect();
+    if texts.is_empty() {
+        "–".to_owned()
+    } else {
+        texts.join(", ")
+    }
+}
+
+/// Say what was and what is.
+fn change(before: &str, after: &str) -> String {
+    if before == after {
+        before.to_owned()
+    } else {
+        format!("{before}, then {after}")
+    }
+}
+
+fn verdict(monotone: Verdict) -> &'static str {
+    match monotone {
+        Verdict::Proved => "yes",
+        Verdict::Disproved => "no",
+        Verdict::Undecided => "undecided",
+    }
+}
+
+fn progress_ui(ui: &mut Ui, done: Option<f64>) {
+    if let Some(done) = done {
+        ui.add(ProgressBar::new(done as f32).show_percentage());
+    }
+}
+
+fn error_ui(ui: &mut Ui, text: &str) {
+    let text = RichText::new(text).color(Tokens::of(ui).error);
+    ui.add(Label::new(text).wrap());
+}
+
+fn buttons_ui(ui: &mut Ui, trial: &Trial) -> Option<Asked> {
+    if trial.is_applied() {
+        return None;
+    }
+    let mut asked = None;
+    let fails =
+        |run: &Result<crate::editor::Run, _>| run.as_ref().map_or(true, |run| !run.outcome.reached);
+    let enabled = !trial.run().is_some_and(fails);
+    ui.add_space(STEP);
+    ui.horizontal(|ui| {
+        let apply = ui.add_enabled_ui(enabled, |ui| widgets::primary_button(ui, "Apply"));
+        if apply.inner.on_hover_text("Enter").clicked() {
+            asked = Some(Asked::Apply);
+        }
+        if ui.button("Cancel").on_hover_text("Esc").clicked() {
+            asked = Some(Asked::Leave);
+        }
+    });
+    let free = keyboard::typing(ui.ctx()) == Typing::Nothing && !keyboard::is_covered(ui.ctx());
+    let pressed = |key| free && ui.input(|input| input.key_pressed(key));
+    if pressed(Key::Enter) && enabled {
+        asked = Some(Asked::Apply);
+    }
+    if pressed(Key::Escape) {
+        asked = Some(Asked::Leave);
+    }
+    asked
+}
