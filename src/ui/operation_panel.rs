@@ -2,7 +2,7 @@
 
 use std::ops::{Bound, RangeInclusive};
 
-use eframe::egui::{Button, Key, Label, ProgressBar, RichText, Ui};
+use eframe::egui::{Button, Key, Label, ProgressBar, RichText, Role, Sense, Ui, WidgetInfo, vec2};
 use lucide_icons::Icon;
 
 use super::keyboard::{self, Typing};
@@ -17,11 +17,11 @@ use crate::operations::{
     Choice, Deviation, FeatureCounts, Figure, Kind, Limits, Parameter, Report, Unit, Value,
 };
 
+/// The width of a column of figures.
+const COLUMN: f32 = 96.0;
+
 /// The width of a field for a number.
 const FIELD: f32 = 120.0;
-
-/// The resolution to which numbers are shown while they are not typed.
-const RESOLUTION: f64 = 1e-6;
 
 /// The panel's own state.
 #[derive(Default)]
@@ -46,6 +46,8 @@ impl OperationPanel {
             *self = Self::default();
             return;
         };
+        // A key that is pressed in a field is the field's, also where it leaves the field by it.
+        let keys = !keyboard::is_covered(ui.ctx()) && keyboard::typing(ui.ctx()) == Typing::Nothing;
         let mut asked = heading_ui(ui, trial);
         for parameter in trial.operation().parameters {
             let set = self.parameter_ui(ui, trial, parameter);
@@ -57,7 +59,7 @@ impl OperationPanel {
         ui.add_space(STEP);
         came_to_ui(ui, trial);
         progress_ui(ui, editor.operation_progress());
-        asked = buttons_ui(ui, trial).or(asked);
+        asked = asked.or(buttons_ui(ui, trial, keys));
         match asked {
             None => {}
             Some(Asked::Set(parameter, value)) => {
@@ -99,11 +101,7 @@ impl OperationPanel {
         let number = shown_number(value, parameter.unit());
         let range = field_range(limits, parameter.unit());
         let whole = matches!(value, Value::Whole(_));
-        let shown = if whole {
-            number.to_string()
-        } else {
-            figures::to_resolution(number, RESOLUTION.min(1e-3 * number.abs()))
-        };
+        let shown = figures::exact(number);
         let speed = if whole { 0.05 } else { speed(&range, number) };
         let field = NumberField::new(parameter.label, number, shown)
             .range(range)
@@ -280,16 +278,16 @@ fn features_ui(ui: &mut Ui, report: &Report) {
         ("Undecided", |counts| counts.undecided, false),
     ];
     let (before, after) = (&features.before, &features.after);
+    before_after_ui(ui, "", "before", "afterwards");
     for (name, count, always) in kinds {
         let mut all = before.iter().chain(after);
         if always || all.any(|counts| count(counts) > 0) {
             let listed = |counts: &[FeatureCounts]| joined(counts, |c| count(c).to_string());
-            widgets::figure_row(ui, name, &change(&listed(before), &listed(after)));
+            before_after_ui(ui, name, &listed(before), &listed(after));
         }
     }
     let verdicts = |counts: &[FeatureCounts]| joined(counts, |c| verdict(c.monotone).to_owned());
-    let monotone = change(&verdicts(before), &verdicts(after));
-    widgets::figure_row(ui, "Monotone", &monotone);
+    before_after_ui(ui, "Monotone", &verdicts(before), &verdicts(after));
 }
 
 fn joined(counts: &[FeatureCounts], text: impl Fn(&FeatureCounts) -> String) -> String {
@@ -301,13 +299,17 @@ fn joined(counts: &[FeatureCounts], text: impl Fn(&FeatureCounts) -> String) -> 
     }
 }
 
-/// Say what was and what is.
-fn change(before: &str, after: &str) -> String {
-    if before == after {
-        before.to_owned()
-    } else {
-        format!("{before}, then {after}")
-    }
+/// One row of figures in two columns: what was, and what is.
+fn before_after_ui(ui: &mut Ui, name: &str, before: &str, after: &str) {
+    let told = format!("{name}: {before} before, {after} afterwards");
+    let size = vec2(ui.available_width(), 5.0 * STEP);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    let tokens = Tokens::of(ui);
+    widgets::label_in(ui, rect, name, tokens.faint_text);
+    let left = rect.with_max_x(rect.right() - COLUMN);
+    widgets::number_in(ui, left, before, tokens.text);
+    widgets::number_in(ui, rect, after, tokens.text);
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, told.clone()));
 }
 
 fn verdict(monotone: Verdict) -> &'static str {
@@ -329,7 +331,7 @@ fn error_ui(ui: &mut Ui, text: &str) {
     ui.add(Label::new(text).wrap());
 }
 
-fn buttons_ui(ui: &mut Ui, trial: &Trial) -> Option<Asked> {
+fn buttons_ui(ui: &mut Ui, trial: &Trial, keys: bool) -> Option<Asked> {
     if trial.is_applied() {
         return None;
     }
@@ -347,8 +349,7 @@ fn buttons_ui(ui: &mut Ui, trial: &Trial) -> Option<Asked> {
             asked = Some(Asked::Leave);
         }
     });
-    let free = keyboard::typing(ui.ctx()) == Typing::Nothing && !keyboard::is_covered(ui.ctx());
-    let pressed = |key| free && ui.input(|input| input.key_pressed(key));
+    let pressed = |key| keys && ui.input(|input| input.key_pressed(key));
     if pressed(Key::Enter) && enabled {
         asked = Some(Asked::Apply);
     }
