@@ -82,10 +82,7 @@ impl Destination {
     pub(super) fn format(&self) -> Result<Format, FileError> {
         match self {
             Self::Standard(format) | Self::File(_, Some(format)) => Ok(*format),
-            Self::File(path, None) => Format::to_write(path).map_err(|error| FileError::Format {
-                path: path.clone(),
-                error,
-            }),
+            Self::File(path, None) => Format::to_write(path).map_err(FileError::at(path)),
         }
     }
 

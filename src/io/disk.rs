@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-use super::error::FileError;
+use super::error::{FileError, FileProblem};
 use super::format::Format;
 use super::loss::{Export, LossReport};
 use super::reading::Reading;
@@ -19,7 +19,7 @@ use crate::document::{Curve, Extras};
 use crate::geometry::PolygonKind;
 
 /// The most bytes that are read: far more than any curve, far less than fills the memory.
-pub const MOST_BYTES: u64 = 1 << 30;
+const MOST_BYTES: u64 = 1 << 30;
 
 /// How many symbolic links are followed, one behind the other.
 const MOST_LINKS: usize = 32;
@@ -35,10 +35,7 @@ const SUFFIX: &str = "0";
 /// # Errors
 /// [`FileError`], naming the file and the place in it.
 pub fn read_file(path: &Path) -> Result<Reading, FileError> {
-    let format = Format::to_read(path).map_err(|error| FileError::Format {
-        path: path.to_owned(),
-        error,
-    })?;
+    let format = Format::to_read(path).map_err(FileError::at(path))?;
     read_file_as(path, format)
 }
 
@@ -47,7 +44,8 @@ pub fn read_file(path: &Path) -> Result<Reading, FileError> {
 /// # Errors
 /// [`FileError`], naming the file and the place in it.
 pub fn read_file_as(path: &Path, format: Format) -> Result<Reading, FileError> {
-    content(path, format, &read_bytes(path, MOST_BYTES)?)
+    let bytes = read_bytes(path, MOST_BYTES).map_err(FileError::at(path))?;
+    format.read(&bytes).map_err(FileError::at(path))
 }
 
 /// Read the curves of a stream to its end; `name` is what messages call it.
@@ -56,19 +54,13 @@ pub fn read_file_as(path: &Path, format: Format) -> Result<Reading, FileError> {
 /// [`FileError`], with the name and the place in the stream.
 pub fn read_stream(stream: impl Read, name: &str, format: Format) -> Result<Reading, FileError> {
     let name = Path::new(name);
-    content(name, format, &limited_bytes(stream, name, MOST_BYTES)?)
-}
-
-fn content(path: &Path, format: Format, bytes: &[u8]) -> Result<Reading, FileError> {
-    format.read(bytes).map_err(|error| FileError::Content {
-        path: path.to_owned(),
-        error,
-    })
+    let bytes = limited_bytes(stream, MOST_BYTES).map_err(FileError::at(name))?;
+    format.read(&bytes).map_err(FileError::at(name))
 }
 
 /// Whether two paths lead to one file that exists.
 pub fn is_same_file(a: &Path, b: &Path) -> bool {
-    let canonical = |path: &Path| std::fs::canonicalize(path).ok();
+    let canonical = |path: &Path| fs::canonicalize(path).ok();
     canonical(a).is_some_and(|a| canonical(b) == Some(a))
 }
 
@@ -115,16 +107,9 @@ pub fn write_file<C: Borrow<Curve>>(
     extras: &Extras,
     polygon: Option<PolygonKind>,
 ) -> Result<Saved, FileError> {
-    let format = Format::to_write(path).map_err(|error| FileError::Format {
-        path: path.to_owned(),
-        error,
-    })?;
+    let format = Format::to_write(path).map_err(FileError::at(path))?;
     let export = format.write(curves, extras, polygon);
-    let export = export.map_err(|error| FileError::Export {
-        path: path.to_owned(),
-        error,
-    })?;
-    write_export(path, export)
+    write_export(path, export.map_err(FileError::at(path))?)
 }
 
 /// Write to a file what a format made of curves.
@@ -133,7 +118,7 @@ pub fn write_file<C: Borrow<Curve>>(
 /// [`FileError`], naming the file; what was there before is unchanged then.
 pub fn write_export(path: &Path, export: Export) -> Result<Saved, FileError> {
     Ok(Saved {
-        other_names: write_bytes(path, &export.bytes)?,
+        other_names: write_bytes(path, &export.bytes).map_err(FileError::at(path))?,
         losses: export.losses,
     })
 }
@@ -144,47 +129,35 @@ pub fn write_export(path: &Path, export: Export) -> Result<Saved, FileError> {
 /// Returns how many other names (hard links) the old file had: they keep its content.
 ///
 /// What killed saves have left in the folder is removed.
-///
-/// # Errors
-/// [`FileError`], naming the file.
-pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<u64, FileError> {
-    let failed = |action| {
-        move |error| FileError::System {
-            path: path.to_owned(),
-            action,
-            error,
-        }
-    };
-    let target = followed(path).map_err(failed("find"))?;
+fn write_bytes(path: &Path, bytes: &[u8]) -> Result<u64, FileProblem> {
+    let (not_found, not_written) = (FileProblem::system("find"), FileProblem::system("write"));
+    let target = followed(path).map_err(&not_found)?;
     let old = match fs::metadata(&target) {
         Ok(metadata) => Some(check_writable(path, metadata)?),
         Err(error) if error.kind() == io::ErrorKind::NotFound => None,
-        Err(error) => return Err(failed("find")(error)),
+        Err(error) => return Err(not_found(error)),
     };
     let folder = match target.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
     if !folder.is_dir() {
-        return Err(FileError::NoFolder {
-            path: path.to_owned(),
-            folder: folder.to_owned(),
-        });
+        return Err(FileProblem::NoFolder(folder.to_owned()));
     }
     remove_stale(folder);
-    let mut temporary = beside(folder).map_err(failed("write"))?;
+    let mut temporary = beside(folder).map_err(&not_written)?;
     // The errors of the file itself do not name the temporary path.
     let file = temporary.as_file_mut();
-    file.write_all(bytes).map_err(failed("write"))?;
+    file.write_all(bytes).map_err(&not_written)?;
     if let Some(old) = &old {
         keep_owner(file, old);
         // After the owner: a change of owner can take permissions away.
         let kept = file.set_permissions(old.permissions());
-        kept.map_err(failed("write"))?;
+        kept.map_err(&not_written)?;
     }
-    file.sync_all().map_err(failed("write"))?;
+    file.sync_all().map_err(&not_written)?;
     let moved = temporary.persist(&target);
-    moved.map_err(|error| failed("write")(error.error))?;
+    moved.map_err(|error| not_written(error.error))?;
     // Where folders can be synchronised, this keeps the new name too; the content is safe.
     if let Ok(folder) = File::open(folder) {
         let _ = folder.sync_all();
@@ -192,38 +165,25 @@ pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<u64, FileError> {
     Ok(old.as_ref().map_or(0, other_names))
 }
 
-fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, FileError> {
-    let failed = |error| FileError::System {
-        path: path.to_owned(),
-        action: "read",
-        error,
-    };
-    let file = File::open(path).map_err(failed)?;
-    let metadata = file.metadata().map_err(failed)?;
+fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, FileProblem> {
+    let file = File::open(path).map_err(FileProblem::system("read"))?;
+    let metadata = file.metadata().map_err(FileProblem::system("read"))?;
     if metadata.is_dir() {
-        return Err(FileError::NotAFile {
-            path: path.to_owned(),
-        });
+        return Err(FileProblem::NotAFile);
     }
     if metadata.len() > most {
-        let path = path.to_owned();
-        return Err(FileError::TooLarge { path, most });
+        return Err(FileProblem::TooLarge(most));
     }
     // The file may grow, or not know its size: the limit holds for what is read.
-    limited_bytes(file, path, most)
+    limited_bytes(file, most)
 }
 
-fn limited_bytes(stream: impl Read, name: &Path, most: u64) -> Result<Vec<u8>, FileError> {
-    let path = || name.to_owned();
+fn limited_bytes(stream: impl Read, most: u64) -> Result<Vec<u8>, FileProblem> {
     let mut bytes = Vec::new();
     let limited = stream.take(most + 1).read_to_end(&mut bytes);
-    limited.map_err(|error| FileError::System {
-        path: path(),
-        action: "read",
-        error,
-    })?;
+    limited.map_err(FileProblem::system("read"))?;
     if bytes.len() as u64 > most {
-        return Err(FileError::TooLarge { path: path(), most });
+        return Err(FileProblem::TooLarge(most));
     }
     Ok(bytes)
 }
@@ -245,16 +205,15 @@ fn followed(path: &Path) -> io::Result<PathBuf> {
     Err(io::Error::other("too many symbolic links"))
 }
 
-fn check_writable(path: &Path, metadata: Metadata) -> Result<Metadata, FileError> {
-    let path = || path.to_owned();
+fn check_writable(path: &Path, metadata: Metadata) -> Result<Metadata, FileProblem> {
     if !metadata.is_file() {
-        return Err(FileError::NotAFile { path: path() });
+        return Err(FileProblem::NotAFile);
     }
     // A folder that may be written to lets a file be replaced that may not be.
-    let opened = File::options().write(true).open(path());
+    let opened = File::options().write(true).open(path);
     let refused = opened.is_err_and(|error| error.kind() == io::ErrorKind::PermissionDenied);
     if metadata.permissions().readonly() || refused {
-        return Err(FileError::ReadOnly { path: path() });
+        return Err(FileProblem::ReadOnly);
     }
     Ok(metadata)
 }
@@ -337,5 +296,6 @@ fn is_temporary_name(name: &str) -> bool {
             && rest.bytes().any(|byte| byte.is_ascii_digit())
     })
 }
+
 #[cfg(test)]
 mod tests;

@@ -282,76 +282,63 @@ pub fn shown_path(path: &Path) -> String {
     escaped(&path.display().to_string())
 }
 
-/// A reason why a file cannot be read or written; every message begins with the file.
+/// What is wrong with which file; the message begins with the file.
 #[derive(Debug, Error)]
-pub enum FileError {
+#[error("{}: {problem}", shown_path(.path))]
+pub struct FileError {
+    /// The file.
+    pub path: PathBuf,
+    /// What is wrong.
+    pub problem: FileProblem,
+}
+
+impl FileError {
+    /// Name the file that a problem is one of.
+    pub fn at<P: Into<FileProblem>>(path: &Path) -> impl FnOnce(P) -> Self {
+        move |problem| Self {
+            path: path.to_owned(),
+            problem: problem.into(),
+        }
+    }
+}
+
+/// A reason why a file cannot be read or written.
+#[derive(Debug, Error)]
+pub enum FileProblem {
     /// Its format is not known or cannot be used so.
-    #[error("{}: {error}", shown_path(path))]
-    Format {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong.
-        error: FormatError,
-    },
+    #[error("{0}")]
+    Format(#[from] FormatError),
     /// Its content cannot be used.
-    #[error("{}: {error}", shown_path(path))]
-    Content {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong, and where.
-        error: ReadError,
-    },
+    #[error("{0}")]
+    Content(#[from] ReadError),
     /// The curves cannot be written to it.
-    #[error("{}: {error}", shown_path(path))]
-    Export {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong.
-        error: WriteError,
-    },
+    #[error("{0}")]
+    Export(#[from] WriteError),
     /// The system refused.
-    #[error("{}: cannot {action} the file: {error}", shown_path(path))]
+    #[error("cannot {action} the file: {error}")]
     System {
-        /// The file.
-        path: PathBuf,
         /// What was tried.
         action: &'static str,
         /// What the system says.
         error: io::Error,
     },
     /// The folder that it would be in is not there.
-    #[error(
-        "{}: the folder {} does not exist: create it first",
-        shown_path(path),
-        shown_path(folder)
-    )]
-    NoFolder {
-        /// The file.
-        path: PathBuf,
-        /// The folder.
-        folder: PathBuf,
-    },
+    #[error("the folder {} does not exist: create it first", shown_path(.0))]
+    NoFolder(PathBuf),
     /// It is a folder or a device.
-    #[error("{}: this is not a file", shown_path(path))]
-    NotAFile {
-        /// The path.
-        path: PathBuf,
-    },
+    #[error("this is not a file")]
+    NotAFile,
     /// It is protected against writing.
-    #[error(
-        "{}: the file is read-only: save under another name, or allow writing to it",
-        shown_path(path)
-    )]
-    ReadOnly {
-        /// The file.
-        path: PathBuf,
-    },
-    /// It is too large.
-    #[error("{}: the file is larger than {} MiB, the most that Batten reads", shown_path(path), most >> 20)]
-    TooLarge {
-        /// The file.
-        path: PathBuf,
-        /// The largest number of bytes that is read.
-        most: u64,
-    },
+    #[error("the file is read-only: save under another name, or allow writing to it")]
+    ReadOnly,
+    /// It is larger than this many bytes.
+    #[error("the file is larger than {} MiB, the most that Batten reads", .0 >> 20)]
+    TooLarge(u64),
+}
+
+impl FileProblem {
+    /// Say what was tried when the system refused.
+    pub(super) fn system(action: &'static str) -> impl Fn(io::Error) -> Self {
+        move |error| Self::System { action, error }
+    }
 }

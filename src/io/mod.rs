@@ -25,7 +25,7 @@ pub mod table;
 mod table_header;
 mod text;
 
-pub use error::{FileError, Place, Problem, ReadError, WriteError, shown_path};
+pub use error::{FileError, FileProblem, Place, Problem, ReadError, WriteError, shown_path};
 pub use format::{Format, FormatError};
 pub use loss::{Export, Loss, LossReport};
 pub use reading::{Owner, Reading, Remark, Remarks};

@@ -93,7 +93,7 @@ fn a_file_that_is_too_large_is_not_read() {
     assert_eq!(read_bytes(&path, 11).unwrap().len(), 11);
     assert!(matches!(
         read_bytes(&path, 10),
-        Err(FileError::TooLarge { .. })
+        Err(FileProblem::TooLarge(10))
     ));
 }
 
@@ -122,10 +122,7 @@ mod unix {
         );
         fs::set_permissions(&new, fs::Permissions::from_mode(0o444)).unwrap();
         let result = write_bytes(&new, b"3");
-        assert!(
-            matches!(result, Err(FileError::ReadOnly { .. })),
-            "{result:?}"
-        );
+        assert!(matches!(result, Err(FileProblem::ReadOnly)), "{result:?}");
         assert_eq!(fs::read(&new).unwrap(), b"2");
     }
 
@@ -186,7 +183,8 @@ mod unix {
         // A folder of the system where nobody may create files, root neither.
         let path = Path::new("/proc/a.batten");
         if path.parent().is_some_and(Path::is_dir) {
-            let message = write_bytes(path, b"").unwrap_err().to_string();
+            let error = write_bytes(path, b"").map_err(FileError::at(path));
+            let message = error.unwrap_err().to_string();
             assert!(
                 message.starts_with("/proc/a.batten: cannot write"),
                 "{message}"
@@ -212,7 +210,7 @@ mod unix {
         symlink("circle", &circle).unwrap();
         assert!(matches!(
             write_bytes(&circle, b"x"),
-            Err(FileError::System { .. })
+            Err(FileProblem::System { .. })
         ));
     }
 }
@@ -290,7 +288,8 @@ fn a_stream_is_read_under_its_name() {
 #[test]
 fn a_path_cannot_turn_or_break_a_message() {
     let path = Path::new("no\u{202e}folder\n/a.batten");
-    let message = write_bytes(path, b"").unwrap_err().to_string();
+    let error = write_bytes(path, b"").map_err(FileError::at(path));
+    let message = error.unwrap_err().to_string();
     assert_eq!(
         message,
         "no\\u{202e}folder\\n/a.batten: the folder no\\u{202e}folder\\n does not exist: create it first"
