@@ -16,12 +16,11 @@ use serde_path_to_error::{Path, Segment};
 
 use super::error::{Place, Problem, ReadError};
 use super::format::Format;
+use super::json_layout;
 use super::loss::{Export, LossReport};
-use super::object::Object;
 use super::project_v1::{FORMAT, Project, VERSION};
 use super::reading::Reading;
 use super::text::text;
-use super::{json_layout, project_v1};
 use crate::document::{Curve, Extras, escaped};
 use crate::geometry::PolygonKind;
 
@@ -39,23 +38,26 @@ pub fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
     if !text.trim_start().starts_with('{') {
         return Err(Problem::WrongFormat { found: None }.into());
     }
-    let project = parse::<Project>(text);
-    match parse::<Header>(text) {
-        Ok(header) => header.check()?,
-        // The types of the version know in which curve the JSON is malformed.
-        Err(error) => return Err(project.err().unwrap_or(error)),
+    match parse::<Project>(text) {
+        Ok(project) => {
+            check(&project.value.format, &project.value.version)?;
+            project.into_reading()
+        }
+        Err(error) => {
+            // If it is no project, or a newer one, that is what there is to say of it.
+            if let Ok(Header { format, version }) = parse(text) {
+                check(&format, &version)?;
+            }
+            Err(error)
+        }
     }
-    project?.into_reading()
 }
 
 /// Write a project with each curve held by one of its polygons; by the float polygon nothing is
 /// lost. `extras` are those of the project.
 pub fn write(curves: &[&Curve], extras: &Extras, kind: PolygonKind) -> Export {
     let mut losses = LossReport::new(Format::Batten);
-    let project = Object {
-        value: project_v1::WrittenProject::from_curves(curves, kind, &mut losses),
-        extras: extras.clone(),
-    };
+    let project = Project::from_curves(curves, extras, kind, &mut losses);
     Export {
         bytes: json_layout::to_text(&project).into_bytes(),
         losses,
@@ -64,31 +66,28 @@ pub fn write(curves: &[&Curve], extras: &Extras, kind: PolygonKind) -> Export {
 
 /// What every version has, however the rest of it looks.
 #[derive(Deserialize)]
-#[serde(expecting = "a Batten project, which is a JSON object")]
 struct Header {
     #[serde(default)]
-    format: Option<Value>,
+    format: Value,
     #[serde(default)]
-    version: Option<Value>,
+    version: Value,
 }
 
-impl Header {
-    fn check(&self) -> Result<(), Problem> {
-        let shown = |value: &Option<Value>| value.as_ref().map(Value::to_string);
-        if self.format != Some(Value::from(FORMAT)) {
-            let found = shown(&self.format);
-            return Err(Problem::WrongFormat { found });
-        }
-        match self.version.as_ref().and_then(Value::as_u64) {
-            Some(VERSION) => Ok(()),
-            Some(found) if found > VERSION => Err(Problem::NewerVersion {
-                found,
-                newest: VERSION,
-            }),
-            _ => Err(Problem::BadVersion {
-                found: shown(&self.version).unwrap_or("not given".to_owned()),
-            }),
-        }
+fn check(format: &Value, version: &Value) -> Result<(), Problem> {
+    let shown = |value: &Value| (!value.is_null()).then(|| value.to_string());
+    if format != FORMAT {
+        let found = shown(format);
+        return Err(Problem::WrongFormat { found });
+    }
+    match version.as_u64() {
+        Some(VERSION) => Ok(()),
+        Some(found) if found > VERSION => Err(Problem::NewerVersion {
+            found,
+            newest: VERSION,
+        }),
+        _ => Err(Problem::BadVersion {
+            found: shown(version).unwrap_or("not given".to_owned()),
+        }),
     }
 }
 

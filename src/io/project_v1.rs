@@ -1,15 +1,16 @@
 //! Version 1 of the project file.
 
 use glam::DVec3;
-use serde::de::{Error, IgnoredAny, Unexpected};
+use serde::de::{Error, Unexpected};
 use serde::{Deserialize, Deserializer, Serialize};
+use serde_json::Value;
 
 use super::error::{Place, Problem, ReadError};
 use super::loss::LossReport;
 use super::object::Object;
 use super::polygon::FilePolygon;
 use super::reading::{CurveKeys, Owner, Reading, Remark, Remarks};
-use crate::document::{Colour, Curve, EndTargets, quoted};
+use crate::document::{Colour, Curve, EndTargets, Extras, quoted};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{End, MAX_DEGREE, MAX_MAGNITUDE, PolygonKind};
 
@@ -19,24 +20,19 @@ pub(super) const FORMAT: &str = "batten";
 /// The version.
 pub(super) const VERSION: u64 = 1;
 
-/// A project as it is read.
+/// A project.
 pub(super) type Project = Object<ProjectV1>;
 
-#[derive(Deserialize)]
+/// What is in a project.
+#[derive(Deserialize, Serialize)]
 #[serde(expecting = "a Batten project, which is a JSON object")]
 pub(super) struct ProjectV1 {
-    #[serde(default, rename = "format")]
-    _format: IgnoredAny,
-    #[serde(default, rename = "version")]
-    _version: IgnoredAny,
-    curves: Vec<Object<CurveV1>>,
-}
-
-/// A project as it is written.
-#[derive(Serialize)]
-pub(super) struct WrittenProject {
-    format: &'static str,
-    version: u64,
+    /// [`FORMAT`], if it is a project.
+    #[serde(default)]
+    pub format: Value,
+    /// [`VERSION`], if it is of this version.
+    #[serde(default)]
+    pub version: Value,
     curves: Vec<Object<CurveV1>>,
 }
 
@@ -81,6 +77,27 @@ struct Target {
 }
 
 impl Project {
+    /// Take what version 1 writes of curves, with the keys of the project that are not known.
+    pub(super) fn from_curves(
+        curves: &[&Curve],
+        extras: &Extras,
+        kind: PolygonKind,
+        losses: &mut LossReport,
+    ) -> Self {
+        let curves = curves.iter().map(|curve| Object {
+            value: CurveV1::from_curve(curve, kind, losses),
+            extras: curve.extras.clone(),
+        });
+        Self {
+            value: ProjectV1 {
+                format: FORMAT.into(),
+                version: VERSION.into(),
+                curves: curves.collect(),
+            },
+            extras: extras.clone(),
+        }
+    }
+
     /// Check the content and make curves of it.
     pub(super) fn into_reading(self) -> Result<Reading, ReadError> {
         let mut remarks = Remarks::default();
@@ -106,25 +123,6 @@ impl Project {
             extras: self.extras,
             remarks,
         })
-    }
-}
-
-impl WrittenProject {
-    /// Take what version 1 writes of the curves.
-    pub(super) fn from_curves(
-        curves: &[&Curve],
-        kind: PolygonKind,
-        losses: &mut LossReport,
-    ) -> Self {
-        let curves = curves.iter().map(|curve| Object {
-            value: CurveV1::from_curve(curve, kind, losses),
-            extras: curve.extras.clone(),
-        });
-        Self {
-            format: FORMAT,
-            version: VERSION,
-            curves: curves.collect(),
-        }
     }
 }
 
