@@ -21,11 +21,21 @@ where
     (sum, (a - (sum - other)) + (b - other))
 }
 
-/// Multiply: the rounded product and its error, unless it leaves the range of numbers.
+/// Add where |a| ≥ |b|: the rounded sum and its error.
 #[inline(always)]
-pub(super) fn two_product<T>(a: T, b: T) -> (T, T)
+pub(super) fn quick_two_sum<T>(a: T, b: T) -> (T, T)
 where
-    T: Copy + Add<Output = T> + Sub<Output = T> + Mul<T, Output = T> + Mul<f64, Output = T>,
+    T: Copy + Add<Output = T> + Sub<Output = T>,
+{
+    let sum = a + b;
+    (sum, b - (sum - a))
+}
+
+/// Multiply by a double: the rounded product and its error, unless it leaves the range of numbers.
+#[inline(always)]
+pub(super) fn two_product<T>(a: T, b: f64) -> (T, T)
+where
+    T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
 {
     let product = a * b;
     let ((a_high, a_low), (b_high, b_low)) = (halves(a), halves(b));

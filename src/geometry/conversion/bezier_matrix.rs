@@ -1,15 +1,15 @@
 //! The matrices between the vertices of one segment's float and Bézier polygon.
 
-use super::expansion::Expansion;
 use super::knots::clamp;
+use crate::geometry::expansion::Expansion;
 
 /// Fill the (n + 1)² matrix, row by row, that takes the float vertices of a segment to its
 /// Bézier vertices (SB). Its entries are not negative and each row sums to 1.
 pub(in crate::geometry) fn float_to_bezier<const K: usize>(degree: usize) -> Vec<Expansion<K>> {
     let size = degree + 1;
-    let mut matrix = vec![Expansion::ZERO; size * size];
+    let mut matrix = vec![Expansion::default(); size * size];
     for column in 0..size {
-        let mut unit = vec![Expansion::ZERO; size];
+        let mut unit = vec![Expansion::default(); size];
         unit[column] = Expansion::from(1.0);
         clamp(degree, &mut unit);
         for (row, entry) in unit.into_iter().enumerate() {
@@ -62,12 +62,12 @@ mod tests {
                 let first = vertex as i64 + 1 - degree as i64;
                 let back = blossom_row(first..first + degree as i64);
                 for column in 0..=degree {
-                    let sum = back
-                        .iter()
-                        .enumerate()
-                        .fold(Expansion::ZERO, |sum, (k, entry)| {
-                            sum + Expansion::from(*entry) * there[k * (degree + 1) + column]
-                        });
+                    let sum =
+                        back.iter()
+                            .enumerate()
+                            .fold(Expansion::default(), |sum, (k, entry)| {
+                                sum + Expansion::from(*entry) * there[k * (degree + 1) + column]
+                            });
                     let expected = f64::from(u8::from(vertex == column));
                     // 5.8e30 · 2⁻¹⁵⁹ is 8e-18.
                     assert!((sum.value() - expected).abs() <= 1e-16, "degree {degree}");

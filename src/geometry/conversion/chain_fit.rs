@@ -14,7 +14,7 @@
 
 use super::bezier_matrix::float_to_bezier;
 use super::exact_vertices::ExactVertices;
-use super::expansion::Expansion;
+use crate::geometry::expansion::Expansion;
 
 /// Hold the least-squares system of one chain of Bézier polygons.
 pub(in crate::geometry) struct ChainFit<'a, const K: usize> {
@@ -139,7 +139,7 @@ impl<'a, const K: usize> ChainFit<'a, K> {
             self.degree
         };
         let mut system: Vec<Vec<Expansion<K>>> = (0..self.count())
-            .map(|row| vec![Expansion::ZERO; band.min(row) + 1])
+            .map(|row| vec![Expansion::default(); band.min(row) + 1])
             .collect();
         let alike = self.scales.iter().all(|scale| *scale == 1.0);
         let mut products = self.products(0);
@@ -165,7 +165,7 @@ impl<'a, const K: usize> ChainFit<'a, K> {
     /// with columns before and the own one are needed.
     fn products(&self, segment: usize) -> Vec<Expansion<K>> {
         let size = self.degree + 1;
-        let mut products = vec![Expansion::ZERO; size * size];
+        let mut products = vec![Expansion::default(); size * size];
         for (index, row) in self.matrix.chunks(size).enumerate() {
             let scale = self.scales[segment * self.degree + index];
             let scaled: Vec<Expansion<K>> = row.iter().map(|entry| *entry * scale).collect();
@@ -182,7 +182,7 @@ impl<'a, const K: usize> ChainFit<'a, K> {
     /// Compute MᵀS²B for one coordinate.
     fn transposed(&self, given: &[Expansion<K>]) -> Vec<Expansion<K>> {
         let size = self.degree + 1;
-        let mut sums = vec![Expansion::ZERO; self.count()];
+        let mut sums = vec![Expansion::default(); self.count()];
         for segment in 0..self.segments {
             for (index, row) in self.matrix.chunks(size).enumerate() {
                 let place = segment * self.degree + index;

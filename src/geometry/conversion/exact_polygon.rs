@@ -5,11 +5,12 @@ use glam::DVec3;
 use super::amplification::Amplification;
 use super::bezier_matrix::{blossom_row, float_to_bezier, middle_segment};
 use super::exact_vertices::{ExactVertices, check_weight, converted_error, weight_loss};
-use super::expansion::Expansion;
-use super::knots::{Blend, clamp, unclamp};
+use super::knots::{clamp, unclamp};
 use crate::geometry::bezier_polygon::BezierPolygon;
+use crate::geometry::blend::Blend;
 use crate::geometry::clamped_polygon::ClampedPolygon;
 use crate::geometry::error::{MAX_DEGREE, PolygonError};
+use crate::geometry::expansion::Expansion;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::polygon_kind::PolygonKind;
 
@@ -291,7 +292,7 @@ pub(in crate::geometry) fn dot<const K: usize>(
     numbers: &[Expansion<K>],
 ) -> Expansion<K> {
     let products = row.iter().zip(numbers);
-    products.fold(Expansion::ZERO, |sum, (a, b)| sum.plus_product(*a, *b))
+    products.fold(Expansion::default(), |sum, (a, b)| sum.plus_product(*a, *b))
 }
 
 /// Convert one coordinate of a float polygon to that of the chain of Bézier polygons.

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use glam::{DVec3, DVec4};
 
-use super::expansion::Expansion;
 use crate::geometry::error::PolygonError;
+use crate::geometry::expansion::Expansion;
 use crate::geometry::polygon_kind::PolygonKind;
 
 /// What K = 3 parts may lose of the numbers that entered a vertex, in their units: a weight
@@ -110,7 +110,7 @@ impl<const K: usize> ExactVertices<K> {
     pub(in crate::geometry) fn difference(&self, other: &Self, index: usize) -> DVec4 {
         let coordinate = |axis: usize| {
             let [a, b] = [self, other].map(|vertices| vertices.axes[axis].as_ref());
-            let [a, b] = [a, b].map(|axis| axis.map_or(Expansion::ZERO, |axis| axis[index]));
+            let [a, b] = [a, b].map(|axis| axis.map_or(Expansion::default(), |axis| axis[index]));
             (a - b).value()
         };
         DVec4::from_array(std::array::from_fn(coordinate))

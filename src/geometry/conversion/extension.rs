@@ -1,9 +1,9 @@
 //! Longer curves: the end segment's polynomial continued.
 
 use super::exact_vertices::{ExactVertices, check_weight, converted_error, weight_loss};
-use super::expansion::Expansion;
 use crate::geometry::end::End;
 use crate::geometry::error::PolygonError;
+use crate::geometry::expansion::Expansion;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::polygon_kind::PolygonKind;
 
@@ -83,7 +83,7 @@ fn continued(given: &[Number], count: usize) -> Vec<Number> {
         for index in 1..differences.len() {
             differences[index] = differences[index] + differences[index - 1];
         }
-        differences.last().copied().unwrap_or(Number::ZERO)
+        differences.last().copied().unwrap_or(Number::default())
     };
     (0..count).map(next).collect()
 }

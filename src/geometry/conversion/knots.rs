@@ -5,13 +5,7 @@
 //! it among their knots: each is interpolated between itself and its inner neighbour. Unclamping
 //! undoes the same steps in reverse order, extrapolating.
 
-use glam::DVec4;
-
-/// What the steps work on: points, coordinates, coordinates of many digits, and exact ones.
-pub trait Blend {
-    /// Compute (p·a + q·b) / divisor, p, q and the divisor being whole numbers.
-    fn blend(p: f64, a: &Self, q: f64, b: &Self, divisor: f64) -> Self;
-}
+use crate::geometry::blend::Blend;
 
 /// The two ways between the float and the clamped polygon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,27 +26,15 @@ impl Direction {
     }
 }
 
-impl Blend for f64 {
-    fn blend(p: f64, a: &Self, q: f64, b: &Self, divisor: f64) -> Self {
-        (p * *a + q * *b) / divisor
-    }
-}
-
-impl Blend for DVec4 {
-    fn blend(p: f64, a: &Self, q: f64, b: &Self, divisor: f64) -> Self {
-        (p * *a + q * *b) / divisor
-    }
-}
-
 /// Take the vertices of a float polygon to those of the clamped one, in place.
-pub fn clamp<T: Blend>(degree: usize, vertices: &mut [T]) {
+pub(in crate::geometry) fn clamp<T: Blend>(degree: usize, vertices: &mut [T]) {
     let mut knots = float_knots(degree, vertices.len());
     clamp_start(degree, &mut knots, vertices);
     clamp_end(degree, &mut knots, vertices);
 }
 
 /// Undo [`clamp`].
-pub fn unclamp<T: Blend>(degree: usize, vertices: &mut [T]) {
+pub(in crate::geometry) fn unclamp<T: Blend>(degree: usize, vertices: &mut [T]) {
     let knots = float_knots(degree, vertices.len());
     unclamp_end(degree, &knots, vertices);
     unclamp_start(degree, &knots, vertices);

@@ -13,10 +13,10 @@
 
 use super::exact_polygon::dot;
 use super::exact_vertices::{ExactVertices, check_weight, converted_error, weight_loss};
-use super::expansion::Expansion;
-use super::knots::Blend;
 use crate::geometry::basis::undifferenced;
+use crate::geometry::blend::Blend;
 use crate::geometry::error::PolygonError;
+use crate::geometry::expansion::Expansion;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::polygon_kind::PolygonKind;
 
@@ -115,7 +115,7 @@ fn series(degree: usize, last: usize, step: f64) -> Vec<Number> {
     let exponent = -(degree as f64 + 1.0);
     let mut power = vec![Number::from(1.0)];
     for k in 1..=last {
-        let sum = (1..=k).fold(Number::ZERO, |sum, j| {
+        let sum = (1..=k).fold(Number::default(), |sum, j| {
             let factor = exponent * j as f64 - (k - j) as f64;
             sum.plus_product(sine[j] * factor, power[k - j])
         });
@@ -126,11 +126,11 @@ fn series(degree: usize, last: usize, step: f64) -> Vec<Number> {
 
 /// The weights of the n + 1 vertices of a segment in Σ_k factor_k C^{(2k)}(t).
 fn taylor_row(degree: usize, t: f64, factors: &[Number]) -> Vec<Number> {
-    let mut row = vec![Number::ZERO; degree + 1];
+    let mut row = vec![Number::default(); degree + 1];
     for (k, factor) in factors.iter().enumerate() {
         let mut values = basis(degree - 2 * k, t);
         for _ in 0..2 * k {
-            values = undifferenced(&values, Number::ZERO);
+            values = undifferenced(&values, Number::default());
         }
         for (entry, value) in row.iter_mut().zip(values) {
             *entry = *entry + value * *factor;
@@ -141,7 +141,7 @@ fn taylor_row(degree: usize, t: f64, factors: &[Number]) -> Vec<Number> {
 
 /// The mean of the rows at the end of one segment and the start of the next: n + 2 weights.
 fn knot_row(degree: usize, factors: &[Number]) -> Vec<Number> {
-    let mut row = vec![Number::ZERO; degree + 2];
+    let mut row = vec![Number::default(); degree + 2];
     for (first, t) in [(0, 1.0), (1, 0.0)] {
         let side = taylor_row(degree, t, factors);
         for (entry, value) in row[first..].iter_mut().zip(side) {
@@ -156,7 +156,7 @@ fn basis(degree: usize, t: f64) -> Vec<Number> {
     let mut values = vec![Number::from(1.0)];
     for level in 1..=degree {
         let divisor = level as f64;
-        values.push(Number::ZERO);
+        values.push(Number::default());
         for index in (1..=level).rev() {
             let (falling, rising) = ((index + 1) as f64 - t, (level - index) as f64 + t);
             values[index] =

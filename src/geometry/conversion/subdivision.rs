@@ -1,8 +1,8 @@
 //! Uniform subdivision: the same curve by twice as many segments.
 
 use super::exact_vertices::{ExactVertices, converted_error};
-use super::expansion::Expansion;
 use crate::geometry::error::PolygonError;
+use crate::geometry::expansion::Expansion;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::polygon_kind::PolygonKind;
 
@@ -47,7 +47,7 @@ fn refined(mask: &[f64], degree: usize, axis: &[Expansion<2>], index: usize) -> 
     let terms = (highest % 2..mask.len())
         .step_by(2)
         .filter(|k| *k <= highest);
-    terms.fold(Expansion::ZERO, |sum, k| {
+    terms.fold(Expansion::default(), |sum, k| {
         match axis.get((highest - k) / 2) {
             Some(vertex) => sum + *vertex * mask[k],
             None => sum,

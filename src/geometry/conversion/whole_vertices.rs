@@ -11,7 +11,8 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 use super::bezier_matrix::float_to_bezier;
 use super::exact_polygon::{RoundedVertices, chain};
 use super::exact_vertices::ExactVertices;
-use super::knots::{Blend, Direction};
+use super::knots::Direction;
+use crate::geometry::blend::Blend;
 use crate::geometry::features::whole_numbers::scaled_numbers;
 
 /// The primes that can divide the steps' divisors, which are at most twice the degree.

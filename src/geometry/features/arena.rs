@@ -6,9 +6,9 @@
 //! operands may be off by, what each operation rounds, and what may vanish below the range of
 //! numbers; only a coefficient that is exactly 0 by its structure has value and bound 0.
 
-use super::double_double::DoubleDouble;
 use super::scalar::Scalar;
 use super::tables::{bernstein_matrix, binomial_operations, binomials, matrix_operations};
+use crate::geometry::expansion::DoubleDouble;
 
 /// The smallest error bound of a number that is not an exact 0. Curves come normalised to
 /// size 1, so that products of two such bounds, and their roundings, stay within the range of
@@ -112,7 +112,7 @@ impl<T: Scalar> Arena<T> {
                 let converted = T::from_wide(*control);
                 value = value + T::from_wide(*entry) * converted;
                 let bound = bound + T::conversion_error(*control);
-                error += entry.high * (bound + unit * converted.magnitude());
+                error += entry.high() * (bound + unit * converted.magnitude());
             }
             self.values[result.start + j] = value;
             self.errors[result.start + j] = inflated(error);
@@ -170,7 +170,7 @@ impl<T: Scalar> Arena<T> {
         let new = new_values.iter_mut().zip(new_errors);
         for (((old, error), new), binomial) in old.zip(new).zip(binomials(degree)) {
             *new.0 = value(*old, T::from_wide(*binomial));
-            *new.1 = inflated(bound(error + unit * old.magnitude(), binomial.high));
+            *new.1 = inflated(bound(error + unit * old.magnitude(), binomial.high()));
         }
         result
     }
@@ -238,8 +238,9 @@ impl<T: Scalar> Arena<T> {
     pub(super) fn bound(&self, polynomial: Polynomial) -> f64 {
         let (values, errors) = self.coefficients(polynomial);
         let sizes = values.iter().zip(errors).zip(binomials(polynomial.degree));
-        let sizes = sizes
-            .map(|((value, error), binomial)| (value.magnitude() + error) / binomial.high * SLACK);
+        let sizes = sizes.map(|((value, error), binomial)| {
+            (value.magnitude() + error) / binomial.high() * SLACK
+        });
         sizes.fold(0.0, f64::max)
     }
 
@@ -335,7 +336,7 @@ mod tests {
 
     fn exact(value: DoubleDouble) -> BigRational {
         let part = |part| BigRational::from_float(part).unwrap_or_default();
-        part(value.high) + part(value.low)
+        part(value.high()) + part(value.low())
     }
 
     fn whole(value: usize) -> BigRational {

@@ -30,7 +30,6 @@ mod arena;
 mod certain_digits;
 mod common_divisor;
 mod curve_features;
-mod double_double;
 mod enclosure;
 mod exact_isolation;
 mod exact_numerators;

@@ -207,7 +207,7 @@ fn derivatives<T: Scalar>(arena: &mut Arena<T>, shape: &SegmentShape) -> Derivat
     for axis in 0..4 {
         let controls = &shape.controls[axis][..shape.count];
         let bounds = &shape.bounds[axis][..shape.count];
-        let absent = controls.iter().all(|control| control.high == 0.0)
+        let absent = controls.iter().all(|control| control.high() == 0.0)
             && bounds.iter().all(|bound| *bound == 0.0);
         if absent {
             continue;

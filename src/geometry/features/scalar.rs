@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Div, Mul};
 
-use super::double_double::DoubleDouble;
+use crate::geometry::expansion::DoubleDouble;
 
 /// A type of floating-point number whose operations have a known relative error.
 pub(super) trait Scalar:
@@ -34,12 +34,12 @@ impl Scalar for f64 {
 
     #[inline]
     fn from_wide(value: DoubleDouble) -> Self {
-        value.high
+        value.high()
     }
 
     #[inline]
     fn conversion_error(value: DoubleDouble) -> f64 {
-        value.low.abs()
+        value.low().abs()
     }
 
     fn table_error(operations: f64) -> f64 {
@@ -72,6 +72,6 @@ impl Scalar for DoubleDouble {
 
     #[inline]
     fn rounded(self) -> f64 {
-        self.high
+        self.high()
     }
 }

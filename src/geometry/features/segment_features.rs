@@ -3,7 +3,6 @@
 use std::cell::LazyCell;
 
 use super::arena::Arena;
-use super::double_double::DoubleDouble;
 use super::enclosure::{UNKNOWN, at_ends, narrower};
 use super::exact_numerators::ExactSegment;
 use super::exact_polynomial::ExactPolynomial;
@@ -16,6 +15,7 @@ use super::sign_piece::{Sign, SignPiece, append, with_starts};
 use super::values::{at_extremum, is_known};
 use super::variations::certain_sign;
 use super::whole_numbers::fraction;
+use crate::geometry::expansion::DoubleDouble;
 use crate::geometry::float_polygon::FloatPolygon;
 
 /// Hold what is proved of one segment, its two ends included as far as they can be seen from

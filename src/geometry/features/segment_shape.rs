@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use super::arena::FLOOR;
-use super::double_double::DoubleDouble;
 use super::whole_numbers;
 use crate::geometry::error::MAX_DEGREE;
+use crate::geometry::expansion::DoubleDouble;
 use crate::geometry::float_polygon::FloatPolygon;
 
 /// What the arithmetic of wide numbers adds to a product or a sum of three: 2⁻⁹⁸.
@@ -82,17 +82,17 @@ impl SegmentShape {
     /// replace what is too small to be multiplied by a bound of it.
     fn normalise(&mut self) {
         let coordinates = self.controls[..3].iter().flatten();
-        let largest = coordinates.fold(0.0, |largest: f64, value| largest.max(value.high.abs()));
+        let largest = coordinates.fold(0.0, |largest: f64, value| largest.max(value.high().abs()));
         self.unit = power_of_two_below(largest);
         let count = self.count;
         for (controls, bounds) in self.controls.iter_mut().zip(&mut self.bounds).take(3) {
             for (control, bound) in controls.iter_mut().zip(bounds).take(count) {
                 let scaled = control.scaled(1.0 / self.unit);
                 let lost = |part: f64, scaled: f64| part != 0.0 && scaled.abs() < FLOOR;
-                if lost(control.high, scaled.high) {
+                if lost(control.high(), scaled.high()) {
                     (*control, *bound) = (DoubleDouble::default(), 2.0 * FLOOR);
-                } else if lost(control.low, scaled.low) {
-                    (*control, *bound) = (DoubleDouble::from(scaled.high), 2.0 * FLOOR);
+                } else if lost(control.low(), scaled.low()) {
+                    (*control, *bound) = (DoubleDouble::from(scaled.high()), 2.0 * FLOOR);
                 } else {
                     *control = scaled;
                 }
@@ -103,7 +103,7 @@ impl SegmentShape {
     /// Turn the direction that the vectors share, if they share one, into the x axis.
     fn align(&mut self, planar: bool) {
         let vector = |j: usize| [0, 1, 2].map(|axis| self.controls[axis][j]);
-        let moving = |j: &usize| vector(*j).iter().any(|value| value.high != 0.0);
+        let moving = |j: &usize| vector(*j).iter().any(|value| value.high() != 0.0);
         let known = |j: usize| (0..3).all(|axis| self.bounds[axis][j] == 0.0);
         let middle = (self.count / 2..self.count).chain((0..self.count / 2).rev());
         let Some(reference) = middle.clone().find(moving) else {
@@ -115,7 +115,7 @@ impl SegmentShape {
             .filter(|j| known(*j) && are_parallel(direction, vector(*j)))
             .count();
         if parallel == self.count {
-            self.line = Some(direction.map(|part| part.high));
+            self.line = Some(direction.map(|part| part.high()));
         }
         if self.line.is_some() || planar && self.count > 2 && parallel + 1 >= self.count {
             self.rotate(reference, planar);
@@ -124,11 +124,12 @@ impl SegmentShape {
 
     fn rotate(&mut self, reference: usize, planar: bool) {
         let [x, y, z] = [0, 1, 2].map(|axis| self.controls[axis][reference]);
-        let size = x.high.abs() + y.high.abs() + z.high.abs();
+        let size = x.high().abs() + y.high().abs() + z.high().abs();
         for j in 0..self.count {
             let [a, b, c] = [0, 1, 2].map(|axis| self.controls[axis][j]);
             let off = (self.bounds[0][j] + self.bounds[1][j] + self.bounds[2][j]) * 4.0;
-            let rounding = WIDE_ROUNDING * size * (a.high.abs() + b.high.abs() + c.high.abs());
+            let rounding =
+                WIDE_ROUNDING * size * (a.high().abs() + b.high().abs() + c.high().abs());
             let along = x * a + y * b + z * c;
             let across = x * b + -(y * a);
             let exact = self.line.is_some() || off == 0.0 && are_parallel([x, y, z], [a, b, c]);
@@ -144,7 +145,7 @@ impl SegmentShape {
             self.bounds[2][j] = 0.0;
         }
         // The vectors were multiplied by one of themselves.
-        self.unit /= (x.high * x.high + y.high * y.high + z.high * z.high).sqrt();
+        self.unit /= (x.high() * x.high() + y.high() * y.high() + z.high() * z.high()).sqrt();
     }
 
     /// Multiply by the weights, which are brought to size 1 as well.
@@ -154,12 +155,12 @@ impl SegmentShape {
             let weight = DoubleDouble::from(weight / unit);
             for axis in 0..3 {
                 let product = self.controls[axis][j] * weight;
-                let rounding = nonzero(WIDE_ROUNDING * product.high.abs());
+                let rounding = nonzero(WIDE_ROUNDING * product.high().abs());
                 self.controls[axis][j] = product;
-                self.bounds[axis][j] = self.bounds[axis][j] * weight.high * 2.0 + rounding;
+                self.bounds[axis][j] = self.bounds[axis][j] * weight.high() * 2.0 + rounding;
             }
             self.controls[3][j] = weight;
-            if weight.high < FLOOR {
+            if weight.high() < FLOOR {
                 self.controls[3][j] = DoubleDouble::default();
                 self.bounds[3][j] = FLOOR;
             }
@@ -190,14 +191,15 @@ fn power_of_two_below(value: f64) -> f64 {
 /// Decide exactly whether two vectors are parallel.
 fn are_parallel(a: [DoubleDouble; 3], b: [DoubleDouble; 3]) -> bool {
     let products_agree = |[p, q]: [DoubleDouble; 2], [r, s]: [DoubleDouble; 2]| {
-        let (one, other) = (p.high * q.high, r.high * s.high);
+        let (one, other) = (p.high() * q.high(), r.high() * s.high());
         if (one - other).abs() > APART * (one.abs() + other.abs()) {
             return false;
         }
-        if [p, q, r, s].iter().all(|value| value.low == 0.0) {
-            return DoubleDouble::product(p.high, q.high) == DoubleDouble::product(r.high, s.high);
+        if [p, q, r, s].iter().all(|value| value.low() == 0.0) {
+            return DoubleDouble::product(p.high(), q.high())
+                == DoubleDouble::product(r.high(), s.high());
         }
-        let pairs = |values: [DoubleDouble; 2]| values.map(|value| [value.high, value.low]);
+        let pairs = |values: [DoubleDouble; 2]| values.map(|value| [value.high(), value.low()]);
         whole_numbers::products_agree(pairs([p, q]), pairs([r, s]))
     };
     [(0, 1), (1, 2), (2, 0)]

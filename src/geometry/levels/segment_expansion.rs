@@ -4,8 +4,11 @@ use glam::DVec4;
 
 use crate::geometry::basis::uniform_basis_step;
 use crate::geometry::error::MAX_DEGREE;
-use crate::geometry::error_free::{two_product, two_sum};
+use crate::geometry::expansion::Expansion;
 use crate::geometry::float_polygon::FloatPolygon;
+
+/// A homogeneous vertex, or a difference of some, with twice the digits.
+type Vector = Expansion<2, DVec4>;
 
 /// Hold one segment of a curve by its Taylor polynomial about the middle of the segment, t = ½.
 ///
@@ -34,7 +37,7 @@ impl SegmentExpansion {
     pub fn new(polygon: &FloatPolygon, segment: usize, planar: bool) -> Self {
         let degree = polygon.degree();
         let means = middle_means(degree);
-        let mut differences = [Pair::default(); MAX_DEGREE + 1];
+        let mut differences = [Vector::default(); MAX_DEGREE + 1];
         fill_vertices(polygon, segment, &mut differences[..=degree]);
         let mut coefficients = [DVec4::ZERO; MAX_DEGREE + 1];
         let mut factorial = 1.0;
@@ -44,11 +47,11 @@ impl SegmentExpansion {
             let mean = &means[degree - order];
             let terms = differences[..size].iter().zip(mean.iter());
             let sum = terms.fold(DVec4::ZERO, |sum, (difference, basis)| {
-                sum + difference.high * *basis
+                sum + difference.parts()[0] * *basis
             });
             coefficients[order] = sum / factorial;
             for j in 0..size - 1 {
-                differences[j] = differences[j + 1].minus(differences[j]);
+                differences[j] = differences[j + 1] - differences[j];
             }
         }
         Self {
@@ -100,17 +103,17 @@ fn middle_means(degree: usize) -> [[f64; MAX_DEGREE + 1]; MAX_DEGREE + 1] {
 }
 
 /// Fill in the homogeneous vertices of a segment.
-fn fill_vertices(polygon: &FloatPolygon, segment: usize, vertices: &mut [Pair]) {
+fn fill_vertices(polygon: &FloatPolygon, segment: usize, vertices: &mut [Vector]) {
     if !polygon.is_rational() {
         for (vertex, index) in vertices.iter_mut().zip(segment..) {
-            vertex.high = polygon.vertex(index).extend(1.0);
+            *vertex = Vector::from(polygon.vertex(index).extend(1.0));
         }
         return;
     }
-    let origin = Pair::from(polygon.vertex(segment + polygon.degree() / 2).extend(0.0));
+    let origin = Vector::from(polygon.vertex(segment + polygon.degree() / 2).extend(0.0));
     for (vertex, index) in vertices.iter_mut().zip(segment..) {
-        let arm = Pair::from(polygon.vertex(index).extend(1.0)).minus(origin);
-        *vertex = arm.times(polygon.weight(index));
+        let arm = Vector::from(polygon.vertex(index).extend(1.0)) - origin;
+        *vertex = arm * polygon.weight(index);
     }
 }
 
@@ -126,40 +129,6 @@ fn divide_by_weight<const LENGTH: usize>(series: &mut [DVec4; LENGTH]) {
         }
         series[k] = value * inverse;
     }
-}
-
-/// Vectors in double-double: the sum of `high` and a remainder `low` beyond its last place.
-/// (Dekker, "A floating-point technique for extending the available precision", 1971.)
-#[derive(Clone, Copy, Default)]
-struct Pair {
-    high: DVec4,
-    low: DVec4,
-}
-
-impl From<DVec4> for Pair {
-    fn from(high: DVec4) -> Self {
-        let low = DVec4::ZERO;
-        Self { high, low }
-    }
-}
-
-impl Pair {
-    fn minus(self, other: Self) -> Self {
-        let (difference, error) = two_sum(self.high, -other.high);
-        normalised(difference, error + (self.low - other.low))
-    }
-
-    fn times(self, factor: f64) -> Self {
-        let (product, error) = two_product(self.high, DVec4::splat(factor));
-        normalised(product, error + self.low * factor)
-    }
-}
-
-/// Move what fits from the remainder to the leading part.
-fn normalised(high: DVec4, low: DVec4) -> Pair {
-    let sum = high + low;
-    let low = low - (sum - high);
-    Pair { high: sum, low }
 }
 
 #[cfg(test)]
@@ -227,23 +196,6 @@ mod tests {
             let vertices: Vec<_> = (0..=degree).map(|j| exact(height(j))).collect();
             for t in [0.0, 0.1, 0.5, 0.8, 1.0] {
                 check(&polygon, t, &vertices);
-            }
-        }
-    }
-
-    #[test]
-    fn pairs_hold_products_and_differences_exactly() {
-        let numbers = [1.0 / 3.0, 1e60 / 7.0, -1e-60 / 11.0, 12345.6789];
-        for a in numbers {
-            for b in numbers {
-                let product = Pair::from(DVec4::splat(a)).times(b);
-                let sum = exact(product.high.x) + exact(product.low.x);
-                assert_eq!(sum, exact(a) * exact(b));
-                let difference = Pair::from(DVec4::splat(a)).minus(Pair::from(DVec4::splat(b)));
-                let leading = exact(difference.high.x);
-                assert_eq!(difference.high.x, a - b);
-                let remainder = exact(a) - exact(b) - leading;
-                assert_eq!(Some(difference.low.x), remainder.to_f64());
             }
         }
     }
