@@ -4,11 +4,12 @@ use std::ops::{Add, Div, Mul};
 
 use crate::geometry::expansion::DoubleDouble;
 
-/// A type of floating-point number whose operations have a known relative error.
+/// A type of floating-point number whose operations have a known error.
 pub(super) trait Scalar:
     Copy + Default + Add<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
-    /// A bound of the relative error of one operation.
+    /// A bound of the error of one operation, relative to the result; of a sum, to the sum of its
+    /// terms' magnitudes.
     const UNIT: f64;
 
     /// Convert from the wide type, rounding.
