@@ -43,7 +43,7 @@ impl<const SIZE: usize> PowerKernel<SIZE> {
         let mut factorial = 1.0;
         let rows: [_; SIZE] = std::array::from_fn(|power| {
             factorial *= power.max(1) as f64;
-            let row = basis::uniform_basis_derivative(SIZE - 1, power, 0.5);
+            let row: Vec<f64> = basis::uniform_basis_derivative(SIZE - 1, power, 0.5);
             std::array::from_fn::<_, SIZE, _>(|j| row[j] / factorial)
         });
         Self {
@@ -87,7 +87,7 @@ impl<const SIZE: usize> TableKernel<SIZE> {
         let mut table = [[[0.0; PARAMETERS]; SIZE]; 4];
         for (order, table) in table.iter_mut().enumerate() {
             for (lane, t) in parameters().into_iter().enumerate() {
-                let values = basis::uniform_basis_derivative(SIZE - 1, order, t);
+                let values: Vec<f64> = basis::uniform_basis_derivative(SIZE - 1, order, t);
                 for (row, value) in table.iter_mut().zip(values) {
                     row[lane] = value;
                 }

@@ -3,7 +3,7 @@
 
 mod common;
 
-use batten::geometry::basis::{uniform_basis, uniform_basis_derivative};
+use batten::geometry::basis::uniform_basis_derivative;
 use batten::geometry::circle_comparison::regular_polygon;
 use batten::geometry::end_correction::{
     EndDifference, EndOverlap, EndTarget, correct_end, correct_in_turn,
@@ -281,8 +281,8 @@ fn end_influence(polygon: &FloatPolygon, end: End) -> (Vec<f64>, Vec<f64>) {
         End::Start => (0.0, 0),
         End::Finish => (1.0, polygon.segments() - 1),
     };
-    let basis = uniform_basis(degree, t);
-    let slopes = uniform_basis_derivative(degree, 1, t);
+    let basis: Vec<f64> = uniform_basis_derivative(degree, 0, t);
+    let slopes: Vec<f64> = uniform_basis_derivative(degree, 1, t);
     let weight = |j: usize| polygon.weight(first + j);
     let sum: f64 = (0..=degree).map(|j| weight(j) * basis[j]).sum();
     let slope: f64 = (0..=degree).map(|j| weight(j) * slopes[j]).sum();

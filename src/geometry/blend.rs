@@ -4,7 +4,7 @@ use glam::DVec4;
 
 /// What conversions, bases and cuts work on: coordinates, points, coordinates of many digits, and
 /// exact ones.
-pub(super) trait Blend {
+pub trait Blend {
     /// Compute (p·a + q·b) / divisor.
     fn blend(p: f64, a: &Self, q: f64, b: &Self, divisor: f64) -> Self;
 }

@@ -27,6 +27,7 @@ pub mod polygon_figures;
 mod polygon_kind;
 mod progress;
 mod sampler;
+mod tables;
 mod vector;
 mod wording;
 

@@ -1,22 +1,47 @@
 //! The matrices between the vertices of one segment's float and Bézier polygon.
 
-use super::knots::clamp;
+use crate::geometry::basis::raise_basis;
 use crate::geometry::expansion::Expansion;
 
 /// Fill the (n + 1)² matrix, row by row, that takes the float vertices of a segment to its
-/// Bézier vertices (SB). Its entries are not negative and each row sums to 1.
+/// Bézier vertices (SB). Its entries are not negative and each row sums to 1; each is the exact
+/// one but for one rounding.
 pub(in crate::geometry) fn float_to_bezier<const K: usize>(degree: usize) -> Vec<Expansion<K>> {
-    let size = degree + 1;
-    let mut matrix = vec![Expansion::default(); size * size];
-    for column in 0..size {
-        let mut unit = vec![Expansion::default(); size];
-        unit[column] = Expansion::from(1.0);
-        clamp(degree, &mut unit);
-        for (row, entry) in unit.into_iter().enumerate() {
-            matrix[row * size + column] = entry;
-        }
+    let factorial: i128 = (1..=degree as i128).product();
+    let columns = whole_basis(degree);
+    let mut matrix = Vec::with_capacity(columns.len() * columns.len());
+    let mut binomial = 1;
+    for row in 0..=degree {
+        let divisor = Expansion::<3>::from(factorial * binomial);
+        let entry = |column: &Vec<i128>| (Expansion::from(column[row]) / divisor).resized();
+        matrix.extend(columns.iter().map(entry));
+        binomial = binomial * (degree - row) as i128 / (row + 1) as i128;
     }
     matrix
+}
+
+/// List, for each of the n + 1 basis functions of a segment, the whole numbers sᵢ with
+/// n! N(t) = Σ sᵢ tⁱ (1 − t)ⁿ⁻ⁱ. They have 107 binary digits at most.
+pub(in crate::geometry) fn whole_basis(degree: usize) -> Vec<Vec<i128>> {
+    let mut basis = vec![Vec::new(); degree + 1];
+    basis[0] = vec![1];
+    for level in 1..=degree {
+        raise_basis(level, &mut basis, |falling, here, rising, below| {
+            let mut sum = vec![0; level + 1];
+            let (falling, rising) = (falling as i128, rising as i128);
+            for (polynomial, line) in [
+                (here, [falling, falling - 1]),
+                (below, [rising, rising + 1]),
+            ] {
+                for (power, coefficient) in polynomial.iter().enumerate() {
+                    sum[power] += line[0] * coefficient;
+                    sum[power + 1] += line[1] * coefficient;
+                }
+            }
+            sum
+        });
+    }
+    basis
 }
 
 /// Compute the row that takes the Bézier vertices of a segment to the blossom of its polynomial

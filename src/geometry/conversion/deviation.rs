@@ -11,6 +11,7 @@ use crate::geometry::bezier_polygon::{BezierPolygon, segment_bezier};
 use crate::geometry::clamped_polygon::ClampedPolygon;
 use crate::geometry::error::PolygonError;
 use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::tables::binomials;
 use crate::geometry::vector;
 
 /// How far, relatively, a bound may lie above what is attained.
@@ -160,17 +161,17 @@ fn larger(a: f64, b: f64) -> f64 {
 /// (A b − B a) / (a b), of the degree of both together.
 fn difference(first: &[DVec4], second: &[DVec4]) -> Vec<DVec4> {
     let (p, q) = (first.len() - 1, second.len() - 1);
-    let (binomials_p, binomials_q) = (binomials(p), binomials(q));
+    let [row, column] = [p, q].map(|degree| binomials(degree).iter().map(|entry| entry.value()));
     let (first, second) = (normalised(first), normalised(second));
     let mut product = vec![DVec4::ZERO; p + q + 1];
-    for (i, (a, c)) in first.iter().zip(&binomials_p).enumerate() {
-        for (j, (b, d)) in second.iter().zip(&binomials_q).enumerate() {
+    for (i, (a, c)) in first.iter().zip(row).enumerate() {
+        for (j, (b, d)) in second.iter().zip(column.clone()).enumerate() {
             let numerator = a.truncate() * b.w - b.truncate() * a.w;
             product[i + j] += numerator.extend(a.w * b.w) * c * d;
         }
     }
     for (vertex, binomial) in product.iter_mut().zip(binomials(p + q)) {
-        *vertex /= binomial;
+        *vertex /= binomial.value();
     }
     product
 }
@@ -181,15 +182,6 @@ fn normalised(polygon: &[DVec4]) -> Vec<DVec4> {
         .iter()
         .fold(0.0_f64, |largest, vertex| largest.max(vertex.w));
     polygon.iter().map(|vertex| *vertex / largest).collect()
-}
-
-/// The binomial coefficients of a degree; those of degree 50 round relatively by a few units.
-fn binomials(degree: usize) -> Vec<f64> {
-    let mut row = vec![1.0];
-    for k in 0..degree {
-        row.push(row[k] * (degree - k) as f64 / (k + 1) as f64);
-    }
-    row
 }
 
 /// Cut a Bézier polygon at t (de Casteljau).

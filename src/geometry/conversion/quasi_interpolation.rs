@@ -13,8 +13,7 @@
 
 use super::exact_polygon::dot;
 use super::exact_vertices::{ExactVertices, check_weight, converted_error, weight_loss};
-use crate::geometry::basis::undifferenced;
-use crate::geometry::blend::Blend;
+use crate::geometry::basis::uniform_basis_derivative;
 use crate::geometry::error::PolygonError;
 use crate::geometry::expansion::Expansion;
 use crate::geometry::float_polygon::FloatPolygon;
@@ -128,10 +127,7 @@ fn series(degree: usize, last: usize, step: f64) -> Vec<Number> {
 fn taylor_row(degree: usize, t: f64, factors: &[Number]) -> Vec<Number> {
     let mut row = vec![Number::default(); degree + 1];
     for (k, factor) in factors.iter().enumerate() {
-        let mut values = basis(degree - 2 * k, t);
-        for _ in 0..2 * k {
-            values = undifferenced(&values, Number::default());
-        }
+        let values: Vec<Number> = uniform_basis_derivative(degree, 2 * k, t);
         for (entry, value) in row.iter_mut().zip(values) {
             *entry = *entry + value * *factor;
         }
@@ -149,22 +145,6 @@ fn knot_row(degree: usize, factors: &[Number]) -> Vec<Number> {
         }
     }
     row
-}
-
-/// The n + 1 basis functions of one segment at t, as `uniform_basis` has them in doubles.
-fn basis(degree: usize, t: f64) -> Vec<Number> {
-    let mut values = vec![Number::from(1.0)];
-    for level in 1..=degree {
-        let divisor = level as f64;
-        values.push(Number::default());
-        for index in (1..=level).rev() {
-            let (falling, rising) = ((index + 1) as f64 - t, (level - index) as f64 + t);
-            values[index] =
-                Number::blend(falling, &values[index], rising, &values[index - 1], divisor);
-        }
-        values[0] = values[0] * (1.0 - t) / divisor;
-    }
-    values
 }
 
 fn magnitude(row: &[Number]) -> f64 {

@@ -7,8 +7,8 @@
 //! numbers; only a coefficient that is exactly 0 by its structure has value and bound 0.
 
 use super::scalar::Scalar;
-use super::tables::{bernstein_matrix, binomial_operations, binomials, matrix_operations};
 use crate::geometry::expansion::DoubleDouble;
+use crate::geometry::tables::{bernstein_matrix, binomials};
 
 /// The smallest error bound of a number that is not an exact 0. Curves come normalised to
 /// size 1, so that products of two such bounds, and their roundings, stay within the range of
@@ -103,8 +103,7 @@ impl<T: Scalar> Arena<T> {
     pub(super) fn convert(&mut self, controls: &[DoubleDouble], bounds: &[f64]) -> Polynomial {
         let degree = controls.len() - 1;
         let result = self.push(degree);
-        let unit =
-            T::table_error(matrix_operations(degree)) + T::UNIT * (degree as f64 + 3.0) * SLACK;
+        let unit = T::TABLE_ERROR + T::UNIT * (degree as f64 + 3.0) * SLACK;
         let matrix = bernstein_matrix(degree);
         for (j, row) in matrix.chunks_exact(degree + 1).enumerate() {
             let (mut value, mut error) = (T::default(), 0.0);
@@ -161,7 +160,7 @@ impl<T: Scalar> Arena<T> {
         }
         let degree = polynomial.degree;
         let result = self.push(degree);
-        let unit = T::table_error(binomial_operations(degree)) + 2.0 * T::UNIT;
+        let unit = T::TABLE_ERROR + 2.0 * T::UNIT;
         let (values, new_values) = self.values.split_at_mut(result.start);
         let (errors, new_errors) = self.errors.split_at_mut(result.start);
         let old = values[polynomial.range()]

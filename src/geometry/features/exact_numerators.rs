@@ -14,6 +14,7 @@ use super::feature::Quantity;
 use super::floating::Floating;
 use super::numerators::Function;
 use super::whole_numbers::{scaled_numbers, whole_numbers};
+use crate::geometry::conversion::bezier_matrix::whole_basis;
 use crate::geometry::float_polygon::FloatPolygon;
 
 /// The most binary digits of a segment's Bernstein coefficients, whatever the degree: 53 for a
@@ -70,7 +71,9 @@ impl ExactSegment {
         });
         let vertices: Vec<_> = vertices.collect();
         let constant = weights.windows(2).all(|pair| pair[0] == pair[1]);
-        let bases = bases(degree);
+        let bases = whole_basis(degree).into_iter();
+        let bases = bases.map(|basis| basis.into_iter().map(BigInt::from).collect());
+        let bases: Vec<_> = bases.map(ExactPolynomial::new).collect();
         from_fn(|k| {
             let mut segment = Self::from_vertices(&bases, &vertices[k..=k + degree], planar);
             segment.unit = Floating::new(&BigInt::one(), exponent.into());
@@ -252,23 +255,6 @@ impl ExactSegment {
         let offset = dot(&self.moment(), &self.curve[2]);
         volume.plus(-1, &offset.times(&self.weight[order]))
     }
-}
-
-/// The n + 1 basis functions of a segment of degree n times n!, by the recurrence of Cox and de
-/// Boor on whole knots: k Bⱼᵏ = (t + k − j) Bⱼ₋₁ᵏ⁻¹ + (j + 1 − t) Bⱼᵏ⁻¹.
-fn bases(degree: usize) -> Vec<ExactPolynomial> {
-    let line = |ends: [usize; 2]| ExactPolynomial::new(ends.map(BigInt::from).to_vec());
-    let mut bases = vec![ExactPolynomial::constant(1)];
-    for k in 1..=degree {
-        let mut next = vec![ExactPolynomial::default(); k + 1];
-        for (j, basis) in bases.iter().enumerate() {
-            let [falling, rising] = [line([j + 1, j]), line([k - j - 1, k - j])];
-            next[j] = std::mem::take(&mut next[j]).plus(1, &falling.times(basis));
-            next[j + 1] = rising.times(basis);
-        }
-        bases = next;
-    }
-    bases
 }
 
 fn derivatives(polynomial: ExactPolynomial) -> [ExactPolynomial; 5] {

@@ -47,7 +47,6 @@ mod separation;
 mod sign_piece;
 mod sign_walk;
 mod square_free;
-mod tables;
 mod trends;
 mod values;
 mod variations;

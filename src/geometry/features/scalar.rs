@@ -12,14 +12,14 @@ pub(super) trait Scalar:
     /// terms' magnitudes.
     const UNIT: f64;
 
+    /// A bound of the relative error of an entry of a table.
+    const TABLE_ERROR: f64;
+
     /// Convert from the wide type, rounding.
     fn from_wide(value: DoubleDouble) -> Self;
 
     /// The rounding error of that conversion.
     fn conversion_error(value: DoubleDouble) -> f64;
-
-    /// Bound the relative error of a table entry that took so many operations on wide numbers.
-    fn table_error(operations: f64) -> f64;
 
     /// The nearest double.
     fn rounded(self) -> f64;
@@ -32,6 +32,7 @@ pub(super) trait Scalar:
 
 impl Scalar for f64 {
     const UNIT: f64 = f64::EPSILON / 2.0;
+    const TABLE_ERROR: f64 = Self::UNIT + DoubleDouble::TABLE_ERROR;
 
     #[inline]
     fn from_wide(value: DoubleDouble) -> Self {
@@ -43,10 +44,6 @@ impl Scalar for f64 {
         value.low().abs()
     }
 
-    fn table_error(operations: f64) -> f64 {
-        Self::UNIT + DoubleDouble::table_error(operations)
-    }
-
     #[inline]
     fn rounded(self) -> f64 {
         self
@@ -56,6 +53,7 @@ impl Scalar for f64 {
 impl Scalar for DoubleDouble {
     // 2⁻¹⁰².
     const UNIT: f64 = f64::EPSILON * f64::EPSILON * 4.0;
+    const TABLE_ERROR: f64 = Self::UNIT;
 
     #[inline]
     fn from_wide(value: DoubleDouble) -> Self {
@@ -65,10 +63,6 @@ impl Scalar for DoubleDouble {
     #[inline]
     fn conversion_error(_: DoubleDouble) -> f64 {
         0.0
-    }
-
-    fn table_error(operations: f64) -> f64 {
-        operations * Self::UNIT
     }
 
     #[inline]

@@ -2,24 +2,15 @@
 
 use std::sync::OnceLock;
 
-use crate::geometry::error::MAX_DEGREE;
-use crate::geometry::expansion::DoubleDouble;
+use super::conversion::bezier_matrix::float_to_bezier;
+use super::error::MAX_DEGREE;
+use super::expansion::{DoubleDouble, Expansion};
 
 /// The highest degree of a product: the torsion or curvature numerator of a rational space
 /// curve has at most 11 n.
 const MAX_PRODUCT: usize = 11 * MAX_DEGREE;
 
-/// Operations behind one entry of [`binomials`], at most, by the degree.
-pub(super) fn binomial_operations(degree: usize) -> f64 {
-    (degree + 1) as f64
-}
-
-/// Operations behind one entry of [`bernstein_matrix`], at most, by the degree.
-pub(super) fn matrix_operations(degree: usize) -> f64 {
-    (4 * degree + 1) as f64
-}
-
-/// List the binomial coefficients of a degree: numbers beyond 106 bits are rounded.
+/// List the binomial coefficients of a degree: numbers beyond 106 bits are rounded once.
 pub(super) fn binomials(degree: usize) -> &'static [DoubleDouble] {
     static ROWS: [OnceLock<Vec<DoubleDouble>>; MAX_PRODUCT + 1] =
         [const { OnceLock::new() }; MAX_PRODUCT + 1];
@@ -28,57 +19,24 @@ pub(super) fn binomials(degree: usize) -> &'static [DoubleDouble] {
 }
 
 fn binomial_row(degree: usize) -> Vec<DoubleDouble> {
-    let mut value = DoubleDouble::from(1.0);
-    let mut row = vec![value; degree + 1];
+    let mut value = Expansion::<3>::from(1.0);
+    let mut row = vec![value.resized(); degree + 1];
     for k in 1..=degree / 2 {
-        let [rising, falling] = [degree + 1 - k, k].map(|count| DoubleDouble::from(count as f64));
-        value = value * rising / falling;
-        row[k] = value;
-        row[degree - k] = value;
+        value = value * (degree + 1 - k) as f64 / k as f64;
+        row[k] = value.resized();
+        row[degree - k] = row[k];
     }
     row
 }
 
 /// List, row by row, the (m + 1)² matrix that takes the control values of one segment of a
 /// uniform B-spline of degree m to its Bernstein coefficients on \[0, 1\].
-///
-/// Coefficient j is the blossom at m − j zeros and j ones. All entries are positive or 0 and
-/// arise without cancellation, each row sums to 1 (Farin, "Curves and Surfaces for CAGD").
 pub(super) fn bernstein_matrix(degree: usize) -> &'static [DoubleDouble] {
     static MATRICES: [OnceLock<Vec<DoubleDouble>>; MAX_DEGREE + 1] =
         [const { OnceLock::new() }; MAX_DEGREE + 1];
     MATRICES
         .get(degree)
-        .map_or(&[], |matrix| matrix.get_or_init(|| blossoms(degree)))
-}
-
-fn blossoms(degree: usize) -> Vec<DoubleDouble> {
-    let size = degree + 1;
-    let mut matrix = vec![DoubleDouble::default(); size * size];
-    for ones in 0..size {
-        for control in 0..size {
-            matrix[ones * size + control] = blossom(degree, ones, control);
-        }
-    }
-    matrix
-}
-
-/// De Boor's algorithm at m − `ones` zeros and `ones` ones, for control values that are 0 but
-/// for a 1 at `control`.
-fn blossom(degree: usize, ones: usize, control: usize) -> DoubleDouble {
-    let mut values = vec![DoubleDouble::default(); degree + 1];
-    values[control] = DoubleDouble::from(1.0);
-    for level in 1..=degree {
-        let argument = if level <= ones { 1 } else { 0 };
-        let width = DoubleDouble::from((degree + 1 - level) as f64);
-        for index in 0..=degree - level {
-            // The knots that this step takes out are index − m + level and index + 1.
-            let falling = DoubleDouble::from((index + 1 - argument) as f64);
-            let rising = DoubleDouble::from((argument + degree - level - index) as f64);
-            values[index] = (values[index] * falling + values[index + 1] * rising) / width;
-        }
-    }
-    values[0]
+        .map_or(&[], |matrix| matrix.get_or_init(|| float_to_bezier(degree)))
 }
 
 #[cfg(test)]
