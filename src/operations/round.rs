@@ -77,19 +77,16 @@ fn closed_rounded(
     polygon: &FloatPolygon,
     digits: usize,
 ) -> Result<Rounded<FloatPolygon>, PolygonError> {
-    let Rounded {
-        polygon: closed,
-        moved,
-        deviation,
-    } = ClampedPolygon::from_float(polygon).rounded(digits)?;
-    let polygon = if polygon.is_periodic() {
-        closed.nearest_periodic_float()?.polygon
+    let closed = ClampedPolygon::from_float(polygon).rounded(digits)?;
+    let rounded = if polygon.is_periodic() {
+        closed.polygon.nearest_periodic_float()?.polygon
     } else {
-        closed.to_float()?
+        closed.polygon.to_float()?
     };
     Ok(Rounded {
-        polygon,
-        moved,
-        deviation,
+        // The float polygon is rounded once more, and a periodic one only comes near.
+        deviation: polygon.deviation(&rounded)?,
+        moved: closed.moved,
+        polygon: rounded,
     })
 }

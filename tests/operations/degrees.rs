@@ -1,0 +1,196 @@
+//! Operations on degree, segments and direction.
+
+use batten::document::{Curve, Edit};
+use batten::geometry::{End, FloatPolygon, MAX_DEGREE};
+use batten::operations::{Deviation, Value};
+use glam::DVec3;
+
+use crate::runner::{ROUNDING, Runner, apart, beside, examples};
+
+fn degree(degree: usize) -> [(&'static str, Value); 1] {
+    [("degree", Value::Whole(degree))]
+}
+
+#[test]
+fn reversing_swaps_and_turns_the_targets_and_twice_changes_nothing() {
+    let runner = Runner::example("hull");
+    let target = beside(runner.polygon(), End::Finish, 0.1, 0.2);
+    let runner = runner.with_target(End::Finish, target);
+    let (outcome, curves) = runner.done("reverse", &[]);
+    assert_eq!(outcome.deviation, Deviation::Exact);
+    let last = runner.polygon().segments() as f64;
+    let off = apart(runner.polygon(), &curves[0].polygon, |u| last - u);
+    assert!(off <= ROUNDING * runner.polygon().size(), "{off:e}");
+    assert_eq!(curves[0].targets.start, Some(target.turned()));
+    assert_eq!(curves[0].targets.finish, None);
+    let (_, again) = Runner::curves(curves).done("reverse", &[]);
+    assert_eq!(&again[0], runner.curve());
+}
+
+#[test]
+fn subdividing_keeps_the_curve() {
+    for (name, runner) in examples() {
+        let (outcome, curves) = runner.done("subdivide", &[]);
+        let polygon = &curves[0].polygon;
+        assert_eq!(outcome.deviation, Deviation::Exact);
+        assert_eq!(outcome.figures[0].value, Value::Whole(polygon.segments()));
+        assert_eq!(polygon.segments(), 2 * runner.polygon().segments());
+        let off = apart(runner.polygon(), polygon, |u| 2.0 * u);
+        assert!(off <= ROUNDING * polygon.size(), "{name}: {off:e}");
+    }
+}
+
+#[test]
+fn another_degree_keeps_the_polygon() {
+    let runner = Runner::example("bottle");
+    let before = runner.polygon();
+    for chosen in [1, 4, MAX_DEGREE] {
+        let (outcome, curves) = runner.done("reinterpret-degree", &degree(chosen));
+        assert_eq!(curves[0].polygon.degree(), chosen);
+        assert_eq!(curves[0].polygon.vertices(), before.vertices());
+        assert_eq!(outcome.deviation, Deviation::Unmeasured);
+    }
+    let (outcome, _) = runner.done("reinterpret-degree", &degree(before.degree()));
+    assert_eq!(
+        (outcome.edits, outcome.deviation),
+        (vec![], Deviation::Exact)
+    );
+    let message = runner.refused("reinterpret-degree", &degree(26));
+    assert_eq!(message, "Degree: 26 is out of range: 1 to 25 is needed");
+    let hull = Runner::example("hull");
+    let message = hull.refused(
+        "reinterpret-degree",
+        &degree(hull.polygon().vertices().len()),
+    );
+    assert_eq!(message, "Degree: 16 is out of range: 1 to 15 is needed");
+    // The default raises as long as there are vertices.
+    let (_, curves) = runner.done("reinterpret-degree", &[]);
+    assert_eq!(curves[0].polygon.degree(), before.degree() + 1);
+    let (_, curves) = Runner::example("hexagon").done("reinterpret-degree", &[]);
+    assert_eq!(curves[0].polygon.degree(), 3);
+}
+
+#[test]
+fn one_segment_is_raised_exactly_and_lowered_again() {
+    let runner = Runner::example("arc");
+    let (outcome, curves) = runner.done("elevate-degree", &degree(12));
+    assert_eq!(outcome.deviation, Deviation::Exact);
+    assert!(outcome.remarks.is_empty());
+    let raised = &curves[0].polygon;
+    assert_eq!(raised.degree(), 12);
+    let size = runner.polygon().size();
+    // The float polygon of degree 12 is large, and so is the rounding of its vertices.
+    assert!(apart(runner.polygon(), raised, |u| u) <= 1e-11 * size);
+    let (outcome, curves) = Runner::of(raised.clone()).done("reduce-degree", &degree(9));
+    assert!(
+        matches!(outcome.deviation, Deviation::AtMost(bound) if bound <= 1e-9 * size),
+        "{:?}",
+        outcome.deviation
+    );
+    assert!(apart(runner.polygon(), &curves[0].polygon, |u| u) <= 1e-9 * size);
+}
+
+#[test]
+fn several_segments_come_as_near_as_the_bound_says() {
+    for (name, runner) in examples() {
+        if runner.polygon().segments() == 1 {
+            continue;
+        }
+        for operation in ["elevate-degree", "reduce-degree"] {
+            let (outcome, curves) = runner.done(operation, &[]);
+            let Deviation::AtMost(bound) = outcome.deviation else {
+                panic!("{name}: {:?}", outcome.deviation);
+            };
+            let off = apart(runner.polygon(), &curves[0].polygon, |u| u);
+            assert!(
+                off <= bound && bound < 0.01 * runner.polygon().size(),
+                "{name}"
+            );
+            assert_eq!(outcome.remarks.is_empty(), operation == "reduce-degree");
+        }
+    }
+}
+
+#[test]
+fn degrees_at_their_limits_are_refused_beforehand() {
+    let points = |count: usize| -> Vec<DVec3> {
+        let turns = (0..count).map(|i| i as f64);
+        turns
+            .map(|turn| DVec3::new(turn.cos(), turn.sin(), 0.0))
+            .collect()
+    };
+    let polygon = |degree, count, periodic| {
+        FloatPolygon::new(degree, points(count), None, periodic).expect("a polygon")
+    };
+    for (degree, count, periodic, operation, expected) in [
+        (
+            1,
+            3,
+            false,
+            "reduce-degree",
+            "the degree is 1 already, the lowest that there is",
+        ),
+        (
+            MAX_DEGREE,
+            30,
+            false,
+            "elevate-degree",
+            "the degree is 25 already, the highest that there is",
+        ),
+        (
+            4,
+            5,
+            true,
+            "elevate-degree",
+            "the degree is 4 already, the highest that a periodic curve of so few segments can have",
+        ),
+    ] {
+        let runner = Runner::of(polygon(degree, count, periodic));
+        assert_eq!(runner.refused(operation, &[]), expected);
+    }
+    let (_, curves) = Runner::of(polygon(4, 6, true)).done("elevate-degree", &[]);
+    assert_eq!(curves[0].polygon.degree(), 5);
+}
+
+#[test]
+fn locked_and_hidden_curves_are_refused_beforehand_by_every_operation() {
+    let runner = || {
+        let runner = Runner::example("s-curve");
+        let target = beside(runner.polygon(), End::Start, 0.1, 0.2);
+        runner.with_target(End::Start, target)
+    };
+    let curve = runner().id();
+    let locked = Edit::SetLocked {
+        curve,
+        locked: true,
+    };
+    let visible = false;
+    let hidden = Edit::SetVisible { curve, visible };
+    for (edit, expected) in [
+        (
+            locked,
+            "“s-curve” is locked: unlock it in the list of curves to change its shape",
+        ),
+        (
+            hidden,
+            "“s-curve” is hidden: show it in the list of curves to change it",
+        ),
+    ] {
+        let runner = runner().edited(edit);
+        for operation in batten::operations::ALL {
+            let refused = operation.check(&runner.input).expect_err("refused");
+            assert_eq!(refused.to_string(), expected, "{}", operation.name);
+        }
+    }
+}
+
+#[test]
+fn other_curves_stay_as_they_are() {
+    let other = Curve::new("other", Runner::example("hull").polygon().clone());
+    let own = Runner::example("s-curve").curve().clone();
+    let runner = Runner::curves(vec![own, other.clone()]);
+    for operation in ["reverse", "subdivide", "elevate-degree", "split", "round"] {
+        let (_, curves) = runner.done(operation, &[]);
+        assert_eq!(curves[1], other, "{operation}");
+    }
+}

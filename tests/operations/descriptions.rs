@@ -1,0 +1,201 @@
+//! What operations say of themselves.
+
+use std::collections::HashSet;
+
+use batten::document::Document;
+use batten::geometry::Progress;
+use batten::operations::{ALL, Input, Kind, OperationError, Unit, Value, find};
+
+use crate::runner::{Runner, examples, operation};
+
+/// What the command line has for itself.
+const RESERVED: [&str; 6] = ["curve", "with", "from-format", "to-format", "help", "list"];
+
+fn is_name(name: &str) -> bool {
+    let mut letters = name.chars();
+    !name.is_empty() && letters.all(|letter| letter.is_ascii_lowercase() || letter == '-')
+}
+
+/// Whether a text begins with a capital letter and is one line without a full stop.
+fn is_phrase(text: &str) -> bool {
+    text.starts_with(char::is_uppercase) && !text.ends_with('.') && !text.contains('\n')
+}
+
+#[test]
+fn the_operations_are_the_known_ones_and_are_found_by_their_names() {
+    let names: Vec<&str> = ALL.iter().map(|operation| operation.name).collect();
+    let expected = [
+        "reverse",
+        "reinterpret-degree",
+        "elevate-degree",
+        "reduce-degree",
+        "subdivide",
+        "extend",
+        "split",
+        "trim",
+        "round",
+        "translate-end",
+        "rotate-end",
+        "correct-ends",
+    ];
+    assert_eq!(names, expected);
+    for operation in ALL {
+        assert_eq!(
+            find(operation.name).map(|found| found.label),
+            Some(operation.label)
+        );
+    }
+    assert!(find("Reverse").is_none());
+}
+
+#[test]
+fn names_are_distinct_and_everything_has_words() {
+    let mut labels = HashSet::new();
+    for operation in ALL {
+        let name = operation.name;
+        assert!(is_name(name), "{name}");
+        assert!(labels.insert(operation.label), "{name}");
+        assert!(
+            is_phrase(operation.label) && is_phrase(operation.help),
+            "{name}"
+        );
+        let mut names: HashSet<&str> = RESERVED.into_iter().collect();
+        let mut shown = HashSet::new();
+        for parameter in operation.parameters {
+            let place = format!("{name} {}", parameter.name);
+            assert!(is_name(parameter.name), "{place}");
+            assert!(names.insert(parameter.name), "{place}");
+            assert!(shown.insert(parameter.label), "{place}");
+            assert!(is_phrase(parameter.label), "{place}");
+            assert!(is_phrase(parameter.help), "{place}");
+            assert!(!parameter.range_words().is_empty(), "{place}");
+            assert!(!parameter.default_words().is_empty(), "{place}");
+            if let Kind::Choice { options, default } = parameter.kind {
+                let names: HashSet<&str> = options.iter().map(|option| option.name).collect();
+                assert_eq!(names.len(), options.len(), "{place}");
+                assert!(names.into_iter().all(is_name), "{place}");
+                assert!(
+                    options.iter().all(|option| is_phrase(option.label)),
+                    "{place}"
+                );
+                assert!(default < options.len(), "{place}");
+            }
+        }
+    }
+}
+
+#[test]
+fn defaults_are_allowed_wherever_the_operation_can_run() {
+    let mut runs = 0;
+    for (name, runner) in examples() {
+        for operation in ALL {
+            if let Err(error) = operation.check(&runner.input) {
+                // Only what a closed curve lacks keeps an operation from an example.
+                assert!(runner.polygon().is_periodic(), "{name}: {error}");
+                assert!(error.to_string().contains("open it first"), "{error}");
+                continue;
+            }
+            let values = operation.values(&runner.input, []);
+            let values =
+                values.unwrap_or_else(|error| panic!("{name} {}: {error}", operation.name));
+            for parameter in operation.parameters {
+                let value = values.get(parameter);
+                assert_eq!(Ok(value), parameter.default(&runner.input));
+                // What is written is read as the same value.
+                assert_eq!(parameter.read(&parameter.text(value)), Ok(value));
+            }
+            let outcome = operation.run(&runner.input, &values, &Progress::default());
+            let outcome =
+                outcome.unwrap_or_else(|error| panic!("{name} {}: {error}", operation.name));
+            assert!(outcome.reached, "{name} {}: {outcome:?}", operation.name);
+            runs += 1;
+        }
+    }
+    assert_eq!(runs, 6 * 12 + 7, "six open examples and a periodic one");
+}
+
+#[test]
+fn values_are_checked_one_by_one() {
+    let runner = Runner::example("s-curve");
+    let check = |name: &str, given: &[(&str, Value)], expected: &str| {
+        assert_eq!(runner.refused(name, given), expected);
+    };
+    check(
+        "split",
+        &[("at", Value::Real(5.0))],
+        "At u: 5 is out of range: more than 0 and less than 5 is needed",
+    );
+    check(
+        "trim",
+        &[("from", Value::Real(-0.5))],
+        "From u: -0.5 is out of range: at least 0 and less than 5 is needed",
+    );
+    check(
+        "reduce-degree",
+        &[("degree", Value::Whole(5))],
+        "Degree: 5 is out of range: 1 to 4 is needed",
+    );
+    check(
+        "split",
+        &[("at", Value::Whole(1))],
+        "At u: a parameter u, more than 0 and less than the number of segments is needed",
+    );
+    check(
+        "split",
+        &[("at", Value::Real(f64::NAN))],
+        "At u: a parameter u, more than 0 and less than the number of segments is needed",
+    );
+    check(
+        "extend",
+        &[("end", Value::Choice(2))],
+        "End: start or end is needed",
+    );
+    check(
+        "reverse",
+        &[("at", Value::Real(1.0))],
+        "there is no parameter “at”",
+    );
+    check(
+        "trim",
+        &[("from", Value::Real(3.0)), ("to", Value::Real(2.0))],
+        "there is no part from u = 3 to u = 2: the curve runs from 0 to 5, and a part from a smaller to a larger parameter in it",
+    );
+}
+
+#[test]
+fn what_is_typed_is_read_with_the_limits_that_are_known() {
+    let parameters = operation("extend").parameters;
+    let [end, segments] = parameters else {
+        panic!("two parameters");
+    };
+    assert_eq!(end.read("start"), Ok(Value::Choice(0)));
+    assert_eq!(segments.read(" 12 "), Ok(Value::Whole(12)));
+    for text in ["", "0", "-1", "1.5", "10001", "many"] {
+        assert!(segments.read(text).is_err(), "{text}");
+    }
+    let tolerance = operation("correct-ends").parameters[1];
+    assert_eq!(tolerance.unit(), Unit::Length);
+    assert_eq!(tolerance.read("1e-6"), Ok(Value::Real(1e-6)));
+    for text in ["0", "-1", "inf", "NaN"] {
+        assert!(tolerance.read(text).is_err(), "{text}");
+    }
+}
+
+#[test]
+fn an_operation_runs_on_nothing_but_the_inputs_it_wants() {
+    let runner = Runner::example("arc");
+    let document = runner.input.document();
+    let none = Input::new(document, []).expect("none is there");
+    let twice = Input::new(document, [runner.id(), runner.id()]).expect("it is there");
+    let points = runner.input.clone().with_points(vec![glam::DVec3::ZERO]);
+    for operation in ALL {
+        for input in [&none, &twice, &points] {
+            let refused = operation.check(input).expect_err("refused");
+            assert!(matches!(refused, OperationError::Inputs { .. }));
+            assert_eq!(refused.to_string(), "choose one curve");
+            assert!(operation.values(input, []).is_err());
+        }
+    }
+    let gone = Input::new(&Document::default(), [runner.id()]).expect_err("not there");
+    assert_eq!(gone.to_string(), "the curve is no longer in the document");
+}

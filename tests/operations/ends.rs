@@ -1,0 +1,188 @@
+//! Operations that bring ends to their targets.
+
+use batten::geometry::end_correction::{EndDifference, EndTarget};
+use batten::geometry::{End, FloatPolygon};
+use batten::operations::{Deviation, Mark, Value};
+use glam::DVec3;
+
+use crate::runner::{Runner, apart, beside};
+
+/// What is left at an end that meets its target, in units of the curve's size.
+const MET: f64 = 1e-12;
+
+const STEPS: (&str, Value) = ("method", Value::Choice(1));
+
+/// An example with targets at both ends.
+fn both(name: &str) -> Runner {
+    let runner = Runner::example(name);
+    let targets = End::BOTH.map(|end| beside(runner.polygon(), end, 0.02, 0.1));
+    runner
+        .with_target(End::Start, targets[0])
+        .with_target(End::Finish, targets[1])
+}
+
+fn residual(polygon: &FloatPolygon, end: End, target: EndTarget) -> f64 {
+    EndDifference::between(polygon, end, &target).residual(polygon.size())
+}
+
+#[test]
+fn a_translation_and_a_rotation_meet_the_target_and_keep_the_curvature() {
+    let runner = Runner::example("hull");
+    let (end, size) = (End::Finish, runner.polygon().size());
+    let target = beside(runner.polygon(), end, 0.02, 0.1);
+    let runner = runner.with_target(end, target);
+    let jet = runner.polygon().end_jet(end);
+    let (translated, curves) = runner.done("translate-end", &[]);
+    assert!(translated.residual.is_some_and(|left| left <= MET * size));
+    let actual = curves[0].polygon.end_jet(end);
+    assert!(actual.point.distance(target.point) <= MET * size);
+    let tangents = [jet, actual].map(|jet| jet.tangent().expect("a tangent"));
+    assert!(tangents[0].distance(tangents[1]) <= MET);
+    let Value::Real(way) = translated.figures[0].value else {
+        panic!("a length");
+    };
+    assert!((way / (0.02 * size) - 1.0).abs() <= MET, "{way}");
+    let arrow = Mark::Arrow {
+        from: jet.point,
+        to: target.point,
+    };
+    assert_eq!(translated.marks, [arrow, Mark::Point(target.point)]);
+    let Deviation::AtMost(bound) = translated.deviation else {
+        panic!("{:?}", translated.deviation);
+    };
+    assert!(apart(runner.polygon(), &curves[0].polygon, |u| u) <= bound);
+    let (rotated, curves) = Runner::curves(curves).done("rotate-end", &[]);
+    assert!(rotated.residual.is_some_and(|left| left <= MET * size));
+    assert!(residual(&curves[0].polygon, end, target) <= MET * size);
+    let Value::Real(angle) = rotated.figures[0].value else {
+        panic!("an angle");
+    };
+    assert!((angle - 0.1).abs() <= 1e-12, "{angle}");
+    let change = curves[0].polygon.end_jet(end).signed_curvature() / jet.signed_curvature();
+    assert!((change - 1.0).abs() < 1e-9, "{change}");
+}
+
+#[test]
+fn both_methods_correct_ends_that_share_no_vertex() {
+    let runner = both("bottle");
+    let size = runner.polygon().size();
+    for given in [&[][..], &[STEPS]] {
+        let (outcome, curves) = runner.done("correct-ends", given);
+        let left = outcome.residual.expect("a residual");
+        assert!(left <= 1e-9 * size, "{left:e}");
+        for (end, target) in runner.curve().targets.list() {
+            assert!(residual(&curves[0].polygon, end, target) <= left.max(MET * size));
+        }
+        assert_eq!(outcome.figures[0].value, Value::Whole(1));
+        assert_eq!(outcome.marks.len(), 4);
+    }
+}
+
+#[test]
+fn the_loop_stops_on_the_papers_arc_and_both_ends_at_once_correct_it() {
+    let runner = both("arc");
+    let outcome = runner.run("correct-ends", &[STEPS]).expect("it can run");
+    assert!(!outcome.reached);
+    assert_eq!(outcome.edits, []);
+    let left = outcome.residual.expect("a residual");
+    assert!(left > 1e-3, "{left}");
+    let remark = &outcome.remarks[0];
+    assert!(remark.starts_with("Stopped after "), "{remark}");
+    assert!(
+        remark.contains("the curve is one segment") && remark.ends_with("Use “both ends at once”"),
+        "{remark}"
+    );
+    let (outcome, _) = runner.done("correct-ends", &[]);
+    let left = outcome.residual.expect("a residual");
+    assert!(left <= MET * runner.polygon().size(), "{left:e}");
+}
+
+#[test]
+fn an_end_without_a_target_keeps_its_point_and_direction() {
+    let runner = Runner::example("arc");
+    let target = beside(runner.polygon(), End::Finish, 0.02, 0.1);
+    let runner = runner.with_target(End::Finish, target);
+    let (_, curves) = runner.done("correct-ends", &[]);
+    let [before, after] =
+        [runner.polygon(), &curves[0].polygon].map(|polygon| polygon.end_jet(End::Start));
+    let size = runner.polygon().size();
+    assert!(before.point.distance(after.point) <= MET * size);
+    let tangents = [before, after].map(|jet| jet.tangent().expect("a tangent"));
+    assert!(tangents[0].distance(tangents[1]) <= MET);
+}
+
+#[test]
+fn what_is_within_the_tolerance_is_left_as_it_is() {
+    let runner = both("hull");
+    let loose = ("tolerance", Value::Real(runner.polygon().size()));
+    for given in [&[loose][..], &[loose, STEPS]] {
+        let (outcome, _) = runner.done("correct-ends", given);
+        assert_eq!(outcome.edits, []);
+        assert_eq!(outcome.figures[0].value, Value::Whole(0));
+        assert_eq!(outcome.remarks, ["Already within the tolerance"]);
+    }
+}
+
+#[test]
+fn what_cannot_be_reached_is_told_with_what_is_left() {
+    // Two points cannot have two directions that are not their chord's.
+    let polygon = FloatPolygon::planar(1, &[(0.0, 0.0), (1.0, 0.0)]).expect("a polygon");
+    let target = |x| EndTarget {
+        point: DVec3::new(x, 0.0, 0.0),
+        direction: Some(DVec3::Y),
+    };
+    let runner = Runner::of(polygon)
+        .with_target(End::Start, target(0.0))
+        .with_target(End::Finish, target(1.0));
+    let outcome = runner.run("correct-ends", &[]).expect("it can run");
+    assert!(!outcome.reached && outcome.edits.is_empty());
+    assert!(outcome.residual.is_some_and(|left| left > 0.1));
+    assert!(
+        outcome.remarks[0].contains("cannot meet these end conditions"),
+        "{}",
+        outcome.remarks[0]
+    );
+    // A tolerance below rounding is not reached either.
+    let tiny = ("tolerance", Value::Real(f64::MIN_POSITIVE));
+    let outcome = both("hull")
+        .run("correct-ends", &[tiny])
+        .expect("it can run");
+    assert!(outcome.reached == (outcome.residual == Some(0.0)));
+    assert_eq!(outcome.edits.is_empty(), !outcome.reached);
+    // A cusp has no direction to turn.
+    let cusp = FloatPolygon::planar(2, &[(0.0, 0.0), (0.0, 0.0), (1.0, 0.0)]);
+    let runner = Runner::of(cusp.expect("a polygon")).with_target(End::Start, target(0.0));
+    let outcome = runner.run("rotate-end", &[("end", Value::Choice(0))]);
+    let outcome = outcome.expect("it can run");
+    assert!(!outcome.reached && outcome.edits.is_empty());
+    assert_eq!(
+        outcome.remarks,
+        ["The curve has no direction at its start: a cusp"]
+    );
+}
+
+#[test]
+fn missing_targets_and_directions_are_refused() {
+    let runner = Runner::example("hull");
+    for operation in ["translate-end", "rotate-end", "correct-ends"] {
+        assert_eq!(
+            runner.refused(operation, &[]),
+            "no end of the curve has a target: set one first"
+        );
+    }
+    let target = EndTarget {
+        point: DVec3::ZERO,
+        direction: None,
+    };
+    let runner = runner.with_target(End::Finish, target);
+    assert_eq!(
+        runner.refused("translate-end", &[("end", Value::Choice(0))]),
+        "the start has no target: set one first"
+    );
+    assert_eq!(
+        runner.refused("rotate-end", &[]),
+        "the target of the end has no direction: set a target direction first"
+    );
+    let message = Runner::example("periodic").refused("correct-ends", &[]);
+    assert!(message.ends_with("open it first"), "{message}");
+}

@@ -1,0 +1,12 @@
+//! Operations: their descriptions, what they do to curves, what they report and refuse.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod degrees;
+mod descriptions;
+mod ends;
+mod parts;
+mod random;
+mod reports;
+mod runner;

@@ -1,0 +1,95 @@
+//! Operations with random values.
+
+use std::ops::Bound;
+
+use batten::geometry::Progress;
+use batten::operations::{ALL, Input, Kind, OperationError, Parameter, Report, Value};
+
+use crate::common::Random;
+use crate::runner::examples;
+
+/// Rounds over all examples and operations.
+const ROUNDS: usize = 5;
+
+/// The largest whole number that is drawn: more only takes longer.
+const MOST: f64 = 60.0;
+
+/// Draw a value that the parameter allows for the input.
+fn value(parameter: &Parameter, input: &Input, random: &mut Random) -> Value {
+    let limits = parameter.limits(input).expect("there is a curve");
+    let (from, to) = limits.unwrap_or((Bound::Unbounded, Bound::Unbounded));
+    let number = |bound| match bound {
+        Bound::Included(number) | Bound::Excluded(number) => Some(number),
+        Bound::Unbounded => None,
+    };
+    let low = number(from).unwrap_or(-1e3);
+    match parameter.kind {
+        Kind::Whole { .. } => {
+            let high = number(to).unwrap_or(MOST).min(low + MOST);
+            // Small ones are drawn more often: time grows with some exponentially.
+            let share = random.between(0.0, 1.0).powi(3);
+            Value::Whole((low + share * (high + 1.0 - low)).min(high) as usize)
+        }
+        Kind::Real { .. } => {
+            let high = number(to).unwrap_or(low + 1e3);
+            let value = random.between(low, high);
+            // Whole and halved parameters are the special ones.
+            let nice = (2.0 * value).round() / 2.0;
+            let allowed = parameter.check(Value::Real(nice), input).is_ok();
+            Value::Real(if allowed && random.bits() % 2 == 0 {
+                nice
+            } else {
+                value
+            })
+        }
+        Kind::Choice { options, .. } => {
+            Value::Choice((random.bits() % options.len() as u64) as usize)
+        }
+        Kind::Switch { .. } => Value::Switch(random.bits() % 2 == 0),
+    }
+}
+
+#[test]
+fn random_values_neither_panic_nor_make_edits_that_are_refused() {
+    let mut random = Random(0x0b5e_55ed);
+    let (mut reached, mut refused) = (0, 0);
+    for round in 0..ROUNDS {
+        for (name, runner) in examples() {
+            let input = &runner.input;
+            for operation in ALL {
+                if operation.check(input).is_err() {
+                    continue;
+                }
+                let parameters = operation.parameters.iter();
+                let given: Vec<(&str, Value)> = parameters
+                    .map(|parameter| (parameter.name, value(parameter, input, &mut random)))
+                    .collect();
+                let place = format!("round {round}: {name} {} {given:?}", operation.name);
+                let values = operation.values(input, given.iter().copied());
+                let values = values.unwrap_or_else(|error| panic!("{place}: {error}"));
+                let outcome = operation.run(input, &values, &Progress::default());
+                let outcome = match outcome {
+                    Ok(outcome) => outcome,
+                    Err(OperationError::Polygon(error)) => {
+                        assert!(!error.to_string().is_empty());
+                        refused += 1;
+                        continue;
+                    }
+                    Err(error) => panic!("{place}: {error}"),
+                };
+                let after = outcome.applied_to(input.document());
+                let after = after.unwrap_or_else(|error| panic!("{place}: {error}"));
+                if !outcome.reached {
+                    assert_eq!(outcome.edits, [], "{place}");
+                    assert!(after.is_same(input.document()), "{place}");
+                }
+                let report = Report::new(operation, input, &outcome);
+                assert!(report.summary().starts_with(operation.label), "{place}");
+                let largest = report.largest_move.map_or(0.0, |largest| largest.distance);
+                assert!(largest.is_finite(), "{place}");
+                reached += usize::from(outcome.reached);
+            }
+        }
+    }
+    assert!(reached > 300 && refused > 5, "{reached} {refused}");
+}
