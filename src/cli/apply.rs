@@ -203,3 +203,6 @@ fn there_are(document: &Document) -> String {
         names => format!("there are {}", names.join(", ")),
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -84,7 +84,7 @@ impl FromArgMatches for ApplyArguments {
 
 impl Given {
     /// Take what was given for an operation, by the command that was made of it.
-    fn new(operation: &'static Operation, matches: &ArgMatches) -> Self {
+    pub(super) fn new(operation: &'static Operation, matches: &ArgMatches) -> Self {
         let path = |name| matches.try_get_one::<PathBuf>(name).ok().flatten().cloned();
         let format = |name| matches.try_get_one::<Format>(name).ok().flatten().copied();
         let name = |name| matches.try_get_one::<String>(name).ok().flatten().cloned();
@@ -106,7 +106,7 @@ impl Given {
 }
 
 /// Describe an operation as a command.
-fn command_of(operation: &'static Operation) -> Command {
+pub(super) fn command_of(operation: &'static Operation) -> Command {
     let (input, has_curves, has_other) = match operation.inputs {
         Inputs::None => (None, false, false),
         Inputs::One => (Some(CURVES), true, false),

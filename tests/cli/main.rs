@@ -1,5 +1,6 @@
 //! The real program from a shell.
 
+mod apply;
 mod folder;
 mod inspect;
 mod streams;

@@ -1,0 +1,419 @@
+//! `batten apply` from a shell.
+
+use std::fs;
+
+use serde_json::{Value, json};
+
+use super::folder::*;
+
+/// The keys that every report has.
+const KEYS: [&str; 8] = [
+    "operation",
+    "reached",
+    "residual",
+    "deviation",
+    "largest_move",
+    "features_before",
+    "features_after",
+    "remarks",
+];
+
+/// The keys of the features of each curve.
+const COUNTS: [&str; 8] = [
+    "name",
+    "inflections",
+    "curvature_extrema",
+    "torsion_zeros",
+    "torsion_extrema",
+    "cusps",
+    "undecided",
+    "monotone",
+];
+
+/// A folder with an example.
+fn with_example(name: &str) -> (Folder, String) {
+    let folder = Folder::new();
+    let file = format!("{name}.batten");
+    folder.done(&["example", name, &file]);
+    (folder, file)
+}
+
+/// Apply an operation and read its report.
+fn report(folder: &Folder, arguments: &[&str]) -> Value {
+    let (out, err) = folder.done(&[&["apply"], arguments].concat());
+    assert_eq!(err, "");
+    serde_json::from_str(&out).unwrap()
+}
+
+fn curves(folder: &Folder, file: &str) -> Value {
+    folder.inspect(&[file])["curves"].clone()
+}
+
+fn keys(value: &Value) -> Vec<&str> {
+    value
+        .as_object()
+        .unwrap()
+        .keys()
+        .map(String::as_str)
+        .collect()
+}
+
+/// Targets beside both ends of a curve.
+fn with_targets(folder: &Folder, file: &str, off: f64) {
+    let text = fs::read_to_string(folder.path(file)).unwrap();
+    let mut project: Value = serde_json::from_str(&text).unwrap();
+    let ends = curves(folder, file)[0]["ends"].clone();
+    let target = |end: &str| {
+        let point = numbers(&ends[end]["point"]);
+        let tangent = numbers(&ends[end]["tangent"]);
+        json!({
+            "point": [point[0] + off, point[1] - off],
+            "direction": [tangent[0] - 0.1 * tangent[1], tangent[1] + 0.1 * tangent[0]],
+        })
+    };
+    project["curves"][0]["targets"] = json!({"start": target("start"), "end": target("end")});
+    fs::write(folder.path(file), project.to_string()).unwrap();
+}
+
+#[test]
+fn every_operation_is_listed_has_help_and_reports_by_one_schema() {
+    let (folder, file) = with_example("hull");
+    with_targets(&folder, &file, 30.0);
+    let (list, _) = folder.done(&["apply", "--list"]);
+    let names: Vec<&str> = list
+        .lines()
+        .filter_map(|line| line.split(' ').next())
+        .collect();
+    assert_eq!(names.len(), 12);
+    for name in names {
+        let (help, _) = folder.done(&["apply", name, "--help"]);
+        for word in [
+            "<IN>",
+            "<OUT>",
+            "--curve <NAME>",
+            "--from-format",
+            "--to-format",
+        ] {
+            assert!(help.contains(word), "{name}: {word} in {help}");
+        }
+        let report = report(&folder, &[name, &file, "out.batten"]);
+        assert_eq!(report["operation"], name);
+        assert_eq!(report["reached"], true);
+        let found = keys(&report);
+        assert!(
+            KEYS.iter().all(|key| found.contains(key)),
+            "{name}: {found:?}"
+        );
+        for side in ["features_before", "features_after"] {
+            for counts in report[side].as_array().unwrap() {
+                let found = keys(counts);
+                assert_eq!(found.len(), COUNTS.len());
+                assert!(
+                    COUNTS.iter().all(|key| found.contains(key)),
+                    "{name}: {found:?}"
+                );
+            }
+        }
+        folder.inspect(&["out.batten"]);
+    }
+    let (help, _) = folder.done(&["--help"]);
+    assert!(help.contains("apply"), "{help}");
+}
+
+#[test]
+fn help_describes_each_parameter_with_range_and_default() {
+    let folder = Folder::new();
+    for (operation, words) in [
+        (
+            "trim",
+            &[
+                "--from <U>",
+                "a parameter u, at least 0 and less than the number of segments; default: the knot in the middle (0.5 for one segment)",
+                "--to <U>",
+                "default: the number of segments",
+                "--subdivisions <N>",
+                "a whole number, 0 to 12; default: 0",
+            ][..],
+        ),
+        (
+            "reduce-degree",
+            &[
+                "--degree <N>",
+                "a whole number, 1 to the degree − 1; default: the degree − 1",
+            ],
+        ),
+        (
+            "correct-ends",
+            &[
+                "--method <WORD>",
+                "[default: joint]",
+                "- joint: Both ends at once",
+                "- steps: Step by step",
+                "--tolerance <LENGTH>",
+                "a length, more than 0; default: 1e-9 of the size of the polygon",
+            ],
+        ),
+        (
+            "extend",
+            &[
+                "--end <WORD>",
+                "[default: end]",
+                "a whole number, 1 to 10000; default: 1",
+            ],
+        ),
+        (
+            "round",
+            &[
+                "- float:",
+                "- clamped:",
+                "a whole number, 0 to 17; default: 3",
+            ],
+        ),
+    ] {
+        let (help, _) = folder.done(&["apply", operation, "--help"]);
+        for words in words {
+            assert!(help.contains(words), "{words} in {help}");
+        }
+    }
+}
+
+#[test]
+fn splitting_writes_both_parts_and_reports_features() {
+    let (folder, file) = with_example("s-curve");
+    let report = report(&folder, &["split", &file, "out.csv", "--at", "1"]);
+    let parts = curves(&folder, "out.csv");
+    let before = curves(&folder, &file)[0].clone();
+    assert_eq!(parts.as_array().unwrap().len(), 2);
+    let vertices = before["float"].as_array().unwrap();
+    assert_eq!(parts[0]["float"], json!(vertices[..6]));
+    assert_eq!(parts[1]["float"], json!(vertices[1..]));
+    assert_eq!(report["deviation"], 0.0);
+    assert_eq!(report["largest_move"], json!(null));
+    assert_eq!(report["first_vertices"], 6);
+    assert_eq!(report["second_vertices"], 9);
+    let told = |side: &str| -> Vec<(String, u64)> {
+        let counts = report[side].as_array().unwrap().iter();
+        let told = counts.map(|counts| {
+            let extrema = counts["curvature_extrema"].as_u64().unwrap();
+            (counts["name"].as_str().unwrap().to_owned(), extrema)
+        });
+        told.collect()
+    };
+    assert_eq!(told("features_before"), [("s-curve".to_owned(), 2)]);
+    assert_eq!(
+        told("features_after"),
+        [("s-curve".to_owned(), 1), ("s-curve 2".to_owned(), 1)]
+    );
+    // What is reported is what inspect finds.
+    for part in 0..2 {
+        let found = parts[part]["features"]["curvature_extrema"]
+            .as_array()
+            .unwrap();
+        assert_eq!(found.len(), 1);
+    }
+}
+
+#[test]
+fn a_file_may_be_replaced_by_its_own_result_and_keeps_what_is_unknown() {
+    let curve = |name: &str, note: &str| {
+        let vertices = [[0, 0], [1, 2], [3, 2], [4, 0]];
+        json!({"name": name, "degree": 3, "vertices": vertices, "note": note})
+    };
+    let mut text: Value =
+        serde_json::from_str(&project(json!([curve("a", "x"), curve("b", "y")]))).unwrap();
+    text["client"] = json!("K & Söhne");
+    let folder = Folder::new().with("two.batten", text.to_string());
+    let arguments = [
+        "apply",
+        "reverse",
+        "two.batten",
+        "two.batten",
+        "--curve",
+        "b",
+    ];
+    let (out, err) = folder.done(&arguments);
+    assert!(out.contains("\"reached\": true"), "{out}");
+    assert!(err.contains("note") && err.contains("client"), "{err}");
+    let after: Value =
+        serde_json::from_str(&fs::read_to_string(folder.path("two.batten")).unwrap()).unwrap();
+    assert_eq!(after["client"], "K & Söhne");
+    let found = after["curves"].as_array().unwrap().iter();
+    let found = found.map(|curve| {
+        (
+            &curve["name"],
+            &curve["note"],
+            numbers(&curve["vertices"][0]),
+        )
+    });
+    assert_eq!(
+        found.collect::<Vec<_>>(),
+        [
+            (&json!("a"), &json!("x"), vec![0.0, 0.0]),
+            (&json!("b"), &json!("y"), vec![4.0, 0.0])
+        ]
+    );
+}
+
+#[test]
+fn the_curve_must_be_told_where_there_are_several() {
+    let curve = |name: &str| json!({"name": name, "degree": 1, "vertices": [[0, 0], [1, 2]]});
+    let names = ["hull", "deck", "deck"];
+    let folder = Folder::new()
+        .with("three.batten", project(json!(names.map(curve))))
+        .with("none.batten", project(json!([])));
+    let refused = |file: &str, more: &[&str], expected: &str| {
+        let arguments = [&["apply", "reverse", file, "out.batten"], more].concat();
+        folder.refused(&arguments, &format!("{file}: {expected}"));
+        assert!(!folder.path("out.batten").exists());
+    };
+    refused(
+        "three.batten",
+        &[],
+        "choose one with --curve: there are “hull”, “deck”, “deck”",
+    );
+    refused(
+        "three.batten",
+        &["--curve", "keel"],
+        "there is no curve “keel”: there are “hull”, “deck”, “deck”",
+    );
+    refused(
+        "three.batten",
+        &["--curve", "deck"],
+        "there are 2 curves “deck”: give them different names first",
+    );
+    refused("none.batten", &[], "there is no curve");
+    folder.done(&[
+        "apply",
+        "reverse",
+        "three.batten",
+        "out.batten",
+        "--curve",
+        "hull",
+    ]);
+}
+
+#[test]
+fn what_is_not_reached_is_reported_and_nothing_is_written() {
+    let (folder, file) = with_example("arc");
+    with_targets(&folder, &file, 0.3);
+    let arguments = [
+        "apply",
+        "correct-ends",
+        &file,
+        "out.batten",
+        "--method",
+        "steps",
+    ];
+    let output = folder.run(&arguments);
+    let (out, err) = texts(&output);
+    assert_eq!(output.status.code(), Some(1), "{err}");
+    assert!(
+        err.starts_with("batten: Correct ends: not reached, nothing is changed; "),
+        "{err}"
+    );
+    let found: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(found["reached"], false);
+    assert!(found["residual"].as_f64().unwrap() > 1e-3);
+    assert!(found["passes"].as_u64().unwrap() > 0);
+    assert_eq!(found["features_before"], found["features_after"]);
+    assert!(!folder.path("out.batten").exists());
+    // With the curve on the standard output the report stands alone on the standard error.
+    let arguments = [
+        "apply",
+        "correct-ends",
+        &file,
+        "-",
+        "--to-format",
+        "csv",
+        "--method",
+        "steps",
+    ];
+    let output = folder.run(&arguments);
+    let (out, err) = texts(&output);
+    assert_eq!((output.status.code(), out.as_str()), (Some(1), ""));
+    assert_eq!(serde_json::from_str::<Value>(&err).unwrap(), found);
+    let found = report(&folder, &["correct-ends", &file, "out.batten"]);
+    assert_eq!(found["reached"], true);
+    assert!(found["residual"].as_f64().unwrap() < 1e-8);
+    assert!(found["largest_move"]["distance"].as_f64().unwrap() > 0.0);
+}
+
+#[test]
+fn the_curve_may_come_and_go_by_pipes() {
+    let (folder, file) = with_example("hexagon");
+    let (project, err) = folder.done(&["apply", "subdivide", &file, "-", "--to-format", "batten"]);
+    let report: Value = serde_json::from_str(&err).unwrap();
+    assert_eq!(report["segments"], 2);
+    let written: Value = serde_json::from_str(&project).unwrap();
+    assert_eq!(
+        written["curves"][0]["vertices"].as_array().unwrap().len(),
+        5
+    );
+    folder.misused(&["apply", "reverse", "-", "out.csv"], "--from-format says");
+    folder.misused(&["apply", "reverse", &file, "-"], "--to-format says");
+}
+
+#[test]
+fn bad_values_and_bad_usage_are_told_apart() {
+    let (folder, file) = with_example("hull");
+    let split = |at: &'static str| ["apply", "split", "hull.batten", "out.batten", "--at", at];
+    // Only the curve tells that there is no such place.
+    folder.refused(
+        &split("10.5"),
+        "hull.batten: At u: 10.5 is out of range: more than 0 and less than 10 is needed",
+    );
+    for at in ["-1", "0", "NaN", "inf", "here", ""] {
+        folder.misused(&split(at), "At u: ");
+    }
+    let apply = |arguments: &[&'static str]| [&["apply"], arguments].concat();
+    for (arguments, expected) in [
+        (
+            &["revers", "a.batten", "b.batten"][..],
+            "a similar subcommand exists: 'reverse'",
+        ),
+        (&["reverse"], "required"),
+        (&["reverse", "a.batten"], "required"),
+        (
+            &["reverse", "a.batten", "b.batten", "--at", "1"],
+            "unexpected argument",
+        ),
+        (
+            &["round", "a.batten", "b.batten", "--polygon", "bezier"],
+            "possible values: float, clamped",
+        ),
+        (
+            &["round", "a.batten", "b.batten", "--digits", "18"],
+            "0 to 17 is needed",
+        ),
+        (
+            &["extend", "a.batten", "b.batten", "--segments", "1.5"],
+            "a whole number",
+        ),
+        (
+            &["--list", "reverse", "a.batten", "b.batten"],
+            "cannot be used with",
+        ),
+        (&[], "Usage"),
+    ] {
+        folder.misused(&apply(arguments), expected);
+    }
+    folder.refused(
+        &["apply", "reverse", &file, "out.txt"],
+        "out.txt: “.txt” is not a format Batten knows: use one of .batten, .csv, .dxf",
+    );
+    folder.refused(
+        &["apply", "translate-end", &file, "out.batten"],
+        "hull.batten: no end of the curve has a target: set one first",
+    );
+    assert_eq!(fs::read_dir(folder.path(".")).unwrap().count(), 1);
+}
+
+#[test]
+fn a_locked_curve_is_not_changed() {
+    let curve = json!([{"name": "a", "degree": 1, "vertices": [[0, 0], [1, 2]], "locked": true}]);
+    let folder = Folder::new().with("a.batten", project(curve));
+    folder.refused(
+        &["apply", "reverse", "a.batten", "b.batten"],
+        "a.batten: “a” is locked: unlock it in the list of curves to change its shape",
+    );
+}
