@@ -57,7 +57,7 @@ const TOLERANCE: Parameter = Parameter {
     },
 };
 
-/// Describes it.
+/// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
     name: "correct-ends",
     label: "Correct ends",

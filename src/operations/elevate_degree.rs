@@ -29,7 +29,7 @@ const DEGREE: Parameter = Parameter {
     },
 };
 
-/// Describes it.
+/// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
     name: "elevate-degree",
     label: "Raise degree, keep curve",

@@ -27,7 +27,7 @@ const SEGMENTS: Parameter = Parameter {
     },
 };
 
-/// Describes it.
+/// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
     name: "extend",
     label: "Extend curve",

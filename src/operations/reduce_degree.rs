@@ -26,7 +26,7 @@ const DEGREE: Parameter = Parameter {
     },
 };
 
-/// Describes it.
+/// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
     name: "reduce-degree",
     label: "Lower degree, keep curve",

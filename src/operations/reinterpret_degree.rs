@@ -35,7 +35,7 @@ const DEGREE: Parameter = Parameter {
     },
 };
 
-/// Describes it.
+/// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
     name: "reinterpret-degree",
     label: "Change degree, keep polygon",

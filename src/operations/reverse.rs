@@ -10,7 +10,7 @@ use crate::document::Edit;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{End, Progress};
 
-/// Describes it.
+/// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
     name: "reverse",
     label: "Reverse direction",

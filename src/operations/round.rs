@@ -47,7 +47,7 @@ const DIGITS: Parameter = Parameter {
     },
 };
 
-/// Describes it.
+/// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
     name: "round",
     label: "Round coordinates",

@@ -28,7 +28,7 @@ const AT: Parameter = Parameter {
     },
 };
 
-/// Describes it.
+/// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
     name: "split",
     label: "Split curve",

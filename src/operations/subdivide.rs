@@ -8,7 +8,7 @@ use super::outcome::{Deviation, Figure, Outcome};
 use super::values::Values;
 use crate::geometry::Progress;
 
-/// Describes it.
+/// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
     name: "subdivide",
     label: "Subdivide",

@@ -10,7 +10,7 @@ use super::which_end::{END, end};
 use crate::geometry::Progress;
 use crate::geometry::end_correction::{EndDifference, translate_end};
 
-/// Describes it.
+/// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
     name: "translate-end",
     label: "Translate end",

@@ -44,7 +44,7 @@ const TO: Parameter = Parameter {
     },
 };
 
-/// Describes it.
+/// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
     name: "trim",
     label: "Trim curve",
