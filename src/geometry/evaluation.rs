@@ -5,6 +5,7 @@ use glam::{DVec3, DVec4};
 use super::error::MAX_DEGREE;
 use super::float_polygon::FloatPolygon;
 use super::jet::Jet;
+use super::parametric_curve::ParametricCurve;
 use super::vector;
 
 impl FloatPolygon {
@@ -13,15 +14,7 @@ impl FloatPolygon {
     /// A periodic curve takes u modulo L; an open one continues its first and last segment's
     /// polynomials beyond \[0, L\].
     pub fn locate(&self, u: f64) -> (usize, f64) {
-        let segments = self.segments();
-        let u = if self.is_periodic() {
-            u.rem_euclid(segments as f64)
-        } else {
-            u
-        };
-        // The cast takes NaN and everything below 0 to segment 0.
-        let segment = (u.floor() as usize).min(segments - 1);
-        (segment, u - segment as f64)
+        ParametricCurve::locate(self, u)
     }
 
     /// Evaluate the point C(u) by de Boor's algorithm, which interpolates only: accurate to a

@@ -82,6 +82,27 @@ impl Batch {
         }
     }
 
+    /// Fill in so many parameters, one after the other: `evaluate` is given the number of a parameter
+    /// and a slice for its point and its derivatives up to `order`.
+    pub(super) fn fill(
+        &mut self,
+        count: usize,
+        order: usize,
+        mut evaluate: impl FnMut(usize, &mut [DVec3]),
+    ) {
+        self.prepare(count);
+        let mut values = [DVec3::ZERO; BATCH_ORDER + 1];
+        for index in 0..count {
+            evaluate(index, &mut values[..=order]);
+            for (order, value) in values[..=order].iter().enumerate() {
+                for axis in 0..3 {
+                    self.values[(order * 4 + axis) * self.stride + index] = value[axis];
+                }
+            }
+        }
+        self.clear_skipped(order, false);
+    }
+
     fn row(&self, order: usize, axis: usize) -> &[f64] {
         let first = (order * 4 + axis) * self.stride;
         &self.values[first..first + self.stride]
@@ -161,6 +182,11 @@ impl Sampler {
         let steps = count.max(1) as f64;
         let parameters: Vec<f64> = (0..=count).map(|j| j as f64 / steps).collect();
         Self::new(degree, &parameters)
+    }
+
+    /// The degree of the curves.
+    pub(super) fn degree(&self) -> usize {
+        self.degree
     }
 
     /// The number of parameters.

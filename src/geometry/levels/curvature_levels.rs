@@ -5,7 +5,9 @@
 //! level m, so level 4 of the curvature needs eight derivatives of the curve, level 4 of the
 //! torsion nine. Derivatives by arc length are d/ds = (1/|C′|) d/du.
 
-use glam::DVec4;
+use std::array::from_fn;
+
+use glam::{DVec3, DVec4};
 
 use super::segment_expansion::SegmentExpansion;
 use super::taylor_series::TaylorSeries;
@@ -20,6 +22,9 @@ const FIRST: usize = 7;
 /// Coefficients of C′ that the curvature needs, and those that the torsion needs.
 const PLANAR: usize = FIRST + 1;
 const SPATIAL: usize = FIRST + 2;
+
+/// The order of the highest derivative of a curve that its levels take.
+pub const LEVEL_ORDER: usize = SPATIAL;
 
 /// Hold levels 1 to 4 of curvature and torsion at one parameter of a curve.
 ///
@@ -44,6 +49,28 @@ pub struct CurvatureLevels {
 }
 
 impl CurvatureLevels {
+    /// Compute the levels of a curve, scaled by `scale` > 0, from its point and derivatives at a
+    /// parameter; `planar` tells whether the curve lies in the plane z = 0.
+    pub fn of_derivatives(
+        derivatives: &[DVec3; LEVEL_ORDER + 1],
+        scale: f64,
+        planar: bool,
+    ) -> Self {
+        let mut factorial = 1.0;
+        let series: [DVec4; LEVEL_ORDER + 1] = from_fn(|order| {
+            factorial *= order.max(1) as f64;
+            (derivatives[order] / factorial).extend(0.0)
+        });
+        if planar {
+            planar_levels(&Motion::new::<{ PLANAR + 1 }>(
+                from_fn(|order| series[order]),
+                scale,
+            ))
+        } else {
+            spatial_levels(&Motion::new(series, scale))
+        }
+    }
+
     /// Compute the point of the logarithmic curvature graph: (log ρ, log |ρ ds/dρ|) to base 10,
     /// with the radius of curvature ρ = 1/|κ|; ρ ds/dρ is −κ/(dκ/ds).
     ///
