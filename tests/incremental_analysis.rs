@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use batten::analysis::{CombSettings, CurveAnalysis, LevelPlot, Orientation, PieceTrend, ViewBox};
 use batten::document::Curve;
-use batten::geometry::FloatPolygon;
 use batten::geometry::features::Features;
+use batten::geometry::{FloatPolygon, Progress};
 use common::Random;
 use glam::{DVec2, DVec3};
 
@@ -65,37 +65,38 @@ fn drawn(analysis: &mut CurveAnalysis) -> Vec<[u64; 2]> {
     };
     let mut points = Vec::new();
     for trend in PieceTrend::ALL {
-        analysis.append_pieces(&view, trend, &mut points);
+        analysis.append_trend(trend, &view, &mut points);
     }
-    analysis.append_curve(&view, &mut points);
-    analysis.append_evolute(&view, &mut points);
+    let (outlines, sampled) = analysis.outlines();
+    outlines.append_curve(sampled, &view, &mut points);
+    outlines.append_evolute(sampled, &view, &mut points);
     let comb = CombSettings {
         scale: 3.0,
         density: 5,
     };
-    analysis.append_comb(&view, &comb, &mut points);
+    outlines.append_comb(sampled, &view, &comb, &mut points);
     let mut teeth = Vec::new();
-    analysis.append_teeth(&view, &comb, &mut teeth);
+    outlines.append_teeth(sampled, &view, &comb, &mut teeth);
     points.extend(teeth.into_flattened());
     analysis.append_curvature(&mut points);
     let mut dots = Vec::new();
     analysis.append_discrete_curvature(&mut dots);
     points.extend(dots.into_iter().map(|(_, place)| place));
     analysis.append_levels(LevelPlot::Curvature(2), false, &mut points);
-    analysis.append_leg_lengths(&mut points);
-    analysis.append_turning_angles(&mut points);
-    analysis.float().append_legs(&view, &mut points);
+    analysis.float().append_leg_series(&mut points);
+    analysis.float().append_turn_series(&mut points);
+    let (outlines, chain) = analysis.float_outlines();
+    outlines.append_legs(chain, &view, &mut points);
     let bits = |point: DVec2| point.to_array().map(f64::to_bits);
     points.into_iter().map(bits).collect()
 }
 
-/// Go on until all features are proved, however long one call may take.
+/// Prove what is not proved yet.
 fn proved(analysis: &mut CurveAnalysis) -> Features {
-    loop {
-        if let Some(features) = analysis.features() {
-            return features.clone();
-        }
+    if let Some(proof) = analysis.proof() {
+        analysis.take_proof(proof.run(&Progress::default()));
     }
+    analysis.known_features().expect("all is proved").clone()
 }
 
 #[test]

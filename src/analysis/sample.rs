@@ -1,9 +1,8 @@
 //! Samples of a curve: what every drawn layer is made of.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
-use super::outline::GAP;
-use crate::geometry::{Batch, FloatPolygon, Jet, Sampler};
+use crate::geometry::{EvenBatch, Jet, ParametricCurve};
 
 /// Hold what is drawn at one parameter of the curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,7 +14,7 @@ pub struct Sample {
     pub normal: DVec3,
     /// The curvature: signed for planar curves, not negative in space; NaN at a cusp.
     pub curvature: f64,
-    /// The arc length from the segment's start.
+    /// The arc length from the piece's start.
     pub arc_length: f64,
 }
 
@@ -54,40 +53,36 @@ impl Sample {
     }
 }
 
-/// Sample segments at evenly spaced parameters, both of their ends included.
+/// Sample pieces at evenly spaced parameters, both of their ends included.
 #[derive(Debug)]
-pub(super) struct SegmentSampler {
-    sampler: Sampler,
-    batch: Batch,
-    count: usize,
+pub(super) struct PieceSampler {
+    batch: EvenBatch,
 }
 
-impl SegmentSampler {
-    pub(super) fn new(degree: usize, count: usize) -> Self {
+impl PieceSampler {
+    pub(super) fn new(steps: usize) -> Self {
         Self {
-            sampler: Sampler::even(degree, count),
-            batch: Batch::default(),
-            count,
+            batch: EvenBatch::new(steps),
         }
     }
 
-    /// The number of steps that a segment is divided into.
+    /// The number of steps that a piece is divided into.
     pub(super) fn steps(&self) -> usize {
-        self.count
+        self.batch.steps()
     }
 
-    /// Fill `samples` with `count` + 1 samples of one segment.
+    /// Fill `samples` with one more than `steps` samples of one piece.
     ///
     /// Arc lengths come from Simpson's rule on each pair of steps, with the speeds at hand.
     pub(super) fn fill(
         &mut self,
-        polygon: &FloatPolygon,
-        segment: usize,
+        curve: &dyn ParametricCurve,
+        piece: usize,
         planar: bool,
         samples: &mut [Sample],
     ) {
-        self.sampler.segment(polygon, segment, 2, &mut self.batch);
-        let step = 1.0 / self.count as f64;
+        curve.fill_batch(piece, 2, &mut self.batch);
+        let step = 1.0 / self.steps() as f64;
         let mut before = 0.0;
         let mut speeds = [0.0; 3];
         for (index, sample) in samples.iter_mut().enumerate() {
@@ -103,13 +98,13 @@ impl SegmentSampler {
             };
             sample.arc_length = before;
         }
-        self.mend_first_step(step, samples);
+        self.correct_first_step(step, samples);
     }
 
     /// The first step has no neighbour before it: redo it by the parabola through the first
     /// three speeds, and shift what follows.
-    fn mend_first_step(&self, step: f64, samples: &mut [Sample]) {
-        if self.count < 2 {
+    fn correct_first_step(&self, step: f64, samples: &mut [Sample]) {
+        if self.steps() < 2 {
             return;
         }
         let speed = |index: usize| self.batch.jet(index).speed();
@@ -119,37 +114,4 @@ impl SegmentSampler {
             sample.arc_length += shift;
         }
     }
-}
-
-/// Turn samples into a chain of points with a gap wherever the curvature changes sign, if the
-/// points follow the curvature through infinity there.
-pub(super) fn chain(
-    samples: &[Sample],
-    place: impl Fn(&Sample) -> DVec2 + Copy,
-) -> impl Iterator<Item = DVec2> {
-    let mut before: Option<&Sample> = None;
-    samples.iter().flat_map(move |sample| {
-        let point = place(sample);
-        let gap = before.is_some_and(|before| {
-            turned(before, sample) && leaps(place(before), point, before, sample)
-        });
-        before = Some(sample);
-        gap.then_some(GAP).into_iter().chain([point])
-    })
-}
-
-/// Whether the curve turns to its other side between two samples.
-pub(super) fn turned(a: &Sample, b: &Sample) -> bool {
-    a.curvature * b.curvature < 0.0 || a.normal.dot(b.normal) < 0.0
-}
-
-/// Whether a layer's points leap between two samples: it moves farther than the curve itself by
-/// an order of magnitude.
-pub(super) fn leaps(from: DVec2, to: DVec2, a: &Sample, b: &Sample) -> bool {
-    from.distance_squared(to) > 400.0 * a.point.distance_squared(b.point)
-}
-
-/// Turn a point that is not finite into a gap.
-pub(super) fn finite(point: DVec2) -> DVec2 {
-    if point.is_finite() { point } else { GAP }
 }

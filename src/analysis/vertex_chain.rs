@@ -1,62 +1,43 @@
-//! A polygon as it is drawn: its legs and the handles at its vertices.
+//! A polygon's vertices, and the figures and series that follow from its legs and corners.
 
+use std::cell::OnceCell;
 use std::ops::Range;
 
 use glam::{DVec2, DVec3};
 
-use super::orientation::Orientation;
-use super::outline::{Bounds, Outline, OutlineKey, ViewBox};
-use super::plot_series::Bins;
+use super::bins::{BINS, Bins};
+use super::revision::Revision;
 use crate::geometry::Range as Span;
 use crate::geometry::polygon_figures::{discrete_curvature, turning_angle};
 
 /// Vertices in one block.
-const BLOCK: usize = 64;
+pub(super) const BLOCK: usize = 64;
 
-/// Handles closer together than this, in screen points, are thinned out.
-const HANDLE_SPACING: f64 = 7.0;
-
-/// Hold a polygon's vertices and, block by block, what is drawn of them.
+/// Hold a polygon's vertices and, block by block, what follows from them.
 #[derive(Debug, Default)]
 pub struct VertexChain {
     vertices: Vec<DVec3>,
     closed: bool,
-    orientation: Orientation,
     blocks: Vec<Block>,
 }
 
+/// What follows from the vertices of one block, and the legs that begin at them.
 #[derive(Clone, Debug, Default)]
 struct Block {
-    legs: Outline,
-    handles: Handles,
-    figures: Option<BlockFigures>,
-    extremes: Option<Vec<(usize, f64)>>,
-    leg_series: Option<Vec<DVec2>>,
-    turn_series: Option<Vec<DVec2>>,
-}
-
-#[derive(Clone, Debug, Default)]
-struct Handles {
-    level: Option<i32>,
-    indices: Vec<usize>,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct BlockFigures {
-    legs: Option<Span>,
-    turns: Option<Span>,
-    bounds: Bounds,
+    revision: Revision,
+    figures: OnceCell<ChainFigures>,
+    extremes: OnceCell<Vec<(usize, f64)>>,
+    leg_series: OnceCell<Vec<DVec2>>,
+    turn_series: OnceCell<Vec<DVec2>>,
 }
 
 /// The smallest and largest leg and turning angle of a polygon.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ChainFigures {
     /// The legs' lengths; `None` for fewer than two vertices.
     pub legs: Option<Span>,
     /// The turning angles in radians; `None` for fewer than three vertices.
     pub turns: Option<Span>,
-    /// The box around the vertices, as they are seen.
-    pub bounds: Bounds,
 }
 
 impl VertexChain {
@@ -65,12 +46,19 @@ impl VertexChain {
         &self.vertices
     }
 
-    /// Choose from where the polygon is seen.
-    pub(super) fn set_orientation(&mut self, orientation: Orientation) {
-        if self.orientation != orientation {
-            self.orientation = orientation;
-            self.blocks.fill(Block::default());
-        }
+    /// Whether a leg runs from the last vertex to the first.
+    pub fn is_closed(&self) -> bool {
+        self.closed
+    }
+
+    /// The revisions of the blocks: one changes when a vertex of the block or next to it moves.
+    pub fn revisions(&self) -> impl ExactSizeIterator<Item = Revision> {
+        self.blocks.iter().map(|block| block.revision)
+    }
+
+    /// The numbers of the vertices of one block.
+    pub fn block_vertices(&self, block: usize) -> Range<usize> {
+        block * BLOCK..((block + 1) * BLOCK).min(self.vertices.len())
     }
 
     /// Take other vertices; only blocks in which something changed are redone. Returns the range
@@ -110,114 +98,55 @@ impl VertexChain {
         }
     }
 
-    /// Append what is visible of the legs.
-    pub fn append_legs(&mut self, view: &ViewBox, out: &mut Vec<DVec2>) {
-        let key = OutlineKey {
-            level: Some(view.level()),
-            shape: 0,
-        };
-        let (count, eye) = (self.vertices.len(), self.orientation);
-        for (index, block) in self.blocks.iter_mut().enumerate() {
-            let first = index * BLOCK;
-            // One vertex more than the block has, so that neighbouring blocks join.
-            let end = (first + BLOCK + 1).min(count);
-            let closing = self.closed && end == count && first + BLOCK >= count;
-            let vertices = &self.vertices;
-            block.legs.refresh(key, || {
-                let wrap = closing.then(|| eye.flatten(vertices[0]));
-                let own = vertices[first..end].iter();
-                let own = own.map(move |vertex| eye.flatten(*vertex));
-                own.chain(wrap)
-            });
-            block.legs.append(view, out);
-        }
-    }
-
-    /// Append the numbers of the vertices whose handles are drawn: all, unless they crowd.
-    pub fn append_handles(&mut self, view: &ViewBox, out: &mut Vec<usize>) {
-        let view = view.grown(HANDLE_SPACING * view.pixel);
-        let level = view.level();
-        let spacing = HANDLE_SPACING * 2f64.powi(level + 1);
-        let eye = self.orientation;
-        for (index, block) in self.blocks.iter_mut().enumerate() {
-            let first = index * BLOCK;
-            let end = (first + BLOCK).min(self.vertices.len());
-            block
-                .handles
-                .refresh(level, spacing, &eye, &self.vertices, first..end);
-            let visible = |index: &usize| {
-                let at = eye.flatten(self.vertices[*index]);
-                at.cmpge(view.low).all() && at.cmple(view.high).all()
-            };
-            out.extend(block.handles.indices.iter().copied().filter(visible));
-        }
-    }
-
     /// Collect the figures of the whole polygon.
-    pub fn figures(&mut self) -> ChainFigures {
-        let mut all = ChainFigures {
-            legs: None,
-            turns: None,
-            bounds: Bounds::EMPTY,
-        };
-        for index in 0..self.blocks.len() {
-            let figures = self.block_figures(index);
-            all.legs = union(all.legs, figures.legs);
-            all.turns = union(all.turns, figures.turns);
-            all.bounds.unite(&figures.bounds);
-        }
-        all
+    pub fn figures(&self) -> ChainFigures {
+        let blocks = (0..self.blocks.len()).map(|index| self.block_figures(index));
+        blocks.fold(ChainFigures::default(), |all, own| ChainFigures {
+            legs: union(all.legs, own.legs),
+            turns: union(all.turns, own.turns),
+        })
     }
 
-    /// Append the discrete curvature at the vertices, with their numbers; where there are more
-    /// than `bins` vertices, only the greatest in magnitude of each run of neighbours.
-    pub(super) fn append_extreme_curvatures(&mut self, bins: usize, out: &mut Vec<(usize, f64)>) {
-        let run = self.run(bins);
-        for index in 0..self.blocks.len() {
-            let known = self.blocks[index].extremes.take();
-            let extremes = known.unwrap_or_else(|| self.block_extremes(index, run));
-            out.extend_from_slice(&extremes);
-            self.blocks[index].extremes = Some(extremes);
-        }
+    /// List the discrete curvature at the vertices, with their numbers; where there are more than
+    /// a plot has bins, only the greatest in magnitude of each run of neighbours.
+    pub(super) fn extreme_curvatures(&self) -> impl Iterator<Item = (usize, f64)> {
+        let blocks = self.blocks.iter().enumerate();
+        let known = blocks
+            .flat_map(|(index, block)| block.extremes.get_or_init(|| self.block_extremes(index)));
+        known.copied()
     }
 
-    /// Append the lengths of the legs over the number of the vertex where each begins, thinned to
-    /// about `bins` bins with their extrema kept.
-    pub(super) fn append_leg_series(&mut self, bins: usize, out: &mut Vec<DVec2>) {
-        let run = self.run(bins);
-        for index in 0..self.blocks.len() {
-            let known = self.blocks[index].leg_series.take();
-            let series = known.unwrap_or_else(|| self.binned(index, run, |i| self.leg(i)));
-            out.extend_from_slice(&series);
-            self.blocks[index].leg_series = Some(series);
+    /// Append the lengths of the legs over the number of the vertex where each begins, thinned so
+    /// that their extrema are kept.
+    pub fn append_leg_series(&self, out: &mut Vec<DVec2>) {
+        for (index, block) in self.blocks.iter().enumerate() {
+            let series = || self.binned(index, |vertex| self.leg(vertex));
+            out.extend_from_slice(block.leg_series.get_or_init(series));
         }
     }
 
     /// Append the turning angles in radians over the numbers of their vertices, thinned as
     /// [`VertexChain::append_leg_series`] does.
-    pub(super) fn append_turn_series(&mut self, bins: usize, out: &mut Vec<DVec2>) {
-        let run = self.run(bins);
-        for index in 0..self.blocks.len() {
-            let known = self.blocks[index].turn_series.take();
-            let series = known.unwrap_or_else(|| self.binned(index, run, |i| self.turn(i)));
-            out.extend_from_slice(&series);
-            self.blocks[index].turn_series = Some(series);
+    pub fn append_turn_series(&self, out: &mut Vec<DVec2>) {
+        for (index, block) in self.blocks.iter().enumerate() {
+            let series = || self.binned(index, |vertex| self.turn(vertex));
+            out.extend_from_slice(block.turn_series.get_or_init(series));
         }
     }
 
     /// The number of neighbours that share a bin: a power of two, so that blocks hold whole bins.
-    fn run(&self, bins: usize) -> usize {
+    fn run(&self) -> usize {
         self.vertices
             .len()
-            .div_ceil(bins)
+            .div_ceil(BINS as usize)
             .next_power_of_two()
             .min(BLOCK)
     }
 
-    fn binned(&self, index: usize, run: usize, value: impl Fn(usize) -> Option<f64>) -> Vec<DVec2> {
+    fn binned(&self, index: usize, value: impl Fn(usize) -> Option<f64>) -> Vec<DVec2> {
         let mut points = Vec::new();
-        let mut bins = Bins::new(run as f64);
-        for vertex in index * BLOCK..((index + 1) * BLOCK).min(self.vertices.len()) {
+        let mut bins = Bins::new(self.run() as f64);
+        for vertex in self.block_vertices(index) {
             if let Some(value) = value(vertex) {
                 bins.add(DVec2::new(vertex as f64, value), &mut points);
             }
@@ -226,8 +155,8 @@ impl VertexChain {
         points
     }
 
-    fn block_extremes(&self, index: usize, run: usize) -> Vec<(usize, f64)> {
-        let range = index * BLOCK..((index + 1) * BLOCK).min(self.vertices.len());
+    fn block_extremes(&self, index: usize) -> Vec<(usize, f64)> {
+        let (range, run) = (self.block_vertices(index), self.run());
         let curvature = |i: usize| {
             let [before, corner, after] = self.corner(i)?;
             Some((i, discrete_curvature(before, corner, after)))
@@ -274,49 +203,11 @@ impl VertexChain {
         Some([self.get(before)?, self.get(index)?, self.get(index + 1)?])
     }
 
-    fn block_figures(&mut self, index: usize) -> BlockFigures {
-        if let Some(figures) = self.blocks[index].figures {
-            return figures;
-        }
-        let range = index * BLOCK..((index + 1) * BLOCK).min(self.vertices.len());
-        let mut bounds = Bounds::EMPTY;
-        for vertex in &self.vertices[range.clone()] {
-            bounds.add(self.orientation.flatten(*vertex));
-        }
-        let figures = BlockFigures {
-            legs: Span::of(range.clone().filter_map(|i| self.leg(i))),
-            turns: Span::of(range.filter_map(|i| self.turn(i))),
-            bounds,
-        };
-        self.blocks[index].figures = Some(figures);
-        figures
-    }
-}
-
-impl Handles {
-    fn refresh(
-        &mut self,
-        level: i32,
-        spacing: f64,
-        eye: &Orientation,
-        vertices: &[DVec3],
-        range: Range<usize>,
-    ) {
-        if self.level == Some(level) {
-            return;
-        }
-        self.level = Some(level);
-        self.indices.clear();
-        let mut kept: Option<DVec2> = None;
-        // Vertices in a handful of legs are all kept: only crowds are thinned.
-        let crowded = 0.5 * spacing;
-        for index in range {
-            let at = eye.flatten(vertices[index]);
-            if kept.is_none_or(|kept| kept.distance(at) >= crowded) {
-                self.indices.push(index);
-                kept = Some(at);
-            }
-        }
+    fn block_figures(&self, index: usize) -> ChainFigures {
+        *self.blocks[index].figures.get_or_init(|| ChainFigures {
+            legs: Span::of(self.block_vertices(index).filter_map(|i| self.leg(i))),
+            turns: Span::of(self.block_vertices(index).filter_map(|i| self.turn(i))),
+        })
     }
 }
 

@@ -5,12 +5,15 @@ mod commands;
 mod files;
 mod hand;
 mod patience;
+mod proving;
 mod reply;
 mod report;
 mod trial;
 mod view;
 mod worker;
 mod workspace;
+
+use std::time::Duration;
 
 use glam::DVec2;
 
@@ -28,6 +31,7 @@ pub use view::{
     Layer, Layers, Mark, NamedView, PlotScene, REACH, Scene, VertexMark, View, Viewport,
     grid_steps,
 };
+pub use worker::{Outcome, Worker};
 pub use workspace::{Interruption, PreviewId, Workspace};
 
 use crate::analysis::AnalysisCache;
@@ -35,6 +39,7 @@ use crate::document::{CurveId, Document, Edit};
 use hand::gesture::Gesture;
 use hand::tools::Tools;
 use patience::Patience;
+use proving::Proving;
 use trial::Operations;
 
 /// Hold the running application: what is worked on, how it is seen, and what works on it.
@@ -46,6 +51,7 @@ pub struct Editor {
     analyses: AnalysisCache,
     operations: Operations,
     patience: Patience,
+    proving: Proving,
     message: Option<Message>,
 }
 
@@ -65,10 +71,16 @@ impl Editor {
         editor
     }
 
-    /// Do slow work on threads of their own from now on; `wake` is called there when something is
-    /// new to show.
-    pub fn run_in_background(&mut self, wake: impl Fn() + Clone + Send + 'static) {
-        self.operations.run_in_background(wake);
+    /// Do slow work on threads of their own from now on. A frame waits for all of it together no
+    /// longer than `patience`; `wake` is called there when something is new to show later.
+    pub fn run_in_background(
+        &mut self,
+        patience: Duration,
+        wake: impl Fn() + Clone + Send + 'static,
+    ) {
+        self.patience = Patience::new(patience);
+        self.proving = Proving::background(wake.clone());
+        self.operations = Operations::background(wake);
     }
 
     /// Begin a frame: take what was done beside the last one.

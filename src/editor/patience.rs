@@ -3,18 +3,22 @@
 use std::time::{Duration, Instant};
 
 /// Hold how long the frame may still wait for answers that may come at once.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Patience {
+    /// How long a frame waits at most, for all of its answers together.
+    frame: Duration,
     left: Duration,
 }
 
 impl Patience {
-    /// How long a frame waits at most, for all of its answers together.
-    const FRAME: Duration = Duration::from_millis(4);
+    /// Let every frame wait so long.
+    pub fn new(frame: Duration) -> Self {
+        Self { frame, left: frame }
+    }
 
     /// Begin a frame.
     pub fn renew(&mut self) {
-        self.left = Self::FRAME;
+        self.left = self.frame;
     }
 
     /// Wait for something for as long as is left; what it takes is spent.
@@ -23,11 +27,5 @@ impl Patience {
         let waited = wait(self.left);
         self.left = self.left.saturating_sub(begin.elapsed());
         waited
-    }
-}
-
-impl Default for Patience {
-    fn default() -> Self {
-        Self { left: Self::FRAME }
     }
 }

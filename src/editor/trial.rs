@@ -83,10 +83,13 @@ impl Default for Operations {
 }
 
 impl Operations {
-    /// Run operations on a thread of its own from now on; `wake` is called when there is something
-    /// new to show.
-    pub fn run_in_background(&mut self, wake: impl Fn() + Send + 'static) {
-        self.worker = Worker::background("operations", wake);
+    /// Run operations on a thread of its own; `wake` is called when there is something new to show
+    /// later than it is waited for.
+    pub fn background(wake: impl Fn() + Send + 'static) -> Self {
+        Self {
+            worker: Worker::background("operations", wake),
+            ..Self::default()
+        }
     }
 }
 

@@ -1,5 +1,7 @@
 //! The list of proved features in the inspector, and the chip that tells the verdict.
 
+use std::time::Duration;
+
 use eframe::egui::{
     Button, Response, RichText, Role, ScrollArea, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
@@ -17,6 +19,9 @@ const WIDE: f64 = 1e-4;
 
 /// The most digits of a curvature or torsion.
 const DIGITS: usize = 4;
+
+/// How often the progress of a proof is shown anew.
+const PROGRESS: Duration = Duration::from_millis(100);
 
 /// The rows that there is room for, however many features there are: nothing below the list moves
 /// when a drag or a typed number makes some or takes some away.
@@ -107,11 +112,13 @@ fn colour_of(report: &FeatureReport, tokens: &Tokens) -> eframe::egui::Color32 {
     }
 }
 
-/// Tell how far the proofs of a long curve have come, and go on with them.
+/// Tell how far the proofs of a long curve have come.
 fn proving_ui(ui: &mut Ui, editor: &Editor) {
     if let Some(progress) = editor.proof_progress() {
         widgets::caption(ui, &format!("Proving features: {:.0} %", 100.0 * progress));
-        ui.ctx().request_repaint();
+        ui.ctx().request_repaint_after(PROGRESS);
+    } else if editor.active().is_some() {
+        widgets::caption(ui, "Features could not be proved: please report this curve");
     }
 }
 

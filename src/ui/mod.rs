@@ -44,6 +44,7 @@ mod vertex_table;
 mod widgets;
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 use anyhow::{anyhow, bail};
 use eframe::egui::{IconData, ViewportBuilder};
@@ -57,6 +58,9 @@ const SIZE: [f32; 2] = [1440.0, 900.0];
 
 /// The smallest size at which nothing is cut off.
 const LEAST: [f32; 2] = [960.0, 640.0];
+
+/// How long a frame waits for what is worked out beside it.
+const PATIENCE: Duration = Duration::from_millis(4);
 
 /// Open the editor with some files, and return when its window is closed.
 ///
@@ -81,7 +85,7 @@ pub fn run(files: &[PathBuf]) -> anyhow::Result<()> {
     };
     let create: eframe::AppCreator<'_> = Box::new(move |creation| {
         let context = creation.egui_ctx.clone();
-        editor.run_in_background(move || context.request_repaint());
+        editor.run_in_background(PATIENCE, move || context.request_repaint());
         let app = App::new(&creation.egui_ctx, creation.storage, true, editor);
         Ok(Box::new(app))
     });

@@ -3,7 +3,7 @@
 use batten::analysis::{LevelPlot, PieceTrend};
 use batten::document::Edit;
 use batten::editor::{Command, FeatureKind, HoverScene, Layer};
-use batten::geometry::features::{Features, Verdict};
+use batten::geometry::features::Verdict;
 use batten::geometry::{FloatPolygon, LEVELS};
 use glam::{DVec2, DVec3};
 
@@ -162,32 +162,4 @@ fn every_example_has_every_plot() {
         let graph = script.editor.level_plot(LevelPlot::Logarithmic, false);
         assert!(graph.levels.iter().any(|point| point.is_finite()));
     }
-}
-
-#[test]
-fn the_features_of_a_long_curve_are_proved_little_by_little() {
-    let mut script = Script::example("arc");
-    let points: Vec<(f64, f64)> = (0..5000)
-        .map(|index| (f64::from(index), (0.37 * f64::from(index)).sin()))
-        .collect();
-    let polygon = FloatPolygon::planar(3, &points).expect("a polygon");
-    let curve = script.curve();
-    let expected = Features::new(&polygon);
-    let edit = Edit::SetPolygon { curve, polygon };
-    script.editor.apply("long", vec![edit]);
-    assert_eq!(script.editor.features(), None, "this would take long");
-    let mut progress = 0.0;
-    let report = loop {
-        let now = script.editor.proof_progress().expect("a curve");
-        assert!(now > progress, "{now}");
-        progress = now;
-        if let Some(report) = script.editor.features() {
-            break report;
-        }
-        script.editor.scene();
-    };
-    assert_eq!(report.monotone, expected.monotone);
-    let extrema = [FeatureKind::CurvatureMaximum, FeatureKind::CurvatureMinimum];
-    assert_eq!(report.count(&extrema), expected.curvature_extrema.len());
-    assert!(report.count(&extrema) > 500);
 }

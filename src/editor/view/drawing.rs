@@ -44,7 +44,8 @@ impl Ghost {
             .get_or_insert_with(|| CurveAnalysis::new(curve.clone(), orientation));
         analysis.set_orientation(orientation);
         analysis.update(curve);
-        analysis.append_curve(view, out);
+        let (outlines, sampled) = analysis.outlines();
+        outlines.append_curve(sampled, view, out);
     }
 }
 
@@ -117,14 +118,15 @@ impl Editor {
             return;
         };
         if layers.shows(Layer::Curve) {
-            analysis.append_curve(view, &mut scene.curve);
+            let (outlines, sampled) = analysis.outlines();
+            outlines.append_curve(sampled, view, &mut scene.curve);
             append_joints(analysis, &orientation, view, &mut scene.joints);
         }
         if layers.shows(Layer::Float) {
-            let chain = analysis.float();
-            chain.append_legs(view, &mut scene.float);
+            let (outlines, chain) = analysis.float_outlines();
+            outlines.append_legs(chain, view, &mut scene.float);
             let mut handles = Vec::new();
-            chain.append_handles(view, &mut handles);
+            outlines.append_handles(chain, view, &mut handles);
             let selection = &self.hand.selection;
             // A selected vertex keeps its handle in a crowd.
             let crowd = handles.len() < polygon.vertices().len();
@@ -147,17 +149,17 @@ impl Editor {
         }
         if layers.shows(Layer::Features) {
             for (trend, chain) in PieceTrend::ALL.into_iter().zip(&mut scene.pieces) {
-                analysis.append_pieces(view, trend, chain);
+                analysis.append_trend(trend, view, chain);
             }
             if let Some(report) = &report {
                 append_marks(report, &orientation, view, &mut scene.features);
             }
         }
         if layers.shows(Layer::Clamped) {
-            let chain = analysis.clamped();
-            chain.append_legs(view, &mut scene.clamped);
+            let (outlines, chain) = analysis.clamped_outlines();
+            outlines.append_legs(chain, view, &mut scene.clamped);
             let mut handles = Vec::new();
-            chain.append_handles(view, &mut handles);
+            outlines.append_handles(chain, view, &mut handles);
             let vertices = chain.vertices();
             scene.clamped_vertices.extend(
                 handles
@@ -166,12 +168,13 @@ impl Editor {
                     .map(|vertex| self.view.viewport.flatten(*vertex)),
             );
         }
+        let (outlines, sampled) = analysis.outlines();
         if layers.shows(Layer::Evolute) {
-            analysis.append_evolute(view, &mut scene.evolute);
+            outlines.append_evolute(sampled, view, &mut scene.evolute);
         }
         if layers.shows(Layer::Comb) {
-            analysis.append_comb(view, &comb, &mut scene.comb);
-            analysis.append_teeth(view, &comb, &mut scene.teeth);
+            outlines.append_comb(sampled, view, &comb, &mut scene.comb);
+            outlines.append_teeth(sampled, view, &comb, &mut scene.teeth);
         }
     }
 

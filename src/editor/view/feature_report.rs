@@ -190,11 +190,13 @@ pub struct FeatureMark {
 }
 
 impl Editor {
-    /// Go on proving the features of the active curve, and return them once all are known: of a
-    /// long curve after some calls.
+    /// Prove the features of the active curve, and return them once all are known: in the
+    /// background this may be some calls later.
     pub fn features(&mut self) -> Option<Arc<FeatureReport>> {
         self.analyses.update(self.workspace.document());
-        self.analyses.get(self.hand.selection.active()?)?.features();
+        let active = self.hand.selection.active()?;
+        let (analyses, patience) = (&mut self.analyses, &mut self.patience);
+        self.proving.advance(active, analyses, patience);
         self.known_features()
     }
 
@@ -214,13 +216,12 @@ impl Editor {
         }
     }
 
-    /// The share of the active curve whose features are known.
+    /// The share of the active curve whose features are known; `None` if they cannot be proved, for
+    /// a fault of the program, or if there is no curve.
     pub fn proof_progress(&self) -> Option<f64> {
-        Some(
-            self.analyses
-                .peek(self.hand.selection.active()?)?
-                .proof_progress(),
-        )
+        let analysis = self.analyses.peek(self.hand.selection.active()?)?;
+        let known = analysis.proof_progress();
+        Some(known + (1.0 - known) * self.proving.share()?)
     }
 
     /// Show the surroundings of a parameter of the active curve, and the layer of its features.

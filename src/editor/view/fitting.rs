@@ -83,12 +83,14 @@ impl Editor {
         };
         let mut bounds = analysis.bounds();
         if layers.shows(Layer::Float) {
-            bounds.unite(&analysis.float().figures().bounds);
+            let (outlines, chain) = analysis.float_outlines();
+            bounds.unite(&outlines.bounds(chain));
         }
         if layers.shows(Layer::Comb) && is_active {
             // Long teeth are cut off: the curve must not become a speck.
             let around = bounds.grown(COMB_REACH);
-            bounds.unite(&analysis.comb_bounds(scale).within(&around));
+            let (outlines, sampled) = analysis.outlines();
+            bounds.unite(&outlines.comb_bounds(sampled, scale).within(&around));
         }
         bounds
     }

@@ -48,7 +48,8 @@ impl Editor {
         {
             analysis.append_levels(plot, normalised, &mut scene.levels);
             let hovered = self.view.scene.hovered_on(id);
-            scene.hovered_level = hovered.map(|(u, _)| analysis.level_at(plot, normalised, u));
+            scene.hovered_level =
+                hovered.map(|(u, _)| analysis.sampled().level_at(plot, normalised, u));
             scene.slope = (plot == LevelPlot::Logarithmic)
                 .then(|| straight_slope(&scene.levels))
                 .flatten();
@@ -72,8 +73,12 @@ impl Editor {
             return &self.view.plots;
         };
         if let Some(analysis) = self.analyses.get(id) {
-            analysis.append_leg_lengths(&mut self.view.plots.legs);
-            analysis.append_turning_angles(&mut self.view.plots.turns);
+            analysis
+                .float()
+                .append_leg_series(&mut self.view.plots.legs);
+            analysis
+                .float()
+                .append_turn_series(&mut self.view.plots.turns);
         }
         for point in &mut self.view.plots.turns {
             point.y = point.y.to_degrees();

@@ -1,20 +1,19 @@
 //! The evolute as a chain of points, however fast it runs.
 
-use std::sync::Arc;
-
 use glam::DVec2;
 
-use crate::analysis::orientation::Orientation;
-use crate::analysis::outline::{Bounds, GAP, ViewBox};
-use crate::analysis::sample::{Sample, finite, leaps, turned};
-use crate::document::Curve;
+use super::orientation::Orientation;
+use super::outline::{Bounds, GAP, ViewBox};
+use super::sample::Sample;
+use super::sample_chain::{finite, leaps, turned};
+use crate::geometry::ParametricCurve;
 
 /// How often a step between two samples is halved at most.
 const DEEPEST: u32 = 7;
 
 /// What the evolute of a curve is followed with.
-pub(super) struct Evolute {
-    pub curve: Arc<Curve>,
+pub(super) struct Evolute<'a> {
+    pub curve: &'a dyn ParametricCurve,
     pub planar: bool,
     pub eye: Orientation,
     /// Steps whose ends are seen farther apart than this are halved …
@@ -23,21 +22,21 @@ pub(super) struct Evolute {
     pub reach: f64,
 }
 
-/// A step along one segment, by the samples at its ends and their parameters.
+/// A step along one piece, by the samples at its ends and their parameters.
 struct Step<'a> {
-    segment: usize,
+    piece: usize,
     from: (f64, &'a Sample),
     to: (f64, &'a Sample),
     depth: u32,
     near: Option<&'a ViewBox>,
 }
 
-impl Evolute {
-    /// Append the evolute of one segment that is sampled at even parameters; with a view, only
+impl Evolute<'_> {
+    /// Append the evolute of one piece that is sampled at even parameters; with a view, only
     /// what is near it is followed closely.
     pub fn append(
         &self,
-        segment: usize,
+        piece: usize,
         samples: &[Sample],
         near: Option<&ViewBox>,
         out: &mut Vec<DVec2>,
@@ -46,8 +45,8 @@ impl Evolute {
         let Some(first) = samples.first() else {
             return;
         };
-        // Where the curvature jumps at a knot, so does the evolute.
-        if self.curve.polygon.degree() < 3 {
+        // Where the curvature jumps at a joint, so does the evolute.
+        if self.curve.continuity() < 2 {
             out.push(GAP);
         }
         out.push(self.place(first));
@@ -55,7 +54,7 @@ impl Evolute {
             let at = |offset: usize| (number + offset) as f64 / steps;
             self.follow(
                 Step {
-                    segment,
+                    piece,
                     from: (at(0), &pair[0]),
                     to: (at(1), &pair[1]),
                     depth: 0,
@@ -87,7 +86,7 @@ impl Evolute {
             return;
         }
         let t = 0.5 * (step.from.0 + step.to.0);
-        let jet = self.curve.polygon.segment_jet(step.segment, t);
+        let jet = self.curve.piece_jet(step.piece, t);
         let middle = Sample::of(&jet, self.planar);
         let depth = step.depth + 1;
         self.follow(

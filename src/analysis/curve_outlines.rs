@@ -1,0 +1,455 @@
+//! What is drawn of a curve: chains of points thinned to the view, sampled anew where it is close.
+
+use glam::{DVec2, DVec3};
+
+use super::comb::{CombSettings, Teeth};
+use super::curve_samples::SampledCurve;
+use super::evolute::Evolute;
+use super::orientation::Orientation;
+use super::outline::{Bounds, GAP, Outline, OutlineKey, ViewBox, append_gap, thin};
+use super::revision::Revision;
+use super::sample::{PieceSampler, Sample};
+use super::sample_chain::{chain, finite};
+use crate::geometry::features::{SegmentFeatures, Sign, SignPiece};
+
+/// A piece is sampled anew when its samples are farther apart than this, in screen points.
+const COARSE: f64 = 8.0;
+
+/// The evolute is followed closely within this distance from the curve, in units of the curve's
+/// extent.
+const REACH: f64 = 1.5;
+
+/// Chords of the evolute are no longer than this there, in screen points.
+const LONGEST_CHORD: f64 = 24.0;
+
+/// The most samples of a piece that is sampled anew for a close view.
+const FINEST: usize = 256;
+
+/// What the curvature does on a piece of the curve, as far as it is proved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PieceTrend {
+    /// It rises.
+    Rising,
+    /// It falls.
+    Falling,
+    /// Nothing is proved.
+    Undecided,
+}
+
+/// Hold, block by block, what is drawn of a curve, seen from somewhere.
+#[derive(Debug, Default)]
+pub struct CurveOutlines {
+    orientation: Orientation,
+    blocks: Vec<Block>,
+    fine: Option<PieceSampler>,
+}
+
+/// What is drawn of the pieces of one block.
+#[derive(Debug)]
+struct Block {
+    /// What the block was made of.
+    revision: Revision,
+    bounds: Bounds,
+    curve: Outline,
+    evolute: Outline,
+    comb: Outline,
+    teeth: Teeth,
+    trends: [Outline; PieceTrend::ALL.len()],
+}
+
+impl PieceTrend {
+    /// Every trend that is drawn.
+    pub const ALL: [Self; 3] = [Self::Rising, Self::Falling, Self::Undecided];
+
+    fn is_of(self, piece: &SignPiece) -> bool {
+        matches!(
+            (self, piece.sign),
+            (Self::Rising, Sign::Positive)
+                | (Self::Falling, Sign::Negative)
+                | (Self::Undecided, Sign::Unknown)
+        )
+    }
+}
+
+impl CurveOutlines {
+    /// Choose from where the curve is seen.
+    pub fn set_orientation(&mut self, orientation: Orientation) {
+        if self.orientation != orientation {
+            self.orientation = orientation;
+            self.blocks.clear();
+        }
+    }
+
+    /// From where the curve is seen.
+    pub fn orientation(&self) -> Orientation {
+        self.orientation
+    }
+
+    /// Forget what was made of blocks that have changed. All else that asks about a curve comes
+    /// after this.
+    pub fn update(&mut self, sampled: SampledCurve<'_>) {
+        let samples = sampled.samples;
+        self.blocks.truncate(samples.blocks().len());
+        for (index, block) in samples.blocks().iter().enumerate() {
+            let known = self.blocks.get(index).map(|block| block.revision);
+            if known == Some(block.revision) {
+                continue;
+            }
+            let mut bounds = Bounds::EMPTY;
+            for sample in samples.block(index) {
+                bounds.add(self.orientation.flatten(sample.point));
+            }
+            let block = Block::new(block.revision, bounds);
+            match self.blocks.get_mut(index) {
+                Some(old) => *old = block,
+                None => self.blocks.push(block),
+            }
+        }
+    }
+
+    /// The box around the curve, as it is seen.
+    pub fn bounds(&self) -> Bounds {
+        let mut all = Bounds::EMPTY;
+        self.blocks
+            .iter()
+            .for_each(|block| all.unite(&block.bounds));
+        all
+    }
+
+    /// Append what is visible of the curve, thinned to the view's pixels. Gaps are
+    /// [`crate::analysis::GAP`] points.
+    pub fn append_curve(
+        &mut self,
+        sampled: SampledCurve<'_>,
+        view: &ViewBox,
+        out: &mut Vec<DVec2>,
+    ) {
+        let eye = self.orientation;
+        let place = move |sample: &Sample| eye.flatten(sample.point);
+        let layer = Drawn {
+            shape: 0,
+            outline: Kept::Curve,
+            place,
+            points: |_: usize, samples: &[Sample], _: Option<&ViewBox>, out: &mut Vec<DVec2>| {
+                out.extend(chain(samples, place));
+            },
+        };
+        self.append(sampled, view, out, layer);
+    }
+
+    /// Append what is visible of the evolute; it breaks where it passes through infinity, and is
+    /// followed more closely where it runs much faster than the curve.
+    pub fn append_evolute(
+        &mut self,
+        sampled: SampledCurve<'_>,
+        view: &ViewBox,
+        out: &mut Vec<DVec2>,
+    ) {
+        let bounds = self.bounds();
+        // Powers of two: what blocks keep is not made anew whenever the view or the curve grows.
+        let reach = REACH * (bounds.high - bounds.low).max_element();
+        let reach = 2f64.powf(reach.log2().ceil());
+        let evolute = Evolute {
+            curve: sampled.curve,
+            planar: sampled.samples.is_planar(),
+            eye: self.orientation,
+            longest_chord: LONGEST_CHORD * 2f64.powi(view.level() + 1),
+            reach,
+        };
+        let layer = Drawn {
+            shape: reach.to_bits(),
+            outline: Kept::Evolute,
+            place: |sample: &Sample| evolute.place(sample),
+            points: |piece, samples: &[Sample], near: Option<&ViewBox>, out: &mut Vec<DVec2>| {
+                evolute.append(piece, samples, near, out);
+            },
+        };
+        self.append(sampled, view, out, layer);
+    }
+
+    /// Append what is visible of the comb's envelope.
+    pub fn append_comb(
+        &mut self,
+        sampled: SampledCurve<'_>,
+        view: &ViewBox,
+        comb: &CombSettings,
+        out: &mut Vec<DVec2>,
+    ) {
+        let (scale, eye) = (comb.scale, self.orientation);
+        let place = move |sample: &Sample| finite(eye.flatten(sample.comb_tip(scale)));
+        let layer = Drawn {
+            shape: scale.to_bits(),
+            outline: Kept::Comb,
+            place,
+            points: |_: usize, samples: &[Sample], _: Option<&ViewBox>, out: &mut Vec<DVec2>| {
+                out.extend(chain(samples, place));
+            },
+        };
+        self.append(sampled, view, out, layer);
+    }
+
+    /// Append what is visible of the pieces of the curve on which its curvature does one thing, as
+    /// the features of its segments tell; gaps lie between them.
+    pub fn append_trend(
+        &mut self,
+        sampled: SampledCurve<'_>,
+        features: &[SegmentFeatures],
+        trend: PieceTrend,
+        view: &ViewBox,
+        out: &mut Vec<DVec2>,
+    ) {
+        let eye = self.orientation;
+        let points =
+            |segment: usize, samples: &[Sample], _: Option<&ViewBox>, out: &mut Vec<DVec2>| {
+                let Some(features) = features.get(segment) else {
+                    return;
+                };
+                let at = |t: f64| eye.flatten(sampled.curve.piece_jet(segment, t).point);
+                let steps = samples.len().saturating_sub(1).max(1) as f64;
+                let mut start = 0.0;
+                for piece in &features.curvature_slope {
+                    let end = piece.until;
+                    if trend.is_of(piece) {
+                        out.push(at(start));
+                        let inner = ((start * steps) as usize + 1)..samples.len();
+                        let inner = inner.take_while(|index| (*index as f64) < end * steps);
+                        out.extend(inner.map(|index| eye.flatten(samples[index].point)));
+                        out.push(at(end));
+                    } else {
+                        out.push(GAP);
+                    }
+                    start = end;
+                }
+            };
+        let layer = Drawn {
+            shape: 0,
+            outline: Kept::Trend(trend),
+            place: |sample: &Sample| eye.flatten(sample.point),
+            points,
+        };
+        self.append(sampled, view, out, layer);
+    }
+
+    /// The box around the comb's tips, as they are seen.
+    pub fn comb_bounds(&self, sampled: SampledCurve<'_>, scale: f64) -> Bounds {
+        let mut bounds = Bounds::EMPTY;
+        for sample in sampled.samples.all() {
+            bounds.add(self.orientation.flatten(sample.comb_tip(scale)));
+        }
+        bounds
+    }
+
+    /// Append the comb's visible teeth, each from its foot on the curve to its tip; where they
+    /// would stand closer than three screen points they are thinned out.
+    pub fn append_teeth(
+        &mut self,
+        sampled: SampledCurve<'_>,
+        view: &ViewBox,
+        comb: &CombSettings,
+        out: &mut Vec<[DVec2; 2]>,
+    ) {
+        let (samples, level) = (sampled.samples, view.level());
+        let spacing = 3.0 * 2f64.powi(level + 1);
+        let steps = samples.steps();
+        let density = comb.density.clamp(1, steps);
+        for (index, block) in self.blocks.iter_mut().enumerate() {
+            let key = (level, comb.scale.to_bits(), density);
+            block.teeth.refresh(key, spacing, &self.orientation, || {
+                samples.block_pieces(index).flat_map(move |piece| {
+                    let own = samples.piece(piece);
+                    (0..=density).map(move |tooth| &own[(tooth * steps + density / 2) / density])
+                })
+            });
+            block.teeth.append(view, out);
+        }
+    }
+
+    /// Find the point of the curve that is seen nearest to `target`, if it is at most
+    /// `reach` away: its parameter, place and distance. Sampled chords lead to it and Newton's
+    /// method refines it.
+    pub fn nearest(
+        &self,
+        sampled: SampledCurve<'_>,
+        target: DVec2,
+        reach: f64,
+    ) -> Option<(f64, DVec2, f64)> {
+        let samples = sampled.samples;
+        let mut best: Option<(f64, f64)> = None;
+        for (index, (own, block)) in self.blocks.iter().zip(samples.blocks()).enumerate() {
+            let Bounds { low, high } = own.bounds;
+            if !(target.distance(target.clamp(low, high)) <= reach + block.longest_step) {
+                continue;
+            }
+            for piece in samples.block_pieces(index) {
+                for (step, pair) in samples.piece(piece).windows(2).enumerate() {
+                    let (from, to) = (self.seen(pair[0].point), self.seen(pair[1].point));
+                    let chord = to - from;
+                    let share =
+                        ((target - from).dot(chord) / chord.length_squared()).clamp(0.0, 1.0);
+                    let share = if share.is_nan() { 0.0 } else { share };
+                    let distance = (from + share * chord).distance(target);
+                    if best.is_none_or(|(nearest, _)| distance < nearest) {
+                        let t = (step as f64 + share) / samples.steps() as f64;
+                        best = Some((distance, piece as f64 + t));
+                    }
+                }
+            }
+        }
+        let (_, u) = best?;
+        let u = self.refined(sampled, u, target);
+        let point = self.seen(sampled.curve.jet(u).point);
+        let distance = point.distance(target);
+        (distance <= reach).then_some((u, point, distance))
+    }
+
+    /// Refine the parameter of the point that is seen nearest to `target`.
+    fn refined(&self, sampled: SampledCurve<'_>, start: f64, target: DVec2) -> f64 {
+        let end = sampled.samples.pieces() as f64;
+        let step = 1.0 / sampled.samples.steps() as f64;
+        let mut u = start;
+        for _ in 0..8 {
+            let jet = sampled.curve.jet(u);
+            let away = self.seen(jet.point) - target;
+            let (first, second) = (self.seen(jet.first), self.seen(jet.second));
+            let slope = first.length_squared() + away.dot(second);
+            if !(slope > 0.0) {
+                break;
+            }
+            u = (u - away.dot(first) / slope)
+                .clamp(start - step, start + step)
+                .clamp(0.0, end);
+        }
+        u
+    }
+
+    fn seen(&self, point: DVec3) -> DVec2 {
+        self.orientation.flatten(point)
+    }
+
+    /// Append what is visible of one layer, made of the samples piece by piece.
+    fn append<P, C>(
+        &mut self,
+        sampled: SampledCurve<'_>,
+        view: &ViewBox,
+        out: &mut Vec<DVec2>,
+        layer: Drawn<P, C>,
+    ) where
+        P: Fn(&Sample) -> DVec2,
+        C: Fn(usize, &[Sample], Option<&ViewBox>, &mut Vec<DVec2>),
+    {
+        let samples = sampled.samples;
+        let blocks = self.blocks.iter_mut().zip(samples.blocks());
+        for (index, (own, block)) in blocks.enumerate() {
+            let coarse = block.longest_step > COARSE * view.pixel && samples.steps() < FINEST;
+            let key = OutlineKey {
+                level: (!coarse).then(|| view.level()),
+                shape: layer.shape,
+            };
+            let outline = own.outline(layer.outline);
+            outline.refresh(key, || {
+                let mut chained = Vec::new();
+                for piece in samples.block_pieces(index) {
+                    let samples = samples.piece(piece);
+                    if coarse {
+                        // Only the box around these is needed.
+                        chained.extend(samples.iter().map(&layer.place));
+                    } else {
+                        (layer.points)(piece, samples, None, &mut chained);
+                    }
+                }
+                chained.into_iter()
+            });
+            if !coarse {
+                outline.append(view, out);
+            } else if outline.bounds().may_meet(view) {
+                append_fine(&mut self.fine, sampled, index, view, out, &layer);
+            } else {
+                append_gap(out);
+            }
+        }
+    }
+}
+
+impl Block {
+    fn new(revision: Revision, bounds: Bounds) -> Self {
+        Self {
+            revision,
+            bounds,
+            curve: Outline::default(),
+            evolute: Outline::default(),
+            comb: Outline::default(),
+            teeth: Teeth::default(),
+            trends: Default::default(),
+        }
+    }
+
+    fn outline(&mut self, kept: Kept) -> &mut Outline {
+        match kept {
+            Kept::Curve => &mut self.curve,
+            Kept::Evolute => &mut self.evolute,
+            Kept::Comb => &mut self.comb,
+            Kept::Trend(trend) => &mut self.trends[trend as usize],
+        }
+    }
+}
+
+/// Append a block whose samples are too coarse for the view: pieces that the view touches are
+/// sampled anew, as densely as the view needs.
+fn append_fine<P, C>(
+    fine: &mut Option<PieceSampler>,
+    SampledCurve { curve, samples }: SampledCurve<'_>,
+    index: usize,
+    view: &ViewBox,
+    out: &mut Vec<DVec2>,
+    layer: &Drawn<P, C>,
+) where
+    P: Fn(&Sample) -> DVec2,
+    C: Fn(usize, &[Sample], Option<&ViewBox>, &mut Vec<DVec2>),
+{
+    let longest = samples.blocks()[index].longest_step;
+    let needed = samples.steps() as f64 * longest / (COARSE * view.pixel);
+    let steps = (needed.min(FINEST as f64) as usize).next_power_of_two();
+    let kept = fine.take().filter(|fine| fine.steps() == steps);
+    let fine = fine.insert(kept.unwrap_or_else(|| PieceSampler::new(steps)));
+    let mut closer = vec![samples.all()[0]; steps + 1];
+    let mut chained = Vec::new();
+    for piece in samples.block_pieces(index) {
+        let mut bounds = Bounds::EMPTY;
+        let places = samples.piece(piece).iter().map(&layer.place);
+        places.for_each(|place| bounds.add(place));
+        if bounds.may_meet(view) {
+            fine.fill(curve, piece, samples.is_planar(), &mut closer);
+            chained.clear();
+            (layer.points)(piece, &closer, Some(view), &mut chained);
+            let spacing = 2f64.powi(view.level());
+            thin(chained.iter().copied(), spacing, out, &mut bounds);
+        } else {
+            append_gap(out);
+        }
+    }
+}
+
+/// An outline that a block keeps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kept {
+    /// The curve.
+    Curve,
+    /// The evolute.
+    Evolute,
+    /// The comb's envelope.
+    Comb,
+    /// The pieces on which the curvature does one thing.
+    Trend(PieceTrend),
+}
+
+/// How a layer that is a chain of points is drawn.
+struct Drawn<P, C> {
+    /// Whatever else the points depend on.
+    shape: u64,
+    /// Where a block keeps them.
+    outline: Kept,
+    /// The point of one sample.
+    place: P,
+    /// Appends the points of one piece; with a view, only what is near it needs care.
+    points: C,
+}

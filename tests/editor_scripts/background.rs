@@ -1,0 +1,106 @@
+//! Features that are proved on a thread of its own.
+
+use std::sync::mpsc::{Receiver, channel};
+use std::time::Duration;
+
+use batten::document::Edit;
+use batten::editor::{Command, FeatureKind};
+use batten::geometry::FloatPolygon;
+use batten::geometry::features::Features;
+use glam::{DVec2, DVec3};
+
+use super::script::Script;
+
+/// Longer than any proof here takes: whoever waits so long has failed.
+const LONG: Duration = Duration::from_secs(60);
+
+/// Prove in the background from now on, and tell when there is something to see.
+fn prove_in_background(script: &mut Script, patience: Duration) -> Receiver<()> {
+    let (sender, woken) = channel();
+    let wake = move || sender.send(()).unwrap_or_default();
+    script.editor.run_in_background(patience, wake);
+    woken
+}
+
+/// A script with a curve of many segments.
+fn long() -> Script {
+    let points: Vec<(f64, f64)> = (0..5000)
+        .map(|index| (f64::from(index), (0.37 * f64::from(index)).sin()))
+        .collect();
+    let polygon = FloatPolygon::planar(3, &points).expect("a polygon");
+    let mut script = Script::example("arc");
+    let curve = script.curve();
+    let edit = Edit::SetPolygon { curve, polygon };
+    script.editor.apply("long", vec![edit]);
+    script
+}
+
+const EXTREMA: [FeatureKind; 2] = [FeatureKind::CurvatureMaximum, FeatureKind::CurvatureMinimum];
+
+/// Make frames, each when there is something new to see, until all features are known.
+#[track_caller]
+fn check_proved_in_later_frames(script: &mut Script, woken: &Receiver<()>) {
+    let expected = Features::new(&script.polygon());
+    let mut before = 0.0;
+    let report = loop {
+        if let Some(report) = script.editor.features() {
+            break report;
+        }
+        script.editor.scene();
+        let share = script.editor.proof_progress().expect("a curve");
+        assert!((before..=1.0).contains(&share), "{before} {share}");
+        before = share;
+        woken.recv_timeout(LONG).expect("the frame is woken");
+    };
+    assert_eq!(report.monotone, expected.monotone);
+    assert_eq!(report.count(&EXTREMA), expected.curvature_extrema.len());
+    assert_eq!(
+        report.count(&[FeatureKind::Inflection]),
+        expected.inflections.len()
+    );
+    assert!(report.count(&EXTREMA) > 500);
+}
+
+#[test]
+fn the_features_of_a_long_curve_are_there_in_a_later_frame() {
+    let mut script = long();
+    let woken = prove_in_background(&mut script, Duration::ZERO);
+    check_proved_in_later_frames(&mut script, &woken);
+}
+
+#[test]
+fn a_curve_that_changes_while_it_is_proved_gets_its_own_features() {
+    let mut script = long();
+    let woken = prove_in_background(&mut script, Duration::ZERO);
+    script.editor.features();
+    let curve = script.curve();
+    // Some frames of a drag: none waits for the proof of the one before.
+    for step in 1..=5 {
+        let moves = vec![(2500, DVec3::new(2500.0, f64::from(step), 0.0))];
+        script
+            .editor
+            .apply("move", vec![Edit::MoveVertices { curve, moves }]);
+        script.editor.features();
+    }
+    check_proved_in_later_frames(&mut script, &woken);
+    // What was proved before is not proved again.
+    script.command(Command::Undo);
+    check_proved_in_later_frames(&mut script, &woken);
+    assert_eq!(script.editor.segments_proved(curve), Some(4));
+}
+
+#[test]
+fn nothing_flickers_while_a_small_curve_is_dragged() {
+    let mut script = Script::example("hull");
+    // So patient that a machine with much else to do makes no difference.
+    let woken = prove_in_background(&mut script, LONG);
+    let at = script.at_vertex(6);
+    script.press(at);
+    for step in 1..=20 {
+        script.move_to(at + DVec2::new(0.0, 3.0 * f64::from(step)));
+        assert!(script.editor.features().is_some(), "in the same frame");
+        let scene = script.editor.scene();
+        assert!(!scene.curves[0].features.is_empty());
+    }
+    assert!(woken.try_recv().is_err(), "no frame is made for it");
+}
