@@ -210,7 +210,7 @@ impl Editor {
     /// Show what edits would make, as while a number field is dragged: begins a preview, or goes
     /// on with it. Once something else is begun it is kept.
     pub fn preview(&mut self, label: &str, edits: Vec<Edit>) {
-        if self.workspace.preview().is_none() || self.hand.is_dragging() {
+        if self.workspace.interruption() != Some(Interruption::Commits) {
             self.interrupt();
             self.workspace.begin(label, Interruption::Commits);
         }
@@ -222,18 +222,20 @@ impl Editor {
         self.interrupt();
     }
 
-    /// Keep what is being tried out as one step.
+    /// Keep what a number field shows as one step.
     pub fn commit_preview(&mut self) {
-        self.workspace.commit();
+        if self.workspace.interruption() == Some(Interruption::Commits) {
+            self.workspace.commit();
+        }
     }
 
-    /// Take back what is being tried out.
+    /// Take back what a number field shows.
     pub fn abort_preview(&mut self) {
-        if self.is_trying() {
-            self.leave_trial();
+        if self.workspace.interruption() == Some(Interruption::Commits) {
+            self.workspace.abort();
+            self.tell_of_update(None);
+            self.document_changed();
         }
-        self.workspace.abort();
-        self.document_changed();
     }
 
     /// Show what edits make of the document that the preview began with.

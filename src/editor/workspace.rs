@@ -98,6 +98,11 @@ impl Workspace {
         self.preview.map(|preview| preview.id)
     }
 
+    /// What becomes of the preview that runs when something else is begun.
+    pub fn interruption(&self) -> Option<Interruption> {
+        self.preview.map(|preview| preview.interruption)
+    }
+
     /// Begin a preview; one that still runs is interrupted.
     pub fn begin(&mut self, label: &str, interruption: Interruption) -> PreviewId {
         self.interrupt();
@@ -133,7 +138,7 @@ impl Workspace {
 
     /// End the preview because something else is begun. Returns what became of it, if one ran.
     pub fn interrupt(&mut self) -> Option<Interruption> {
-        let ended = self.preview.map(|preview| preview.interruption);
+        let ended = self.interruption();
         match ended {
             None => {}
             Some(Interruption::Commits) => {

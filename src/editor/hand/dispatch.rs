@@ -25,12 +25,12 @@ impl Editor {
         if let Input::AxisHeld(axis) = input {
             self.hand.axis = axis;
         }
-        if !self.hand.is_dragging() && self.workspace.preview().is_some() {
-            match input {
-                Input::Key(Key::Escape) => return self.abort_preview(),
-                Input::Key(Key::Enter) if self.is_trying() => return told(self.apply_trial()),
-                _ => {}
-            }
+        let field = self.workspace.interruption() == Some(Interruption::Commits);
+        match input {
+            Input::Key(Key::Escape) if field => return self.abort_preview(),
+            Input::Key(Key::Escape) if self.is_trying() => return self.leave_trial(),
+            Input::Key(Key::Enter) if self.is_trying() => return told(self.apply_trial()),
+            _ => {}
         }
         if let Input::Moved { at } = input
             && !self.hand.gestures.is_holding()
