@@ -30,7 +30,9 @@ fn winding(count: usize) -> Document {
 fn dragging(count: usize, close: bool) -> (Editor, DVec2) {
     let mut editor = Editor::with_document(winding(count));
     editor.set_canvas_size(CANVAS);
-    editor.execute(Command::ToggleLayer(Layer::Comb));
+    editor
+        .execute(Command::ToggleLayer(Layer::Comb))
+        .expect("a command");
     let curve = editor.active().expect("a curve");
     let polygon = &editor.document().curve(curve).expect("the curve").polygon;
     let vertex = polygon.vertex(count / 2).truncate();

@@ -185,3 +185,22 @@ impl Action {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn actions_have_names_and_keys_of_their_own() {
+        let actions = Action::all();
+        for (index, action) in actions.iter().enumerate() {
+            assert!(!action.label().is_empty() && !action.tooltip().is_empty());
+            for other in &actions[index + 1..] {
+                assert_ne!(action.label(), other.label());
+                if let Some(shortcut) = action.shortcut() {
+                    assert_ne!(Some(shortcut), other.shortcut(), "{action:?} and {other:?}");
+                }
+            }
+        }
+    }
+}

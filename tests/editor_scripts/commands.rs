@@ -9,10 +9,9 @@ use super::script::Script;
 #[test]
 fn copy_and_paste_add_a_curve_aside_as_one_step() {
     let mut script = Script::example("arc");
-    let Some(batten::editor::Request::CopyText(text)) = script.editor.execute(Command::Copy) else {
-        panic!("no text was copied");
-    };
-    script.editor.paste_text(&text);
+    let text = script.editor.copy().expect("the arc's text");
+    let pasted = script.editor.paste_text(&text).expect("a copy");
+    assert!(pasted.offers_undo, "{pasted:?}");
     assert_eq!(script.editor.document().len(), 2);
     let names: Vec<String> = script
         .editor
@@ -23,7 +22,8 @@ fn copy_and_paste_add_a_curve_aside_as_one_step() {
     assert_ne!(names[0], names[1]);
     script.command(Command::Undo);
     assert_eq!(script.editor.document().len(), 1);
-    script.editor.paste_text("no curve at all");
+    let refused = script.editor.paste_text("no curve at all");
+    assert!(refused.is_err(), "{refused:?}");
     assert_eq!(script.editor.document().len(), 1);
     assert!(
         script
@@ -36,7 +36,7 @@ fn copy_and_paste_add_a_curve_aside_as_one_step() {
 #[test]
 fn every_command_can_be_given_at_any_time() {
     for example in ["arc", "periodic"] {
-        for command in Command::all(7) {
+        for command in Command::all() {
             let mut script = Script::example(example);
             script.command(command);
             script.check();
@@ -60,7 +60,7 @@ fn what_only_shows_leaves_a_drag_going_on() {
     let at = script.at_vertex(3);
     script.press(at);
     script.move_to(at + 30.0);
-    for command in Command::all(7).into_iter().filter(|c| c.only_shows()) {
+    for command in Command::all().into_iter().filter(|c| c.only_shows()) {
         script.command(command);
         assert!(script.editor.hand().is_dragging(), "{command:?}");
     }
@@ -73,7 +73,7 @@ fn what_only_shows_leaves_a_drag_going_on() {
 
 #[test]
 fn commands_have_names_and_keys_of_their_own() {
-    let commands = Command::all(7);
+    let commands = Command::all();
     for (index, command) in commands.iter().enumerate() {
         assert!(!command.label().is_empty() && !command.tooltip().is_empty());
         for other in &commands[index + 1..] {
@@ -92,7 +92,7 @@ fn commands_have_names_and_keys_of_their_own() {
 #[test]
 fn an_empty_document_says_what_to_do() {
     let mut script = Script::example("arc");
-    script.editor.execute(Command::New);
+    script.editor.begin_empty();
     assert!(script.editor.document().is_empty());
     assert!(
         script.editor.hint().contains("draw"),
@@ -115,7 +115,7 @@ fn several_files_open_as_one_document_and_a_bad_one_changes_nothing() {
     let mut script = Script::example("arc");
     let paths = ["a", "b"].map(|name| folder.path().join(format!("{name}.batten")));
     for path in &paths {
-        assert!(script.editor.save(path), "{}", script.message());
+        script.editor.save(path).expect("a file");
     }
     let mut editor = batten::editor::Editor::new();
     editor.open_all(&paths).expect("two files");

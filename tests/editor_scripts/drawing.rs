@@ -16,7 +16,7 @@ const CORNERS: [DVec2; 5] = [
 
 fn drawing() -> Script {
     let mut script = Script::example("arc");
-    script.command(Command::New);
+    script.editor.begin_empty();
     script.tool(ToolKind::Draw);
     for corner in CORNERS {
         script.click(corner);
@@ -83,7 +83,7 @@ fn the_first_curve_that_is_drawn_is_fitted_with_a_comb_of_its_own() {
         scale: 1e5,
         density: 3,
     });
-    script.command(Command::New);
+    script.editor.begin_empty();
     assert_eq!(script.editor.view().comb(), CombSettings::default());
     script.tool(ToolKind::Draw);
     // Small, in a corner.
@@ -136,7 +136,7 @@ fn between_vertices_in_space_the_distance_is_that_in_space() {
     let curve = script.curve();
     let moves = vec![(0, script.polygon().vertex(0) + DVec3::new(0.0, 0.0, 7.0))];
     let edit = batten::document::Edit::MoveVertices { curve, moves };
-    script.editor.apply("lift", vec![edit]);
+    script.editor.apply("lift", vec![edit]).expect("an edit");
     script.command(Command::ToggleSnapping);
     script.tool(ToolKind::Measure);
     script.click(script.at_vertex(0));

@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use batten::document::Document;
-use batten::editor::{Button, Command, Input, Key, Modifiers, Request, Shortcut};
+use batten::editor::{Button, Command, Input, Key, Modifiers, Shortcut};
 use glam::DVec2;
 
 use super::laws::check_written;
 use super::places::Place;
 use super::watch::{Done, Watch};
-use super::window::{Panel, Window};
+use super::window::{Panel, Replacement, Window};
 
 /// What stands in a failure between the law that is broken and what broke it.
 pub const AFTER: &str = " — after ";
@@ -203,6 +203,7 @@ impl Player {
                 self.input(Input::AxisHeld(None), Done::Other)?;
             }
             (Some(command), _) => self.command(command)?,
+            (None, _) if let Some(asked) = Panel::of_key(shortcut) => self.panel(&asked)?,
             (None, _) => {
                 let (pressed, repeated) = match key {
                     Key::Escape => (Done::Escape, Done::Escape),
@@ -224,7 +225,12 @@ impl Player {
     fn command(&mut self, command: Command) -> Result<(), String> {
         let is_offered = self.window.is_enabled(command);
         let was_dragging = self.window.is_dragging();
-        let request = self.window.execute(command);
+        let reply = self.window.execute(command);
+        if let Err(refusal) = &reply
+            && self.window.message() != Some(&refusal.0)
+        {
+            return Err(format!("a refusal that is not told: {refusal}"));
+        }
         if command.only_shows() && was_dragging && !self.window.is_dragging() {
             return Err("a drag ended by what only shows".into());
         }
@@ -232,14 +238,10 @@ impl Player {
             _ if !is_offered => Done::Nothing,
             Command::Undo => Done::Undo,
             Command::Redo => Done::Redo,
-            Command::Delete | Command::Cut => Done::Delete,
+            Command::Delete => Done::Delete,
             Command::DeleteCurve => Done::DeleteCurve,
-            Command::New | OPEN_EXAMPLE(_) if request.is_none() => Done::Replace,
             _ => Done::Other,
         };
-        if matches!(request, Some(Request::ConfirmDiscard(_))) && !self.window.is_modified() {
-            return Err("asks about changes though nothing is unsaved".into());
-        }
         self.watch.check(&self.window, done)
     }
 
@@ -249,7 +251,9 @@ impl Player {
         }
         self.window.panel(panel);
         let done = match panel {
-            Panel::Discard(_) => Done::Replace,
+            Panel::Replace(Replacement::MissingFile) => Done::Other,
+            Panel::Replace(_) => Done::Replace,
+            Panel::Cut => Done::Delete,
             Panel::Transform(_) => Done::Transform,
             _ => Done::Other,
         };

@@ -62,7 +62,7 @@ fn lines_and_circles_are_told_from_monotone_curves() {
         let mut script = Script::example("arc");
         let curve = script.curve();
         let edit = Edit::SetPolygon { curve, polygon };
-        script.editor.apply("another", vec![edit]);
+        script.editor.apply("another", vec![edit]).expect("an edit");
         let report = script.editor.features().expect("features");
         assert_eq!(report.monotone, Verdict::Proved);
         assert_eq!(report.constant, constant);
@@ -152,7 +152,7 @@ fn the_curvature_of_the_curve_at_length_1_is_plotted_over_shares() {
 fn every_example_has_every_plot() {
     for example in 0..7 {
         let mut script = Script::example("arc");
-        script.command(OPEN_EXAMPLE(example));
+        script.editor.open_example(example).expect("an example");
         let planar = script.editor.active_is_planar();
         assert_eq!(planar, Some(true));
         for level in 1..=LEVELS {

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use batten::document::Extras;
-use batten::editor::{AfterDiscard, Command, Export, Request};
+use batten::editor::{Command, Export, Note};
 use batten::geometry::PolygonKind;
 use batten::io::disk;
 use glam::DVec2;
@@ -31,8 +31,7 @@ fn text(path: &Path) -> String {
 
 fn opened(path: &Path) -> Script {
     let mut script = Script::example("arc");
-    let after = AfterDiscard::OpenFile(path.to_owned());
-    assert_eq!(script.editor.discard_and(after), None);
+    script.editor.open(path).expect("a project");
     script.check();
     script
 }
@@ -59,7 +58,10 @@ fn unknown_keys_are_told_when_a_project_is_opened() {
         .open_all(std::slice::from_ref(&path))
         .expect("a project");
     assert_eq!(script.message(), expected, "from the command line too");
-    script.editor.import(std::slice::from_ref(&path));
+    script
+        .editor
+        .import(std::slice::from_ref(&path))
+        .expect("a project");
     assert_eq!(
         script.message().lines().nth(2),
         Some(
@@ -80,21 +82,21 @@ fn unknown_keys_survive_edits_undo_and_saving() {
     script.drag_vertex(1, DVec2::new(30.0, 10.0));
     script.command(Command::Reverse);
     script.command(Command::RaiseDegree);
-    assert!(script.editor.save(&path), "{}", script.message());
+    script.editor.save(&path).expect("a file");
     assert!(is_kept(&text(&path)), "{}", text(&path));
     let edited = text(&path);
     for _ in 0..3 {
         script.command(Command::Undo);
     }
-    assert!(script.editor.save(&path), "{}", script.message());
+    script.editor.save(&path).expect("a file");
     assert!(is_kept(&text(&path)), "{}", text(&path));
     for _ in 0..3 {
         script.command(Command::Redo);
     }
-    assert!(script.editor.save(&path), "{}", script.message());
+    script.editor.save(&path).expect("a file");
     assert_eq!(text(&path), edited);
-    script.command(Command::New);
-    assert!(script.editor.save(&path), "{}", script.message());
+    script.editor.begin_empty();
+    script.editor.save(&path).expect("a file");
     assert!(!text(&path).contains("made by"), "another document");
 }
 
@@ -102,12 +104,10 @@ fn unknown_keys_survive_edits_undo_and_saving() {
 fn unknown_keys_do_not_go_with_copies() {
     let folder = folder();
     let mut script = opened(&write(&folder, "own.batten", PROJECT));
-    let Some(Request::CopyText(copied)) = script.editor.execute(Command::Copy) else {
-        panic!("a text is copied");
-    };
+    let copied = script.editor.copy().expect("a text");
     assert!(!copied.contains("weigths"), "{copied}");
-    script.editor.paste_text(&copied);
-    script.editor.paste_text(PROJECT);
+    script.editor.paste_text(&copied).expect("a curve");
+    script.editor.paste_text(PROJECT).expect("a curve");
     assert_eq!(
         script.message(),
         "1 curve pasted\n\
@@ -129,7 +129,8 @@ fn a_pasted_table_tells_how_it_was_read() {
     let mut script = Script::example("arc");
     script
         .editor
-        .paste_text("# degree=1\t\nx\ty\n0\t0,5\n1\t1,25\n");
+        .paste_text("# degree=1\t\nx\ty\n0\t0,5\n1\t1,25\n")
+        .expect("a curve");
     assert_eq!(
         script.message(),
         "1 curve pasted\nread with tabs between columns and decimal commas"
@@ -148,28 +149,25 @@ fn a_name_with_a_point_gets_its_extension() {
         ("upper.BATTEN", "upper.BATTEN"),
     ] {
         let path = folder.path().join(name);
-        assert!(script.editor.save(&path), "{name}: {}", script.message());
+        let saved = script.editor.save(&path);
         let path = folder.path().join(written);
+        let note = Note::told(format!("Saved to {}", path.display()));
+        assert_eq!(saved, Ok(note), "{name}");
         assert_eq!(script.message(), format!("Saved to {}", path.display()));
         fs::remove_file(&path).expect("what was saved");
     }
     let export = Export {
         extension: "csv",
         polygon: PolygonKind::Float,
-        file_name: String::new(),
     };
-    script
+    let exported = script
         .editor
         .export(&folder.path().join("hull v1.2"), &export);
-    assert!(
-        folder.path().join("hull v1.2.csv").is_file(),
-        "{}",
-        script.message()
-    );
-    assert!(
-        !script.editor.save(&folder.path().join("hull.dxf")),
-        "another format"
-    );
+    assert!(exported.is_ok(), "{exported:?}");
+    assert!(folder.path().join("hull v1.2.csv").is_file());
+    let drawing = folder.path().join("hull.dxf");
+    assert!(script.editor.save(&drawing).is_err(), "another format");
+    assert!(!drawing.exists());
 }
 
 #[cfg(unix)]
@@ -179,7 +177,7 @@ fn a_hard_link_that_saving_breaks_is_told() {
     let path = write(&folder, "own.batten", PROJECT);
     fs::hard_link(&path, folder.path().join("other")).expect("a link");
     let mut script = opened(&path);
-    assert!(script.editor.save(&path));
+    script.editor.save(&path).expect("a file");
     let expected = format!(
         "Saved to {}\nthe file had another name (a hard link), which keeps the old content",
         path.display()
@@ -196,7 +194,7 @@ fn several_projects_become_one_without_what_each_says_of_itself() {
     script.editor.open_all(&paths).expect("two projects");
     assert_eq!(script.editor.document().extras(), &Extras::default());
     let path = folder.path().join("both.batten");
-    assert!(script.editor.save(&path), "{}", script.message());
+    script.editor.save(&path).expect("a file");
     let read = disk::read_file(&path).expect("what was saved");
     assert!(
         read.curves

@@ -16,6 +16,7 @@ mod laws;
 mod matrix;
 mod model;
 mod places;
+mod previews;
 mod reshaping;
 mod script;
 mod selecting;

@@ -5,12 +5,13 @@ use std::collections::BTreeMap;
 use batten::document::Document;
 use batten::editor::{Button, Command, Key, Layer, Modifiers, ToolKind};
 use batten::geometry::End;
+use batten::io::examples::EXAMPLES;
 use glam::DVec2;
 
 use super::documents::{Case, cases};
 use super::events::{AFTER, Event, Player};
 use super::places::Place;
-use super::window::{Panel, Window};
+use super::window::{Panel, Replacement, Window};
 
 /// How far drags of the matrix go, in screen points: off to the side, and not along an axis.
 const DRAG: DVec2 = DVec2::new(47.0, -31.0);
@@ -108,13 +109,13 @@ fn every_command_in_every_situation_is_undone_to_the_bit() {
     let mut failures = Failures::default();
     for case in cases() {
         for (situation, events) in SITUATIONS {
-            for command in every_command() {
+            for asked in every_command().into_iter().chain(every_replacement()) {
                 let played = play(&case, |player| {
                     player.play(events)?;
-                    player.play(&[Event::Command(command)])?;
+                    player.play(std::slice::from_ref(&asked))?;
                     player.play(&[Event::Move(Place::Own(1), 2.0 * DRAG)])
                 });
-                let name = || format!("{}, {situation}, {command:?}", case.name);
+                let name = || format!("{}, {situation}, {asked:?}", case.name);
                 failures.check(name, played);
             }
         }
@@ -126,11 +127,9 @@ fn every_command_in_every_situation_is_undone_to_the_bit() {
 fn every_step_of_every_command_is_undone_and_redone_between_others() {
     let mut failures = Failures::default();
     for case in cases() {
-        let all = every_command().into_iter().map(Event::Command);
-        let all: Vec<Event> = all.collect();
         failures.check(
             || case.name.to_owned(),
-            play(&case, |player| player.play(&all)),
+            play(&case, |player| player.play(&every_command())),
         );
     }
     failures.none();
@@ -370,9 +369,23 @@ check_tools! {
     end_fitting_is_undone_to_the_bit: ToolKind::EndFit,
 }
 
-/// Every command there is, whatever will be added.
-fn every_command() -> Vec<Command> {
-    Window::open(Document::default()).commands()
+/// Every command there is, whatever will be added, and copying and cutting.
+fn every_command() -> Vec<Event> {
+    let commands = Window::open(Document::default()).commands();
+    let panels = [Panel::Copy, Panel::CopyAndPaste, Panel::Cut].map(Event::Panel);
+    commands
+        .into_iter()
+        .map(Event::Command)
+        .chain(panels)
+        .collect()
+}
+
+/// What is asked for to work on another document.
+fn every_replacement() -> impl Iterator<Item = Event> {
+    let examples = (0..EXAMPLES.len()).map(Replacement::Example);
+    let others = [Replacement::Empty, Replacement::MissingFile];
+    let all = others.into_iter().chain(examples);
+    all.map(|replacement| Event::Panel(Panel::Replace(replacement)))
 }
 
 /// Open a document, play, let go, and undo and redo everything.

@@ -13,11 +13,11 @@ use std::cell::Cell;
 use std::path::Path;
 
 use batten::document::{Curve, Document};
-use batten::editor::{AfterDiscard, Editor};
 use batten::editor::{Button, Command, EndFitAction, Key, Modifiers, Transformation};
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::{End, PolygonKind};
 use batten::io::disk;
+use batten::io::examples::EXAMPLES;
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 use proptest::sample::select;
@@ -28,8 +28,7 @@ use super::documents::with_targets;
 use super::events::{Event, Player};
 use super::laws::{check_read, check_written};
 use super::places::Place;
-
-use super::window::{CANVAS, OfCurve, Panel};
+use super::window::{CANVAS, OfCurve, Panel, Replacement};
 
 /// The seed of a run without another.
 const SEED: u64 = 2026;
@@ -130,9 +129,8 @@ fn play(
 
 /// Save, read what was saved, export it and import it again.
 fn save(player: &mut Player, file: &Path) -> Result<(), String> {
-    if !player.window.save(file) {
-        return Err(format!("not saved: {:?}", player.window.message()));
-    }
+    let saved = player.window.save(file);
+    saved.map_err(|refusal| format!("not saved: {refusal}"))?;
     if player.window.is_modified() {
         return Err("saved, and still modified".into());
     }
@@ -157,9 +155,7 @@ fn is_too_much(event: &Event, player: &Player) -> bool {
         .any(|(_, curve)| curve.polygon.degree() >= HIGHEST);
     match event {
         Event::Command(Command::RaiseDegree | Command::RaiseCurveDegree) => is_high || is_large,
-        Event::Command(
-            Command::Subdivide | Command::Duplicate | Command::Extend(_) | OPEN_EXAMPLE(_),
-        ) => is_large,
+        Event::Command(Command::Subdivide | Command::Duplicate | Command::Extend(_)) => is_large,
         Event::Panel(Panel::Divide(..) | Panel::Paste(_) | Panel::CopyAndPaste) => is_large,
         _ => false,
     }
@@ -230,7 +226,7 @@ fn event() -> impl Strategy<Value = Event> {
 
 /// Every command there is; the tools more often, for most of the others leave them.
 fn every_command() -> Vec<Command> {
-    let all = Command::all(Editor::new().examples());
+    let all = Command::all();
     let is_tool = |command: &Command| matches!(command, Command::Tool(_));
     let tools: Vec<Command> = all.iter().copied().filter(is_tool).collect();
     let mut commands = all;
@@ -398,19 +394,21 @@ fn end_fit() -> impl Strategy<Value = EndFitAction> {
 fn dialogs() -> impl Strategy<Value = Panel> {
     let share = || prop_oneof![3 => 0.0..1.0, 1 => Just(0.5), 1 => number_of_any_kind()];
     let divide = (share(), prop::option::of(share()), 0..4u32);
-    let after = prop_oneof![
-        Just(AfterDiscard::New),
-        (0..7usize).prop_map(AfterDiscard::OpenExample),
-        Just(AfterDiscard::OpenFile("no such file.batten".into())),
+    let replacement = prop_oneof![
+        Just(Replacement::Empty),
+        (0..EXAMPLES.len()).prop_map(Replacement::Example),
+        Just(Replacement::MissingFile),
     ];
     prop_oneof![
         4 => (0..10usize).prop_map(Panel::Paste),
         3 => Just(Panel::CopyAndPaste),
+        1 => Just(Panel::Copy),
+        1 => Just(Panel::Cut),
         3 => divide.prop_map(|(from, to, subdivisions)| Panel::Divide(from, to, subdivisions)),
         3 => (select(&PolygonKind::ALL[..]), 0..18usize)
             .prop_map(|(kind, digits)| Panel::Round(kind, digits)),
         1 => Just(Panel::DismissMessage),
-        1 => after.prop_map(Panel::Discard),
+        1 => replacement.prop_map(Panel::Replace),
     ]
 }
 

@@ -6,9 +6,6 @@ use glam::{DVec2, DVec3};
 
 use super::window::{CANVAS, Window};
 
-/// The radius of the end-fit tool's ring, in screen points.
-const RING: f64 = batten::editor::end_fit::RING;
-
 /// What lies at a place. Curves, vertices, legs and teeth are counted from 0 and round again.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Place {
@@ -69,8 +66,7 @@ impl Place {
             }
             Self::Ring(angle) => {
                 let marks = window.end_marks()?;
-                let arm = RING / window.viewport().scale;
-                Some(marks.actual + arm * DVec2::from_angle(angle))
+                Some(marks.actual + marks.ring * DVec2::from_angle(angle))
             }
             Self::Target => window.end_marks()?.target,
             Self::Arrow => window.end_marks()?.target_tip,

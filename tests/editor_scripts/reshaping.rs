@@ -116,7 +116,10 @@ fn one_segment_is_raised_exactly_and_several_come_near() {
 fn splitting_at_a_knot_is_exact_and_makes_two_curves() {
     let mut script = Script::example("s-curve");
     let before = script.polygon();
-    script.editor.divide(Division::Split(1.0), 0);
+    script
+        .editor
+        .divide(Division::Split(1.0), 0)
+        .expect("the parts");
     let parts: Vec<FloatPolygon> = script
         .editor
         .document()
@@ -134,7 +137,10 @@ fn splitting_at_a_knot_is_exact_and_makes_two_curves() {
     );
     assert_eq!(script.editor.workspace().history().undo_steps(), 1);
     script.command(Command::Undo);
-    script.editor.divide(Division::Trim(0.5, 1.75), 2);
+    script
+        .editor
+        .divide(Division::Trim(0.5, 1.75), 2)
+        .expect("the parts");
     assert!(
         script.message().contains("the curve is the same"),
         "{}",
@@ -147,7 +153,7 @@ fn splitting_at_a_knot_is_exact_and_makes_two_curves() {
         assert!(off <= ROUNDING * before.size(), "{off:e}");
     }
     script.command(Command::Undo);
-    script.editor.divide(Division::Split(99.0), 0);
+    assert!(script.editor.divide(Division::Split(99.0), 0).is_err());
     assert_eq!(script.polygon(), before, "there is no such place");
     assert!(
         script
@@ -177,7 +183,10 @@ fn rounding_tells_beforehand_what_it_does() {
         "{}",
         closed.float_moved
     );
-    script.editor.round(PolygonKind::Float, 3);
+    script
+        .editor
+        .round(PolygonKind::Float, 3)
+        .expect("a rounded curve");
     let rounded = script.polygon();
     assert_eq!(rounded, float.polygon);
     let decimal = |value: f64| (value * 1e3).round() / 1e3;
@@ -188,6 +197,25 @@ fn rounding_tells_beforehand_what_it_does() {
     assert_eq!(rounded.vertices(), expected);
     script.command(Command::Undo);
     assert_eq!(script.polygon(), before);
+}
+
+#[test]
+fn why_a_closed_vertex_cannot_go_there_is_told_until_it_can_go_on() {
+    let mut script = Script::example("arc");
+    let at = at_closed(&script, 9);
+    script.press(at);
+    script.move_to(at + DVec2::new(5.0, 0.0));
+    let shown = script.polygon();
+    assert_eq!(script.editor.message(), None);
+    script.move_to(DVec2::splat(1e120));
+    let message = script.editor.message().expect("why not");
+    assert!(message.is_error, "{message:?}");
+    assert_eq!(script.polygon(), shown, "what was good stays");
+    script.move_to(at + DVec2::new(6.0, 0.0));
+    assert_eq!(script.editor.message(), None);
+    assert_ne!(script.polygon(), shown);
+    script.release(at + DVec2::new(6.0, 0.0));
+    assert_eq!(script.editor.workspace().history().undo_steps(), 1);
 }
 
 #[test]
@@ -217,7 +245,7 @@ fn rounding_and_dividing_prove_no_more_than_a_frame_has_time_for() {
     let mut script = Script::example("arc");
     let curve = script.curve();
     let edit = Edit::SetPolygon { curve, polygon };
-    script.editor.apply("long", vec![edit]);
+    script.editor.apply("long", vec![edit]).expect("an edit");
     let mut report = script
         .editor
         .try_rounding(PolygonKind::Float, 2)
@@ -226,9 +254,15 @@ fn rounding_and_dividing_prove_no_more_than_a_frame_has_time_for() {
     let counts = std::iter::repeat_with(|| report.extrema()).take(100);
     let counts = counts.last().expect("counts");
     assert!(counts.iter().all(Option::is_some), "{counts:?}");
-    script.editor.round(PolygonKind::Float, 2);
+    script
+        .editor
+        .round(PolygonKind::Float, 2)
+        .expect("a rounded curve");
     let still = |script: &Script| script.message().contains("still being proved");
     assert!(still(&script), "{}", script.message());
-    script.editor.divide(Division::Split(500.0), 0);
+    script
+        .editor
+        .divide(Division::Split(500.0), 0)
+        .expect("the parts");
     assert!(still(&script), "{}", script.message());
 }

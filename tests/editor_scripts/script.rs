@@ -1,7 +1,7 @@
 //! A hand that works the editor without a window: every step leaves a valid document.
 
 use batten::document::CurveId;
-use batten::editor::{Button, Command, Editor, Input, Key, Modifiers, ToolKind};
+use batten::editor::{Button, Command, Editor, Input, Key, Modifiers, ToolKind, told};
 use batten::geometry::FloatPolygon;
 use batten::io::examples::EXAMPLES;
 use glam::DVec2;
@@ -20,7 +20,7 @@ impl Script {
         let index = EXAMPLES.iter().position(|example| example.name == name);
         let mut editor = Editor::new();
         editor.set_canvas_size(DVec2::new(1000.0, 700.0));
-        editor.execute(Command::OpenExample(index.expect("an example")));
+        told(editor.open_example(index.expect("an example")));
         let mut script = Self { editor };
         script.check();
         script
@@ -39,7 +39,12 @@ impl Script {
 
     /// The selected vertices of the active curve.
     pub fn selected(&self) -> Vec<usize> {
-        self.editor.selected_vertices(self.curve())
+        self.selected_of(self.curve())
+    }
+
+    /// The selected vertices of a curve.
+    pub fn selected_of(&self, curve: CurveId) -> Vec<usize> {
+        self.editor.hand().selection().of_curve(curve).collect()
     }
 
     /// The message's text; empty if there is none.
@@ -133,9 +138,9 @@ impl Script {
         self.input(Input::Modifiers(modifiers));
     }
 
-    /// Give a command; requests to the window are dropped.
+    /// Give a command; what it came to is the message.
     pub fn command(&mut self, command: Command) {
-        self.editor.execute(command);
+        told(self.editor.execute(command));
         self.check();
     }
 

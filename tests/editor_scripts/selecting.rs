@@ -161,7 +161,8 @@ fn overlapping() -> Script {
     let moves = vec![(7, place)];
     script
         .editor
-        .apply("overlap", vec![Edit::MoveVertices { curve, moves }]);
+        .apply("overlap", vec![Edit::MoveVertices { curve, moves }])
+        .expect("an edit");
     script
 }
 

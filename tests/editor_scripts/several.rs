@@ -1,11 +1,9 @@
 //! Several curves at once: whose is what is hovered, copied, cut, exported and named.
 
 use batten::document::{Curve, CurveId, Edit};
-use batten::editor::{
-    AfterDiscard, Command, Division, HoverScene, Key, Modifiers, Request, ToolKind,
-};
+use batten::editor::{Command, Division, Export, HoverScene, Key, Modifiers, ToolKind};
 use batten::geometry::end_correction::EndTarget;
-use batten::geometry::{End, FloatPolygon};
+use batten::geometry::{End, FloatPolygon, PolygonKind};
 use batten::io::disk;
 use glam::{DVec2, DVec3};
 
@@ -22,7 +20,10 @@ pub fn two() -> (Script, [CurveId; 2]) {
         "other",
         FloatPolygon::planar(3, &points).expect("a polygon"),
     );
-    script.editor.apply("add", vec![Edit::Add(Box::new(other))]);
+    script
+        .editor
+        .apply("add", vec![Edit::Add(Box::new(other))])
+        .expect("an edit");
     let other = script
         .editor
         .document()
@@ -73,13 +74,11 @@ fn cutting_removes_what_it_copies() {
     assert_eq!(script.curve(), other);
     let untouched = polygon_of(&script, arc);
     let before = polygon_of(&script, other);
-    let Some(Request::CopyText(text)) = script.editor.execute(Command::Cut) else {
-        panic!("nothing was copied");
-    };
+    let text = script.editor.cut().expect("the vertices' text");
     let left = polygon_of(&script, other);
     assert_eq!(left.vertices(), &before.vertices()[4..]);
     assert_eq!(polygon_of(&script, arc), untouched);
-    script.editor.paste_text(&text);
+    script.editor.paste_text(&text).expect("a curve");
     assert_eq!(script.polygon().vertices().len(), 4);
 }
 
@@ -102,15 +101,16 @@ fn what_cannot_be_cut_is_not_copied() {
     let curve = other;
     script
         .editor
-        .apply("another", vec![Edit::SetPolygon { curve, polygon }]);
+        .apply("another", vec![Edit::SetPolygon { curve, polygon }])
+        .expect("an edit");
     script.editor.select_vertex(other, 0, false);
     script.editor.select_vertex(other, 1, true);
-    assert_eq!(script.editor.execute(Command::Cut), None);
+    assert!(script.editor.cut().is_err());
     assert!(script.message().contains("too few"), "{}", script.message());
     // Neither are vertices of a locked curve.
-    script.editor.set_locked(other, true);
+    script.editor.set_locked(other, true).expect("a curve");
     script.editor.select_vertex(other, 0, false);
-    assert_eq!(script.editor.execute(Command::Cut), None);
+    assert!(script.editor.cut().is_err());
     assert!(script.message().contains("locked"), "{}", script.message());
 }
 
@@ -130,8 +130,8 @@ fn the_active_curve_stays_active_when_its_vertex_is_dragged_among_others() {
     script.tool(ToolKind::Rotate);
     script.drag(DVec2::new(700.0, 100.0), DVec2::new(720.0, 160.0));
     assert_eq!(script.curve(), other);
-    assert_eq!(script.editor.selected_vertices(arc).len(), 10);
-    assert_eq!(script.editor.selected_vertices(other).len(), 9);
+    assert_eq!(script.selected_of(arc).len(), 10);
+    assert_eq!(script.selected_of(other).len(), 9);
 }
 
 #[test]
@@ -152,7 +152,7 @@ fn a_leg_of_a_selection_takes_the_selection_along() {
 #[test]
 fn what_is_hidden_is_not_edited() {
     let (mut script, [arc, _]) = two();
-    script.editor.set_visible(arc, false);
+    script.editor.set_visible(arc, false).expect("a curve");
     script.editor.activate(arc);
     let before = script.editor.document().clone();
     for tool in ToolKind::ALL
@@ -176,7 +176,7 @@ fn what_is_hidden_is_not_edited() {
     }
     let moves = vec![(0, DVec3::ZERO)];
     let edit = Edit::MoveVertices { curve: arc, moves };
-    assert!(!script.editor.apply("move", vec![edit]));
+    assert!(script.editor.apply("move", vec![edit]).is_err());
     assert!(script.message().contains("hidden"), "{}", script.message());
     assert!(script.editor.document().is_same(&before));
 }
@@ -184,10 +184,7 @@ fn what_is_hidden_is_not_edited() {
 #[test]
 fn a_single_vertex_is_copied_as_its_coordinates() {
     let (mut script, [arc, other]) = two();
-    let copied = |script: &mut Script| match script.editor.execute(Command::Copy) {
-        Some(Request::CopyText(text)) => text,
-        none => panic!("{none:?}: {}", script.message()),
-    };
+    let copied = |script: &mut Script| script.editor.copy().expect("a text");
     script.click(script.at_vertex_of(other, 3));
     let DVec3 { x, y, .. } = polygon_of(&script, other).vertex(3);
     assert_eq!(copied(&mut script), format!("{x},{y}\n"));
@@ -207,7 +204,7 @@ fn a_single_vertex_is_copied_as_its_coordinates() {
         script.editor.select_vertex(other, vertex, true);
     }
     let text = copied(&mut script);
-    script.editor.paste_text(&text);
+    script.editor.paste_text(&text).expect("a curve");
     assert_eq!(script.polygon().vertices().len(), 5);
 }
 
@@ -215,13 +212,11 @@ fn a_single_vertex_is_copied_as_its_coordinates() {
 fn pasting_in_the_middle_of_a_drag_calls_the_drag_off() {
     let mut script = Script::example("arc");
     let before = script.polygon();
-    let Some(Request::CopyText(text)) = script.editor.execute(Command::Copy) else {
-        panic!("nothing was copied");
-    };
+    let text = script.editor.copy().expect("the arc's text");
     let (arc, at) = (script.curve(), script.at_vertex(3));
     script.press(at);
     script.move_to(at + 40.0);
-    script.editor.paste_text(&text);
+    script.editor.paste_text(&text).expect("a curve");
     script.move_to(at + 80.0);
     script.release(at + 80.0);
     let polygon = |script: &Script| {
@@ -241,19 +236,20 @@ fn pasting_in_the_middle_of_a_drag_calls_the_drag_off() {
 fn exports_keep_to_their_format_and_tell_what_is_hidden() {
     let (mut script, [_, other]) = two();
     let folder = tempfile::tempdir().expect("a folder");
-    let Some(Request::Export(export)) = script.editor.execute(Command::ExportDxf) else {
-        panic!("no export was asked for");
+    let export = Export {
+        extension: "dxf",
+        polygon: PolygonKind::Float,
     };
     let project = folder.path().join("own.batten");
-    script.editor.export(&project, &export);
+    assert!(script.editor.export(&project, &export).is_err());
     assert!(!project.exists() && script.message().contains("own.batten"));
     let hide = Edit::SetVisible {
         curve: other,
         visible: false,
     };
-    script.editor.apply("hide", vec![hide]);
+    script.editor.apply("hide", vec![hide]).expect("an edit");
     let drawing = folder.path().join("own.dxf");
-    script.editor.export(&drawing, &export);
+    assert!(script.editor.export(&drawing, &export).is_ok());
     assert!(drawing.exists());
     assert!(
         script.message().contains("1 curve not, being hidden"),
@@ -267,7 +263,10 @@ fn the_parts_of_a_curve_get_names_of_their_own() {
     let (mut script, _) = two();
     script.command(Command::Duplicate);
     for _ in 0..2 {
-        script.editor.divide(Division::Split(0.5), 1);
+        script
+            .editor
+            .divide(Division::Split(0.5), 1)
+            .expect("the parts");
     }
     let mut names: Vec<String> = script
         .editor
@@ -295,23 +294,20 @@ fn targets_of_any_direction_survive_a_file() {
         end: End::Finish,
         target: Some(target),
     };
-    script.editor.apply("target", vec![edit]);
+    script.editor.apply("target", vec![edit]).expect("an edit");
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("own.batten");
-    assert!(script.editor.save(&path), "{}", script.message());
+    script.editor.save(&path).expect("a file");
     let read = disk::read_file(&path).expect("what was saved").curves;
     assert_eq!(read[0].targets.get(End::Finish), Some(target));
-    assert_eq!(
-        script.editor.discard_and(AfterDiscard::OpenFile(path)),
-        None
-    );
+    script.editor.open(&path).expect("a project");
     assert_eq!(script.editor.document().len(), 1);
 }
 
 #[test]
 fn select_all_says_that_the_active_curve_is_hidden_and_takes_no_other() {
     let (mut script, [arc, _]) = two();
-    script.editor.set_visible(arc, false);
+    script.editor.set_visible(arc, false).expect("a curve");
     script.editor.activate(arc);
     script.command(Command::SelectAll);
     assert_eq!(script.curve(), arc);

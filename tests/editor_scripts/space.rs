@@ -24,7 +24,7 @@ fn helix(view: NamedView) -> Script {
         Edit::Remove(curve),
         Edit::Add(Box::new(Curve::new("helix", polygon))),
     ];
-    script.editor.apply("Replace", edits);
+    script.editor.apply("Replace", edits).expect("an edit");
     script.command(Command::View(view));
     script.command(Command::FitAll);
     script

@@ -66,7 +66,8 @@ fn typed_figures_rotate_and_scale_as_dragging_does() {
     script.editor.set_pivot(Some(DVec2::ZERO));
     script
         .editor
-        .transform(Transformation::Rotate(0.5_f64.to_radians()));
+        .transform(Transformation::Rotate(0.5_f64.to_radians()))
+        .expect("moved vertices");
     let turn = DVec2::from_angle(0.5_f64.to_radians());
     for (index, vertex) in script.polygon().vertices().iter().enumerate() {
         let expected = turn.rotate(before.vertex(index).truncate());
@@ -75,7 +76,10 @@ fn typed_figures_rotate_and_scale_as_dragging_does() {
     script.tool(ToolKind::Scale);
     let pivot = script.editor.pivot().expect("a pivot");
     let turned = script.polygon();
-    script.editor.transform(Transformation::Scale(2.0));
+    script
+        .editor
+        .transform(Transformation::Scale(2.0))
+        .expect("moved vertices");
     for (index, vertex) in script.polygon().vertices().iter().enumerate() {
         let expected = pivot + 2.0 * (turned.vertex(index).truncate() - pivot);
         assert!(vertex.truncate().distance(expected) < 1e-12 * before.size());
@@ -83,8 +87,18 @@ fn typed_figures_rotate_and_scale_as_dragging_does() {
     assert_eq!(script.editor.workspace().history().undo_steps(), 2);
     // What cannot be used changes nothing.
     let scaled = script.polygon();
-    script.editor.transform(Transformation::Scale(f64::NAN));
-    script.editor.transform(Transformation::Scale(1e300));
+    assert!(
+        script
+            .editor
+            .transform(Transformation::Scale(f64::NAN))
+            .is_err()
+    );
+    assert!(
+        script
+            .editor
+            .transform(Transformation::Scale(1e300))
+            .is_err()
+    );
     assert_eq!(script.polygon(), scaled);
     assert!(
         script.message().contains("finite numbers"),

@@ -62,7 +62,10 @@ fn a_vertex_that_the_degree_needs_is_not_deleted() {
         "{}",
         script.message()
     );
-    script.editor.set_degree(script.curve(), 5);
+    script
+        .editor
+        .set_degree(script.curve(), 5)
+        .expect("another degree");
     script.click(script.at_vertex(4));
     assert_eq!(script.polygon().vertices().len(), 9);
 }

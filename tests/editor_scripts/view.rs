@@ -155,7 +155,8 @@ fn no_document_inherits_the_comb_of_another() {
             density: 60,
         });
         let index = EXAMPLES.iter().position(|example| example.name == name);
-        script.command(Command::OpenExample(index.expect("an example")));
+        let opened = script.editor.open_example(index.expect("an example"));
+        assert!(opened.is_ok(), "{opened:?}");
         assert_eq!(script.editor.view().comb(), fresh(name), "{name}");
     }
 }
@@ -176,7 +177,10 @@ fn tips_of_the_comb_yield_to_legs_and_to_what_is_beside_a_vertex() {
         let ends = [from, to].map(|off| viewport.to_model(tip + off));
         let ends = ends.map(|end| (end.x, end.y));
         let other = Curve::new("other", FloatPolygon::planar(1, &ends).expect("a leg"));
-        script.editor.apply("add", vec![Edit::Add(Box::new(other))]);
+        script
+            .editor
+            .apply("add", vec![Edit::Add(Box::new(other))])
+            .expect("an edit");
         script.editor.activate(arc);
         let before = (
             script.editor.document().clone(),
@@ -205,7 +209,8 @@ fn a_planar_drawing_seen_at_an_angle_says_so() {
     let moves = vec![(3, DVec3::new(1.0, 2.0, 3.0))];
     script
         .editor
-        .apply("lift", vec![Edit::MoveVertices { curve, moves }]);
+        .apply("lift", vec![Edit::MoveVertices { curve, moves }])
+        .expect("an edit");
     script.command(Command::View(NamedView::Isometric));
     assert!(!script.editor.is_orbited());
 }
@@ -223,7 +228,8 @@ fn only_segments_that_depend_on_a_vertex_are_redone() {
     let curve = script.curve();
     script
         .editor
-        .apply("long", vec![Edit::SetPolygon { curve, polygon }]);
+        .apply("long", vec![Edit::SetPolygon { curve, polygon }])
+        .expect("an edit");
     script.editor.features();
     let weigh = |weight| Edit::SetWeight {
         curve,
@@ -237,7 +243,7 @@ fn only_segments_that_depend_on_a_vertex_are_redone() {
         (weigh(2.0), 191),
         (weigh(3.0), 10),
     ] {
-        script.editor.apply("edit", vec![edit]);
+        script.editor.apply("edit", vec![edit]).expect("an edit");
         script.editor.scene();
         script.editor.features();
         assert_eq!(script.editor.segments_redone(curve), Some(expected));

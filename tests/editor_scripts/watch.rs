@@ -1,7 +1,7 @@
 //! A second history beside the editor's, to the bit: every state that undo and redo lead to.
 
 use batten::document::{CurveId, Document};
-use batten::editor::{Command, ToolKind};
+use batten::editor::{Command, ToolKind, told};
 
 use super::laws::{check_document, check_protected, check_selection, check_view};
 use super::snapshot::Snapshot;
@@ -141,7 +141,7 @@ impl Watch {
             return Err("a gesture goes on".into());
         }
         // What is not finished would be undone first.
-        window.execute(Command::Tool(ToolKind::Select));
+        told(window.execute(Command::Tool(ToolKind::Select)));
         self.check(window, Done::Other)?;
         let (present, last) = (self.at, self.states.len() - 1);
         let route = (0..present)
@@ -150,7 +150,7 @@ impl Watch {
             .chain((present..last).map(|_| Command::Undo));
         for command in route.collect::<Vec<Command>>() {
             let before = self.at;
-            window.execute(command);
+            told(window.execute(command));
             let done = if command == Command::Undo {
                 Done::Undo
             } else {

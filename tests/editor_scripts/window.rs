@@ -6,8 +6,8 @@ use std::path::Path;
 use batten::analysis::{CombSettings, LevelPlot};
 use batten::document::{Colour, Curve, CurveId, Document, Edit};
 use batten::editor::{
-    AfterDiscard, Command, Division, Editor, EndFitAction, EndFitMarks, Export, Input, Request,
-    Selection, Transformation, Viewport,
+    Command, Division, Editor, EndFitAction, EndFitMarks, Export, Input, Reply, Selection,
+    Shortcut, Transformation, Viewport, told,
 };
 use batten::geometry::{FloatPolygon, PolygonKind};
 use glam::{DVec2, DVec3};
@@ -30,6 +30,9 @@ const TEXTS: [&str; 10] = [
     "{\"format\": \"batten\", \"version\": 99, \"curves\": []}",
     "# degree=1 polygon=float\nx,y\n-1e100,0\n1e100,1e-300\n",
 ];
+
+/// The number of a text that holds a curve.
+const GOOD_TEXT: usize = 6;
 
 /// Something that a panel, a dialog or the window asks for. Curves and vertices are counted from 0
 /// and round again, so that any number is one of those that are there.
@@ -57,6 +60,10 @@ pub enum Panel {
     SetPivot(Option<DVec2>),
     /// The clipboard's text comes, by its number.
     Paste(usize),
+    /// What is selected is copied and removed.
+    Cut,
+    /// What is selected is copied.
+    Copy,
     /// What is copied comes back at once.
     CopyAndPaste,
     /// The dialog divides the active curve at shares of it.
@@ -77,8 +84,34 @@ pub enum Panel {
     GoTo(f64),
     /// The message is closed.
     DismissMessage,
-    /// The question about unsaved changes is answered.
-    Discard(AfterDiscard),
+    /// Another document is opened, whether or not there are unsaved changes.
+    Replace(Replacement),
+}
+
+/// What is opened in place of the document.
+#[derive(Clone, Copy, Debug)]
+pub enum Replacement {
+    /// An empty document.
+    Empty,
+    /// A built-in example, by its number.
+    Example(usize),
+    /// A file that is not there.
+    MissingFile,
+}
+
+impl Panel {
+    /// What a window asks for itself when a key is pressed.
+    pub fn of_key(shortcut: Shortcut) -> Option<Self> {
+        let keys = [
+            ('x', Self::Cut),
+            ('c', Self::Copy),
+            ('v', Self::Paste(GOOD_TEXT)),
+        ];
+        let found = keys
+            .into_iter()
+            .find(|(letter, _)| Shortcut::ctrl(*letter) == shortcut);
+        found.map(|(_, panel)| panel)
+    }
 }
 
 /// Something that the list of curves or the inspector asks for of a curve.
@@ -123,10 +156,10 @@ impl Window {
     }
 
     /// Give a command, and draw the frame that follows.
-    pub fn execute(&mut self, command: Command) -> Option<Request> {
-        let request = self.editor.execute(command);
+    pub fn execute(&mut self, command: Command) -> Reply {
+        let reply = self.editor.execute(command);
         self.editor.scene();
-        request
+        reply
     }
 
     /// Do what a panel asks for, and draw the frame that follows.
@@ -224,7 +257,7 @@ impl Window {
 
     /// Every command there is.
     pub fn commands(&self) -> Vec<Command> {
-        Command::all(self.editor.examples())
+        Command::all()
     }
 
     /// The teeth of the active curve's comb, as they are drawn.
@@ -265,24 +298,20 @@ impl Window {
         self.editor.hint()
     }
 
-    /// Save the document; `false` if it could not be.
-    pub fn save(&mut self, path: &Path) -> bool {
+    /// Save the document.
+    pub fn save(&mut self, path: &Path) -> Reply {
         self.editor.save(path)
     }
 
     /// Export the document.
     pub fn export(&mut self, path: &Path, extension: &'static str, polygon: PolygonKind) {
-        let export = Export {
-            extension,
-            polygon,
-            file_name: String::new(),
-        };
-        self.editor.export(path, &export);
+        let export = Export { extension, polygon };
+        told(self.editor.export(path, &export));
     }
 
     /// Add the curves of a file.
     pub fn import(&mut self, path: &Path) {
-        self.editor.import(&[path.to_owned()]);
+        told(self.editor.import(&[path.to_owned()]));
         self.editor.scene();
     }
 
@@ -313,25 +342,27 @@ impl Window {
             Panel::AbortField => self.editor.abort_preview(),
             Panel::TypeVertex(curve, vertex, to) => {
                 let edits = self.moved(*curve, *vertex, *to);
-                self.editor.apply("Set coordinate", edits);
+                told(self.editor.apply("Set coordinate", edits));
             }
             Panel::TypeWeight(curve, vertex, weight) => {
                 let edits = self.weighted(*curve, *vertex, *weight);
-                self.editor.apply("Set weight", edits);
+                told(self.editor.apply("Set weight", edits));
             }
-            Panel::Paste(text) => self.editor.paste_text(TEXTS[text % TEXTS.len()]),
+            Panel::Paste(text) => told(self.editor.paste_text(TEXTS[text % TEXTS.len()])),
+            Panel::Cut => told(self.editor.cut()),
+            Panel::Copy => told(self.editor.copy()),
             Panel::CopyAndPaste => {
-                if let Some(Request::CopyText(text)) = self.editor.execute(Command::Copy) {
-                    self.editor.paste_text(&text);
+                if let Ok(text) = self.editor.copy() {
+                    told(self.editor.paste_text(&text));
                 }
             }
             Panel::Divide(at, to, subdivisions) => self.divide(*at, *to, *subdivisions),
             Panel::Round(kind, digits) => {
                 let _ = self.editor.try_rounding(*kind, *digits);
-                self.editor.round(*kind, *digits);
+                told(self.editor.round(*kind, *digits));
             }
             Panel::EndFit(action) => self.editor.end_fit_action(*action),
-            Panel::Transform(transformation) => self.editor.transform(*transformation),
+            Panel::Transform(transformation) => told(self.editor.transform(*transformation)),
             Panel::SetPivot(pivot) => self.editor.set_pivot(*pivot),
             Panel::Hover(length, vertex) => {
                 self.editor.view_mut().hover_nothing();
@@ -352,9 +383,13 @@ impl Window {
             }
             Panel::GoTo(u) => self.editor.go_to(*u),
             Panel::DismissMessage => self.editor.dismiss_message(),
-            Panel::Discard(after) => {
-                self.editor.discard_and(after.clone());
-            }
+            Panel::Replace(replacement) => match *replacement {
+                Replacement::Empty => self.editor.begin_empty(),
+                Replacement::Example(index) => told(self.editor.open_example(index)),
+                Replacement::MissingFile => {
+                    told(self.editor.open(Path::new("no such file.batten")));
+                }
+            },
             Panel::SelectVertex(curve, vertex, add) => {
                 if let Some((curve, vertex)) = self.vertex(*curve, *vertex) {
                     self.editor.select_vertex(curve, vertex, *add);
@@ -371,10 +406,10 @@ impl Window {
     fn tell_of(&mut self, curve: CurveId, asked: OfCurve) {
         let (label, edit) = match asked {
             OfCurve::Activate => return self.editor.activate(curve),
-            OfCurve::SetDegree(degree) => return self.editor.set_degree(curve, degree),
-            OfCurve::SetPeriodic(is) => return self.editor.set_periodic(curve, is),
-            OfCurve::SetVisible(is) => return self.editor.set_visible(curve, is),
-            OfCurve::SetLocked(is) => return self.editor.set_locked(curve, is),
+            OfCurve::SetDegree(degree) => return told(self.editor.set_degree(curve, degree)),
+            OfCurve::SetPeriodic(is) => return told(self.editor.set_periodic(curve, is)),
+            OfCurve::SetVisible(is) => return told(self.editor.set_visible(curve, is)),
+            OfCurve::SetLocked(is) => return told(self.editor.set_locked(curve, is)),
             OfCurve::Rename(name) => {
                 let name = name.to_owned();
                 ("Rename", Edit::Rename { curve, name })
@@ -385,7 +420,7 @@ impl Window {
             }
             OfCurve::Reorder(place) => ("Reorder", Edit::Reorder { curve, place }),
         };
-        self.editor.apply(label, vec![edit]);
+        told(self.editor.apply(label, vec![edit]));
     }
 
     fn moved(&self, curve: usize, vertex: usize, to: DVec3) -> Vec<Edit> {
@@ -415,6 +450,6 @@ impl Window {
             None => Division::Split(from * last),
         };
         let _ = self.editor.try_division(division, subdivisions);
-        self.editor.divide(division, subdivisions);
+        told(self.editor.divide(division, subdivisions));
     }
 }

@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use batten::document::Extras;
+use batten::editor::Editor;
 use batten::io::disk;
-use eframe::egui::{DroppedFile, Key, Modifiers, Vec2};
+use eframe::egui::{DroppedFile, Key, Modifiers, Pos2, Vec2};
 use egui_kittest::kittest::Queryable;
 
 use super::hand::*;
@@ -14,7 +15,7 @@ use super::hand::*;
 fn unsaved_changes_are_asked_about() {
     let mut window = open_window();
     let from = vertex(&window, 4);
-    drag(&mut window, from, from + Vec2::splat(30.0));
+    drag(&mut window, from, from + BY);
     let changed = curve(&window);
     choose(&mut window, &["File", "New"]);
     click(&mut window, "Cancel");
@@ -38,6 +39,120 @@ fn unsaved_changes_are_asked_about() {
         disk::read_file(&path).expect("the file").curves[0].polygon,
         changed.polygon
     );
+}
+
+/// Whether the question about unsaved changes is shown.
+fn is_asked(window: &Window) -> bool {
+    window.query_by_label("Save the changes?").is_some()
+}
+
+/// How far the drags go.
+const BY: Vec2 = Vec2::splat(30.0);
+
+/// Begin a drag here and do not end it.
+fn begin_drag(window: &mut Window, from: Pos2) {
+    window.hover_at(from);
+    window.run();
+    window.drag_at(from);
+    window.step();
+    window.hover_at(from + BY);
+    window.step();
+}
+
+/// The arc in the middle of a drag of vertex 4.
+fn in_mid_drag() -> Window {
+    let mut window = open_window();
+    let from = vertex(&window, 4);
+    begin_drag(&mut window, from);
+    assert!(window.state().editor().hand().is_dragging());
+    window
+}
+
+/// What would lose unsaved changes, in the menus.
+const LOSING: [&[&str]; 4] = [
+    &["File", "New"],
+    &["File", "Open…"],
+    &["File", "Examples", "Waterline"],
+    &["File", "Quit"],
+];
+
+#[test]
+fn everything_that_would_lose_changes_asks_and_cancel_keeps_them() {
+    let mut window = open_window();
+    let from = vertex(&window, 4);
+    drag(&mut window, from, from + BY);
+    let changed = curve(&window);
+    for path in LOSING {
+        choose(&mut window, path);
+        assert!(is_asked(&window), "{path:?}");
+        click(&mut window, "Cancel");
+        assert!(!is_asked(&window), "{path:?}");
+        assert_eq!(curve(&window), changed, "{path:?}");
+        assert!(window.state().editor().workspace().is_modified());
+    }
+}
+
+#[test]
+fn nothing_is_asked_about_when_nothing_is_unsaved() {
+    for path in LOSING {
+        let mut window = open_window();
+        let from = vertex(&window, 4);
+        drag(&mut window, from, from + BY);
+        press(&mut window, Modifiers::COMMAND, Key::Z);
+        choose(&mut window, path);
+        assert!(!is_asked(&window), "{path:?}");
+    }
+}
+
+#[test]
+fn a_drag_is_taken_back_before_changes_are_asked_about() {
+    let original = curve(&open_window());
+    let mut window = in_mid_drag();
+    assert_ne!(curve(&window), original);
+    press(&mut window, Modifiers::COMMAND, Key::O);
+    assert!(!is_asked(&window), "only the drag was unsaved");
+    assert_eq!(curve(&window), original);
+    let mut window = in_mid_drag();
+    press(&mut window, Modifiers::COMMAND, Key::N);
+    assert!(window.state().editor().document().is_empty());
+}
+
+#[test]
+fn a_fields_value_counts_before_changes_are_asked_about() {
+    let mut window = open_window_of(1480.0, 1080.0);
+    let original = curve(&window);
+    let field = window.get_by_label("vertex 3 y").rect().center();
+    begin_drag(&mut window, field);
+    let shown = curve(&window);
+    assert_ne!(shown, original);
+    press(&mut window, Modifiers::COMMAND, Key::N);
+    assert!(is_asked(&window));
+    window.drop_at(field + BY);
+    window.run();
+    click(&mut window, "Cancel");
+    assert_eq!(curve(&window), shown);
+    let history = window.state().editor().workspace().history();
+    assert_eq!(history.undo_steps(), 1);
+}
+
+#[test]
+fn saving_in_the_middle_of_a_drag_lets_it_go_on() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("curve.batten");
+    let mut editor = Editor::new();
+    editor.save(&path).expect("a file");
+    let mut window = open_window_with(editor, 1480.0, 920.0);
+    let original = curve(&window);
+    let from = vertex(&window, 4);
+    begin_drag(&mut window, from);
+    press(&mut window, Modifiers::COMMAND, Key::S);
+    assert!(window.state().editor().hand().is_dragging());
+    let read = disk::read_file(&path).expect("the file").curves;
+    assert_eq!(read[0].polygon, original.polygon, "without the drag");
+    window.drop_at(from + BY);
+    window.run();
+    assert_ne!(curve(&window), original);
+    assert!(window.state().editor().workspace().is_modified());
 }
 
 #[test]

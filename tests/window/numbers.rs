@@ -16,7 +16,9 @@ pub fn window_of(polygons: Vec<FloatPolygon>) -> Window {
     let mut editor = Editor::with_document(Document::default());
     for polygon in polygons {
         let curve = Box::new(Curve::new("curve", polygon));
-        editor.apply("Add curve", vec![Edit::Add(curve)]);
+        editor
+            .apply("Add curve", vec![Edit::Add(curve)])
+            .expect("an edit");
     }
     let first = editor.document().ids().next().expect("a curve");
     editor.activate(first);
@@ -93,7 +95,7 @@ pub fn state(window: &Window) -> State {
         curves.map(|(_, curve)| Curve::clone(curve)).collect(),
         editor.view().viewport().centre,
         editor.view().viewport().scale,
-        editor.selected_vertices(active),
+        editor.hand().selection().of_curve(active).collect(),
     )
 }
 
