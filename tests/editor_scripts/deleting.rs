@@ -24,12 +24,11 @@ fn after_a_leg_of_another_curve_is_dragged_delete_takes_nothing_unseen() {
     assert!(script.message().contains("too few"), "{}", script.message());
 }
 
+/// A way to remove what is selected.
+type Removal = fn(&mut Editor) -> Result<(), Refusal>;
+
 /// Nothing is removed, and reply and message name the command for curves.
-fn check_refused(
-    script: &mut Script,
-    remove: fn(&mut Editor) -> Result<(), Refusal>,
-    before: &Document,
-) {
+fn check_refused(script: &mut Script, remove: Removal, before: &Document) {
     let Refusal(reason) = remove(&mut script.editor).expect_err("nothing is removed");
     assert!(script.editor.document().is_same(before));
     assert!(reason.contains("Delete curve"), "{reason}");
@@ -40,7 +39,7 @@ fn check_refused(
 fn delete_and_cut_without_a_selection_name_the_command_for_curves() {
     let delete = |editor: &mut Editor| editor.execute(Command::Delete).map(|_| ());
     let cut = |editor: &mut Editor| editor.cut().map(|_| ());
-    let removals: [fn(&mut Editor) -> Result<(), Refusal>; 2] = [delete, cut];
+    let removals: [Removal; 2] = [delete, cut];
     for remove in removals {
         let mut script = Script::example("hull");
         let before = script.editor.document().clone();
