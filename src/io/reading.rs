@@ -90,8 +90,7 @@ impl Remarks {
         self.0.is_empty()
     }
 
-    /// List the remarks.
-    pub fn iter(&self) -> impl Iterator<Item = &Remark> {
+    fn iter(&self) -> impl Iterator<Item = &Remark> {
         self.0.iter()
     }
 }

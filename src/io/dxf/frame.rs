@@ -7,18 +7,35 @@ use super::writer::{MODEL_SPACE, Writer};
 use crate::document::Curve;
 use crate::geometry::PolygonKind;
 
-// The handles of the frame; those of entities begin above.
-const VPORT_TABLE: u64 = 0x1;
-const LTYPE_TABLE: u64 = 0x2;
-const LAYER_TABLE: u64 = 0x3;
-const STYLE_TABLE: u64 = 0x4;
-const VIEW_TABLE: u64 = 0x5;
-const UCS_TABLE: u64 = 0x6;
-const APPID_TABLE: u64 = 0x7;
-const DIMSTYLE_TABLE: u64 = 0x8;
-const BLOCK_RECORD_TABLE: u64 = 0x9;
-const VPORT: u64 = 0xA;
-const STYLE: u64 = 0xB;
+/// A table of the drawing.
+struct Table {
+    name: &'static str,
+    handle: u64,
+    /// What its records are: the part of their class between `AcDb` and `TableRecord`.
+    class: &'static str,
+}
+
+const fn table(name: &'static str, handle: u64, class: &'static str) -> Table {
+    Table {
+        name,
+        handle,
+        class,
+    }
+}
+
+const VIEWPORTS: Table = table("VPORT", 0x1, "Viewport");
+const LINE_TYPES: Table = table("LTYPE", 0x2, "Linetype");
+const LAYERS: Table = table("LAYER", 0x3, "Layer");
+const TEXT_STYLES: Table = table("STYLE", 0x4, "TextStyle");
+const VIEWS: Table = table("VIEW", 0x5, "View");
+const COORDINATE_SYSTEMS: Table = table("UCS", 0x6, "UCS");
+const APPLICATIONS: Table = table("APPID", 0x7, "RegApp");
+const DIMENSION_STYLES: Table = table("DIMSTYLE", 0x8, "DimStyle");
+const BLOCK_RECORDS: Table = table("BLOCK_RECORD", 0x9, "Block");
+
+// The other handles of the frame; those of entities begin above.
+const VIEWPORT: u64 = 0xA;
+const TEXT_STYLE: u64 = 0xB;
 const PAPER_SPACE: u64 = 0x11;
 const ROOT: u64 = 0x20;
 const GROUPS: u64 = 0x21;
@@ -105,8 +122,8 @@ fn tables(writer: &mut Writer, layers: &[Layer], bounds: (DVec3, DVec3)) {
     line_types(writer);
     layer_table(writer, layers);
     text_styles(writer);
-    table(writer, "VIEW", VIEW_TABLE, 0, |_| {});
-    table(writer, "UCS", UCS_TABLE, 0, |_| {});
+    VIEWS.write(writer, 0, |_| {});
+    COORDINATE_SYSTEMS.write(writer, 0, |_| {});
     applications(writer);
     dimension_styles(writer);
     block_records(writer);
@@ -114,14 +131,8 @@ fn tables(writer: &mut Writer, layers: &[Layer], bounds: (DVec3, DVec3)) {
 
 /// The view shows everything, twice as wide as high.
 fn view(writer: &mut Writer, (low, high): (DVec3, DVec3)) {
-    table(writer, "VPORT", VPORT_TABLE, 1, |writer| {
-        record(
-            writer,
-            "VPORT",
-            VPORT,
-            VPORT_TABLE,
-            "AcDbViewportTableRecord",
-        );
+    VIEWPORTS.write(writer, 1, |writer| {
+        VIEWPORTS.record(writer, VIEWPORT);
         let (middle, size) = (0.5 * (low + high), high - low);
         writer.text(2, "*Active");
         writer.integer(70, 0);
@@ -141,16 +152,10 @@ fn view(writer: &mut Writer, (low, high): (DVec3, DVec3)) {
 }
 
 fn line_types(writer: &mut Writer) {
-    table(writer, "LTYPE", LTYPE_TABLE, 3, |writer| {
+    LINE_TYPES.write(writer, 3, |writer| {
         for name in ["ByBlock", "ByLayer", "Continuous"] {
             let handle = writer.take_handle();
-            record(
-                writer,
-                "LTYPE",
-                handle,
-                LTYPE_TABLE,
-                "AcDbLinetypeTableRecord",
-            );
+            LINE_TYPES.record(writer, handle);
             writer.text(2, name);
             writer.integer(70, 0);
             writer.text(3, "");
@@ -162,7 +167,7 @@ fn line_types(writer: &mut Writer) {
 }
 
 fn layer_table(writer: &mut Writer, layers: &[Layer]) {
-    table(writer, "LAYER", LAYER_TABLE, layers.len() + 1, |writer| {
+    LAYERS.write(writer, layers.len() + 1, |writer| {
         let zero = Layer {
             name: "0".to_owned(),
             colour: 7,
@@ -171,32 +176,20 @@ fn layer_table(writer: &mut Writer, layers: &[Layer]) {
         };
         for layer in std::iter::once(&zero).chain(layers) {
             let handle = writer.take_handle();
-            record(writer, "LAYER", handle, LAYER_TABLE, "AcDbLayerTableRecord");
+            LAYERS.record(writer, handle);
             writer.text(2, &layer.name);
             writer.integer(70, if layer.locked { 4 } else { 0 });
             // A negative colour turns the layer off.
-            writer.integer(
-                62,
-                if layer.visible {
-                    layer.colour
-                } else {
-                    -layer.colour
-                },
-            );
+            let sign = if layer.visible { 1 } else { -1 };
+            writer.integer(62, sign * layer.colour);
             writer.text(6, "Continuous");
         }
     });
 }
 
 fn text_styles(writer: &mut Writer) {
-    table(writer, "STYLE", STYLE_TABLE, 1, |writer| {
-        record(
-            writer,
-            "STYLE",
-            STYLE,
-            STYLE_TABLE,
-            "AcDbTextStyleTableRecord",
-        );
+    TEXT_STYLES.write(writer, 1, |writer| {
+        TEXT_STYLES.record(writer, TEXT_STYLE);
         writer.text(2, "Standard");
         writer.integer(70, 0);
         writer.number(40, 0.0);
@@ -210,34 +203,21 @@ fn text_styles(writer: &mut Writer) {
 }
 
 fn applications(writer: &mut Writer) {
-    table(writer, "APPID", APPID_TABLE, 1, |writer| {
+    APPLICATIONS.write(writer, 1, |writer| {
         let handle = writer.take_handle();
-        record(
-            writer,
-            "APPID",
-            handle,
-            APPID_TABLE,
-            "AcDbRegAppTableRecord",
-        );
+        APPLICATIONS.record(writer, handle);
         writer.text(2, "ACAD");
         writer.integer(70, 0);
     });
 }
 
 fn block_records(writer: &mut Writer) {
-    table(writer, "BLOCK_RECORD", BLOCK_RECORD_TABLE, 2, |writer| {
+    BLOCK_RECORDS.write(writer, 2, |writer| {
         for (handle, name, layout) in [
             (MODEL_SPACE, "*Model_Space", MODEL_LAYOUT),
             (PAPER_SPACE, "*Paper_Space", PAPER_LAYOUT),
         ] {
-            let table = BLOCK_RECORD_TABLE;
-            record(
-                writer,
-                "BLOCK_RECORD",
-                handle,
-                table,
-                "AcDbBlockTableRecord",
-            );
+            BLOCK_RECORDS.record(writer, handle);
             writer.text(2, name);
             writer.handle(340, layout);
         }
@@ -245,49 +225,45 @@ fn block_records(writer: &mut Writer) {
 }
 
 fn dimension_styles(writer: &mut Writer) {
-    begin_table(writer, "DIMSTYLE", DIMSTYLE_TABLE, 1);
+    DIMENSION_STYLES.begin(writer, 1);
     writer.text(100, "AcDbDimStyleTable");
     writer.integer(71, 1);
     let handle = writer.take_handle();
     writer.text(0, "DIMSTYLE");
     // The one record whose handle has another code.
     writer.handle(105, handle);
-    writer.handle(330, DIMSTYLE_TABLE);
+    writer.handle(330, DIMENSION_STYLES.handle);
     writer.text(100, "AcDbSymbolTableRecord");
     writer.text(100, "AcDbDimStyleTableRecord");
     writer.text(2, "Standard");
     writer.integer(70, 0);
-    writer.handle(340, STYLE);
+    writer.handle(340, TEXT_STYLE);
     writer.text(0, "ENDTAB");
 }
 
-fn table(
-    writer: &mut Writer,
-    name: &str,
-    handle: u64,
-    records: usize,
-    content: impl FnOnce(&mut Writer),
-) {
-    begin_table(writer, name, handle, records);
-    content(writer);
-    writer.text(0, "ENDTAB");
-}
+impl Table {
+    fn write(&self, writer: &mut Writer, records: usize, content: impl FnOnce(&mut Writer)) {
+        self.begin(writer, records);
+        content(writer);
+        writer.text(0, "ENDTAB");
+    }
 
-fn begin_table(writer: &mut Writer, name: &str, handle: u64, records: usize) {
-    writer.text(0, "TABLE");
-    writer.text(2, name);
-    writer.handle(5, handle);
-    writer.handle(330, 0);
-    writer.text(100, "AcDbSymbolTable");
-    writer.count(70, records);
-}
+    fn begin(&self, writer: &mut Writer, records: usize) {
+        writer.text(0, "TABLE");
+        writer.text(2, self.name);
+        writer.handle(5, self.handle);
+        writer.handle(330, 0);
+        writer.text(100, "AcDbSymbolTable");
+        writer.count(70, records);
+    }
 
-fn record(writer: &mut Writer, name: &str, handle: u64, table: u64, class: &str) {
-    writer.text(0, name);
-    writer.handle(5, handle);
-    writer.handle(330, table);
-    writer.text(100, "AcDbSymbolTableRecord");
-    writer.text(100, class);
+    fn record(&self, writer: &mut Writer, handle: u64) {
+        writer.text(0, self.name);
+        writer.handle(5, handle);
+        writer.handle(330, self.handle);
+        writer.text(100, "AcDbSymbolTableRecord");
+        writer.text(100, &format!("AcDb{}TableRecord", self.class));
+    }
 }
 
 fn blocks(writer: &mut Writer) {
@@ -376,7 +352,11 @@ fn plot_settings(writer: &mut Writer, flags: i64) {
     writer.number(149, 0.0);
 }
 
-fn layout(writer: &mut Writer, name: &str, order: i64, space: u64, (low, high): (DVec3, DVec3)) {
+fn layout(writer: &mut Writer, name: &str, order: i64, space: u64, reach: (DVec3, DVec3)) {
+    let (low, high) = match space {
+        MODEL_SPACE => reach,
+        _ => (DVec3::ZERO, DVec3::ZERO),
+    };
     writer.text(100, "AcDbLayout");
     writer.text(1, name);
     writer.integer(70, 1);
@@ -384,22 +364,8 @@ fn layout(writer: &mut Writer, name: &str, order: i64, space: u64, (low, high): 
     flat_point(writer, 10, 0.0, 0.0);
     flat_point(writer, 11, 420.0, 297.0);
     writer.point(12, DVec3::ZERO);
-    writer.point(
-        14,
-        if space == MODEL_SPACE {
-            low
-        } else {
-            DVec3::ZERO
-        },
-    );
-    writer.point(
-        15,
-        if space == MODEL_SPACE {
-            high
-        } else {
-            DVec3::ZERO
-        },
-    );
+    writer.point(14, low);
+    writer.point(15, high);
     writer.number(146, 0.0);
     writer.point(13, DVec3::ZERO);
     writer.point(16, DVec3::X);
