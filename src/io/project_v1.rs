@@ -297,8 +297,8 @@ impl From<HexColour> for String {
     }
 }
 
-/// A point or vector: 2 or 3 numbers. That more are refused in their place, and a third that is
-/// `null`, takes functions of their own.
+/// A point or vector: 2 or 3 numbers. A third that is `null`, and a fourth, are refused where they
+/// stand.
 #[derive(Deserialize, Serialize)]
 #[serde(expecting = "2 or 3 numbers in brackets")]
 struct Coordinates(
