@@ -122,19 +122,6 @@ proptest! {
     }
 
     #[test]
-    fn derivatives_of_any_order_begin_with_the_jet(kind in kinds(1..=25), at in 0.0..1.0) {
-        let polygon = kind.polygon();
-        let u = at * polygon.segments() as f64;
-        let all = polygon.derivatives(u, kind.degree + 2);
-        let jet = vectors(&polygon.jet(u));
-        let shared = all.len().min(4);
-        prop_assert_eq!(&jet[..shared], &all[..shared]);
-        if !kind.rational {
-            prop_assert_eq!(&all[kind.degree + 1..], &[DVec3::ZERO; 2]);
-        }
-    }
-
-    #[test]
     fn unrolling_a_periodic_curve_keeps_it(kind in kinds(1..=25), at in 0.0..1.0) {
         let polygon = Kind { periodic: true, ..kind }.polygon();
         let open = polygon.unrolled();

@@ -3,6 +3,7 @@
 use std::ops::{Add, Sub};
 
 use super::blend::Blend;
+use super::error::MAX_DEGREE;
 
 /// Evaluate the `order`-th derivatives by t of the n + 1 basis functions of one segment at the
 /// local parameter t in \[0, 1\]; the functions themselves for order 0.
@@ -28,10 +29,30 @@ where
     values
 }
 
+/// Evaluate the bases of degrees n, n − 1, … at t, those below degree 0 being 0: the weights of the
+/// differences of the vertices in the derivatives.
+pub(super) fn derivative_bases<const COUNT: usize>(
+    degree: usize,
+    t: f64,
+) -> [[f64; MAX_DEGREE + 1]; COUNT] {
+    let mut bases = [[0.0; MAX_DEGREE + 1]; COUNT];
+    let mut basis = [0.0; MAX_DEGREE + 1];
+    basis[0] = 1.0;
+    for level in 0..=degree {
+        if level > 0 {
+            uniform_basis_step(level, t, &mut basis);
+        }
+        if let Some(row) = bases.get_mut(degree - level) {
+            *row = basis;
+        }
+    }
+    bases
+}
+
 /// Raise the basis at t from degree `level` − 1 to degree `level`, in place. Values beyond the
 /// basis must be 0.
 #[inline(always)]
-pub(super) fn uniform_basis_step<T: Blend + Default>(level: usize, t: f64, values: &mut [T]) {
+fn uniform_basis_step<T: Blend + Default>(level: usize, t: f64, values: &mut [T]) {
     raise_basis(level, values, |falling, here, rising, below| {
         let (falling, rising) = (falling as f64 - t, rising as f64 + t);
         T::blend(falling, here, rising, below, level as f64)

@@ -2,6 +2,7 @@
 
 use glam::{DVec3, DVec4};
 
+use super::basis::derivative_bases;
 use super::error::MAX_DEGREE;
 use super::float_polygon::FloatPolygon;
 use super::jet::Jet;
@@ -17,36 +18,11 @@ impl FloatPolygon {
         ParametricCurve::locate(self, u)
     }
 
-    /// Evaluate the point C(u) by de Boor's algorithm, which interpolates only: accurate to a
-    /// few roundings of the largest coordinate for u in \[0, L\].
+    /// Evaluate the point C(u), a mean of the vertices: accurate to a few roundings of the largest
+    /// coordinate for u in \[0, L\].
     pub fn point(&self, u: f64) -> DVec3 {
         let (segment, t) = self.locate(u);
-        if self.is_rational() {
-            let homogeneous = de_boor(self.degree(), t, |j| self.homogeneous(segment + j));
-            homogeneous.truncate() / homogeneous.w
-        } else {
-            de_boor(self.degree(), t, |j| self.vertex(segment + j).extend(1.0)).truncate()
-        }
-    }
-
-    /// Evaluate the point and all derivatives by u up to `order`: `order` + 1 vectors.
-    ///
-    /// The derivative of order r of the homogeneous curve has the r-th differences of the
-    /// vertices as its float polygon; a rational curve takes Leibniz' rule from there.
-    pub fn derivatives(&self, u: f64, order: usize) -> Vec<DVec3> {
-        let (segment, t) = self.locate(u);
-        self.segment_derivatives(segment, t, order)
-    }
-
-    /// Evaluate as [`FloatPolygon::derivatives`] does, but on a given segment: at a knot this
-    /// chooses the side, with t = 0 or t = 1.
-    ///
-    /// # Panics
-    /// If the curve has no segment with this number.
-    pub fn segment_derivatives(&self, segment: usize, t: f64, order: usize) -> Vec<DVec3> {
-        let mut values = vec![DVec4::ZERO; order + 1];
-        self.fill_derivatives(segment, t, &mut values);
-        values.into_iter().map(DVec4::truncate).collect()
+        self.segment_point(segment, t)
     }
 
     /// Evaluate the point and the first three derivatives.
@@ -60,9 +36,7 @@ impl FloatPolygon {
     /// # Panics
     /// If the curve has no segment with this number.
     pub fn segment_jet(&self, segment: usize, t: f64) -> Jet {
-        let mut values = [DVec4::ZERO; 4];
-        self.fill_derivatives(segment, t, &mut values);
-        let [point, first, second, third] = values.map(DVec4::truncate);
+        let [point, first, second, third] = self.segment_derivatives(segment, t);
         Jet {
             point,
             first,
@@ -71,15 +45,23 @@ impl FloatPolygon {
         }
     }
 
-    /// Compute the speed |C′| alone: all that arc length needs.
-    pub(super) fn segment_speed(&self, segment: usize, t: f64) -> f64 {
-        let mut values = [DVec4::ZERO; 2];
-        self.fill_derivatives(segment, t, &mut values);
-        vector::length(values[1].truncate())
+    /// Evaluate the point alone.
+    pub(super) fn segment_point(&self, segment: usize, t: f64) -> DVec3 {
+        let [point] = self.segment_derivatives(segment, t);
+        point
     }
 
-    /// Fill `values` with the point and as many derivatives as there is room for.
-    fn fill_derivatives(&self, segment: usize, t: f64, values: &mut [DVec4]) {
+    /// Compute the speed |C′| alone: all that arc length needs.
+    pub(super) fn segment_speed(&self, segment: usize, t: f64) -> f64 {
+        let [_, first] = self.segment_derivatives(segment, t);
+        vector::length(first)
+    }
+
+    /// Evaluate the point and the derivatives of order 1, 2, … at the local parameter t.
+    ///
+    /// The derivative of order r of the homogeneous curve has the r-th differences of the
+    /// vertices as its float polygon; a rational curve takes Leibniz' rule from there.
+    fn segment_derivatives<const COUNT: usize>(&self, segment: usize, t: f64) -> [DVec3; COUNT] {
         let degree = self.degree();
         // A rational curve is evaluated about one of its vertices: the quotient would otherwise
         // lose what the coordinates' distance from the origin takes.
@@ -93,35 +75,22 @@ impl FloatPolygon {
             let weight = self.weight(segment + j);
             *value = ((self.vertex(segment + j) - origin) * weight).extend(weight);
         }
-        for (r, value) in values.iter_mut().enumerate().take(degree + 1) {
-            *value = de_boor(degree - r, t, |j| differences[j]);
-            for j in 0..degree - r {
+        let bases = derivative_bases::<COUNT>(degree, t);
+        let mut values = [DVec4::ZERO; COUNT];
+        for (order, (value, basis)) in values.iter_mut().zip(&bases).take(degree + 1).enumerate() {
+            let size = degree + 1 - order;
+            let terms = differences[..size].iter().zip(basis);
+            *value = terms.fold(DVec4::ZERO, |sum, (vertex, weight)| sum + *vertex * *weight);
+            for j in 0..size - 1 {
                 differences[j] = differences[j + 1] - differences[j];
             }
         }
         if self.is_rational() {
-            quotient(values);
+            quotient(&mut values);
             values[0] += origin.extend(0.0);
         }
+        values.map(DVec4::truncate)
     }
-}
-
-/// Run de Boor's algorithm on one segment of a uniform B-spline.
-fn de_boor(degree: usize, t: f64, vertex: impl Fn(usize) -> DVec4) -> DVec4 {
-    let mut values = [DVec4::ZERO; MAX_DEGREE + 1];
-    for (j, value) in values[..=degree].iter_mut().enumerate() {
-        *value = vertex(j);
-    }
-    for level in (1..=degree).rev() {
-        let width = level as f64;
-        for j in 0..level {
-            // The knots of this step are j + 1 − level and j + 1, as t counts.
-            let rising = t + (level - 1 - j) as f64;
-            let falling = (j + 1) as f64 - t;
-            values[j] = (falling * values[j] + rising * values[j + 1]) / width;
-        }
-    }
-    values[0]
 }
 
 /// Take the derivatives of a projected curve from those of the homogeneous one (Leibniz).

@@ -94,7 +94,7 @@ impl FloatPolygon {
     }
 
     fn candidate(&self, segment: usize, t: f64, target: DVec3) -> Nearest {
-        let point = self.segment_derivatives(segment, t, 0)[0];
+        let point = self.segment_point(segment, t);
         Nearest {
             u: segment as f64 + t,
             point,

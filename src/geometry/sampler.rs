@@ -8,7 +8,7 @@
 
 use glam::DVec3;
 
-use super::basis::uniform_basis_step;
+use super::basis::derivative_bases;
 use super::error::MAX_DEGREE;
 use super::float_polygon::FloatPolygon;
 use super::jet::Jet;
@@ -154,18 +154,12 @@ impl Sampler {
             .collect();
         for lane in 0..passes * LANES {
             let t = parameters[lane.min(parameters.len() - 1)];
-            let mut basis = [0.0; MAX_DEGREE + 1];
-            basis[0] = 1.0;
-            for level in 0..=degree {
-                if level > 0 {
-                    uniform_basis_step(level, t, &mut basis);
-                }
-                let Some(table) = tables.get_mut(degree - level) else {
-                    continue;
-                };
-                let first = lane / LANES * (level + 1);
-                for (row, value) in table[first..=first + level].iter_mut().zip(basis) {
-                    row[lane % LANES] = value;
+            let bases = derivative_bases::<{ BATCH_ORDER + 1 }>(degree, t);
+            for (order, (table, basis)) in tables.iter_mut().zip(&bases).enumerate() {
+                let size = degree + 1 - order;
+                let rows = &mut table[lane / LANES * size..][..size];
+                for (row, value) in rows.iter_mut().zip(basis) {
+                    row[lane % LANES] = *value;
                 }
             }
         }

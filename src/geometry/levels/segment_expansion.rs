@@ -2,7 +2,7 @@
 
 use glam::DVec4;
 
-use crate::geometry::basis::uniform_basis_step;
+use crate::geometry::basis::derivative_bases;
 use crate::geometry::error::MAX_DEGREE;
 use crate::geometry::expansion::Expansion;
 use crate::geometry::float_polygon::FloatPolygon;
@@ -36,7 +36,7 @@ impl SegmentExpansion {
     /// If the curve has no segment with this number.
     pub fn new(polygon: &FloatPolygon, segment: usize, planar: bool) -> Self {
         let degree = polygon.degree();
-        let means = middle_means(degree);
+        let means = derivative_bases::<{ MAX_DEGREE + 1 }>(degree, 0.5);
         let mut differences = [Vector::default(); MAX_DEGREE + 1];
         fill_vertices(polygon, segment, &mut differences[..=degree]);
         let mut coefficients = [DVec4::ZERO; MAX_DEGREE + 1];
@@ -44,8 +44,7 @@ impl SegmentExpansion {
         for order in 0..=degree {
             factorial *= order.max(1) as f64;
             let size = degree - order + 1;
-            let mean = &means[degree - order];
-            let terms = differences[..size].iter().zip(mean.iter());
+            let terms = differences[..size].iter().zip(&means[order]);
             let sum = terms.fold(DVec4::ZERO, |sum, (difference, basis)| {
                 sum + difference.parts()[0] * *basis
             });
@@ -89,17 +88,6 @@ impl SegmentExpansion {
         }
         series
     }
-}
-
-/// Compute the basis functions of degree 0 … n at t = ½: the means that derivatives take.
-fn middle_means(degree: usize) -> [[f64; MAX_DEGREE + 1]; MAX_DEGREE + 1] {
-    let mut means = [[0.0; MAX_DEGREE + 1]; MAX_DEGREE + 1];
-    means[0][0] = 1.0;
-    for level in 1..=degree {
-        means[level] = means[level - 1];
-        uniform_basis_step(level, 0.5, &mut means[level]);
-    }
-    means
 }
 
 /// Fill in the homogeneous vertices of a segment.
