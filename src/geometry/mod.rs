@@ -10,6 +10,7 @@ mod blend;
 pub mod circle_comparison;
 mod clamped_polygon;
 mod conversion;
+mod cut;
 mod end;
 pub mod end_correction;
 mod error;

@@ -9,6 +9,7 @@ use glam::{DVec3, DVec4};
 use super::exact_polygon::ExactPolygon;
 use crate::geometry::bezier_polygon::{BezierPolygon, segment_bezier};
 use crate::geometry::clamped_polygon::ClampedPolygon;
+use crate::geometry::cut::cut;
 use crate::geometry::error::PolygonError;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::tables::binomials;
@@ -184,15 +185,10 @@ fn normalised(polygon: &[DVec4]) -> Vec<DVec4> {
     polygon.iter().map(|vertex| *vertex / largest).collect()
 }
 
-/// Cut a Bézier polygon at t (de Casteljau).
+/// Cut a Bézier polygon at t.
 fn halved(mut polygon: Vec<DVec4>, t: f64) -> (Vec<DVec4>, Vec<DVec4>) {
-    let mut left = Vec::with_capacity(polygon.len());
-    for level in (0..polygon.len()).rev() {
-        left.push(polygon[0]);
-        for index in 0..level {
-            polygon[index] = polygon[index].lerp(polygon[index + 1], t);
-        }
-    }
+    let mut left = polygon.clone();
+    cut(&mut polygon, &mut left, |a, b| a.lerp(*b, t));
     (left, polygon)
 }
 

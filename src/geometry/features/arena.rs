@@ -6,7 +6,11 @@
 //! operands may be off by, what each operation rounds, and what may vanish below the range of
 //! numbers; only a coefficient that is exactly 0 by its structure has value and bound 0.
 
+use std::mem::take;
+
+use super::numerators::Ring;
 use super::scalar::Scalar;
+use crate::geometry::cut::cut;
 use crate::geometry::expansion::DoubleDouble;
 use crate::geometry::tables::{bernstein_matrix, binomials};
 
@@ -27,6 +31,9 @@ const STEP_SLACK: f64 = 1.0 + f64::EPSILON * 8.0;
 pub(super) struct Arena<T> {
     values: Vec<T>,
     errors: Vec<f64>,
+    /// Room for the two parts that a cut makes.
+    before: Vec<(T, f64)>,
+    behind: Vec<(T, f64)>,
 }
 
 /// Name a polynomial in an arena.
@@ -174,62 +181,24 @@ impl<T: Scalar> Arena<T> {
         result
     }
 
-    /// Add up products in scaled form, each with a small whole factor. All products must have
-    /// the same degree; those with a factor [`Polynomial::ZERO`] are left out.
-    pub(super) fn sum_of_products(
-        &mut self,
-        terms: &[(f64, Polynomial, Polynomial)],
-    ) -> Polynomial {
-        let present = || {
-            terms
-                .iter()
-                .filter(|term| !(term.1.vanishes || term.2.vanishes))
-        };
-        let Some(first) = present().next() else {
-            return Polynomial::ZERO;
-        };
-        let result = self.push(first.1.degree + first.2.degree);
-        let count: usize = present()
-            .map(|term| term.1.degree.min(term.2.degree) + 1)
-            .sum();
-        let unit = T::UNIT * (count as f64 + 4.0) * SLACK;
-        let (values, sums) = self.values.split_at_mut(result.start);
-        let (errors, bounds) = self.errors.split_at_mut(result.start);
-        for &(factor, a, b) in present() {
-            let (short, long) = if a.degree < b.degree { (a, b) } else { (b, a) };
-            let short = (&values[short.range()], &errors[short.range()]);
-            let long = (&values[long.range()], &errors[long.range()]);
-            convolve(factor, short, long, unit, (sums, bounds));
-        }
-        for bound in bounds {
-            *bound = inflated(*bound);
-        }
-        result
-    }
-
     /// Cut a polynomial on \[0, 1\], in plain Bernstein form, at `at` (a multiple of 2⁻⁵²), by de
     /// Casteljau's algorithm.
     pub(super) fn split(&mut self, polynomial: Polynomial, at: f64) -> (Polynomial, Polynomial) {
         let degree = polynomial.degree;
         let left = self.push(degree);
         let right = self.push(degree);
-        self.values.copy_within(polynomial.range(), right.start);
-        self.errors.copy_within(polynomial.range(), right.start);
-        let (_, values) = self.values.split_at_mut(left.start);
-        let (_, errors) = self.errors.split_at_mut(left.start);
-        let (left_values, values) = values.split_at_mut(degree + 1);
-        let (left_errors, errors) = errors.split_at_mut(degree + 1);
-        for level in 0..degree {
-            left_values[level] = values[0];
-            left_errors[level] = errors[0];
-            interpolate(
-                &mut values[..=degree - level],
-                &mut errors[..=degree - level],
-                at,
-            );
+        let (mut before, mut behind) = (take(&mut self.before), take(&mut self.behind));
+        let (values, errors) = self.coefficients(polynomial);
+        behind.clear();
+        behind.extend(values.iter().copied().zip(errors.iter().copied()));
+        before.clone_from(&behind);
+        cut(&mut behind, &mut before, mean(at));
+        for (part, list) in [(left, &before), (right, &behind)] {
+            for (index, (value, error)) in part.range().zip(list) {
+                (self.values[index], self.errors[index]) = (*value, *error);
+            }
         }
-        left_values[degree] = values[0];
-        left_errors[degree] = errors[0];
+        (self.before, self.behind) = (before, behind);
         (left, right)
     }
 
@@ -264,6 +233,39 @@ impl<T: Scalar> Arena<T> {
     }
 }
 
+impl<T: Scalar> Ring for Arena<T> {
+    type Polynomial = Polynomial;
+
+    /// Add up products in scaled form; those with a factor [`Polynomial::ZERO`] are left out.
+    fn sum_of_products(&mut self, terms: &[(i32, &Polynomial, &Polynomial)]) -> Polynomial {
+        let present = || {
+            terms
+                .iter()
+                .filter(|term| !(term.1.vanishes || term.2.vanishes))
+        };
+        let Some(first) = present().next() else {
+            return Polynomial::ZERO;
+        };
+        let result = self.push(first.1.degree + first.2.degree);
+        let count: usize = present()
+            .map(|term| term.1.degree.min(term.2.degree) + 1)
+            .sum();
+        let unit = T::UNIT * (count as f64 + 4.0) * SLACK;
+        let (values, sums) = self.values.split_at_mut(result.start);
+        let (errors, bounds) = self.errors.split_at_mut(result.start);
+        for &(factor, &a, &b) in present() {
+            let (short, long) = if a.degree < b.degree { (a, b) } else { (b, a) };
+            let short = (&values[short.range()], &errors[short.range()]);
+            let long = (&values[long.range()], &errors[long.range()]);
+            convolve(factor.into(), short, long, unit, (sums, bounds));
+        }
+        for bound in bounds {
+            *bound = inflated(*bound);
+        }
+        result
+    }
+}
+
 /// The error bound of a coefficient whose bound came out as `error`.
 #[inline]
 fn inflated(error: f64) -> f64 {
@@ -295,18 +297,17 @@ fn convolve<T: Scalar>(
     }
 }
 
-/// One level of de Casteljau's algorithm, in place.
-#[inline]
-fn interpolate<T: Scalar>(values: &mut [T], errors: &mut [f64], at: f64) {
+/// The mean (1 − t) a + t b of numbers with their bounds.
+#[inline(always)]
+fn mean<T: Scalar>(at: f64) -> impl Fn(&(T, f64), &(T, f64)) -> (T, f64) {
     let [low, high] = [1.0 - at, at].map(|part| T::from_wide(DoubleDouble::from(part)));
     let (low_bound, high_bound) = ((1.0 - at) * STEP_SLACK, at * STEP_SLACK);
     let unit = 3.0 * T::UNIT;
-    for index in 0..values.len() - 1 {
-        let (a, b) = (values[index], values[index + 1]);
-        let error = low_bound * (errors[index] + unit * a.magnitude())
-            + high_bound * (errors[index + 1] + unit * b.magnitude());
-        values[index] = low * a + high * b;
-        errors[index] = error + if error > 0.0 { FLOOR } else { 0.0 };
+    move |a, b| {
+        let error = low_bound * (a.1 + unit * a.0.magnitude())
+            + high_bound * (b.1 + unit * b.0.magnitude());
+        let value = low * a.0 + high * b.0;
+        (value, error + if error > 0.0 { FLOOR } else { 0.0 })
     }
 }
 
@@ -415,7 +416,7 @@ mod tests {
         let derivative = arena.derivative(plain);
         assert_holds(&arena, derivative, &slopes);
         let (a, b) = (arena.scale(plain), arena.scale(derivative));
-        let sum = arena.sum_of_products(&[(3.0, a, b), (-1.0, b, a), (1.0, a, Polynomial::ZERO)]);
+        let sum = arena.sum_of_products(&[(3, &a, &b), (-1, &b, &a), (1, &a, &Polynomial::ZERO)]);
         let unscaled = arena.unscale(sum);
         let expected: Exact = product(&coefficients, &slopes)
             .into_iter()
@@ -454,7 +455,7 @@ mod tests {
         let controls: Vec<DoubleDouble> = [0.0, 0.0, 0.0, 1.0].map(DoubleDouble::from).to_vec();
         let plain = arena.convert(&controls, &[0.0; 4]);
         let scaled = arena.scale(plain);
-        let square = arena.sum_of_products(&[(1.0, scaled, scaled)]);
+        let square = arena.sum_of_products(&[(1, &scaled, &scaled)]);
         let square = arena.unscale(square);
         let (values, errors) = arena.coefficients(square);
         assert_eq!((&values[..6], &errors[..6]), (&[0.0; 6][..], &[0.0; 6][..]));

@@ -1,7 +1,7 @@
 //! The numerators in whole numbers: what rounded numbers leave in doubt.
 //!
 //! Doubles are whole numbers times powers of two, and so is, but for a common positive factor,
-//! a segment in Bernstein form. The formulas are those of the numerators' module.
+//! a segment in Bernstein form.
 
 use std::array::from_fn;
 use std::cell::OnceCell;
@@ -12,7 +12,7 @@ use num_traits::{One, Zero};
 use super::exact_polynomial::ExactPolynomial;
 use super::feature::Quantity;
 use super::floating::Floating;
-use super::numerators::Function;
+use super::numerators::{Derivatives, Function, Ring, Vector, dot};
 use super::whole_numbers::{scaled_numbers, whole_numbers};
 use crate::geometry::conversion::bezier_matrix::whole_basis;
 use crate::geometry::float_polygon::FloatPolygon;
@@ -25,8 +25,21 @@ const MOST_BITS: u64 = 512;
 /// The most of them times the degree: low degrees may have more.
 const MOST_BITS_TIMES_DEGREE: u64 = 6144;
 
-/// A vector of polynomials.
-pub(super) type Vector = [ExactPolynomial; 3];
+/// The arithmetic of polynomials with whole coefficients.
+struct WholeNumbers;
+
+impl Ring for WholeNumbers {
+    type Polynomial = ExactPolynomial;
+
+    fn sum_of_products(
+        &mut self,
+        terms: &[(i32, &ExactPolynomial, &ExactPolynomial)],
+    ) -> ExactPolynomial {
+        let none = ExactPolynomial::default();
+        let terms = terms.iter();
+        terms.fold(none, |sum, (factor, a, b)| sum.plus(*factor, &a.times(b)))
+    }
+}
 
 /// Hold the homogeneous derivatives H, H′, … H⁗ of a segment, all times one positive number.
 #[derive(Debug)]
@@ -34,8 +47,7 @@ pub(super) struct ExactSegment {
     planar: bool,
     /// The length that is 1 here.
     unit: Floating,
-    curve: [Vector; 5],
-    weight: [ExactPolynomial; 5],
+    derivatives: Derivatives<ExactPolynomial>,
     flat: OnceCell<Option<ExactPolynomial>>,
 }
 
@@ -44,7 +56,8 @@ impl ExactSegment {
     /// coordinates and weights are so different in size that their products would take too long.
     pub(super) fn new(polygon: &FloatPolygon, segment: usize, planar: bool) -> Option<Self> {
         let [segment] = Self::some(polygon, segment, planar);
-        let numbers = segment.curve[0].iter().chain(&segment.weight[..1]);
+        let weight = segment.derivatives.weight.iter().map(|weight| &weight[0]);
+        let numbers = segment.derivatives.curve[0].iter().chain(weight);
         let most = MOST_BITS.max(MOST_BITS_TIMES_DEGREE / polygon.degree() as u64);
         (numbers.map(ExactPolynomial::bits).max() <= Some(most)).then_some(segment)
     }
@@ -79,10 +92,9 @@ impl ExactSegment {
             segment.unit = Floating::new(&BigInt::one(), exponent.into());
             if constant {
                 // Another unit of length makes up for it.
-                let [weight, _] = segment.weight[0].ends();
+                let [weight, _] = segment.weight().ends();
                 segment.unit = segment.unit / Floating::new(&weight, 0);
-                segment.weight = Default::default();
-                segment.weight[0] = ExactPolynomial::constant(1);
+                segment.derivatives.weight = None;
             }
             segment
         })
@@ -100,8 +112,10 @@ impl ExactSegment {
         Self {
             planar,
             unit: Floating::new(&BigInt::one(), 0),
-            curve: from_fn(|order| from_fn(|axis| std::mem::take(&mut axes[axis][order]))),
-            weight: w,
+            derivatives: Derivatives {
+                curve: from_fn(|order| from_fn(|axis| std::mem::take(&mut axes[axis][order]))),
+                weight: Some(w),
+            },
             flat: OnceCell::new(),
         }
     }
@@ -113,7 +127,7 @@ impl ExactSegment {
             Function::Feature(Quantity::CurvatureExtremum) => self.curvature_slope(),
             Function::Feature(Quantity::TorsionZero) => self.torsion(3),
             Function::Feature(Quantity::TorsionExtremum) => self.torsion_slope(),
-            Function::Speed => dot(&self.tangent(1), &self.tangent(1)),
+            Function::Speed => self.speed(1),
             Function::Along(direction) => {
                 let direction = whole_numbers(&direction);
                 let terms = direction.iter().zip(self.tangent(1));
@@ -154,8 +168,12 @@ impl ExactSegment {
     }
 
     /// W.
-    pub(super) fn weight(&self) -> &ExactPolynomial {
-        &self.weight[0]
+    pub(super) fn weight(&self) -> ExactPolynomial {
+        let weight = self.derivatives.weight.as_ref();
+        weight.map_or_else(
+            || ExactPolynomial::constant(1),
+            |[weight, ..]| weight.clone(),
+        )
     }
 
     /// Whether the curvature is 0 at the end of the segment but not all along it.
@@ -181,15 +199,14 @@ impl ExactSegment {
     }
 
     fn curvature_slope(&self) -> ExactPolynomial {
-        let tangent = self.tangent(1);
-        let (speed, change) = (dot(&tangent, &tangent), dot(&tangent, &self.tangent(2)));
         let [bend, slope] = if self.planar {
             [self.bend(2), self.bend(3)]
         } else {
             [self.bending(2), self.bending(3)]
         };
-        let rising = self.weighted_slope(3, [&bend, &slope]).times(&speed);
-        rising.plus(-3, &self.weight[0].times(&bend).times(&change))
+        let speeds = [&self.speed(1), &self.speed(2)];
+        self.derivatives
+            .slope(&mut WholeNumbers, 3, [&bend, &slope], speeds)
     }
 
     fn torsion_slope(&self) -> ExactPolynomial {
@@ -197,42 +214,27 @@ impl ExactSegment {
         if torsion.is_zero() {
             return ExactPolynomial::default();
         }
-        let rising = self.weighted_slope(2, [&torsion, &self.torsion(4)]);
-        let falling = self.weight[0].times(&torsion).times(&self.bending(3));
-        rising.times(&self.bending(2)).plus(-2, &falling)
+        let torsions = [&torsion, &self.torsion(4)];
+        let bends = [&self.bending(2), &self.bending(3)];
+        self.derivatives
+            .slope(&mut WholeNumbers, 2, torsions, bends)
     }
 
-    /// p W′f + W f′.
-    fn weighted_slope(&self, power: u32, [f, slope]: [&ExactPolynomial; 2]) -> ExactPolynomial {
-        self.weight[0]
-            .times(slope)
-            .plus(power, &self.weight[1].times(f))
+    /// A for the order k = 1, A′ for 2.
+    fn tangent(&self, order: usize) -> Vector<ExactPolynomial> {
+        self.derivatives.tangent(&mut WholeNumbers, order)
     }
 
-    /// C⁽ᵏ⁾W − C W⁽ᵏ⁾: A for the order k = 1, A′ for 2.
-    pub(super) fn tangent(&self, order: usize) -> Vector {
-        from_fn(|axis| {
-            let slope = self.curve[order][axis].times(&self.weight[0]);
-            slope.plus(-1, &self.curve[0][axis].times(&self.weight[order]))
-        })
+    /// A · A⁽ᵏ⁻¹⁾: S for the order k = 1, B for 2.
+    pub(super) fn speed(&self, order: usize) -> ExactPolynomial {
+        dot(&mut WholeNumbers, &self.tangent(1), &self.tangent(order))
     }
 
-    /// L = C × C′.
-    fn moment(&self) -> Vector {
-        cross(&self.curve[0], &self.curve[1])
-    }
-
-    /// A × C⁽ᵏ⁾ + L W⁽ᵏ⁾: N for the order k = 2, N′ for 3.
-    fn normal(&self, order: usize) -> Vector {
-        let turning = cross(&self.tangent(1), &self.curve[order]);
-        if self.weight[order].is_zero() {
-            return turning;
-        }
-        let mut moment = self.moment().into_iter();
-        turning.map(|part| {
-            let moment = moment.next().unwrap_or_default();
-            part.plus(1, &moment.times(&self.weight[order]))
-        })
+    /// N for the order k = 2, N′ for 3.
+    fn normal(&self, order: usize) -> Vector<ExactPolynomial> {
+        let moment = self.derivatives.moment(&mut WholeNumbers);
+        let frame = (&self.tangent(1), &moment);
+        self.derivatives.normal(&mut WholeNumbers, frame, order)
     }
 
     /// The only component that the normal of a planar curve has: D for the order k = 2, D′ for 3.
@@ -243,17 +245,15 @@ impl ExactSegment {
 
     /// N · N⁽ᵏ⁻²⁾: Q for the order k = 2, R for 3.
     pub(super) fn bending(&self, order: usize) -> ExactPolynomial {
-        dot(&self.normal(2), &self.normal(order))
+        dot(&mut WholeNumbers, &self.normal(2), &self.normal(order))
     }
 
-    /// N · C⁽ᵏ⁾ + M W⁽ᵏ⁾, M = −L · C″: T for the order k = 3, T′ for 4.
+    /// T for the order k = 3, T′ for 4.
     pub(super) fn torsion(&self, order: usize) -> ExactPolynomial {
-        let volume = dot(&self.normal(2), &self.curve[order]);
-        if self.weight[order].is_zero() {
-            return volume;
-        }
-        let offset = dot(&self.moment(), &self.curve[2]);
-        volume.plus(-1, &offset.times(&self.weight[order]))
+        let moment = self.derivatives.moment(&mut WholeNumbers);
+        let offset = self.derivatives.offset(&mut WholeNumbers, &moment);
+        let frame = (&self.normal(2), &offset);
+        self.derivatives.torsion(&mut WholeNumbers, frame, order)
     }
 }
 
@@ -263,16 +263,4 @@ fn derivatives(polynomial: ExactPolynomial) -> [ExactPolynomial; 5] {
         let derivative = next.derivative();
         std::mem::replace(&mut next, derivative)
     })
-}
-
-/// The scalar product.
-pub(super) fn dot(a: &Vector, b: &Vector) -> ExactPolynomial {
-    let terms = a.iter().zip(b);
-    terms.fold(ExactPolynomial::default(), |sum, (a, b)| {
-        sum.plus(1, &a.times(b))
-    })
-}
-
-fn cross(a: &Vector, b: &Vector) -> Vector {
-    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| a[i].times(&b[j]).plus(-1, &a[j].times(&b[i])))
 }

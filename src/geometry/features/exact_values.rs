@@ -4,7 +4,7 @@ use num_bigint::{BigInt, Sign};
 use num_traits::{One, Zero};
 
 use super::enclosure::{Enclosure, UNKNOWN};
-use super::exact_numerators::{ExactSegment, dot};
+use super::exact_numerators::ExactSegment;
 use super::exact_polynomial::ExactPolynomial;
 use super::feature::Quantity;
 use super::floating::Floating;
@@ -87,17 +87,16 @@ enum Form {
 
 impl Parts {
     fn new(segment: &ExactSegment, quantity: Quantity) -> Self {
-        let tangent = segment.tangent(1);
         let (form, numerator, below) = match quantity {
             Quantity::TorsionExtremum => (Form::Torsion, segment.torsion(3), segment.bending(2)),
-            _ if segment.is_planar() => (Form::Planar, segment.bend(2), dot(&tangent, &tangent)),
-            _ => (Form::Spatial, segment.bending(2), dot(&tangent, &tangent)),
+            _ if segment.is_planar() => (Form::Planar, segment.bend(2), segment.speed(1)),
+            _ => (Form::Spatial, segment.bending(2), segment.speed(1)),
         };
         Self {
             form,
             numerator: Bounded::new(numerator),
             below: Bounded::new(below),
-            weight: Bounded::new(segment.weight().clone()),
+            weight: Bounded::new(segment.weight()),
         }
     }
 

@@ -15,6 +15,8 @@
 //! Where A = 0 (a cusp) D, T and both derivatives vanish to at least the second order, and T and
 //! the numerator of τ′ do so where N = 0: a simple root of any of them is an ordinary point.
 
+use std::array::from_fn;
+
 use super::arena::{Arena, Polynomial};
 use super::feature::Quantity;
 use super::scalar::Scalar;
@@ -68,14 +70,126 @@ impl Numerators {
 }
 
 /// A vector of polynomials.
-type Vector = [Polynomial; 3];
+pub(super) type Vector<P> = [P; 3];
 
-/// The derivatives of the homogeneous curve.
-struct Derivatives {
-    /// C, C′, … C⁗. A polynomial curve has no C here and needs none.
-    curve: [Vector; 5],
-    /// W, W′, … W⁗; all 0 for a polynomial curve, whose W is 1.
-    weight: [Polynomial; 5],
+/// The arithmetic that the numerators are multiplied out in.
+pub(super) trait Ring {
+    /// Its polynomials.
+    type Polynomial: Clone;
+
+    /// Add up products of polynomials, each with a small whole factor. All products that are not 0
+    /// must have the same degree.
+    fn sum_of_products(
+        &mut self,
+        terms: &[(i32, &Self::Polynomial, &Self::Polynomial)],
+    ) -> Self::Polynomial;
+}
+
+/// Hold the derivatives of the homogeneous curve.
+#[derive(Debug)]
+pub(super) struct Derivatives<P> {
+    /// C, C′, … C⁗. Of a polynomial curve C is not asked for.
+    pub(super) curve: [Vector<P>; 5],
+    /// W, W′, … W⁗ of a rational curve; W is 1 without them.
+    pub(super) weight: Option<[P; 5]>,
+}
+
+impl<P: Clone> Derivatives<P> {
+    /// C⁽ᵏ⁾W − C W⁽ᵏ⁾: A for the order k = 1, A′ for 2.
+    pub(super) fn tangent<R: Ring<Polynomial = P>>(&self, ring: &mut R, order: usize) -> Vector<P> {
+        let [point, slope] = [&self.curve[0], &self.curve[order]];
+        let Some(weight) = &self.weight else {
+            return slope.clone();
+        };
+        from_fn(|axis| {
+            let falling = (-1, &point[axis], &weight[order]);
+            ring.sum_of_products(&[(1, &slope[axis], &weight[0]), falling])
+        })
+    }
+
+    /// L = C × C′ of a rational curve.
+    pub(super) fn moment<R: Ring<Polynomial = P>>(&self, ring: &mut R) -> Option<Vector<P>> {
+        let [point, first, ..] = &self.curve;
+        self.weight.as_ref().map(|_| cross(ring, point, first))
+    }
+
+    /// A × C⁽ᵏ⁾ + L W⁽ᵏ⁾: N for the order k = 2, N′ for 3.
+    pub(super) fn normal<R: Ring<Polynomial = P>>(
+        &self,
+        ring: &mut R,
+        (tangent, moment): (&Vector<P>, &Option<Vector<P>>),
+        order: usize,
+    ) -> Vector<P> {
+        let slope = &self.curve[order];
+        let (Some(weight), Some(moment)) = (&self.weight, moment) else {
+            return cross(ring, tangent, slope);
+        };
+        AXES.map(|(i, j, k)| {
+            let turning = [(1, &tangent[i], &slope[j]), (-1, &tangent[j], &slope[i])];
+            ring.sum_of_products(&[turning[0], turning[1], (1, &moment[k], &weight[order])])
+        })
+    }
+
+    /// −M = L · C″ of a rational curve.
+    pub(super) fn offset<R: Ring<Polynomial = P>>(
+        &self,
+        ring: &mut R,
+        moment: &Option<Vector<P>>,
+    ) -> Option<P> {
+        let moment = moment.as_ref()?;
+        Some(dot(ring, moment, &self.curve[2]))
+    }
+
+    /// N · C⁽ᵏ⁾ + M W⁽ᵏ⁾: T for the order k = 3, T′ for 4.
+    pub(super) fn torsion<R: Ring<Polynomial = P>>(
+        &self,
+        ring: &mut R,
+        (normal, offset): (&Vector<P>, &Option<P>),
+        order: usize,
+    ) -> P {
+        let slope = &self.curve[order];
+        let (Some(weight), Some(offset)) = (&self.weight, offset) else {
+            return dot(ring, normal, slope);
+        };
+        let [x, y, z] = [0, 1, 2].map(|axis| (1, &normal[axis], &slope[axis]));
+        ring.sum_of_products(&[x, y, z, (-1, offset, &weight[order])])
+    }
+
+    /// (p W′f + W f′) g − p W f h: all derivatives of curvature and torsion have such numerators.
+    pub(super) fn slope<R: Ring<Polynomial = P>>(
+        &self,
+        ring: &mut R,
+        power: i32,
+        [f, slope]: [&P; 2],
+        [g, h]: [&P; 2],
+    ) -> P {
+        let Some([weight, weight_slope, ..]) = &self.weight else {
+            return ring.sum_of_products(&[(1, slope, g), (-power, f, h)]);
+        };
+        let rising = ring.sum_of_products(&[(power, weight_slope, f), (1, weight, slope)]);
+        let weighted = ring.sum_of_products(&[(1, weight, f)]);
+        ring.sum_of_products(&[(1, &rising, g), (-power, &weighted, h)])
+    }
+}
+
+/// The axes of each component of a vector product, and the component.
+const AXES: [(usize, usize, usize); 3] = [(1, 2, 0), (2, 0, 1), (0, 1, 2)];
+
+/// The scalar product.
+pub(super) fn dot<R: Ring>(
+    ring: &mut R,
+    a: &Vector<R::Polynomial>,
+    b: &Vector<R::Polynomial>,
+) -> R::Polynomial {
+    ring.sum_of_products(&[0, 1, 2].map(|axis| (1, &a[axis], &b[axis])))
+}
+
+fn cross<R: Ring>(
+    ring: &mut R,
+    a: &Vector<R::Polynomial>,
+    b: &Vector<R::Polynomial>,
+) -> Vector<R::Polynomial> {
+    AXES.map(|(i, j, _)| ring.sum_of_products(&[(1, &a[i], &b[j]), (-1, &a[j], &b[i])]))
 }
 
 impl Numerators {
@@ -83,128 +197,52 @@ impl Numerators {
     /// in the plane.
     pub(super) fn new<T: Scalar>(arena: &mut Arena<T>, shape: &SegmentShape, planar: bool) -> Self {
         arena.clear();
-        let derivatives = derivatives(arena, shape);
-        let frame = if shape.rational {
-            rational_frame(arena, &derivatives)
-        } else {
-            polynomial_frame(arena, &derivatives)
-        };
-        let weights = [derivatives.weight[0], derivatives.weight[1]];
-        let speed = dot(arena, frame.tangent, frame.tangent);
-        let change = dot(arena, frame.tangent, frame.tangent_slope);
+        let segment = derivatives(arena, shape);
+        let [tangent, tangent_slope] = [1, 2].map(|order| segment.tangent(arena, order));
+        let moment = segment.moment(arena);
+        let frame = (&tangent, &moment);
+        let [normal, normal_slope] = [2, 3].map(|order| segment.normal(arena, frame, order));
+        let speed = dot(arena, &tangent, &tangent);
+        let change = dot(arena, &tangent, &tangent_slope);
+        let bending = dot(arena, &normal, &normal);
+        let weight = segment
+            .weight
+            .map_or(Polynomial::ZERO, |[weight, ..]| weight);
         if planar {
-            let [_, _, normal] = frame.normal;
-            let [_, _, normal_slope] = frame.normal_slope;
-            let rising = weighted(arena, 3.0, weights, normal, normal_slope);
-            let weighted = weigh(arena, weights[0], normal);
-            let slope = [(1.0, rising, speed), (-3.0, weighted, change)];
+            let [[.., bend], [.., bend_slope]] = [&normal, &normal_slope];
             return Self {
-                curvature: normal,
-                curvature_slope: arena.sum_of_products(&slope),
+                curvature: *bend,
+                curvature_slope: segment.slope(arena, 3, [bend, bend_slope], [&speed, &change]),
                 torsion: Polynomial::ZERO,
                 torsion_slope: Polynomial::ZERO,
-                tangent: frame.tangent,
+                tangent,
                 speed,
-                bending: arena.sum_of_products(&[(1.0, normal, normal)]),
-                weight: weights[0],
+                bending,
+                weight,
             };
         }
-        let bending = dot(arena, frame.normal, frame.normal);
-        let bending_change = dot(arena, frame.normal, frame.normal_slope);
-        let rising = weighted(arena, 3.0, weights, bending, bending_change);
-        let weighted_bending = weigh(arena, weights[0], bending);
-        let slope = [(1.0, rising, speed), (-3.0, weighted_bending, change)];
-        let curvature_slope = arena.sum_of_products(&slope);
-        let twisting = weighted(arena, 2.0, weights, frame.torsion, frame.torsion_slope);
-        let weighted_torsion = weigh(arena, weights[0], frame.torsion);
-        let slope = [
-            (1.0, twisting, bending),
-            (-2.0, weighted_torsion, bending_change),
-        ];
+        let bending_change = dot(arena, &normal, &normal_slope);
+        let offset = segment.offset(arena, &moment);
+        let frame = (&normal, &offset);
+        let [torsion, twist] = [3, 4].map(|order| segment.torsion(arena, frame, order));
+        let bends = [&bending, &bending_change];
         Self {
             curvature: Polynomial::ZERO,
-            curvature_slope,
-            torsion: frame.torsion,
-            torsion_slope: arena.sum_of_products(&slope),
-            tangent: frame.tangent,
+            curvature_slope: segment.slope(arena, 3, bends, [&speed, &change]),
+            torsion,
+            torsion_slope: segment.slope(arena, 2, [&torsion, &twist], bends),
+            tangent,
             speed,
             bending,
-            weight: weights[0],
+            weight,
         }
     }
 }
 
-/// A, A′, N, N′, T and T′.
-struct Frame {
-    tangent: Vector,
-    tangent_slope: Vector,
-    normal: Vector,
-    normal_slope: Vector,
-    torsion: Polynomial,
-    torsion_slope: Polynomial,
-}
-
-fn polynomial_frame<T: Scalar>(arena: &mut Arena<T>, derivatives: &Derivatives) -> Frame {
-    let [_, first, second, third, fourth] = derivatives.curve;
-    let normal = cross(arena, first, second);
-    Frame {
-        tangent: first,
-        tangent_slope: second,
-        normal,
-        normal_slope: cross(arena, first, third),
-        torsion: dot(arena, normal, third),
-        torsion_slope: dot(arena, normal, fourth),
-    }
-}
-
-fn rational_frame<T: Scalar>(arena: &mut Arena<T>, derivatives: &Derivatives) -> Frame {
-    let [point, first, second, third, fourth] = derivatives.curve;
-    let [w, w1, w2, w3, w4] = derivatives.weight;
-    let mut minor = |slope: Vector, weight_slope: Polynomial| {
-        [0, 1, 2].map(|axis| {
-            arena.sum_of_products(&[(1.0, slope[axis], w), (-1.0, point[axis], weight_slope)])
-        })
-    };
-    let tangent = minor(first, w1);
-    let tangent_slope = minor(second, w2);
-    let moment = cross(arena, point, first);
-    let mut plane = |slope: Vector, weight_slope: Polynomial| {
-        [(1, 2, 0), (2, 0, 1), (0, 1, 2)].map(|(i, j, k)| {
-            arena.sum_of_products(&[
-                (1.0, tangent[i], slope[j]),
-                (-1.0, tangent[j], slope[i]),
-                (1.0, moment[k], weight_slope),
-            ])
-        })
-    };
-    let normal = plane(second, w2);
-    let normal_slope = plane(third, w3);
-    let offset = dot(arena, moment, second);
-    let mut volume = |slope: Vector, weight_slope: Polynomial| {
-        arena.sum_of_products(&[
-            (1.0, normal[0], slope[0]),
-            (1.0, normal[1], slope[1]),
-            (1.0, normal[2], slope[2]),
-            (-1.0, offset, weight_slope),
-        ])
-    };
-    Frame {
-        tangent,
-        tangent_slope,
-        normal,
-        normal_slope,
-        torsion: volume(third, w3),
-        torsion_slope: volume(fourth, w4),
-    }
-}
-
-fn derivatives<T: Scalar>(arena: &mut Arena<T>, shape: &SegmentShape) -> Derivatives {
-    let mut result = Derivatives {
-        curve: [[Polynomial::ZERO; 3]; 5],
-        weight: [Polynomial::ZERO; 5],
-    };
+fn derivatives<T: Scalar>(arena: &mut Arena<T>, shape: &SegmentShape) -> Derivatives<Polynomial> {
+    let mut axes = [[Polynomial::ZERO; 5]; 4];
     let first = usize::from(!shape.rational);
-    for axis in 0..4 {
+    for (axis, orders) in axes.iter_mut().enumerate() {
         let controls = &shape.controls[axis][..shape.count];
         let bounds = &shape.bounds[axis][..shape.count];
         let absent = controls.iter().all(|control| control.high() == 0.0)
@@ -213,46 +251,13 @@ fn derivatives<T: Scalar>(arena: &mut Arena<T>, shape: &SegmentShape) -> Derivat
             continue;
         }
         let mut plain = arena.convert(controls, bounds);
-        for order in first..5 {
-            let scaled = arena.scale(plain);
-            if axis < 3 {
-                result.curve[order][axis] = scaled;
-            } else {
-                result.weight[order] = scaled;
-            }
+        for order in &mut orders[first..] {
+            *order = arena.scale(plain);
             plain = arena.derivative(plain);
         }
     }
-    result
-}
-
-fn dot<T: Scalar>(arena: &mut Arena<T>, a: Vector, b: Vector) -> Polynomial {
-    arena.sum_of_products(&[(1.0, a[0], b[0]), (1.0, a[1], b[1]), (1.0, a[2], b[2])])
-}
-
-fn cross<T: Scalar>(arena: &mut Arena<T>, a: Vector, b: Vector) -> Vector {
-    [(1, 2), (2, 0), (0, 1)]
-        .map(|(i, j)| arena.sum_of_products(&[(1.0, a[i], b[j]), (-1.0, a[j], b[i])]))
-}
-
-/// The numerator of (W^`power` f)′: `power` · W′ f + W f′; f′ if the weight is 1.
-fn weighted<T: Scalar>(
-    arena: &mut Arena<T>,
-    power: f64,
-    [weight, weight_slope]: [Polynomial; 2],
-    f: Polynomial,
-    slope: Polynomial,
-) -> Polynomial {
-    if weight.vanishes() {
-        return slope;
+    Derivatives {
+        curve: from_fn(|order| from_fn(|axis| axes[axis][order])),
+        weight: shape.rational.then_some(axes[3]),
     }
-    arena.sum_of_products(&[(power, weight_slope, f), (1.0, weight, slope)])
-}
-
-/// W f, or f if the weight is 1.
-fn weigh<T: Scalar>(arena: &mut Arena<T>, weight: Polynomial, f: Polynomial) -> Polynomial {
-    if weight.vanishes() {
-        return f;
-    }
-    arena.sum_of_products(&[(1.0, weight, f)])
 }
