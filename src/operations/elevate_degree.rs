@@ -44,8 +44,7 @@ fn check(input: &Input) -> Result<(), OperationError> {
     let polygon = &editable(input)?.polygon;
     let degree = polygon.degree();
     if degree >= highest(polygon) {
-        let highest = true;
-        return Err(OperationError::DegreeAtLimit { degree, highest });
+        return Err(OperationError::HighestDegree { degree });
     }
     Ok(())
 }

@@ -25,13 +25,14 @@ pub enum OperationError {
     /// The ends cannot be corrected at once.
     #[error(transparent)]
     Correction(#[from] CorrectionError),
-    /// The degree is the lowest or highest already.
-    #[error("the degree is {degree} already, the {} that {}", if *.highest { "highest" } else { "lowest" }, why_no_more(*.degree, *.highest))]
-    DegreeAtLimit {
+    /// There is no lower degree.
+    #[error("the degree is 1 already, the lowest that there is")]
+    LowestDegree,
+    /// There is no higher degree for the curve.
+    #[error("the degree is {degree} already, the highest that {}", who_can_have(*.degree))]
+    HighestDegree {
         /// The degree.
         degree: usize,
-        /// Whether it is the highest.
-        highest: bool,
     },
     /// No end has a target, or not the one that was chosen.
     #[error("{}", no_target(*.end))]
@@ -74,11 +75,12 @@ pub enum OperationError {
     Cancelled,
 }
 
-fn why_no_more(degree: usize, highest: bool) -> &'static str {
-    match (highest, degree) {
-        (true, MAX_DEGREE) => "there is",
-        (true, _) => "a periodic curve of so few segments can have",
-        (false, _) => "there is",
+/// Below the highest of all only periodic curves have a highest degree.
+fn who_can_have(degree: usize) -> &'static str {
+    if degree >= MAX_DEGREE {
+        "there is"
+    } else {
+        "a periodic curve of so few segments can have"
     }
 }
 

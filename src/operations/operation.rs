@@ -128,7 +128,8 @@ impl Operation {
     /// outcome says so and has no edits.
     ///
     /// # Errors
-    /// As [`Operation::check`]; if the values make no curve; or [`OperationError::Cancelled`].
+    /// As [`Operation::check`]; if the values make no curve; [`OperationError::Cancelled`]
+    /// if `progress` was cancelled meanwhile.
     pub fn run(
         &self,
         input: &Input,
@@ -138,6 +139,9 @@ impl Operation {
         self.check(input)?;
         let outcome = (self.run)(input, values, progress)?;
         outcome.applied_to(input.document())?;
+        if progress.is_cancelled() {
+            return Err(OperationError::Cancelled);
+        }
         Ok(outcome)
     }
 }

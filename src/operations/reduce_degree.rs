@@ -38,10 +38,8 @@ pub static OPERATION: Operation = Operation {
 };
 
 fn check(input: &Input) -> Result<(), OperationError> {
-    let degree = editable(input)?.polygon.degree();
-    if degree <= 1 {
-        let highest = false;
-        return Err(OperationError::DegreeAtLimit { degree, highest });
+    if editable(input)?.polygon.degree() <= 1 {
+        return Err(OperationError::LowestDegree);
     }
     Ok(())
 }

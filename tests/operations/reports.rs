@@ -2,7 +2,7 @@
 
 use batten::geometry::features::Verdict;
 use batten::geometry::{End, Progress};
-use batten::operations::{FeatureComparison, Report, Value};
+use batten::operations::{FeatureComparison, OperationError, Report, Value};
 use serde_json::json;
 
 use crate::runner::{Runner, beside, operation};
@@ -56,6 +56,11 @@ fn figures_are_there_at_once_and_features_can_be_cancelled() {
         None
     );
     assert_eq!(Report::of(round, &runner.input, &outcome, &progress), None);
+    let values = round.values(&runner.input, []).expect("defaults");
+    assert_eq!(
+        round.run(&runner.input, &values, &progress),
+        Err(OperationError::Cancelled)
+    );
 }
 
 #[test]
