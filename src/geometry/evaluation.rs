@@ -61,7 +61,11 @@ impl FloatPolygon {
     ///
     /// The derivative of order r of the homogeneous curve has the r-th differences of the
     /// vertices as its float polygon; a rational curve takes Leibniz' rule from there.
-    fn segment_derivatives<const COUNT: usize>(&self, segment: usize, t: f64) -> [DVec3; COUNT] {
+    pub(super) fn segment_derivatives<const COUNT: usize>(
+        &self,
+        segment: usize,
+        t: f64,
+    ) -> [DVec3; COUNT] {
         let degree = self.degree();
         // A rational curve is evaluated about one of its vertices: the quotient would otherwise
         // lose what the coordinates' distance from the origin takes.

@@ -26,7 +26,8 @@ pub trait ParametricCurve {
     /// parameter t of a piece. At a joint this chooses the side, with t = 0 or t = 1.
     ///
     /// # Panics
-    /// If the curve has no piece with this number.
+    /// If the curve has no piece with this number, or there is room for more than [`LEVEL_ORDER`]
+    /// derivatives.
     fn fill_derivatives(&self, piece: usize, t: f64, values: &mut [DVec3]);
 
     /// Find the piece that holds u and the local parameter in it.
@@ -152,9 +153,8 @@ impl ParametricCurve for FloatPolygon {
     }
 
     fn fill_derivatives(&self, piece: usize, t: f64, values: &mut [DVec3]) {
-        if let Some(order) = values.len().checked_sub(1) {
-            values.copy_from_slice(&self.segment_derivatives(piece, t, order));
-        }
+        let derivatives: [DVec3; LEVEL_ORDER + 1] = self.segment_derivatives(piece, t);
+        values.copy_from_slice(&derivatives[..values.len()]);
     }
 
     fn piece_jet(&self, piece: usize, t: f64) -> Jet {
