@@ -261,6 +261,9 @@ fn figure_text(figure: &Figure) -> String {
     }
 }
 
+/// How many features of a kind there are.
+type Count = fn(&FeatureCounts) -> usize;
+
 /// The proved features, before and afterwards, of each kind that there is.
 fn features_ui(ui: &mut Ui, report: &Report) {
     let Some(features) = &report.features else {
@@ -269,19 +272,20 @@ fn features_ui(ui: &mut Ui, report: &Report) {
         }
         return;
     };
-    let kinds: [(&str, fn(&FeatureCounts) -> usize, bool); 6] = [
-        ("Curvature extrema", |counts| counts.curvature_extrema, true),
-        ("Inflections", |counts| counts.inflections, false),
-        ("Torsion extrema", |counts| counts.torsion_extrema, false),
-        ("Torsion zeros", |counts| counts.torsion_zeros, false),
-        ("Cusps", |counts| counts.cusps, false),
-        ("Undecided", |counts| counts.undecided, false),
+    let kinds: [(&str, Count); 6] = [
+        ("Curvature extrema", |counts| counts.curvature_extrema),
+        ("Inflections", |counts| counts.inflections),
+        ("Torsion extrema", |counts| counts.torsion_extrema),
+        ("Torsion zeros", |counts| counts.torsion_zeros),
+        ("Cusps", |counts| counts.cusps),
+        ("Undecided", |counts| counts.undecided),
     ];
     let (before, after) = (&features.before, &features.after);
     before_after_ui(ui, "", "before", "afterwards");
-    for (name, count, always) in kinds {
+    for (number, (name, count)) in kinds.into_iter().enumerate() {
         let mut all = before.iter().chain(after);
-        if always || all.any(|counts| count(counts) > 0) {
+        // Extrema of the curvature are what a curve is judged by: told even if there are none.
+        if number == 0 || all.any(|counts| count(counts) > 0) {
             let listed = |counts: &[FeatureCounts]| joined(counts, |c| count(c).to_string());
             before_after_ui(ui, name, &listed(before), &listed(after));
         }
