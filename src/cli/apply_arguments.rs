@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches, value_parser};
 
-use super::arguments::format_parser;
+use super::parsers::format_parser;
 use crate::io::Format;
 use crate::operations::{ALL, Inputs, Kind, Operation, Parameter, Unit, Value, find};
 

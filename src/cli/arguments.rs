@@ -2,17 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Error, Parser, Subcommand};
 
 use super::apply::Application;
 use super::apply_arguments::ApplyArguments;
 use super::ends::{Destination, Source};
+use super::parsers::{example_parser, format_parser, parameter, polygon_parser};
 use crate::document::quoted;
 use crate::geometry::PolygonKind;
 use crate::io::Format;
-use crate::io::examples::{EXAMPLES, Example};
+use crate::io::examples::Example;
 
 /// How like a command a word must be to be taken for one misspelled, as 0 to 1.
 const LEAST_LIKENESS: f64 = 0.7;
@@ -243,31 +243,6 @@ fn missing(subcommand: &str, text: &str) -> Error {
 }
 
 /// Read a format by its extension.
-pub(super) fn format_parser(
-    formats: impl Iterator<Item = Format>,
-) -> impl TypedValueParser<Value = Format> {
-    let names = PossibleValuesParser::new(formats.map(Format::extension));
-    names.try_map(|name| Format::find(&name).ok_or("no such format"))
-}
-
-fn example_parser() -> impl TypedValueParser<Value = Example> {
-    let names = PossibleValuesParser::new(EXAMPLES.map(|example| example.name));
-    names.try_map(|name| Example::find(&name).ok_or("no such example"))
-}
-
-fn polygon_parser() -> impl TypedValueParser<Value = PolygonKind> {
-    let names = PossibleValuesParser::new(PolygonKind::ALL.map(PolygonKind::name));
-    names.try_map(|name| PolygonKind::from_name(&name).ok_or("no such polygon"))
-}
-
-fn parameter(text: &str) -> Result<f64, String> {
-    let value: Result<f64, _> = text.trim().parse();
-    value
-        .ok()
-        .filter(|value| value.is_finite())
-        .ok_or_else(|| "a finite number is needed".to_owned())
-}
-
 #[cfg(test)]
 mod tests {
     use clap::CommandFactory;

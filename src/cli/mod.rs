@@ -9,6 +9,7 @@ mod ends;
 mod feature_lists;
 mod inspect;
 mod output;
+mod parsers;
 mod progress;
 
 use std::ffi::OsString;

@@ -6,8 +6,8 @@ use eframe::egui::{
 };
 use glam::DVec2;
 
+use super::brush::Brush;
 use super::chains::Screen;
-use super::painting::Brush;
 use super::theme::Tokens;
 use super::{gizmo, grid, keyboard, painting};
 use crate::editor::{Button, Cursor, Editor, Input, Key, Layer, Modifiers};

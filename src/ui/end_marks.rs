@@ -3,7 +3,7 @@
 use eframe::egui::{Align2, Pos2, Shape, Stroke, vec2};
 use glam::DVec2;
 
-use super::painting::Brush;
+use super::brush::Brush;
 use super::{figures, labels, theme};
 use crate::editor::EndFitMarks;
 

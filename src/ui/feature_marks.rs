@@ -2,7 +2,7 @@
 
 use eframe::egui::{Color32, Painter, Pos2, Shape, Stroke, vec2};
 
-use super::painting::Brush;
+use super::brush::Brush;
 use super::theme::Tokens;
 use crate::editor::{FeatureKind, FeatureMark};
 

@@ -3,6 +3,7 @@
 
 mod action;
 mod app;
+mod brush;
 mod canvas;
 mod cell_entry;
 mod cell_keys;

@@ -2,13 +2,11 @@
 
 use std::f64::consts::{PI, TAU};
 
-use eframe::egui::{
-    Color32, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, pos2, vec2,
-};
+use eframe::egui::{Color32, Mesh, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, pos2, vec2};
 use glam::DVec2;
 
-use super::chains::Screen;
-use super::theme::{self, Tokens};
+use super::brush::Brush;
+use super::theme;
 use super::{end_marks, feature_marks, labels};
 use crate::editor::{CurveScene, HoverScene, Mark, Scene, VertexMark};
 
@@ -58,54 +56,7 @@ pub fn paint_hand(brush: &Brush<'_>, scene: &Scene) {
     }
 }
 
-/// What the parts of the scene are painted with.
-pub struct Brush<'a> {
-    /// The painter, clipped to the canvas.
-    pub painter: &'a Painter,
-    /// From the model to the screen.
-    pub screen: Screen<'a>,
-    /// The canvas.
-    pub rect: Rect,
-    /// The colours.
-    pub tokens: &'a Tokens,
-}
-
 impl Brush<'_> {
-    /// Paint a chain as a line, one for each of its pieces.
-    pub fn chain(&self, chain: &[DVec2], stroke: Stroke) {
-        for line in self.screen.lines(chain) {
-            self.painter.add(Shape::line(line, stroke));
-        }
-    }
-
-    fn dashed_chain(&self, chain: &[DVec2], stroke: Stroke) {
-        for line in self.screen.lines(chain) {
-            self.painter
-                .extend(Shape::dashed_line(&line, stroke, 5.0, 4.0));
-        }
-    }
-
-    /// Paint a dashed line between two model points.
-    pub fn dashed(&self, segment: [DVec2; 2], stroke: Stroke) {
-        self.dashed_chain(&segment, stroke);
-    }
-
-    /// Paint an arrow between two model points, its head at the second.
-    pub fn arrow(&self, [from, to]: [DVec2; 2], stroke: Stroke) {
-        let Some([tail, tip]) = self.screen.segment([from, to]) else {
-            return;
-        };
-        self.painter.line_segment([tail, tip], stroke);
-        if self.screen.point(to).is_some() && tail.distance(tip) > 1.0 {
-            let along = (tip - tail).normalized();
-            let side = along.rot90();
-            let head = |sign: f32| tip - along * 9.0 + side * (4.0 * sign);
-            let points = vec![tip, head(1.0), head(-1.0)];
-            self.painter
-                .add(Shape::convex_polygon(points, stroke.color, Stroke::NONE));
-        }
-    }
-
     /// Comb, evolute and closed polygon: what is derived from the curve, behind it.
     fn derived(&self, curve: &CurveScene) {
         let fade = fading(curve);

@@ -1,0 +1,32 @@
+//! What values of arguments may be.
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+
+use crate::geometry::PolygonKind;
+use crate::io::Format;
+use crate::io::examples::{EXAMPLES, Example};
+
+pub(super) fn format_parser(
+    formats: impl Iterator<Item = Format>,
+) -> impl TypedValueParser<Value = Format> {
+    let names = PossibleValuesParser::new(formats.map(Format::extension));
+    names.try_map(|name| Format::find(&name).ok_or("no such format"))
+}
+
+pub(super) fn example_parser() -> impl TypedValueParser<Value = Example> {
+    let names = PossibleValuesParser::new(EXAMPLES.map(|example| example.name));
+    names.try_map(|name| Example::find(&name).ok_or("no such example"))
+}
+
+pub(super) fn polygon_parser() -> impl TypedValueParser<Value = PolygonKind> {
+    let names = PossibleValuesParser::new(PolygonKind::ALL.map(PolygonKind::name));
+    names.try_map(|name| PolygonKind::from_name(&name).ok_or("no such polygon"))
+}
+
+pub(super) fn parameter(text: &str) -> Result<f64, String> {
+    let value: Result<f64, _> = text.trim().parse();
+    value
+        .ok()
+        .filter(|value| value.is_finite())
+        .ok_or_else(|| "a finite number is needed".to_owned())
+}

@@ -1,0 +1,57 @@
+//! What the scene is painted with: lines and arrows between points of the model.
+
+use eframe::egui::{Painter, Rect, Shape, Stroke};
+use glam::DVec2;
+
+use super::chains::Screen;
+use super::theme::Tokens;
+
+/// What the parts of the scene are painted with.
+pub struct Brush<'a> {
+    /// The painter, clipped to the canvas.
+    pub painter: &'a Painter,
+    /// From the model to the screen.
+    pub screen: Screen<'a>,
+    /// The canvas.
+    pub rect: Rect,
+    /// The colours.
+    pub tokens: &'a Tokens,
+}
+
+impl Brush<'_> {
+    /// Paint a chain as a line, one for each of its pieces.
+    pub fn chain(&self, chain: &[DVec2], stroke: Stroke) {
+        for line in self.screen.lines(chain) {
+            self.painter.add(Shape::line(line, stroke));
+        }
+    }
+
+    /// Paint a chain as dashed lines.
+    pub fn dashed_chain(&self, chain: &[DVec2], stroke: Stroke) {
+        for line in self.screen.lines(chain) {
+            self.painter
+                .extend(Shape::dashed_line(&line, stroke, 5.0, 4.0));
+        }
+    }
+
+    /// Paint a dashed line between two model points.
+    pub fn dashed(&self, segment: [DVec2; 2], stroke: Stroke) {
+        self.dashed_chain(&segment, stroke);
+    }
+
+    /// Paint an arrow between two model points, its head at the second.
+    pub fn arrow(&self, [from, to]: [DVec2; 2], stroke: Stroke) {
+        let Some([tail, tip]) = self.screen.segment([from, to]) else {
+            return;
+        };
+        self.painter.line_segment([tail, tip], stroke);
+        if self.screen.point(to).is_some() && tail.distance(tip) > 1.0 {
+            let along = (tip - tail).normalized();
+            let side = along.rot90();
+            let head = |sign: f32| tip - along * 9.0 + side * (4.0 * sign);
+            let points = vec![tip, head(1.0), head(-1.0)];
+            self.painter
+                .add(Shape::convex_polygon(points, stroke.color, Stroke::NONE));
+        }
+    }
+}
