@@ -242,7 +242,6 @@ fn missing(subcommand: &str, text: &str) -> Error {
     }
 }
 
-/// Read a format by its extension.
 #[cfg(test)]
 mod tests {
     use clap::CommandFactory;

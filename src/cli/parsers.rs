@@ -6,6 +6,7 @@ use crate::geometry::PolygonKind;
 use crate::io::Format;
 use crate::io::examples::{EXAMPLES, Example};
 
+/// Read a format by its extension.
 pub(super) fn format_parser(
     formats: impl Iterator<Item = Format>,
 ) -> impl TypedValueParser<Value = Format> {

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::operation::Inputs;
+use super::inputs::Inputs;
 use crate::document::EditError;
 use crate::geometry::joint_correction::CorrectionError;
 use crate::geometry::{End, MAX_DEGREE, PolygonError};

@@ -2,11 +2,10 @@
 
 use std::sync::Arc;
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::input::Input;
 use super::outcome::Outcome;
-use super::report_json::verdict;
 use crate::document::{Curve, CurveId, Document};
 use crate::geometry::features::{Features, Quantity, SegmentProver, Verdict};
 use crate::geometry::{FloatPolygon, Progress};
@@ -82,6 +81,15 @@ impl FeatureCounts {
             monotone: features.monotone,
         }
     }
+}
+
+/// Write a verdict as a word.
+fn verdict<S: Serializer>(verdict: &Verdict, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(match verdict {
+        Verdict::Proved => "proved",
+        Verdict::Disproved => "disproved",
+        Verdict::Undecided => "undecided",
+    })
 }
 
 /// List the curves that were chosen, then those whose polygon differs, in the documents' order.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::error::OperationError;
-use super::operation::Inputs;
+use super::inputs::Inputs;
 use crate::document::{Curve, CurveId, Document, EditError};
 use crate::geometry::FloatPolygon;
 
@@ -56,6 +56,17 @@ impl Input {
     /// The points of the table.
     pub fn points(&self) -> &[DVec3] {
         &self.points
+    }
+
+    /// Whether it is what an operation wants.
+    pub(super) fn is(&self, inputs: Inputs) -> bool {
+        let (curves, points) = (&self.curves[..], self.points.len());
+        match (inputs, curves) {
+            (Inputs::None, []) | (Inputs::One, [_]) => points == 0,
+            (Inputs::Two, [(first, _), (second, _)]) => first != second && points == 0,
+            (Inputs::Points, []) => points > 0,
+            _ => false,
+        }
     }
 
     /// The first curve that was chosen.

@@ -14,6 +14,7 @@ mod editable;
 mod error;
 mod features;
 mod input;
+mod inputs;
 mod operation;
 mod outcome;
 mod parameter;
@@ -21,6 +22,7 @@ mod report;
 mod report_json;
 mod summary;
 mod targets;
+mod value;
 mod values;
 mod which_end;
 
@@ -28,11 +30,13 @@ pub use amount::Amount;
 pub use error::OperationError;
 pub use features::{FeatureComparison, FeatureCounts};
 pub use input::Input;
-pub use operation::{Inputs, Operation};
+pub use inputs::Inputs;
+pub use operation::Operation;
 pub use outcome::{Deviation, Figure, Mark, Outcome};
 pub use parameter::{Choice, Kind, Limits, Parameter, Range, Unit};
 pub use report::{LargestMove, Report};
-pub use values::{Value, Values};
+pub use value::Value;
+pub use values::Values;
 
 /// Declare the modules of operations, and list what they export in this order.
 macro_rules! table {

@@ -4,9 +4,11 @@ use std::hash::{Hash, Hasher};
 
 use super::error::OperationError;
 use super::input::Input;
+use super::inputs::Inputs;
 use super::outcome::Outcome;
 use super::parameter::Parameter;
-use super::values::{Value, Values};
+use super::value::Value;
+use super::values::Values;
 use crate::geometry::Progress;
 
 /// Describe an operation and how it is done.
@@ -43,41 +45,6 @@ impl Hash for Operation {
     }
 }
 
-/// What an operation works on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Inputs {
-    /// Nothing: the parameters tell all.
-    None,
-    /// A curve.
-    One,
-    /// Two curves, in an order.
-    Two,
-    /// A table of points.
-    Points,
-}
-
-impl Inputs {
-    /// Ask for what is missing, in words.
-    pub(super) fn request(self) -> &'static str {
-        match self {
-            Self::None => "this works on no curve: choose none",
-            Self::One => "choose one curve",
-            Self::Two => "choose two different curves",
-            Self::Points => "a table of points is needed",
-        }
-    }
-
-    fn are_given(self, input: &Input) -> bool {
-        let (curves, points) = (input.curves(), input.points().len());
-        match self {
-            Self::None => curves.is_empty() && points == 0,
-            Self::One => curves.len() == 1 && points == 0,
-            Self::Two => curves.len() == 2 && curves[0].0 != curves[1].0 && points == 0,
-            Self::Points => curves.is_empty() && points > 0,
-        }
-    }
-}
-
 impl Operation {
     /// Tell beforehand why the operation cannot run on this input, whatever the values: the curve
     /// is locked or hidden, it has no ends, its degree is the highest already.
@@ -86,7 +53,7 @@ impl Operation {
     /// [`OperationError`].
     pub fn check(&self, input: &Input) -> Result<(), OperationError> {
         let needed = self.inputs;
-        if !needed.are_given(input) {
+        if !input.is(needed) {
             return Err(OperationError::Inputs { needed });
         }
         (self.check)(input)

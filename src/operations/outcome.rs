@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::parameter::Unit;
-use super::values::Value;
+use super::value::Value;
 use crate::document::{CurveId, Document, Edit, EditError};
 use crate::geometry::{Approximation, FloatPolygon};
 

@@ -6,7 +6,7 @@ use std::ops::Bound;
 use super::amount::Amount;
 use super::error::OperationError;
 use super::input::Input;
-use super::values::Value;
+use super::value::Value;
 
 /// Describe a parameter.
 #[derive(Clone, Copy, Debug)]

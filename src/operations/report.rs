@@ -8,7 +8,7 @@ use super::features::FeatureComparison;
 use super::input::Input;
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
-use super::values::Value;
+use super::value::Value;
 use crate::document::Document;
 use crate::geometry::Progress;
 

@@ -6,8 +6,7 @@ use serde_json::json;
 use super::outcome::Deviation;
 use super::parameter::Unit;
 use super::report::Report;
-use super::values::Value;
-use crate::geometry::features::Verdict;
+use super::value::Value;
 
 impl Serialize for Report {
     /// Write the keys `operation`, `reached`, `residual`, `deviation` (0 where the curve is the
@@ -43,13 +42,4 @@ impl Serialize for Report {
         map.serialize_entry("remarks", &self.remarks)?;
         map.end()
     }
-}
-
-/// Write a verdict as a word.
-pub(super) fn verdict<S: Serializer>(verdict: &Verdict, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_str(match verdict {
-        Verdict::Proved => "proved",
-        Verdict::Disproved => "disproved",
-        Verdict::Undecided => "undecided",
-    })
 }

@@ -3,7 +3,8 @@
 use super::editable::check_editable;
 use super::error::OperationError;
 use super::input::Input;
-use super::operation::{Inputs, Operation};
+use super::inputs::Inputs;
+use super::operation::Operation;
 use super::outcome::{Deviation, Outcome};
 use super::values::Values;
 use crate::document::Edit;

@@ -2,7 +2,8 @@
 
 use super::error::OperationError;
 use super::input::Input;
-use super::operation::{Inputs, Operation};
+use super::inputs::Inputs;
+use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
 use super::targets::{check_targets, corrected, marks, target};
 use super::values::Values;

@@ -3,19 +3,7 @@
 use super::error::OperationError;
 use super::input::Input;
 use super::parameter::Parameter;
-
-/// A value of a parameter.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Value {
-    /// A whole number.
-    Whole(usize),
-    /// A finite number; angles are in radians.
-    Real(f64),
-    /// Which of the options it is, counted from 0.
-    Choice(usize),
-    /// On or off.
-    Switch(bool),
-}
+use super::value::Value;
 
 /// Hold a value for every parameter of an operation, each in range for the input that they were
 /// checked for.

@@ -1,0 +1,26 @@
+//! The kinds of inputs that operations want.
+
+/// What an operation works on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Inputs {
+    /// Nothing: the parameters tell all.
+    None,
+    /// A curve.
+    One,
+    /// Two curves, in an order.
+    Two,
+    /// A table of points.
+    Points,
+}
+
+impl Inputs {
+    /// Ask for what is missing, in words.
+    pub(super) fn request(self) -> &'static str {
+        match self {
+            Self::None => "this works on no curve: choose none",
+            Self::One => "choose one curve",
+            Self::Two => "choose two different curves",
+            Self::Points => "a table of points is needed",
+        }
+    }
+}

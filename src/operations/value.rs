@@ -1,0 +1,14 @@
+//! A value of a parameter, or a figure.
+
+/// A value of a parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value {
+    /// A whole number.
+    Whole(usize),
+    /// A finite number; angles are in radians.
+    Real(f64),
+    /// Which of the options it is, counted from 0.
+    Choice(usize),
+    /// On or off.
+    Switch(bool),
+}
