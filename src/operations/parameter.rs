@@ -144,13 +144,10 @@ impl Parameter {
         let text = text.trim();
         let value = match self.kind {
             Kind::Whole { .. } => text.parse().ok().map(Value::Whole),
-            Kind::Real { unit, .. } => text.parse().ok().map(|number: f64| {
-                Value::Real(if unit == Unit::Angle {
-                    number.to_radians()
-                } else {
-                    number
-                })
-            }),
+            Kind::Real { unit, .. } => {
+                let number = text.parse().ok();
+                number.map(|number: f64| Value::Real(unit.typed(number)))
+            }
             Kind::Choice { options, .. } => {
                 let mut names = options.iter().map(|option| option.name);
                 names.position(|name| name == text).map(Value::Choice)
@@ -180,11 +177,8 @@ impl Parameter {
             (Kind::Choice { options, .. }, Value::Choice(index)) => options
                 .get(index)
                 .map_or_else(String::new, |option| option.name.to_owned()),
-            (_, Value::Real(number)) if self.unit() == Unit::Angle => {
-                number.to_degrees().to_string()
-            }
             (_, Value::Whole(number)) => number.to_string(),
-            (_, Value::Real(number)) => number.to_string(),
+            (_, Value::Real(number)) => self.unit().shown(number).to_string(),
             (_, Value::Choice(index)) => index.to_string(),
             (_, Value::Switch(on)) => if on { "on" } else { "off" }.to_owned(),
         }
@@ -280,6 +274,22 @@ impl Parameter {
 }
 
 impl Unit {
+    /// The number that is shown for one in this unit: angles in degrees.
+    pub fn shown(self, number: f64) -> f64 {
+        match self {
+            Self::Angle => number.to_degrees(),
+            Self::None | Self::Length | Self::Parameter => number,
+        }
+    }
+
+    /// The number in this unit that is meant by one that is typed.
+    pub fn typed(self, shown: f64) -> f64 {
+        match self {
+            Self::Angle => shown.to_radians(),
+            Self::None | Self::Length | Self::Parameter => shown,
+        }
+    }
+
     fn noun(self) -> &'static str {
         match self {
             Self::None => "a number",

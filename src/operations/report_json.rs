@@ -4,7 +4,6 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::json;
 
 use super::outcome::Deviation;
-use super::parameter::Unit;
 use super::report::Report;
 use super::value::Value;
 
@@ -33,8 +32,7 @@ impl Serialize for Report {
         for figure in &self.figures {
             let value = match figure.value {
                 Value::Whole(count) | Value::Choice(count) => json!(count),
-                Value::Real(number) if figure.unit == Unit::Angle => json!(number.to_degrees()),
-                Value::Real(number) => json!(number),
+                Value::Real(number) => json!(figure.unit.shown(number)),
                 Value::Switch(on) => json!(on),
             };
             map.serialize_entry(figure.name, &value)?;

@@ -36,7 +36,7 @@ fn value(parameter: &Parameter, input: &Input, random: &mut Random) -> Value {
             // Whole and halved parameters are the special ones.
             let nice = (2.0 * value).round() / 2.0;
             let allowed = parameter.check(Value::Real(nice), input).is_ok();
-            Value::Real(if allowed && random.bits() % 2 == 0 {
+            Value::Real(if allowed && random.bits().is_multiple_of(2) {
                 nice
             } else {
                 value
@@ -45,7 +45,7 @@ fn value(parameter: &Parameter, input: &Input, random: &mut Random) -> Value {
         Kind::Choice { options, .. } => {
             Value::Choice((random.bits() % options.len() as u64) as usize)
         }
-        Kind::Switch { .. } => Value::Switch(random.bits() % 2 == 0),
+        Kind::Switch { .. } => Value::Switch(random.bits().is_multiple_of(2)),
     }
 }
 
