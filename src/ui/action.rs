@@ -105,6 +105,16 @@ impl Action {
         label.to_owned()
     }
 
+    /// The words by which the action is found: what it is called here, and on the command line.
+    pub fn words(self) -> String {
+        match self {
+            Self::Command(Command::Operation(operation)) => {
+                format!("{} {}", operation.label, operation.name)
+            }
+            _ => self.label(),
+        }
+    }
+
     /// What a menu calls the action now: undo and redo name their step.
     pub fn label_now(self, editor: &Editor) -> String {
         match self {

@@ -161,12 +161,11 @@ fn choice_ui(ui: &mut Ui, options: &'static [Choice], chosen: usize) -> Option<V
     clicked
 }
 
-/// A number as its field shows it: angles in degrees.
+/// A number as its field shows it.
 fn shown_number(value: Value, unit: Unit) -> f64 {
     match value {
         Value::Whole(number) => number as f64,
-        Value::Real(number) if unit == Unit::Angle => number.to_degrees(),
-        Value::Real(number) => number,
+        Value::Real(number) => unit.shown(number),
         Value::Choice(_) | Value::Switch(_) => 0.0,
     }
 }
@@ -175,25 +174,20 @@ fn shown_number(value: Value, unit: Unit) -> f64 {
 fn given_number(number: f64, like: Value, unit: Unit) -> Value {
     match like {
         Value::Whole(_) => Value::Whole(number.round().max(0.0) as usize),
-        _ if unit == Unit::Angle => Value::Real(number.to_radians()),
-        _ => Value::Real(number),
+        _ => Value::Real(unit.typed(number)),
     }
 }
 
 fn field_range(limits: Option<Limits>, unit: Unit) -> RangeInclusive<f64> {
-    let shown = |number: f64| match unit {
-        Unit::Angle => number.to_degrees(),
-        _ => number,
-    };
     let (from, to) = limits.unwrap_or((Bound::Unbounded, Bound::Unbounded));
     let from = match from {
-        Bound::Included(from) => shown(from),
-        Bound::Excluded(from) => shown(from).next_up(),
+        Bound::Included(from) => unit.shown(from),
+        Bound::Excluded(from) => unit.shown(from).next_up(),
         Bound::Unbounded => f64::NEG_INFINITY,
     };
     let to = match to {
-        Bound::Included(to) => shown(to),
-        Bound::Excluded(to) => shown(to).next_down(),
+        Bound::Included(to) => unit.shown(to),
+        Bound::Excluded(to) => unit.shown(to).next_down(),
         Bound::Unbounded => f64::INFINITY,
     };
     from..=to

@@ -209,7 +209,8 @@ fn matches(typed: &str) -> Vec<Action> {
         .into_iter()
         .filter_map(|action| {
             let label = action.label();
-            let score = pattern.score(Utf32Str::new(&label, &mut buffer), &mut matcher)?;
+            let words = action.words();
+            let score = pattern.score(Utf32Str::new(&words, &mut buffer), &mut matcher)?;
             // Of two that match as well, the shorter name is meant.
             Some(((std::cmp::Reverse(score), label.len()), action))
         })
