@@ -26,8 +26,12 @@ pub struct Trial {
     stage: Stage,
     /// What was selected before.
     selection: Selection,
-    /// What it comes to with these values, once that is known.
+    /// What it comes to with these values; while that is worked out, with those before.
     run: Option<Result<Run, OperationError>>,
+    /// Whether the worker works out what it comes to with these values.
+    pending: bool,
+    /// The features before and afterwards that were proved last.
+    features: Option<FeatureComparison>,
     /// The number of the question whose answers count.
     question: u64,
     /// Whether it is applied as soon as it is known what it comes to.
@@ -120,7 +124,23 @@ impl Trial {
         Some(&run.report)
     }
 
-    /// What it comes to with these values; `None` while that is worked out.
+    /// Whether it is still worked out what it comes to with these values: what is told of it so far
+    /// is of those before.
+    pub fn is_pending(&self) -> bool {
+        self.pending
+    }
+
+    /// The features before and afterwards that were proved last, and whether they are of these
+    /// values.
+    pub fn features(&self) -> Option<(&FeatureComparison, bool)> {
+        let current = self.report().and_then(|report| report.features.as_ref());
+        match current {
+            Some(features) if !self.pending => Some((features, true)),
+            _ => Some((self.features.as_ref()?, false)),
+        }
+    }
+
+    /// What it comes to; `None` until it is known for the first time.
     pub fn run(&self) -> Option<&Result<Run, OperationError>> {
         self.run.as_ref()
     }
@@ -350,6 +370,8 @@ impl Editor {
             stage: Stage::Tried(preview),
             selection: self.hand.selection.clone(),
             run: None,
+            pending: false,
+            features: None,
             question: 0,
             applies: false,
         });
@@ -365,7 +387,7 @@ impl Editor {
         operations.questions += 1;
         let question = operations.questions;
         trial.question = question;
-        trial.run = None;
+        trial.pending = true;
         let (operation, input, values) =
             (trial.operation, trial.input.clone(), trial.values.clone());
         let job = move |progress: &Progress| Told {
@@ -414,6 +436,7 @@ impl Editor {
                     if let Some(trial) = &mut self.operations.trial
                         && let Some(Ok(run)) = &mut trial.run
                     {
+                        trial.features = features.clone();
                         run.report.features = features;
                     }
                 }
@@ -433,6 +456,7 @@ impl Editor {
             return;
         };
         trial.run = Some(run);
+        trial.pending = false;
         let (label, stage, applies) = (trial.operation.label, trial.stage, trial.applies);
         match stage {
             Stage::Tried(_) => self.update(edits),
@@ -464,11 +488,12 @@ impl Editor {
             return Ok(Note::silent());
         };
         trial.applies = false;
+        if trial.pending {
+            trial.applies = true;
+            return Ok(Note::silent());
+        }
         let renumbers = match &trial.run {
-            None => {
-                trial.applies = true;
-                return Ok(Note::silent());
-            }
+            None => return Ok(Note::silent()),
             Some(Err(error)) => return Err(Refusal(error.to_string())),
             Some(Ok(run)) if !run.outcome.reached => return Err(Refusal(run.report.summary())),
             Some(Ok(run)) => run.outcome.renumbered,

@@ -17,6 +17,9 @@ use crate::operations::{
     Choice, Deviation, FeatureCounts, Figure, Kind, Limits, Parameter, Report, Unit, Value,
 };
 
+/// How faint figures are that are of other values.
+const OUTDATED: f32 = 0.5;
+
 /// The width of a column of figures.
 const COLUMN: f32 = 96.0;
 
@@ -58,8 +61,8 @@ impl OperationPanel {
         }
         ui.add_space(STEP);
         came_to_ui(ui, trial);
-        progress_ui(ui, editor.operation_progress());
-        asked = asked.or(buttons_ui(ui, trial, keys));
+        let progress = editor.operation_progress();
+        asked = asked.or(buttons_ui(ui, trial, progress, keys));
         match asked {
             None => {}
             Some(Asked::Set(parameter, value)) => {
@@ -205,14 +208,19 @@ fn speed(range: &RangeInclusive<f64>, number: f64) -> f64 {
 }
 
 fn came_to_ui(ui: &mut Ui, trial: &Trial) {
-    match trial.run() {
-        None => {}
-        Some(Err(error)) => error_ui(ui, &error.to_string()),
-        Some(Ok(run)) => report_ui(ui, &run.report),
-    }
+    ui.scope(|ui| {
+        if trial.is_pending() {
+            ui.multiply_opacity(OUTDATED);
+        }
+        match trial.run() {
+            None => {}
+            Some(Err(error)) => error_ui(ui, &error.to_string()),
+            Some(Ok(run)) => report_ui(ui, trial, &run.report),
+        }
+    });
 }
 
-fn report_ui(ui: &mut Ui, report: &Report) {
+fn report_ui(ui: &mut Ui, trial: &Trial, report: &Report) {
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
         if !report.reached {
@@ -238,7 +246,9 @@ fn report_ui(ui: &mut Ui, report: &Report) {
         for figure in &report.figures {
             widgets::figure_row(ui, figure.label, &figure_text(figure));
         }
-        features_ui(ui, report);
+        if report.reached {
+            features_ui(ui, trial);
+        }
     });
     for remark in &report.remarks {
         widgets::note(ui, remark);
@@ -259,13 +269,14 @@ fn figure_text(figure: &Figure) -> String {
 type Count = fn(&FeatureCounts) -> usize;
 
 /// The proved features, before and afterwards, of each kind that there is.
-fn features_ui(ui: &mut Ui, report: &Report) {
-    let Some(features) = &report.features else {
-        if report.reached {
-            widgets::figure_row(ui, "Features", "being proved …");
-        }
+fn features_ui(ui: &mut Ui, trial: &Trial) {
+    let Some((features, current)) = trial.features() else {
+        widgets::figure_row(ui, "Features", "being proved …");
         return;
     };
+    if !current && !trial.is_pending() {
+        ui.multiply_opacity(OUTDATED);
+    }
     let kinds: [(&str, Count); 6] = [
         ("Curvature extrema", |counts| counts.curvature_extrema),
         ("Inflections", |counts| counts.inflections),
@@ -318,18 +329,12 @@ fn verdict(monotone: Verdict) -> &'static str {
     }
 }
 
-fn progress_ui(ui: &mut Ui, done: Option<f64>) {
-    if let Some(done) = done {
-        ui.add(ProgressBar::new(done as f32).show_percentage());
-    }
-}
-
 fn error_ui(ui: &mut Ui, text: &str) {
     let text = RichText::new(text).color(Tokens::of(ui).error);
     ui.add(Label::new(text).wrap());
 }
 
-fn buttons_ui(ui: &mut Ui, trial: &Trial, keys: bool) -> Option<Asked> {
+fn buttons_ui(ui: &mut Ui, trial: &Trial, progress: Option<f64>, keys: bool) -> Option<Asked> {
     if trial.is_applied() {
         return None;
     }
@@ -345,6 +350,9 @@ fn buttons_ui(ui: &mut Ui, trial: &Trial, keys: bool) -> Option<Asked> {
         }
         if ui.button("Cancel").on_hover_text("Esc").clicked() {
             asked = Some(Asked::Leave);
+        }
+        if let Some(done) = progress {
+            ui.add(ProgressBar::new(done as f32).show_percentage());
         }
     });
     let pressed = |key| keys && ui.input(|input| input.key_pressed(key));
