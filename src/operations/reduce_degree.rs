@@ -31,7 +31,7 @@ const DEGREE: Parameter = Parameter {
 pub static OPERATION: Operation = Operation {
     name: "reduce-degree",
     label: "Lower degree, keep curve",
-    help: "Lower the degree and stay as near to the curve as a uniform curve comes",
+    help: "Lower the degree; the curve stays as near as a uniform curve can be",
     inputs: Inputs::One,
     parameters: &[DEGREE],
     check,

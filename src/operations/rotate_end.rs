@@ -15,7 +15,7 @@ use crate::geometry::end_correction::{EndDifference, align_end};
 pub static OPERATION: Operation = Operation {
     name: "rotate-end",
     label: "Rotate end",
-    help: "Rotate the terminal vertices of an end about it so that it has its target direction (step 6)",
+    help: "Rotate the terminal vertices about the end so that its tangent has the target direction (step 6)",
     inputs: Inputs::One,
     parameters: &[END],
     check: check_targets,
