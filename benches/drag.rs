@@ -6,7 +6,7 @@
 use std::hint::black_box;
 
 use batten::document::{Curve, Document};
-use batten::editor::{Button, Command, Editor, Input, Layer};
+use batten::editor::{Button, Command, Editor, Input, Layer, PlotKind};
 use batten::geometry::FloatPolygon;
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use glam::DVec2;
@@ -30,6 +30,7 @@ fn winding(count: usize) -> Document {
 fn dragging(count: usize, close: bool) -> (Editor, DVec2) {
     let mut editor = Editor::with_document(winding(count));
     editor.set_canvas_size(CANVAS);
+    editor.view_mut().show_plot(Some(PlotKind::Curvature));
     editor
         .execute(Command::ToggleLayer(Layer::Comb))
         .expect("a command");
@@ -47,7 +48,7 @@ fn dragging(count: usize, close: bool) -> (Editor, DVec2) {
             by: 0.5 * CANVAS - at,
         });
     }
-    editor.scene();
+    editor.refresh();
     let at = editor.view().viewport().to_screen(vertex);
     editor.select_vertex(curve, count / 2, false);
     editor.input(Input::Moved { at });
@@ -70,15 +71,16 @@ fn dragging(count: usize, close: bool) -> (Editor, DVec2) {
 /// One frame of the drag.
 fn frame(editor: &mut Editor, at: DVec2) {
     editor.input(Input::Moved { at });
-    black_box(editor.features());
-    editor.update_hover();
+    editor.refresh();
     // The leg plots come with the curvature plot; the chip and the list read the features.
-    black_box(editor.known_features());
-    black_box(editor.known_features());
-    black_box(editor.leg_plots());
+    black_box(editor.features());
+    black_box(editor.features());
+    black_box(editor.plots());
     black_box(editor.report());
     black_box(editor.readout());
     black_box(editor.hint());
+    // The canvas comes after the panels, which may have changed something.
+    editor.refresh();
     black_box(editor.scene());
 }
 

@@ -4,8 +4,11 @@ mod common;
 
 use std::sync::Arc;
 
-use batten::analysis::{CombSettings, CurveAnalysis, LevelPlot, Orientation, PieceTrend, ViewBox};
+use batten::analysis::{CurveAnalysis, LevelPlot};
 use batten::document::Curve;
+use batten::editor::{
+    ChainOutlines, CombSettings, CurveOutlines, Orientation, PieceTrend, ViewBox,
+};
 use batten::geometry::features::Features;
 use batten::geometry::{FloatPolygon, Progress};
 use common::Random;
@@ -56,27 +59,38 @@ fn edit(random: &mut Random, polygon: &mut FloatPolygon) {
     }
 }
 
+/// The outlines of a curve and of its float S-polygon, kept from edit to edit.
+#[derive(Default)]
+struct Outlines {
+    curve: CurveOutlines,
+    float: ChainOutlines,
+}
+
 /// What is drawn of a curve and plotted, gaps included.
-fn drawn(analysis: &mut CurveAnalysis) -> Vec<[u64; 2]> {
+fn drawn(analysis: &mut CurveAnalysis, outlines: &mut Outlines, eye: Orientation) -> Vec<[u64; 2]> {
     let view = ViewBox {
         low: DVec2::new(-20.0, -20.0),
         high: DVec2::new(150.0, 20.0),
         pixel: 0.05,
     };
     let mut points = Vec::new();
+    let Outlines { curve, float } = outlines;
+    let sampled = analysis.sampled();
+    curve.set_orientation(eye);
+    curve.update(sampled);
+    let segments = analysis.proved_segments().expect("all is proved");
     for trend in PieceTrend::ALL {
-        analysis.append_trend(trend, &view, &mut points);
+        curve.append_trend(sampled, segments, trend, &view, &mut points);
     }
-    let (outlines, sampled) = analysis.outlines();
-    outlines.append_curve(sampled, &view, &mut points);
-    outlines.append_evolute(sampled, &view, &mut points);
+    curve.append_curve(sampled, &view, &mut points);
+    curve.append_evolute(sampled, &view, &mut points);
     let comb = CombSettings {
         scale: 3.0,
         density: 5,
     };
-    outlines.append_comb(sampled, &view, &comb, &mut points);
+    curve.append_comb(sampled, &view, &comb, &mut points);
     let mut teeth = Vec::new();
-    outlines.append_teeth(sampled, &view, &comb, &mut teeth);
+    curve.append_teeth(sampled, &view, &comb, &mut teeth);
     points.extend(teeth.into_flattened());
     analysis.append_curvature(&mut points);
     let mut dots = Vec::new();
@@ -85,8 +99,9 @@ fn drawn(analysis: &mut CurveAnalysis) -> Vec<[u64; 2]> {
     analysis.append_levels(LevelPlot::Curvature(2), false, &mut points);
     analysis.float().append_leg_series(&mut points);
     analysis.float().append_turn_series(&mut points);
-    let (outlines, chain) = analysis.float_outlines();
-    outlines.append_legs(chain, &view, &mut points);
+    float.set_orientation(eye);
+    float.update(analysis.float());
+    float.append_legs(analysis.float(), &view, &mut points);
     let bits = |point: DVec2| point.to_array().map(f64::to_bits);
     points.into_iter().map(bits).collect()
 }
@@ -110,24 +125,25 @@ fn an_edited_curve_is_analysed_as_if_it_were_new() {
             Orientation::default()
         };
         let curve = |polygon: &FloatPolygon| Arc::new(Curve::new("curve", polygon.clone()));
-        let mut kept = CurveAnalysis::new(curve(&polygon), eye);
+        let mut kept = CurveAnalysis::new(curve(&polygon));
+        let mut outlines = Outlines::default();
         for _ in 0..EDITS {
             proved(&mut kept);
-            drawn(&mut kept);
+            drawn(&mut kept, &mut outlines, eye);
             edit(&mut random, &mut polygon);
             let curve = curve(&polygon);
             kept.update(&curve);
-            let mut fresh = CurveAnalysis::new(curve, eye);
+            let mut fresh = CurveAnalysis::new(curve);
             for segment in 0..polygon.segments() {
-                assert_eq!(
-                    kept.segment_samples(segment),
-                    fresh.segment_samples(segment)
-                );
+                let [kept, fresh] = [&kept, &fresh].map(|analysis| analysis.samples());
+                assert_eq!(kept.piece(segment), fresh.piece(segment));
             }
             assert_eq!(proved(&mut kept), proved(&mut fresh));
-            assert_eq!(kept.length(), fresh.length());
-            assert_eq!(drawn(&mut kept), drawn(&mut fresh));
-            let pairs = kept.clamped_vertices().iter().zip(fresh.clamped_vertices());
+            assert_eq!(kept.samples().length(), fresh.samples().length());
+            let made_anew = drawn(&mut fresh, &mut Outlines::default(), eye);
+            assert_eq!(drawn(&mut kept, &mut outlines, eye), made_anew);
+            let [old, new] = [&kept, &fresh].map(|analysis| analysis.clamped().vertices());
+            let pairs = old.iter().zip(new);
             for (kept, fresh) in pairs {
                 assert!(kept.distance(*fresh) <= CONVERSION * polygon.size());
             }

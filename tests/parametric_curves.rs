@@ -2,10 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use batten::analysis::{
-    CombSettings, CurvatureSeries, CurveOutlines, CurveSamples, LevelPlot, LevelSeries,
-    Orientation, SampledCurve, ViewBox,
-};
+use batten::analysis::{CurvatureSeries, CurveSamples, LevelPlot, LevelSeries, SampledCurve};
+use batten::editor::{CombSettings, CurveOutlines, Orientation, ViewBox};
 use batten::geometry::{EvenBatch, FloatPolygon, LEVELS, ParametricCurve};
 use glam::{DVec2, DVec3};
 

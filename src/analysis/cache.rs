@@ -3,25 +3,15 @@
 use std::collections::BTreeMap;
 
 use super::curve_analysis::CurveAnalysis;
-use super::orientation::Orientation;
 use crate::document::{CurveId, Document};
 
 /// Hold one analysis a curve, brought up to date with the document on demand.
 #[derive(Debug, Default)]
 pub struct AnalysisCache {
     analyses: BTreeMap<CurveId, CurveAnalysis>,
-    orientation: Orientation,
 }
 
 impl AnalysisCache {
-    /// Choose from where the curves are seen from now on.
-    pub fn set_orientation(&mut self, orientation: Orientation) {
-        self.orientation = orientation;
-        for analysis in self.analyses.values_mut() {
-            analysis.set_orientation(orientation);
-        }
-    }
-
     /// Bring all analyses up to date: curves that are gone are forgotten, new ones analysed, and
     /// changed ones redone where they changed.
     pub fn update(&mut self, document: &Document) {
@@ -30,17 +20,22 @@ impl AnalysisCache {
             self.analyses
                 .entry(id)
                 .and_modify(|analysis| analysis.update(curve))
-                .or_insert_with(|| CurveAnalysis::new(curve.clone(), self.orientation));
+                .or_insert_with(|| CurveAnalysis::new(curve.clone()));
         }
     }
 
     /// The analysis of one curve.
-    pub fn get(&mut self, id: CurveId) -> Option<&mut CurveAnalysis> {
+    pub fn get(&self, id: CurveId) -> Option<&CurveAnalysis> {
+        self.analyses.get(&id)
+    }
+
+    /// The analysis of one curve, to go on with.
+    pub fn get_mut(&mut self, id: CurveId) -> Option<&mut CurveAnalysis> {
         self.analyses.get_mut(&id)
     }
 
-    /// The analysis of one curve, to look at what is there.
-    pub fn peek(&self, id: CurveId) -> Option<&CurveAnalysis> {
-        self.analyses.get(&id)
+    /// All analyses.
+    pub fn iter(&self) -> impl Iterator<Item = (CurveId, &CurveAnalysis)> {
+        self.analyses.iter().map(|(id, analysis)| (*id, analysis))
     }
 }

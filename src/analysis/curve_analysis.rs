@@ -3,25 +3,20 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
-use super::chain_outlines::ChainOutlines;
 use super::curvature_series::CurvatureSeries;
-use super::curve_outlines::{CurveOutlines, PieceTrend};
 use super::curve_samples::{CurveSamples, SampledCurve};
 use super::discrete_curvature::append_discrete_curvature;
 use super::feature_proof::{FeatureProof, ProofResult, ProvedFeatures};
 use super::level_series::{LevelPlot, LevelSeries};
-use super::orientation::Orientation;
-use super::outline::{Bounds, ViewBox};
 use super::revision::Revision;
-use super::sample::Sample;
 use super::vertex_chain::{VertexChain, changed_range};
 use crate::document::Curve;
-use crate::geometry::features::Features;
-use crate::geometry::{ClampedPolygon, FloatPolygon, Range as Span};
+use crate::geometry::features::{Features, SegmentFeatures};
+use crate::geometry::{ClampedPolygon, FloatPolygon};
 
-/// Hold the samples of a curve, its closed S-polygon, its features, and what is drawn of them.
+/// Hold the samples of a curve, its polygons' vertices, its features and its plots.
 #[derive(Debug)]
 pub struct CurveAnalysis {
     curve: Arc<Curve>,
@@ -32,14 +27,11 @@ pub struct CurveAnalysis {
     curvature: CurvatureSeries,
     levels: LevelSeries,
     redone: usize,
-    outlines: CurveOutlines,
-    float_outlines: ChainOutlines,
-    clamped_outlines: ChainOutlines,
 }
 
 impl CurveAnalysis {
-    /// Analyse a curve that is seen from somewhere.
-    pub fn new(curve: Arc<Curve>, orientation: Orientation) -> Self {
+    /// Analyse a curve.
+    pub fn new(curve: Arc<Curve>) -> Self {
         let polygon = &curve.polygon;
         let mut analysis = Self {
             samples: CurveSamples::new(polygon),
@@ -49,9 +41,6 @@ impl CurveAnalysis {
             curvature: CurvatureSeries::default(),
             levels: LevelSeries::default(),
             redone: polygon.segments(),
-            outlines: CurveOutlines::default(),
-            float_outlines: ChainOutlines::default(),
-            clamped_outlines: ChainOutlines::default(),
             curve,
         };
         let polygon = &analysis.curve.polygon;
@@ -61,7 +50,6 @@ impl CurveAnalysis {
         analysis
             .clamped
             .update(ClampedPolygon::from_float(polygon).vertices(), false);
-        analysis.set_orientation(orientation);
         analysis
     }
 
@@ -79,7 +67,7 @@ impl CurveAnalysis {
             .then(|| self.float.update(new.vertices(), new.is_periodic()))
             .flatten();
         let Some(mut changed) = changed else {
-            *self = Self::new(curve.clone(), self.outlines.orientation());
+            *self = Self::new(curve.clone());
             return;
         };
         let [old, new] = [old, new].map(|polygon| polygon.weights().unwrap_or_default());
@@ -103,7 +91,7 @@ impl CurveAnalysis {
             new.is_planar()
         };
         if planar != self.samples.is_planar() {
-            *self = Self::new(curve.clone(), self.outlines.orientation());
+            *self = Self::new(curve.clone());
             return;
         }
         for segments in dependent_segments(new, &changed) {
@@ -111,21 +99,7 @@ impl CurveAnalysis {
             self.samples.redo(new, segments.clone());
             self.features.forget(segments);
         }
-        self.outlines.update(SampledCurve {
-            curve: new,
-            samples: &self.samples,
-        });
         self.update_clamped(changed);
-    }
-
-    /// Choose from where the curve is seen; what is drawn of it is made anew.
-    pub fn set_orientation(&mut self, orientation: Orientation) {
-        self.outlines.set_orientation(orientation);
-        self.float_outlines.set_orientation(orientation);
-        self.clamped_outlines.set_orientation(orientation);
-        let curve = &self.curve.polygon;
-        let samples = &self.samples;
-        self.outlines.update(SampledCurve { curve, samples });
     }
 
     /// The curve as it was last analysed.
@@ -139,6 +113,11 @@ impl CurveAnalysis {
             curve: &self.curve.polygon,
             samples: &self.samples,
         }
+    }
+
+    /// The curve's samples.
+    pub fn samples(&self) -> &CurveSamples {
+        &self.samples
     }
 
     /// Whether the curve is planar, and its curvature therefore signed.
@@ -156,40 +135,9 @@ impl CurveAnalysis {
         &self.clamped
     }
 
-    /// The closed S-polygon's vertices.
-    pub fn clamped_vertices(&self) -> &[DVec3] {
-        self.clamped.vertices()
-    }
-
     /// The number of segments that the last update sampled.
     pub fn segments_redone(&self) -> usize {
         self.redone
-    }
-
-    /// The samples of one segment, its ends included, at even parameters.
-    pub fn segment_samples(&self, segment: usize) -> &[Sample] {
-        self.samples.piece(segment)
-    }
-
-    /// Measure the arc length from the samples: to plotting accuracy, not the exact figure.
-    pub fn length(&self) -> f64 {
-        self.samples.length()
-    }
-
-    /// Measure the arc length from the curve's start to u, to plotting accuracy.
-    pub fn length_at(&self, u: f64) -> f64 {
-        self.sampled().length_at(u)
-    }
-
-    /// Find the parameter at an arc length from the curve's start; the inverse of
-    /// [`CurveAnalysis::length_at`].
-    pub fn parameter_at_length(&self, length: f64) -> f64 {
-        self.samples.parameter_at_length(length)
-    }
-
-    /// The smallest and largest sampled curvature.
-    pub fn curvature(&self) -> Option<Span> {
-        self.samples.curvature()
     }
 
     /// What is left to prove of the features: a job for any thread. `None` if all are known.
@@ -210,6 +158,11 @@ impl CurveAnalysis {
     /// The proved features, if all are known.
     pub fn known_features(&self) -> Option<&Features> {
         self.features.known(&self.curve)
+    }
+
+    /// The features of all segments, if they are known.
+    pub fn proved_segments(&self) -> Option<&[SegmentFeatures]> {
+        self.features.segments()
     }
 
     /// The share of the curve whose features are known.
@@ -240,46 +193,6 @@ impl CurveAnalysis {
         let samples = &self.samples;
         let sampled = SampledCurve { curve, samples };
         self.levels.append(sampled, plot, normalised, out);
-    }
-
-    /// The outlines of the curve, and what they are made of.
-    pub fn outlines(&mut self) -> (&mut CurveOutlines, SampledCurve<'_>) {
-        let curve = &self.curve.polygon;
-        let samples = &self.samples;
-        (&mut self.outlines, SampledCurve { curve, samples })
-    }
-
-    /// The outlines of the float S-polygon, and what they are made of.
-    pub fn float_outlines(&mut self) -> (&mut ChainOutlines, &VertexChain) {
-        (&mut self.float_outlines, &self.float)
-    }
-
-    /// The outlines of the closed S-polygon, and what they are made of.
-    pub fn clamped_outlines(&mut self) -> (&mut ChainOutlines, &VertexChain) {
-        (&mut self.clamped_outlines, &self.clamped)
-    }
-
-    /// Append what is visible of the pieces of the curve on which its curvature does one thing, once
-    /// its features are known.
-    pub fn append_trend(&mut self, trend: PieceTrend, view: &ViewBox, out: &mut Vec<DVec2>) {
-        let sampled = SampledCurve {
-            curve: &self.curve.polygon,
-            samples: &self.samples,
-        };
-        if let Some(segments) = self.features.segments() {
-            self.outlines
-                .append_trend(sampled, segments, trend, view, out);
-        }
-    }
-
-    /// The box around the curve, as it is seen.
-    pub fn bounds(&self) -> Bounds {
-        self.outlines.bounds()
-    }
-
-    /// Find the point of the curve that is seen nearest to `target`: see [`CurveOutlines::nearest`].
-    pub fn nearest(&self, target: DVec2, reach: f64) -> Option<(f64, DVec2, f64)> {
-        self.outlines.nearest(self.sampled(), target, reach)
     }
 
     /// Carry moved vertices over to the closed polygon: inner vertices are the same, and the

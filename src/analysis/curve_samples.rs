@@ -43,7 +43,8 @@ pub struct Block {
     pub length: f64,
     /// The longest step between two samples.
     pub longest_step: f64,
-    curvature: Option<Span>,
+    /// The smallest and largest sampled curvature.
+    pub curvature: Option<Span>,
     /// The arc length from the block's start to each piece's.
     starts: [f64; BLOCK],
 }

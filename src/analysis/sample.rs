@@ -55,26 +55,27 @@ impl Sample {
 
 /// Sample pieces at evenly spaced parameters, both of their ends included.
 #[derive(Debug)]
-pub(super) struct PieceSampler {
+pub struct PieceSampler {
     batch: EvenBatch,
 }
 
 impl PieceSampler {
-    pub(super) fn new(steps: usize) -> Self {
+    /// Prepare to divide pieces into so many steps, at least one.
+    pub fn new(steps: usize) -> Self {
         Self {
             batch: EvenBatch::new(steps),
         }
     }
 
     /// The number of steps that a piece is divided into.
-    pub(super) fn steps(&self) -> usize {
+    pub fn steps(&self) -> usize {
         self.batch.steps()
     }
 
     /// Fill `samples` with one more than `steps` samples of one piece.
     ///
     /// Arc lengths come from Simpson's rule on each pair of steps, with the speeds at hand.
-    pub(super) fn fill(
+    pub fn fill(
         &mut self,
         curve: &dyn ParametricCurve,
         piece: usize,

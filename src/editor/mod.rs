@@ -27,9 +27,10 @@ pub use reply::{Message, Note, Refusal, Reply, told};
 pub use report::{CurveReport, Export, Readout};
 pub use trial::{Run, Trial};
 pub use view::{
-    CurveScene, EndFitMarks, FeatureKind, FeatureMark, FeatureReport, FeatureRow, HoverScene,
-    Layer, Layers, Mark, NamedView, PlotScene, REACH, Scene, VertexMark, View, Viewport,
-    grid_steps,
+    Bounds, ChainOutlines, CombSettings, CurveOutlines, CurveScene, EndFitMarks, FeatureKind,
+    FeatureMark, FeatureReport, FeatureRow, GAP, HoverScene, Layer, Layers, Mark, NamedView,
+    Orientation, PieceTrend, PlotKind, PlotScene, REACH, Scene, VertexMark, View, ViewBox,
+    Viewport, grid_steps,
 };
 pub use worker::{Outcome, Worker};
 pub use workspace::{Interruption, PreviewId, Workspace};

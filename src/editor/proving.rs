@@ -41,7 +41,7 @@ impl Proving {
     pub fn advance(&mut self, id: CurveId, analyses: &mut AnalysisCache, patience: &mut Patience) {
         let ready = self.worker.take();
         self.take(ready, analyses);
-        let Some(analysis) = analyses.peek(id) else {
+        let Some(analysis) = analyses.get(id) else {
             return;
         };
         let revision = analysis.proof_revision();
@@ -72,7 +72,7 @@ impl Proving {
         for outcome in outcomes {
             match outcome {
                 Outcome::Done((id, result)) => {
-                    if let Some(analysis) = analyses.get(id) {
+                    if let Some(analysis) = analyses.get_mut(id) {
                         analysis.take_proof(result);
                     }
                 }

@@ -120,9 +120,7 @@ impl App {
         self.take_dropped_files(&context);
         self.take_keys(&context);
         self.canvas.send_events(&context, &mut self.editor);
-        self.editor.features();
-        // Panels read what is hovered from the scene: bring it up to date before they do.
-        self.editor.update_hover();
+        self.editor.refresh();
         self.editor.view_mut().hover_nothing();
         self.panels_ui(ui);
         self.overlays_ui(&context);
@@ -283,6 +281,7 @@ impl App {
             .fill(tokens.panel)
             .inner_margin(Margin::symmetric(8, 0));
         if !self.shell.plots {
+            self.editor.view_mut().show_plot(None);
             let bar = Panel::bottom("plots folded").frame(frame).resizable(false);
             bar.exact_size(plots::BAR).show(ui, |ui| {
                 self.plots

@@ -331,6 +331,8 @@ impl Canvas {
             rect,
             tokens,
         };
+        // Panels may have changed what is shown.
+        editor.refresh();
         let scene = editor.scene();
         painting::paint(&brush, scene);
         if has_grid {

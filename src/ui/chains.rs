@@ -138,7 +138,7 @@ mod tests {
     use eframe::egui::{pos2, vec2};
 
     use super::*;
-    use crate::analysis::GAP;
+    use crate::editor::GAP;
 
     fn check(chain: &[DVec2], expected: &[usize]) {
         let viewport = Viewport {

@@ -29,19 +29,19 @@ const ROWS: usize = 3;
 
 /// Show the verdict and the features of the active curve; choosing one goes to it.
 pub fn feature_list_ui(ui: &mut Ui, editor: &mut Editor) {
-    let report = editor.known_features();
+    let report = editor.features();
     let width = ui.available_width();
     ui.spacing_mut().item_spacing.y = 0.0;
     let room = |ui: &mut Ui, rows: usize| ui.allocate_space(vec2(width, rows as f32 * ROW)).1;
     let heading = room(ui, 1);
     let list = room(ui, ROWS);
     let in_place = |rect| UiBuilder::new().max_rect(rect);
-    ui.scope_builder(in_place(heading), |ui| match &report {
+    ui.scope_builder(in_place(heading), |ui| match report {
         Some(report) => verdict_ui(ui, report),
         None => proving_ui(ui, editor),
     });
     let chosen = ui.scope_builder(in_place(list), |ui| {
-        report.as_ref().and_then(|report| rows_ui(ui, report))
+        report.and_then(|report| rows_ui(ui, report))
     });
     if let Some(u) = chosen.inner {
         editor.go_to(u);
@@ -124,12 +124,12 @@ fn proving_ui(ui: &mut Ui, editor: &Editor) {
 
 /// Show the verdict as a chip; pressing it shows the features.
 pub fn chip_ui(ui: &mut Ui, editor: &mut Editor) -> Option<Response> {
-    let Some(report) = editor.known_features() else {
+    let Some(report) = editor.features() else {
         proving_ui(ui, editor);
         return None;
     };
-    let (icon, text) = verdict(&report);
-    let colour = colour_of(&report, Tokens::of(ui));
+    let (icon, text) = verdict(report);
+    let colour = colour_of(report, Tokens::of(ui));
     let button = Button::new((
         icons::text(icon).color(colour),
         RichText::new(text).font(theme::small_font()).color(colour),

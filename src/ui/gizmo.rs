@@ -9,8 +9,7 @@ use glam::{DVec2, DVec3};
 
 use super::action::Action;
 use super::theme::{self, STEP, Tokens};
-use crate::analysis::Orientation;
-use crate::editor::{Command, Editor, NamedView};
+use crate::editor::{Command, Editor, NamedView, Orientation};
 
 /// The gizmo's width and height, in points.
 const SIZE: f32 = 84.0;

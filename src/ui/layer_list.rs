@@ -8,8 +8,7 @@ use super::number_field::{FieldEvent, NumberField};
 use super::theme::{ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
 use super::{figures, icons, keyboard};
-use crate::analysis::CombSettings;
-use crate::editor::{Command, Editor, Layer};
+use crate::editor::{CombSettings, Command, Editor, Layer};
 use crate::geometry::noun;
 
 /// Show the layers.

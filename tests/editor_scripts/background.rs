@@ -31,7 +31,7 @@ fn long() -> Script {
     let mut script = Script::example("arc");
     let curve = script.curve();
     let edit = Edit::SetPolygon { curve, polygon };
-    script.editor.apply("long", vec![edit]);
+    script.editor.apply("long", vec![edit]).expect("an edit");
     script
 }
 
@@ -43,10 +43,10 @@ fn check_proved_in_later_frames(script: &mut Script, woken: &Receiver<()>) {
     let expected = Features::new(&script.polygon());
     let mut before = 0.0;
     let report = loop {
-        if let Some(report) = script.editor.features() {
+        if let Some(report) = script.features() {
             break report;
         }
-        script.editor.scene();
+        script.scene();
         let share = script.editor.proof_progress().expect("a curve");
         assert!((before..=1.0).contains(&share), "{before} {share}");
         before = share;
@@ -72,15 +72,16 @@ fn the_features_of_a_long_curve_are_there_in_a_later_frame() {
 fn a_curve_that_changes_while_it_is_proved_gets_its_own_features() {
     let mut script = long();
     let woken = prove_in_background(&mut script, Duration::ZERO);
-    script.editor.features();
+    script.features();
     let curve = script.curve();
     // Some frames of a drag: none waits for the proof of the one before.
     for step in 1..=5 {
         let moves = vec![(2500, DVec3::new(2500.0, f64::from(step), 0.0))];
         script
             .editor
-            .apply("move", vec![Edit::MoveVertices { curve, moves }]);
-        script.editor.features();
+            .apply("move", vec![Edit::MoveVertices { curve, moves }])
+            .expect("an edit");
+        script.features();
     }
     check_proved_in_later_frames(&mut script, &woken);
     // What was proved before is not proved again.
@@ -98,8 +99,8 @@ fn nothing_flickers_while_a_small_curve_is_dragged() {
     script.press(at);
     for step in 1..=20 {
         script.move_to(at + DVec2::new(0.0, 3.0 * f64::from(step)));
-        assert!(script.editor.features().is_some(), "in the same frame");
-        let scene = script.editor.scene();
+        assert!(script.features().is_some(), "in the same frame");
+        let scene = script.scene();
         assert!(!scene.curves[0].features.is_empty());
     }
     assert!(woken.try_recv().is_err(), "no frame is made for it");

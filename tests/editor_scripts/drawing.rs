@@ -1,7 +1,6 @@
 //! Drawing polygons and measuring: hasty clicks, undo, the first curve of a document.
 
-use batten::analysis::CombSettings;
-use batten::editor::{Command, Input, Key, Modifiers, NamedView, ToolKind};
+use batten::editor::{CombSettings, Command, Input, Key, Modifiers, NamedView, ToolKind};
 use glam::{DVec2, DVec3};
 
 use super::script::Script;

@@ -27,7 +27,7 @@ fn the_end_follows_its_target_by_dragging_the_body_and_the_ring() {
     let way = (goal - end.point).truncate() * viewport.scale;
     let from = script.at_vertex(last);
     script.drag(from, from + DVec2::new(way.x, -way.y) + 3.0);
-    let report = script.editor.end_fit().expect("figures");
+    let report = script.end_fit().expect("figures");
     assert!(
         report.difference.length() < 1e-12 * script.polygon().size(),
         "{}",
@@ -39,7 +39,7 @@ fn the_end_follows_its_target_by_dragging_the_body_and_the_ring() {
     let on_ring = |angle: f64| centre + 40.0 * DVec2::new(angle.cos(), -angle.sin());
     let start = clear_of_handles(&mut script, &on_ring);
     script.drag(on_ring(start), on_ring(start + report.angle + 0.01));
-    let report = script.editor.end_fit().expect("figures");
+    let report = script.end_fit().expect("figures");
     assert!(report.angle.abs() < 1e-12, "{}", report.angle);
     assert!(report.difference.length() < 1e-12 * script.polygon().size());
     assert_eq!(script.editor.workspace().history().undo_steps(), steps + 2);
@@ -74,12 +74,12 @@ fn the_loop_stops_on_the_papers_arc_and_both_ends_at_once_correct_it() {
     let before = script.polygon();
     script.editor.end_fit_action(EndFitAction::Repeat);
     assert_eq!(script.polygon(), before);
-    let report = script.editor.end_fit().expect("figures");
+    let report = script.end_fit().expect("figures");
     assert_eq!(report.overlap, EndOverlap::OneSegment);
     let (text, failed) = report.outcome.expect("an outcome");
     assert!(failed && text.contains("Nothing was changed"), "{text}");
     script.editor.end_fit_action(EndFitAction::BothAtOnce);
-    let report = script.editor.end_fit().expect("figures");
+    let report = script.end_fit().expect("figures");
     assert!(report.within, "{report:?}");
     assert!(
         report.residual <= 1e-12 * before.size(),
@@ -87,10 +87,10 @@ fn the_loop_stops_on_the_papers_arc_and_both_ends_at_once_correct_it() {
         report.residual
     );
     assert!(report.largest_move.is_some_and(|(length, _)| length > 0.0));
-    assert!(!script.editor.scene().ghost.is_empty());
+    assert!(!script.scene().ghost.is_empty());
     script.command(Command::Undo);
     assert_eq!(script.polygon(), before);
-    assert!(script.editor.scene().ghost.is_empty());
+    assert!(script.scene().ghost.is_empty());
 }
 
 #[test]
@@ -111,14 +111,14 @@ fn a_target_is_picked_from_another_curves_end() {
         .viewport()
         .to_screen(other.point.truncate());
     script.click(place);
-    let report = script.editor.end_fit().expect("figures");
+    let report = script.end_fit().expect("figures");
     assert_eq!(report.target_point, Some(other.point));
     // Two starts run towards each other: this one is to leave where the other arrives.
     let along = other.tangent().expect("a tangent");
     assert_eq!(report.target_direction, Some(-along));
     assert!(!report.picking);
     script.editor.end_fit_action(EndFitAction::TurnRound);
-    let report = script.editor.end_fit().expect("figures");
+    let report = script.end_fit().expect("figures");
     assert_eq!(report.target_direction, Some(along));
 }
 
@@ -139,7 +139,7 @@ fn a_target_that_no_file_could_hold_is_refused() {
     script.tool(ToolKind::EndFit);
     for point in [DVec3::new(1e300, 0.0, 0.0), DVec3::new(0.0, f64::NAN, 0.0)] {
         script.editor.end_fit_action(EndFitAction::SetPoint(point));
-        let report = script.editor.end_fit().expect("figures");
+        let report = script.end_fit().expect("figures");
         assert_eq!(report.target_point, None);
         let (text, failed) = report.outcome.expect("an outcome");
         assert!(failed && text.contains("up to 1e100"), "{text}");
@@ -164,7 +164,7 @@ fn steps_by_hand_count_as_passes_and_meet_the_target() {
         .end_fit_action(EndFitAction::SetDirection(Some(direction)));
     script.editor.end_fit_action(EndFitAction::Translate);
     script.editor.end_fit_action(EndFitAction::Rotate);
-    let report = script.editor.end_fit().expect("figures");
+    let report = script.end_fit().expect("figures");
     assert_eq!(report.passes, 1);
     assert!(
         report.within && report.residual <= 1e-12 * size,
@@ -196,10 +196,7 @@ fn a_dragged_target_is_not_held_by_its_own_old_place() {
     });
     let from = script.editor.view().viewport().to_screen(target);
     script.drag(from, from + DVec2::new(6.0, 0.0));
-    let moved = script
-        .editor
-        .end_fit()
-        .and_then(|report| report.target_point);
+    let moved = script.end_fit().and_then(|report| report.target_point);
     assert_ne!(moved, Some(target.extend(0.0)));
 }
 
@@ -225,7 +222,7 @@ fn the_ring_snaps_to_the_target_direction_across_a_half_turn() {
         let start = clear_of_handles(&mut script, &on_ring);
         let past = start + turn + sense * 1.0_f64.to_radians();
         script.drag(on_ring(start), on_ring(past));
-        let report = script.editor.end_fit().expect("figures");
+        let report = script.end_fit().expect("figures");
         assert!(report.angle.abs() < 1e-12, "{}", report.angle);
     }
 }

@@ -1,8 +1,8 @@
 //! Proved features on the canvas and in the list.
 
-use batten::analysis::{LevelPlot, PieceTrend};
+use batten::analysis::LevelPlot;
 use batten::document::Edit;
-use batten::editor::{Command, FeatureKind, HoverScene, Layer};
+use batten::editor::{Command, FeatureKind, HoverScene, Layer, PieceTrend};
 use batten::geometry::features::Verdict;
 use batten::geometry::{FloatPolygon, LEVELS};
 use glam::{DVec2, DVec3};
@@ -12,7 +12,7 @@ use super::script::Script;
 #[test]
 fn the_list_holds_every_feature_in_order_and_choosing_one_goes_there() {
     let mut script = Script::example("bottle");
-    let report = script.editor.features().expect("features");
+    let report = script.features().expect("features");
     assert_eq!(report.monotone, Verdict::Disproved);
     let extrema = [FeatureKind::CurvatureMaximum, FeatureKind::CurvatureMinimum];
     assert_eq!(report.count(&extrema), 4);
@@ -31,8 +31,8 @@ fn the_list_holds_every_feature_in_order_and_choosing_one_goes_there() {
 #[test]
 fn the_canvas_marks_features_and_colours_monotone_pieces() {
     let mut script = Script::example("s-curve");
-    let report = script.editor.features().expect("features");
-    let scene = script.editor.scene();
+    let report = script.features().expect("features");
+    let scene = script.scene();
     let curve = &scene.curves[0];
     assert_eq!(curve.features.len(), report.rows.len());
     let [rising, falling, undecided] = &curve.pieces;
@@ -43,12 +43,12 @@ fn the_canvas_marks_features_and_colours_monotone_pieces() {
     let polygon = script.polygon();
     for row in report.rows.iter().filter(|row| row.value.is_some()) {
         let at = polygon.point(row.middle).truncate();
-        let curve = &script.editor.scene().curves[0];
+        let curve = &script.scene().curves[0];
         let near = |chain: &[DVec2]| chain.iter().any(|point| point.distance(at) < 1e-9);
         assert!(near(&curve.pieces[0]) && near(&curve.pieces[1]), "{row:?}");
     }
     script.command(Command::ToggleLayer(Layer::Features));
-    assert!(script.editor.scene().curves[0].features.is_empty());
+    assert!(script.scene().curves[0].features.is_empty());
 }
 
 #[test]
@@ -63,7 +63,7 @@ fn lines_and_circles_are_told_from_monotone_curves() {
         let curve = script.curve();
         let edit = Edit::SetPolygon { curve, polygon };
         script.editor.apply("another", vec![edit]).expect("an edit");
-        let report = script.editor.features().expect("features");
+        let report = script.features().expect("features");
         assert_eq!(report.monotone, Verdict::Proved);
         assert_eq!(report.constant, constant);
     }
@@ -72,10 +72,10 @@ fn lines_and_circles_are_told_from_monotone_curves() {
 #[test]
 fn hovering_a_mark_names_the_feature() {
     let mut script = Script::example("s-curve");
-    let mark = script.editor.scene().curves[0].features[0];
+    let mark = script.scene().curves[0].features[0];
     let place = script.editor.view().viewport().to_screen(mark.at);
     script.move_to(place + DVec2::new(3.0, 2.0));
-    let hover = script.editor.scene().hover.clone();
+    let hover = script.scene().hover.clone();
     let Some(HoverScene::Curve { u, text, .. }) = hover else {
         panic!("nothing is hovered: {hover:?}");
     };
@@ -86,26 +86,26 @@ fn hovering_a_mark_names_the_feature() {
 #[test]
 fn features_follow_a_drag() {
     let mut script = Script::example("hull");
-    let before = script.editor.features().expect("features");
+    let before = script.features().expect("features");
     let at = script.at_vertex(6);
     script.press(at);
     script.move_to(at + DVec2::new(0.0, 60.0));
-    let during = script.editor.features().expect("features");
+    let during = script.features().expect("features");
     assert_ne!(before.rows, during.rows);
-    assert!(script.editor.scene().curves[0].features.len() > 1);
+    assert!(script.scene().curves[0].features.len() > 1);
     script.release(at + DVec2::new(0.0, 60.0));
     script.command(Command::Undo);
-    assert_eq!(script.editor.features().expect("features"), before);
+    assert_eq!(script.features().expect("features"), before);
 }
 
 #[test]
 fn levels_are_plotted_over_arc_length_with_their_jumps() {
     let mut script = Script::example("s-curve");
     let polygon = script.polygon();
-    let length = script.editor.plots().length;
+    let length = script.plots().length;
     // Degree 5 has a continuous second level of the curvature, and a third that jumps.
     for (level, gaps) in [(2, 0), (3, polygon.segments())] {
-        let plot = script.editor.level_plot(LevelPlot::Curvature(level), false);
+        let plot = script.level_plot(LevelPlot::Curvature(level), false);
         let holes = plot.levels.iter().filter(|point| point.is_nan()).count();
         assert_eq!(holes, gaps, "level {level}");
         let last = plot.levels.iter().rfind(|point| !point.is_nan());
@@ -118,7 +118,7 @@ fn levels_are_plotted_over_arc_length_with_their_jumps() {
             "level {level}"
         );
     }
-    let plot = script.editor.level_plot(LevelPlot::Curvature(2), true);
+    let plot = script.level_plot(LevelPlot::Curvature(2), true);
     let first = plot.levels[0];
     let last = plot.levels[plot.levels.len() - 1];
     assert!((last.x - 1.0).abs() <= 1e-9 && first.x == 0.0);
@@ -129,7 +129,7 @@ fn levels_are_plotted_over_arc_length_with_their_jumps() {
         (first.y - scaled).abs() <= 1e-9 * scaled.abs(),
         "{first} {scaled}"
     );
-    let plot = script.editor.level_plot(LevelPlot::Torsion(1), false);
+    let plot = script.level_plot(LevelPlot::Torsion(1), false);
     assert!(
         plot.levels.iter().all(|point| point.is_nan()),
         "a planar curve"
@@ -139,7 +139,7 @@ fn levels_are_plotted_over_arc_length_with_their_jumps() {
 #[test]
 fn the_curvature_of_the_curve_at_length_1_is_plotted_over_shares() {
     let mut script = Script::example("s-curve");
-    let plot = script.editor.plots().clone();
+    let plot = script.plots().clone();
     let scaled = plot.at_length_one();
     assert_eq!(scaled.curvature.len(), plot.curvature.len());
     for (a, b) in plot.curvature.iter().zip(&scaled.curvature) {
@@ -157,9 +157,9 @@ fn every_example_has_every_plot() {
         assert_eq!(planar, Some(true));
         for level in 1..=LEVELS {
             let plot = LevelPlot::Curvature(level);
-            assert!(!script.editor.level_plot(plot, true).levels.is_empty());
+            assert!(!script.level_plot(plot, true).levels.is_empty());
         }
-        let graph = script.editor.level_plot(LevelPlot::Logarithmic, false);
+        let graph = script.level_plot(LevelPlot::Logarithmic, false);
         assert!(graph.levels.iter().any(|point| point.is_finite()));
     }
 }

@@ -25,7 +25,7 @@ fn dragging_a_closed_vertex_moves_it_alone_and_the_float_polygon_follows() {
     let at = at_closed(&script, 9);
     // A tiny way: the float vertices go hundreds of thousands of times as far.
     script.move_to(at);
-    let hover = script.editor.scene().hover.clone();
+    let hover = script.scene().hover.clone();
     assert!(
         matches!(&hover, Some(HoverScene::Handle { text, .. }) if text.contains("float × ")),
         "{hover:?}"

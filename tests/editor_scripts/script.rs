@@ -1,7 +1,11 @@
 //! A hand that works the editor without a window: every step leaves a valid document.
 
+use batten::analysis::LevelPlot;
 use batten::document::CurveId;
-use batten::editor::{Button, Command, Editor, Input, Key, Modifiers, ToolKind, told};
+use batten::editor::{
+    Button, Command, Editor, EndFitReport, FeatureReport, Input, Key, Modifiers, PlotKind,
+    PlotScene, Scene, ToolKind, told,
+};
 use batten::geometry::FloatPolygon;
 use batten::io::examples::EXAMPLES;
 use glam::DVec2;
@@ -149,12 +153,42 @@ impl Script {
         self.command(Command::Tool(tool));
     }
 
+    /// What the canvas shows now.
+    pub fn scene(&mut self) -> &Scene {
+        self.editor.refresh();
+        self.editor.scene()
+    }
+
+    /// The features of the active curve, if they are proved by now.
+    pub fn features(&mut self) -> Option<FeatureReport> {
+        self.editor.refresh();
+        self.editor.features().cloned()
+    }
+
+    /// The plot that is shown now: the curvature, unless another was chosen.
+    pub fn plots(&mut self) -> &PlotScene {
+        let kind = self.editor.view().plot().unwrap_or(PlotKind::Curvature);
+        self.editor.view_mut().show_plot(Some(kind));
+        self.editor.refresh();
+        self.editor.plots()
+    }
+
+    /// Show a plot of levels.
+    pub fn level_plot(&mut self, plot: LevelPlot, normalised: bool) -> &PlotScene {
+        let kind = PlotKind::Levels { plot, normalised };
+        self.editor.view_mut().show_plot(Some(kind));
+        self.plots()
+    }
+
+    /// The figures of the end-fit panel.
+    pub fn end_fit(&mut self) -> Option<EndFitReport> {
+        self.editor.refresh();
+        self.editor.end_fit()
+    }
+
     /// Check that all that panels and canvas read can be made, and that the document is valid.
     pub fn check(&mut self) {
-        self.editor.scene();
-        self.editor.plots();
-        self.editor.leg_plots();
-        self.editor.features();
+        self.editor.refresh();
         self.editor.report();
         self.editor.end_fit();
         self.editor.readout();

@@ -208,7 +208,7 @@ fn a_leg_that_is_dragged_is_what_is_selected() {
     script.press(middle);
     script.move_to(middle + DVec2::new(0.0, 25.0));
     assert_eq!(script.selected(), [5, 6]);
-    let hover = script.editor.scene().hover.clone();
+    let hover = script.scene().hover.clone();
     assert_eq!(hover, None, "one vertex that does not move was told");
     script.release(middle + DVec2::new(0.0, 25.0));
 }

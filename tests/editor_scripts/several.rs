@@ -48,7 +48,7 @@ fn what_is_hovered_is_told_of_the_curve_it_is_on() {
     let u = 4.5;
     let place = polygon.point(u).truncate();
     script.move_to(script.editor.view().viewport().to_screen(place));
-    let hover = script.editor.scene().hover.clone();
+    let hover = script.scene().hover.clone();
     let Some(HoverScene::Curve { curve, text, .. }) = hover else {
         panic!("{hover:?}");
     };
@@ -59,10 +59,10 @@ fn what_is_hovered_is_told_of_the_curve_it_is_on() {
     let expected = polygon.jet(readout.u.expect("u")).signed_curvature();
     assert_eq!(readout.curvature, Some(expected));
     // The plots are the active curve's, which is not hovered.
-    assert_eq!(script.editor.plots().hovered, None);
+    assert_eq!(script.plots().hovered, None);
     script.editor.activate(other);
-    script.editor.scene();
-    assert!(script.editor.plots().hovered.is_some());
+    script.scene();
+    assert!(script.plots().hovered.is_some());
 }
 
 #[test]

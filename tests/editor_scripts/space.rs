@@ -130,7 +130,7 @@ fn hovering_finds_the_curve_as_it_is_seen() {
     let viewport = *script.editor.view().viewport();
     let place = viewport.to_screen(viewport.flatten(point));
     script.move_to(place + DVec2::new(2.0, 1.0));
-    let hover = script.editor.scene().hover.clone();
+    let hover = script.scene().hover.clone();
     let Some(HoverScene::Curve {
         u, circle, text, ..
     }) = hover

@@ -1,8 +1,7 @@
 //! The view and what it shows: zoom, pan, hovering, the comb, what is redone.
 
-use batten::analysis::CombSettings;
 use batten::document::{Curve, Edit};
-use batten::editor::{Button, Command, HoverScene, Input, Layer, NamedView};
+use batten::editor::{Button, CombSettings, Command, HoverScene, Input, Layer, NamedView};
 use batten::geometry::FloatPolygon;
 use batten::io::examples::EXAMPLES;
 use glam::{DVec2, DVec3};
@@ -77,13 +76,13 @@ fn the_middle_button_and_space_push_the_view_and_change_nothing() {
 fn hovering_tells_of_vertices_and_of_the_curve() {
     let mut script = Script::example("arc");
     script.move_to(script.at_vertex(6));
-    match script.editor.scene().hover.clone() {
+    match script.scene().hover.clone() {
         Some(HoverScene::Vertex { text, .. }) => assert!(text.starts_with("vertex 6\n"), "{text}"),
         other => panic!("{other:?}"),
     }
     let middle = script.polygon().point(0.5).truncate();
     script.move_to(script.editor.view().viewport().to_screen(middle));
-    match script.editor.scene().hover.clone() {
+    match script.scene().hover.clone() {
         Some(HoverScene::Curve {
             u, centre, text, ..
         }) => {
@@ -101,7 +100,7 @@ fn hovering_tells_of_vertices_and_of_the_curve() {
 fn the_comb_is_scaled_by_the_tip_of_a_tooth() {
     let mut script = Script::example("arc");
     script.command(Command::ToggleLayer(Layer::Comb));
-    let scene = script.editor.scene().clone();
+    let scene = script.scene().clone();
     let teeth = &scene.curves[0].teeth;
     let tooth = teeth[teeth.len() / 2];
     let viewport = *script.editor.view().viewport();
@@ -171,7 +170,7 @@ fn tips_of_the_comb_yield_to_legs_and_to_what_is_beside_a_vertex() {
         let mut script = Script::example("arc");
         script.command(Command::ToggleLayer(Layer::Comb));
         let arc = script.curve();
-        let teeth = script.editor.scene().curves[0].teeth.clone();
+        let teeth = script.scene().curves[0].teeth.clone();
         let viewport = *script.editor.view().viewport();
         let tip = viewport.to_screen(teeth[teeth.len() / 2][1]);
         let ends = [from, to].map(|off| viewport.to_model(tip + off));
@@ -217,7 +216,7 @@ fn a_planar_drawing_seen_at_an_angle_says_so() {
 
 /// Prove all features, however many frames that takes on this machine.
 fn prove(script: &mut Script) {
-    while script.editor.features().is_none() {}
+    while script.features().is_none() {}
 }
 
 #[test]
@@ -249,7 +248,7 @@ fn only_segments_that_depend_on_a_vertex_are_redone() {
         (weigh(3.0), 10),
     ] {
         script.editor.apply("edit", vec![edit]).expect("an edit");
-        script.editor.scene();
+        script.scene();
         prove(&mut script);
         assert_eq!(script.editor.segments_redone(curve), Some(expected));
         assert_eq!(script.editor.segments_proved(curve), Some(expected));

@@ -3,11 +3,11 @@
 
 use std::path::Path;
 
-use batten::analysis::{CombSettings, LevelPlot};
+use batten::analysis::LevelPlot;
 use batten::document::{Colour, Curve, CurveId, Document, Edit};
 use batten::editor::{
-    Command, Division, Editor, EndFitAction, EndFitMarks, Export, Input, Reply, Selection,
-    Shortcut, Transformation, Viewport, told,
+    CombSettings, Command, Division, Editor, EndFitAction, EndFitMarks, Export, Input, PlotKind,
+    Reply, Selection, Shortcut, Transformation, Viewport, told,
 };
 use batten::geometry::{FloatPolygon, PolygonKind};
 use glam::{DVec2, DVec3};
@@ -145,27 +145,27 @@ impl Window {
     pub fn open(document: Document) -> Self {
         let mut editor = Editor::with_document(document);
         editor.set_canvas_size(CANVAS);
-        editor.scene();
+        editor.refresh();
         Self { editor }
     }
 
     /// Send one input, and draw the frame that follows.
     pub fn input(&mut self, input: Input) {
         self.editor.input(input);
-        self.editor.scene();
+        self.editor.refresh();
     }
 
     /// Give a command, and draw the frame that follows.
     pub fn execute(&mut self, command: Command) -> Reply {
         let reply = self.editor.execute(command);
-        self.editor.scene();
+        self.editor.refresh();
         reply
     }
 
     /// Do what a panel asks for, and draw the frame that follows.
     pub fn panel(&mut self, panel: &Panel) {
         self.tell(panel);
-        self.editor.scene();
+        self.editor.refresh();
     }
 
     /// The document, previews included.
@@ -262,6 +262,7 @@ impl Window {
 
     /// The teeth of the active curve's comb, as they are drawn.
     pub fn teeth(&mut self) -> Vec<[DVec2; 2]> {
+        self.editor.refresh();
         let scene = self.editor.scene();
         let active = scene.curves.iter().find(|curve| curve.active);
         active.map_or(Vec::new(), |curve| curve.teeth.clone())
@@ -269,6 +270,7 @@ impl Window {
 
     /// The marks of the end that the end-fit tool works on.
     pub fn end_marks(&mut self) -> Option<EndFitMarks> {
+        self.editor.refresh();
         let ends = &self.editor.scene().ends;
         let chosen = ends.iter().find(|marks| marks.chosen);
         chosen.or(ends.first()).cloned()
@@ -276,12 +278,20 @@ impl Window {
 
     /// Make all that panels, plots and the status bar read.
     pub fn read_panels(&mut self) {
-        self.editor.features();
-        self.editor.scene();
-        self.editor.leg_plots();
-        for plot in [LevelPlot::Curvature(2), LevelPlot::Logarithmic] {
-            self.editor.level_plot(plot, true);
+        let level = |plot| PlotKind::Levels {
+            plot,
+            normalised: true,
+        };
+        for kind in [
+            PlotKind::Legs,
+            level(LevelPlot::Curvature(2)),
+            level(LevelPlot::Logarithmic),
+            PlotKind::Curvature,
+        ] {
+            self.editor.view_mut().show_plot(Some(kind));
+            self.editor.refresh();
         }
+        self.editor.features();
         self.editor.report();
         self.editor.end_fit();
         self.editor.readout();
@@ -312,7 +322,7 @@ impl Window {
     /// Add the curves of a file.
     pub fn import(&mut self, path: &Path) {
         told(self.editor.import(&[path.to_owned()]));
-        self.editor.scene();
+        self.editor.refresh();
     }
 
     fn curve(&self, number: usize) -> Option<(CurveId, &Curve)> {

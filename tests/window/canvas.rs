@@ -1,7 +1,6 @@
 //! What the canvas, its badge and its messages do with clicks and keys.
 
-use batten::analysis::Orientation;
-use batten::editor::Layer;
+use batten::editor::{Layer, Orientation};
 use eframe::egui::{Event, Key, Modifiers, PointerButton, vec2};
 use egui_kittest::kittest::Queryable;
 

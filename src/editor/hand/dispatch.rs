@@ -80,6 +80,7 @@ impl Editor {
     /// Hand a gesture to the tool and do what it wants. What a key that `repeats` does belongs to
     /// the step that it began.
     pub(in crate::editor) fn deliver(&mut self, gesture: Gesture, repeats: bool) {
+        self.analyse();
         let layers = self.layers();
         let mut tools = std::mem::take(&mut self.hand.tools);
         let effects = tools
@@ -100,12 +101,6 @@ impl Editor {
 
     fn context_with(&self, layers: Layers) -> Context<'_> {
         let active = self.hand.selection.active();
-        let shown = self
-            .view
-            .scene
-            .curves
-            .iter()
-            .find(|curve| curve.id == active);
         Context {
             document: self.workspace.document(),
             before: self.workspace.settled(),
@@ -114,6 +109,9 @@ impl Editor {
             hits: HitTest {
                 document: self.workspace.document(),
                 analyses: &self.analyses,
+                outlines: &self.view.outlines,
+                features: self.features(),
+                comb: self.view.comb,
                 viewport: &self.view.viewport,
                 layers,
                 active,
@@ -122,8 +120,6 @@ impl Editor {
             modifiers: self.hand.modifiers,
             axis: self.hand.axis,
             snapping: self.hand.snapping,
-            comb: self.view.comb,
-            teeth: shown.map_or(&[], |curve| &curve.teeth),
             pointer: self
                 .hand
                 .gestures

@@ -159,7 +159,7 @@ impl EndFitSettings {
     }
 
     /// Collect the figures of the seven steps.
-    pub fn report(&self, analysis: &mut CurveAnalysis, last: Option<&LastAction>) -> EndFitReport {
+    pub fn report(&self, analysis: &CurveAnalysis, last: Option<&LastAction>) -> EndFitReport {
         let curve = analysis.curve().clone();
         let polygon = &curve.polygon;
         let figures = analysis.float().figures();

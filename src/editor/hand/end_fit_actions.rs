@@ -14,7 +14,7 @@ use crate::operations::{Operation, Report, Value, correct_ends, rotate_end, tran
 impl Editor {
     /// Collect the figures of the seven steps, if the end-fit tool is used and the active curve
     /// has ends.
-    pub fn end_fit(&mut self) -> Option<EndFitReport> {
+    pub fn end_fit(&self) -> Option<EndFitReport> {
         if self.hand.tool() != ToolKind::EndFit {
             return None;
         }
@@ -22,10 +22,9 @@ impl Editor {
         if curve.polygon.is_periodic() {
             return None;
         }
-        self.analyses.update(self.workspace.document());
-        let last = self.last_end_fit_action().cloned();
+        let last = self.last_end_fit_action();
         let settings = &self.hand.tools.end_fit.settings;
-        Some(settings.report(self.analyses.get(id)?, last.as_ref()))
+        Some(settings.report(self.analyses.get(id)?, last))
     }
 
     /// What the last action of the end-fit panel came to, unless something else happened since.

@@ -1,19 +1,13 @@
-//! The proved features of the active curve: for the list, for the canvas, and to go to.
-
-use std::sync::Arc;
+//! The proved features of a curve, as the list and the canvas show them.
 
 use glam::{DVec2, DVec3};
 
-use crate::analysis::{Bounds, Orientation, ViewBox};
-use crate::editor::Editor;
-use crate::editor::view::layers::Layer;
+use crate::editor::view::orientation::Orientation;
+use crate::editor::view::outline::ViewBox;
 use crate::geometry::FloatPolygon;
 use crate::geometry::features::{
     Extremum, ExtremumKind, Features, Quantity, Root, Trend, TrendPiece, Verdict,
 };
-
-/// How much of a segment is shown around a feature, on either side.
-const SURROUNDINGS: f64 = 0.6;
 
 /// Marks nearer together than this, in screen points, are thinned out.
 const MARK_SPACING: f64 = 9.0;
@@ -96,7 +90,8 @@ impl FeatureReport {
         self.rows.iter().filter(fits).map(|row| row.count).sum()
     }
 
-    fn of(features: &Features, polygon: &FloatPolygon) -> Self {
+    /// List the features of a polygon.
+    pub fn of(features: &Features, polygon: &FloatPolygon) -> Self {
         let last = polygon.segments() as f64;
         let row = |kind, u: [f64; 2]| {
             let middle = 0.5 * (u[0] + u[1]);
@@ -189,74 +184,8 @@ pub struct FeatureMark {
     pub u: f64,
 }
 
-impl Editor {
-    /// Prove the features of the active curve, and return them once all are known: in the
-    /// background this may be some calls later.
-    pub fn features(&mut self) -> Option<Arc<FeatureReport>> {
-        self.analyses.update(self.workspace.document());
-        let active = self.hand.selection.active()?;
-        let (analyses, patience) = (&mut self.analyses, &mut self.patience);
-        self.proving.advance(active, analyses, patience);
-        self.known_features()
-    }
-
-    /// The features of the active curve, if all are known.
-    pub fn known_features(&mut self) -> Option<Arc<FeatureReport>> {
-        self.analyses.update(self.workspace.document());
-        let analysis = self.analyses.get(self.hand.selection.active()?)?;
-        let curve = analysis.curve().clone();
-        match &self.view.features {
-            Some((known, report)) if Arc::ptr_eq(known, &curve) => Some(report.clone()),
-            _ => {
-                let report = FeatureReport::of(analysis.known_features()?, &curve.polygon);
-                let report = Arc::new(report);
-                self.view.features = Some((curve, report.clone()));
-                Some(report)
-            }
-        }
-    }
-
-    /// The share of the active curve whose features are known; `None` if they cannot be proved, for
-    /// a fault of the program, or if there is no curve.
-    pub fn proof_progress(&self) -> Option<f64> {
-        let analysis = self.analyses.peek(self.hand.selection.active()?)?;
-        let known = analysis.proof_progress();
-        Some(known + (1.0 - known) * self.proving.share()?)
-    }
-
-    /// Show the surroundings of a parameter of the active curve, and the layer of its features.
-    pub fn go_to(&mut self, u: f64) {
-        let Some((_, curve)) = self.active_curve() else {
-            return;
-        };
-        let last = curve.polygon.segments() as f64;
-        let u = u.clamp(0.0, last);
-        let jet = curve.polygon.jet(u);
-        let reach = SURROUNDINGS * jet.speed();
-        let at = self.view.viewport.flatten(jet.point);
-        let mut bounds = Bounds::EMPTY;
-        bounds.add(at - reach);
-        bounds.add(at + reach);
-        self.view.viewport = self.view.viewport.fitted(&bounds);
-        self.view.layers.set(Layer::Features, true);
-        self.view.layers.set(Layer::Curve, true);
-    }
-
-    /// The mark of a feature under a place on the canvas.
-    pub(in crate::editor) fn feature_mark(&self, place: DVec2, reach: f64) -> Option<FeatureMark> {
-        let active = self.view.scene.curves.iter().find(|curve| curve.active)?;
-        let distance = |mark: &&FeatureMark| self.view.viewport.to_screen(mark.at).distance(place);
-        let near = active
-            .features
-            .iter()
-            .filter(|mark| distance(mark) <= reach);
-        near.min_by(|a, b| distance(a).total_cmp(&distance(b)))
-            .copied()
-    }
-}
-
 /// Append the marks of features that are visible, unless they crowd.
-pub(in crate::editor) fn append_marks(
+pub fn append_marks(
     report: &FeatureReport,
     orientation: &Orientation,
     view: &ViewBox,

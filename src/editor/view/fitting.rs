@@ -1,9 +1,10 @@
 //! Fitting what is shown into the canvas, with a comb of legible size.
 
-use crate::analysis::{Bounds, CombSettings};
 use crate::document::CurveId;
 use crate::editor::Editor;
+use crate::editor::view::comb::CombSettings;
 use crate::editor::view::layers::Layer;
+use crate::editor::view::outline::Bounds;
 
 /// The height of the comb after a reset, as a share of the smaller side of the curve's box.
 const COMB_HEIGHT: f64 = 0.35;
@@ -34,19 +35,17 @@ impl Editor {
     /// Give the comb a scale at which its longest tooth is a good part of the active curve's box,
     /// and teeth of which a long curve has no more a segment than can be told apart.
     pub(in crate::editor) fn reset_comb(&mut self) {
-        self.analyses.update(self.workspace.document());
+        self.analyse();
         self.view.comb = CombSettings::default();
-        let Some(analysis) = self
-            .hand
-            .selection
-            .active()
-            .and_then(|id| self.analyses.get(id))
-        else {
+        let Some((analysis, bounds)) = self.active().and_then(|id| {
+            let outlined = self.view.outlines.get(id)?;
+            Some((self.analyses.get(id)?, outlined.curve.bounds()))
+        }) else {
             return;
         };
-        let bounds = analysis.bounds();
         let extent = (bounds.high - bounds.low).max_element();
         let largest = analysis
+            .samples()
             .curvature()
             .map_or(0.0, |range| range.high.abs().max(range.low.abs()));
         let segments = analysis.curve().polygon.segments();
@@ -75,22 +74,22 @@ impl Editor {
         }
     }
 
-    fn bounds_of(&mut self, id: CurveId) -> Bounds {
+    fn bounds_of(&self, id: CurveId) -> Bounds {
         let (layers, scale) = (self.layers(), self.view.comb.scale);
         let is_active = self.hand.selection.active() == Some(id);
-        let Some(analysis) = self.analyses.get(id) else {
+        let outlined = self.view.outlines.get(id);
+        let Some((analysis, outlined)) = self.analyses.get(id).zip(outlined) else {
             return Bounds::EMPTY;
         };
-        let mut bounds = analysis.bounds();
+        let mut bounds = outlined.curve.bounds();
         if layers.shows(Layer::Float) {
-            let (outlines, chain) = analysis.float_outlines();
-            bounds.unite(&outlines.bounds(chain));
+            bounds.unite(&outlined.float.bounds());
         }
         if layers.shows(Layer::Comb) && is_active {
             // Long teeth are cut off: the curve must not become a speck.
             let around = bounds.grown(COMB_REACH);
-            let (outlines, sampled) = analysis.outlines();
-            bounds.unite(&outlines.comb_bounds(sampled, scale).within(&around));
+            let comb = outlined.curve.comb_bounds(analysis.sampled(), scale);
+            bounds.unite(&comb.within(&around));
         }
         bounds
     }

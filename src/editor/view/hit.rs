@@ -4,7 +4,10 @@ use glam::{DVec2, DVec3};
 
 use crate::analysis::AnalysisCache;
 use crate::document::{Curve, CurveId, Document};
+use crate::editor::view::comb::CombSettings;
+use crate::editor::view::feature_report::{FeatureReport, FeatureRow};
 use crate::editor::view::layers::{Layer, Layers};
+use crate::editor::view::outlines::Outlines;
 use crate::editor::view::viewport::Viewport;
 
 /// How near the pointer must come to something, in screen points, whatever the zoom.
@@ -14,6 +17,9 @@ pub const REACH: f64 = 8.0;
 /// of a comb's tooth.
 const BESIDE: f64 = 2.0 * REACH;
 
+/// The smallest length of a comb's tooth, in screen points, that can be dragged by its tip.
+const SHORTEST_TOOTH: f64 = 4.0;
+
 /// Find what lies under a place; vertices come before legs and curves.
 #[derive(Clone, Copy)]
 pub struct HitTest<'a> {
@@ -21,6 +27,12 @@ pub struct HitTest<'a> {
     pub document: &'a Document,
     /// The analyses of its curves.
     pub analyses: &'a AnalysisCache,
+    /// How they are seen.
+    pub outlines: &'a Outlines,
+    /// The features of the active curve, if they are known.
+    pub features: Option<&'a FeatureReport>,
+    /// How the comb is drawn.
+    pub comb: CombSettings,
     /// How the model is mapped to the canvas.
     pub viewport: &'a Viewport,
     /// Which layers are shown, and can therefore be hit.
@@ -105,10 +117,9 @@ impl<'a> HitTest<'a> {
         if !self.layers.shows(Layer::Clamped) {
             return None;
         }
-        let id = self.active?;
-        self.document.curve(id).filter(|curve| curve.visible)?;
+        let id = self.shown_active()?;
         let model = self.viewport.to_model(place);
-        let vertices = self.analyses.peek(id)?.clamped_vertices();
+        let vertices = self.analyses.get(id)?.clamped().vertices();
         let distance = |vertex: &DVec3| self.viewport.flatten(*vertex).distance(model);
         let distances = vertices.iter().map(distance).enumerate();
         let (index, nearest) = distances.min_by(|a, b| a.1.total_cmp(&b.1))?;
@@ -123,7 +134,9 @@ impl<'a> HitTest<'a> {
         let model = self.viewport.to_model(place);
         let reach = REACH * self.viewport.pixel();
         let hits = self.shown().filter_map(|(id, _)| {
-            let (u, point, distance) = self.analyses.peek(id)?.nearest(model, reach)?;
+            let sampled = self.analyses.get(id)?.sampled();
+            let outlines = &self.outlines.get(id)?.curve;
+            let (u, point, distance) = outlines.nearest(sampled, model, reach)?;
             Some((
                 distance,
                 CurveHit {
@@ -134,6 +147,42 @@ impl<'a> HitTest<'a> {
             ))
         });
         hits.min_by(|a, b| a.0.total_cmp(&b.0)).map(|hit| hit.1)
+    }
+
+    /// Find the tooth of the active curve's comb whose tip is under a place, from its foot to its tip.
+    /// Beside a vertex it was the vertex that was aimed at.
+    pub fn tooth(&self, place: DVec2) -> Option<[DVec2; 2]> {
+        if !self.layers.shows(Layer::Comb) || self.is_beside_vertex(place) {
+            return None;
+        }
+        let id = self.shown_active()?;
+        let sampled = self.analyses.get(id)?.sampled();
+        let (model, pixel) = (self.viewport.to_model(place), self.viewport.pixel());
+        let outlines = &self.outlines.get(id)?.curve;
+        let (reach, shortest) = (REACH * pixel, SHORTEST_TOOTH * pixel);
+        outlines.tooth(sampled, &self.comb, model, reach, shortest)
+    }
+
+    /// Find the feature of the active curve under a place, if they are shown.
+    pub fn feature(&self, place: DVec2) -> Option<(CurveId, &'a FeatureRow)> {
+        if !self.layers.shows(Layer::Features) {
+            return None;
+        }
+        let id = self.shown_active()?;
+        let distance = |row: &FeatureRow| {
+            let at = self.viewport.flatten(row.point);
+            self.viewport.to_screen(at).distance(place)
+        };
+        let rows = self.features?.rows.iter();
+        let rows = rows.map(|row| (distance(row), row));
+        let (nearest, row) = rows.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        (nearest <= REACH).then_some((id, row))
+    }
+
+    /// The active curve, unless it is hidden.
+    fn shown_active(&self) -> Option<CurveId> {
+        let is_shown = |id: &CurveId| self.document.curve(*id).is_some_and(|curve| curve.visible);
+        self.active.filter(is_shown)
     }
 
     /// Find the leg nearest to a place, within `reach` screen points.

@@ -1,25 +1,45 @@
 //! What is seen: the viewport, the layers, what is hovered, and the scene in model coordinates.
 
+mod chain_outlines;
+pub(in crate::editor) mod comb;
+mod curve_outlines;
 mod drawing;
 pub(in crate::editor) mod end_marks;
-mod feature_report;
+mod evolute;
+pub(in crate::editor) mod feature_report;
+mod features;
 mod fitting;
+mod ghost;
 pub(in crate::editor) mod grid;
 pub(in crate::editor) mod hit;
+mod hovering;
 pub(in crate::editor) mod layers;
 pub(in crate::editor) mod orbit;
+mod orientation;
+pub(in crate::editor) mod outline;
+mod outlines;
 mod panels;
+mod plot_scene;
+mod plotting;
+mod refresh;
+mod sample_chain;
 pub(in crate::editor) mod scene;
 #[allow(clippy::module_inception)]
 mod view;
 pub(in crate::editor) mod viewport;
 
+pub use chain_outlines::ChainOutlines;
+pub use comb::CombSettings;
+pub use curve_outlines::{CurveOutlines, PieceTrend};
 pub use end_marks::EndFitMarks;
 pub use feature_report::{FeatureKind, FeatureMark, FeatureReport, FeatureRow};
 pub use grid::grid_steps;
 pub use hit::REACH;
 pub use layers::{Layer, Layers};
 pub use orbit::NamedView;
-pub use scene::{CurveScene, HoverScene, Mark, PlotScene, Scene, VertexMark};
+pub use orientation::Orientation;
+pub use outline::{Bounds, GAP, ViewBox};
+pub use plot_scene::{PlotKind, PlotScene};
+pub use scene::{CurveScene, HoverScene, Mark, Scene, VertexMark};
 pub use view::View;
 pub use viewport::Viewport;

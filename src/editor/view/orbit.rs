@@ -2,8 +2,8 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::analysis::Orientation;
 use crate::editor::Editor;
+use crate::editor::view::orientation::Orientation;
 
 /// Radians that the view turns by for each screen point of a drag.
 const TURN: f64 = 0.008;
@@ -53,7 +53,6 @@ impl Editor {
         let before = self.view.viewport.flatten(pivot);
         self.view.viewport.orientation = orientation;
         self.view.viewport.centre += self.view.viewport.flatten(pivot) - before;
-        self.analyses.set_orientation(orientation);
         self.set_pivot(None);
     }
 

@@ -7,7 +7,7 @@ use crate::editor::view::end_marks::EndFitMarks;
 use crate::editor::view::feature_report::FeatureMark;
 
 /// All that is on the canvas, from back to front. Chains are points in the model's plane; a NaN
-/// point ([`crate::analysis::GAP`]) breaks them.
+/// point ([`crate::editor::GAP`]) breaks them.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
     /// The curves that are shown.
@@ -50,7 +50,7 @@ pub struct CurveScene {
     /// The curve itself.
     pub curve: Vec<DVec2>,
     /// Its pieces of rising, falling and undecided curvature, in the order of
-    /// [`crate::analysis::PieceTrend::ALL`].
+    /// [`crate::editor::PieceTrend::ALL`].
     pub pieces: [Vec<DVec2>; 3],
     /// Its proved features.
     pub features: Vec<FeatureMark>,
@@ -140,52 +140,4 @@ impl Scene {
             _ => None,
         }
     }
-}
-
-impl PlotScene {
-    /// The plot of the curvature of the curve scaled to length 1, over shares of its length.
-    pub fn at_length_one(&self) -> Self {
-        let place = |point: &DVec2| DVec2::new(point.x / self.length, point.y * self.length);
-        let dots = self.discrete.iter();
-        Self {
-            curvature: self.curvature.iter().map(place).collect(),
-            discrete: dots.map(|(index, at)| (*index, place(at))).collect(),
-            hovered: self.hovered.as_ref().map(place),
-            flank: self.flank / self.length,
-            length: 1.0,
-            planar: self.planar,
-            hovered_vertex: self.hovered_vertex,
-            ..Self::default()
-        }
-    }
-}
-
-/// The plots of the active curve.
-#[derive(Clone, Debug, Default)]
-pub struct PlotScene {
-    /// Whether curvature is signed.
-    pub planar: bool,
-    /// Curvature over arc length; NaN points are gaps.
-    pub curvature: Vec<DVec2>,
-    /// The polygon's discrete curvature at its vertices, over arc length, by vertex number.
-    /// Vertices that lie beyond the curve's ends stand evenly spaced in a flank beside either.
-    pub discrete: Vec<(usize, DVec2)>,
-    /// How wide the flank beside either end is; 0 if there is none.
-    pub flank: f64,
-    /// The plot of levels that was asked for; NaN points are gaps.
-    pub levels: Vec<DVec2>,
-    /// The place on it of what is hovered on the canvas.
-    pub hovered_level: Option<DVec2>,
-    /// The slope of the straight line through the logarithmic graph, and how well it fits: r².
-    pub slope: Option<(f64, f64)>,
-    /// Leg lengths over the number of the vertex where each begins.
-    pub legs: Vec<DVec2>,
-    /// Turning angles in degrees over the vertices' numbers.
-    pub turns: Vec<DVec2>,
-    /// The arc length of the whole curve.
-    pub length: f64,
-    /// The arc length and curvature at what is hovered on the canvas.
-    pub hovered: Option<DVec2>,
-    /// The vertex that is hovered on the canvas.
-    pub hovered_vertex: Option<usize>,
 }

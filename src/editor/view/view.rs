@@ -2,12 +2,14 @@
 
 use std::sync::Arc;
 
-use crate::analysis::CombSettings;
 use crate::document::Curve;
-use crate::editor::view::drawing::Ghost;
+use crate::editor::view::comb::CombSettings;
 use crate::editor::view::feature_report::FeatureReport;
+use crate::editor::view::ghost::Ghost;
 use crate::editor::view::layers::Layers;
-use crate::editor::view::scene::{PlotScene, Scene};
+use crate::editor::view::outlines::Outlines;
+use crate::editor::view::plot_scene::{PlotKind, PlotScene};
+use crate::editor::view::scene::Scene;
 use crate::editor::view::viewport::Viewport;
 
 /// Hold how the model is seen, what is hovered, and what canvas and plots show.
@@ -22,9 +24,12 @@ pub struct View {
     /// What panels said in the frame before: those that are shown first read it.
     pub(in crate::editor) hovered_before: Hovered,
     /// The report of the active curve's features, for the curve that it was made of.
-    pub(in crate::editor) features: Option<(Arc<Curve>, Arc<FeatureReport>)>,
+    pub(in crate::editor) features: Option<(Arc<Curve>, FeatureReport)>,
     pub(in crate::editor) scene: Scene,
+    /// Which plot is shown; `None` while plots are folded.
+    pub(in crate::editor) plot: Option<PlotKind>,
     pub(in crate::editor) plots: PlotScene,
+    pub(in crate::editor) outlines: Outlines,
     pub(in crate::editor) ghost: Ghost,
 }
 
@@ -61,6 +66,16 @@ impl View {
     /// Which layers the user has chosen, whatever the tool in the hand makes of them.
     pub fn chosen_layers(&self) -> Layers {
         self.layers
+    }
+
+    /// Which plot is shown; `None` while plots are folded.
+    pub fn plot(&self) -> Option<PlotKind> {
+        self.plot
+    }
+
+    /// Show another plot, or none.
+    pub fn show_plot(&mut self, plot: Option<PlotKind>) {
+        self.plot = plot;
     }
 
     /// Forget what panels marked, before they are shown anew.

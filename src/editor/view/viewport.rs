@@ -2,7 +2,8 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::analysis::{Bounds, Orientation, ViewBox};
+use crate::editor::view::orientation::Orientation;
+use crate::editor::view::outline::{Bounds, ViewBox};
 
 /// Screen points left free around what is fitted.
 const MARGIN: f64 = 56.0;

@@ -95,8 +95,8 @@ impl Plots {
     pub(super) fn levels_ui(&mut self, ui: &mut Ui, editor: &mut Editor, which: LevelPlot) {
         let tokens = Tokens::of(ui);
         let dragging = editor.hand().is_dragging();
-        let normalised = self.normalised && which != LevelPlot::Logarithmic;
-        let scene = editor.level_plot(which, normalised);
+        let normalised = self.normalises(which);
+        let scene = editor.plots();
         let is_graph = which == LevelPlot::Logarithmic;
         let length = scene.length;
         let extent = if normalised { 1.0 } else { length };

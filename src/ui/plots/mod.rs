@@ -14,7 +14,7 @@ use lucide_icons::Icon;
 use super::theme::STEP;
 use super::widgets::{self, IconButton};
 use crate::analysis::LevelPlot;
-use crate::editor::Editor;
+use crate::editor::{Editor, PlotKind};
 use crate::geometry::LEVELS;
 use crate::ui::action::Action;
 use frame::Frame;
@@ -132,6 +132,24 @@ impl Plots {
         });
     }
 
+    /// What the tab in front plots.
+    fn kind(&self) -> PlotKind {
+        match self.tab {
+            Tab::Curvature => PlotKind::Curvature,
+            Tab::Levels(plot) => PlotKind::Levels {
+                plot,
+                normalised: self.normalises(plot),
+            },
+            Tab::Legs => PlotKind::Legs,
+        }
+    }
+
+    /// Whether a plot of levels is that of the curve scaled to length 1: the graph does not depend on
+    /// its size.
+    fn normalises(&self, plot: LevelPlot) -> bool {
+        self.normalised && plot != LevelPlot::Logarithmic
+    }
+
     /// Show the plots of the tab in front.
     pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor) {
         if editor.active().is_none() {
@@ -139,6 +157,11 @@ impl Plots {
             // The panel keeps its height.
             ui.take_available_space();
             return;
+        }
+        let kind = self.kind();
+        if editor.view().plot() != Some(kind) {
+            editor.view_mut().show_plot(Some(kind));
+            editor.refresh();
         }
         match self.tab {
             Tab::Curvature => self.curvature_ui(ui, editor),

@@ -12,15 +12,11 @@ use crate::editor::hand::selection::VertexId;
 use crate::editor::hand::snapping::{Carried, along_axis};
 use crate::editor::view::grid::grid_steps;
 use crate::editor::view::hit::{LegHit, REACH};
-use crate::editor::view::layers::Layer;
 use crate::editor::view::scene::Mark;
 use crate::geometry::{counted, figure};
 
 /// How near to a leg the pointer must be to take it, in screen points: less than to a vertex.
 const LEG_REACH: f64 = 0.5 * REACH;
-
-/// The smallest length of a comb's tooth, in screen points, that can be dragged by its tip.
-const SHORTEST_TOOTH: f64 = 4.0;
 
 /// The select tool's state.
 #[derive(Debug, Default)]
@@ -109,7 +105,7 @@ impl Tool for SelectTool {
                 }
             }
             (State::Scaling { scale, .. }, Gesture::Cancel) => {
-                let mut comb = context.comb;
+                let mut comb = context.hits.comb;
                 comb.scale = scale;
                 vec![Effect::Look(Look::Comb(comb))]
             }
@@ -199,7 +195,7 @@ impl SelectTool {
             State::Scaling { foot, tip, scale } => {
                 let arm = *tip - *foot;
                 let reach = (context.model(place) - *foot).dot(arm) / arm.length_squared();
-                let mut comb = context.comb;
+                let mut comb = context.hits.comb;
                 comb.scale = *scale * reach.max(1e-3);
                 vec![Effect::Look(Look::Comb(comb))]
             }
@@ -216,7 +212,8 @@ impl SelectTool {
         if let Some(leg) = context.hits.leg(place, LEG_REACH) {
             return self.start_moving_leg(place, leg, context);
         }
-        if let Some(([foot, tip], scale)) = tooth(place, context) {
+        if let Some([foot, tip]) = context.hits.tooth(place) {
+            let scale = context.hits.comb.scale;
             self.state = State::Scaling { foot, tip, scale };
             return Vec::new();
         }
@@ -274,8 +271,8 @@ impl SelectTool {
         context: &Context,
     ) -> Vec<Effect> {
         let (id, index) = vertex;
-        let analysis = context.hits.analyses.peek(id);
-        let held = analysis.and_then(|analysis| analysis.clamped_vertices().get(index));
+        let analysis = context.hits.analyses.get(id);
+        let held = analysis.and_then(|analysis| analysis.clamped().vertices().get(index));
         let (Some(held), Some(curve)) = (held, context.before.curve(id)) else {
             return Vec::new();
         };
@@ -409,21 +406,6 @@ fn movement(
     let snapped = context.snapped(wanted, carried);
     let snap = (snapped != wanted).then_some(snapped);
     (snap.map_or(free, |snap| snap - held), snap)
-}
-
-/// Find the tooth of the comb whose tip is under a place. Beside a vertex it was the vertex that
-/// was aimed at.
-fn tooth(place: DVec2, context: &Context) -> Option<([DVec2; 2], f64)> {
-    if !context.hits.layers.shows(Layer::Comb) || context.hits.is_beside_vertex(place) {
-        return None;
-    }
-    let distance = |tooth: &[DVec2; 2]| context.viewport.to_screen(tooth[1]).distance(place);
-    let long = |tooth: &&[DVec2; 2]| {
-        tooth[0].distance(tooth[1]) > SHORTEST_TOOTH * context.viewport.pixel()
-    };
-    let teeth = context.teeth.iter().filter(long);
-    let nearest = teeth.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-    (distance(nearest) <= REACH).then_some((*nearest, context.comb.scale))
 }
 
 /// Move the selection by an arrow key: a tenth of the grid's minor step, or all of it with Shift.

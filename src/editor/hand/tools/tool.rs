@@ -4,12 +4,12 @@ use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3};
 
-use crate::analysis::CombSettings;
 use crate::document::{CurveId, Document, Edit};
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Modifiers;
 use crate::editor::hand::selection::{Selection, VertexId};
 use crate::editor::hand::snapping::{self, Carried};
+use crate::editor::view::comb::CombSettings;
 use crate::editor::view::hit::HitTest;
 use crate::editor::view::scene::Mark;
 use crate::editor::view::viewport::Viewport;
@@ -32,10 +32,6 @@ pub struct Context<'a> {
     pub axis: Option<usize>,
     /// Whether snapping is on; Ctrl turns it round.
     pub snapping: bool,
-    /// The comb's settings.
-    pub comb: CombSettings,
-    /// The teeth of the active curve's comb, if it is shown.
-    pub teeth: &'a [[DVec2; 2]],
     /// Where the pointer is, in the view plane.
     pub pointer: Option<DVec2>,
 }

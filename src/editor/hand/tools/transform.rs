@@ -3,12 +3,12 @@
 use glam::{DVec2, DVec3};
 
 use super::tool::{Context, Effect, Tool, move_edits};
-use crate::analysis::Bounds;
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
 use crate::editor::hand::selection::VertexId;
 use crate::editor::hand::snapping::{Carried, by_fifteen_degrees};
 use crate::editor::view::hit::REACH;
+use crate::editor::view::outline::Bounds;
 use crate::editor::view::scene::Mark;
 use crate::editor::view::viewport::Viewport;
 use crate::geometry::counted;

@@ -2,12 +2,12 @@
 
 use glam::DVec2;
 
-use super::outline::GAP;
-use super::sample::Sample;
+use crate::analysis::Sample;
+use crate::editor::view::outline::GAP;
 
 /// Turn samples into a chain of points with a gap wherever the curvature changes sign, if the
 /// points follow the curvature through infinity there.
-pub(super) fn chain(
+pub fn chain(
     samples: &[Sample],
     place: impl Fn(&Sample) -> DVec2 + Copy,
 ) -> impl Iterator<Item = DVec2> {
@@ -23,17 +23,17 @@ pub(super) fn chain(
 }
 
 /// Whether the curve turns to its other side between two samples.
-pub(super) fn turned(a: &Sample, b: &Sample) -> bool {
+pub fn turned(a: &Sample, b: &Sample) -> bool {
     a.curvature * b.curvature < 0.0 || a.normal.dot(b.normal) < 0.0
 }
 
 /// Whether a layer's points leap between two samples: it moves farther than the curve itself by
 /// an order of magnitude.
-pub(super) fn leaps(from: DVec2, to: DVec2, a: &Sample, b: &Sample) -> bool {
+pub fn leaps(from: DVec2, to: DVec2, a: &Sample, b: &Sample) -> bool {
     from.distance_squared(to) > 400.0 * a.point.distance_squared(b.point)
 }
 
 /// Turn a point that is not finite into a gap.
-pub(super) fn finite(point: DVec2) -> DVec2 {
+pub fn finite(point: DVec2) -> DVec2 {
     if point.is_finite() { point } else { GAP }
 }

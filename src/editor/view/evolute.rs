@@ -2,17 +2,17 @@
 
 use glam::DVec2;
 
-use super::orientation::Orientation;
-use super::outline::{Bounds, GAP, ViewBox};
-use super::sample::Sample;
-use super::sample_chain::{finite, leaps, turned};
+use crate::analysis::Sample;
+use crate::editor::view::orientation::Orientation;
+use crate::editor::view::outline::{Bounds, GAP, ViewBox};
+use crate::editor::view::sample_chain::{finite, leaps, turned};
 use crate::geometry::ParametricCurve;
 
 /// How often a step between two samples is halved at most.
 const DEEPEST: u32 = 7;
 
 /// What the evolute of a curve is followed with.
-pub(super) struct Evolute<'a> {
+pub struct Evolute<'a> {
     pub curve: &'a dyn ParametricCurve,
     pub planar: bool,
     pub eye: Orientation,

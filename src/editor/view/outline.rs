@@ -19,11 +19,12 @@ pub struct ViewBox {
 impl ViewBox {
     /// The level of detail: detail finer than 2^level units, at most half a screen point, is not
     /// seen.
-    pub(super) fn level(&self) -> i32 {
+    pub fn level(&self) -> i32 {
         (0.5 * self.pixel).log2().floor().clamp(-1000.0, 1000.0) as i32
     }
 
-    pub(super) fn grown(&self, by: f64) -> Self {
+    /// Widen the box on every side.
+    pub fn grown(&self, by: f64) -> Self {
         Self {
             low: self.low - by,
             high: self.high + by,
@@ -97,7 +98,7 @@ impl Bounds {
 
     /// Whether a curve through points with this box around them may be visible: between the
     /// points it may run a little beyond the box.
-    pub(super) fn may_meet(&self, view: &ViewBox) -> bool {
+    pub fn may_meet(&self, view: &ViewBox) -> bool {
         let reach = (self.high - self.low).max_element();
         !self.is_empty() && self.meets(&view.grown(0.25 * reach))
     }
@@ -113,16 +114,16 @@ pub const GAP: DVec2 = DVec2::NAN;
 
 /// What an outline's points were made for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct OutlineKey {
+pub struct OutlineKey {
     /// The level of detail; `None` keeps every point of the source.
-    pub(super) level: Option<i32>,
+    pub level: Option<i32>,
     /// Whatever else the points depend on, such as the comb's scale.
-    pub(super) shape: u64,
+    pub shape: u64,
 }
 
 /// The thinned points of one block of a chain.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Outline {
+pub struct Outline {
     key: Option<OutlineKey>,
     points: Vec<DVec2>,
     bounds: Bounds,
@@ -130,7 +131,7 @@ pub(super) struct Outline {
 
 impl Outline {
     /// Bring the points up to date with `source` if `key` has changed since.
-    pub(super) fn refresh<I: Iterator<Item = DVec2>>(
+    pub fn refresh<I: Iterator<Item = DVec2>>(
         &mut self,
         key: OutlineKey,
         source: impl FnOnce() -> I,
@@ -146,12 +147,12 @@ impl Outline {
     }
 
     /// The box around the points.
-    pub(super) fn bounds(&self) -> &Bounds {
+    pub fn bounds(&self) -> &Bounds {
         &self.bounds
     }
 
     /// Append the points if any of them may be visible, otherwise a gap.
-    pub(super) fn append(&self, view: &ViewBox, out: &mut Vec<DVec2>) {
+    pub fn append(&self, view: &ViewBox, out: &mut Vec<DVec2>) {
         if self.bounds.meets(view) {
             out.extend_from_slice(&self.points);
         } else {
@@ -161,7 +162,7 @@ impl Outline {
 }
 
 /// Break a chain, if it is not broken already.
-pub(super) fn append_gap(out: &mut Vec<DVec2>) {
+pub fn append_gap(out: &mut Vec<DVec2>) {
     if out.last().is_some_and(|last| !last.is_nan()) {
         out.push(GAP);
     }
@@ -169,7 +170,7 @@ pub(super) fn append_gap(out: &mut Vec<DVec2>) {
 
 /// Copy a chain, leaving out points nearer than `spacing` to the last one kept; the ends of the
 /// chain and of each of its pieces stay.
-pub(super) fn thin(
+pub fn thin(
     source: impl Iterator<Item = DVec2>,
     spacing: f64,
     out: &mut Vec<DVec2>,

@@ -2,10 +2,9 @@
 
 use glam::DVec2;
 
-use super::orientation::Orientation;
-use super::outline::{Bounds, Outline, OutlineKey, ViewBox};
-use super::revision::Revision;
-use super::vertex_chain::VertexChain;
+use crate::analysis::{Revision, VertexChain};
+use crate::editor::view::orientation::Orientation;
+use crate::editor::view::outline::{Bounds, Outline, OutlineKey, ViewBox};
 
 /// Handles closer together than this, in screen points, are thinned out.
 const HANDLE_SPACING: f64 = 7.0;
@@ -41,57 +40,9 @@ impl ChainOutlines {
         }
     }
 
-    /// Append what is visible of the legs.
-    pub fn append_legs(&mut self, chain: &VertexChain, view: &ViewBox, out: &mut Vec<DVec2>) {
-        self.update(chain);
-        let key = OutlineKey {
-            level: Some(view.level()),
-            shape: 0,
-        };
-        let (vertices, eye) = (chain.vertices(), self.orientation);
-        for (index, block) in self.blocks.iter_mut().enumerate() {
-            let own = chain.block_vertices(index);
-            // One vertex more than the block has, so that neighbouring blocks join.
-            let end = (own.end + 1).min(vertices.len());
-            let closing = chain.is_closed() && own.end == vertices.len();
-            block.legs.refresh(key, || {
-                let wrap = closing.then(|| eye.flatten(vertices[0]));
-                let own = vertices[own.start..end].iter();
-                let own = own.map(move |vertex| eye.flatten(*vertex));
-                own.chain(wrap)
-            });
-            block.legs.append(view, out);
-        }
-    }
-
-    /// Append the numbers of the vertices whose handles are drawn: all, unless they crowd.
-    pub fn append_handles(&mut self, chain: &VertexChain, view: &ViewBox, out: &mut Vec<usize>) {
-        self.update(chain);
-        let view = view.grown(HANDLE_SPACING * view.pixel);
-        let level = view.level();
-        let eye = self.orientation;
-        for (index, block) in self.blocks.iter_mut().enumerate() {
-            block.handles.refresh(level, index, &eye, chain);
-            let visible = |index: &usize| {
-                let at = eye.flatten(chain.vertices()[*index]);
-                at.cmpge(view.low).all() && at.cmple(view.high).all()
-            };
-            out.extend(block.handles.indices.iter().copied().filter(visible));
-        }
-    }
-
-    /// The box around the vertices, as they are seen.
-    pub fn bounds(&mut self, chain: &VertexChain) -> Bounds {
-        self.update(chain);
-        let mut all = Bounds::EMPTY;
-        self.blocks
-            .iter()
-            .for_each(|block| all.unite(&block.bounds));
-        all
-    }
-
-    /// Forget the blocks that have changed.
-    fn update(&mut self, chain: &VertexChain) {
+    /// Forget what was made of blocks that have changed. All else that asks about a polygon comes
+    /// after this.
+    pub fn update(&mut self, chain: &VertexChain) {
         let revisions = chain.revisions();
         self.blocks.truncate(revisions.len());
         for (index, revision) in revisions.enumerate() {
@@ -114,6 +65,52 @@ impl ChainOutlines {
                 None => self.blocks.push(block),
             }
         }
+    }
+
+    /// Append what is visible of the legs.
+    pub fn append_legs(&mut self, chain: &VertexChain, view: &ViewBox, out: &mut Vec<DVec2>) {
+        let key = OutlineKey {
+            level: Some(view.level()),
+            shape: 0,
+        };
+        let (vertices, eye) = (chain.vertices(), self.orientation);
+        for (index, block) in self.blocks.iter_mut().enumerate() {
+            let own = chain.block_vertices(index);
+            // One vertex more than the block has, so that neighbouring blocks join.
+            let end = (own.end + 1).min(vertices.len());
+            let closing = chain.is_closed() && own.end == vertices.len();
+            block.legs.refresh(key, || {
+                let wrap = closing.then(|| eye.flatten(vertices[0]));
+                let own = vertices[own.start..end].iter();
+                let own = own.map(move |vertex| eye.flatten(*vertex));
+                own.chain(wrap)
+            });
+            block.legs.append(view, out);
+        }
+    }
+
+    /// Append the numbers of the vertices whose handles are drawn: all, unless they crowd.
+    pub fn append_handles(&mut self, chain: &VertexChain, view: &ViewBox, out: &mut Vec<usize>) {
+        let view = view.grown(HANDLE_SPACING * view.pixel);
+        let level = view.level();
+        let eye = self.orientation;
+        for (index, block) in self.blocks.iter_mut().enumerate() {
+            block.handles.refresh(level, index, &eye, chain);
+            let visible = |index: &usize| {
+                let at = eye.flatten(chain.vertices()[*index]);
+                at.cmpge(view.low).all() && at.cmple(view.high).all()
+            };
+            out.extend(block.handles.indices.iter().copied().filter(visible));
+        }
+    }
+
+    /// The box around the vertices, as they are seen.
+    pub fn bounds(&self) -> Bounds {
+        let mut all = Bounds::EMPTY;
+        self.blocks
+            .iter()
+            .for_each(|block| all.unite(&block.bounds));
+        all
     }
 }
 

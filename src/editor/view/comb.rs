@@ -4,9 +4,9 @@ use std::ops::RangeInclusive;
 
 use glam::DVec2;
 
-use super::orientation::Orientation;
-use super::outline::{Bounds, ViewBox};
-use super::sample::Sample;
+use crate::analysis::Sample;
+use crate::editor::view::orientation::Orientation;
+use crate::editor::view::outline::{Bounds, ViewBox};
 
 /// How a curvature comb is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +33,7 @@ impl Default for CombSettings {
 
 /// The teeth of one block's comb: where they stand, and their tips.
 #[derive(Debug, Default)]
-pub(super) struct Teeth {
+pub struct Teeth {
     key: Option<(i32, u64, usize)>,
     teeth: Vec<[DVec2; 2]>,
     bounds: Option<Bounds>,
@@ -41,7 +41,7 @@ pub(super) struct Teeth {
 
 impl Teeth {
     /// Bring the teeth up to date if `key` (level, scale, density) has changed since.
-    pub(super) fn refresh<'a, I: Iterator<Item = &'a Sample>>(
+    pub fn refresh<'a, I: Iterator<Item = &'a Sample>>(
         &mut self,
         key: (i32, u64, usize),
         spacing: f64,
@@ -73,7 +73,7 @@ impl Teeth {
     }
 
     /// Append the teeth if any of them may be visible.
-    pub(super) fn append(&self, view: &ViewBox, out: &mut Vec<[DVec2; 2]>) {
+    pub fn append(&self, view: &ViewBox, out: &mut Vec<[DVec2; 2]>) {
         if self.bounds.is_some_and(|bounds| bounds.meets(view)) {
             out.extend_from_slice(&self.teeth);
         }

@@ -2,14 +2,12 @@
 
 use glam::{DVec2, DVec3};
 
-use super::comb::{CombSettings, Teeth};
-use super::curve_samples::SampledCurve;
-use super::evolute::Evolute;
-use super::orientation::Orientation;
-use super::outline::{Bounds, GAP, Outline, OutlineKey, ViewBox, append_gap, thin};
-use super::revision::Revision;
-use super::sample::{PieceSampler, Sample};
-use super::sample_chain::{chain, finite};
+use crate::analysis::{PieceSampler, Revision, Sample, SampledCurve};
+use crate::editor::view::comb::{CombSettings, Teeth};
+use crate::editor::view::evolute::Evolute;
+use crate::editor::view::orientation::Orientation;
+use crate::editor::view::outline::{Bounds, GAP, Outline, OutlineKey, ViewBox, append_gap, thin};
+use crate::editor::view::sample_chain::{chain, finite};
 use crate::geometry::features::{SegmentFeatures, Sign, SignPiece};
 
 /// A piece is sampled anew when its samples are farther apart than this, in screen points.
@@ -78,11 +76,6 @@ impl CurveOutlines {
             self.orientation = orientation;
             self.blocks.clear();
         }
-    }
-
-    /// From where the curve is seen.
-    pub fn orientation(&self) -> Orientation {
-        self.orientation
     }
 
     /// Forget what was made of blocks that have changed. All else that asks about a curve comes
@@ -250,18 +243,55 @@ impl CurveOutlines {
     ) {
         let (samples, level) = (sampled.samples, view.level());
         let spacing = 3.0 * 2f64.powi(level + 1);
-        let steps = samples.steps();
-        let density = comb.density.clamp(1, steps);
+        let density = comb.density.clamp(1, samples.steps());
         for (index, block) in self.blocks.iter_mut().enumerate() {
             let key = (level, comb.scale.to_bits(), density);
             block.teeth.refresh(key, spacing, &self.orientation, || {
-                samples.block_pieces(index).flat_map(move |piece| {
-                    let own = samples.piece(piece);
-                    (0..=density).map(move |tooth| &own[(tooth * steps + density / 2) / density])
-                })
+                let pieces = samples.block_pieces(index);
+                pieces.flat_map(move |piece| teeth(samples.piece(piece), density))
             });
             block.teeth.append(view, out);
         }
+    }
+
+    /// Find the tooth of the comb whose tip is seen nearest to `target`, if it is at most `reach` away,
+    /// of those that are longer than `shortest`.
+    pub fn tooth(
+        &self,
+        sampled: SampledCurve<'_>,
+        comb: &CombSettings,
+        target: DVec2,
+        reach: f64,
+        shortest: f64,
+    ) -> Option<[DVec2; 2]> {
+        let (samples, steps) = (sampled.samples, sampled.samples.steps());
+        let density = comb.density.clamp(1, steps);
+        let mut best: Option<(f64, [DVec2; 2])> = None;
+        for (index, (own, block)) in self.blocks.iter().zip(samples.blocks()).enumerate() {
+            let steepest = block
+                .curvature
+                .map_or(0.0, |range| range.high.abs().max(range.low.abs()));
+            let Bounds { low, high } = own.bounds;
+            let away = target.distance(target.clamp(low, high));
+            if !(away <= reach + comb.scale * steepest) {
+                continue;
+            }
+            for own in samples
+                .block_pieces(index)
+                .map(|piece| samples.piece(piece))
+            {
+                for sample in teeth(own, density) {
+                    let foot = self.seen(sample.point);
+                    let tip = self.seen(sample.comb_tip(comb.scale));
+                    let distance = tip.distance(target);
+                    let is_near = distance <= reach && tip.distance(foot) > shortest;
+                    if is_near && best.is_none_or(|(nearest, _)| distance < nearest) {
+                        best = Some((distance, [foot, tip]));
+                    }
+                }
+            }
+        }
+        best.map(|(_, tooth)| tooth)
     }
 
     /// Find the point of the curve that is seen nearest to `target`, if it is at most
@@ -391,6 +421,12 @@ impl Block {
             Kept::Trend(trend) => &mut self.trends[trend as usize],
         }
     }
+}
+
+/// The samples of one piece at which teeth of the comb stand: `density` + 1 of them.
+fn teeth(samples: &[Sample], density: usize) -> impl Iterator<Item = &Sample> {
+    let steps = samples.len().saturating_sub(1);
+    (0..=density).map(move |tooth| &samples[(tooth * steps + density / 2) / density])
 }
 
 /// Append a block whose samples are too coarse for the view: pieces that the view touches are

@@ -1,0 +1,173 @@
+//! What is under the pointer, in words and marks.
+
+use std::f64::consts::PI;
+
+use glam::{DVec2, DVec3};
+
+use crate::document::CurveId;
+use crate::editor::Editor;
+use crate::editor::hand::tools::ToolKind;
+use crate::editor::view::scene::HoverScene;
+use crate::geometry::{Jet, figure};
+
+/// Chords in half of the osculating circle.
+const CIRCLE_STEPS: i32 = 64;
+
+impl Editor {
+    /// What the pointer is over, on the canvas or in a panel.
+    pub(in crate::editor) fn hover(&self) -> Option<HoverScene> {
+        if let Some(hover) = self.hover_from_panels() {
+            return Some(hover);
+        }
+        let place = self.hand.gestures.pointer()?;
+        let context = self.context();
+        if self.hand.gestures.is_dragging() {
+            let held = self.held_vertex()?;
+            return self.vertex_hover(held);
+        }
+        if self.hand.gestures.is_panning()
+            || !matches!(
+                self.hand.tool(),
+                ToolKind::Select
+                    | ToolKind::Delete
+                    | ToolKind::EndFit
+                    | ToolKind::Rotate
+                    | ToolKind::Scale
+            )
+        {
+            return None;
+        }
+        if let Some(vertex) = context.hits.vertex(place) {
+            return self.vertex_hover(vertex);
+        }
+        if let (ToolKind::Select, Some((id, index))) =
+            (self.hand.tool(), context.hits.clamped_vertex(place))
+        {
+            return self.clamped_hover(id, index);
+        }
+        if let Some((id, feature)) = context.hits.feature(place) {
+            let mut hover = self.curve_hover(id, feature.middle);
+            if let Some(HoverScene::Curve { text, .. }) = &mut hover {
+                *text = format!("{}\n{text}", feature.kind.label());
+            }
+            return hover;
+        }
+        let hit = context.hits.curve(place)?;
+        self.curve_hover(hit.curve, hit.u)
+    }
+
+    /// The one vertex that a drag moves.
+    fn held_vertex(&self) -> Option<(CurveId, usize)> {
+        let mut selected = self.hand.selection.vertices();
+        let only = selected.next().filter(|_| selected.next().is_none());
+        only.filter(|_| self.hand.tool() == ToolKind::Select && self.workspace.preview().is_some())
+    }
+
+    fn hover_from_panels(&self) -> Option<HoverScene> {
+        let id = self.hand.selection.active()?;
+        if let Some(index) = self.view.hovered.vertex {
+            return self.vertex_hover((id, index));
+        }
+        let samples = self.analyses.get(id)?.samples();
+        let u = samples.parameter_at_length(self.view.hovered.length?);
+        self.curve_hover(id, u)
+    }
+
+    fn vertex_hover(&self, (id, index): (CurveId, usize)) -> Option<HoverScene> {
+        let curve = self.document().curve(id).filter(|curve| curve.visible)?;
+        let vertex = *curve.polygon.vertices().get(index)?;
+        let mut text = format!(
+            "vertex {index}\nx {}\ny {}",
+            figure(vertex.x),
+            figure(vertex.y)
+        );
+        if vertex.z != 0.0 {
+            text += &format!("\nz {}", figure(vertex.z));
+        }
+        if let Some(weights) = curve.polygon.weights() {
+            text += &format!("\nw {}", figure(*weights.get(index)?));
+        }
+        if self.hand.selection.active() != Some(id) {
+            text = format!("{}\n{text}", curve.name);
+        }
+        Some(HoverScene::Vertex {
+            at: self.view.viewport.flatten(vertex),
+            text,
+        })
+    }
+
+    fn clamped_hover(&self, id: CurveId, index: usize) -> Option<HoverScene> {
+        let analysis = self.analyses.get(id)?;
+        let vertex = *analysis.clamped().vertices().get(index)?;
+        let mut text = format!(
+            "closed vertex {index}\nx {}\ny {}",
+            figure(vertex.x),
+            figure(vertex.y)
+        );
+        if !analysis.is_planar() {
+            text += &format!("\nz {}", figure(vertex.z));
+        }
+        let polygon = &analysis.curve().polygon;
+        if let Some(times) = polygon.clamped_vertex_amplification(index) {
+            text += &format!("\nfloat × {}", figure(times));
+        }
+        Some(HoverScene::Handle {
+            at: self.view.viewport.flatten(vertex),
+            text,
+        })
+    }
+
+    fn curve_hover(&self, id: CurveId, u: f64) -> Option<HoverScene> {
+        let curve = self.document().curve(id).filter(|curve| curve.visible)?;
+        let planar = self.analyses.get(id)?.is_planar();
+        let jet = curve.polygon.jet(u);
+        let curvature = jet.curvature_of(planar);
+        let radius = 1.0 / curvature.abs();
+        let mut lines = vec![
+            format!("u {u:.4}"),
+            format!("x {}", figure(jet.point.x)),
+            format!("y {}", figure(jet.point.y)),
+        ];
+        if !planar {
+            lines.push(format!("z {}", figure(jet.point.z)));
+        }
+        lines.push(format!("κ {}", figure(curvature)));
+        let radius = Some(radius).filter(|radius| radius.is_finite());
+        lines.push(format!("R {}", radius.map_or("∞".to_owned(), figure)));
+        let torsion = Some(jet.torsion()).filter(|torsion| !planar && torsion.is_finite());
+        lines.extend(torsion.map(|torsion| format!("τ {}", figure(torsion))));
+        if self.hand.selection.active() != Some(id) {
+            lines.insert(0, curve.name.clone());
+        }
+        let text = lines.join("\n");
+        let centre = jet.centre_of_curvature();
+        let seen_as_it_is = planar && self.view.viewport.orientation.is_from_above();
+        let circle = centre.filter(|_| !seen_as_it_is);
+        Some(HoverScene::Curve {
+            curve: id,
+            u,
+            curvature,
+            at: self.view.viewport.flatten(jet.point),
+            centre: centre
+                .filter(|_| seen_as_it_is)
+                .map(|centre| self.view.viewport.flatten(centre)),
+            circle: circle.map_or(Vec::new(), |centre| self.circle(&jet, centre)),
+            text,
+        })
+    }
+
+    /// The osculating circle as it is seen; of a large one only the part near its point.
+    fn circle(&self, jet: &Jet, centre: DVec3) -> Vec<DVec2> {
+        let arm = jet.point - centre;
+        let reach = 4.0
+            * (self.view.viewport.size.x + self.view.viewport.size.y)
+            * self.view.viewport.pixel();
+        let half = (reach / arm.length()).min(PI);
+        let across = jet.tangent().unwrap_or_default() * arm.length();
+        let angle = |step: i32| half * f64::from(step) / f64::from(CIRCLE_STEPS);
+        let place = |angle: f64| centre + angle.cos() * arm + angle.sin() * across;
+        let steps = -CIRCLE_STEPS..=CIRCLE_STEPS;
+        let points = steps.map(|step| self.view.viewport.flatten(place(angle(step))));
+        points.collect()
+    }
+}

@@ -1,0 +1,69 @@
+//! What the plots under the canvas show: the ui only paints it.
+
+use glam::DVec2;
+
+use crate::analysis::LevelPlot;
+
+/// What is plotted of the active curve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlotKind {
+    /// The curvature over arc length, with the polygon's discrete curvature.
+    Curvature,
+    /// A level of curvature or torsion, or the logarithmic graph.
+    Levels {
+        /// Which of them.
+        plot: LevelPlot,
+        /// Whether it is that of the curve scaled to length 1.
+        normalised: bool,
+    },
+    /// The lengths of the float S-polygon's legs, and its turning angles.
+    Legs,
+}
+
+/// The plot of the active curve that is shown; series of others are empty.
+#[derive(Clone, Debug, Default)]
+pub struct PlotScene {
+    /// Whether curvature is signed.
+    pub planar: bool,
+    /// Curvature over arc length; NaN points are gaps.
+    pub curvature: Vec<DVec2>,
+    /// The polygon's discrete curvature at its vertices, over arc length, by vertex number.
+    /// Vertices that lie beyond the curve's ends stand evenly spaced in a flank beside either.
+    pub discrete: Vec<(usize, DVec2)>,
+    /// How wide the flank beside either end is; 0 if there is none.
+    pub flank: f64,
+    /// The plot of levels; NaN points are gaps.
+    pub levels: Vec<DVec2>,
+    /// The place on it of what is hovered on the canvas.
+    pub hovered_level: Option<DVec2>,
+    /// The slope of the straight line through the logarithmic graph, and how well it fits: r².
+    pub slope: Option<(f64, f64)>,
+    /// Leg lengths over the number of the vertex where each begins.
+    pub legs: Vec<DVec2>,
+    /// Turning angles in degrees over the vertices' numbers.
+    pub turns: Vec<DVec2>,
+    /// The arc length of the whole curve.
+    pub length: f64,
+    /// The arc length and curvature at what is hovered on the canvas.
+    pub hovered: Option<DVec2>,
+    /// The vertex that is hovered on the canvas.
+    pub hovered_vertex: Option<usize>,
+}
+
+impl PlotScene {
+    /// The plot of the curvature of the curve scaled to length 1, over shares of its length.
+    pub fn at_length_one(&self) -> Self {
+        let place = |point: &DVec2| DVec2::new(point.x / self.length, point.y * self.length);
+        let dots = self.discrete.iter();
+        Self {
+            curvature: self.curvature.iter().map(place).collect(),
+            discrete: dots.map(|(index, at)| (*index, place(at))).collect(),
+            hovered: self.hovered.as_ref().map(place),
+            flank: self.flank / self.length,
+            length: 1.0,
+            planar: self.planar,
+            hovered_vertex: self.hovered_vertex,
+            ..Self::default()
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Making the plot of the active curve that is shown.
+
+use glam::DVec2;
+
+use crate::analysis::LevelPlot;
+use crate::editor::Editor;
+use crate::editor::view::plot_scene::{PlotKind, PlotScene};
+
+impl Editor {
+    /// The plot of the active curve that is shown.
+    pub fn plots(&self) -> &PlotScene {
+        &self.view.plots
+    }
+
+    /// Make the plot that is shown.
+    pub(in crate::editor) fn plot(&mut self) {
+        let mut plots = std::mem::take(&mut self.view.plots);
+        plots.clear();
+        if let Some((id, kind)) = self.active().zip(self.view.plot)
+            && let Some(analysis) = self.analyses.get_mut(id)
+        {
+            plots.planar = analysis.is_planar();
+            plots.length = analysis.samples().length();
+            match kind {
+                PlotKind::Curvature => {
+                    analysis.append_curvature(&mut plots.curvature);
+                    plots.flank = analysis.append_discrete_curvature(&mut plots.discrete);
+                }
+                PlotKind::Levels { plot, normalised } => {
+                    analysis.append_levels(plot, normalised, &mut plots.levels);
+                    let is_graph = plot == LevelPlot::Logarithmic;
+                    plots.slope = is_graph.then(|| straight_slope(&plots.levels)).flatten();
+                }
+                PlotKind::Legs => {
+                    analysis.float().append_leg_series(&mut plots.legs);
+                    analysis.float().append_turn_series(&mut plots.turns);
+                    for point in &mut plots.turns {
+                        point.y = point.y.to_degrees();
+                    }
+                }
+            }
+            if let Some((u, curvature)) = self.view.scene.hovered_on(id) {
+                let sampled = analysis.sampled();
+                plots.hovered = Some(DVec2::new(sampled.length_at(u), curvature));
+                if let PlotKind::Levels { plot, normalised } = kind {
+                    plots.hovered_level = Some(sampled.level_at(plot, normalised, u));
+                }
+            }
+            plots.hovered_vertex = self.vertex_hovered_on(id);
+        }
+        self.view.plots = plots;
+    }
+}
+
+impl PlotScene {
+    /// Empty all series, and keep their room.
+    fn clear(&mut self) {
+        let Self {
+            curvature,
+            discrete,
+            levels,
+            legs,
+            turns,
+            ..
+        } = std::mem::take(self);
+        *self = Self {
+            curvature,
+            discrete,
+            levels,
+            legs,
+            turns,
+            ..Self::default()
+        };
+        self.discrete.clear();
+        for series in [
+            &mut self.curvature,
+            &mut self.levels,
+            &mut self.legs,
+            &mut self.turns,
+        ] {
+            series.clear();
+        }
+    }
+}
+
+/// The share of a graph's points, at either end in either direction, that run off to infinity
+/// and are left out when a straight line is put through it.
+const RUNS_OFF: f64 = 0.1;
+
+/// The slope of the straight line nearest to the middle of a graph, measured upwards (least
+/// squares), and how well it fits: r², 1 for a straight graph. `None` if it lies over one place.
+fn straight_slope(points: &[DVec2]) -> Option<(f64, f64)> {
+    let finite: Vec<DVec2> = points
+        .iter()
+        .copied()
+        .filter(|point| point.is_finite())
+        .collect();
+    let inner = |value: fn(&DVec2) -> f64| {
+        let mut values: Vec<f64> = finite.iter().map(value).collect();
+        values.sort_by(f64::total_cmp);
+        let beyond = (RUNS_OFF * values.len() as f64) as usize;
+        Some(*values.get(beyond)?..=*values.iter().nth_back(beyond)?)
+    };
+    let (across, along) = (inner(|point| point.x)?, inner(|point| point.y)?);
+    let is_inner = |point: &&DVec2| across.contains(&point.x) && along.contains(&point.y);
+    let inner = || finite.iter().filter(is_inner);
+    let mean = inner().sum::<DVec2>() / inner().count() as f64;
+    let (xx, xy, yy) = inner().fold((0.0, 0.0, 0.0), |(xx, xy, yy), point| {
+        let arm = *point - mean;
+        (xx + arm.x * arm.x, xy + arm.x * arm.y, yy + arm.y * arm.y)
+    });
+    let (slope, fit) = (xy / xx, xy * xy / (xx * yy));
+    (slope.is_finite() && fit.is_finite()).then_some((slope, fit))
+}
