@@ -25,16 +25,19 @@ const CROWD: usize = 200;
 /// An evolute smaller than this, in points, is marked by a disc.
 const SMALL_EVOLUTE: f32 = 4.0;
 
+/// How faint the curve is as it was.
+const GHOST: f32 = 0.35;
+
 /// Paint everything that lies on the grid, from back to front.
 pub fn paint(brush: &Brush<'_>, scene: &Scene) {
     let (active, others): (Vec<_>, Vec<_>) = scene.curves.iter().partition(|curve| curve.active);
     for curve in others.iter().chain(&active) {
         brush.derived(curve);
     }
-    brush.chain(
-        &scene.ghost,
-        Stroke::new(1.5, brush.tokens.curve.gamma_multiply(0.35)),
-    );
+    let ghostly = |width, colour: Color32| Stroke::new(width, colour.gamma_multiply(GHOST));
+    let (curve, float) = (brush.tokens.curve, brush.tokens.float);
+    brush.chain(&scene.ghost_polygon, ghostly(1.0, float));
+    brush.chain(&scene.ghost, ghostly(1.5, curve));
     for curve in others.iter().chain(&active) {
         brush.curve(curve);
     }

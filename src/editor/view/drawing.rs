@@ -37,7 +37,7 @@ impl Editor {
         view.low -= border;
         view.high += border;
         self.draw_curves(&view, &mut scene.curves);
-        self.draw_ghost(&view, &mut scene.ghost);
+        self.draw_ghost(&view, &mut scene);
         scene.ends.clear();
         if self.layers().shows(Layer::Targets) || self.hand.tool() == ToolKind::EndFit {
             self.draw_ends(&mut scene);
@@ -146,22 +146,28 @@ impl Editor {
         }
     }
 
-    /// The curve before the gesture, while Alt is held; or before the last end correction.
-    fn draw_ghost(&mut self, view: &ViewBox, out: &mut Vec<DVec2>) {
-        out.clear();
-        let held = self.hand.modifiers.alt && self.workspace.preview().is_some();
-        let before = if held {
-            let active = self.hand.selection.active();
-            active
-                .and_then(|id| self.workspace.settled().curve(id))
-                .cloned()
-        } else {
-            self.before_operation()
+    /// The active curve before what is tried out on it, while Alt is held; before an operation
+    /// without that.
+    pub(in crate::editor) fn before(&self) -> Option<Arc<Curve>> {
+        if self.hand.modifiers.alt && self.workspace.preview().is_some() {
+            let active = self.hand.selection.active()?;
+            return self.workspace.settled().curve(active).cloned();
+        }
+        self.before_operation()
+    }
+
+    fn draw_ghost(&mut self, view: &ViewBox, scene: &mut Scene) {
+        scene.ghost.clear();
+        scene.ghost_polygon.clear();
+        let Some(before) = self.before() else {
+            return;
         };
-        if let Some(before) = before {
-            self.view
-                .ghost
-                .append(&before, self.view.viewport.orientation, view, out);
+        let orientation = self.view.viewport.orientation;
+        let shows_float = self.layers().shows(Layer::Float);
+        let chains = [&mut scene.ghost, &mut scene.ghost_polygon];
+        self.view.ghost.append(&before, orientation, view, chains);
+        if !shows_float {
+            scene.ghost_polygon.clear();
         }
     }
 

@@ -4,39 +4,47 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use crate::analysis::{CurveSamples, SampledCurve};
+use crate::analysis::CurveAnalysis;
 use crate::document::Curve;
+use crate::editor::view::chain_outlines::ChainOutlines;
 use crate::editor::view::curve_outlines::CurveOutlines;
 use crate::editor::view::orientation::Orientation;
 use crate::editor::view::outline::ViewBox;
 
-/// Remember the samples of a curve as it was, which changes rarely while it is drawn often.
+/// Remember what is known of a curve as it was, which changes rarely while it is drawn often.
 #[derive(Debug, Default)]
 pub struct Ghost {
-    sampled: Option<(Arc<Curve>, CurveSamples)>,
-    outlines: CurveOutlines,
+    analysis: Option<CurveAnalysis>,
+    curve: CurveOutlines,
+    float: ChainOutlines,
 }
 
 impl Ghost {
-    /// Append what is visible of a curve.
+    /// The analysis of a curve as it was.
+    pub fn analysis(&mut self, curve: &Arc<Curve>) -> &mut CurveAnalysis {
+        let known = self.analysis.take();
+        let known = known.filter(|known| Arc::ptr_eq(known.curve(), curve));
+        let analyse = || CurveAnalysis::new(curve.clone());
+        self.analysis.insert(known.unwrap_or_else(analyse))
+    }
+
+    /// Append what is visible of a curve, and of its float S-polygon.
     pub fn append(
         &mut self,
         curve: &Arc<Curve>,
         orientation: Orientation,
         view: &ViewBox,
-        out: &mut Vec<DVec2>,
+        [curves, polygons]: [&mut Vec<DVec2>; 2],
     ) {
-        self.sampled
-            .take_if(|(known, _)| !Arc::ptr_eq(known, curve));
-        let (_, samples) = self
-            .sampled
-            .get_or_insert_with(|| (curve.clone(), CurveSamples::new(&curve.polygon)));
-        let sampled = SampledCurve {
-            curve: &curve.polygon,
-            samples,
+        self.analysis(curve);
+        let Some(analysis) = &self.analysis else {
+            return;
         };
-        self.outlines.set_orientation(orientation);
-        self.outlines.update(sampled);
-        self.outlines.append_curve(sampled, view, out);
+        self.curve.set_orientation(orientation);
+        self.curve.update(analysis.sampled());
+        self.curve.append_curve(analysis.sampled(), view, curves);
+        self.float.set_orientation(orientation);
+        self.float.update(analysis.float());
+        self.float.append_legs(analysis.float(), view, polygons);
     }
 }

@@ -48,6 +48,8 @@ pub struct PlotScene {
     pub hovered: Option<DVec2>,
     /// The vertex that is hovered on the canvas.
     pub hovered_vertex: Option<usize>,
+    /// The series of the curve as it was, where that is shown too.
+    pub before: Option<Box<PlotScene>>,
 }
 
 impl PlotScene {
@@ -63,6 +65,10 @@ impl PlotScene {
             length: 1.0,
             planar: self.planar,
             hovered_vertex: self.hovered_vertex,
+            before: self
+                .before
+                .as_ref()
+                .map(|before| Box::new(before.at_length_one())),
             ..Self::default()
         }
     }

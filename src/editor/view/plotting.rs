@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::analysis::LevelPlot;
+use crate::analysis::{CurveAnalysis, LevelPlot};
 use crate::editor::Editor;
 use crate::editor::view::plot_scene::{PlotKind, PlotScene};
 
@@ -19,26 +19,7 @@ impl Editor {
         if let Some((id, kind)) = self.active().zip(self.view.plot)
             && let Some(analysis) = self.analyses.get_mut(id)
         {
-            plots.planar = analysis.is_planar();
-            plots.length = analysis.samples().length();
-            match kind {
-                PlotKind::Curvature => {
-                    analysis.append_curvature(&mut plots.curvature);
-                    plots.flank = analysis.append_discrete_curvature(&mut plots.discrete);
-                }
-                PlotKind::Levels { plot, normalised } => {
-                    analysis.append_levels(plot, normalised, &mut plots.levels);
-                    let is_graph = plot == LevelPlot::Logarithmic;
-                    plots.slope = is_graph.then(|| straight_slope(&plots.levels)).flatten();
-                }
-                PlotKind::Legs => {
-                    analysis.float().append_leg_series(&mut plots.legs);
-                    analysis.float().append_turn_series(&mut plots.turns);
-                    for point in &mut plots.turns {
-                        point.y = point.y.to_degrees();
-                    }
-                }
-            }
+            plots.fill(analysis, kind);
             if let Some((u, curvature)) = self.view.scene.hovered_on(id) {
                 let sampled = analysis.sampled();
                 plots.hovered = Some(DVec2::new(sampled.length_at(u), curvature));
@@ -47,12 +28,41 @@ impl Editor {
                 }
             }
             plots.hovered_vertex = self.vertex_hovered_on(id);
+            plots.before = self.before().map(|before| {
+                let mut plots = PlotScene::default();
+                plots.fill(self.view.ghost.analysis(&before), kind);
+                Box::new(plots)
+            });
         }
         self.view.plots = plots;
     }
 }
 
 impl PlotScene {
+    /// Make the series of a curve.
+    fn fill(&mut self, analysis: &mut CurveAnalysis, kind: PlotKind) {
+        self.planar = analysis.is_planar();
+        self.length = analysis.samples().length();
+        match kind {
+            PlotKind::Curvature => {
+                analysis.append_curvature(&mut self.curvature);
+                self.flank = analysis.append_discrete_curvature(&mut self.discrete);
+            }
+            PlotKind::Levels { plot, normalised } => {
+                analysis.append_levels(plot, normalised, &mut self.levels);
+                let is_graph = plot == LevelPlot::Logarithmic;
+                self.slope = is_graph.then(|| straight_slope(&self.levels)).flatten();
+            }
+            PlotKind::Legs => {
+                analysis.float().append_leg_series(&mut self.legs);
+                analysis.float().append_turn_series(&mut self.turns);
+                for point in &mut self.turns {
+                    point.y = point.y.to_degrees();
+                }
+            }
+        }
+    }
+
     /// Empty all series, and keep their room.
     fn clear(&mut self) {
         let Self {

@@ -14,6 +14,8 @@ pub struct Scene {
     pub curves: Vec<CurveScene>,
     /// The curve as it was before the gesture or the correction, drawn faintly.
     pub ghost: Vec<DVec2>,
+    /// Its float S-polygon as it was.
+    pub ghost_polygon: Vec<DVec2>,
     /// What the tool in the hand draws.
     pub marks: Vec<Mark>,
     /// The end-fit tool's marks, and the targets of all curves.

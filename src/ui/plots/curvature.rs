@@ -35,7 +35,9 @@ impl Plots {
         let scene = scaled.as_ref().unwrap_or(scene);
         let length = scene.length;
         let dots = scene.discrete.iter().map(|(_, point)| *point);
-        let points = scene.curvature.iter().copied().chain(dots);
+        let before = scene.before.as_deref();
+        let was = before.map_or(&[][..], |before| &before.curvature);
+        let points = scene.curvature.iter().chain(was).copied().chain(dots);
         let mut wanted = bounds_of(points, false);
         wanted.0.x = wanted.0.x.min(-scene.flank);
         wanted.1.x = wanted.1.x.max(length + scene.flank);
@@ -82,6 +84,7 @@ impl Plots {
                 plot.set_plot_bounds(bounds);
                 flanks(plot, scene, bounds, tokens);
                 zero_line(plot, tokens);
+                before_lines(plot, was, tokens);
                 lines(plot, "curvature", &scene.curvature, tokens.comb);
                 let dots: Vec<DVec2> = scene.discrete.iter().map(|(_, point)| *point).collect();
                 plot.points(dots_of("discrete", &dots, tokens.float));

@@ -86,6 +86,17 @@ pub fn lines(plot: &mut PlotUi<'_>, name: &str, chain: &[DVec2], colour: Color32
     }
 }
 
+/// Draw a chain as it was, faintly; it tells nothing when it is hovered.
+pub fn before_lines(plot: &mut PlotUi<'_>, chain: &[DVec2], tokens: &Tokens) {
+    let pieces = chain.split(|point| point.is_nan());
+    for piece in pieces.filter(|piece| !piece.is_empty()) {
+        let line = Line::new("before", series(piece))
+            .color(tokens.strong_text.gamma_multiply(0.3))
+            .width(1.5);
+        plot.line(line.allow_hover(false));
+    }
+}
+
 pub fn dots_of(name: &str, points: &[DVec2], colour: Color32) -> Points<'static> {
     let finite: Vec<DVec2> = points
         .iter()

@@ -22,17 +22,29 @@ impl Plots {
         let mut hovered = None;
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 2.0 * STEP;
+            let none = Vec::new();
+            let before = scene.before.as_deref();
+            let [legs, turns] = [
+                before.map_or(&none, |before| &before.legs),
+                before.map_or(&none, |before| &before.turns),
+            ];
             let series = [
-                ("legs", &scene.legs, "leg length (units)", &mut self.legs),
+                (
+                    "legs",
+                    [&scene.legs, legs],
+                    "leg length (units)",
+                    &mut self.legs,
+                ),
                 (
                     "turning angles",
-                    &scene.turns,
+                    [&scene.turns, turns],
                     "turning angle (°)",
                     &mut self.turns,
                 ),
             ];
-            for (name, points, axis, frame) in series {
-                let mut wanted = bounds_of(points.iter().copied(), name == "legs");
+            for (name, [points, was], axis, frame) in series {
+                let all = points.iter().chain(was).copied();
+                let mut wanted = bounds_of(all, name == "legs");
                 wanted.0.x = wanted.0.x.min(0.0);
                 wanted.1.x = wanted.1.x.max(count - 1.0);
                 let bounds = frame.settle(padded(wanted), dragging);
@@ -42,6 +54,7 @@ impl Plots {
                 let found = plot.label_formatter(vertex_label).show(ui, |plot| {
                     plot.set_plot_bounds(bounds);
                     zero_line(plot, tokens);
+                    before_lines(plot, was, tokens);
                     lines(plot, name, points, tokens.float.gamma_multiply(0.6));
                     plot.points(dots_of(name, points, tokens.float));
                     mark_vertex(plot, scene, points, tokens);

@@ -149,6 +149,9 @@ impl Plots {
                 if !is_graph {
                     zero_line(plot, tokens);
                 }
+                if let Some(before) = &scene.before {
+                    before_lines(plot, &before.levels, tokens);
+                }
                 lines(plot, "level", &scene.levels, tokens.comb);
                 if let Some(at) = scene.hovered_level {
                     cursor(plot, at, tokens);
