@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use batten::geometry::{
-    Amplification, BezierPolygon, ClampedPolygon, FloatPolygon, PolygonKind, segment_bezier,
+    Amplification, BezierPolygon, ClampedPolygon, FloatPolygon, segment_bezier,
 };
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use glam::{DVec3, DVec4};
@@ -89,8 +89,7 @@ fn amplification(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("amplification");
     for degree in [3, 9, 25] {
         group.bench_function(BenchmarkId::from_parameter(degree), |bencher| {
-            let (from, to) = (PolygonKind::Clamped, PolygonKind::Float);
-            bencher.iter(|| Amplification::of(from, to, black_box(degree), black_box(100)));
+            bencher.iter(|| Amplification::of_unclamping(black_box(degree), black_box(100)));
         });
     }
     group.finish();

@@ -5,7 +5,6 @@ mod exact_witness;
 
 use batten::geometry::{
     Amplification, BezierPolygon, ClampedPolygon, ExactPolygon, FloatPolygon, PolygonError,
-    PolygonKind,
 };
 use common::Random;
 use exact_witness::{
@@ -201,44 +200,18 @@ fn bezier_to_float_and_clamped_is_exact_but_for_one_rounding() {
             BezierPolygon::from_float(&float)
         };
         let chain = homogeneous(bezier.vertices(), bezier.weights());
-        for (to, knots) in [
-            (PolygonKind::Float, Knots::float(degree)),
-            (PolygonKind::Clamped, Knots::clamped(degree, segments)),
-        ] {
-            // Each vertex from the polynomial of the segment in the middle of its knots.
-            let vertex = |index: usize| {
-                let segment = index.saturating_sub(degree / 2).min(segments - 1);
-                let knots = knots.of_vertex(index).into_iter();
-                let local: Vec<Exact> = knots.map(|k| k - integer(segment as i64)).collect();
-                one.blossom(&chain[segment * degree..], 0, &local)
-            };
-            let expected: Vertices = (0..kind.count).map(vertex).collect();
-            let polygon = ExactPolygon::from_bezier(&bezier).converted(to);
-            let (points, weights) = match to {
-                PolygonKind::Float => match polygon.to_float() {
-                    Ok(float) => (
-                        float.vertices().to_vec(),
-                        float.weights().map(<[f64]>::to_vec),
-                    ),
-                    Err(error) => {
-                        assert_refusal_is_right(&format!("{kind:?}"), &error, &expected);
-                        continue;
-                    }
-                },
-                _ => {
-                    let clamped = polygon.to_clamped().expect("interpolated");
-                    (
-                        clamped.vertices().to_vec(),
-                        clamped.weights().map(<[f64]>::to_vec),
-                    )
-                }
-            };
-            assert_exact(
-                &format!("{kind:?} {to}"),
-                &points,
-                weights.as_deref(),
-                &expected,
-            );
+        // Each vertex from the polynomial of the segment in the middle of its knots.
+        let vertex = |index: usize| {
+            let segment = index.saturating_sub(degree / 2).min(segments - 1);
+            let knots = Knots::float(degree).of_vertex(index).into_iter();
+            let local: Vec<Exact> = knots.map(|k| k - integer(segment as i64)).collect();
+            one.blossom(&chain[segment * degree..], 0, &local)
+        };
+        let expected: Vertices = (0..kind.count).map(vertex).collect();
+        let what = format!("{kind:?}");
+        match ExactPolygon::from_bezier(&bezier).to_float() {
+            Ok(float) => assert_exact(&what, float.vertices(), float.weights(), &expected),
+            Err(error) => assert_refusal_is_right(&what, &error, &expected),
         }
         // Several segments, and one whose float polygon is too large, are met as nearly as can be.
         let direct = bezier.to_float();
@@ -346,15 +319,13 @@ fn there_and_back_loses_nothing_while_the_digits_are_kept() {
     for kind in kinds(1..=25) {
         let (points, weights) = (kind.points(&mut random), kind.weights(&mut random));
         let float = FloatPolygon::new(kind.degree, points, weights, false).expect("valid");
-        for through in [PolygonKind::Clamped, PolygonKind::Bezier] {
-            let exact = ExactPolygon::from_float(&float).converted(through);
-            assert_eq!((exact.kind(), exact.degree()), (through, kind.degree));
-            assert_eq!(exact.segments(), float.segments());
-            let back = exact.to_float().expect("the same polygon");
-            for (found, expected) in back.vertices().iter().zip(float.vertices()) {
-                let error = (*found - *expected).abs().max_element();
-                assert!(error <= THERE_AND_BACK * kind.scale, "{kind:?}: {error:e}");
-            }
+        let exact = ExactPolygon::from_float(&float).bezier_form();
+        assert_eq!(exact.degree(), kind.degree);
+        assert_eq!(exact.segments(), float.segments());
+        let back = exact.to_float().expect("the same polygon");
+        for (found, expected) in back.vertices().iter().zip(float.vertices()) {
+            let error = (*found - *expected).abs().max_element();
+            assert!(error <= THERE_AND_BACK * kind.scale, "{kind:?}: {error:e}");
         }
     }
 }
@@ -398,9 +369,7 @@ fn the_amplification_is_that_of_the_exact_matrix() {
                 }
             }
             let norm = rows.into_iter().max().expect("rows");
-            let found =
-                Amplification::of(PolygonKind::Clamped, PolygonKind::Float, degree, segments);
-            let found = found.expect("valid");
+            let found = Amplification::of_unclamping(degree, segments);
             for (found, expected) in [(found.norm, norm), (found.largest, largest)] {
                 let expected = expected.to_f64().expect("a number");
                 assert!(

@@ -6,7 +6,7 @@ use batten::geometry::end_correction::{
     EndDifference, EndOverlap, EndTarget, align_end, angle_between, correct_end, correct_in_turn,
 };
 use batten::geometry::joint_correction::correct_jointly;
-use batten::geometry::polygon_figures::{discrete_curvature, leg_lengths, turning_angles};
+use batten::geometry::polygon_figures::{discrete_curvature, turning_angle};
 use batten::geometry::{
     Batch, BezierPolygon, ClampedPolygon, End, FloatPolygon, MAX_DEGREE, Sampler, segment_bezier,
 };
@@ -107,9 +107,9 @@ fn look_at(polygon: &FloatPolygon, target: DVec3) {
     }
     let _ = segment_bezier(polygon, 0);
     let vertices = polygon.vertices();
-    let _ = (leg_lengths(vertices), turning_angles(vertices));
     for corner in vertices.windows(3) {
         let _ = discrete_curvature(corner[0], corner[1], corner[2]);
+        let _ = turning_angle(corner[0], corner[1], corner[2]);
         let _ = angle_between(corner[0], corner[1]);
     }
 }

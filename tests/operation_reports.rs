@@ -221,8 +221,8 @@ fn what_cannot_be_done_is_refused_with_the_place() {
         Err(PolygonError::DegreeOutOfRange { degree: 0 })
     ));
     assert!(polygon.with_degree(26).is_err());
-    for (from, to) in [(0, 8), (3, 3), (5, 4)] {
-        assert!(polygon.trimmed_at_knots(from..to).is_err(), "{from} {to}");
+    for (from, to) in [(0.0, 8.0), (3.0, 3.0), (5.0, 4.0)] {
+        assert!(polygon.trimmed(from, to, 0).is_err(), "{from} {to}");
     }
     for (from, to) in [
         (f64::NAN, 2.0),
@@ -237,10 +237,9 @@ fn what_cannot_be_done_is_refused_with_the_place() {
         .extended(End::Start, usize::MAX)
         .expect_err("far too long");
     assert!(matches!(error, PolygonError::TooManySegments { .. }));
-    assert!(polygon.split_at_knot(0).is_err() && polygon.split_at_knot(7).is_err());
+    assert!(polygon.split(0.0, 0).is_err() && polygon.split(7.0, 0).is_err());
     for refused in [
         closed.split(2.5, 3).map(|_| ()),
-        closed.split_at_knot(2).map(|_| ()),
         closed.extended(End::Start, 1).map(|_| ()),
     ] {
         let error = refused.expect_err("a periodic curve");
@@ -278,31 +277,13 @@ fn a_change_of_degree_names_the_vertex_beyond_the_range_from_either_direction() 
 }
 
 #[test]
-fn homogeneous_vertices_lead_back() {
-    let mut random = Random(3);
-    for rational in [false, true] {
-        let polygon = random.gentle(4, 9, true, rational);
-        let vertices = polygon.homogeneous_vertices();
-        let back = FloatPolygon::from_homogeneous(4, &vertices, false).expect("valid");
-        assert_eq!(back.weights(), polygon.weights());
-        let error = distance(back.vertices(), polygon.vertices());
-        assert!(error <= 4.0 * f64::EPSILON * reach(polygon.vertices()));
-        let mut vertices = vertices;
-        vertices[5].w = 0.0;
-        let refused = FloatPolygon::from_homogeneous(4, &vertices, false).expect_err("no weight");
-        assert!(matches!(refused, PolygonError::WeightLost { index: 5, .. }));
-    }
-}
-
-#[test]
 fn dragging_a_clamped_vertex_moves_the_float_polygon_as_the_amplification_says() {
-    let (from, to) = (PolygonKind::Clamped, PolygonKind::Float);
     for (degree, count) in [(3, 12), (5, 12), (9, 24), (9, 10)] {
         let clamped = ClampedPolygon::from_float(&wave(degree, count));
         let amplification = clamped.amplification();
         assert_eq!(
-            Amplification::of(from, to, degree, count - degree),
-            Ok(amplification)
+            Amplification::of_unclamping(degree, count - degree),
+            amplification
         );
         let before = clamped.to_float().expect("polynomial");
         let mut largest = 0.0_f64;

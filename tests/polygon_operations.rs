@@ -217,7 +217,10 @@ proptest! {
         let segments = polygon.segments();
         let from = (at * segments as f64) as usize;
         let to = if kind.periodic { from + segments } else { segments };
-        let part = polygon.trimmed_at_knots(from..to).expect("a part");
+        let [start, end] = [from, to].map(|knot| knot as f64);
+        let part = polygon.trimmed(start, end, 0).expect("a part");
+        prop_assert!(part.exact);
+        let part = part.polygon;
         prop_assert!(!part.is_periodic());
         for (segment, there) in (from..to).enumerate() {
             prop_assert_eq!(
@@ -236,9 +239,9 @@ proptest! {
             prop_assert!(ends.iter().all(|end| end.distance(expected) <= allowed));
         }
         if from > 0 && !kind.periodic {
-            let (before, after) = polygon.split_at_knot(from).expect("two parts");
-            prop_assert_eq!(before.vertices(), &polygon.vertices()[..from + kind.degree]);
-            prop_assert_eq!(after, part);
+            let (before, after) = polygon.split(start, 0).expect("two parts");
+            prop_assert_eq!(before.polygon.vertices(), &polygon.vertices()[..from + kind.degree]);
+            prop_assert_eq!(after.polygon, part);
         }
     }
 

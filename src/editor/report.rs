@@ -47,5 +47,5 @@ pub struct CurveReport {
     /// Its smallest and largest turning angle, in radians.
     pub turns: Option<Range>,
     /// How much errors in the closed S-polygon grow in the float S-polygon.
-    pub amplification: Option<Amplification>,
+    pub amplification: Amplification,
 }

@@ -1,21 +1,27 @@
 //! Bézier polygons: one a segment, and the chain of all of them.
 
+use std::ops::Deref;
+
 use glam::{DVec3, DVec4};
 
-use super::clamped_polygon::weighted;
+use super::control_polygon::ControlPolygon;
 use super::conversion::exact_vertices::ExactVertices;
 use super::conversion::knots::clamp;
 use super::conversion::whole_vertices::rounded_chain;
 use super::error::PolygonError;
-use super::float_polygon::{FloatPolygon, check_polygon};
+use super::float_polygon::FloatPolygon;
 
 /// Hold a curve by the Bézier polygons of its L segments in one chain of n·L + 1 vertices,
 /// neighbours sharing the vertex at their joint.
 #[derive(Clone, Debug, PartialEq)]
-pub struct BezierPolygon {
-    degree: usize,
-    vertices: Vec<DVec3>,
-    weights: Option<Vec<f64>>,
+pub struct BezierPolygon(ControlPolygon);
+
+impl Deref for BezierPolygon {
+    type Target = ControlPolygon;
+
+    fn deref(&self) -> &ControlPolygon {
+        &self.0
+    }
 }
 
 impl BezierPolygon {
@@ -29,16 +35,12 @@ impl BezierPolygon {
         vertices: Vec<DVec3>,
         weights: Option<Vec<f64>>,
     ) -> Result<Self, PolygonError> {
-        check_polygon(degree, &vertices, weights.as_deref(), false)?;
-        let found = vertices.len();
+        let polygon = ControlPolygon::new(degree, vertices, weights, false)?;
+        let found = polygon.vertices.len();
         if !(found - 1).is_multiple_of(degree) {
             return Err(PolygonError::BezierCount { found, degree });
         }
-        Ok(Self {
-            degree,
-            vertices,
-            weights,
-        })
+        Ok(Self(polygon))
     }
 
     /// Convert a float polygon, segment by segment (the paper's SB and NSB): interpolation only,
@@ -46,15 +48,13 @@ impl BezierPolygon {
     /// is the exact one rounded. A periodic curve runs round once from u = 0.
     pub fn from_float(float: &FloatPolygon) -> Self {
         let degree = float.degree();
-        let count = float.segments() + degree;
-        let vertices = (0..count).map(|index| (float.vertex(index), float.weight(index)));
-        let vertices = ExactVertices::new(vertices, float.is_rational());
-        let (vertices, weights) = rounded_chain(degree, &vertices);
-        Self {
+        let given = ExactVertices::of(&float.unrolled());
+        let (vertices, weights) = rounded_chain(degree, &given);
+        Self(ControlPolygon {
             degree,
             vertices,
             weights,
-        }
+        })
     }
 
     /// Convert to the float polygon of the same curve (the paper's BS and NBS): that of
@@ -66,29 +66,9 @@ impl BezierPolygon {
         Ok(self.nearest_float()?.polygon)
     }
 
-    /// The degree n.
-    pub fn degree(&self) -> usize {
-        self.degree
-    }
-
-    /// The n·L + 1 vertices.
-    pub fn vertices(&self) -> &[DVec3] {
-        &self.vertices
-    }
-
-    /// The weights, one a vertex, of a rational curve.
-    pub fn weights(&self) -> Option<&[f64]> {
-        self.weights.as_deref()
-    }
-
     /// The number of segments L.
     pub fn segments(&self) -> usize {
         (self.vertices.len() - 1) / self.degree
-    }
-
-    /// The vertices with their weights, which are 1 for a polynomial curve.
-    pub(super) fn weighted_vertices(&self) -> impl Iterator<Item = (DVec3, f64)> + Clone + '_ {
-        weighted(&self.vertices, self.weights.as_deref())
     }
 }
 

@@ -10,9 +10,10 @@
 
 use glam::{DMat3, DVec3};
 
+use super::control_polygon::MAX_MAGNITUDE;
 use super::end::{End, rotation_between};
 use super::error::PolygonError;
-use super::float_polygon::{FloatPolygon, MAX_MAGNITUDE};
+use super::float_polygon::FloatPolygon;
 use super::vector;
 
 /// Passes without halving of the residual after which the loop is taken not to converge.

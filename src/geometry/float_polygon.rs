@@ -1,13 +1,11 @@
 //! The float polygon: control vertices on uniform, unclamped knots.
 
+use std::ops::Deref;
+
 use glam::{DVec3, DVec4};
 
-use super::error::{MAX_DEGREE, PolygonError};
-use super::vector;
-
-/// The largest magnitude of a coordinate or weight, and the inverse of the smallest weight.
-/// Derivatives, squares and cubes of such numbers still fit into a double.
-pub const MAX_MAGNITUDE: f64 = 1e100;
+use super::control_polygon::{ControlPolygon, check_vertex, check_weight};
+use super::error::PolygonError;
 
 /// Hold a B-spline curve of degree n by N vertices on uniform knots (paper, section 1:
 /// the S-polygon in float format).
@@ -18,10 +16,16 @@ pub const MAX_MAGNITUDE: f64 = 1e100;
 /// [`FloatPolygon::new`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct FloatPolygon {
-    degree: usize,
-    vertices: Vec<DVec3>,
-    weights: Option<Vec<f64>>,
+    polygon: ControlPolygon,
     periodic: bool,
+}
+
+impl Deref for FloatPolygon {
+    type Target = ControlPolygon;
+
+    fn deref(&self) -> &ControlPolygon {
+        &self.polygon
+    }
 }
 
 impl FloatPolygon {
@@ -38,13 +42,11 @@ impl FloatPolygon {
         weights: Option<Vec<f64>>,
         periodic: bool,
     ) -> Result<Self, PolygonError> {
-        check_polygon(degree, &vertices, weights.as_deref(), periodic)?;
-        Ok(Self {
-            degree,
-            vertices: vertices.into_iter().map(without_negative_height).collect(),
-            weights,
-            periodic,
-        })
+        let mut polygon = ControlPolygon::new(degree, vertices, weights, periodic)?;
+        for vertex in &mut polygon.vertices {
+            *vertex = without_negative_height(*vertex);
+        }
+        Ok(Self { polygon, periodic })
     }
 
     /// Build a polynomial open polygon of a planar curve from (x, y) pairs.
@@ -56,34 +58,9 @@ impl FloatPolygon {
         Self::new(degree, vertices.collect(), None, false)
     }
 
-    /// The degree n.
-    pub fn degree(&self) -> usize {
-        self.degree
-    }
-
-    /// The N vertices.
-    pub fn vertices(&self) -> &[DVec3] {
-        &self.vertices
-    }
-
-    /// The weights, one a vertex, of a rational curve.
-    pub fn weights(&self) -> Option<&[f64]> {
-        self.weights.as_deref()
-    }
-
     /// Whether the curve is periodic.
     pub fn is_periodic(&self) -> bool {
         self.periodic
-    }
-
-    /// Whether the curve is rational: whether it has weights.
-    pub fn is_rational(&self) -> bool {
-        self.weights.is_some()
-    }
-
-    /// Whether the curve lies in the plane z = 0.
-    pub fn is_planar(&self) -> bool {
-        self.vertices.iter().all(|vertex| vertex.z == 0.0)
     }
 
     /// The number of segments L, which is also the end of the parameter's domain \[0, L\].
@@ -134,7 +111,7 @@ impl FloatPolygon {
             check_vertex(index, point)?;
         }
         for (index, point) in moves {
-            self.vertices[index] = without_negative_height(point);
+            self.polygon.vertices[index] = without_negative_height(point);
         }
         Ok(())
     }
@@ -148,10 +125,11 @@ impl FloatPolygon {
         self.check_index(index)?;
         check_weight(index, weight)?;
         let count = self.vertices.len();
-        let weights = self.weights.get_or_insert_with(|| vec![1.0; count]);
+        let held = &mut self.polygon.weights;
+        let weights = held.get_or_insert_with(|| vec![1.0; count]);
         weights[index] = weight;
         if weights.iter().all(|weight| *weight == 1.0) {
-            self.weights = None;
+            *held = None;
         }
         Ok(())
     }
@@ -163,9 +141,9 @@ impl FloatPolygon {
         let mut open = self.clone();
         if self.periodic {
             open.periodic = false;
-            open.vertices
-                .extend_from_slice(&self.vertices[..self.degree]);
-            if let (Some(unrolled), Some(weights)) = (&mut open.weights, &self.weights) {
+            let unrolled = &mut open.polygon.vertices;
+            unrolled.extend_from_slice(&self.vertices[..self.degree]);
+            if let (Some(unrolled), Some(weights)) = (&mut open.polygon.weights, &self.weights) {
                 unrolled.extend_from_slice(&weights[..self.degree]);
             }
         }
@@ -175,27 +153,18 @@ impl FloatPolygon {
     /// Reverse the direction in which the curve runs; the curve itself is the same.
     pub fn reversed(&self) -> Self {
         let mut reversed = self.clone();
-        reversed.vertices.reverse();
-        if let Some(weights) = &mut reversed.weights {
+        reversed.polygon.vertices.reverse();
+        if let Some(weights) = &mut reversed.polygon.weights {
             weights.reverse();
         }
         if self.periodic {
             // The joint u = 0 lies between fixed vertices: keep it where it was.
-            reversed.vertices.rotate_right(self.degree);
-            if let Some(weights) = &mut reversed.weights {
+            reversed.polygon.vertices.rotate_right(self.degree);
+            if let Some(weights) = &mut reversed.polygon.weights {
                 weights.rotate_right(self.degree);
             }
         }
         reversed
-    }
-
-    /// The diagonal of the box around the vertices: the size that tolerances are relative to.
-    pub fn size(&self) -> f64 {
-        let (low, high) = self.vertices.iter().fold(
-            (DVec3::INFINITY, DVec3::NEG_INFINITY),
-            |(low, high), vertex| (low.min(*vertex), high.max(*vertex)),
-        );
-        vector::length(high - low)
     }
 
     fn wrapped(&self, index: usize) -> usize {
@@ -216,75 +185,7 @@ impl FloatPolygon {
     }
 }
 
-/// Refuse what does not make a polygon, whatever its knots.
-pub(super) fn check_polygon(
-    degree: usize,
-    vertices: &[DVec3],
-    weights: Option<&[f64]>,
-    periodic: bool,
-) -> Result<(), PolygonError> {
-    check_degree(degree)?;
-    let (found, needed) = (vertices.len(), degree + 1);
-    if found < needed {
-        return Err(PolygonError::TooFewVertices {
-            found,
-            needed,
-            degree,
-            periodic,
-        });
-    }
-    check_vertices(vertices)?;
-    check_weights(weights, found)
-}
-
 /// Write a height of −0 as 0: a planar curve has no heights that could differ.
 fn without_negative_height(vertex: DVec3) -> DVec3 {
     vertex.with_z(vertex.z + 0.0)
-}
-
-pub(super) fn check_degree(degree: usize) -> Result<(), PolygonError> {
-    if (1..=MAX_DEGREE).contains(&degree) {
-        Ok(())
-    } else {
-        Err(PolygonError::DegreeOutOfRange { degree })
-    }
-}
-
-fn check_vertices(vertices: &[DVec3]) -> Result<(), PolygonError> {
-    let mut numbered = vertices.iter().enumerate();
-    numbered.try_for_each(|(index, vertex)| check_vertex(index, *vertex))
-}
-
-fn check_vertex(index: usize, vertex: DVec3) -> Result<(), PolygonError> {
-    for (axis, value) in ['x', 'y', 'z'].into_iter().zip(vertex.to_array()) {
-        if value.is_nan() || value.abs() > MAX_MAGNITUDE {
-            return Err(PolygonError::BadCoordinate { index, axis, value });
-        }
-    }
-    Ok(())
-}
-
-fn check_weights(weights: Option<&[f64]>, vertices: usize) -> Result<(), PolygonError> {
-    let Some(weights) = weights else {
-        return Ok(());
-    };
-    if weights.len() != vertices {
-        return Err(PolygonError::WeightCount {
-            weights: weights.len(),
-            vertices,
-        });
-    }
-    let mut numbered = weights.iter().enumerate();
-    numbered.try_for_each(|(index, weight)| check_weight(index, *weight))
-}
-
-fn check_weight(index: usize, weight: f64) -> Result<(), PolygonError> {
-    if (1.0 / MAX_MAGNITUDE..=MAX_MAGNITUDE).contains(&weight) {
-        Ok(())
-    } else {
-        Err(PolygonError::BadWeight {
-            index,
-            value: weight,
-        })
-    }
 }

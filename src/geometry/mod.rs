@@ -9,6 +9,7 @@ mod bezier_polygon;
 mod blend;
 pub mod circle_comparison;
 mod clamped_polygon;
+mod control_polygon;
 mod conversion;
 mod cut;
 mod end;
@@ -35,13 +36,14 @@ mod wording;
 
 pub use bezier_polygon::{BezierPolygon, segment_bezier};
 pub use clamped_polygon::ClampedPolygon;
+pub use control_polygon::{ControlPolygon, MAX_MAGNITUDE};
 pub use conversion::{
     Amplification, Approximation, ExactPolygon, MAX_ADDED_SEGMENTS, MAX_PART_SEGMENTS,
     MAX_SUBDIVISIONS, NearestFloat, Rounded,
 };
 pub use end::{End, rotation_between};
 pub use error::{MAX_DEGREE, PolygonError};
-pub use float_polygon::{FloatPolygon, MAX_MAGNITUDE};
+pub use float_polygon::FloatPolygon;
 pub use jet::Jet;
 pub use levels::{CurvatureLevels, LEVEL_ORDER, LEVELS, SegmentExpansion};
 pub use nearest::Nearest;

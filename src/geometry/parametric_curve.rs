@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::control_polygon::ControlPolygon;
 use super::float_polygon::FloatPolygon;
 use super::jet::Jet;
 use super::levels::{CurvatureLevels, LEVEL_ORDER, SegmentExpansion};
@@ -145,7 +146,7 @@ impl ParametricCurve for FloatPolygon {
     }
 
     fn is_planar(&self) -> bool {
-        self.is_planar()
+        ControlPolygon::is_planar(self)
     }
 
     fn continuity(&self) -> usize {

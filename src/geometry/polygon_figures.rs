@@ -5,7 +5,6 @@ use glam::DVec3;
 use super::end_correction::angle_between;
 use super::float_polygon::FloatPolygon;
 use super::jet::Jet;
-use super::vector;
 
 /// The smallest and the largest of some values.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,22 +49,8 @@ impl Range {
     }
 }
 
-/// Measure the legs of a polygon, |P_{i+1} − P_i|: N − 1 lengths.
-pub fn leg_lengths(vertices: &[DVec3]) -> Vec<f64> {
-    let legs = vertices.windows(2);
-    legs.map(|leg| vector::length(leg[1] - leg[0])).collect()
-}
-
-/// Measure the turning angles of a polygon at its inner vertices, in radians: N − 2 angles.
-///
-/// In the plane z = 0 left turns are positive, in space all angles are. A leg of length 0 turns
-/// by 0.
-pub fn turning_angles(vertices: &[DVec3]) -> Vec<f64> {
-    let corners = vertices.windows(3);
-    corners.map(|v| turning_angle(v[0], v[1], v[2])).collect()
-}
-
-/// Measure the angle by which a polygon turns at `corner`, as [`turning_angles`] does.
+/// Measure the angle by which a polygon turns at `corner`, in radians: in the plane z = 0 left turns
+/// are positive, in space all angles are. A leg of length 0 turns by 0.
 pub fn turning_angle(before: DVec3, corner: DVec3, after: DVec3) -> f64 {
     let angle = angle_between(corner - before, after - corner);
     if before.z == 0.0 && corner.z == 0.0 && after.z == 0.0 {

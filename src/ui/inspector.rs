@@ -214,15 +214,16 @@ fn figures_ui(ui: &mut Ui, curve: &Curve, report: &CurveReport) {
     widgets::figure_row(ui, "Legs", &range(report.legs, plain));
     let angle = |value: f64| figures::degrees(value, 3);
     widgets::figure_row(ui, "Turning angles", &range(report.turns, angle));
-    if let Some(amplification) = report.amplification {
-        let text = format!("× {}", figures::significant(amplification.largest, 4));
-        let tooltip = format!(
-            "How much an error in one vertex of the closed S-polygon can grow in the float \
-             S-polygon; errors in all of them together by up to {}",
-            figures::significant(amplification.norm, 4)
-        );
-        widgets::figure_row(ui, "Closed to float", &text).on_hover_text(tooltip);
-    }
+    let text = format!(
+        "× {}",
+        figures::significant(report.amplification.largest, 4)
+    );
+    let tooltip = format!(
+        "How much an error in one vertex of the closed S-polygon can grow in the float S-polygon; \
+         errors in all of them together by up to {}",
+        figures::significant(report.amplification.norm, 4)
+    );
+    widgets::figure_row(ui, "Closed to float", &text).on_hover_text(tooltip);
 }
 
 /// Write a range as "low … high".

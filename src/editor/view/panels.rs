@@ -4,7 +4,7 @@ use crate::document::CurveId;
 use crate::editor::Editor;
 use crate::editor::report::{CurveReport, Readout};
 use crate::editor::view::scene::HoverScene;
-use crate::geometry::{Amplification, FloatPolygon, PolygonKind};
+use crate::geometry::Amplification;
 
 impl Editor {
     /// Whether the active curve is planar, if there is one.
@@ -36,14 +36,15 @@ impl Editor {
     pub fn report(&self) -> Option<CurveReport> {
         let analysis = self.analyses.get(self.active()?)?;
         let figures = analysis.float().figures();
+        let polygon = &analysis.curve().polygon;
         Some(CurveReport {
             planar: analysis.is_planar(),
-            segments: analysis.curve().polygon.segments(),
+            segments: polygon.segments(),
             length: analysis.samples().length(),
             curvature: analysis.samples().curvature(),
             legs: figures.legs,
             turns: figures.turns,
-            amplification: clamped_amplification(&analysis.curve().polygon),
+            amplification: Amplification::of_unclamping(polygon.degree(), polygon.segments()),
         })
     }
 
@@ -74,10 +75,4 @@ impl Editor {
         let hit = self.context().hits.vertex(place)?;
         (hit.0 == id).then_some(hit.1)
     }
-}
-
-/// How much an error in a vertex of the closed S-polygon grows in the float S-polygon.
-fn clamped_amplification(polygon: &FloatPolygon) -> Option<Amplification> {
-    let (degree, segments) = (polygon.degree(), polygon.segments());
-    Amplification::of(PolygonKind::Clamped, PolygonKind::Float, degree, segments).ok()
 }

@@ -1,4 +1,5 @@
-//! The matrices between the vertices of one segment's float and Bézier polygon.
+//! The matrices between the vertices of one segment's float and Bézier polygon, and products with
+//! them.
 
 use crate::geometry::basis::raise_basis;
 use crate::geometry::expansion::Expansion;
@@ -64,6 +65,30 @@ pub(in crate::geometry) fn blossom_row(arguments: impl Iterator<Item = i64>) -> 
 /// as there is one: from there an error in the Bézier vertices grows least.
 pub(in crate::geometry) fn middle_segment(degree: usize, segments: usize, index: usize) -> usize {
     index.saturating_sub(degree / 2).min(segments - 1)
+}
+
+/// Sum up the products of a row and as many numbers.
+pub(in crate::geometry) fn dot<const K: usize>(
+    row: &[Expansion<K>],
+    numbers: &[Expansion<K>],
+) -> Expansion<K> {
+    let products = row.iter().zip(numbers);
+    products.fold(Expansion::default(), |sum, (a, b)| sum.plus_product(*a, *b))
+}
+
+/// Convert one coordinate of a float polygon to that of the chain of Bézier polygons.
+pub(in crate::geometry) fn chain<const K: usize>(
+    degree: usize,
+    matrix: &[Expansion<K>],
+    axis: &[Expansion<K>],
+) -> Vec<Expansion<K>> {
+    let size = degree + 1;
+    let mut chain = Vec::with_capacity(degree * (axis.len() - degree) + 1);
+    for (segment, window) in axis.windows(size).enumerate() {
+        let shared = usize::from(segment > 0);
+        chain.extend(matrix.chunks(size).skip(shared).map(|row| dot(row, window)));
+    }
+    chain
 }
 
 #[cfg(test)]

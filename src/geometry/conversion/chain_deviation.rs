@@ -8,8 +8,7 @@
 //!
 //! a mean, with the positive weights of a, of the same quotients vertex by vertex.
 
-use super::bezier_matrix::float_to_bezier;
-use super::exact_polygon::chain;
+use super::bezier_matrix::{chain, float_to_bezier};
 use super::exact_vertices::ExactVertices;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::vector;
@@ -27,9 +26,7 @@ const ROUNDINGS: f64 = 1.0 + 16.0 * f64::EPSILON;
 /// numbers leave their range.
 pub(in crate::geometry) fn chain_deviation(given: &ExactVertices<2>, float: &FloatPolygon) -> f64 {
     let degree = float.degree();
-    let count = float.segments() + degree;
-    let vertices = (0..count).map(|index| (float.vertex(index), float.weight(index)));
-    let vertices = ExactVertices::<2>::new(vertices, float.is_rational());
+    let vertices = ExactVertices::<2>::of(&float.unrolled());
     let matrix = float_to_bezier(degree);
     let found = vertices.map(|axis| chain(degree, &matrix, axis));
     let bound = if given.is_rational() {

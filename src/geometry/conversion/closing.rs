@@ -34,7 +34,7 @@ pub(in crate::geometry) fn check_periodic(
 /// As [`ExactPolygon::to_float`].
 pub(in crate::geometry) fn periodic(exact: &ExactPolygon) -> Result<FloatPolygon, PolygonError> {
     let to = PolygonKind::Float;
-    let (vertices, weights) = exact.rounded(to)?;
+    let (vertices, weights) = exact.rounded()?;
     FloatPolygon::new(exact.degree(), vertices, weights, true)
         .map_err(|error| converted_error(to, error))
 }

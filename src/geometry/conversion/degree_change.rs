@@ -8,9 +8,10 @@ use super::exact_polygon::ExactPolygon;
 use super::kept_ends::with_ends;
 use super::quasi_interpolation::{NewKnots, quasi_interpolated};
 use crate::geometry::bezier_polygon::BezierPolygon;
+use crate::geometry::control_polygon::check_degree;
 use crate::geometry::end::End;
 use crate::geometry::error::PolygonError;
-use crate::geometry::float_polygon::{FloatPolygon, check_degree};
+use crate::geometry::float_polygon::FloatPolygon;
 
 impl FloatPolygon {
     /// Raise or lower the degree, keeping the segments and their parameters.

@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::exact_vertices::ExactVertices;
 use super::knots::Direction;
 use super::whole_vertices::WholeVertices;
+use crate::geometry::control_polygon::ControlPolygon;
 
 /// Hold the vertices near the ends, the only ones that differ between the float and the clamped
 /// polygon of a curve: the first and the last n − 1.
@@ -26,21 +27,17 @@ pub(in crate::geometry) struct ConvertedEnds<const K: usize> {
 impl<const K: usize> ConvertedEnds<K> {
     /// Convert the ends of a polygon of degree n by steps whose rows sum up to `norm`.
     pub(in crate::geometry) fn new(
-        degree: usize,
-        points: &[DVec3],
-        weights: Option<&[f64]>,
+        polygon: &ControlPolygon,
         direction: Direction,
         norm: f64,
     ) -> Self {
-        let count = points.len();
+        let (degree, count) = (polygon.degree(), polygon.vertices().len());
         let kept = count.min(2 * degree);
-        let place = |index| placed(index, degree, count);
-        let vertex = |index| {
-            let weight = weights.and_then(|weights| weights.get(index));
-            (points[index], weight.copied().unwrap_or(1.0))
-        };
-        let ends = (0..kept).map(place).map(vertex);
-        let given = ExactVertices::new(ends, weights.is_some());
+        let inner = degree..degree + count - kept;
+        let numbered = polygon.weighted_vertices().enumerate();
+        let ends = numbered.filter(|(index, _)| !inner.contains(index));
+        let ends: Vec<_> = ends.map(|(_, vertex)| vertex).collect();
+        let given = ExactVertices::new(ends.into_iter(), polygon.is_rational());
         let mut vertices = given.clone();
         vertices.change(|axis| direction.convert(degree, axis));
         let entered = given.largest(0..kept).map(|largest| largest * norm);

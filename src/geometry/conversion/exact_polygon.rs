@@ -1,14 +1,15 @@
 //! A polygon that keeps its digits on the way from one kind of polygon to another.
 
-use glam::DVec3;
-
 use super::amplification::Amplification;
-use super::bezier_matrix::{blossom_row, float_to_bezier, middle_segment};
-use super::exact_vertices::{ExactVertices, check_weight, converted_error, weight_loss};
-use super::knots::{clamp, unclamp};
+use super::bezier_matrix::{blossom_row, chain, dot, float_to_bezier, middle_segment};
+use super::exact_vertices::{
+    ExactVertices, RoundedVertices, check_weight, converted_error, weight_loss,
+};
+use super::knots::unclamp;
 use crate::geometry::bezier_polygon::BezierPolygon;
 use crate::geometry::blend::Blend;
 use crate::geometry::clamped_polygon::ClampedPolygon;
+use crate::geometry::control_polygon::ControlPolygon;
 use crate::geometry::error::{MAX_DEGREE, PolygonError};
 use crate::geometry::expansion::Expansion;
 use crate::geometry::float_polygon::FloatPolygon;
@@ -30,33 +31,17 @@ pub struct ExactPolygon {
 impl ExactPolygon {
     /// Take a float polygon as it is; a periodic one is unrolled.
     pub fn from_float(float: &FloatPolygon) -> Self {
-        let count = float.segments() + float.degree();
-        let vertices = (0..count).map(|index| (float.vertex(index), float.weight(index)));
-        Self::new(
-            PolygonKind::Float,
-            float.degree(),
-            vertices,
-            float.is_rational(),
-        )
+        Self::new(PolygonKind::Float, &float.unrolled())
     }
 
     /// Take a clamped polygon as it is.
     pub fn from_clamped(clamped: &ClampedPolygon) -> Self {
-        let rational = clamped.weights().is_some();
-        let vertices = clamped.weighted_vertices();
-        Self::new(PolygonKind::Clamped, clamped.degree(), vertices, rational)
+        Self::new(PolygonKind::Clamped, clamped)
     }
 
     /// Take a chain of Bézier polygons as it is.
     pub fn from_bezier(bezier: &BezierPolygon) -> Self {
-        let rational = bezier.weights().is_some();
-        let vertices = bezier.weighted_vertices();
-        Self::new(PolygonKind::Bezier, bezier.degree(), vertices, rational)
-    }
-
-    /// Which polygon of the curve this is.
-    pub fn kind(&self) -> PolygonKind {
-        self.kind
+        Self::new(PolygonKind::Bezier, bezier)
     }
 
     /// The degree n.
@@ -72,27 +57,38 @@ impl ExactPolygon {
         }
     }
 
-    /// Convert to another polygon of the same curve, to some 45 digits of the largest number on
-    /// the way.
+    /// Convert to the float polygon, to some 45 digits of the largest number on the way.
     ///
     /// From Bézier polygons each vertex is taken from the segment in the middle of its knots;
     /// whether the others agree is not looked at.
-    pub fn converted(&self, to: PolygonKind) -> Self {
-        use PolygonKind::{Bezier, Clamped, Float};
-        let degree = self.degree;
-        match (self.kind, to) {
-            (Float, Clamped) => self.with(to, 1.0, |v| v.change(|axis| clamp(degree, axis))),
-            (Clamped, Float) => {
+    pub fn float_form(&self) -> Self {
+        let (degree, to) = (self.degree, PolygonKind::Float);
+        match self.kind {
+            PolygonKind::Float => self.clone(),
+            PolygonKind::Clamped => {
                 let norm = Amplification::of_unclamping(degree, self.segments()).norm;
                 self.with(to, norm, |v| v.change(|axis| unclamp(degree, axis)))
             }
-            (Float, Bezier) => {
+            PolygonKind::Bezier => {
+                let segments = self.segments();
+                self.blossoms(segments + degree, |index| {
+                    let segment = middle_segment(degree, segments, index);
+                    (segment, segment as i64)
+                })
+            }
+        }
+    }
+
+    /// Convert to the Bézier polygons, to as many digits.
+    pub fn bezier_form(&self) -> Self {
+        let (degree, to) = (self.degree, PolygonKind::Bezier);
+        match self.kind {
+            PolygonKind::Bezier => self.clone(),
+            PolygonKind::Clamped => self.float_form().bezier_form(),
+            PolygonKind::Float => {
                 let matrix = float_to_bezier(degree);
                 self.with(to, 1.0, |v| *v = v.map(|axis| chain(degree, &matrix, axis)))
             }
-            (Bezier, Float | Clamped) => self.blossoms(to),
-            (Clamped, Bezier) => self.converted(Float).converted(Bezier),
-            (Float, Float) | (Clamped, Clamped) | (Bezier, Bezier) => self.clone(),
         }
     }
 
@@ -103,19 +99,9 @@ impl ExactPolygon {
     /// more than 2⁻¹⁵⁰ of what it is a difference of), [`PolygonError::Overflow`] if it has a
     /// coordinate beyond the range of numbers.
     pub fn to_float(&self) -> Result<FloatPolygon, PolygonError> {
-        let (vertices, weights) = self.rounded(PolygonKind::Float)?;
+        let (vertices, weights) = self.float_form().rounded()?;
         FloatPolygon::new(self.degree, vertices, weights, false)
             .map_err(|error| converted_error(PolygonKind::Float, error))
-    }
-
-    /// Round to the clamped polygon, converting if this is not one.
-    ///
-    /// # Errors
-    /// As [`ExactPolygon::to_float`].
-    pub fn to_clamped(&self) -> Result<ClampedPolygon, PolygonError> {
-        let (vertices, weights) = self.rounded(PolygonKind::Clamped)?;
-        ClampedPolygon::new(self.degree, vertices, weights)
-            .map_err(|error| converted_error(PolygonKind::Clamped, error))
     }
 
     /// Round to the Bézier polygons, converting if these are not they.
@@ -123,7 +109,7 @@ impl ExactPolygon {
     /// # Errors
     /// As [`ExactPolygon::to_float`].
     pub fn to_bezier(&self) -> Result<BezierPolygon, PolygonError> {
-        let (vertices, weights) = self.rounded(PolygonKind::Bezier)?;
+        let (vertices, weights) = self.bezier_form().rounded()?;
         BezierPolygon::new(self.degree, vertices, weights)
             .map_err(|error| converted_error(PolygonKind::Bezier, error))
     }
@@ -137,7 +123,7 @@ impl ExactPolygon {
         if degree > MAX_DEGREE {
             return Err(PolygonError::DegreeOutOfRange { degree });
         }
-        let mut raised = self.converted(PolygonKind::Bezier);
+        let mut raised = self.bezier_form();
         raised.vertices = raised.vertices.map(|axis| raised_chain(self.degree, axis));
         raised.degree = degree;
         Ok(raised)
@@ -146,16 +132,11 @@ impl ExactPolygon {
     /// Convert Bézier polygons that close into one curve to the vertices of a periodic float
     /// polygon, without looking whether they do.
     pub(in crate::geometry) fn periodic_blossoms(&self) -> Self {
-        let (degree, segments) = (self.degree, self.segments());
-        self.blossoms_at(PolygonKind::Float, segments, |index| {
-            let first = index as i64 + 1 - degree as i64;
-            let segment = (index + segments * degree - degree / 2) % segments;
-            // The knots, counted from the start of the middle segment, wherever that wraps to.
-            let start = index as i64 - (degree / 2) as i64;
-            (
-                segment,
-                (first..=index as i64).map(|knot| knot - start).collect(),
-            )
+        let (half, segments) = (self.degree / 2, self.segments());
+        self.blossoms(segments, |index| {
+            // The knots count from the start of the middle segment, wherever that wraps to.
+            let start = index as i64 - half as i64;
+            ((index + segments * self.degree - half) % segments, start)
         })
     }
 
@@ -182,16 +163,11 @@ impl ExactPolygon {
         &self.vertices
     }
 
-    fn new(
-        kind: PolygonKind,
-        degree: usize,
-        vertices: impl Iterator<Item = (DVec3, f64)> + Clone,
-        rational: bool,
-    ) -> Self {
+    fn new(kind: PolygonKind, polygon: &ControlPolygon) -> Self {
         Self {
             kind,
-            degree,
-            vertices: ExactVertices::new(vertices, rational),
+            degree: polygon.degree(),
+            vertices: ExactVertices::of(polygon),
             weight_loss: 0.0,
         }
     }
@@ -209,28 +185,15 @@ impl ExactPolygon {
         norm * (self.weight_loss + weight_loss(self.vertices.largest_weight()))
     }
 
-    fn blossoms(&self, to: PolygonKind) -> Self {
-        let (degree, segments) = (self.degree, self.segments());
-        self.blossoms_at(to, segments + degree, |index| {
-            let segment = middle_segment(degree, segments, index);
-            let knots = vertex_knots(to, degree, segments, index);
-            (segment, knots.map(|knot| knot - segment as i64).collect())
-        })
-    }
-
-    /// Compute `count` vertices from Bézier polygons: for each the segment to take it from, and
-    /// its n knots counted from there.
-    fn blossoms_at(
-        &self,
-        to: PolygonKind,
-        count: usize,
-        place: impl Fn(usize) -> (usize, Vec<i64>),
-    ) -> Self {
+    /// Compute `count` float vertices from Bézier polygons, each from the segment in the middle of
+    /// its knots: `place` tells that segment's number and where its knots count from.
+    fn blossoms(&self, count: usize, place: impl Fn(usize) -> (usize, i64)) -> Self {
         let mut norm = 0.0_f64;
         let rows: Vec<(usize, Vec<Expansion<3>>)> = (0..count)
             .map(|index| {
-                let (segment, knots) = place(index);
-                let row = blossom_row(knots.into_iter());
+                let (segment, start) = place(index);
+                let last = index as i64 - start;
+                let row = blossom_row(last + 1 - self.degree as i64..=last);
                 norm = norm.max(row.iter().map(|entry| entry.abs() as f64).sum());
                 let row = row.into_iter().map(Expansion::from).collect();
                 (segment * self.degree, row)
@@ -242,72 +205,24 @@ impl ExactPolygon {
             rows.map(vertex).collect()
         };
         Self {
-            kind: to,
+            kind: PolygonKind::Float,
             degree: self.degree,
             vertices: self.vertices.map(product),
             weight_loss: self.loss_after(norm),
         }
     }
 
-    /// Round to points and weights of this kind of polygon, converting if needed.
+    /// Round to points and weights.
     ///
     /// # Errors
     /// [`PolygonError::WeightLost`] as in [`ExactPolygon::to_float`].
-    pub(in crate::geometry) fn rounded(
-        &self,
-        to: PolygonKind,
-    ) -> Result<RoundedVertices, PolygonError> {
-        if self.kind != to {
-            return self.converted(to).rounded(to);
-        }
+    pub(in crate::geometry) fn rounded(&self) -> Result<RoundedVertices, PolygonError> {
         let (vertices, weights) = self.vertices.all_rounded();
         for (index, weight) in weights.iter().flatten().enumerate() {
-            check_weight(to, index, *weight, self.weight_loss)?;
+            check_weight(self.kind, index, *weight, self.weight_loss)?;
         }
         Ok((vertices, weights))
     }
-}
-
-/// Points and, of a rational curve, weights.
-pub(in crate::geometry) type RoundedVertices = (Vec<DVec3>, Option<Vec<f64>>);
-
-/// The n knots of a vertex of an open float or clamped polygon.
-pub(in crate::geometry) fn vertex_knots(
-    kind: PolygonKind,
-    degree: usize,
-    segments: usize,
-    index: usize,
-) -> impl Iterator<Item = i64> {
-    let (low, high) = match kind {
-        PolygonKind::Clamped => (0, segments as i64),
-        PolygonKind::Float | PolygonKind::Bezier => (i64::MIN, i64::MAX),
-    };
-    let first = index as i64 + 1 - degree as i64;
-    (first..=index as i64).map(move |knot| knot.clamp(low, high))
-}
-
-/// Sum up the products of a row and as many numbers.
-pub(in crate::geometry) fn dot<const K: usize>(
-    row: &[Expansion<K>],
-    numbers: &[Expansion<K>],
-) -> Expansion<K> {
-    let products = row.iter().zip(numbers);
-    products.fold(Expansion::default(), |sum, (a, b)| sum.plus_product(*a, *b))
-}
-
-/// Convert one coordinate of a float polygon to that of the chain of Bézier polygons.
-pub(in crate::geometry) fn chain<const K: usize>(
-    degree: usize,
-    matrix: &[Expansion<K>],
-    axis: &[Expansion<K>],
-) -> Vec<Expansion<K>> {
-    let size = degree + 1;
-    let mut chain = Vec::with_capacity(degree * (axis.len() - degree) + 1);
-    for (segment, window) in axis.windows(size).enumerate() {
-        let shared = usize::from(segment > 0);
-        chain.extend(matrix.chunks(size).skip(shared).map(|row| dot(row, window)));
-    }
-    chain
 }
 
 /// Raise the degree of each polygon of a chain by one: vertex k becomes

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use glam::{DVec3, DVec4};
 
+use crate::geometry::control_polygon::ControlPolygon;
 use crate::geometry::error::PolygonError;
 use crate::geometry::expansion::Expansion;
 use crate::geometry::polygon_kind::PolygonKind;
@@ -26,6 +27,11 @@ pub(in crate::geometry) struct ExactVertices<const K: usize> {
 }
 
 impl<const K: usize> ExactVertices<K> {
+    /// Take the vertices of a polygon without error.
+    pub(in crate::geometry) fn of(polygon: &ControlPolygon) -> Self {
+        Self::new(polygon.weighted_vertices(), polygon.is_rational())
+    }
+
     /// Take vertices and weights without error.
     pub(in crate::geometry) fn new(
         vertices: impl Iterator<Item = (DVec3, f64)> + Clone,
@@ -175,12 +181,15 @@ impl<const K: usize> ExactVertices<K> {
     }
 
     /// Round all vertices to doubles: points and, of a rational curve, weights.
-    pub(in crate::geometry) fn all_rounded(&self) -> (Vec<DVec3>, Option<Vec<f64>>) {
+    pub(in crate::geometry) fn all_rounded(&self) -> RoundedVertices {
         let all = (0..self.len()).map(|index| self.rounded(index));
         let (points, weights): (Vec<DVec3>, Vec<f64>) = all.unzip();
         (points, self.is_rational().then_some(weights))
     }
 }
+
+/// Points and, of a rational curve, weights.
+pub(in crate::geometry) type RoundedVertices = (Vec<DVec3>, Option<Vec<f64>>);
 
 /// Bound what computing a weight of numbers whose magnitudes sum up to `total` loses.
 pub(in crate::geometry) fn weight_loss(total: f64) -> f64 {

@@ -14,7 +14,6 @@ pub(in crate::geometry) mod end_conversion;
 pub(in crate::geometry) mod exact_polygon;
 pub(in crate::geometry) mod exact_vertices;
 pub(in crate::geometry) mod extension;
-pub(in crate::geometry) mod homogeneous;
 pub(in crate::geometry) mod kept_ends;
 pub(in crate::geometry) mod knots;
 pub(in crate::geometry) mod nearest_float;

@@ -156,7 +156,7 @@ impl ClampedPolygon {
     pub fn nearest_periodic_float(&self) -> Result<NearestFloat, PolygonError> {
         check_periodic(self.degree(), self.segments())?;
         let given = ExactPolygon::from_clamped(self);
-        let exact = periodic(&given.converted(PolygonKind::Float).folded());
+        let exact = periodic(&given.float_form().folded());
         let worst = |polygon: &FloatPolygon| self.worst_vertex(polygon);
         nearest_periodic(given, exact, PolygonKind::Clamped, worst)
     }
@@ -239,7 +239,7 @@ struct Target {
 
 impl Target {
     fn new(given: ExactPolygon, periodic: bool) -> Self {
-        let chain = given.converted(PolygonKind::Bezier);
+        let chain = given.bezier_form();
         Self {
             degree: given.degree(),
             reach: reach(chain.vertices()),

@@ -11,7 +11,7 @@
 //! smooth, and has an error of order h^{m+1}. Where ξ is a knot of the curve the mean of both
 //! sides is taken; beyond the ends their polynomials are continued.
 
-use super::exact_polygon::dot;
+use super::bezier_matrix::dot;
 use super::exact_vertices::{ExactVertices, check_weight, converted_error, weight_loss};
 use crate::geometry::basis::uniform_basis_derivative;
 use crate::geometry::error::PolygonError;
@@ -46,9 +46,7 @@ pub(in crate::geometry) fn quasi_interpolated(
 ) -> Result<FloatPolygon, PolygonError> {
     let to = PolygonKind::Float;
     let rows = rows(curve, knots);
-    let count = curve.vertices().len();
-    let given = (0..count).map(|index| (curve.vertex(index), curve.weight(index)));
-    let given = ExactVertices::<3>::new(given, curve.is_rational());
+    let given = ExactVertices::<3>::of(curve);
     let vertices = given.map(|axis| {
         let around: Vec<Number> = axis.iter().chain(axis).copied().collect();
         let rows = rows.iter();

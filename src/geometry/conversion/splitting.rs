@@ -16,38 +16,6 @@ pub const MAX_SUBDIVISIONS: u32 = 12;
 pub const MAX_PART_SEGMENTS: usize = 100_000;
 
 impl FloatPolygon {
-    /// Take the part of the curve between two knots, u = `knots.start` … `knots.end`: a window of
-    /// the vertices, bit for bit. The part is open; of a periodic curve it may run across the
-    /// joint, from a knot below L to one up to L further on.
-    ///
-    /// # Errors
-    /// [`PolygonError::NoSuchPart`] if the range is empty or leaves the curve.
-    pub fn trimmed_at_knots(&self, knots: Range<usize>) -> Result<Self, PolygonError> {
-        self.check_part(knots.start as f64, knots.end as f64)?;
-        self.window(knots)
-    }
-
-    /// Take the vertices of the segments between two knots, across the joint as often as needed.
-    fn window(&self, knots: Range<usize>) -> Result<Self, PolygonError> {
-        let window = knots.start..knots.end + self.degree();
-        let vertices = window.clone().map(|index| self.vertex(index)).collect();
-        let weights = window.map(|index| self.weight(index)).collect();
-        let weights = Some(weights).filter(|_| self.is_rational());
-        Self::new(self.degree(), vertices, weights, false)
-    }
-
-    /// Cut an open curve at a knot, exactly, into the parts before and behind it.
-    ///
-    /// # Errors
-    /// [`PolygonError::NoSuchPart`] if the knot is not an inner one, 1 … L − 1;
-    /// [`PolygonError::PeriodicCurve`] if the curve is periodic, which a single cut does not
-    /// part: see [`FloatPolygon::trimmed_at_knots`].
-    pub fn split_at_knot(&self, knot: usize) -> Result<(Self, Self), PolygonError> {
-        self.check_open("cut in two at one place")?;
-        let before = self.trimmed_at_knots(0..knot)?;
-        Ok((before, self.trimmed_at_knots(knot..self.segments())?))
-    }
-
     /// Take the part of the curve between any two parameters, as an open curve.
     ///
     /// If up to `subdivisions` halvings of the segments (never more than [`MAX_SUBDIVISIONS`])
@@ -58,8 +26,8 @@ impl FloatPolygon {
     /// [`FloatPolygon::with_degree`].
     ///
     /// # Errors
-    /// [`PolygonError::NoSuchPart`] as in [`FloatPolygon::trimmed_at_knots`], also for what is
-    /// not a number; [`PolygonError::TooManySegments`] if it had more than [`MAX_PART_SEGMENTS`];
+    /// [`PolygonError::NoSuchPart`] if the part is empty or leaves the curve, also for what is not a
+    /// number; [`PolygonError::TooManySegments`] if it had more than [`MAX_PART_SEGMENTS`];
     /// [`PolygonError::WeightLost`] or [`PolygonError::Overflow`] if the part cannot
     /// be held.
     pub fn trimmed(
@@ -108,6 +76,15 @@ impl FloatPolygon {
             before,
             self.trimmed(at, self.segments() as f64, subdivisions)?,
         ))
+    }
+
+    /// Take the vertices of the segments between two knots, across the joint as often as needed.
+    fn window(&self, knots: Range<usize>) -> Result<Self, PolygonError> {
+        let window = knots.start..knots.end + self.degree();
+        let vertices = window.clone().map(|index| self.vertex(index)).collect();
+        let weights = window.map(|index| self.weight(index)).collect();
+        let weights = Some(weights).filter(|_| self.is_rational());
+        Self::new(self.degree(), vertices, weights, false)
     }
 
     fn trimmed_near(

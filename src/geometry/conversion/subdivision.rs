@@ -20,8 +20,7 @@ impl FloatPolygon {
         let (degree, segments) = (self.degree(), self.segments());
         let count = 2 * segments + if self.is_periodic() { 0 } else { degree };
         let mask = mask(degree);
-        let given = (0..segments + degree).map(|index| (self.vertex(index), self.weight(index)));
-        let given = ExactVertices::<2>::new(given, self.is_rational());
+        let given = ExactVertices::<2>::of(&self.unrolled());
         let vertices = given.map(|axis| {
             (0..count)
                 .map(|index| refined(&mask, degree, axis, index))

@@ -8,9 +8,8 @@ use glam::DVec3;
 use num_bigint::BigInt;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
-use super::bezier_matrix::float_to_bezier;
-use super::exact_polygon::{RoundedVertices, chain};
-use super::exact_vertices::ExactVertices;
+use super::bezier_matrix::{chain, float_to_bezier};
+use super::exact_vertices::{ExactVertices, RoundedVertices};
 use super::knots::Direction;
 use crate::geometry::blend::Blend;
 use crate::geometry::features::whole_numbers::scaled_numbers;

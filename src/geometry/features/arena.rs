@@ -8,16 +8,11 @@
 
 use std::mem::take;
 
-use super::numerators::Ring;
-use super::scalar::Scalar;
+use super::ring::Ring;
+use super::scalar::{FLOOR, Scalar};
 use crate::geometry::cut::cut;
 use crate::geometry::expansion::DoubleDouble;
 use crate::geometry::tables::{bernstein_matrix, binomials};
-
-/// The smallest error bound of a number that is not an exact 0. Curves come normalised to
-/// size 1, so that products of two such bounds, and their roundings, stay within the range of
-/// numbers.
-pub(super) const FLOOR: f64 = 1.0 / (1_u128 << 100) as f64 / (1_u128 << 100) as f64;
 
 /// What the arithmetic of the bounds itself may round: fewer than 2⁸ operations in a chain or
 /// 2¹² in a sum.

@@ -2,13 +2,13 @@
 
 use std::cell::Cell;
 
-use num_bigint::{BigInt, Sign as WholeSign};
+use num_bigint::BigInt;
 
 use super::exact_polynomial::ExactPolynomial;
 use super::isolation::{ROOT_WIDTH, exact_cut};
 use super::refinement::{Bracket, refine};
 use super::sign_piece::{Sign, SignPiece, append};
-use super::whole_numbers::fraction;
+use super::whole_numbers::{fraction, sign};
 
 /// Where to cut a piece: odd numbers of these shares, the middle first. A polynomial has at most
 /// as many roots as its degree says, below 512, so that not all of these places are roots.
@@ -60,15 +60,6 @@ impl ExactPolynomial {
     fn signs(&self) -> Vec<i8> {
         let signs = self.coefficients().iter().map(sign);
         signs.filter(|sign| *sign != 0).collect()
-    }
-}
-
-/// Tell the sign of a whole number.
-pub(super) fn sign(value: &BigInt) -> i8 {
-    match value.sign() {
-        WholeSign::Minus => -1,
-        WholeSign::NoSign => 0,
-        WholeSign::Plus => 1,
     }
 }
 

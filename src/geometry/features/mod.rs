@@ -40,6 +40,7 @@ mod floating;
 mod isolation;
 mod numerators;
 mod refinement;
+mod ring;
 mod scalar;
 mod segment_features;
 mod segment_shape;

@@ -19,6 +19,7 @@ use std::array::from_fn;
 
 use super::arena::{Arena, Polynomial};
 use super::feature::Quantity;
+use super::ring::Ring;
 use super::scalar::Scalar;
 use super::segment_shape::SegmentShape;
 
@@ -71,19 +72,6 @@ impl Numerators {
 
 /// A vector of polynomials.
 pub(super) type Vector<P> = [P; 3];
-
-/// The arithmetic that the numerators are multiplied out in.
-pub(super) trait Ring {
-    /// Its polynomials.
-    type Polynomial: Clone;
-
-    /// Add up products of polynomials, each with a small whole factor. All products that are not 0
-    /// must have the same degree.
-    fn sum_of_products(
-        &mut self,
-        terms: &[(i32, &Self::Polynomial, &Self::Polynomial)],
-    ) -> Self::Polynomial;
-}
 
 /// Hold the derivatives of the homogeneous curve.
 #[derive(Debug)]

@@ -4,6 +4,11 @@ use std::ops::{Add, Div, Mul};
 
 use crate::geometry::expansion::DoubleDouble;
 
+/// The smallest error bound of a number that is not an exact 0. Curves come normalised to
+/// size 1, so that products of two such bounds, and their roundings, stay within the range of
+/// numbers.
+pub(super) const FLOOR: f64 = 1.0 / (1_u128 << 100) as f64 / (1_u128 << 100) as f64;
+
 /// A type of floating-point number whose operations have a known error.
 pub(super) trait Scalar:
     Copy + Default + Add<Output = Self> + Mul<Output = Self> + Div<Output = Self>

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::arena::FLOOR;
+use super::scalar::FLOOR;
 use super::whole_numbers;
 use crate::geometry::error::MAX_DEGREE;
 use crate::geometry::expansion::DoubleDouble;

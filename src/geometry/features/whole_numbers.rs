@@ -1,6 +1,6 @@
 //! Doubles as whole numbers of any length, times a power of two.
 
-use num_bigint::BigInt;
+use num_bigint::{BigInt, Sign};
 use num_traits::{Float, One, Zero};
 
 /// Multiply finite doubles by the smallest power of two that makes all of them whole.
@@ -24,6 +24,15 @@ pub(in crate::geometry) fn scaled_numbers(values: &[f64]) -> (Vec<BigInt>, i32) 
 pub(super) fn fraction(value: f64) -> [BigInt; 2] {
     let (digits, exponent) = decode(value);
     [digits, BigInt::one() << exponent.min(0).unsigned_abs()]
+}
+
+/// Tell the sign of a whole number.
+pub(super) fn sign(value: &BigInt) -> i8 {
+    match value.sign() {
+        Sign::Minus => -1,
+        Sign::NoSign => 0,
+        Sign::Plus => 1,
+    }
 }
 
 /// Decide exactly whether numbers given as sums of two doubles satisfy a b = c d.
