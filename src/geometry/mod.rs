@@ -28,6 +28,7 @@ mod parametric_curve;
 mod pivoted_cholesky;
 pub mod polygon_figures;
 mod polygon_kind;
+mod power_of_two;
 mod progress;
 mod sampler;
 mod tables;

@@ -1,4 +1,5 @@
-//! Lengths and directions of vectors whose squares would leave the range of numbers.
+//! Lengths and directions of vectors whose squares would leave the range of numbers, and the larger
+//! of two lengths.
 
 use glam::DVec3;
 
@@ -29,6 +30,15 @@ pub(super) fn scaled(vector: DVec3) -> (DVec3, f64) {
         (vector, 1.0)
     } else {
         (vector / largest, largest)
+    }
+}
+
+/// The larger of two numbers; infinite if one is none, which `f64::max` would pass over.
+pub(super) fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() {
+        f64::INFINITY
+    } else {
+        a.max(b)
     }
 }
 

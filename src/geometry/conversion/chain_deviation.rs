@@ -11,7 +11,7 @@
 use super::bezier_matrix::{chain, float_to_bezier};
 use super::exact_vertices::ExactVertices;
 use crate::geometry::float_polygon::FloatPolygon;
-use crate::geometry::vector;
+use crate::geometry::vector::{self, larger};
 
 /// What two doubles a number may lose, in units of the largest coordinate: the sums have up to 26
 /// terms.
@@ -76,13 +76,4 @@ fn rational(degree: usize, given: &ExactVertices<2>, found: &ExactVertices<2>) -
         quotients.fold(0.0, larger)
     });
     bounds.fold(0.0, larger)
-}
-
-/// The larger of two numbers; infinite if one is none, which `f64::max` would pass over.
-fn larger(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() {
-        f64::INFINITY
-    } else {
-        a.max(b)
-    }
 }

@@ -13,7 +13,7 @@ use crate::geometry::cut::cut;
 use crate::geometry::error::PolygonError;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::tables::binomials;
-use crate::geometry::vector;
+use crate::geometry::vector::{self, larger};
 
 /// How far, relatively, a bound may lie above what is attained.
 const GAP: f64 = 1e-3;
@@ -147,15 +147,6 @@ fn largest_norm(pieces: impl Iterator<Item = Vec<DVec4>>, floor: f64) -> f64 {
         }
     }
     bound
-}
-
-/// The larger of two numbers; infinite if one is none, which `f64::max` would pass over.
-fn larger(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() {
-        f64::INFINITY
-    } else {
-        a.max(b)
-    }
 }
 
 /// Write the difference of two rational Bézier curves as one: with A/a and B/b it is

@@ -5,6 +5,7 @@ use crate::geometry::error::PolygonError;
 use crate::geometry::expansion::Expansion;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::polygon_kind::PolygonKind;
+use crate::geometry::tables::binomials;
 
 impl FloatPolygon {
     /// Halve every segment: the same curve by 2L segments, its parameter running twice as fast
@@ -34,11 +35,9 @@ impl FloatPolygon {
 
 /// The binomial coefficients of n + 1, divided by 2ⁿ: all exact.
 fn mask(degree: usize) -> Vec<f64> {
-    let mut mask = vec![0.5_f64.powi(degree as i32)];
-    for k in 0..=degree {
-        mask.push(mask[k] * (degree + 1 - k) as f64 / (k + 1) as f64);
-    }
-    mask
+    let scale = 0.5_f64.powi(degree as i32);
+    let row = binomials(degree + 1).iter();
+    row.map(|binomial| binomial.value() * scale).collect()
 }
 
 fn refined(mask: &[f64], degree: usize, axis: &[Expansion<2>], index: usize) -> Expansion<2> {

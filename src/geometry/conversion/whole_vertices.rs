@@ -13,6 +13,7 @@ use super::exact_vertices::{ExactVertices, RoundedVertices};
 use super::knots::Direction;
 use crate::geometry::blend::Blend;
 use crate::geometry::features::whole_numbers::scaled_numbers;
+use crate::geometry::power_of_two::times_power_of_two;
 
 /// The primes that can divide the steps' divisors, which are at most twice the degree.
 const PRIMES: [u32; 15] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47];
@@ -158,22 +159,14 @@ fn quotient(a: &BigInt, b: &BigInt, exponent: i32) -> f64 {
     let digits: BigInt = (above / below) << 1;
     let digits = if rest { digits + BigInt::one() } else { digits };
     let value = digits.to_f64().unwrap_or(f64::NAN);
-    let scaled = scaled(value, i64::from(exponent) - shift - 1);
+    let far = i64::from(i32::MAX);
+    let exponent = (i64::from(exponent) - shift - 1).clamp(-far, far);
+    let scaled = times_power_of_two(value, exponent as i32);
     if a.is_negative() == b.is_negative() {
         scaled
     } else {
         -scaled
     }
-}
-
-/// Multiply by a power of two that may itself be out of range.
-fn scaled(value: f64, exponent: i64) -> f64 {
-    let step = |exponent: i64| 2.0_f64.powi(exponent.clamp(-1000, 1000) as i32);
-    let half = exponent.clamp(-4000, 4000) / 2;
-    let quarter = half / 2;
-    [quarter, half - quarter, exponent.clamp(-4000, 4000) - half]
-        .into_iter()
-        .fold(value, |value, exponent| value * step(exponent))
 }
 
 #[cfg(test)]

@@ -5,6 +5,8 @@ use std::ops::{Div, Mul};
 use num_bigint::BigInt;
 use num_traits::ToPrimitive;
 
+use crate::geometry::power_of_two::{self, times_power_of_two};
+
 /// A number digits · 2^exponent that no power takes out of range; digits are 0 or of size 1 … 2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Floating {
@@ -35,12 +37,8 @@ impl Floating {
 
     /// The nearest double, infinite or 0 if there is none.
     pub(super) fn value(self) -> f64 {
-        /// Beyond it nothing but 0 and infinity is left, twice.
-        const FAR: i64 = 2400;
-        let exponent = self.exponent.clamp(-FAR, FAR) as i32;
-        let third = exponent / 3;
-        let power = |exponent: i32| 2f64.powi(exponent);
-        self.digits * power(third) * power(third) * power(exponent - 2 * third)
+        let far = i64::from(i32::MAX);
+        times_power_of_two(self.digits, self.exponent.clamp(-far, far) as i32)
     }
 
     fn normal(digits: f64, exponent: i64) -> Self {
@@ -50,9 +48,9 @@ impl Floating {
                 exponent: 0,
             };
         }
-        let shift = digits.abs().log2().floor() as i32;
+        let shift = power_of_two::exponent(digits);
         Self {
-            digits: digits * 2f64.powi(-shift),
+            digits: times_power_of_two(digits, -shift),
             exponent: exponent + i64::from(shift),
         }
     }

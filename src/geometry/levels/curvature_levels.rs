@@ -12,6 +12,7 @@ use glam::{DVec3, DVec4};
 use super::segment_expansion::SegmentExpansion;
 use super::taylor_series::TaylorSeries;
 use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::power_of_two::{exponent, power_of_two, times_power_of_two};
 
 /// The number of levels.
 pub const LEVELS: usize = 4;
@@ -276,27 +277,4 @@ fn cross(a: &Vector, b: &Vector) -> Vector {
         a[2] * b[0] - a[0] * b[2],
         a[0] * b[1] - a[1] * b[0],
     ]
-}
-
-/// The exponent e with 2ᵉ ≤ |value| < 2ᵉ⁺¹; −1023 for 0 and numbers that small, 1024 for what is
-/// not finite.
-fn exponent(value: f64) -> i32 {
-    (value.to_bits() >> 52 & 0x7ff) as i32 - 1023
-}
-
-/// Compute 2ᵉ; 0 or infinite beyond the range of numbers.
-fn power_of_two(exponent: i32) -> f64 {
-    times_power_of_two(1.0, exponent)
-}
-
-/// Compute value · 2ᵉ.
-fn times_power_of_two(value: f64, exponent: i32) -> f64 {
-    // No value takes more than 2¹⁰²³ twice to leave the range of numbers.
-    let half = exponent.clamp(-2040, 2040) / 2;
-    value * normal_power_of_two(half) * normal_power_of_two(exponent.clamp(-2040, 2040) - half)
-}
-
-/// Compute 2ᵉ for an e from −1022 to 1023.
-fn normal_power_of_two(exponent: i32) -> f64 {
-    f64::from_bits(((exponent + 1023) as u64) << 52)
 }
