@@ -276,7 +276,7 @@ impl Editor {
         }
         self.hand.gestures.reset();
         if self.is_trying() {
-            self.leave_trial();
+            self.interrupt_trial();
             return true;
         }
         let ended = self.workspace.interrupt();
@@ -285,14 +285,9 @@ impl Editor {
     }
 
     /// Put right what depends on the document after it has changed. What is selected is selected of
-    /// the document without what an operation tries out on it.
+    /// the document that is shown.
     fn document_changed(&mut self) {
-        let document = if self.is_trying() {
-            self.workspace.settled()
-        } else {
-            self.workspace.document()
-        };
-        self.hand.selection.retain_valid(document);
+        self.hand.selection.retain_valid(self.workspace.document());
     }
 
     /// Put right what depends on the document after it was replaced by another.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::document::{Curve, CurveId, Edit};
+use crate::document::{Curve, CurveId, Document, Edit};
 use crate::editor::Editor;
 use crate::editor::hand::selection::Selection;
 use crate::editor::hand::tools::ToolKind;
@@ -51,8 +51,13 @@ pub struct Run {
 enum Stage {
     /// This preview shows what it would do.
     Tried(PreviewId),
-    /// It was applied, and the document has this revision since.
-    Applied(u64),
+    /// It was applied.
+    Applied {
+        /// The document's revision since.
+        revision: u64,
+        /// The number of steps before: where it changes nothing there is no step of its own.
+        steps: usize,
+    },
 }
 
 /// What the worker tells of a question.
@@ -115,7 +120,7 @@ impl Trial {
 
     /// Whether it was applied.
     pub fn is_applied(&self) -> bool {
-        matches!(self.stage, Stage::Applied(_))
+        matches!(self.stage, Stage::Applied { .. })
     }
 
     /// What it does in figures, once that is known.
@@ -170,7 +175,7 @@ impl Editor {
         let trial = self.operations.trial.as_ref()?;
         let counts = match trial.stage {
             Stage::Tried(preview) => self.workspace.preview() == Some(preview),
-            Stage::Applied(revision) => {
+            Stage::Applied { revision, .. } => {
                 self.workspace.revision() == revision
                     && self.workspace.preview().is_none()
                     && (trial.curve().is_none() || trial.curve() == self.active())
@@ -282,12 +287,14 @@ impl Editor {
 
     /// Take the operation that is tried out back, or put that which was applied out of reach.
     pub fn leave_trial(&mut self) {
-        if self.is_trying() {
+        let tries = self.is_trying();
+        if tries {
             self.workspace.abort();
         }
         self.operations.worker.cancel();
+        // What a drag or a field has taken back has nothing to restore any more.
         if let Some(trial) = self.operations.trial.take()
-            && !trial.is_applied()
+            && tries
         {
             self.hand.selection = trial.selection;
         }
@@ -325,8 +332,30 @@ impl Editor {
             !trial.is_applied() && trial.curve().is_some() && trial.curve() != self.active()
         });
         if other {
-            self.interrupt();
+            self.leave_trial_selecting(self.hand.selection.clone());
         }
+    }
+
+    /// Take the operation that is tried out back because something else is begun. What was selected
+    /// meanwhile stays so if all vertices have the numbers that they had before.
+    pub(in crate::editor) fn interrupt_trial(&mut self) {
+        let numbers = |document: &Document| -> Vec<(CurveId, usize)> {
+            let curves = document.curves();
+            let counts = curves.map(|(id, curve)| (id, curve.polygon.vertices().len()));
+            counts.collect()
+        };
+        let keeps = numbers(self.workspace.settled()) == numbers(self.workspace.document());
+        if keeps {
+            self.leave_trial_selecting(self.hand.selection.clone());
+        } else {
+            self.leave_trial();
+        }
+    }
+
+    fn leave_trial_selecting(&mut self, selection: Selection) {
+        self.leave_trial();
+        self.hand.selection = selection;
+        self.document_changed();
     }
 
     /// Take what the worker has to tell.
@@ -460,7 +489,7 @@ impl Editor {
         let (label, stage, applies) = (trial.operation.label, trial.stage, trial.applies);
         match stage {
             Stage::Tried(_) => self.update(edits),
-            Stage::Applied(_) => self.amend(label, edits),
+            Stage::Applied { steps, .. } => self.amend(label, steps, edits),
         }
         if applies {
             let reply = self.settle_trial();
@@ -472,12 +501,18 @@ impl Editor {
         }
     }
 
-    /// Put other edits in place of the step that the operation made.
-    fn amend(&mut self, label: &str, edits: Vec<Edit>) {
-        let amended = self.workspace.amend(label, edits);
+    /// Put other edits in place of the step that the operation made after `steps` others, if it made
+    /// one.
+    fn amend(&mut self, label: &str, steps: usize, edits: Vec<Edit>) {
+        let amended = if self.workspace.history().undo_steps() > steps {
+            self.workspace.amend(label, edits)
+        } else {
+            self.workspace.apply(label, edits)
+        };
         self.tell_of_update(amended.err().map(Refusal::from));
         if let Some(trial) = &mut self.operations.trial {
-            trial.stage = Stage::Applied(self.workspace.revision());
+            let revision = self.workspace.revision();
+            trial.stage = Stage::Applied { revision, steps };
         }
         self.document_changed();
     }
@@ -498,8 +533,12 @@ impl Editor {
             Some(Ok(run)) if !run.outcome.reached => return Err(Refusal(run.report.summary())),
             Some(Ok(run)) => run.outcome.renumbered,
         };
+        let steps = self.workspace.history().undo_steps();
         self.workspace.commit();
-        trial.stage = Stage::Applied(self.workspace.revision());
+        trial.stage = Stage::Applied {
+            revision: self.workspace.revision(),
+            steps,
+        };
         let said = match &trial.run {
             Some(Ok(run)) => run.report.summary(),
             _ => String::new(),
