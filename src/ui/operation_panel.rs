@@ -2,10 +2,9 @@
 
 use std::ops::{Bound, RangeInclusive};
 
-use eframe::egui::{Button, Key, Label, ProgressBar, RichText, Role, Sense, Ui, WidgetInfo, vec2};
+use eframe::egui::{Button, Label, ProgressBar, RichText, Role, Sense, Ui, WidgetInfo, vec2};
 use lucide_icons::Icon;
 
-use super::keyboard::{self, Typing};
 use super::number_field::{FieldEvent, NumberField};
 use super::theme::{STEP, Tokens};
 use super::widgets::IconButton;
@@ -49,12 +48,11 @@ impl OperationPanel {
             *self = Self::default();
             return;
         };
-        // A key that is pressed in a field is the field's, also where it leaves the field by it.
-        let keys = !keyboard::is_covered(ui.ctx()) && keyboard::typing(ui.ctx()) == Typing::Nothing;
-        let mut asked = heading_ui(ui, trial);
+        // A click on a button also leaves a field: what was typed there counts first.
+        let mut asked = Vec::from_iter(heading_ui(ui, trial));
         for parameter in trial.operation().parameters {
             let set = self.parameter_ui(ui, trial, parameter);
-            asked = set.map(|value| Asked::Set(parameter, value)).or(asked);
+            asked.extend(set.map(|value| Asked::Set(parameter, value)));
         }
         if let Some(refusal) = &self.refusal {
             error_ui(ui, refusal);
@@ -62,15 +60,16 @@ impl OperationPanel {
         ui.add_space(STEP);
         came_to_ui(ui, trial);
         let progress = editor.operation_progress();
-        asked = asked.or(buttons_ui(ui, trial, progress, keys));
-        match asked {
-            None => {}
-            Some(Asked::Set(parameter, value)) => {
-                let set = editor.set_value(parameter.name, value);
-                self.refusal = set.err().map(|error| error.to_string());
+        asked.extend(buttons_ui(ui, trial, progress));
+        for asked in asked {
+            match asked {
+                Asked::Set(parameter, value) => {
+                    let set = editor.set_value(parameter.name, value);
+                    self.refusal = set.err().map(|error| error.to_string());
+                }
+                Asked::Apply => told(editor.apply_trial()),
+                Asked::Leave => editor.leave_trial(),
             }
-            Some(Asked::Apply) => told(editor.apply_trial()),
-            Some(Asked::Leave) => editor.leave_trial(),
         }
     }
 
@@ -334,7 +333,8 @@ fn error_ui(ui: &mut Ui, text: &str) {
     ui.add(Label::new(text).wrap());
 }
 
-fn buttons_ui(ui: &mut Ui, trial: &Trial, progress: Option<f64>, keys: bool) -> Option<Asked> {
+/// Apply and Cancel; their keys are the canvas's, which has the keyboard unless a field has it.
+fn buttons_ui(ui: &mut Ui, trial: &Trial, progress: Option<f64>) -> Option<Asked> {
     if trial.is_applied() {
         return None;
     }
@@ -355,12 +355,5 @@ fn buttons_ui(ui: &mut Ui, trial: &Trial, progress: Option<f64>, keys: bool) -> 
             ui.add(ProgressBar::new(done as f32).show_percentage());
         }
     });
-    let pressed = |key| keys && ui.input(|input| input.key_pressed(key));
-    if pressed(Key::Enter) && enabled {
-        asked = Some(Asked::Apply);
-    }
-    if pressed(Key::Escape) {
-        asked = Some(Asked::Leave);
-    }
     asked
 }
