@@ -77,10 +77,8 @@ fn a_curve_that_changes_while_it_is_proved_gets_its_own_features() {
     // Some frames of a drag: none waits for the proof of the one before.
     for step in 1..=5 {
         let moves = vec![(2500, DVec3::new(2500.0, f64::from(step), 0.0))];
-        script
-            .editor
-            .apply("move", vec![Edit::MoveVertices { curve, moves }])
-            .expect("an edit");
+        let edit = Edit::MoveVertices { curve, moves };
+        script.editor.apply("move", vec![edit]).expect("an edit");
         script.features();
     }
     check_proved_in_later_frames(&mut script, &woken);

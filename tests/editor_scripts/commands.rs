@@ -1,7 +1,6 @@
 //! Commands, files and the clipboard.
 
 use batten::editor::{Command, Input, Key, ToolKind};
-use batten::geometry::End;
 use glam::DVec2;
 
 use super::script::Script;
@@ -134,9 +133,9 @@ fn several_files_open_as_one_document_and_a_bad_one_changes_nothing() {
 #[test]
 fn a_command_after_a_held_key_is_a_step_of_its_own() {
     let mut script = Script::example("arc");
-    script.command(Command::Extend(End::Finish));
+    script.operate("extend", &[]).expect("a longer curve");
     script.key(Key::Function(6));
     script.input(Input::KeyRepeated(Key::Function(6)));
-    script.command(Command::Extend(End::Finish));
+    script.operate("extend", &[]).expect("a longer curve");
     assert_eq!(script.editor.workspace().history().undo_steps(), 2);
 }

@@ -16,10 +16,8 @@ fn the_end_follows_its_target_by_dragging_the_body_and_the_ring() {
     let direction = DVec2::from_angle(0.2)
         .rotate(end.first.truncate())
         .extend(0.0);
-    script.editor.end_fit_action(EndFitAction::SetPoint(goal));
-    script
-        .editor
-        .end_fit_action(EndFitAction::SetDirection(Some(direction)));
+    script.end_fit_action(EndFitAction::SetPoint(goal));
+    script.end_fit_action(EndFitAction::SetDirection(Some(direction)));
     let steps = script.editor.workspace().history().undo_steps();
     let viewport = *script.editor.view().viewport();
     // The body is taken by a terminal vertex and let go a few points beside the target.
@@ -60,25 +58,27 @@ fn the_loop_stops_on_the_papers_arc_and_both_ends_at_once_correct_it() {
     let mut script = Script::example("arc");
     script.tool(ToolKind::EndFit);
     for end in End::BOTH {
-        script.editor.end_fit_action(EndFitAction::Choose(end));
+        script.end_fit_action(EndFitAction::Choose(end));
         let jet = script.polygon().end_jet(end);
         let point = jet.point + DVec3::new(0.3, -0.2, 0.0);
-        script.editor.end_fit_action(EndFitAction::SetPoint(point));
+        script.end_fit_action(EndFitAction::SetPoint(point));
         let direction = DVec2::from_angle(0.1)
             .rotate(jet.first.truncate())
             .extend(0.0);
-        script
-            .editor
-            .end_fit_action(EndFitAction::SetDirection(Some(direction)));
+        script.end_fit_action(EndFitAction::SetDirection(Some(direction)));
     }
     let before = script.polygon();
-    script.editor.end_fit_action(EndFitAction::Repeat);
+    let refused = script.editor.end_fit_action(EndFitAction::Repeat);
     assert_eq!(script.polygon(), before);
     let report = script.end_fit().expect("figures");
     assert_eq!(report.overlap, EndOverlap::OneSegment);
-    let (text, failed) = report.outcome.expect("an outcome");
-    assert!(failed && text.contains("Nothing was changed"), "{text}");
-    script.editor.end_fit_action(EndFitAction::BothAtOnce);
+    let refusal = refused.expect_err("a refusal");
+    assert_eq!(report.outcome, Some(Err(refusal.clone())));
+    let text = refusal.to_string();
+    assert!(text.contains("not reached, nothing is changed"), "{text}");
+    assert!(text.contains("is left"), "{text}");
+    assert!(text.contains("one segment"), "{text}");
+    script.end_fit_action(EndFitAction::BothAtOnce);
     let report = script.end_fit().expect("figures");
     assert!(report.within, "{report:?}");
     assert!(
@@ -86,7 +86,11 @@ fn the_loop_stops_on_the_papers_arc_and_both_ends_at_once_correct_it() {
         "{}",
         report.residual
     );
-    assert!(report.largest_move.is_some_and(|(length, _)| length > 0.0));
+    assert!(
+        report
+            .largest_move
+            .is_some_and(|largest| largest.distance > 0.0)
+    );
     assert!(!script.scene().ghost.is_empty());
     script.command(Command::Undo);
     assert_eq!(script.polygon(), before);
@@ -101,10 +105,8 @@ fn a_target_is_picked_from_another_curves_end() {
     let other = script.polygon().end_jet(End::Start);
     script.editor.activate(curves[0]);
     script.tool(ToolKind::EndFit);
-    script
-        .editor
-        .end_fit_action(EndFitAction::Choose(End::Start));
-    script.editor.end_fit_action(EndFitAction::PickFromCurve);
+    script.end_fit_action(EndFitAction::Choose(End::Start));
+    script.end_fit_action(EndFitAction::PickFromCurve);
     let place = script
         .editor
         .view()
@@ -117,7 +119,7 @@ fn a_target_is_picked_from_another_curves_end() {
     let along = other.tangent().expect("a tangent");
     assert_eq!(report.target_direction, Some(-along));
     assert!(!report.picking);
-    script.editor.end_fit_action(EndFitAction::TurnRound);
+    script.end_fit_action(EndFitAction::TurnRound);
     let report = script.end_fit().expect("figures");
     assert_eq!(report.target_direction, Some(along));
 }
@@ -126,7 +128,7 @@ fn a_target_is_picked_from_another_curves_end() {
 fn showing_the_closed_polygon_ends_with_the_tool() {
     let mut script = Script::example("arc");
     script.tool(ToolKind::EndFit);
-    script.editor.end_fit_action(EndFitAction::ShowClosed(true));
+    script.end_fit_action(EndFitAction::ShowClosed(true));
     assert!(!script.editor.layers().shows(Layer::Float));
     assert!(script.editor.view().chosen_layers().shows(Layer::Float));
     script.tool(ToolKind::Select);
@@ -138,11 +140,12 @@ fn a_target_that_no_file_could_hold_is_refused() {
     let mut script = Script::example("arc");
     script.tool(ToolKind::EndFit);
     for point in [DVec3::new(1e300, 0.0, 0.0), DVec3::new(0.0, f64::NAN, 0.0)] {
-        script.editor.end_fit_action(EndFitAction::SetPoint(point));
+        let refused = script.editor.end_fit_action(EndFitAction::SetPoint(point));
+        let refusal = refused.expect_err("a refusal");
         let report = script.end_fit().expect("figures");
         assert_eq!(report.target_point, None);
-        let (text, failed) = report.outcome.expect("an outcome");
-        assert!(failed && text.contains("up to 1e100"), "{text}");
+        assert_eq!(report.outcome, Some(Err(refusal.clone())));
+        assert!(refusal.to_string().contains("up to 1e100"), "{refusal}");
     }
     assert!(!script.editor.workspace().is_modified());
 }
@@ -153,17 +156,15 @@ fn steps_by_hand_count_as_passes_and_meet_the_target() {
     script.tool(ToolKind::EndFit);
     let jet = script.polygon().end_jet(End::Finish);
     let size = script.polygon().size();
-    script.editor.end_fit_action(EndFitAction::SetPoint(
+    script.end_fit_action(EndFitAction::SetPoint(
         jet.point + DVec3::new(0.01 * size, 0.02 * size, 0.0),
     ));
     let direction = DVec2::from_angle(0.1)
         .rotate(jet.first.truncate())
         .extend(0.0);
-    script
-        .editor
-        .end_fit_action(EndFitAction::SetDirection(Some(direction)));
-    script.editor.end_fit_action(EndFitAction::Translate);
-    script.editor.end_fit_action(EndFitAction::Rotate);
+    script.end_fit_action(EndFitAction::SetDirection(Some(direction)));
+    script.end_fit_action(EndFitAction::Translate);
+    script.end_fit_action(EndFitAction::Rotate);
     let report = script.end_fit().expect("figures");
     assert_eq!(report.passes, 1);
     assert!(
@@ -185,9 +186,7 @@ fn a_dragged_target_is_not_held_by_its_own_old_place() {
     let end = script.polygon().end_jet(End::Finish).point;
     let view = *script.editor.view().viewport();
     let target = view.to_model(view.to_screen(end.truncate()) + DVec2::new(63.0, 77.0));
-    script
-        .editor
-        .end_fit_action(EndFitAction::SetPoint(target.extend(0.0)));
+    script.end_fit_action(EndFitAction::SetPoint(target.extend(0.0)));
     script.command(Command::ToggleSnapping);
     // Off the grid, and nearer to the old place than snapping reaches.
     script.input(Input::Zoomed {
@@ -206,13 +205,11 @@ fn the_ring_snaps_to_the_target_direction_across_a_half_turn() {
         let mut script = Script::example("s-curve");
         script.tool(ToolKind::EndFit);
         let end = script.polygon().end_jet(End::Finish);
-        script.editor.end_fit_action(EndFitAction::TargetActual);
+        script.end_fit_action(EndFitAction::TargetActual);
         // Half a turn, less a little: reached from the other side it is more than half a turn.
         let turn = sense * 179.5_f64.to_radians();
         let direction = DVec2::from_angle(turn).rotate(end.first.truncate());
-        script
-            .editor
-            .end_fit_action(EndFitAction::SetDirection(Some(direction.extend(0.0))));
+        script.end_fit_action(EndFitAction::SetDirection(Some(direction.extend(0.0))));
         let centre = script
             .editor
             .view()
@@ -256,7 +253,7 @@ fn the_panel_calls_off_a_drag_instead_of_keeping_half_of_it() {
     script.press(at);
     script.move_to(at + 30.0);
     assert_ne!(script.polygon(), before);
-    script.editor.end_fit_action(EndFitAction::TargetActual);
+    script.end_fit_action(EndFitAction::TargetActual);
     assert!(!script.editor.hand().is_dragging());
     script.move_to(at + 60.0);
     script.release(at + 60.0);

@@ -97,6 +97,7 @@ impl Player {
         }
         self.input(Input::SpaceHeld(false), Done::Other)?;
         self.hold(Modifiers::NONE)?;
+        self.panel(&Panel::LeaveTrial)?;
         self.panel(&Panel::CommitField)?;
         self.watch.rewind(&mut self.window)?;
         check_written(self.window.document())
@@ -245,12 +246,26 @@ impl Player {
         self.watch.check(&self.window, done)
     }
 
+    fn is_applied(&self) -> bool {
+        self.window.trial().is_some_and(|trial| trial.is_applied())
+    }
+
     fn panel(&mut self, panel: &Panel) -> Result<(), String> {
         if matches!(panel, Panel::PreviewVertex(..) | Panel::PreviewWeight(..)) {
             self.watch.expect_field();
         }
+        let (values, is_applied) = (self.window.values(), self.is_applied());
         self.window.panel(panel);
+        if let Panel::SetAnyValue(..) | Panel::SetValue(..) = panel
+            && self.window.values().is_none() != values.is_none()
+        {
+            return Err("a value ended the operation, or began one".into());
+        }
         let done = match panel {
+            Panel::SetValue(..) | Panel::SetAnyValue(..) if self.window.values() == values => {
+                Done::Look
+            }
+            Panel::SetValue(..) | Panel::SetAnyValue(..) if is_applied => Done::Amend,
             Panel::Replace(Replacement::MissingFile) => Done::Other,
             Panel::Replace(_) => Done::Replace,
             Panel::Cut => Done::Delete,

@@ -80,8 +80,10 @@ fn unknown_keys_survive_edits_undo_and_saving() {
     let path = write(&folder, "own.batten", PROJECT);
     let mut script = opened(&path);
     script.drag_vertex(1, DVec2::new(30.0, 10.0));
-    script.command(Command::Reverse);
-    script.command(Command::RaiseDegree);
+    script.operate("reverse", &[]).expect("the curve reversed");
+    script
+        .operate("reinterpret-degree", &[])
+        .expect("a higher degree");
     script.editor.save(&path).expect("a file");
     assert!(is_kept(&text(&path)), "{}", text(&path));
     let edited = text(&path);

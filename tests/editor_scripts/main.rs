@@ -24,6 +24,7 @@ mod several;
 mod snapshot;
 mod space;
 mod transforming;
+mod trials;
 mod vertices;
 mod view;
 mod watch;

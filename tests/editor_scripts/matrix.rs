@@ -6,6 +6,7 @@ use batten::document::Document;
 use batten::editor::{Button, Command, Key, Layer, Modifiers, ToolKind};
 use batten::geometry::End;
 use batten::io::examples::EXAMPLES;
+use batten::operations::{ALL, Operation};
 use glam::DVec2;
 
 use super::documents::{Case, cases};
@@ -131,6 +132,63 @@ fn every_step_of_every_command_is_undone_and_redone_between_others() {
             || case.name.to_owned(),
             play(&case, |player| player.play(&every_command())),
         );
+        failures.check(
+            || format!("{}, operations", case.name),
+            play(&case, |player| {
+                ALL.iter().try_for_each(|operation| {
+                    player.play(&[tried(operation), Event::Panel(Panel::ApplyTrial)])
+                })
+            }),
+        );
+    }
+    failures.none();
+}
+
+/// Try an operation out.
+fn tried(operation: &'static Operation) -> Event {
+    Event::Command(Command::Operation(operation))
+}
+
+#[test]
+fn every_operation_applied_or_cancelled_is_undone_to_the_bit() {
+    let mut failures = Failures::default();
+    let plain = |key| Event::Key(Modifiers::NONE, key);
+    let endings = [
+        vec![Event::Panel(Panel::ApplyTrial)],
+        vec![plain(Key::Enter)],
+        vec![
+            Event::Panel(Panel::ApplyTrial),
+            Event::Command(Command::Undo),
+        ],
+        vec![Event::Panel(Panel::LeaveTrial)],
+        vec![plain(Key::Escape)],
+        vec![Event::Command(Command::Undo)],
+    ];
+    for case in cases() {
+        for operation in ALL {
+            for (number, ending) in endings.iter().enumerate() {
+                let cancels = number > 1;
+                let played = play(&case, |player| {
+                    let before = player.window.document().clone();
+                    let has_parameters = !operation.parameters.is_empty();
+                    player.play(&[tried(operation)])?;
+                    if player.window.is_trying() && !has_parameters {
+                        return Err("without parameters there is nothing to try out".into());
+                    }
+                    let tries = player.window.is_trying();
+                    let changes = !player.window.document().is_same(&before);
+                    if tries && (changes || number < 2) {
+                        player.play(ending)?;
+                    }
+                    if tries && cancels && !player.window.document().is_same(&before) {
+                        return Err("the operation left a trace".into());
+                    }
+                    Ok(())
+                });
+                let name = || format!("{}, {}, {ending:?}", case.name, operation.name);
+                failures.check(name, played);
+            }
+        }
     }
     failures.none();
 }

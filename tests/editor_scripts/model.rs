@@ -14,10 +14,10 @@ use std::path::Path;
 
 use batten::document::{Curve, Document};
 use batten::editor::{Button, Command, EndFitAction, Key, Modifiers, Transformation};
-use batten::geometry::end_correction::EndTarget;
 use batten::geometry::{End, PolygonKind};
 use batten::io::disk;
 use batten::io::examples::EXAMPLES;
+use batten::operations::{ALL, Value};
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 use proptest::sample::select;
@@ -121,10 +121,34 @@ fn play(
             player.window.read_panels();
             check_written(player.window.document())?;
         }
+        if number % (2 * OFTEN) == 0 {
+            save_in_between(&mut player, file)?;
+        }
     }
     player.window.read_panels();
     player.settle()?;
     save(&mut player, file)
+}
+
+/// Save whatever is going on: that goes on, and the file is without it.
+fn save_in_between(player: &mut Player, file: &Path) -> Result<(), String> {
+    let window = &mut player.window;
+    let (shown, in_gesture, tries) = (
+        window.document().clone(),
+        window.is_in_gesture(),
+        window.is_trying(),
+    );
+    let values = window.values();
+    let saved = window.save(file);
+    saved.map_err(|refusal| format!("not saved: {refusal}"))?;
+    let goes_on = window.is_in_gesture() == in_gesture
+        && window.is_trying() == tries
+        && window.values() == values
+        && window.document().is_same(&shown);
+    if !goes_on {
+        return Err("saving ended what was going on".into());
+    }
+    check_read(window.before_gesture(), disk::read_file(file))
 }
 
 /// Save, read what was saved, export it and import it again.
@@ -154,9 +178,12 @@ fn is_too_much(event: &Event, player: &Player) -> bool {
         .curves()
         .any(|(_, curve)| curve.polygon.degree() >= HIGHEST);
     match event {
-        Event::Command(Command::RaiseDegree | Command::RaiseCurveDegree) => is_high || is_large,
-        Event::Command(Command::Subdivide | Command::Duplicate | Command::Extend(_)) => is_large,
-        Event::Panel(Panel::Divide(..) | Panel::Paste(_) | Panel::CopyAndPaste) => is_large,
+        Event::Command(Command::Operation(operation))
+        | Event::Panel(Panel::Operate(operation, _)) => {
+            is_large || is_high && operation.name.ends_with("degree")
+        }
+        Event::Command(Command::Duplicate) => is_large,
+        Event::Panel(Panel::SetValue(..) | Panel::Paste(_) | Panel::CopyAndPaste) => is_large,
         _ => false,
     }
 }
@@ -332,6 +359,7 @@ fn panel() -> impl Strategy<Value = Panel> {
         8 => list(),
         6 => end_fit().prop_map(Panel::EndFit),
         6 => dialogs(),
+        14 => operations(),
         5 => view(),
     ]
 }
@@ -371,7 +399,6 @@ fn list() -> impl Strategy<Value = Panel> {
 }
 
 fn end_fit() -> impl Strategy<Value = EndFitAction> {
-    let target = (point(), prop::option::of(point()));
     prop_oneof![
         1 => end().prop_map(EndFitAction::Choose),
         1 => any::<bool>().prop_map(EndFitAction::ShowClosed),
@@ -381,7 +408,6 @@ fn end_fit() -> impl Strategy<Value = EndFitAction> {
         1 => Just(EndFitAction::ClearTarget),
         1 => Just(EndFitAction::PickFromCurve),
         1 => Just(EndFitAction::TurnRound),
-        1 => target.prop_map(|(point, direction)| EndFitAction::Picked(EndTarget { point, direction })),
         2 => Just(EndFitAction::Translate),
         2 => Just(EndFitAction::Rotate),
         2 => Just(EndFitAction::Repeat),
@@ -392,8 +418,6 @@ fn end_fit() -> impl Strategy<Value = EndFitAction> {
 
 /// What dialogs and the clipboard ask for.
 fn dialogs() -> impl Strategy<Value = Panel> {
-    let share = || prop_oneof![3 => 0.0..1.0, 1 => Just(0.5), 1 => number_of_any_kind()];
-    let divide = (share(), prop::option::of(share()), 0..4u32);
     let replacement = prop_oneof![
         Just(Replacement::Empty),
         (0..EXAMPLES.len()).prop_map(Replacement::Example),
@@ -404,11 +428,29 @@ fn dialogs() -> impl Strategy<Value = Panel> {
         3 => Just(Panel::CopyAndPaste),
         1 => Just(Panel::Copy),
         1 => Just(Panel::Cut),
-        3 => divide.prop_map(|(from, to, subdivisions)| Panel::Divide(from, to, subdivisions)),
-        3 => (select(&PolygonKind::ALL[..]), 0..18usize)
-            .prop_map(|(kind, digits)| Panel::Round(kind, digits)),
         1 => Just(Panel::DismissMessage),
         1 => replacement.prop_map(Panel::Replace),
+    ]
+}
+
+/// What the operation panel asks for.
+fn operations() -> impl Strategy<Value = Panel> {
+    let number =
+        || prop_oneof![3 => 0.0..4.0, 2 => (0..4u8).prop_map(f64::from), 1 => number_of_any_kind()];
+    let any_value = prop_oneof![
+        any::<usize>().prop_map(Value::Whole),
+        any::<f64>().prop_map(Value::Real),
+        (0..4usize).prop_map(Value::Choice),
+        any::<bool>().prop_map(Value::Switch),
+    ];
+    let numbers = [number(), number(), number()];
+    prop_oneof![
+        8 => (0..3usize, number()).prop_map(|(at, number)| Panel::SetValue(at, number)),
+        1 => (0..3usize, any_value).prop_map(|(at, value)| Panel::SetAnyValue(at, value)),
+        6 => Just(Panel::ApplyTrial),
+        2 => Just(Panel::LeaveTrial),
+        3 => (select(ALL), numbers)
+            .prop_map(|(operation, numbers)| Panel::Operate(operation, numbers)),
     ]
 }
 

@@ -152,6 +152,7 @@ fn what_is_more_than_showing_keeps_a_field_and_takes_back_a_drag() {
         }
         let shown = script.editor.document().clone();
         script.command(command);
+        leave_its_own_preview(&mut script, command);
         assert_eq!(script.editor.workspace().preview(), None, "{command:?}");
         let of_its_own = steps(&script) - 1;
         for _ in 0..of_its_own {
@@ -163,6 +164,7 @@ fn what_is_more_than_showing_keeps_a_field_and_takes_back_a_drag() {
 
         let (mut script, before) = dragging();
         script.command(command);
+        leave_its_own_preview(&mut script, command);
         assert_eq!(script.editor.workspace().preview(), None, "{command:?}");
         assert!(!script.editor.hand().is_dragging(), "{command:?}");
         while steps(&script) > 0 {
@@ -175,6 +177,14 @@ fn what_is_more_than_showing_keeps_a_field_and_takes_back_a_drag() {
             steps(script)
         };
         assert!(redone(&mut script) <= of_its_own, "{command:?}");
+    }
+}
+
+/// An operation's command begins a preview of its own.
+fn leave_its_own_preview(script: &mut Script, command: Command) {
+    let trial = script.editor.trial().map(|trial| trial.operation());
+    if trial.is_some_and(|operation| command == Command::Operation(operation)) {
+        script.editor.leave_trial();
     }
 }
 

@@ -1,8 +1,8 @@
 //! Operations that keep the curve, and dragging the closed S-polygon.
 
-use batten::document::Edit;
-use batten::editor::{Command, Division, HoverScene, Key};
-use batten::geometry::{ClampedPolygon, End, FloatPolygon, PolygonKind};
+use batten::editor::{Command, HoverScene, Key};
+use batten::geometry::{ClampedPolygon, FloatPolygon, rounded_up};
+use batten::operations::{Deviation, FeatureCounts, LargestMove, Report, Value};
 use glam::{DVec2, DVec3};
 
 use super::script::Script;
@@ -73,7 +73,7 @@ fn escape_and_locking_keep_the_closed_polygon() {
 fn subdividing_and_extending_keep_the_curve() {
     let mut script = Script::example("s-curve");
     let before = script.polygon();
-    script.command(Command::Subdivide);
+    script.operate("subdivide", &[]).expect("the same curve");
     let halved = script.polygon();
     assert_eq!(halved.segments(), 2 * before.segments());
     for step in 0..=40 {
@@ -82,8 +82,9 @@ fn subdividing_and_extending_keep_the_curve() {
         assert!(off <= ROUNDING * before.size(), "u = {u}: {off:e}");
     }
     script.command(Command::Undo);
-    script.command(Command::Extend(End::Finish));
-    script.command(Command::Extend(End::Start));
+    script.operate("extend", &[]).expect("a longer curve");
+    let start = [("end", Value::Choice(0))];
+    script.operate("extend", &start).expect("a longer curve");
     let longer = script.polygon();
     assert_eq!(longer.segments(), before.segments() + 2);
     assert_eq!(
@@ -96,30 +97,41 @@ fn subdividing_and_extending_keep_the_curve() {
 fn one_segment_is_raised_exactly_and_several_come_near() {
     let mut script = Script::example("arc");
     let arc = script.polygon();
-    script.command(Command::RaiseCurveDegree);
+    let note = script.operate("elevate-degree", &[]).expect("a degree");
     assert_eq!(script.polygon().degree(), 10);
-    assert!(
-        script.message().contains("the curve is the same"),
-        "{}",
-        script.message()
-    );
+    assert_eq!(script.trial_report().deviation, Deviation::Exact);
+    assert!(note.text.contains("the curve is the same"), "{}", note.text);
     let off = script.polygon().point(0.4).distance(arc.point(0.4));
     assert!(off <= 1e-12 * arc.size(), "{off:e}");
     let mut script = Script::example("s-curve");
-    script.command(Command::RaiseCurveDegree);
-    let message = script.message();
-    assert!(message.contains("off the curve by at most"), "{message}");
-    assert!(message.contains("double the knots"), "{message}");
+    let before = script.polygon();
+    let note = script.operate("elevate-degree", &[]).expect("a degree");
+    let Deviation::AtMost(bound) = script.trial_report().deviation else {
+        panic!("{note:?}");
+    };
+    let told = format!("off the curve by at most {}", rounded_up(bound));
+    assert!(note.text.contains(&told), "{}", note.text);
+    assert!(note.text.contains("double the knots"), "{}", note.text);
+    let off = farthest_off(&before, &script.polygon());
+    assert!(0.0 < off && off <= bound, "{off:e} {bound:e}");
+}
+
+/// How far two curves of equally many segments are apart among even parameters.
+fn farthest_off(a: &FloatPolygon, b: &FloatPolygon) -> f64 {
+    let last = a.segments() as f64;
+    let off = (0..=200).map(|step| {
+        let u = f64::from(step) / 200.0 * last;
+        a.point(u).distance(b.point(u))
+    });
+    off.fold(0.0, f64::max)
 }
 
 #[test]
 fn splitting_at_a_knot_is_exact_and_makes_two_curves() {
     let mut script = Script::example("s-curve");
     let before = script.polygon();
-    script
-        .editor
-        .divide(Division::Split(1.0), 0)
-        .expect("the parts");
+    let at = |u: f64| [("at", Value::Real(u))];
+    let note = script.operate("split", &at(1.0)).expect("the parts");
     let parts: Vec<FloatPolygon> = script
         .editor
         .document()
@@ -130,17 +142,32 @@ fn splitting_at_a_knot_is_exact_and_makes_two_curves() {
     assert_eq!(parts.len(), 2);
     assert_eq!(parts[0].vertices(), &before.vertices()[..degree + 1]);
     assert_eq!(parts[1].vertices(), &before.vertices()[1..]);
-    let message = script.message();
+    let report = script.trial_report();
+    assert_eq!(report.deviation, Deviation::Exact);
+    assert!(note.text.contains("the curve is the same"), "{}", note.text);
+    let features = report.features.clone().expect("proved features");
+    let extrema = |counts: &[FeatureCounts]| -> Vec<usize> {
+        counts
+            .iter()
+            .map(|counts| counts.curvature_extrema)
+            .collect()
+    };
+    assert_eq!(extrema(&features.before), [2]);
+    assert_eq!(extrema(&features.after), [1, 1]);
+    let summary = report.summary();
     assert!(
-        message.contains("extrema: 2 before, 1 and 1 now"),
-        "{message}"
+        summary.contains("extrema: 2 before, 1 and 1 now"),
+        "{summary}"
     );
     assert_eq!(script.editor.workspace().history().undo_steps(), 1);
     script.command(Command::Undo);
-    script
-        .editor
-        .divide(Division::Trim(0.5, 1.75), 2)
-        .expect("the parts");
+    let given = [
+        ("from", Value::Real(0.5)),
+        ("to", Value::Real(1.75)),
+        ("subdivisions", Value::Whole(2)),
+    ];
+    script.operate("trim", &given).expect("the part");
+    assert_eq!(script.trial_report().deviation, Deviation::Exact);
     assert!(
         script.message().contains("the curve is the same"),
         "{}",
@@ -153,7 +180,8 @@ fn splitting_at_a_knot_is_exact_and_makes_two_curves() {
         assert!(off <= ROUNDING * before.size(), "{off:e}");
     }
     script.command(Command::Undo);
-    assert!(script.editor.divide(Division::Split(99.0), 0).is_err());
+    let refused = script.operate("split", &at(99.0)).expect_err("no place");
+    assert!(refused.0.contains("At u: 99 is out of range"), "{refused}");
     assert_eq!(script.polygon(), before, "there is no such place");
     assert!(
         script
@@ -163,32 +191,48 @@ fn splitting_at_a_knot_is_exact_and_makes_two_curves() {
     );
 }
 
+/// The vertex that moves farthest from one polygon to another, and how far.
+fn farthest_vertex(before: &FloatPolygon, after: &FloatPolygon) -> LargestMove {
+    let moves = before.vertices().iter().zip(after.vertices());
+    let moves = moves.enumerate().map(|(vertex, (a, b))| LargestMove {
+        distance: a.distance(*b),
+        vertex,
+    });
+    moves
+        .reduce(|a, b| if b.distance > a.distance { b } else { a })
+        .expect("vertices")
+}
+
 #[test]
 fn rounding_tells_beforehand_what_it_does() {
     let mut script = Script::example("arc");
     let before = script.polygon();
-    let float = script
-        .editor
-        .try_rounding(PolygonKind::Float, 3)
-        .expect("rounded");
-    assert!(float.moved <= 0.5e-3 * 2f64.sqrt() && float.moved > 1e-4);
-    assert!(float.deviation <= float.moved && float.deviation > 0.0);
-    let closed = script
-        .editor
-        .try_rounding(PolygonKind::Clamped, 3)
-        .expect("rounded");
+    let rounding = |report: &Report| match report.figure("rounding") {
+        Some(Value::Real(length)) => length,
+        other => panic!("{other:?}"),
+    };
+    script.try_out("round").expect("rounded");
+    let float = script.trial_report();
+    let moved = rounding(&float);
+    assert!(moved <= 0.5e-3 * 2f64.sqrt() && moved > 1e-4, "{moved}");
+    let Deviation::AtMost(deviation) = float.deviation else {
+        panic!("{float:?}");
+    };
+    assert!(deviation <= moved && deviation > 0.0);
+    let shown = script.polygon();
+    assert!(farthest_off(&before, &shown) <= deviation);
+    assert_eq!(float.largest_move, Some(farthest_vertex(&before, &shown)));
+    script.set("polygon", Value::Choice(1)).expect("the closed");
+    let closed = script.trial_report();
+    let farthest = closed.largest_move.expect("a move");
+    assert_eq!(farthest, farthest_vertex(&before, &script.polygon()));
     // The paper's instability: the float S-polygon moves a thousand times and more as far.
-    assert!(
-        closed.float_moved > 1e3 * closed.moved,
-        "{}",
-        closed.float_moved
-    );
-    script
-        .editor
-        .round(PolygonKind::Float, 3)
-        .expect("a rounded curve");
+    assert!(farthest.distance > 1e3 * rounding(&closed), "{farthest:?}");
+    script.editor.leave_trial();
+    assert_eq!(script.polygon(), before);
+    script.operate("round", &[]).expect("a rounded curve");
     let rounded = script.polygon();
-    assert_eq!(rounded, float.polygon);
+    assert_eq!(rounded, shown);
     let decimal = |value: f64| (value * 1e3).round() / 1e3;
     let expected = before.vertices().iter();
     let expected: Vec<DVec3> = expected
@@ -230,39 +274,4 @@ fn a_periodic_curve_says_why_its_closed_polygon_cannot_be_dragged() {
         "{}",
         script.message()
     );
-}
-
-#[test]
-fn rounding_and_dividing_prove_no_more_than_a_frame_has_time_for() {
-    // More segments than are proved at once, and few enough for the former limit on dividing.
-    let points: Vec<(f64, f64)> = (0..990)
-        .map(|i| (f64::from(i), 10.0 * (0.05 * f64::from(i)).sin()))
-        .collect();
-    let weights = (0..990).map(|i| 1.0 + 0.1 * f64::from(i % 3)).collect();
-    let planar = FloatPolygon::planar(3, &points).expect("a polygon");
-    let vertices = planar.vertices().to_vec();
-    let polygon = FloatPolygon::new(3, vertices, Some(weights), false).expect("a polygon");
-    let mut script = Script::example("arc");
-    let curve = script.curve();
-    let edit = Edit::SetPolygon { curve, polygon };
-    script.editor.apply("long", vec![edit]).expect("an edit");
-    let mut report = script
-        .editor
-        .try_rounding(PolygonKind::Float, 2)
-        .expect("rounded");
-    assert_eq!(report.extrema(), [None, None]);
-    let counts = std::iter::repeat_with(|| report.extrema()).take(100);
-    let counts = counts.last().expect("counts");
-    assert!(counts.iter().all(Option::is_some), "{counts:?}");
-    script
-        .editor
-        .round(PolygonKind::Float, 2)
-        .expect("a rounded curve");
-    let still = |script: &Script| script.message().contains("still being proved");
-    assert!(still(&script), "{}", script.message());
-    script
-        .editor
-        .divide(Division::Split(500.0), 0)
-        .expect("the parts");
-    assert!(still(&script), "{}", script.message());
 }

@@ -3,11 +3,12 @@
 use batten::analysis::LevelPlot;
 use batten::document::CurveId;
 use batten::editor::{
-    Button, Command, Editor, EndFitReport, FeatureReport, Input, Key, Modifiers, PlotKind,
-    PlotScene, Scene, ToolKind, told,
+    Button, Command, Editor, EndFitAction, EndFitReport, FeatureReport, Input, Key, Modifiers,
+    PlotKind, PlotScene, Reply, Scene, ToolKind, told,
 };
 use batten::geometry::FloatPolygon;
 use batten::io::examples::EXAMPLES;
+use batten::operations::{self, Operation, OperationError, Report, Value};
 use glam::DVec2;
 
 use super::laws::{check_document, check_selection};
@@ -148,6 +149,42 @@ impl Script {
         self.check();
     }
 
+    /// Apply an operation with some values.
+    pub fn operate(&mut self, name: &str, given: &[(&str, Value)]) -> Reply {
+        let reply = self.editor.apply_operation(operation(name), given);
+        self.check();
+        reply
+    }
+
+    /// Try an operation out.
+    pub fn try_out(&mut self, name: &str) -> Reply {
+        let reply = self.editor.try_operation(operation(name));
+        self.check();
+        reply
+    }
+
+    /// Give the operation another value.
+    pub fn set(&mut self, parameter: &str, value: Value) -> Result<(), OperationError> {
+        let set = self.editor.set_value(parameter, value);
+        self.check();
+        set
+    }
+
+    /// What the operation that is tried out, or was applied last, reports.
+    #[track_caller]
+    pub fn trial_report(&self) -> Report {
+        let trial = self.editor.trial().expect("an operation");
+        trial.report().expect("a report").clone()
+    }
+
+    /// Let the end-fit panel do something that succeeds.
+    #[track_caller]
+    pub fn end_fit_action(&mut self, action: EndFitAction) {
+        let reply = self.editor.end_fit_action(action);
+        reply.expect("an end-fit action");
+        self.check();
+    }
+
     /// Take a tool.
     pub fn tool(&mut self, tool: ToolKind) {
         self.command(Command::Tool(tool));
@@ -200,4 +237,10 @@ impl Script {
             Ok(())
         );
     }
+}
+
+/// Find an operation by its name.
+#[track_caller]
+pub fn operation(name: &str) -> &'static Operation {
+    operations::find(name).unwrap_or_else(|| panic!("no operation {name}"))
 }

@@ -1,10 +1,11 @@
 //! Several curves at once: whose is what is hovered, copied, cut, exported and named.
 
 use batten::document::{Curve, CurveId, Edit};
-use batten::editor::{Command, Division, Export, HoverScene, Key, Modifiers, ToolKind};
+use batten::editor::{Command, Export, HoverScene, Key, Modifiers, ToolKind};
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::{End, FloatPolygon, PolygonKind};
 use batten::io::disk;
+use batten::operations::{self, Value};
 use glam::{DVec2, DVec3};
 
 use super::script::Script;
@@ -166,12 +167,8 @@ fn what_is_hidden_is_not_edited() {
         }
         script.click(DVec2::new(500.0, 120.0));
     }
-    for command in [
-        Command::Reverse,
-        Command::Subdivide,
-        Command::RaiseDegree,
-        Command::TogglePeriodic,
-    ] {
+    let operations = operations::ALL.iter().copied().map(Command::Operation);
+    for command in operations.chain([Command::TogglePeriodic]) {
         assert!(!script.editor.is_enabled(command), "{command:?}");
     }
     let moves = vec![(0, DVec3::ZERO)];
@@ -263,10 +260,8 @@ fn the_parts_of_a_curve_get_names_of_their_own() {
     let (mut script, _) = two();
     script.command(Command::Duplicate);
     for _ in 0..2 {
-        script
-            .editor
-            .divide(Division::Split(0.5), 1)
-            .expect("the parts");
+        let given = [("at", Value::Real(0.5)), ("subdivisions", Value::Whole(1))];
+        script.operate("split", &given).expect("the parts");
     }
     let mut names: Vec<String> = script
         .editor

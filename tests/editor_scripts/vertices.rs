@@ -1,6 +1,7 @@
 //! Adding, inserting, deleting, drawing and measuring.
 
 use batten::editor::{Command, Key, ToolKind};
+use batten::operations::Value;
 use glam::DVec2;
 
 use super::script::Script;
@@ -62,10 +63,9 @@ fn a_vertex_that_the_degree_needs_is_not_deleted() {
         "{}",
         script.message()
     );
-    script
-        .editor
-        .set_degree(script.curve(), 5)
-        .expect("another degree");
+    let degree = [("degree", Value::Whole(5))];
+    let changed = script.operate("reinterpret-degree", &degree);
+    changed.expect("another degree");
     script.click(script.at_vertex(4));
     assert_eq!(script.polygon().vertices().len(), 9);
 }

@@ -28,6 +28,10 @@ pub enum Done {
     DeleteCurve,
     /// Another document may have been opened.
     Replace,
+    /// The operation that was applied last got another value.
+    Amend,
+    /// Something was done that changes nothing shown.
+    Look,
     /// Anything else.
     Other,
 }
@@ -43,6 +47,8 @@ pub struct Watch {
     shown: State,
     /// Whether a panel's field showed a preview.
     field: bool,
+    /// Whether an operation was tried out.
+    trying: bool,
     /// Whether a drag was going on.
     dragging: bool,
     /// Whether undo would have taken back a point of what is not finished.
@@ -79,6 +85,7 @@ impl Watch {
             at: 0,
             shown: state,
             field: false,
+            trying: window.is_trying(),
             dragging: false,
             unfinished: false,
             active: window.active(),
@@ -108,11 +115,18 @@ impl Watch {
         }
         let shown = State::of(window.document());
         if !matches!(done, Done::Undo | Done::Redo) {
-            check_protected(&self.shown.bits, &shown.bits, done)?;
+            // What an operation did, or would do, may be gone.
+            let of_trial = window.trial().filter(|_| done == Done::Amend);
+            let before = match of_trial {
+                Some(trial) => Snapshot::of(trial.input().document()),
+                None if self.trying => self.states[self.at].bits.clone(),
+                None => self.shown.bits.clone(),
+            };
+            check_protected(&before, &shown.bits, done)?;
         }
         self.follow(window, done, &shown)?;
-        if done == Done::Nothing && shown.bits != self.shown.bits {
-            return Err("a command that is not offered did something".into());
+        if matches!(done, Done::Nothing | Done::Look) && shown.bits != self.shown.bits {
+            return Err("a command that is not offered, or a value refused, did something".into());
         }
         let moves = matches!(done, Done::Transform | Done::Repeat);
         if moves && window.active() != self.active {
@@ -120,13 +134,14 @@ impl Watch {
         }
         self.shown = shown;
         self.dragging = window.is_dragging();
-        self.field &= window.is_in_gesture();
+        self.field &= window.is_in_gesture() && !window.is_trying();
+        self.trying = window.is_trying();
         self.unfinished = window.undoes_points();
         self.active = window.active();
         if done == Done::Escape && (self.dragging || window.is_in_gesture()) {
             return Err("a gesture goes on after Escape".into());
         }
-        if window.is_in_gesture() && !self.field && !self.dragging {
+        if window.is_in_gesture() && !self.field && !self.dragging && !self.trying {
             return Err("a gesture goes on though nothing is held".into());
         }
         Ok(())
@@ -181,6 +196,7 @@ impl Watch {
             Done::Repeat if self.states[self.at].by_key && steps == self.at => {
                 self.go_on(settled.clone())?;
             }
+            Done::Amend => self.follow_amended(settled.clone(), steps)?,
             _ => self.follow_steps(done, pending, &settled, steps)?,
         }
         if steps != self.at {
@@ -211,7 +227,7 @@ impl Watch {
             self.states.push(self.shown.clone());
             return Ok(());
         }
-        let may_stay = self.at == 0 || self.dragging || self.field;
+        let may_stay = self.at == 0 || self.dragging || self.field || self.trying;
         if steps + 1 == self.at {
             self.at -= 1;
         } else if !(steps == self.at && may_stay) {
@@ -227,6 +243,23 @@ impl Watch {
             return Err("a step that changes nothing".into());
         }
         self.states[self.at] = now;
+        Ok(())
+    }
+
+    /// Another value makes another step in place of the operation's, or none, or the first.
+    fn follow_amended(&mut self, now: State, steps: usize) -> Result<(), String> {
+        if steps + 1 == self.at {
+            self.at -= 1;
+            self.states.truncate(self.at + 1);
+            return Ok(());
+        }
+        if steps != self.at {
+            return self.follow_steps(Done::Amend, false, &now, steps);
+        }
+        if now.bits != self.states[self.at].bits {
+            self.states.truncate(self.at + 1);
+            self.go_on(now)?;
+        }
         Ok(())
     }
 

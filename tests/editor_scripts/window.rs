@@ -6,10 +6,11 @@ use std::path::Path;
 use batten::analysis::LevelPlot;
 use batten::document::{Colour, Curve, CurveId, Document, Edit};
 use batten::editor::{
-    CombSettings, Command, Division, Editor, EndFitAction, EndFitMarks, Export, Input, PlotKind,
-    Reply, Selection, Shortcut, Transformation, Viewport, told,
+    CombSettings, Command, Editor, EndFitAction, EndFitMarks, Export, Input, PlotKind, Reply,
+    Selection, Shortcut, Transformation, Trial, Viewport, told,
 };
 use batten::geometry::{FloatPolygon, PolygonKind};
+use batten::operations::{Kind, Operation, Parameter, Value, Values, find};
 use glam::{DVec2, DVec3};
 
 /// The canvas's width and height in screen points.
@@ -66,10 +67,16 @@ pub enum Panel {
     Copy,
     /// What is copied comes back at once.
     CopyAndPaste,
-    /// The dialog divides the active curve at shares of it.
-    Divide(f64, Option<f64>, u32),
-    /// The dialog rounds the active curve.
-    Round(PolygonKind, usize),
+    /// The operation's parameter with this number gets a value that is read from another.
+    SetValue(usize, f64),
+    /// The operation's parameter with this number gets a value of any kind.
+    SetAnyValue(usize, Value),
+    /// The operation that is tried out is applied.
+    ApplyTrial,
+    /// The operation that is tried out is cancelled, or the panel of the last one closed.
+    LeaveTrial,
+    /// An operation is applied at once, its parameters read from numbers.
+    Operate(&'static Operation, [f64; 3]),
     /// A row of the vertex table is clicked, or clicked with Shift.
     SelectVertex(usize, usize, bool),
     /// Plots and rows are hovered, or nothing is.
@@ -175,12 +182,27 @@ impl Window {
 
     /// The document without the preview of a gesture.
     pub fn before_gesture(&self) -> &Document {
-        self.editor.workspace().history().before_gesture()
+        self.editor.workspace().settled()
     }
 
     /// Whether a gesture shows a preview or may show one.
     pub fn is_in_gesture(&self) -> bool {
         self.editor.workspace().history().is_in_gesture()
+    }
+
+    /// The operation that is tried out or was applied last.
+    pub fn trial(&self) -> Option<&Trial> {
+        self.editor.trial()
+    }
+
+    /// Whether an operation is tried out.
+    pub fn is_trying(&self) -> bool {
+        self.editor.is_trying()
+    }
+
+    /// The values of the operation that is tried out or was applied last.
+    pub fn values(&self) -> Option<Values> {
+        Some(self.editor.trial()?.values().clone())
     }
 
     /// Whether the pointer drags.
@@ -366,12 +388,20 @@ impl Window {
                     told(self.editor.paste_text(&text));
                 }
             }
-            Panel::Divide(at, to, subdivisions) => self.divide(*at, *to, *subdivisions),
-            Panel::Round(kind, digits) => {
-                let _ = self.editor.try_rounding(*kind, *digits);
-                told(self.editor.round(*kind, *digits));
+            Panel::SetValue(parameter, number) => {
+                let value = self.parameter(*parameter).map(|found| read(found, *number));
+                value.iter().for_each(|value| self.set(*parameter, *value));
             }
-            Panel::EndFit(action) => self.editor.end_fit_action(*action),
+            Panel::SetAnyValue(parameter, value) => self.set(*parameter, *value),
+            Panel::ApplyTrial => told(self.editor.apply_trial()),
+            Panel::LeaveTrial => self.editor.leave_trial(),
+            Panel::Operate(operation, numbers) => {
+                let given = operation.parameters.iter().zip(numbers);
+                let given = given.map(|(found, number)| (found.name, read(found, *number)));
+                let given: Vec<(&str, Value)> = given.collect();
+                told(self.editor.apply_operation(operation, &given));
+            }
+            Panel::EndFit(action) => told(self.editor.end_fit_action(*action)),
             Panel::Transform(transformation) => told(self.editor.transform(*transformation)),
             Panel::SetPivot(pivot) => self.editor.set_pivot(*pivot),
             Panel::Hover(length, vertex) => {
@@ -416,7 +446,12 @@ impl Window {
     fn tell_of(&mut self, curve: CurveId, asked: OfCurve) {
         let (label, edit) = match asked {
             OfCurve::Activate => return self.editor.activate(curve),
-            OfCurve::SetDegree(degree) => return told(self.editor.set_degree(curve, degree)),
+            OfCurve::SetDegree(degree) => {
+                self.editor.activate(curve);
+                let operation = find("reinterpret-degree").expect("an operation");
+                let given = [("degree", Value::Whole(degree))];
+                return told(self.editor.apply_operation(operation, &given));
+            }
             OfCurve::SetPeriodic(is) => return told(self.editor.set_periodic(curve, is)),
             OfCurve::SetVisible(is) => return told(self.editor.set_visible(curve, is)),
             OfCurve::SetLocked(is) => return told(self.editor.set_locked(curve, is)),
@@ -452,14 +487,27 @@ impl Window {
         found.map(edit).collect()
     }
 
-    fn divide(&mut self, from: f64, to: Option<f64>, subdivisions: u32) {
-        let polygon = self.active_polygon();
-        let last = polygon.map_or(0.0, |polygon| polygon.segments() as f64);
-        let division = match to {
-            Some(to) => Division::Trim(from * last, to * last),
-            None => Division::Split(from * last),
-        };
-        let _ = self.editor.try_division(division, subdivisions);
-        told(self.editor.divide(division, subdivisions));
+    /// A parameter of the operation, counted round.
+    fn parameter(&self, number: usize) -> Option<&'static Parameter> {
+        let parameters = self.trial()?.operation().parameters;
+        parameters.get(number.checked_rem(parameters.len())?)
+    }
+
+    fn set(&mut self, parameter: usize, value: Value) {
+        if let Some(parameter) = self.parameter(parameter) {
+            // The panel shows why not; the player looks at what stays.
+            let _ = self.editor.set_value(parameter.name, value);
+        }
+    }
+}
+
+/// Read a value of a parameter's kind from any number: it may be out of range.
+fn read(parameter: &Parameter, number: f64) -> Value {
+    let whole = number as usize;
+    match parameter.kind {
+        Kind::Whole { .. } => Value::Whole(whole),
+        Kind::Real { .. } => Value::Real(number),
+        Kind::Choice { .. } => Value::Choice(whole % 3),
+        Kind::Switch { .. } => Value::Switch(whole % 2 == 1),
     }
 }

@@ -81,13 +81,14 @@ fn keys_typed_into_any_field_are_no_shortcuts() {
         }
     }
     press(&mut window, Modifiers::NONE, Key::V);
-    for (dialog, labels) in [
-        ("Split or trim", ["At u", "Subdivisions"].as_slice()),
+    for (operation, labels) in [
+        ("Split curve", ["At u", "Subdivisions"].as_slice()),
+        ("Trim curve", ["From u", "To u", "Subdivisions"].as_slice()),
         ("Round coordinates", ["Digits"].as_slice()),
     ] {
         for label in labels {
             press(&mut window, Modifiers::COMMAND, Key::P);
-            window.event(Event::Text(dialog.to_owned()));
+            window.event(Event::Text(operation.to_owned()));
             window.run();
             enter(&mut window);
             check_field(&mut window, label);

@@ -6,6 +6,7 @@ mod fields;
 mod files;
 mod hand;
 mod numbers;
+mod operations;
 
 use batten::editor::{Layer, ToolKind};
 use batten::geometry::End;
@@ -363,9 +364,9 @@ fn every_panel_and_dialog_has_names_in_both_themes_and_when_it_is_small() {
                 click(&mut window, tab);
             }
             click(&mut window, "Verdict");
-            for dialog in ["Split or trim", "Round coordinates"] {
+            for operation in ["Split curve", "Trim curve", "Round coordinates"] {
                 press(&mut window, Modifiers::COMMAND, Key::P);
-                window.event(Event::Text(dialog.to_owned()));
+                window.event(Event::Text(operation.to_owned()));
                 window.run();
                 press(&mut window, Modifiers::NONE, Key::Enter);
                 click(&mut window, "Cancel");

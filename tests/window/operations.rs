@@ -1,0 +1,230 @@
+//! The operation panel: what it shows, and which keys are its own.
+
+use batten::document::{Curve, Document};
+use batten::editor::Editor;
+use batten::geometry::FloatPolygon;
+use eframe::egui::{Event, Key, Modifiers};
+use egui_kittest::kittest::Queryable;
+
+use crate::hand::*;
+use crate::numbers::{enter, wave};
+
+/// Begin an operation from the palette.
+fn begin(window: &mut Window, name: &str) {
+    press(window, Modifiers::COMMAND, Key::P);
+    window.event(Event::Text(name.to_owned()));
+    window.run();
+    enter(window);
+}
+
+/// A window with a curve of five segments, an operation that is tried out on it, and the curve
+/// before.
+fn trying(name: &str) -> (Window, Curve) {
+    let document = Document::from_curves([Curve::new("curve", wave(8, 3))]);
+    let editor = Editor::with_document(document);
+    let mut window = open_window_with(editor, 1480.0, 1300.0);
+    let before = curve(&window);
+    begin(&mut window, name);
+    assert!(window.state().editor().is_trying());
+    (window, before)
+}
+
+fn polygon(window: &Window) -> FloatPolygon {
+    curve(window).polygon
+}
+
+fn steps(window: &Window) -> usize {
+    let editor = window.state().editor();
+    editor.workspace().history().undo_steps()
+}
+
+fn is_applied(window: &Window) -> bool {
+    let trial = window.state().editor().trial();
+    trial.is_some_and(|trial| trial.is_applied())
+}
+
+/// Type a number into a field of the panel.
+fn give(window: &mut Window, field: &str, text: &str) {
+    click(window, field);
+    type_over(window, text);
+    enter(window);
+}
+
+#[test]
+fn the_panel_stands_where_the_inspector_is_and_leaves_the_canvas_free() {
+    let (mut window, before) = trying("Extend curve");
+    for label in ["Extend curve", "End", "Segments", "Apply", "Cancel"] {
+        assert!(window.query_all_by_label(label).count() > 0, "{label}");
+    }
+    window.get_by_label_contains("Continue an end of the curve");
+    assert_eq!(window.query_all_by_label("Name").count(), 0);
+    window.get_by_label("Canvas");
+    assert_ne!(curve(&window), before, "it is shown on the canvas");
+    // Looking about leaves the panel where it is.
+    let shown = curve(&window);
+    press(&mut window, Modifiers::NONE, Key::Plus);
+    press(&mut window, Modifiers::NONE, Key::H);
+    press(&mut window, Modifiers::NONE, Key::Num1);
+    assert!(window.state().editor().is_trying());
+    assert_eq!(curve(&window), shown);
+    click(&mut window, "Cancel");
+    assert_eq!(curve(&window), before);
+    assert_eq!(steps(&window), 0);
+    window.get_by_label("Name");
+    assert_eq!(window.query_all_by_label("Apply").count(), 0);
+}
+
+#[test]
+fn the_report_is_shown_beside_the_values() {
+    let (mut window, _) = trying("Split curve");
+    window.get_by_label("Deviation: none: the same curve");
+    window.get_by_label("Vertices of the first part: 5");
+    window.get_by_label("Vertices of the second part: 6");
+    window.get_by_label_contains("Curvature extrema: ");
+    give(&mut window, "At u", "1");
+    window.get_by_label("Vertices of the first part: 4");
+    window.get_by_label("Vertices of the second part: 7");
+    give(&mut window, "At u", "1.3");
+    window.get_by_label_contains("Deviation: at most ");
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    begin(&mut window, "Round coordinates");
+    window.get_by_label_contains("Largest rounding of a vertex: ");
+    window.get_by_label_contains("Largest move: ");
+}
+
+#[test]
+fn enter_in_a_field_gives_the_value_and_enter_outside_applies() {
+    let (mut window, before) = trying("Extend curve");
+    let segments = before.polygon.segments();
+    give(&mut window, "Segments", "3");
+    assert!(window.state().editor().is_trying(), "the field's Enter");
+    assert_eq!(polygon(&window).segments(), segments + 3);
+    assert_eq!(steps(&window), 0);
+    click(&mut window, "Segments");
+    type_over(&mut window, "9");
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(window.state().editor().is_trying(), "the field's Esc");
+    assert_eq!(polygon(&window).segments(), segments + 3);
+    enter(&mut window);
+    assert!(is_applied(&window));
+    assert_eq!(steps(&window), 1);
+    assert_eq!(polygon(&window).segments(), segments + 3);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(curve(&window), before);
+}
+
+#[test]
+fn escape_cancels() {
+    let (mut window, before) = trying("Round coordinates");
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(window.state().editor().trial().is_none());
+    assert_eq!(curve(&window), before);
+    assert_eq!(steps(&window), 0);
+    window.get_by_label("Name");
+}
+
+#[test]
+fn a_number_that_is_typed_counts_when_the_button_is_clicked() {
+    let (mut window, before) = trying("Extend curve");
+    click(&mut window, "Segments");
+    type_over(&mut window, "3");
+    click(&mut window, "Apply");
+    assert!(is_applied(&window));
+    assert_eq!(steps(&window), 1);
+    assert_eq!(polygon(&window).segments(), before.polygon.segments() + 3);
+    let (mut window, before) = trying("Extend curve");
+    click(&mut window, "Segments");
+    type_over(&mut window, "3");
+    click(&mut window, "Cancel");
+    assert!(window.state().editor().trial().is_none());
+    assert_eq!(curve(&window), before);
+}
+
+#[test]
+fn after_apply_the_panel_stays_and_another_value_amends() {
+    let (mut window, before) = trying("Extend curve");
+    click(&mut window, "Apply");
+    window.get_by_label("applied");
+    window.get_by_label("Name");
+    assert_eq!(window.query_all_by_label("Apply").count(), 0);
+    let panel = window.get_by_label("Segments").rect();
+    assert!(panel.bottom() < window.get_by_label("Name").rect().top());
+    let segments = before.polygon.segments();
+    assert_eq!(polygon(&window).segments(), segments + 1);
+    give(&mut window, "Segments", "4");
+    assert_eq!(polygon(&window).segments(), segments + 4);
+    assert_eq!(steps(&window), 1);
+    assert!(is_applied(&window));
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(curve(&window), before);
+    assert_eq!(window.query_all_by_label("applied").count(), 0);
+    press(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    assert_eq!(polygon(&window).segments(), segments + 4);
+}
+
+#[test]
+fn the_panel_of_the_last_operation_can_be_closed() {
+    let (mut window, _) = trying("Extend curve");
+    enter(&mut window);
+    let applied = curve(&window);
+    click(&mut window, "Close operation");
+    assert_eq!(window.query_all_by_label("applied").count(), 0);
+    assert_eq!(curve(&window), applied);
+    assert_eq!(steps(&window), 1);
+    // Esc does not take a step back either.
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert_eq!(curve(&window), applied);
+}
+
+#[test]
+fn a_number_out_of_range_is_refused_beside_its_field() {
+    let (mut window, _) = trying("Extend curve");
+    let shown = curve(&window);
+    give(&mut window, "Segments", "0");
+    window.get_by_label_contains("Only numbers from 1 to");
+    assert_eq!(curve(&window), shown);
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(window.state().editor().is_trying(), "the field's Esc");
+    enter(&mut window);
+    assert_eq!(curve(&window), shown);
+    assert!(is_applied(&window));
+}
+
+#[test]
+fn values_that_make_no_curve_together_cannot_be_applied() {
+    let (mut window, before) = trying("Trim curve");
+    give(&mut window, "To u", "1");
+    give(&mut window, "From u", "4");
+    assert_eq!(curve(&window), before, "nothing is shown");
+    enter(&mut window);
+    click(&mut window, "Apply");
+    assert!(window.state().editor().is_trying());
+    assert_eq!(steps(&window), 0);
+    give(&mut window, "From u", "0.5");
+    enter(&mut window);
+    assert!(is_applied(&window));
+    assert_eq!(steps(&window), 1);
+}
+
+#[test]
+fn a_field_that_is_dragged_is_called_off_by_escape_and_the_panel_stays() {
+    use eframe::egui::vec2;
+    let (mut window, _) = trying("Split curve");
+    let shown = curve(&window);
+    let field = window.get_by_label("At u").rect().center();
+    window.hover_at(field);
+    window.run();
+    window.drag_at(field);
+    window.step();
+    window.hover_at(field + vec2(40.0, 0.0));
+    window.step();
+    window.step();
+    assert_ne!(curve(&window), shown, "the drag is previewed");
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    window.drop_at(field + vec2(60.0, 0.0));
+    window.run();
+    assert!(window.state().editor().is_trying());
+    assert_eq!(curve(&window), shown);
+    click(&mut window, "Cancel");
+    assert_eq!(steps(&window), 0);
+}
