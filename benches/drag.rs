@@ -1,17 +1,27 @@
 //! Drag one vertex of a degree-9 curve and redo all that is on screen: the document, the closed
 //! S-polygon, the curve, the evolute, the comb, both plots and the panels' figures. The time must
 //! hardly grow with the number of vertices.
+//!
+//! Last, a curve whose features take a second and more for each step of the drag: they are proved
+//! beside the frame, which waits no longer than it is told to.
 #![allow(missing_docs)]
 
+mod wavy;
+
 use std::hint::black_box;
+use std::time::Duration;
 
 use batten::document::{Curve, Document};
 use batten::editor::{Button, Command, Editor, Input, Layer, PlotKind};
 use batten::geometry::FloatPolygon;
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use glam::DVec2;
+use wavy::wavy;
 
 const CANVAS: DVec2 = DVec2::new(1200.0, 700.0);
+
+/// How long the frame waits for features: as long as in the window.
+const PATIENCE: Duration = Duration::from_millis(4);
 
 /// A slowly winding curve with as many turns whatever its number of vertices.
 fn winding(count: usize) -> Document {
@@ -26,9 +36,9 @@ fn winding(count: usize) -> Document {
     Document::from_curves([Curve::new("winding", polygon)])
 }
 
-/// An editor in the middle of a drag of one inner vertex.
-fn dragging(count: usize, close: bool) -> (Editor, DVec2) {
-    let mut editor = Editor::with_document(winding(count));
+/// An editor in the middle of a drag of the vertex in the middle of a curve.
+fn dragging(document: Document, close: bool) -> (Editor, DVec2) {
+    let mut editor = Editor::with_document(document);
     editor.set_canvas_size(CANVAS);
     editor.view_mut().show_plot(Some(PlotKind::Curvature));
     editor
@@ -36,6 +46,7 @@ fn dragging(count: usize, close: bool) -> (Editor, DVec2) {
         .expect("a command");
     let curve = editor.active().expect("a curve");
     let polygon = &editor.document().curve(curve).expect("the curve").polygon;
+    let count = polygon.vertices().len();
     let vertex = polygon.vertex(count / 2).truncate();
     if close {
         // A dozen legs across the canvas, around the vertex.
@@ -70,9 +81,10 @@ fn dragging(count: usize, close: bool) -> (Editor, DVec2) {
 
 /// One frame of the drag.
 fn frame(editor: &mut Editor, at: DVec2) {
+    editor.begin_frame();
     editor.input(Input::Moved { at });
     editor.refresh();
-    // The leg plots come with the curvature plot; the chip and the list read the features.
+    // The chip and the list read the features.
     black_box(editor.features());
     black_box(editor.features());
     black_box(editor.plots());
@@ -91,7 +103,7 @@ fn drag(criterion: &mut Criterion) {
     ] {
         let mut group = criterion.benchmark_group(format!("drag a vertex, {name}"));
         for count in [100, 1_000, 10_000] {
-            let (mut editor, at) = dragging(count, close);
+            let (mut editor, at) = dragging(winding(count), close);
             let mut step = 0;
             group.bench_function(BenchmarkId::from_parameter(count), |bencher| {
                 bencher.iter(|| {
@@ -104,5 +116,22 @@ fn drag(criterion: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, drag);
+fn drag_beside_proofs(criterion: &mut Criterion) {
+    let polygon = wavy(60, 25, 3.0, true);
+    let document = Document::from_curves([Curve::new("wavy", polygon)]);
+    let (mut editor, at) = dragging(document, false);
+    editor.run_in_background(PATIENCE, || {});
+    let mut step = 0;
+    criterion.bench_function(
+        "drag a vertex of a rational curve of degree 25 in space",
+        |bencher| {
+            bencher.iter(|| {
+                step = (step + 1) % 64;
+                frame(&mut editor, at + DVec2::new(10.0 + step as f64, 10.0));
+            });
+        },
+    );
+}
+
+criterion_group!(benches, drag, drag_beside_proofs);
 criterion_main!(benches);

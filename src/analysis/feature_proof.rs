@@ -52,11 +52,6 @@ impl FeatureProof {
         }
         ProofResult(proved)
     }
-
-    /// The number of segments to prove.
-    pub fn segments(&self) -> usize {
-        self.segments.len()
-    }
 }
 
 impl ProvedFeatures {

@@ -1,7 +1,7 @@
 //! The view and what it shows: zoom, pan, hovering, the comb, what is redone.
 
-use batten::document::{Curve, Edit};
-use batten::editor::{Button, CombSettings, Command, HoverScene, Input, Layer, NamedView};
+use batten::document::{Curve, Document, Edit};
+use batten::editor::{Button, CombSettings, Command, Editor, HoverScene, Input, Layer, NamedView};
 use batten::geometry::FloatPolygon;
 use batten::io::examples::EXAMPLES;
 use glam::{DVec2, DVec3};
@@ -113,6 +113,49 @@ fn the_comb_is_scaled_by_the_tip_of_a_tooth() {
         "{after} against {before}"
     );
     assert_eq!(script.editor.workspace().history().undo_steps(), 0);
+}
+
+#[test]
+fn the_hand_reaches_what_was_not_drawn_yet() {
+    let polygon = Script::example("arc").polygon();
+    let document = Document::from_curves([Curve::new("arc", polygon.clone())]);
+    let mut editor = Editor::with_document(document);
+    editor.set_canvas_size(DVec2::new(1000.0, 700.0));
+    editor
+        .execute(Command::ToggleLayer(Layer::Comb))
+        .expect("a command");
+    let (viewport, comb) = (*editor.view().viewport(), editor.view().comb());
+    // The tooth at a joint between segments.
+    let jet = polygon.jet((polygon.segments() / 2) as f64);
+    let tangent = jet.tangent().expect("a tangent").truncate();
+    let foot = jet.point.truncate();
+    let tooth = tangent.perp() * -jet.signed_curvature() * comb.scale;
+    let button = Button::Primary;
+    let [from, to] = [1.0, 1.5].map(|share| viewport.to_screen(foot + share * tooth));
+    for input in [
+        Input::Moved { at: from },
+        Input::Pressed { button, at: from },
+        Input::Moved { at: to },
+        Input::Released { button, at: to },
+    ] {
+        editor.input(input);
+    }
+    let ratio = editor.view().comb().scale / comb.scale;
+    assert!((ratio - 1.5).abs() < 0.01, "{ratio}");
+    // Nor was anything drawn since the document changed.
+    let curve = editor.active().expect("a curve");
+    let by = DVec3::new(0.0, 30.0 * viewport.pixel(), 0.0);
+    let moved = polygon.vertices().iter().map(|vertex| *vertex + by);
+    let moves = moved.enumerate().collect();
+    editor
+        .apply("lift", vec![Edit::MoveVertices { curve, moves }])
+        .expect("an edit");
+    let at = viewport.to_screen(viewport.flatten(polygon.vertex(3) + by));
+    editor.input(Input::Moved { at });
+    editor.input(Input::Pressed { button, at });
+    editor.input(Input::Released { button, at });
+    let selected: Vec<usize> = editor.hand().selection().of_curve(curve).collect();
+    assert_eq!(selected, [3]);
 }
 
 #[test]

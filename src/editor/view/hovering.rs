@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
+use crate::analysis::SampledCurve;
 use crate::document::CurveId;
 use crate::editor::Editor;
 use crate::editor::hand::tools::ToolKind;
@@ -119,8 +120,11 @@ impl Editor {
 
     fn curve_hover(&self, id: CurveId, u: f64) -> Option<HoverScene> {
         let curve = self.document().curve(id).filter(|curve| curve.visible)?;
-        let planar = self.analyses.get(id)?.is_planar();
-        let jet = curve.polygon.jet(u);
+        let SampledCurve {
+            curve: shape,
+            samples,
+        } = self.analyses.get(id)?.sampled();
+        let (planar, jet) = (samples.is_planar(), shape.jet(u));
         let curvature = jet.curvature_of(planar);
         let radius = 1.0 / curvature.abs();
         let mut lines = vec![
