@@ -150,3 +150,38 @@ fn an_edited_curve_is_analysed_as_if_it_were_new() {
         }
     }
 }
+
+#[test]
+fn a_proof_counts_for_segments_that_did_not_change_meanwhile() {
+    let points: Vec<_> = (0..20)
+        .map(|i| (f64::from(i), (1.1 * f64::from(i)).sin()))
+        .collect();
+    let before = FloatPolygon::planar(3, &points).expect("a valid polygon");
+    let curve = Arc::new(Curve::new("curve", before.clone()));
+    let mut analysis = CurveAnalysis::new(curve.clone());
+    let stale = analysis.proof().expect("nothing is proved");
+    let mut after = before.clone();
+    after
+        .move_vertices([(10, DVec3::new(10.0, 5.0, 0.0))])
+        .expect("a valid place");
+    analysis.update(&Arc::new(Curve::new("curve", after.clone())));
+    // What was begun for the curve before leaves open the segments that the vertex touches.
+    analysis.take_proof(stale.run(&Progress::default()));
+    assert_eq!(analysis.segments_proved(), 13);
+    assert_eq!(analysis.proof_progress(), 1.0 - 4.0 / 17.0);
+    assert_eq!(analysis.known_features(), None);
+    let rest = analysis.proof().expect("four segments are open");
+    // Cancelled before it began, it proves nothing.
+    let cancelled = Progress::default();
+    cancelled.cancel();
+    analysis.take_proof(rest.run(&cancelled));
+    assert_eq!(analysis.segments_proved(), 0);
+    analysis.take_proof(rest.run(&Progress::default()));
+    assert_eq!(analysis.segments_proved(), 4);
+    assert_eq!(analysis.known_features(), Some(&Features::new(&after)));
+    // Back to the very curve that it was made of, the stale proof counts for nothing.
+    analysis.update(&curve);
+    analysis.take_proof(stale.run(&Progress::default()));
+    assert_eq!(analysis.segments_proved(), 0);
+    assert_eq!(proved(&mut analysis), Features::new(&before));
+}
