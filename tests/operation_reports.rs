@@ -5,7 +5,7 @@ mod common;
 use std::f64::consts::TAU;
 
 use batten::geometry::{
-    Amplification, BezierPolygon, ClampedPolygon, End, FloatPolygon, PolygonError, PolygonKind,
+    Amplification, BezierPolygon, ClampedPolygon, End, FloatPolygon, PolygonError,
 };
 use common::{Random, reach};
 use glam::DVec3;
