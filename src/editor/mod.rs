@@ -4,6 +4,7 @@
 mod commands;
 mod files;
 mod hand;
+mod operating;
 mod patience;
 mod proving;
 mod reply;

@@ -1,41 +1,34 @@
-//! Operations as they are tried out, and once they are applied: the operation panel's state.
+//! An operation as it is tried out, and once it is applied: the operation panel's state.
 
-use std::sync::Arc;
-
-use crate::document::{Curve, CurveId, Document, Edit};
-use crate::editor::Editor;
+use crate::document::CurveId;
 use crate::editor::hand::selection::Selection;
-use crate::editor::hand::tools::ToolKind;
-use crate::editor::reply::{Message, Note, Refusal, Reply, told};
-use crate::editor::view::scene::Mark;
-use crate::editor::worker::{Outcome as Answer, Worker};
-use crate::editor::workspace::{Interruption, PreviewId};
+use crate::editor::worker::Worker;
+use crate::editor::workspace::PreviewId;
 use crate::geometry::Progress;
-use crate::operations;
 use crate::operations::{
-    FeatureComparison, Input, Inputs, Operation, OperationError, Outcome, Report, Value, Values,
+    FeatureComparison, Input, Operation, OperationError, Outcome, Report, Values,
 };
 
 /// Hold an operation that is being tried out, or that was applied last: its values can be changed
 /// until something else is done.
 #[derive(Debug)]
 pub struct Trial {
-    operation: &'static Operation,
-    input: Input,
-    values: Values,
-    stage: Stage,
+    pub(in crate::editor) operation: &'static Operation,
+    pub(in crate::editor) input: Input,
+    pub(in crate::editor) values: Values,
+    pub(in crate::editor) stage: Stage,
     /// What was selected before.
-    selection: Selection,
+    pub(in crate::editor) selection: Selection,
     /// What it comes to with these values; while that is worked out, with those before.
-    run: Option<Result<Run, OperationError>>,
+    pub(in crate::editor) run: Option<Result<Run, OperationError>>,
     /// Whether the worker works out what it comes to with these values.
-    pending: bool,
+    pub(in crate::editor) pending: bool,
     /// The features before and afterwards that were proved last.
-    features: Option<FeatureComparison>,
+    pub(in crate::editor) features: Option<FeatureComparison>,
     /// The number of the question whose answers count.
-    question: u64,
+    pub(in crate::editor) question: u64,
     /// Whether it is applied as soon as it is known what it comes to.
-    applies: bool,
+    pub(in crate::editor) applies: bool,
 }
 
 /// What an operation comes to.
@@ -48,7 +41,7 @@ pub struct Run {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Stage {
+pub(in crate::editor) enum Stage {
     /// This preview shows what it would do.
     Tried(PreviewId),
     /// It was applied.
@@ -62,13 +55,13 @@ enum Stage {
 
 /// What the worker tells of a question.
 #[derive(Debug)]
-pub struct Told {
-    question: u64,
-    what: What,
+pub(in crate::editor) struct Told {
+    pub(in crate::editor) question: u64,
+    pub(in crate::editor) what: What,
 }
 
 #[derive(Debug)]
-enum What {
+pub(in crate::editor) enum What {
     Ran(Box<Result<Run, OperationError>>),
     Proved(Option<FeatureComparison>),
 }
@@ -76,9 +69,9 @@ enum What {
 /// Run operations beside the frame.
 #[derive(Debug)]
 pub(in crate::editor) struct Operations {
-    worker: Worker<Told>,
-    trial: Option<Trial>,
-    questions: u64,
+    pub(in crate::editor) worker: Worker<Told>,
+    pub(in crate::editor) trial: Option<Trial>,
+    pub(in crate::editor) questions: u64,
 }
 
 impl Default for Operations {
@@ -150,13 +143,13 @@ impl Trial {
         self.run.as_ref()
     }
 
-    fn curve(&self) -> Option<CurveId> {
+    pub(in crate::editor) fn curve(&self) -> Option<CurveId> {
         self.input.curves().first().map(|(id, _)| *id)
     }
 }
 
 impl Run {
-    fn new(
+    pub(in crate::editor) fn new(
         operation: &'static Operation,
         input: &Input,
         values: &Values,
@@ -165,388 +158,5 @@ impl Run {
         let outcome = operation.run(input, values, progress)?;
         let report = Report::new(operation, input, &outcome);
         Ok(Self { outcome, report })
-    }
-}
-
-impl Editor {
-    /// The operation that is being tried out or was applied last, unless something else was done
-    /// since.
-    pub fn trial(&self) -> Option<&Trial> {
-        let trial = self.operations.trial.as_ref()?;
-        let counts = match trial.stage {
-            Stage::Tried(preview) => self.workspace.preview() == Some(preview),
-            Stage::Applied { revision, .. } => {
-                self.workspace.revision() == revision
-                    && self.workspace.preview().is_none()
-                    && (trial.curve().is_none() || trial.curve() == self.active())
-            }
-        };
-        counts.then_some(trial)
-    }
-
-    /// Whether an operation is being tried out.
-    pub fn is_trying(&self) -> bool {
-        self.trial().is_some_and(|trial| !trial.is_applied())
-    }
-
-    /// The share of the work that is done, while the worker is busy with the operation.
-    pub fn operation_progress(&self) -> Option<f64> {
-        Some(self.operations.worker.progress()?.done())
-    }
-
-    /// Why an operation cannot be begun now, if it cannot.
-    ///
-    /// # Errors
-    /// [`OperationError`].
-    pub fn check_operation(&self, operation: &'static Operation) -> Result<(), OperationError> {
-        operation.check(&self.input_of(operation)?)
-    }
-
-    /// Try an operation out on the active curve; one without parameters is applied at once. The
-    /// reply is told.
-    ///
-    /// # Errors
-    /// [`Refusal`] if it cannot run on the curve.
-    pub fn try_operation(&mut self, operation: &'static Operation) -> Reply {
-        if operation.parameters.is_empty() {
-            return self.apply_operation(operation, &[]);
-        }
-        self.message = None;
-        self.interrupt();
-        let begun = self.begin_trial(operation, &[]);
-        if begun.is_ok() {
-            self.ask();
-        }
-        self.tell(begun.map(|()| Note::silent()))
-    }
-
-    /// Apply an operation with some values; the others have their defaults. The reply is told.
-    ///
-    /// # Errors
-    /// [`Refusal`] if it cannot run, or what is asked for is not reached; nothing is changed then.
-    pub fn apply_operation(
-        &mut self,
-        operation: &'static Operation,
-        given: &[(&str, Value)],
-    ) -> Reply {
-        self.message = None;
-        let reply = self.operate(operation, given);
-        self.tell(reply)
-    }
-
-    /// Apply an operation with some values.
-    pub(in crate::editor) fn operate(
-        &mut self,
-        operation: &'static Operation,
-        given: &[(&str, Value)],
-    ) -> Reply {
-        self.interrupt();
-        let begun = self.begin_trial(operation, given);
-        let reply = begun.and_then(|()| {
-            self.ask();
-            self.settle_trial()
-        });
-        if reply.is_err() {
-            self.leave_trial();
-        }
-        reply
-    }
-
-    /// Give the operation that is tried out, or was applied last, another value for a parameter.
-    ///
-    /// # Errors
-    /// [`OperationError`] if the parameter does not take it; nothing is changed then.
-    pub fn set_value(&mut self, parameter: &str, value: Value) -> Result<(), OperationError> {
-        if self.trial().is_none() {
-            return Ok(());
-        }
-        let Some(trial) = &mut self.operations.trial else {
-            return Ok(());
-        };
-        let (operation, input) = (trial.operation, &trial.input);
-        let values = operation.values_with(input, &trial.values, parameter, value)?;
-        if values != trial.values {
-            trial.values = values;
-            self.ask();
-        }
-        Ok(())
-    }
-
-    /// Keep what the operation that is tried out does, as one step; if it still runs, as soon as it
-    /// is done. The reply is told.
-    ///
-    /// # Errors
-    /// [`Refusal`] if it does not reach what is asked for.
-    pub fn apply_trial(&mut self) -> Reply {
-        if !self.is_trying() {
-            return Ok(Note::silent());
-        }
-        let reply = self.settle_trial();
-        self.tell(reply)
-    }
-
-    /// Take the operation that is tried out back, or put that which was applied out of reach.
-    pub fn leave_trial(&mut self) {
-        let tries = self.is_trying();
-        if tries {
-            self.workspace.abort();
-        }
-        self.operations.worker.cancel();
-        // What a drag or a field has taken back has nothing to restore any more.
-        if let Some(trial) = self.operations.trial.take()
-            && tries
-        {
-            self.hand.selection = trial.selection;
-        }
-        self.document_changed();
-    }
-
-    /// The active curve before the operation that is tried out, or before a correction of its ends:
-    /// the canvas shows it faintly.
-    pub(in crate::editor) fn before_operation(&self) -> Option<Arc<Curve>> {
-        let trial = self.trial()?;
-        let corrects = self.hand.tool() == ToolKind::EndFit;
-        let shown = !trial.is_applied() || corrects;
-        let active = self.active().filter(|_| shown)?;
-        trial.input.document().curve(active).cloned()
-    }
-
-    /// What the operation that is tried out marks on the canvas.
-    pub(in crate::editor) fn operation_marks(&self) -> Vec<Mark> {
-        let trial = self.trial().filter(|trial| !trial.is_applied());
-        let Some(Ok(run)) = trial.and_then(Trial::run) else {
-            return Vec::new();
-        };
-        let seen = |point| self.view.viewport.flatten(point);
-        let marks = run.outcome.marks.iter();
-        let marks = marks.map(|mark| match *mark {
-            operations::Mark::Point(point) => Mark::Snap(seen(point)),
-            operations::Mark::Arrow { from, to } => Mark::Ruler([seen(from), seen(to)]),
-        });
-        marks.collect()
-    }
-
-    /// End what is tried out if another curve is active now.
-    pub(in crate::editor) fn leave_stale_trial(&mut self) {
-        let other = self.trial().is_some_and(|trial| {
-            !trial.is_applied() && trial.curve().is_some() && trial.curve() != self.active()
-        });
-        if other {
-            self.leave_trial_selecting(self.hand.selection.clone());
-        }
-    }
-
-    /// Take the operation that is tried out back because something else is begun. What was selected
-    /// meanwhile stays so if all vertices have the numbers that they had before.
-    pub(in crate::editor) fn interrupt_trial(&mut self) {
-        let numbers = |document: &Document| -> Vec<(CurveId, usize)> {
-            let curves = document.curves();
-            let counts = curves.map(|(id, curve)| (id, curve.polygon.vertices().len()));
-            counts.collect()
-        };
-        let keeps = numbers(self.workspace.settled()) == numbers(self.workspace.document());
-        if keeps {
-            self.leave_trial_selecting(self.hand.selection.clone());
-        } else {
-            self.leave_trial();
-        }
-    }
-
-    fn leave_trial_selecting(&mut self, selection: Selection) {
-        self.leave_trial();
-        self.hand.selection = selection;
-        self.document_changed();
-    }
-
-    /// Take what the worker has to tell.
-    pub(in crate::editor) fn receive_operations(&mut self) {
-        for answer in self.operations.worker.take() {
-            self.take_answer(answer);
-        }
-    }
-
-    fn input_of(&self, operation: &Operation) -> Result<Input, OperationError> {
-        let selection = &self.hand.selection;
-        let active = selection.active();
-        let curves: Vec<CurveId> = match operation.inputs {
-            Inputs::None | Inputs::Points => Vec::new(),
-            Inputs::One => active.into_iter().collect(),
-            // The active curve comes first.
-            Inputs::Two => {
-                let others = self.document().ids().filter(|id| Some(*id) != active);
-                let others = others.filter(|id| selection.of_curve(*id).next().is_some());
-                active.into_iter().chain(others).collect()
-            }
-        };
-        Input::new(self.workspace.settled(), curves)
-    }
-
-    fn begin_trial(
-        &mut self,
-        operation: &'static Operation,
-        given: &[(&str, Value)],
-    ) -> Result<(), Refusal> {
-        let prepared = self.input_of(operation).and_then(|input| {
-            let values = operation.values(&input, given.iter().copied())?;
-            Ok((input, values))
-        });
-        let (input, values) = prepared.map_err(|error| Refusal(error.to_string()))?;
-        let preview = self.workspace.begin(operation.label, Interruption::Aborts);
-        self.operations.trial = Some(Trial {
-            operation,
-            input,
-            values,
-            stage: Stage::Tried(preview),
-            selection: self.hand.selection.clone(),
-            run: None,
-            pending: false,
-            features: None,
-            question: 0,
-            applies: false,
-        });
-        Ok(())
-    }
-
-    /// Ask the worker what the operation comes to, and wait a moment for the answer.
-    fn ask(&mut self) {
-        let operations = &mut self.operations;
-        let Some(trial) = &mut operations.trial else {
-            return;
-        };
-        operations.questions += 1;
-        let question = operations.questions;
-        trial.question = question;
-        trial.pending = true;
-        let (operation, input, values) =
-            (trial.operation, trial.input.clone(), trial.values.clone());
-        let job = move |progress: &Progress| Told {
-            question,
-            what: What::Ran(Box::new(Run::new(operation, &input, &values, progress))),
-        };
-        let worker = &mut operations.worker;
-        let answers = self.patience.spend(|left| worker.start(job, left));
-        for answer in answers {
-            self.take_answer(answer);
-        }
-    }
-
-    /// Ask the worker for the features before and afterwards.
-    fn ask_for_features(&mut self) {
-        let operations = &mut self.operations;
-        let Some(trial) = &operations.trial else {
-            return;
-        };
-        let Some(Ok(run)) = &trial.run else {
-            return;
-        };
-        let (question, input, outcome) = (trial.question, trial.input.clone(), run.outcome.clone());
-        let job = move |progress: &Progress| Told {
-            question,
-            what: What::Proved(FeatureComparison::prove(&input, &outcome, progress)),
-        };
-        let worker = &mut operations.worker;
-        let answers = self.patience.spend(|left| worker.start(job, left));
-        for answer in answers {
-            self.take_answer(answer);
-        }
-    }
-
-    fn take_answer(&mut self, answer: Answer<Told>) {
-        let counts = self.trial().map(|trial| trial.question);
-        match answer {
-            Answer::Panicked(text) => {
-                let failed = format!("The operation failed: {text}. Nothing was changed");
-                self.leave_trial();
-                self.message = Message::of(&Err(Refusal(failed)));
-            }
-            Answer::Done(Told { question, what }) if counts == Some(question) => match what {
-                What::Ran(run) => self.take_run(*run),
-                What::Proved(features) => {
-                    if let Some(trial) = &mut self.operations.trial
-                        && let Some(Ok(run)) = &mut trial.run
-                    {
-                        trial.features = features.clone();
-                        run.report.features = features;
-                    }
-                }
-            },
-            // It was asked for other values, or before something else was done.
-            Answer::Done(_) => {}
-        }
-    }
-
-    fn take_run(&mut self, run: Result<Run, OperationError>) {
-        let edits = match &run {
-            Ok(run) => run.outcome.edits.clone(),
-            Err(_) => Vec::new(),
-        };
-        let proves = run.as_ref().is_ok_and(|run| run.outcome.reached);
-        let Some(trial) = &mut self.operations.trial else {
-            return;
-        };
-        trial.run = Some(run);
-        trial.pending = false;
-        let (label, stage, applies) = (trial.operation.label, trial.stage, trial.applies);
-        match stage {
-            Stage::Tried(_) => self.update(edits),
-            Stage::Applied { steps, .. } => self.amend(label, steps, edits),
-        }
-        if applies {
-            let reply = self.settle_trial();
-            // Whoever asked has its answer: this is what came of it later.
-            told(self.tell(reply));
-        }
-        if proves {
-            self.ask_for_features();
-        }
-    }
-
-    /// Put other edits in place of the step that the operation made after `steps` others, if it made
-    /// one.
-    fn amend(&mut self, label: &str, steps: usize, edits: Vec<Edit>) {
-        let amended = if self.workspace.history().undo_steps() > steps {
-            self.workspace.amend(label, edits)
-        } else {
-            self.workspace.apply(label, edits)
-        };
-        self.tell_of_update(amended.err().map(Refusal::from));
-        if let Some(trial) = &mut self.operations.trial {
-            let revision = self.workspace.revision();
-            trial.stage = Stage::Applied { revision, steps };
-        }
-        self.document_changed();
-    }
-
-    /// Keep what the operation does, now or once it is known; or say why it cannot be kept.
-    fn settle_trial(&mut self) -> Reply {
-        let Some(trial) = &mut self.operations.trial else {
-            return Ok(Note::silent());
-        };
-        trial.applies = false;
-        if trial.pending {
-            trial.applies = true;
-            return Ok(Note::silent());
-        }
-        let renumbers = match &trial.run {
-            None => return Ok(Note::silent()),
-            Some(Err(error)) => return Err(Refusal(error.to_string())),
-            Some(Ok(run)) if !run.outcome.reached => return Err(Refusal(run.report.summary())),
-            Some(Ok(run)) => run.outcome.renumbered,
-        };
-        let steps = self.workspace.history().undo_steps();
-        self.workspace.commit();
-        trial.stage = Stage::Applied {
-            revision: self.workspace.revision(),
-            steps,
-        };
-        let said = match &trial.run {
-            Some(Ok(run)) => run.report.summary(),
-            _ => String::new(),
-        };
-        if renumbers {
-            self.hand.selection.clear();
-        }
-        self.document_changed();
-        Ok(Note::done(said))
     }
 }

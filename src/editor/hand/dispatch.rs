@@ -83,9 +83,19 @@ impl Editor {
         self.analyse();
         let layers = self.layers();
         let mut tools = std::mem::take(&mut self.hand.tools);
-        let effects = tools
+        let mut effects = tools
             .used_mut()
             .gesture(gesture, &self.context_with(layers));
+        let begins = |effect: &Effect| matches!(effect, Effect::Begin(_));
+        if self.is_trying() && effects.iter().any(begins) {
+            // What was pressed is of the document that an operation shows, which goes now.
+            self.interrupt_trial();
+            self.analyse();
+            tools.choose(tools.kind());
+            effects = tools
+                .used_mut()
+                .gesture(gesture, &self.context_with(layers));
+        }
         self.hand.tools = tools;
         let mut step = Step::None;
         for effect in effects {

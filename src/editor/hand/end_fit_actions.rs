@@ -52,28 +52,45 @@ impl Editor {
                 quoted(&curve.name)
             ))));
         }
-        let passes = self.last_end_fit_action().map_or(0, |last| last.passes);
         let revision = self.workspace.revision();
-        let reply = match self.correction(action, &curve) {
-            Some((operation, values)) => self.operate(operation, &values),
-            None => self.set_up(action, id, &curve),
+        let (reply, passes) = match self.correction(action, &curve) {
+            Some((operation, values)) => {
+                let passes = self.last_end_fit_action().map_or(0, |last| last.passes);
+                (self.operate(operation, &values), passes)
+            }
+            None => (self.set_up(action, id, &curve), 0),
         };
-        if reply.is_ok() && self.workspace.revision() == revision {
+        if self.is_trying() {
+            self.hand.tools.end_fit.awaited = Some((action, passes));
+        } else if reply.is_err() || self.workspace.revision() != revision {
             // What is only looked at otherwise leaves what was told before.
-            return reply;
+            self.keep_end_fit_action(action, passes, &reply);
         }
+        reply
+    }
+
+    /// Keep what an action came to, for the panel; so many passes were made before it.
+    pub(in crate::editor) fn keep_end_fit_action(
+        &mut self,
+        action: EndFitAction,
+        passes: usize,
+        reply: &Reply,
+    ) {
+        let Some((curve, found)) = self.active_curve() else {
+            return;
+        };
         let report = self.trial().and_then(Trial::report);
-        let made = report.map_or(0, |report| passes_of(action, &curve, report));
+        let report = report.filter(|_| reply.is_ok());
+        let made = report.map_or(0, |report| passes_of(action, &found, report));
         let joint = action == EndFitAction::BothAtOnce;
         let largest_move = report.and_then(|report| report.largest_move);
         self.hand.tools.end_fit.last = Some(LastAction {
-            curve: id,
+            curve,
             revision: self.workspace.revision(),
-            passes: if reply.is_ok() { passes + made } else { passes },
-            largest_move: largest_move.filter(|_| joint && reply.is_ok()),
+            passes: passes + made,
+            largest_move: largest_move.filter(|_| joint),
             reply: reply.clone(),
         });
-        reply
     }
 
     /// Do what corrects nothing: choose what is worked on, or set the target.

@@ -7,59 +7,12 @@ use glam::DVec2;
 use super::Plots;
 use super::drawing::*;
 use super::frame::{most_of, padded, within_reason};
+use super::level_names::axis_name;
 use crate::analysis::LevelPlot;
 use crate::editor::Editor;
 use crate::ui::figures;
 use crate::ui::theme::{STEP, Tokens};
 use crate::ui::widgets;
-
-/// What the tab of a plot is called; `short` where there is little room.
-pub fn tab_name(plot: LevelPlot, short: bool) -> String {
-    match plot {
-        LevelPlot::Curvature(level) if short => format!("κ {level}"),
-        LevelPlot::Torsion(1) if short => "τ".to_owned(),
-        LevelPlot::Torsion(level) if short => format!("τ {level}"),
-        LevelPlot::Logarithmic if short => "Log".to_owned(),
-        LevelPlot::Curvature(level) => format!("κ level {level}"),
-        LevelPlot::Torsion(1) => "Torsion".to_owned(),
-        LevelPlot::Torsion(level) => format!("τ level {level}"),
-        LevelPlot::Logarithmic => "Log graph".to_owned(),
-    }
-}
-
-/// What a plot shows, in a sentence.
-pub fn explanation(plot: LevelPlot) -> String {
-    let graph_of = |quantity: &str, level: usize| {
-        format!(
-            "Level {level} of the {quantity}: the curvature g″/(1 + g′²)^(3/2) of the graph of \
-             level {} over arc length",
-            level - 1
-        )
-    };
-    match plot {
-        LevelPlot::Torsion(1) => "The torsion over arc length".to_owned(),
-        LevelPlot::Curvature(level) => graph_of("curvature", level.max(2)),
-        LevelPlot::Torsion(level) => graph_of("torsion", level),
-        LevelPlot::Logarithmic => "The logarithmic curvature graph, log |ρ ds/dρ| over log ρ: a \
-                                   straight line of slope α on a log-aesthetic curve"
-            .to_owned(),
-    }
-}
-
-/// What the vertical axis is called.
-fn axis_name(plot: LevelPlot, normalised: bool) -> String {
-    let unit = match (plot, normalised) {
-        (_, true) => ", length 1",
-        (LevelPlot::Torsion(1), _) => " (1/unit)",
-        _ => "",
-    };
-    match plot {
-        LevelPlot::Curvature(level) => format!("κ level {level}{unit}"),
-        LevelPlot::Torsion(1) => format!("torsion τ{unit}"),
-        LevelPlot::Torsion(level) => format!("τ level {level}{unit}"),
-        LevelPlot::Logarithmic => "log₁₀ |ρ ds/dρ|".to_owned(),
-    }
-}
 
 /// Where the bar leaves less room than this, in points, the switch has a short name.
 const NARROW: f32 = 150.0;

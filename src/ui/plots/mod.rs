@@ -4,6 +4,7 @@ mod curvature;
 mod drawing;
 mod frame;
 mod legs;
+mod level_names;
 mod levels;
 
 use std::collections::HashMap;
@@ -18,7 +19,7 @@ use crate::editor::{Editor, PlotKind};
 use crate::geometry::LEVELS;
 use crate::ui::action::Action;
 use frame::Frame;
-use levels::{explanation, tab_name};
+use level_names::{explanation, tab_name};
 
 /// The height of the bar with the tabs.
 pub const BAR: f32 = 32.0;

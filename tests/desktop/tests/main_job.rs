@@ -33,7 +33,7 @@ fn the_main_job_end_to_end() -> Result<()> {
     let from = place(canvas, &original, 9);
     window.drag(from, from + way)?;
     let dragged = saved(&mut window, "dragged")?;
-    let scale = fitted(canvas).viewport().scale;
+    let scale = fitted(canvas).view().viewport().scale;
     let expected = original.vertex(9) + DVec3::new(40.0, -25.0, 0.0) / scale;
     let off = dragged.polygon.vertex(9).distance(expected);
     ensure!(

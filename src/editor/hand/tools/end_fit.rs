@@ -6,7 +6,9 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::tool::{Context, Cursor, Effect, Tool};
 use crate::document::{Curve, CurveId, Edit, quoted};
-use crate::editor::hand::end_fit::{EndFitSettings, LastAction, nearest_other_end, other_ends};
+use crate::editor::hand::end_fit::{
+    EndFitAction, EndFitSettings, LastAction, nearest_other_end, other_ends,
+};
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
 use crate::editor::hand::snapping::{Carried, along_axis, by_fifteen_degrees};
@@ -28,6 +30,8 @@ pub struct EndFitTool {
     pub settings: EndFitSettings,
     /// What the last action of its panel came to.
     pub last: Option<LastAction>,
+    /// The correction that is still worked out, and the passes that were made before it.
+    pub awaited: Option<(EndFitAction, usize)>,
     state: State,
 }
 
