@@ -18,6 +18,9 @@ use super::snapshot::Snapshot;
 /// Longer than any operation here takes: whoever waits so long has failed.
 const LONG: Duration = Duration::from_secs(60);
 
+/// Something that is done, and what it is.
+type Done = (&'static str, fn(&mut Script));
+
 /// How far the drags go, in screen points.
 const BY: DVec2 = DVec2::new(40.0, -25.0);
 
@@ -584,7 +587,7 @@ fn another_curve_ends_what_is_tried_out_and_what_was_applied() {
 
 #[test]
 fn the_panel_of_what_was_applied_ends_with_the_next_step_undo_or_redo() {
-    let ends: [(&str, fn(&mut Script)); 6] = [
+    let ends: [Done; 6] = [
         ("a drag", |script| script.drag_vertex(3, BY)),
         ("an arrow key", |script| script.key(Key::Up)),
         ("a command", |script| script.command(Command::Duplicate)),
@@ -797,7 +800,7 @@ fn what_is_refused_late_is_told_and_changes_nothing() {
 
 #[test]
 fn what_is_left_before_it_is_known_never_comes() {
-    let leaves: [(&str, fn(&mut Script)); 4] = [
+    let leaves: [Done; 4] = [
         ("cancel", |script| script.editor.leave_trial()),
         ("Esc", |script| script.editor.input(Input::Key(Key::Escape))),
         ("undo", |script| {
