@@ -59,6 +59,9 @@ fn check_proved_in_later_frames(script: &mut Script, woken: &Receiver<()>) {
         expected.inflections.len()
     );
     assert!(report.count(&EXTREMA) > 500);
+    // The pieces that rise and fall are drawn, though frames before had nothing to draw.
+    let [rising, falling, _] = &script.scene().curves[0].pieces;
+    assert!(rising.len() > 500 && falling.len() > 500);
 }
 
 #[test]

@@ -392,7 +392,10 @@ impl CurveOutlines {
             if !coarse {
                 outline.append(view, out);
             } else if outline.bounds().may_meet(view) {
-                append_fine(&mut self.fine, sampled, index, view, out, &layer);
+                let fine = &mut self.fine;
+                outline.append_close(view, layer.shape, out, |out| {
+                    append_fine(fine, sampled, index, view, out, &layer);
+                });
             } else {
                 append_gap(out);
             }
@@ -459,8 +462,8 @@ fn append_fine<P, C>(
             (layer.points)(piece, &closer, Some(view), &mut chained);
             let spacing = 2f64.powi(view.level());
             thin(chained.iter().copied(), spacing, out, &mut bounds);
-        } else {
-            append_gap(out);
+        } else if out.last().is_none_or(|last| !last.is_nan()) {
+            out.push(GAP);
         }
     }
 }

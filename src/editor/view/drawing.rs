@@ -121,10 +121,12 @@ impl Editor {
             return;
         }
         if layers.shows(Layer::Features) {
-            let segments = analysis.proved_segments().unwrap_or_default();
-            for (trend, chain) in PieceTrend::ALL.into_iter().zip(&mut scene.pieces) {
-                let outlines = &mut outlined.curve;
-                outlines.append_trend(sampled, segments, trend, view, chain);
+            // What is not proved yet must not be remembered as empty.
+            if let Some(segments) = analysis.proved_segments() {
+                for (trend, chain) in PieceTrend::ALL.into_iter().zip(&mut scene.pieces) {
+                    let outlines = &mut outlined.curve;
+                    outlines.append_trend(sampled, segments, trend, view, chain);
+                }
             }
         }
         if layers.shows(Layer::Clamped) {

@@ -127,6 +127,9 @@ pub struct Outline {
     key: Option<OutlineKey>,
     points: Vec<DVec2>,
     bounds: Bounds,
+    /// The view and the shape that the points were made for that one view alone needs.
+    close_key: Option<(ViewBox, u64)>,
+    close: Vec<DVec2>,
 }
 
 impl Outline {
@@ -158,6 +161,26 @@ impl Outline {
         } else {
             append_gap(out);
         }
+    }
+
+    /// Append points that are made for this view alone, by `make` unless they are known.
+    pub fn append_close(
+        &mut self,
+        view: &ViewBox,
+        shape: u64,
+        out: &mut Vec<DVec2>,
+        make: impl FnOnce(&mut Vec<DVec2>),
+    ) {
+        let key = Some((*view, shape));
+        if self.close_key != key {
+            self.close_key = key;
+            self.close.clear();
+            make(&mut self.close);
+        }
+        let is_gap = |point: Option<&DVec2>| point.is_some_and(|point| point.is_nan());
+        let broken = out.is_empty() || is_gap(out.last());
+        let first = usize::from(broken && is_gap(self.close.first()));
+        out.extend_from_slice(&self.close[first..]);
     }
 }
 
