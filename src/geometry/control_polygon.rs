@@ -72,9 +72,13 @@ impl ControlPolygon {
 
     /// The vertices with their weights, which are 1 for a polynomial curve.
     pub(super) fn weighted_vertices(&self) -> impl Iterator<Item = (DVec3, f64)> + Clone + '_ {
-        let weight = |index| self.weights.as_ref().map_or(1.0, |weights| weights[index]);
-        let numbered = self.vertices.iter().enumerate();
-        numbered.map(move |(index, point)| (*point, weight(index)))
+        (0..self.vertices.len()).map(|index| self.weighted_vertex(index))
+    }
+
+    /// A vertex with its weight, which is 1 for a polynomial curve.
+    pub(super) fn weighted_vertex(&self, index: usize) -> (DVec3, f64) {
+        let weight = self.weights.as_ref().map_or(1.0, |weights| weights[index]);
+        (self.vertices[index], weight)
     }
 
     /// Put converted vertices in their places.

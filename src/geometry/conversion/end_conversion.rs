@@ -33,11 +33,8 @@ impl<const K: usize> ConvertedEnds<K> {
     ) -> Self {
         let (degree, count) = (polygon.degree(), polygon.vertices().len());
         let kept = count.min(2 * degree);
-        let inner = degree..degree + count - kept;
-        let numbered = polygon.weighted_vertices().enumerate();
-        let ends = numbered.filter(|(index, _)| !inner.contains(index));
-        let ends: Vec<_> = ends.map(|(_, vertex)| vertex).collect();
-        let given = ExactVertices::new(ends.into_iter(), polygon.is_rational());
+        let end = |index| polygon.weighted_vertex(placed(index, degree, count));
+        let given = ExactVertices::new((0..kept).map(end), polygon.is_rational());
         let mut vertices = given.clone();
         vertices.change(|axis| direction.convert(degree, axis));
         let entered = given.largest(0..kept).map(|largest| largest * norm);
