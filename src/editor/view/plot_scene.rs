@@ -1,8 +1,11 @@
 //! What the plots under the canvas show: the ui only paints it.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
 use crate::analysis::LevelPlot;
+use crate::document::{Curve, CurveId};
 
 /// What is plotted of the active curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,5 +74,29 @@ impl PlotScene {
                 .map(|before| Box::new(before.at_length_one())),
             ..Self::default()
         }
+    }
+}
+
+/// What the series of a plot are made of.
+#[derive(Debug)]
+pub struct PlotSource {
+    /// What is plotted.
+    pub kind: PlotKind,
+    /// Of which curve.
+    pub id: CurveId,
+    /// The curve as it is.
+    pub curve: Arc<Curve>,
+    /// The curve as it was.
+    pub before: Option<Arc<Curve>>,
+}
+
+impl PartialEq for PlotSource {
+    /// Whether both are of the very same curves.
+    fn eq(&self, other: &Self) -> bool {
+        let [own, others] = [self, other].map(|source| source.before.as_ref().map(Arc::as_ptr));
+        self.kind == other.kind
+            && self.id == other.id
+            && Arc::ptr_eq(&self.curve, &other.curve)
+            && own == others
     }
 }

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::analysis::{CurveAnalysis, LevelPlot};
 use crate::editor::Editor;
-use crate::editor::view::plot_scene::{PlotKind, PlotScene};
+use crate::editor::view::plot_scene::{PlotKind, PlotScene, PlotSource};
 
 impl Editor {
     /// The plot of the active curve that is shown.
@@ -12,14 +12,21 @@ impl Editor {
         &self.view.plots
     }
 
-    /// Make the plot that is shown.
+    /// Make the plot that is shown; its series are made anew only if its curves or its kind changed.
     pub(in crate::editor) fn plot(&mut self) {
+        let source = self.plot_source();
         let mut plots = std::mem::take(&mut self.view.plots);
-        plots.clear();
+        plots.hovered = None;
+        plots.hovered_level = None;
+        plots.hovered_vertex = None;
+        if source != self.view.plotted {
+            plots.clear();
+            self.fill(&mut plots, source.as_ref());
+            self.view.plotted = source;
+        }
         if let Some((id, kind)) = self.active().zip(self.view.plot)
-            && let Some(analysis) = self.analyses.get_mut(id)
+            && let Some(analysis) = self.analyses.get(id)
         {
-            plots.fill(analysis, kind);
             if let Some((u, curvature)) = self.view.scene.hovered_on(id) {
                 let sampled = analysis.sampled();
                 plots.hovered = Some(DVec2::new(sampled.length_at(u), curvature));
@@ -28,13 +35,32 @@ impl Editor {
                 }
             }
             plots.hovered_vertex = self.vertex_hovered_on(id);
-            plots.before = self.before().map(|before| {
+        }
+        self.view.plots = plots;
+    }
+
+    /// What is to be plotted; `None` if nothing is.
+    fn plot_source(&self) -> Option<PlotSource> {
+        let (id, kind) = self.active().zip(self.view.plot)?;
+        Some(PlotSource {
+            kind,
+            id,
+            curve: self.analyses.get(id)?.curve().clone(),
+            before: self.before(),
+        })
+    }
+
+    fn fill(&mut self, plots: &mut PlotScene, source: Option<&PlotSource>) {
+        if let Some(source) = source
+            && let Some(analysis) = self.analyses.get_mut(source.id)
+        {
+            plots.fill(analysis, source.kind);
+            plots.before = source.before.as_ref().map(|before| {
                 let mut plots = PlotScene::default();
-                plots.fill(self.view.ghost.analysis(&before), kind);
+                plots.fill(self.view.ghost.analysis(before), source.kind);
                 Box::new(plots)
             });
         }
-        self.view.plots = plots;
     }
 }
 

@@ -8,7 +8,7 @@ use crate::editor::view::feature_report::FeatureReport;
 use crate::editor::view::ghost::Ghost;
 use crate::editor::view::layers::Layers;
 use crate::editor::view::outlines::Outlines;
-use crate::editor::view::plot_scene::{PlotKind, PlotScene};
+use crate::editor::view::plot_scene::{PlotKind, PlotScene, PlotSource};
 use crate::editor::view::scene::Scene;
 use crate::editor::view::viewport::Viewport;
 
@@ -29,6 +29,8 @@ pub struct View {
     /// Which plot is shown; `None` while plots are folded.
     pub(in crate::editor) plot: Option<PlotKind>,
     pub(in crate::editor) plots: PlotScene,
+    /// What its series were made of.
+    pub(in crate::editor) plotted: Option<PlotSource>,
     pub(in crate::editor) outlines: Outlines,
     pub(in crate::editor) ghost: Ghost,
 }
