@@ -183,6 +183,11 @@ mod tests {
             locked.starts_with(&format!("{shown} is locked")),
             "{locked}"
         );
+        let hidden = EditError::Hidden { name: name.clone() }.to_string();
+        assert!(
+            hidden.starts_with(&format!("{shown} is hidden")),
+            "{hidden}"
+        );
         let refused = EditError::Polygon { name, error }.to_string();
         assert!(
             refused.starts_with(&format!("{shown}: degree 0")),

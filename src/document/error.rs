@@ -18,7 +18,7 @@ pub enum EditError {
         name: String,
     },
     /// The curve is hidden: nobody would see what is done to it.
-    #[error("“{name}” is hidden: show it in the list of curves to change it")]
+    #[error("{} is hidden: show it in the list of curves to change it", quoted(.name))]
     Hidden {
         /// The curve's name.
         name: String,

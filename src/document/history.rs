@@ -49,11 +49,6 @@ impl History {
         });
     }
 
-    /// Whether a gesture is running.
-    pub fn is_in_gesture(&self) -> bool {
-        self.gesture.is_some()
-    }
-
     /// The document as it was when the running gesture began; as it is now if none runs.
     pub fn before_gesture(&self) -> &Document {
         self.gesture

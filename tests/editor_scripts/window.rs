@@ -187,7 +187,7 @@ impl Window {
 
     /// Whether a gesture shows a preview or may show one.
     pub fn is_in_gesture(&self) -> bool {
-        self.editor.workspace().history().is_in_gesture()
+        self.editor.workspace().preview().is_some()
     }
 
     /// The operation that is tried out or was applied last.
