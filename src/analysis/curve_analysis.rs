@@ -182,7 +182,9 @@ impl CurveAnalysis {
         self.curvature.append(SampledCurve { curve, samples }, out);
     }
 
-    /// Append the polygon's discrete curvature: see [`append_discrete_curvature`].
+    /// Append the polygon's discrete curvature at its vertices, by their numbers, over arc length.
+    /// Vertices that lie beyond an end of the curve stand evenly spaced in a flank beside it.
+    /// Returns the flanks' width, 0 if there are none.
     pub fn append_discrete_curvature(&self, out: &mut Vec<(usize, DVec2)>) -> f64 {
         append_discrete_curvature(&self.curve.polygon, &self.float, self.sampled(), out)
     }

@@ -27,11 +27,11 @@ pub fn figure(value: f64) -> String {
 pub fn rounded_up(bound: f64) -> String {
     let nearest = format!("{bound:.1e}");
     if nearest.parse().is_ok_and(|shown: f64| shown >= bound) {
-        nearest
-    } else {
-        // Less than half of the last digit is missing, which is at most a twentieth.
-        format!("{:.1e}", bound * 1.05)
+        return nearest;
     }
+    // Less than half of the last digit is missing: the next number of two digits is not less.
+    let digit = 10f64.powi(bound.log10().floor() as i32 - 1);
+    format!("{:.1e}", bound + 0.5 * digit)
 }
 
 #[cfg(test)]
@@ -41,7 +41,8 @@ mod tests {
     #[test]
     fn bounds_are_never_shown_smaller_than_they_are() {
         for (bound, shown) in [
-            (3.04e-10, "3.2e-10"),
+            (3.04e-10, "3.1e-10"),
+            (32.48, "3.3e1"),
             (1.01e-5, "1.1e-5"),
             (9.96e-3, "1.0e-2"),
             (9.91e-3, "1.0e-2"),

@@ -9,12 +9,17 @@ use super::inputs::Inputs;
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
 use super::parameter::{Choice, Kind, Parameter, Range, Unit};
-use super::targets::{check_targets, corrected, marks, residual};
+use super::targets::{check_targets, corrected, cusp, marks, residual};
 use super::values::Values;
 use crate::document::Curve;
 use crate::geometry::end_correction::{EndOverlap, EndTarget, correct_in_turn};
 use crate::geometry::joint_correction::{CorrectionError, correct_jointly};
 use crate::geometry::{End, FloatPolygon, Progress, counted, rounded_up};
+
+/// What is left where only rounding is left, in units of the polygon's size.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+const ROUNDING_LEAVES_MORE: &str = "Rounding leaves more than the tolerance: allow more";
 
 /// The tolerance that is offered, in units of the polygon's size.
 const SHARE_OF_SIZE: f64 = 1e-9;
@@ -22,7 +27,7 @@ const SHARE_OF_SIZE: f64 = 1e-9;
 const METHOD: Parameter = Parameter {
     name: "method",
     label: "Method",
-    help: "Move all vertices as little as possible, or repeat steps 2 to 6 on the terminal vertices",
+    help: "Move all vertices, as smoothly as possible, or repeat steps 2 to 6 on the terminal vertices",
     kind: Kind::Choice {
         options: &[
             Choice {
@@ -129,7 +134,7 @@ fn at_once(curve: &Curve, tolerance: f64) -> Result<Correction, OperationError> 
             residual: joint.residual,
             polygon: Some(joint.polygon).filter(|_| joint.residual <= tolerance),
             passes: 1,
-            reason: "Rounding leaves more than the tolerance: allow more".to_owned(),
+            reason: ROUNDING_LEAVES_MORE.to_owned(),
         }),
         Err(error @ CorrectionError::NotSolvable { residual, .. }) => Ok(Correction {
             polygon: None,
@@ -146,16 +151,21 @@ fn step_by_step(curve: &Curve, tolerance: f64) -> Result<Correction, OperationEr
     let outcome = correct_in_turn(&curve.polygon, &curve.targets.list(), tolerance)?;
     let residual = outcome.residuals.last().copied().unwrap_or_default();
     let passes = outcome.passes();
+    let cusp = cusp(curve, &outcome.polygon);
+    let reached = outcome.converged && cusp.is_none();
     Ok(Correction {
         residual,
         passes,
-        reason: why_not(&curve.polygon, passes, residual),
-        polygon: Some(outcome.polygon).filter(|_| outcome.converged),
+        reason: cusp.unwrap_or_else(|| why_not(&curve.polygon, passes, residual)),
+        polygon: Some(outcome.polygon).filter(|_| reached),
     })
 }
 
 /// Say why the loop was given up.
 fn why_not(polygon: &FloatPolygon, passes: usize, left: f64) -> String {
+    if left <= ROUNDING * polygon.size() {
+        return ROUNDING_LEAVES_MORE.to_owned();
+    }
     let reason = match EndOverlap::of(polygon) {
         EndOverlap::None => "the ends do not settle".to_owned(),
         EndOverlap::Partial { shared } => {

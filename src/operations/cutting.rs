@@ -3,8 +3,6 @@
 use std::ops::Bound;
 
 use super::amount::Amount;
-use super::error::OperationError;
-use super::input::Input;
 use super::parameter::{Kind, Parameter, Range, Unit};
 use crate::document::{Curve, CurveId, Edit};
 use crate::geometry::{End, MAX_SUBDIVISIONS};
@@ -23,21 +21,6 @@ pub(super) const SUBDIVISIONS: Parameter = Parameter {
         unit: Unit::None,
     },
 };
-
-/// Where a cut is offered: at the knot in the middle.
-pub(super) const MIDDLE: Amount = Amount::Of {
-    words: "the knot in the middle (0.5 for one segment)",
-    value: middle,
-};
-
-fn middle(input: &Input) -> Result<f64, OperationError> {
-    let segments = input.polygon()?.segments();
-    Ok(if segments > 1 {
-        (segments / 2) as f64
-    } else {
-        0.5
-    })
-}
 
 /// Forget the target of an end that is cut off, if it has one.
 pub(super) fn without_target(id: CurveId, curve: &Curve, end: End) -> Option<Edit> {

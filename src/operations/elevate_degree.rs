@@ -34,7 +34,7 @@ const DEGREE: Parameter = Parameter {
 pub static OPERATION: Operation = Operation {
     name: "elevate-degree",
     label: "Raise degree, keep curve",
-    help: "Raise the degree; exact for a curve of one segment, otherwise as near as a uniform curve can be",
+    help: "Raise the degree; exact for a curve of one segment, otherwise a uniform curve near it",
     inputs: Inputs::One,
     parameters: &[DEGREE],
     check,

@@ -31,7 +31,7 @@ const DEGREE: Parameter = Parameter {
 pub static OPERATION: Operation = Operation {
     name: "reduce-degree",
     label: "Lower degree, keep curve",
-    help: "Lower the degree; the curve stays as near as a uniform curve can be",
+    help: "Lower the degree; the result is a curve near this one",
     inputs: Inputs::One,
     parameters: &[DEGREE],
     check,

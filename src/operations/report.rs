@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use glam::DVec3;
+
 use serde::Serialize;
 
 use super::features::FeatureComparison;
@@ -109,11 +111,21 @@ fn largest_move(input: &Input, outcome: &Outcome) -> Option<LargestMove> {
             continue;
         }
         for (vertex, (a, b)) in before.iter().zip(after).enumerate() {
-            let distance = a.distance(*b);
+            let distance = length(*b - *a);
             if largest.is_none_or(|largest| distance > largest.distance) {
                 largest = Some(LargestMove { distance, vertex });
             }
         }
     }
     largest
+}
+
+/// The length of a vector, also where its square is beyond the range of numbers.
+fn length(vector: DVec3) -> f64 {
+    let largest = vector.abs().max_element();
+    if largest > 0.0 {
+        largest * (vector / largest).length()
+    } else {
+        0.0
+    }
 }

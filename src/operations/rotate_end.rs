@@ -5,7 +5,7 @@ use super::input::Input;
 use super::inputs::Inputs;
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
-use super::targets::{check_targets, corrected, marks, target};
+use super::targets::{check_targets, corrected, cusp, marks, target};
 use super::values::Values;
 use super::which_end::{END, end};
 use crate::geometry::Progress;
@@ -30,10 +30,9 @@ fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, Operatio
     let direction = direction.ok_or(OperationError::NoTargetDirection { end })?;
     let size = curve.polygon.size();
     if curve.polygon.end_jet(end).tangent().is_none() {
-        let name = end.name();
         let mut outcome = Outcome::unchanged(Deviation::Exact);
         outcome.reached = false;
-        outcome.remarks = vec![format!("The curve has no direction at its {name}: a cusp")];
+        outcome.remarks.extend(cusp(curve, &curve.polygon));
         return Ok(outcome);
     }
     let angle = EndDifference::between(&curve.polygon, end, &target).angle;

@@ -11,7 +11,7 @@ use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
 use super::parameter::{Choice, Kind, Parameter, Range, Unit};
 use super::values::Values;
-use crate::geometry::{ClampedPolygon, FloatPolygon, PolygonError, Progress, Rounded};
+use crate::geometry::{ClampedPolygon, FloatPolygon, PolygonError, Progress, Rounded, rounded_up};
 
 type Rounding = fn(&FloatPolygon, usize) -> Result<Rounded<FloatPolygon>, PolygonError>;
 
@@ -65,12 +65,32 @@ fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, Operatio
         &POLYGON,
         &[FloatPolygon::rounded as Rounding, closed_rounded],
     );
-    let rounded = rounding(&curve.polygon, values.whole(&DIGITS))?;
+    let digits = values.whole(&DIGITS);
+    let rounded = rounding(&curve.polygon, digits)?;
+    let remark = off_round_numbers(rounding, &rounded.polygon, digits)?;
     let moved = Figure::length("rounding", "Largest rounding of a vertex", rounded.moved);
     let deviation = Deviation::AtMost(rounded.deviation);
     let mut outcome = Outcome::reshaped(id, rounded.polygon, deviation);
     outcome.figures.push(moved);
+    outcome.remarks.extend(remark);
     Ok(outcome)
+}
+
+/// Say how far vertices are off round numbers afterwards, if that can be seen: the float S-polygon
+/// holds its own round numbers, but at high degrees not those of the closed one.
+fn off_round_numbers(
+    rounding: Rounding,
+    polygon: &FloatPolygon,
+    digits: usize,
+) -> Result<Option<String>, PolygonError> {
+    /// What is not seen, in units of the last digit.
+    const UNSEEN: f64 = 0.05;
+    let left = rounding(polygon, digits)?.moved;
+    let unit = 0.1_f64.powi(digits as i32);
+    Ok((left > UNSEEN * unit).then(|| {
+        let left = rounded_up(left);
+        format!("The vertices stay off round numbers by up to {left}: at this degree the float S-polygon cannot hold what the closed one needs")
+    }))
 }
 
 /// Round the closed S-polygon and find the float one of the curve.

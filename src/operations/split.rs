@@ -3,7 +3,7 @@
 use std::ops::Bound;
 
 use super::amount::Amount;
-use super::cutting::{MIDDLE, SUBDIVISIONS, without_target};
+use super::cutting::{SUBDIVISIONS, without_target};
 use super::editable::open;
 use super::error::OperationError;
 use super::input::Input;
@@ -14,6 +14,21 @@ use super::parameter::{Kind, Parameter, Range, Unit};
 use super::values::Values;
 use crate::document::{Curve, Edit};
 use crate::geometry::{End, Progress};
+
+/// Where a cut is offered: at the knot in the middle.
+const MIDDLE: Amount = Amount::Of {
+    words: "the knot in the middle (0.5 for one segment)",
+    value: middle,
+};
+
+fn middle(input: &Input) -> Result<f64, OperationError> {
+    let segments = input.polygon()?.segments();
+    Ok(if segments > 1 {
+        (segments / 2) as f64
+    } else {
+        0.5
+    })
+}
 
 const AT: Parameter = Parameter {
     name: "at",

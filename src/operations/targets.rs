@@ -34,6 +34,16 @@ pub(super) fn residual(curve: &Curve, polygon: &FloatPolygon) -> f64 {
         .fold(0.0, f64::max)
 }
 
+/// Say at which end a direction is asked for where the curve has none, if there is such an end.
+pub(super) fn cusp(curve: &Curve, polygon: &FloatPolygon) -> Option<String> {
+    let asks = |end: &End| curve.targets.get(*end)?.direction;
+    let has_none = |end: &End| polygon.end_jet(*end).tangent().is_none();
+    let mut ends = End::BOTH.into_iter();
+    let end = ends.find(|end| asks(end).is_some() && has_none(end))?;
+    let name = end.name();
+    Some(format!("The curve has no direction at its {name}: a cusp"))
+}
+
 /// Put a corrected polygon in place, and tell how far the curve moves.
 ///
 /// # Errors

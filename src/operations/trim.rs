@@ -3,7 +3,7 @@
 use std::ops::Bound;
 
 use super::amount::Amount;
-use super::cutting::{MIDDLE, SUBDIVISIONS, without_target};
+use super::cutting::{SUBDIVISIONS, without_target};
 use super::editable::check_editable;
 use super::error::OperationError;
 use super::input::Input;
@@ -23,7 +23,7 @@ const FROM: Parameter = Parameter {
             from: Bound::Included(Amount::Number(0.0)),
             to: Bound::Excluded(Amount::Segments),
         },
-        default: MIDDLE,
+        default: Amount::Number(0.0),
         unit: Unit::Parameter,
     },
 };

@@ -128,7 +128,7 @@ fn help_describes_each_parameter_with_range_and_default() {
             "trim",
             &[
                 "--from <U>",
-                "a parameter u, at least 0 and less than the number of segments; default: the knot in the middle (0.5 for one segment)",
+                "a parameter u, at least 0 and less than the number of segments; default: 0",
                 "--to <U>",
                 "default: the number of segments",
                 "--subdivisions <N>",

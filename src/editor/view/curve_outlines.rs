@@ -110,7 +110,7 @@ impl CurveOutlines {
     }
 
     /// Append what is visible of the curve, thinned to the view's pixels. Gaps are
-    /// [`crate::analysis::GAP`] points.
+    /// [`crate::editor::GAP`] points.
     pub fn append_curve(
         &mut self,
         sampled: SampledCurve<'_>,

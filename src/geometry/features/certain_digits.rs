@@ -24,8 +24,10 @@ fn certain_digits([low, high]: [f64; 2], most: usize) -> Option<f64> {
     })
 }
 
-/// Write the number that [`certain_digits`] finds with those digits and no others: with a power of
-/// ten where zeros would stand beside them that are not certain, or many zeros in front.
+/// Write the number with the most significant digits, up to `most` of them, that both bounds round
+/// to, with those digits and no others: with a power of ten where zeros would stand beside them that
+/// are not certain, or many zeros in front. `None` if not even the first digit is certain, or a bound
+/// is not finite.
 pub fn certain_text(bounds: [f64; 2], most: usize) -> Option<String> {
     /// Smaller numbers are written with a power of ten.
     const LEAST: f64 = 1e-4;
