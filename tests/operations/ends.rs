@@ -152,13 +152,17 @@ fn what_cannot_be_reached_is_told_with_what_is_left() {
     // A cusp has no direction to turn.
     let cusp = FloatPolygon::planar(2, &[(0.0, 0.0), (0.0, 0.0), (1.0, 0.0)]);
     let runner = Runner::of(cusp.expect("a polygon")).with_target(End::Start, target(0.0));
-    let outcome = runner.run("rotate-end", &[("end", Value::Choice(0))]);
-    let outcome = outcome.expect("it can run");
-    assert!(!outcome.reached && outcome.edits.is_empty());
-    assert_eq!(
-        outcome.remarks,
-        ["The curve has no direction at its start: a cusp"]
-    );
+    for (operation, given) in [
+        ("rotate-end", ("end", Value::Choice(0))),
+        ("correct-ends", STEPS),
+    ] {
+        let outcome = runner.run(operation, &[given]).expect("it can run");
+        assert!(!outcome.reached && outcome.edits.is_empty());
+        assert_eq!(
+            outcome.remarks,
+            ["The curve has no direction at its start: a cusp"]
+        );
+    }
 }
 
 #[test]

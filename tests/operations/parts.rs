@@ -197,6 +197,31 @@ fn rounding_tells_what_it_does_to_both_polygons() {
 }
 
 #[test]
+fn a_closed_polygon_that_is_not_kept_round_is_told() {
+    let given = [("polygon", Value::Choice(1))];
+    let (kept, _) = Runner::example("arc").done("round", &given);
+    assert_eq!(kept.remarks, Vec::<String>::new());
+    // One segment of the highest degree: its float S-polygon has vertices that doubles hold to
+    // thousands of units only.
+    let highest = [whole("degree", 25)];
+    let (_, curves) = Runner::example("arc").done("elevate-degree", &highest);
+    let (outcome, _) = Runner::curves(curves).done("round", &given);
+    let remark = outcome.remarks.first().expect("a remark");
+    assert!(
+        remark.starts_with("The vertices stay off round numbers"),
+        "{remark}"
+    );
+}
+
+#[test]
+fn the_whole_curve_is_offered_to_be_trimmed() {
+    let runner = Runner::example("hull");
+    let (outcome, curves) = runner.done("trim", &[]);
+    assert_eq!(outcome.deviation, Deviation::Exact);
+    assert_eq!(&curves[0].polygon, runner.polygon());
+}
+
+#[test]
 fn a_periodic_curve_stays_periodic_when_its_closed_polygon_is_rounded() {
     let runner = Runner::example("periodic");
     let given = |digits| [("polygon", Value::Choice(1)), whole("digits", digits)];
