@@ -276,8 +276,10 @@ impl Editor {
             self.deliver(Gesture::Cancel, false);
         }
         self.hand.gestures.reset();
-        if self.is_trying() {
+        if let Some(trial) = self.trial().filter(|trial| !trial.is_applied()) {
+            let cancelled = format!("{}: cancelled", trial.operation().label);
             self.interrupt_trial();
+            self.message = Message::of(&Ok(Note::told(cancelled)));
             return true;
         }
         let ended = self.workspace.interrupt();

@@ -336,7 +336,10 @@ impl Editor {
         let (label, stage, applies) = (trial.operation.label, trial.stage, trial.applies);
         match stage {
             Stage::Tried(_) => self.update(edits),
-            Stage::Applied { steps, .. } => self.amend(label, steps, edits),
+            Stage::Applied { steps, .. } => {
+                self.amend(label, steps, edits);
+                self.tell_of_amendment();
+            }
         }
         if applies {
             let reply = self.settle_trial();
@@ -365,6 +368,18 @@ impl Editor {
             trial.stage = Stage::Applied { revision, steps };
         }
         self.document_changed();
+    }
+
+    /// Tell what the operation does with other values than those it was applied with.
+    fn tell_of_amendment(&mut self) {
+        let run = self.operations.trial.as_ref().and_then(Trial::run);
+        let reply = match run {
+            Some(Ok(run)) if run.outcome.reached => Ok(Note::done(run.report.summary())),
+            Some(Ok(run)) => Err(Refusal(run.report.summary())),
+            Some(Err(error)) => Err(Refusal(error.to_string())),
+            None => return,
+        };
+        told(self.tell(reply));
     }
 
     /// Keep what the operation does, now or once it is known; or say why it cannot be kept.

@@ -149,7 +149,7 @@ pub enum PolygonError {
     },
     /// A part of a curve that the curve does not have.
     #[error(
-        "there is no part from u = {from} to u = {to}: the curve runs from 0 to {segments}, and a part from a smaller to a larger parameter in it"
+        "there is no part from u = {from} to u = {to}: u runs from 0 to {segments}, and a part begins before it ends"
     )]
     NoSuchPart {
         /// Where the part should begin.

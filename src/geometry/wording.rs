@@ -25,13 +25,17 @@ pub fn figure(value: f64) -> String {
 
 /// Write a bound with two digits, rounded up.
 pub fn rounded_up(bound: f64) -> String {
-    let nearest = format!("{bound:.1e}");
-    if nearest.parse().is_ok_and(|shown: f64| shown >= bound) {
-        return nearest;
+    let mut text = format!("{bound:.1e}");
+    if !text.parse().is_ok_and(|shown: f64| shown >= bound) {
+        // Less than half of the last digit is missing: the next number of two digits is not less.
+        let digit = 10f64.powi(bound.log10().floor() as i32 - 1);
+        text = format!("{:.1e}", bound + 0.5 * digit);
     }
-    // Less than half of the last digit is missing: the next number of two digits is not less.
-    let digit = 10f64.powi(bound.log10().floor() as i32 - 1);
-    format!("{:.1e}", bound + 0.5 * digit)
+    match text.parse() {
+        // Numbers of a usual size are written without a power of ten.
+        Ok(shown @ (0.0 | 1e-3..1e5)) => shown.to_string(),
+        _ => text,
+    }
 }
 
 #[cfg(test)]
@@ -42,12 +46,13 @@ mod tests {
     fn bounds_are_never_shown_smaller_than_they_are() {
         for (bound, shown) in [
             (3.04e-10, "3.1e-10"),
-            (32.48, "3.3e1"),
+            (32.48, "33"),
+            (1671.0, "1700"),
             (1.01e-5, "1.1e-5"),
-            (9.96e-3, "1.0e-2"),
-            (9.91e-3, "1.0e-2"),
-            (2.0, "2.0e0"),
-            (0.0, "0.0e0"),
+            (9.96e-3, "0.01"),
+            (9.91e-3, "0.01"),
+            (2.0, "2"),
+            (0.0, "0"),
         ] {
             assert_eq!(rounded_up(bound), shown);
         }

@@ -12,7 +12,7 @@ impl Report {
         let mut parts = Vec::new();
         if self.reached {
             match self.deviation {
-                Deviation::Exact => parts.push("the curve is the same".to_owned()),
+                Deviation::Exact => parts.push("exact".to_owned()),
                 Deviation::AtMost(bound) => {
                     parts.push(format!("off the curve by at most {}", rounded_up(bound)));
                 }
@@ -33,6 +33,7 @@ impl Report {
                 (None, Some(now)) => format!("curvature extrema: {now}"),
                 (_, None) => "no curve is left".to_owned(),
             });
+            parts.extend(changed_inflections(&features.before, &features.after));
         }
         let mut text = self.label.to_owned();
         if !parts.is_empty() {
@@ -43,6 +44,13 @@ impl Report {
         }
         text
     }
+}
+
+/// Say how many inflections there are now, if they are not as many as before.
+fn changed_inflections(before: &[FeatureCounts], after: &[FeatureCounts]) -> Option<String> {
+    let count = |counts: &[FeatureCounts]| counts.iter().map(|c| c.inflections).sum::<usize>();
+    let (before, after) = (count(before), count(after));
+    (before != after).then(|| format!("inflections: {before} before, {after} now"))
 }
 
 /// Say how many curvature extrema each curve has, if there is one.

@@ -185,6 +185,20 @@ impl Action {
         }
     }
 
+    /// One sentence that says what the action does and, if it cannot be asked for now, why not.
+    pub fn tooltip_now(self, editor: &Editor) -> String {
+        let tooltip = self.tooltip();
+        match self {
+            Self::Command(Command::Operation(operation)) => {
+                match editor.check_operation(operation) {
+                    Ok(()) => tooltip,
+                    Err(reason) => format!("{tooltip}\n\nNot now: {reason}"),
+                }
+            }
+            _ => tooltip,
+        }
+    }
+
     /// Whether a switch is on; `None` for actions that are no switches.
     pub fn is_checked(self, editor: &Editor, shell: &Shell) -> Option<bool> {
         match self {

@@ -170,7 +170,11 @@ fn item_ui(
     let response = ui
         .add_enabled(action.is_enabled(editor), button)
         .accessible_name(&label);
-    if response.on_hover_text(action.tooltip()).clicked() {
+    let tooltip = action.tooltip_now(editor);
+    let response = response
+        .on_hover_text(&tooltip)
+        .on_disabled_hover_text(&tooltip);
+    if response.clicked() {
         commands.push(action);
         ui.close();
     }

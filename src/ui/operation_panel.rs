@@ -2,7 +2,7 @@
 
 use std::ops::{Bound, RangeInclusive};
 
-use eframe::egui::{Button, Label, ProgressBar, RichText, Role, Sense, Ui, WidgetInfo, vec2};
+use eframe::egui::{Button, Label, ProgressBar, RichText, Role, Sense, Ui, Vec2, WidgetInfo, vec2};
 use lucide_icons::Icon;
 
 use super::number_field::{FieldEvent, NumberField};
@@ -21,6 +21,9 @@ const OUTDATED: f32 = 0.5;
 
 /// The width of a column of figures.
 const COLUMN: f32 = 96.0;
+
+/// Numbers of more characters than this are shown with six digits while they are not typed.
+const MOST_DIGITS: usize = 10;
 
 /// The width of a field for a number.
 const FIELD: f32 = 120.0;
@@ -54,13 +57,13 @@ impl OperationPanel {
             let set = self.parameter_ui(ui, trial, parameter);
             asked.extend(set.map(|value| Asked::Set(parameter, value)));
         }
+        // The buttons keep their place, whatever the report below has to say.
+        asked.extend(buttons_ui(ui, trial, editor.operation_progress()));
+        ui.add_space(STEP);
         if let Some(refusal) = &self.refusal {
             error_ui(ui, refusal);
         }
-        ui.add_space(STEP);
         came_to_ui(ui, trial);
-        let progress = editor.operation_progress();
-        asked.extend(buttons_ui(ui, trial, progress));
         for asked in asked {
             match asked {
                 Asked::Set(parameter, value) => {
@@ -103,7 +106,12 @@ impl OperationPanel {
         let number = shown_number(value, parameter.unit());
         let range = field_range(limits, parameter.unit());
         let whole = matches!(value, Value::Whole(_));
-        let shown = figures::exact(number);
+        let exact = figures::exact(number);
+        let shown = if exact.len() > MOST_DIGITS {
+            figures::significant(number, 6)
+        } else {
+            exact
+        };
         let speed = if whole { 0.05 } else { speed(&range, number) };
         let field = NumberField::new(parameter.label, number, shown)
             .range(range)
@@ -116,6 +124,10 @@ impl OperationPanel {
         let of = |number: f64| given_number(number, value, parameter.unit());
         match event {
             FieldEvent::Idle => None,
+            FieldEvent::Typed(number) if whole && number.fract() != 0.0 => {
+                self.refusal = Some(format!("{}: a whole number is needed", parameter.label));
+                None
+            }
             FieldEvent::Typed(number) => Some(of(number)),
             FieldEvent::Preview(number) => {
                 self.dragged.get_or_insert((parameter.name, value));
@@ -151,15 +163,18 @@ fn heading_ui(ui: &mut Ui, trial: &Trial) -> Option<Asked> {
     left.then_some(Asked::Leave)
 }
 
+/// A row of buttons of which one is pressed; those that do not fit stand below.
 fn choice_ui(ui: &mut Ui, options: &'static [Choice], chosen: usize) -> Option<Value> {
     let mut clicked = None;
-    ui.spacing_mut().item_spacing.x = STEP;
-    for (index, option) in options.iter().enumerate() {
-        let button = Button::selectable(index == chosen, option.label);
-        if ui.add(button).clicked() && index != chosen {
-            clicked = Some(Value::Choice(index));
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing = Vec2::splat(STEP);
+        for (index, option) in options.iter().enumerate() {
+            let button = Button::selectable(index == chosen, option.label);
+            if ui.add(button).clicked() && index != chosen {
+                clicked = Some(Value::Choice(index));
+            }
         }
-    }
+    });
     clicked
 }
 
@@ -183,13 +198,12 @@ fn given_number(number: f64, like: Value, unit: Unit) -> Value {
 fn field_range(limits: Option<Limits>, unit: Unit) -> RangeInclusive<f64> {
     let (from, to) = limits.unwrap_or((Bound::Unbounded, Bound::Unbounded));
     let from = match from {
-        Bound::Included(from) => unit.shown(from),
-        Bound::Excluded(from) => unit.shown(from).next_up(),
+        // What is excluded is refused with the words of the parameter.
+        Bound::Included(from) | Bound::Excluded(from) => unit.shown(from),
         Bound::Unbounded => f64::NEG_INFINITY,
     };
     let to = match to {
-        Bound::Included(to) => unit.shown(to),
-        Bound::Excluded(to) => unit.shown(to).next_down(),
+        Bound::Included(to) | Bound::Excluded(to) => unit.shown(to),
         Bound::Unbounded => f64::INFINITY,
     };
     from..=to
@@ -228,9 +242,10 @@ fn report_ui(ui: &mut Ui, trial: &Trial, report: &Report) {
         let length = |value: f64| figures::significant(value, 4);
         let deviation = match report.deviation {
             _ if !report.reached => None,
-            Deviation::Exact => Some("none: the same curve".to_owned()),
+            Deviation::Exact => Some("none, exact".to_owned()),
+            Deviation::AtMost(0.0) => Some("none".to_owned()),
             Deviation::AtMost(bound) => Some(format!("at most {}", rounded_up(bound))),
-            Deviation::Unmeasured => None,
+            Deviation::Unmeasured => Some("another curve, not measured".to_owned()),
         };
         if let Some(deviation) = deviation {
             widgets::figure_row(ui, "Deviation", &deviation);
@@ -239,7 +254,10 @@ fn report_ui(ui: &mut Ui, trial: &Trial, report: &Report) {
             widgets::figure_row(ui, "Residual", &length(residual));
         }
         if let Some(largest) = report.largest_move {
-            let text = format!("{} at vertex {}", length(largest.distance), largest.vertex);
+            let text = match largest.distance {
+                0.0 => "none".to_owned(),
+                distance => format!("{} at vertex {}", length(distance), largest.vertex),
+            };
             widgets::figure_row(ui, "Largest move", &text);
         }
         for figure in &report.figures {

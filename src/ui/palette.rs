@@ -193,7 +193,7 @@ fn row_ui(ui: &mut Ui, editor: &Editor, action: Action, chosen: bool) -> eframe:
             .text(at, Align2::RIGHT_CENTER, text, font, tokens.faint_text);
     }
     response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, enabled, chosen, &label));
-    response.on_hover_text(action.tooltip())
+    response.on_hover_text(action.tooltip_now(editor))
 }
 
 /// The commands whose names resemble what was typed, best first; all of them if nothing was.

@@ -36,12 +36,24 @@ fn s_curve() -> (Script, Document) {
     (script, before)
 }
 
+/// The values that let an operation change the s-curve: to be trimmed, all of it is offered.
+fn given(name: &str) -> Vec<(&'static str, Value)> {
+    match name {
+        "trim" => vec![("from", Value::Real(1.0))],
+        _ => Vec::new(),
+    }
+}
+
 /// An operation with parameters that is tried out on the s-curve, and the document without it.
 fn trying(name: &str) -> (Script, Document) {
     let (mut script, before) = s_curve();
     let begun = script.try_out(name).expect("an operation");
     assert_eq!(begun, Note::silent());
     assert!(script.editor.is_trying());
+    for (parameter, value) in given(name) {
+        let set = script.editor.set_value(parameter, value);
+        set.expect("a value");
+    }
     assert!(!script.editor.document().is_same(&before), "it is shown");
     (script, before)
 }
@@ -157,7 +169,7 @@ fn what_is_tried_out_is_what_is_applied_at_once() {
     for name in CHANGING {
         let (script, _) = trying(name);
         let (mut at_once, _) = s_curve();
-        at_once.operate(name, &[]).expect("a step");
+        at_once.operate(name, &given(name)).expect("a step");
         assert!(is_applied(&at_once));
         check_is(&at_once, script.editor.document());
     }
@@ -701,7 +713,7 @@ fn has_run(script: &Script) -> bool {
     script
         .editor
         .trial()
-        .is_some_and(|trial| trial.run().is_some())
+        .is_some_and(|trial| trial.run().is_some() && !trial.is_pending())
 }
 
 fn segments(script: &Script) -> usize {

@@ -142,7 +142,7 @@ fn values_are_checked_one_by_one() {
     check(
         "trim",
         &[("from", Value::Real(3.0)), ("to", Value::Real(2.0))],
-        "there is no part from u = 3 to u = 2: the curve runs from 0 to 5, and a part from a smaller to a larger parameter in it",
+        "there is no part from u = 3 to u = 2: u runs from 0 to 5, and a part begins before it ends",
     );
 }
 

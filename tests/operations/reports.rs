@@ -28,7 +28,7 @@ fn features_are_proved_before_and_afterwards_for_every_curve_concerned() {
     assert_eq!(features.after[0].monotone, Verdict::Disproved);
     assert_eq!(
         report.summary(),
-        "Split curve: the curve is the same; curvature extrema: 2 before, 1 and 1 now"
+        "Split curve: exact; curvature extrema: 2 before, 1 and 1 now"
     );
 }
 

@@ -77,7 +77,7 @@ fn the_panel_stands_where_the_inspector_is_and_leaves_the_canvas_free() {
 #[test]
 fn the_report_is_shown_beside_the_values() {
     let (mut window, _) = trying("Split curve");
-    window.get_by_label("Deviation: none: the same curve");
+    window.get_by_label("Deviation: none, exact");
     window.get_by_label("Vertices of the first part: 5");
     window.get_by_label("Vertices of the second part: 6");
     window.get_by_label_contains("Curvature extrema: ");

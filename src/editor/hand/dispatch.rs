@@ -63,6 +63,9 @@ impl Editor {
         if self.hand.gestures.is_orbiting() {
             return "Drag to turn the view; F2, F3, F4 look along the axes again".into();
         }
+        if self.is_trying() && !self.hand.is_dragging() {
+            return "Change the values in the panel; Enter applies, Esc cancels".into();
+        }
         self.hand.tools.used().hint(&self.context())
     }
 

@@ -83,13 +83,19 @@ impl Editor {
         let report = report.filter(|_| reply.is_ok());
         let made = report.map_or(0, |report| passes_of(action, &found, report));
         let joint = action == EndFitAction::BothAtOnce;
+        // The figures of the steps say what these two came to.
+        let silent = matches!(action, EndFitAction::Translate | EndFitAction::Rotate);
+        let reply = match reply {
+            Ok(_) if silent => Ok(Note::silent()),
+            reply => reply.clone(),
+        };
         let largest_move = report.and_then(|report| report.largest_move);
         self.hand.tools.end_fit.last = Some(LastAction {
             curve,
             revision: self.workspace.revision(),
             passes: passes + made,
             largest_move: largest_move.filter(|_| joint),
-            reply: reply.clone(),
+            reply,
         });
     }
 
