@@ -87,13 +87,13 @@ fn frame(editor: &mut Editor, at: DVec2) {
     // The chip and the list read the features.
     black_box(editor.features());
     black_box(editor.features());
-    black_box(editor.plots());
+    black_box(editor.view().plots());
     black_box(editor.report());
     black_box(editor.readout());
     black_box(editor.hint());
     // The canvas comes after the panels, which may have changed something.
     editor.refresh();
-    black_box(editor.scene());
+    black_box(editor.view().scene());
 }
 
 fn drag(criterion: &mut Criterion) {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::document::{Curve, Document, Edit};
 use crate::editor::reply::{Note, Refusal, Reply};
-use crate::editor::{Editor, Export, Message};
+use crate::editor::{Editor, Export};
 use crate::geometry::counted;
 use crate::io::examples::EXAMPLES;
 use crate::io::{FileError, Format, Reading, disk, shown_path};
@@ -17,27 +17,18 @@ impl Editor {
         self.replace(Document::default(), None);
     }
 
-    /// Open a file in place of the document. The reply is told.
+    /// Open files as one document in place of the present one; none leaves it as it is. Only a
+    /// single project is saved back to where it came from, with what it says of itself that is not
+    /// known. The reply is told.
     ///
     /// # Errors
-    /// [`Refusal`] if it cannot be read; nothing is changed then.
-    pub fn open(&mut self, path: &Path) -> Reply {
-        let reply = self.replace_by_files(&[path.to_owned()]);
-        self.tell(reply.map_err(Refusal::from))
-    }
-
-    /// Open several files as one document in place of the present one. Only a single project is
-    /// saved back to where it came from, with what it says of itself that is not known. The reply
-    /// is told.
-    ///
-    /// # Errors
-    /// [`FileError`] of the first file that cannot be read; nothing is changed then.
-    pub fn open_all(&mut self, paths: &[PathBuf]) -> Result<(), FileError> {
-        if !paths.is_empty() {
-            let note = self.replace_by_files(paths)?;
-            self.message = Message::of(&Ok(note));
+    /// [`Refusal`] if one of them cannot be read; nothing is changed then.
+    pub fn open(&mut self, paths: &[PathBuf]) -> Reply {
+        if paths.is_empty() {
+            return Ok(Note::silent());
         }
-        Ok(())
+        let reply = self.replace_by_files(paths);
+        self.tell(reply.map_err(Refusal::from))
     }
 
     /// Open a built-in example in place of the document, by its number. The reply is told.

@@ -143,8 +143,8 @@ impl Editor {
         self.leave_stale_trial();
     }
 
-    /// Take a tool into the hand; what is being tried out is ended.
-    pub fn take(&mut self, tool: ToolKind) {
+    /// Use another tool; what is being tried out is ended.
+    fn use_tool(&mut self, tool: ToolKind) {
         self.interrupt();
         self.hand.tools.choose(tool);
     }

@@ -374,7 +374,7 @@ impl App {
         match after {
             AfterDiscard::New => self.editor.begin_empty(),
             AfterDiscard::Open => self.files.ask(context, Purpose::Open, self.folder()),
-            AfterDiscard::OpenFile(path) => told(self.editor.open(&path)),
+            AfterDiscard::OpenFile(path) => told(self.editor.open(&[path])),
             AfterDiscard::OpenExample(index) => told(self.editor.open_example(index)),
             AfterDiscard::Quit => {
                 self.leaving = true;
@@ -446,7 +446,7 @@ impl App {
         };
         let reply = match &purpose {
             Purpose::Save(after) => return self.save_and(context, path, after.clone()),
-            Purpose::Open => self.editor.open(path),
+            Purpose::Open => self.editor.open(&paths),
             Purpose::Import => self.editor.import(&paths),
             Purpose::Export(export) => self.editor.export(path, export),
         };

@@ -334,7 +334,7 @@ impl Canvas {
         };
         // Panels may have changed what is shown.
         editor.refresh();
-        let scene = editor.scene();
+        let scene = editor.view().scene();
         painting::paint(&brush, scene);
         if has_grid {
             grid::paint_numbers(&painter, rect, &viewport, tokens);

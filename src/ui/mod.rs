@@ -69,7 +69,7 @@ const PATIENCE: Duration = Duration::from_millis(4);
 /// If a file cannot be read, there is no display, or no window can be opened on it.
 pub fn run(files: &[PathBuf]) -> anyhow::Result<()> {
     let mut editor = Editor::new();
-    editor.open_all(files)?;
+    editor.open(files)?;
     check_display()?;
     let mut viewport = ViewportBuilder::default()
         .with_title("Batten")

@@ -117,14 +117,14 @@ fn several_files_open_as_one_document_and_a_bad_one_changes_nothing() {
         script.editor.save(path).expect("a file");
     }
     let mut editor = batten::editor::Editor::new();
-    editor.open_all(&paths).expect("two files");
+    editor.open(&paths).expect("two files");
     assert_eq!(editor.document().len(), 2);
     assert_eq!(editor.workspace().path(), None);
-    editor.open_all(&paths[..1]).expect("a file");
+    editor.open(&paths[..1]).expect("a file");
     assert_eq!(editor.workspace().path(), Some(paths[0].as_path()));
     let missing = folder.path().join("missing.batten");
     let error = editor
-        .open_all(&[paths[1].clone(), missing])
+        .open(&[paths[1].clone(), missing])
         .expect_err("a missing file");
     assert!(error.to_string().contains("missing.batten"), "{error}");
     assert_eq!(editor.workspace().path(), Some(paths[0].as_path()));

@@ -153,7 +153,8 @@ fn every_example_has_every_plot() {
     for example in 0..7 {
         let mut script = Script::example("arc");
         script.editor.open_example(example).expect("an example");
-        let planar = script.editor.active_is_planar();
+        let analysis = script.editor.analysis(script.curve());
+        let planar = analysis.map(|analysis| analysis.is_planar());
         assert_eq!(planar, Some(true));
         for level in 1..=LEVELS {
             let plot = LevelPlot::Curvature(level);

@@ -31,7 +31,7 @@ fn text(path: &Path) -> String {
 
 fn opened(path: &Path) -> Script {
     let mut script = Script::example("arc");
-    script.editor.open(path).expect("a project");
+    script.editor.open(&[path.to_owned()]).expect("a project");
     script.check();
     script
 }
@@ -55,7 +55,7 @@ fn unknown_keys_are_told_when_a_project_is_opened() {
     let mut script = Script::example("arc");
     script
         .editor
-        .open_all(std::slice::from_ref(&path))
+        .open(std::slice::from_ref(&path))
         .expect("a project");
     assert_eq!(script.message(), expected, "from the command line too");
     script
@@ -193,7 +193,7 @@ fn several_projects_become_one_without_what_each_says_of_itself() {
     let folder = folder();
     let paths = ["a.batten", "b.batten"].map(|name| write(&folder, name, PROJECT));
     let mut script = Script::example("arc");
-    script.editor.open_all(&paths).expect("two projects");
+    script.editor.open(&paths).expect("two projects");
     assert_eq!(script.editor.document().extras(), &Extras::default());
     let path = folder.path().join("both.batten");
     script.editor.save(&path).expect("a file");

@@ -193,7 +193,7 @@ impl Script {
     /// What the canvas shows now.
     pub fn scene(&mut self) -> &Scene {
         self.editor.refresh();
-        self.editor.scene()
+        self.editor.view().scene()
     }
 
     /// The features of the active curve, if they are proved by now.
@@ -207,7 +207,7 @@ impl Script {
         let kind = self.editor.view().plot().unwrap_or(PlotKind::Curvature);
         self.editor.view_mut().show_plot(Some(kind));
         self.editor.refresh();
-        self.editor.plots()
+        self.editor.view().plots()
     }
 
     /// Show a plot of levels.

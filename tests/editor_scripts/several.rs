@@ -295,7 +295,10 @@ fn targets_of_any_direction_survive_a_file() {
     script.editor.save(&path).expect("a file");
     let read = disk::read_file(&path).expect("what was saved").curves;
     assert_eq!(read[0].targets.get(End::Finish), Some(target));
-    script.editor.open(&path).expect("a project");
+    script
+        .editor
+        .open(std::slice::from_ref(&path))
+        .expect("a project");
     assert_eq!(script.editor.document().len(), 1);
 }
 

@@ -293,7 +293,8 @@ fn only_segments_that_depend_on_a_vertex_are_redone() {
         script.editor.apply("edit", vec![edit]).expect("an edit");
         script.scene();
         prove(&mut script);
-        assert_eq!(script.editor.segments_redone(curve), Some(expected));
-        assert_eq!(script.editor.segments_proved(curve), Some(expected));
+        let analysis = script.editor.analysis(curve).expect("an analysis");
+        assert_eq!(analysis.segments_redone(), expected);
+        assert_eq!(analysis.segments_proved(), expected);
     }
 }

@@ -285,7 +285,7 @@ impl Window {
     /// The teeth of the active curve's comb, as they are drawn.
     pub fn teeth(&mut self) -> Vec<[DVec2; 2]> {
         self.editor.refresh();
-        let scene = self.editor.scene();
+        let scene = self.editor.view().scene();
         let active = scene.curves.iter().find(|curve| curve.active);
         active.map_or(Vec::new(), |curve| curve.teeth.clone())
     }
@@ -293,7 +293,7 @@ impl Window {
     /// The marks of the end that the end-fit tool works on.
     pub fn end_marks(&mut self) -> Option<EndFitMarks> {
         self.editor.refresh();
-        let ends = &self.editor.scene().ends;
+        let ends = &self.editor.view().scene().ends;
         let chosen = ends.iter().find(|marks| marks.chosen);
         chosen.or(ends.first()).cloned()
     }
@@ -427,7 +427,7 @@ impl Window {
                 Replacement::Empty => self.editor.begin_empty(),
                 Replacement::Example(index) => told(self.editor.open_example(index)),
                 Replacement::MissingFile => {
-                    told(self.editor.open(Path::new("no such file.batten")));
+                    told(self.editor.open(&["no such file.batten".into()]));
                 }
             },
             Panel::SelectVertex(curve, vertex, add) => {

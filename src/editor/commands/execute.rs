@@ -172,7 +172,7 @@ impl Editor {
             Command::Delete => return self.delete("Delete", "deleted"),
             Command::SelectAll => self.select_all()?,
             Command::SelectNone => self.hand.selection.clear(),
-            Command::Tool(tool) => self.take(tool),
+            Command::Tool(tool) => self.use_tool(tool),
             Command::Operation(operation) => return self.try_operation(operation),
             _ => {
                 let Some((id, curve)) = self.active_curve() else {

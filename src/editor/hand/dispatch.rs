@@ -175,7 +175,7 @@ impl Editor {
                     Step::Refused => self.message.take(),
                 };
             }
-            Effect::Finish => self.take(ToolKind::Select),
+            Effect::Finish => self.use_tool(ToolKind::Select),
         }
     }
 }

@@ -24,11 +24,6 @@ const BORDER: f64 = 16.0;
 const JOINT_SPACING: f64 = 12.0;
 
 impl Editor {
-    /// What the canvas shows.
-    pub fn scene(&self) -> &Scene {
-        &self.view.scene
-    }
-
     /// Make the scene of what is analysed.
     pub(in crate::editor) fn draw(&mut self) {
         let mut scene = std::mem::take(&mut self.view.scene);

@@ -1,5 +1,6 @@
 //! What panels read.
 
+use crate::analysis::CurveAnalysis;
 use crate::document::CurveId;
 use crate::editor::Editor;
 use crate::editor::report::{CurveReport, Readout};
@@ -7,11 +8,6 @@ use crate::editor::view::scene::HoverScene;
 use crate::geometry::Amplification;
 
 impl Editor {
-    /// Whether the active curve is planar, if there is one.
-    pub fn active_is_planar(&self) -> Option<bool> {
-        Some(self.analyses.get(self.active()?)?.is_planar())
-    }
-
     /// What the status bar reads.
     pub fn readout(&self) -> Readout {
         let mut readout = Readout {
@@ -53,14 +49,9 @@ impl Editor {
         self.vertex_hovered_on(self.hand.selection.active()?)
     }
 
-    /// The number of segments of a curve that were sampled when it last changed.
-    pub fn segments_redone(&self, curve: CurveId) -> Option<usize> {
-        Some(self.analyses.get(curve)?.segments_redone())
-    }
-
-    /// The number of segments of a curve whose features were proved when it last changed.
-    pub fn segments_proved(&self, curve: CurveId) -> Option<usize> {
-        Some(self.analyses.get(curve)?.segments_proved())
+    /// What is known of a curve.
+    pub fn analysis(&self, curve: CurveId) -> Option<&CurveAnalysis> {
+        self.analyses.get(curve)
     }
 
     pub(in crate::editor) fn vertex_hovered_on(&self, id: CurveId) -> Option<usize> {

@@ -7,11 +7,6 @@ use crate::editor::Editor;
 use crate::editor::view::plot_scene::{PlotKind, PlotScene, PlotSource};
 
 impl Editor {
-    /// The plot of the active curve that is shown.
-    pub fn plots(&self) -> &PlotScene {
-        &self.view.plots
-    }
-
     /// Make the plot that is shown; its series are made anew only if its curves or its kind changed.
     pub(in crate::editor) fn plot(&mut self) {
         let source = self.plot_source();

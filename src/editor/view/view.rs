@@ -70,6 +70,16 @@ impl View {
         self.layers
     }
 
+    /// What the canvas shows.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The plot of the active curve that is shown.
+    pub fn plots(&self) -> &PlotScene {
+        &self.plots
+    }
+
     /// Which plot is shown; `None` while plots are folded.
     pub fn plot(&self) -> Option<PlotKind> {
         self.plot
@@ -95,5 +105,38 @@ impl View {
     /// [`View::hover_nothing`].
     pub fn hover_vertex(&mut self, vertex: usize) {
         self.hovered.vertex = Some(vertex);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_comb_that_cannot_be_drawn_is_passed_over() {
+        let mut view = View::default();
+        let chosen = CombSettings {
+            scale: 2.5,
+            density: 1000,
+        };
+        view.set_comb(chosen);
+        let density = *CombSettings::DENSITY.end();
+        let drawn = CombSettings { density, ..chosen };
+        assert_eq!(view.comb(), drawn);
+        for scale in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            view.set_comb(CombSettings { scale, density: 1 });
+            assert_eq!(view.comb(), drawn);
+        }
+    }
+
+    #[test]
+    fn what_panels_mark_is_known_for_one_frame_more() {
+        let mut view = View::default();
+        view.hover_vertex(3);
+        view.hover_nothing();
+        assert_eq!(view.hovered, Hovered::default());
+        assert_eq!(view.hovered_before.vertex, Some(3));
+        view.hover_nothing();
+        assert_eq!(view.hovered_before, Hovered::default());
     }
 }

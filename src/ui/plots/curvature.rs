@@ -27,7 +27,7 @@ impl Plots {
     pub(super) fn curvature_ui(&mut self, ui: &mut Ui, editor: &mut Editor) {
         let tokens = Tokens::of(ui);
         let dragging = editor.hand().is_dragging();
-        let scene = editor.plots();
+        let scene = editor.view().plots();
         self.legend = legend(scene.flank);
         let whole = scene.length;
         let normalised = self.normalised && whole > 0.0;

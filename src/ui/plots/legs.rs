@@ -15,7 +15,7 @@ impl Plots {
     pub(super) fn legs_ui(&mut self, ui: &mut Ui, editor: &mut Editor) {
         let tokens = Tokens::of(ui);
         let dragging = editor.hand().is_dragging();
-        let scene = editor.plots();
+        let scene = editor.view().plots();
         let count = scene.legs.len().max(scene.turns.len()) as f64;
         let width = (0.5 * (ui.available_width() - 2.0 * STEP)).max(80.0);
         let height = ui.available_height();

@@ -49,7 +49,7 @@ impl Plots {
         let tokens = Tokens::of(ui);
         let dragging = editor.hand().is_dragging();
         let normalised = self.normalises(which);
-        let scene = editor.plots();
+        let scene = editor.view().plots();
         let is_graph = which == LevelPlot::Logarithmic;
         let length = scene.length;
         let extent = if normalised { 1.0 } else { length };

@@ -201,3 +201,27 @@ impl ToolKind {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::End;
+
+    #[test]
+    fn a_tool_that_is_chosen_begins_anew_and_the_end_fit_keeps_its_end() {
+        let mut tools = Tools::default();
+        tools.end_fit.settings.end = End::Start;
+        tools.end_fit.settings.tolerance = Some(0.5);
+        tools.end_fit.settings.picking = true;
+        for kind in ToolKind::ALL {
+            tools.choose(kind);
+            assert_eq!(tools.kind(), kind);
+            assert_eq!(tools.used().undo_label(), None);
+            let transforms = matches!(kind, ToolKind::Rotate | ToolKind::Scale);
+            assert_eq!(tools.transform().is_some(), transforms);
+        }
+        let settings = &tools.end_fit.settings;
+        assert_eq!((settings.end, settings.tolerance), (End::Start, Some(0.5)));
+        assert!(!settings.picking);
+    }
+}
