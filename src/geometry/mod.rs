@@ -53,4 +53,4 @@ pub use polygon_figures::Range;
 pub use polygon_kind::PolygonKind;
 pub use progress::Progress;
 pub use sampler::{BATCH_ORDER, Batch, Sampler};
-pub use wording::{counted, figure, noun, rounded_up};
+pub use wording::{counted, figure, noun, rounded_up, significant};

@@ -12,14 +12,24 @@ pub fn noun<'a>(count: usize, one: &'a str, many: &'a str) -> &'a str {
 
 /// Write a figure for reading: seven significant digits.
 pub fn figure(value: f64) -> String {
-    let magnitude = value.abs();
+    significant(value, 7)
+}
+
+/// Write a number with some significant digits: plainly where that is short, otherwise with an
+/// exponent.
+pub fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 {
-        "0".into()
-    } else if !(1e-4..1e7).contains(&magnitude) {
-        format!("{value:.6e}")
-    } else {
-        let decimals = (6 - magnitude.log10().floor() as i32).clamp(0, 10) as usize;
+        return "0".to_owned();
+    }
+    if !value.is_finite() {
+        return "–".to_owned();
+    }
+    let exponent = value.abs().log10().floor() as i32;
+    if (-4..digits as i32).contains(&exponent) {
+        let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
         format!("{value:.decimals$}")
+    } else {
+        format!("{value:.*e}", digits.saturating_sub(1).min(3))
     }
 }
 

@@ -14,7 +14,7 @@ use super::values::Values;
 use crate::document::Curve;
 use crate::geometry::end_correction::{EndOverlap, EndTarget, correct_in_turn};
 use crate::geometry::joint_correction::{CorrectionError, correct_jointly};
-use crate::geometry::{End, FloatPolygon, Progress, counted, figure};
+use crate::geometry::{End, FloatPolygon, Progress, counted, significant};
 
 /// What is left where only rounding is left, in units of the polygon's size.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -176,6 +176,6 @@ fn why_not(polygon: &FloatPolygon, passes: usize, left: f64) -> String {
             "the curve is one segment, and both ends depend on almost the same vertices".to_owned()
         }
     };
-    let (passes, left) = (counted(passes, "pass", "passes"), figure(left));
+    let (passes, left) = (counted(passes, "pass", "passes"), significant(left, 4));
     format!("Stopped after {passes}, {left} off: {reason}. Use “both ends at once”")
 }

@@ -3,7 +3,7 @@
 use super::features::FeatureCounts;
 use super::outcome::Deviation;
 use super::report::Report;
-use crate::geometry::{counted, figure, rounded_up};
+use crate::geometry::{counted, rounded_up, significant};
 
 impl Report {
     /// Say in one line what the operation did: "Trim curve: off the curve by at most 1.2e-3;
@@ -22,7 +22,7 @@ impl Report {
             parts.push("not reached, nothing is changed".to_owned());
         }
         if let Some(residual) = self.residual {
-            parts.push(format!("{} is left", figure(residual)));
+            parts.push(format!("{} is left", significant(residual, 4)));
         }
         if let Some(features) = self.features.as_ref().filter(|_| self.reached) {
             let [before, after] = [&features.before, &features.after].map(|counts| extrema(counts));

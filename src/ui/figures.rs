@@ -1,5 +1,7 @@
 //! Numbers as the screen shows them.
 
+pub use crate::geometry::significant;
+
 /// The most characters a number is written plainly with.
 const LONGEST: usize = 14;
 
@@ -29,24 +31,6 @@ pub fn decimals(resolution: f64) -> usize {
         (-resolution.log10()).ceil().clamp(0.0, 15.0) as usize
     } else {
         6
-    }
-}
-
-/// Write a number with some significant digits: plainly where that is short, otherwise with an
-/// exponent.
-pub fn significant(value: f64, digits: usize) -> String {
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    if !value.is_finite() {
-        return "–".to_owned();
-    }
-    let exponent = value.abs().log10().floor() as i32;
-    if (-4..digits as i32).contains(&exponent) {
-        let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
-        without_negative_zero(format!("{value:.decimals$}"))
-    } else {
-        format!("{value:.*e}", digits.saturating_sub(1).min(3))
     }
 }
 

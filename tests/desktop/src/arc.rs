@@ -42,6 +42,6 @@ pub fn correct_an_end(window: &mut Window, canvas: Rect) -> Result<()> {
     let at = on_canvas(canvas, &fitted(canvas), end + DVec2::new(0.75, 0.35));
     window.click_at(at)?;
     window.click("Both ends at once")?;
-    window.find_beginning("Both ends are met")?;
+    window.find_beginning("Correct ends: ")?;
     Ok(())
 }
