@@ -1,13 +1,11 @@
 //! What operations say of their results: deviations, orders, refusals.
 
-mod common;
-
 use std::f64::consts::TAU;
 
+use crate::common::{Random, reach};
 use batten::geometry::{
     Amplification, BezierPolygon, ClampedPolygon, End, FloatPolygon, PolygonError,
 };
-use common::{Random, reach};
 use glam::DVec3;
 
 /// By how much a bound of a deviation may lie above the deviation.

@@ -1,10 +1,8 @@
 //! Curvature and torsion levels: against values of 420 digits, against curves whose levels have
 //! a closed form, and where they are not numbers.
 
-mod common;
-
+use crate::common::{assert_near, list, number, numbers, points, reference};
 use batten::geometry::{BezierPolygon, CurvatureLevels, FloatPolygon, SegmentExpansion};
-use common::{assert_near, list, number, numbers, points, reference};
 use glam::{DMat3, DVec3};
 
 /// Rounding of levels, relative to the value itself; a fourth level loses three digits where its
@@ -432,7 +430,7 @@ fn an_inflection_in_space_is_a_kink_of_the_curvature() {
 
 #[test]
 fn one_expansion_serves_all_parameters_of_a_segment() {
-    let polygon = common::Random(5).gentle(9, 20, true, true);
+    let polygon = crate::common::Random(5).gentle(9, 20, true, true);
     for segment in 0..polygon.segments() {
         let expansion = SegmentExpansion::new(&polygon, segment, polygon.is_planar());
         for t in [0.0, 0.25, 1.0] {
@@ -444,7 +442,7 @@ fn one_expansion_serves_all_parameters_of_a_segment() {
 
 #[test]
 fn a_periodic_curve_has_the_levels_of_the_open_one_that_runs_round_once() {
-    let open = common::Random(7).gentle(5, 12, true, true);
+    let open = crate::common::Random(7).gentle(5, 12, true, true);
     let weights = open.weights().map(<[f64]>::to_vec);
     let periodic = FloatPolygon::new(5, open.vertices().to_vec(), weights, true).expect("valid");
     let unrolled = periodic.unrolled();

@@ -1,9 +1,7 @@
 //! Conversions between the three polygons, against exact rational arithmetic and there and back.
 
-mod common;
-
+use crate::common::{Random, reach};
 use batten::geometry::{BezierPolygon, ClampedPolygon, FloatPolygon, segment_bezier};
-use common::{Random, reach};
 use glam::DVec3;
 use num_bigint::BigInt;
 use num_rational::BigRational;

@@ -1,11 +1,9 @@
 //! Operations that keep the curve keep it; those that do not stay within what they report.
 
-mod common;
-
+use crate::common::{Kind, Random, reach};
 use batten::geometry::{
     BezierPolygon, ClampedPolygon, End, ExactPolygon, FloatPolygon, PolygonError,
 };
-use common::{Kind, Random, reach};
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
 
@@ -67,7 +65,7 @@ fn shift(polygon: &FloatPolygon, u: f64) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(common::repeatable())]
+    #![proptest_config(crate::common::repeatable())]
 
     #[test]
     fn conversions_commute_with_affine_maps(kind in kinds(1..=25)) {

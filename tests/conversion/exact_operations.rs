@@ -1,11 +1,10 @@
 //! Subdivision, extension and raising against exact rational arithmetic.
 
-mod common;
-mod exact_witness;
-
+use crate::common::Random;
+use crate::exact_witness::{
+    Exact, Kind, Knots, Vertices, assert_exact, homogeneous, integer, kinds,
+};
 use batten::geometry::{End, FloatPolygon};
-use common::Random;
-use exact_witness::{Exact, Kind, Knots, Vertices, assert_exact, homogeneous, integer, kinds};
 use num_traits::Zero;
 
 #[test]

@@ -2,12 +2,9 @@
 //! back, and what is said of how far it may be off is true. Curves are compared in exact
 //! arithmetic at places of every segment, by integer basis functions of their own.
 
-mod common;
-mod exact_witness;
-
+use crate::common::{Random, reach};
+use crate::exact_witness::{Exact, Knots, homogeneous, integer, ulp};
 use batten::geometry::{BezierPolygon, ClampedPolygon, FloatPolygon, NearestFloat, PolygonError};
-use common::{Random, reach};
-use exact_witness::{Exact, Knots, homogeneous, integer, ulp};
 use glam::DVec3;
 use num_bigint::BigInt;
 use num_rational::BigRational;

@@ -1,17 +1,14 @@
 //! Proved features where they are known: degenerate and symmetrical curves, knots at low
 //! degrees, the paper's arc.
 
-mod common;
-mod witness;
-
 use std::f64::consts::TAU;
 
+use crate::common::{Random, assert_near, counts};
+use crate::witness::ExactSegment;
 use batten::geometry::circle_comparison::regular_polygon;
 use batten::geometry::features::{ExtremumKind, Features, Root, Trend, Verdict};
 use batten::geometry::{BezierPolygon, FloatPolygon};
-use common::{Random, assert_near, counts};
 use glam::DVec3;
-use witness::ExactSegment;
 
 /// The width of the interval of a root: what it is narrowed to, and one rounding of u.
 const ROOT_WIDTH: f64 = 1.1e-12;

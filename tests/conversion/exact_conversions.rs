@@ -1,15 +1,12 @@
 //! Conversions between the three polygons against exact rational arithmetic.
 
-mod common;
-mod exact_witness;
-
-use batten::geometry::{
-    Amplification, BezierPolygon, ClampedPolygon, ExactPolygon, FloatPolygon, PolygonError,
-};
-use common::Random;
-use exact_witness::{
+use crate::common::Random;
+use crate::exact_witness::{
     ALLOWED_ULPS, Exact, Kind, Knots, Vertices, assert_exact, bezier_chain, converted, exact,
     homogeneous, integer, kinds, ulp,
+};
+use batten::geometry::{
+    Amplification, BezierPolygon, ClampedPolygon, ExactPolygon, FloatPolygon, PolygonError,
 };
 use glam::DVec3;
 use num_traits::{Signed, ToPrimitive};
@@ -342,7 +339,7 @@ fn there_and_back_through_doubles_costs_the_amplification_times_a_digit() {
         let float = FloatPolygon::new(kind.degree, points, None, false).expect("valid");
         let clamped = ClampedPolygon::from_float(&float);
         let back = clamped.to_float().expect("polynomial");
-        let digit = ulp(common::reach(clamped.vertices()));
+        let digit = ulp(crate::common::reach(clamped.vertices()));
         let allowed = clamped.amplification().norm * digit;
         for (found, expected) in back.vertices().iter().zip(float.vertices()) {
             let error = (*found - *expected).abs().max_element();

@@ -1,10 +1,8 @@
 //! The intervals of proved features: they are apart where doubles can tell, narrow, and end at cusps.
 
-mod common;
-
+use crate::common::{assert_near, counts};
 use batten::geometry::features::{ExtremumKind, Features, Quantity};
 use batten::geometry::{BezierPolygon, FloatPolygon};
-use common::{assert_near, counts};
 use glam::DVec3;
 
 fn features(degree: usize, points: &[(f64, f64)]) -> Features {

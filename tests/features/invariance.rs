@@ -1,12 +1,10 @@
 //! What must not change proved features, and that any finite input is taken.
 
-mod common;
-
 use std::f64::consts::TAU;
 
+use crate::common::{Random, counts};
 use batten::geometry::FloatPolygon;
 use batten::geometry::features::Features;
-use common::{Random, counts};
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
 
@@ -114,7 +112,7 @@ fn total(polygons: &[Vec<DVec3>]) -> [usize; 5] {
 }
 
 proptest! {
-    #![proptest_config(common::repeatable())]
+    #![proptest_config(crate::common::repeatable())]
 
     #[test]
     fn rigid_motions_scaling_and_reversal_keep_the_counts(

@@ -1,10 +1,8 @@
 //! What holds for the curvature levels of every curve: motions, scaling, reversal, continuity at
 //! knots, and that no polygon makes them panic.
 
-mod common;
-
+use crate::common::Random;
 use batten::geometry::{CurvatureLevels, FloatPolygon, LEVELS};
-use common::Random;
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
 
@@ -78,7 +76,7 @@ fn torsion(levels: &CurvatureLevels) -> [f64; LEVELS] {
 }
 
 proptest! {
-    #![proptest_config(common::repeatable())]
+    #![proptest_config(crate::common::repeatable())]
 
     #[test]
     fn rotating_and_moving_the_curve_keeps_its_levels(

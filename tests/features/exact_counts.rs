@@ -1,17 +1,14 @@
 //! Proved features of random curves against exact arithmetic.
 
-mod common;
-mod witness;
-
 use std::ops::RangeInclusive;
 
+use crate::common::Random;
+use crate::witness::{ExactSegment, Polynomial};
 use batten::geometry::FloatPolygon;
 use batten::geometry::features::{
     Features, Quantity, SegmentFeatures, SegmentProver, Sign, SignPiece, Undecided, Verdict,
 };
-use common::Random;
 use glam::DVec3;
-use witness::{ExactSegment, Polynomial};
 
 /// The width to which roots are narrowed.
 const ROOT_WIDTH: f64 = 1e-12;
