@@ -8,7 +8,7 @@ use super::input::Input;
 use super::inputs::Inputs;
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
-use super::parameter::{Choice, Kind, Parameter, Range, Unit};
+use super::parameter::{Choice, Kind, Parameter, Unit};
 use super::targets::{check_targets, corrected, cusp, marks, residual};
 use super::values::Values;
 use crate::document::Curve;
@@ -48,10 +48,8 @@ const TOLERANCE: Parameter = Parameter {
     label: "Tolerance",
     help: "How far an end may stay off its target; angles count as arcs over the size of the polygon",
     kind: Kind::Real {
-        range: Range {
-            from: Bound::Excluded(Amount::Number(0.0)),
-            to: Bound::Unbounded,
-        },
+        from: Bound::Excluded(Amount::Number(0.0)),
+        to: Bound::Unbounded,
         default: Amount::Of {
             words: "1e-9 of the size of the polygon",
             value: |input| {

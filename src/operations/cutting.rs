@@ -1,9 +1,7 @@
 //! What splitting and trimming share.
 
-use std::ops::Bound;
-
 use super::amount::Amount;
-use super::parameter::{Kind, Parameter, Range, Unit};
+use super::parameter::{Kind, Parameter};
 use crate::document::{Curve, CurveId, Edit};
 use crate::geometry::{End, MAX_SUBDIVISIONS};
 
@@ -13,12 +11,9 @@ pub(super) const SUBDIVISIONS: Parameter = Parameter {
     label: "Subdivisions",
     help: "How often segments may be halved so that a knot lies at the cut and the part is exact; without a knot there it comes near",
     kind: Kind::Whole {
-        range: Range {
-            from: Bound::Included(Amount::Number(0.0)),
-            to: Bound::Included(Amount::Number(MAX_SUBDIVISIONS as f64)),
-        },
+        from: Amount::Number(0.0),
+        to: Amount::Number(MAX_SUBDIVISIONS as f64),
         default: Amount::Number(0.0),
-        unit: Unit::None,
     },
 };
 

@@ -1,34 +1,25 @@
 //! A higher degree for the same curve.
 
-use std::ops::Bound;
-
 use super::amount::Amount;
+use super::degree::{degree, with_degree};
 use super::editable::editable;
 use super::error::OperationError;
 use super::input::Input;
 use super::inputs::Inputs;
 use super::operation::Operation;
 use super::outcome::{Deviation, Outcome};
-use super::parameter::{Kind, Parameter, Range, Unit};
+use super::parameter::Parameter;
 use super::values::Values;
 use crate::geometry::{FloatPolygon, MAX_DEGREE, Progress};
 
-const DEGREE: Parameter = Parameter {
-    name: "degree",
-    label: "Degree",
-    help: "The degree that the curve gets",
-    kind: Kind::Whole {
-        range: Range {
-            from: Bound::Included(Amount::Degree(1)),
-            to: Bound::Included(Amount::Of {
-                words: "25 (a periodic curve: the number of segments − 1 at the most)",
-                value: |input| Ok(highest(input.polygon()?) as f64),
-            }),
-        },
-        default: Amount::Degree(1),
-        unit: Unit::None,
+const DEGREE: Parameter = degree(
+    Amount::Degree(1),
+    Amount::Of {
+        words: "25 (a periodic curve: the number of segments − 1 at the most)",
+        value: |input| Ok(highest(input.polygon()?) as f64),
     },
-};
+    Amount::Degree(1),
+);
 
 /// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
@@ -51,12 +42,8 @@ fn check(input: &Input) -> Result<(), OperationError> {
 }
 
 fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
-    let (id, curve) = input.curve()?;
-    let raised = curve.polygon.with_degree(values.whole(&DEGREE))?;
-    let deviation = Deviation::of(&raised);
-    let mut outcome = Outcome::reshaped(id, raised.polygon, deviation);
-    outcome.renumbered = true;
-    if !raised.exact {
+    let mut outcome = with_degree(input, values.whole(&DEGREE))?;
+    if outcome.deviation != Deviation::Exact {
         let why = "With more than one segment, raising the degree would double the knots: a uniform curve can only come near";
         outcome.remarks.push(why.to_owned());
     }

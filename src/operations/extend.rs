@@ -1,7 +1,5 @@
 //! A longer curve: its end segment's polynomial continued.
 
-use std::ops::Bound;
-
 use super::amount::Amount;
 use super::editable::open;
 use super::error::OperationError;
@@ -9,7 +7,7 @@ use super::input::Input;
 use super::inputs::Inputs;
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Mark, Outcome};
-use super::parameter::{Kind, Parameter, Range, Unit};
+use super::parameter::{Kind, Parameter};
 use super::values::Values;
 use super::which_end::{END, end};
 use crate::geometry::{MAX_ADDED_SEGMENTS, Progress};
@@ -19,12 +17,9 @@ const SEGMENTS: Parameter = Parameter {
     label: "Segments",
     help: "How many segments are added",
     kind: Kind::Whole {
-        range: Range {
-            from: Bound::Included(Amount::Number(1.0)),
-            to: Bound::Included(Amount::Number(MAX_ADDED_SEGMENTS as f64)),
-        },
+        from: Amount::Number(1.0),
+        to: Amount::Number(MAX_ADDED_SEGMENTS as f64),
         default: Amount::Number(1.0),
-        unit: Unit::None,
     },
 };
 

@@ -10,6 +10,7 @@
 
 mod amount;
 mod cutting;
+mod degree;
 mod editable;
 mod error;
 mod features;
@@ -33,7 +34,7 @@ pub use input::Input;
 pub use inputs::Inputs;
 pub use operation::Operation;
 pub use outcome::{Deviation, Figure, Mark, Outcome};
-pub use parameter::{Choice, Kind, Limits, Parameter, Range, Unit};
+pub use parameter::{Choice, Kind, Limits, Parameter, Unit};
 pub use report::{LargestMove, Report};
 pub use value::Value;
 pub use values::Values;

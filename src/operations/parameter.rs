@@ -26,17 +26,19 @@ pub struct Parameter {
 pub enum Kind {
     /// Whole numbers.
     Whole {
-        /// The numbers that are allowed.
-        range: Range,
+        /// The smallest that is allowed.
+        from: Amount,
+        /// The largest that is allowed.
+        to: Amount,
         /// What it is if it is not given.
         default: Amount,
-        /// The unit.
-        unit: Unit,
     },
     /// Finite numbers.
     Real {
-        /// The numbers that are allowed.
-        range: Range,
+        /// Where those begin that are allowed.
+        from: Bound<Amount>,
+        /// Where they end.
+        to: Bound<Amount>,
         /// What it is if it is not given.
         default: Amount,
         /// The unit.
@@ -63,15 +65,6 @@ pub struct Choice {
     pub name: &'static str,
     /// What the panel calls it.
     pub label: &'static str,
-}
-
-/// The numbers that a parameter allows.
-#[derive(Clone, Copy, Debug)]
-pub struct Range {
-    /// Where they begin.
-    pub from: Bound<Amount>,
-    /// Where they end.
-    pub to: Bound<Amount>,
 }
 
 /// The numbers that a parameter allows for one input.
@@ -110,7 +103,7 @@ impl Parameter {
     /// # Errors
     /// As [`Amount::of`].
     pub fn limits(&self, input: &Input) -> Result<Option<Limits>, OperationError> {
-        let Some(range) = self.range() else {
+        let Some((from, to)) = self.range() else {
             return Ok(None);
         };
         let of = |bound: Bound<Amount>| {
@@ -120,7 +113,7 @@ impl Parameter {
                 Bound::Unbounded => Bound::Unbounded,
             })
         };
-        Ok(Some((of(range.from)?, of(range.to)?)))
+        Ok(Some((of(from)?, of(to)?)))
     }
 
     /// Refuse a value that is of another kind, or not allowed for an input.
@@ -165,8 +158,8 @@ impl Parameter {
             Bound::Excluded(Amount::Number(number)) => Bound::Excluded(number),
             _ => Bound::Unbounded,
         };
-        if let Some(range) = self.range() {
-            self.check_limits(value, (fixed(range.from), fixed(range.to)))?;
+        if let Some((from, to)) = self.range() {
+            self.check_limits(value, (fixed(from), fixed(to)))?;
         }
         Ok(value)
     }
@@ -187,8 +180,8 @@ impl Parameter {
     /// The unit of its numbers.
     pub fn unit(&self) -> Unit {
         match self.kind {
-            Kind::Whole { unit, .. } | Kind::Real { unit, .. } => unit,
-            Kind::Choice { .. } | Kind::Switch { .. } => Unit::None,
+            Kind::Real { unit, .. } => unit,
+            Kind::Whole { .. } | Kind::Choice { .. } | Kind::Switch { .. } => Unit::None,
         }
     }
 
@@ -203,9 +196,9 @@ impl Parameter {
             }
             Kind::Switch { .. } => return "on or off".to_owned(),
         };
-        let words = self.range().map(|range| {
+        let words = self.range().map(|(from, to)| {
             let words = |amount: Amount| self.amount_words(amount);
-            bounds_words(range.from.map(words), range.to.map(words))
+            bounds_words(from.map(words), to.map(words))
         });
         match words.flatten() {
             Some(words) => format!("{noun}, {words}"),
@@ -229,9 +222,10 @@ impl Parameter {
         }
     }
 
-    fn range(&self) -> Option<Range> {
+    fn range(&self) -> Option<(Bound<Amount>, Bound<Amount>)> {
         match self.kind {
-            Kind::Whole { range, .. } | Kind::Real { range, .. } => Some(range),
+            Kind::Whole { from, to, .. } => Some((Bound::Included(from), Bound::Included(to))),
+            Kind::Real { from, to, .. } => Some((from, to)),
             Kind::Choice { .. } | Kind::Switch { .. } => None,
         }
     }

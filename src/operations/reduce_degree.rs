@@ -1,31 +1,18 @@
 //! A lower degree for nearly the same curve.
 
-use std::ops::Bound;
-
 use super::amount::Amount;
+use super::degree::{degree, with_degree};
 use super::editable::editable;
 use super::error::OperationError;
 use super::input::Input;
 use super::inputs::Inputs;
 use super::operation::Operation;
-use super::outcome::{Deviation, Outcome};
-use super::parameter::{Kind, Parameter, Range, Unit};
+use super::outcome::Outcome;
+use super::parameter::Parameter;
 use super::values::Values;
 use crate::geometry::Progress;
 
-const DEGREE: Parameter = Parameter {
-    name: "degree",
-    label: "Degree",
-    help: "The degree that the curve gets",
-    kind: Kind::Whole {
-        range: Range {
-            from: Bound::Included(Amount::Number(1.0)),
-            to: Bound::Included(Amount::Degree(-1)),
-        },
-        default: Amount::Degree(-1),
-        unit: Unit::None,
-    },
-};
+const DEGREE: Parameter = degree(Amount::Number(1.0), Amount::Degree(-1), Amount::Degree(-1));
 
 /// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
@@ -46,10 +33,5 @@ fn check(input: &Input) -> Result<(), OperationError> {
 }
 
 fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
-    let (id, curve) = input.curve()?;
-    let lowered = curve.polygon.with_degree(values.whole(&DEGREE))?;
-    let deviation = Deviation::of(&lowered);
-    let mut outcome = Outcome::reshaped(id, lowered.polygon, deviation);
-    outcome.renumbered = true;
-    Ok(outcome)
+    with_degree(input, values.whole(&DEGREE))
 }

@@ -1,40 +1,31 @@
 //! Another degree on the same polygon.
 
-use std::ops::Bound;
-
 use super::amount::Amount;
+use super::degree::degree;
 use super::editable::check_editable;
 use super::error::OperationError;
 use super::input::Input;
 use super::inputs::Inputs;
 use super::operation::Operation;
 use super::outcome::{Deviation, Outcome};
-use super::parameter::{Kind, Parameter, Range, Unit};
+use super::parameter::Parameter;
 use super::values::Values;
 use crate::geometry::{FloatPolygon, MAX_DEGREE, Progress};
 
-const DEGREE: Parameter = Parameter {
-    name: "degree",
-    label: "Degree",
-    help: "The degree that the curve gets",
-    kind: Kind::Whole {
-        range: Range {
-            from: Bound::Included(Amount::Number(1.0)),
-            to: Bound::Included(Amount::Of {
-                words: "the number of vertices − 1 (25 at the most)",
-                value: |input| Ok(highest(input.polygon()?) as f64),
-            }),
-        },
-        default: Amount::Of {
-            words: "the degree + 1, if the polygon has vertices enough",
-            value: |input| {
-                let polygon = input.polygon()?;
-                Ok(highest(polygon).min(polygon.degree() + 1) as f64)
-            },
-        },
-        unit: Unit::None,
+const DEGREE: Parameter = degree(
+    Amount::Number(1.0),
+    Amount::Of {
+        words: "the number of vertices − 1 (25 at the most)",
+        value: |input| Ok(highest(input.polygon()?) as f64),
     },
-};
+    Amount::Of {
+        words: "the degree + 1, if the polygon has vertices enough",
+        value: |input| {
+            let polygon = input.polygon()?;
+            Ok(highest(polygon).min(polygon.degree() + 1) as f64)
+        },
+    },
+);
 
 /// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {

@@ -1,7 +1,5 @@
 //! Coordinates rounded to some digits.
 
-use std::ops::Bound;
-
 use super::amount::Amount;
 use super::editable::check_editable;
 use super::error::OperationError;
@@ -9,7 +7,7 @@ use super::input::Input;
 use super::inputs::Inputs;
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
-use super::parameter::{Choice, Kind, Parameter, Range, Unit};
+use super::parameter::{Choice, Kind, Parameter};
 use super::values::Values;
 use crate::geometry::{ClampedPolygon, FloatPolygon, PolygonError, Progress, Rounded, rounded_up};
 
@@ -39,12 +37,9 @@ const DIGITS: Parameter = Parameter {
     label: "Digits",
     help: "How many digits each coordinate keeps after the decimal point",
     kind: Kind::Whole {
-        range: Range {
-            from: Bound::Included(Amount::Number(0.0)),
-            to: Bound::Included(Amount::Number(17.0)),
-        },
+        from: Amount::Number(0.0),
+        to: Amount::Number(17.0),
         default: Amount::Number(3.0),
-        unit: Unit::None,
     },
 };
 

@@ -10,7 +10,7 @@ use super::input::Input;
 use super::inputs::Inputs;
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Mark, Outcome};
-use super::parameter::{Kind, Parameter, Range, Unit};
+use super::parameter::{Kind, Parameter, Unit};
 use super::values::Values;
 use crate::document::{Curve, Edit};
 use crate::geometry::{End, Progress};
@@ -35,10 +35,8 @@ const AT: Parameter = Parameter {
     label: "At u",
     help: "Where the curve is cut",
     kind: Kind::Real {
-        range: Range {
-            from: Bound::Excluded(Amount::Number(0.0)),
-            to: Bound::Excluded(Amount::Segments),
-        },
+        from: Bound::Excluded(Amount::Number(0.0)),
+        to: Bound::Excluded(Amount::Segments),
         default: MIDDLE,
         unit: Unit::Parameter,
     },

@@ -10,7 +10,7 @@ use super::input::Input;
 use super::inputs::Inputs;
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Mark, Outcome};
-use super::parameter::{Kind, Parameter, Range, Unit};
+use super::parameter::{Kind, Parameter, Unit};
 use super::values::Values;
 use crate::geometry::{End, Progress};
 
@@ -19,10 +19,8 @@ const FROM: Parameter = Parameter {
     label: "From u",
     help: "Where the part that is kept begins",
     kind: Kind::Real {
-        range: Range {
-            from: Bound::Included(Amount::Number(0.0)),
-            to: Bound::Excluded(Amount::Segments),
-        },
+        from: Bound::Included(Amount::Number(0.0)),
+        to: Bound::Excluded(Amount::Segments),
         default: Amount::Number(0.0),
         unit: Unit::Parameter,
     },
@@ -33,13 +31,11 @@ const TO: Parameter = Parameter {
     label: "To u",
     help: "Where the part that is kept ends; on a periodic curve it may lie past the joint, up to one turn after its beginning",
     kind: Kind::Real {
-        range: Range {
-            from: Bound::Excluded(Amount::Number(0.0)),
-            to: Bound::Included(Amount::Of {
-                words: "the number of segments (a periodic curve: twice that)",
-                value: last,
-            }),
-        },
+        from: Bound::Excluded(Amount::Number(0.0)),
+        to: Bound::Included(Amount::Of {
+            words: "the number of segments (a periodic curve: twice that)",
+            value: last,
+        }),
         default: Amount::Segments,
         unit: Unit::Parameter,
     },

@@ -9,17 +9,15 @@ use super::super::apply_arguments::{Given, command_of};
 use super::*;
 use crate::document::{Curve, Edit};
 use crate::geometry::FloatPolygon;
-use crate::operations::{Amount, Deviation, Kind, Parameter, Range, Unit, Values};
+use crate::operations::{Amount, Deviation, Kind, Parameter, Unit, Values};
 
 const LENGTH: Parameter = Parameter {
     name: "length",
     label: "Length",
     help: "How long the line is",
     kind: Kind::Real {
-        range: Range {
-            from: Bound::Excluded(Amount::Number(0.0)),
-            to: Bound::Unbounded,
-        },
+        from: Bound::Excluded(Amount::Number(0.0)),
+        to: Bound::Unbounded,
         default: Amount::Number(10.0),
         unit: Unit::Length,
     },
@@ -30,10 +28,8 @@ const ANGLE: Parameter = Parameter {
     label: "Angle",
     help: "Where the line points",
     kind: Kind::Real {
-        range: Range {
-            from: Bound::Excluded(Amount::Number(-std::f64::consts::PI)),
-            to: Bound::Included(Amount::Number(std::f64::consts::PI)),
-        },
+        from: Bound::Excluded(Amount::Number(-std::f64::consts::PI)),
+        to: Bound::Included(Amount::Number(std::f64::consts::PI)),
         default: Amount::Number(0.0),
         unit: Unit::Angle,
     },
