@@ -40,7 +40,7 @@ fn a_drag_is_one_step_and_undo_restores_it_bit_for_bit() {
     for step in 0..100 {
         let previewed = history.preview(moved(id, 0.1 * f64::from(step)));
         assert_eq!(previewed, Ok(()));
-        assert_eq!(bits(history.before_gesture()), before);
+        assert_eq!(bits(history.settled()), before);
     }
     assert!(history.commit());
     assert_eq!(history.undo_steps(), 1);

@@ -6,8 +6,8 @@ use super::error::EditError;
 
 /// Hold the document with every state it can be taken back to.
 ///
-/// A gesture (a drag, a typed field) is begun, previewed any number of times, and committed as
-/// one step or aborted; each preview starts from the state at the gesture's beginning, so nothing
+/// A preview (of a drag, a typed field, an operation) is begun, shown any number of times, and
+/// committed as one step or aborted; each time starts from the state at the beginning, so nothing
 /// drifts and an abort restores it bit for bit.
 #[derive(Clone, Debug, Default)]
 pub struct History {
@@ -15,7 +15,7 @@ pub struct History {
     saved: Document,
     undo: Vec<Step>,
     redo: Vec<Step>,
-    gesture: Option<Step>,
+    preview: Option<Step>,
 }
 
 /// A state of the document and what was done from it.
@@ -35,34 +35,34 @@ impl History {
         }
     }
 
-    /// The document as it is now, a running gesture's preview included.
+    /// The document as it is now, what a preview shows included.
     pub fn document(&self) -> &Document {
         &self.document
     }
 
-    /// Begin a gesture; one that still runs is committed first.
+    /// Begin a preview; one that still runs is committed first.
     pub fn begin(&mut self, label: impl Into<String>) {
         self.commit();
-        self.gesture = Some(Step {
+        self.preview = Some(Step {
             label: label.into(),
             document: self.document.clone(),
         });
     }
 
-    /// The document as it was when the running gesture began; as it is now if none runs.
-    pub fn before_gesture(&self) -> &Document {
-        self.gesture
+    /// The document as it was when the running preview began; as it is now if none runs.
+    pub fn settled(&self) -> &Document {
+        self.preview
             .as_ref()
             .map_or(&self.document, |step| &step.document)
     }
 
-    /// Show what `edits` make of the document that the gesture began with. Without a gesture there
-    /// is nothing to go back to, and nothing is shown.
+    /// Show what `edits` make of the document that the preview began with. Without one there is
+    /// nothing to go back to, and nothing is shown.
     ///
     /// # Errors
-    /// [`EditError`] of the first edit that cannot be made; the last good preview stays.
+    /// [`EditError`] of the first edit that cannot be made; what was shown last stays.
     pub fn preview(&mut self, edits: Vec<Edit>) -> Result<(), EditError> {
-        let Some(step) = &self.gesture else {
+        let Some(step) = &self.preview else {
             return Ok(());
         };
         let mut document = step.document.clone();
@@ -73,10 +73,10 @@ impl History {
         Ok(())
     }
 
-    /// End the gesture and keep what it shows as one step. Returns whether there is a step: a
-    /// gesture that changed nothing, or came back to where it began, leaves none.
+    /// End the preview and keep what it shows as one step. Returns whether there is a step: a
+    /// preview that changed nothing, or came back to where it began, leaves none.
     pub fn commit(&mut self) -> bool {
-        let Some(step) = self.gesture.take() else {
+        let Some(step) = self.preview.take() else {
             return false;
         };
         if self.document.is_same(&step.document) {
@@ -89,9 +89,9 @@ impl History {
         true
     }
 
-    /// End the gesture and restore the document that it began with.
+    /// End the preview and restore the document that it began with.
     pub fn abort(&mut self) {
-        if let Some(step) = self.gesture.take() {
+        if let Some(step) = self.preview.take() {
             self.document = step.document;
         }
     }
@@ -119,7 +119,7 @@ impl History {
     /// [`EditError`] of the first edit that cannot be made; none is made then.
     pub fn extend(&mut self, label: &str, edits: Vec<Edit>) -> Result<(), EditError> {
         let goes_on = self.redo.is_empty()
-            && self.gesture.is_none()
+            && self.preview.is_none()
             && self.undo.last().is_some_and(|step| step.label == label);
         let steps = self.undo.len();
         self.apply(label, edits)?;
@@ -149,9 +149,9 @@ impl History {
         result
     }
 
-    /// Take back the last step, or abort the running gesture. Returns its label.
+    /// Take back the last step, or abort the running preview. Returns its label.
     pub fn undo(&mut self) -> Option<String> {
-        if let Some(step) = self.gesture.take() {
+        if let Some(step) = self.preview.take() {
             self.document = step.document;
             return Some(step.label);
         }
@@ -166,7 +166,7 @@ impl History {
 
     /// Make the last undone step again. Returns its label.
     pub fn redo(&mut self) -> Option<String> {
-        if self.gesture.is_some() {
+        if self.preview.is_some() {
             return None;
         }
         let step = self.redo.pop()?;
@@ -180,7 +180,7 @@ impl History {
 
     /// The label of the step that undo would take back.
     pub fn undo_label(&self) -> Option<&str> {
-        let step = self.gesture.as_ref().or(self.undo.last());
+        let step = self.preview.as_ref().or(self.undo.last());
         step.map(|step| step.label.as_str())
     }
 
@@ -199,8 +199,8 @@ impl History {
         !self.document.is_same(&self.saved)
     }
 
-    /// Count the document as saved, without what a running gesture shows.
+    /// Count the document as saved, without what a running preview shows.
     pub fn mark_saved(&mut self) {
-        self.saved = self.before_gesture().clone();
+        self.saved = self.settled().clone();
     }
 }

@@ -238,12 +238,12 @@ impl<T> Desk<T> {
 fn run<T>(job: Run<T>, progress: &Progress) -> Outcome<T> {
     match catch_unwind(AssertUnwindSafe(|| job(progress))) {
         Ok(result) => Outcome::Done(result),
-        Err(panic) => Outcome::Panicked(told(panic.as_ref())),
+        Err(panic) => Outcome::Panicked(panic_text(panic.as_ref())),
     }
 }
 
 /// What a panic says of itself.
-fn told(panic: &(dyn Any + Send)) -> String {
+fn panic_text(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
     text.unwrap_or("no message").to_owned()

@@ -64,7 +64,7 @@ impl Workspace {
 
     /// The document without what is being tried out.
     pub fn settled(&self) -> &Document {
-        self.history.before_gesture()
+        self.history.settled()
     }
 
     /// Its history.

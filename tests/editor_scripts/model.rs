@@ -148,7 +148,7 @@ fn save_in_between(player: &mut Player, file: &Path) -> Result<(), String> {
     if !goes_on {
         return Err("saving ended what was going on".into());
     }
-    check_read(window.before_gesture(), disk::read_file(file))
+    check_read(window.settled(), disk::read_file(file))
 }
 
 /// Save, read what was saved, export it and import it again.

@@ -181,7 +181,7 @@ impl Watch {
 
     /// Follow the editor's history by the number of its steps.
     fn follow(&mut self, window: &Window, done: Done, shown: &State) -> Result<(), String> {
-        let mut settled = State::of(window.before_gesture());
+        let mut settled = State::of(window.settled());
         settled.by_key = matches!(done, Done::Transform | Done::Repeat);
         let pending = self.field && !self.shown.document.is_same(&self.states[self.at].document);
         let steps = window.undo_steps();

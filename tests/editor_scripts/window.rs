@@ -181,7 +181,7 @@ impl Window {
     }
 
     /// The document without the preview of a gesture.
-    pub fn before_gesture(&self) -> &Document {
+    pub fn settled(&self) -> &Document {
         self.editor.workspace().settled()
     }
 
