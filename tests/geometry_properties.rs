@@ -4,25 +4,12 @@
 mod common;
 
 use batten::geometry::{Batch, ClampedPolygon, End, FloatPolygon, Jet, Sampler, segment_bezier};
-use common::{Kind, Random, reach};
+use common::{Kind, Random, kinds, reach};
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
 
 /// A few roundings of the largest coordinate.
 const ROUNDINGS: f64 = 16.0 * f64::EPSILON;
-
-fn kinds(degrees: std::ops::RangeInclusive<usize>) -> impl Strategy<Value = Kind> {
-    (degrees, 0..12_usize, any::<[bool; 3]>(), any::<u64>()).prop_map(
-        |(degree, extra, [periodic, rational, in_space], seed)| Kind {
-            degree,
-            extra,
-            periodic,
-            rational,
-            in_space,
-            seed,
-        },
-    )
-}
 
 fn vectors(jet: &Jet) -> [DVec3; 4] {
     [jet.point, jet.first, jet.second, jet.third]

@@ -6,6 +6,7 @@ mod repeatable;
 use batten::geometry::FloatPolygon;
 use batten::geometry::features::{Features, Quantity};
 use glam::DVec3;
+use proptest::prelude::*;
 pub use repeatable::repeatable;
 use serde_json::Value;
 
@@ -150,6 +151,20 @@ impl Kind {
         let weights = Some(weights).filter(|_| self.rational);
         FloatPolygon::new(self.degree, vertices, weights, self.periodic).expect("valid")
     }
+}
+
+/// Polygons of these degrees, of every kind.
+pub fn kinds(degrees: std::ops::RangeInclusive<usize>) -> impl Strategy<Value = Kind> {
+    (degrees, 0..12_usize, any::<[bool; 3]>(), any::<u64>()).prop_map(
+        |(degree, extra, [periodic, rational, in_space], seed)| Kind {
+            degree,
+            extra,
+            periodic,
+            rational,
+            in_space,
+            seed,
+        },
+    )
 }
 
 /// The numbers of inflections, curvature extrema, torsion zeros, torsion extrema, and whatever

@@ -1,6 +1,6 @@
 //! Operations that keep the curve keep it; those that do not stay within what they report.
 
-use crate::common::{Kind, Random, reach};
+use crate::common::{Kind, Random, kinds, reach};
 use batten::geometry::{
     BezierPolygon, ClampedPolygon, End, ExactPolygon, FloatPolygon, PolygonError,
 };
@@ -24,19 +24,6 @@ impl Kind {
         let count = self.degree + 1 + self.extra;
         Random(self.seed).gentle(self.degree, count, self.in_space, self.rational)
     }
-}
-
-fn kinds(degrees: std::ops::RangeInclusive<usize>) -> impl Strategy<Value = Kind> {
-    (degrees, 0..12_usize, any::<[bool; 3]>(), any::<u64>()).prop_map(
-        |(degree, extra, [periodic, rational, in_space], seed)| Kind {
-            degree,
-            extra,
-            periodic,
-            rational,
-            in_space,
-            seed,
-        },
-    )
 }
 
 fn map(polygon: &FloatPolygon, matrix: DMat3, shift: DVec3) -> FloatPolygon {

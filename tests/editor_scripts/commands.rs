@@ -67,7 +67,7 @@ fn what_only_shows_leaves_a_drag_going_on() {
     script.move_to(to);
     script.release(to);
     assert_ne!(script.polygon().vertex(3), before);
-    assert_eq!(script.editor.workspace().history().undo_steps(), 1);
+    assert_eq!(script.steps(), 1);
 }
 
 #[test]
@@ -137,5 +137,5 @@ fn a_command_after_a_held_key_is_a_step_of_its_own() {
     script.key(Key::Function(6));
     script.input(Input::KeyRepeated(Key::Function(6)));
     script.operate("extend", &[]).expect("a longer curve");
-    assert_eq!(script.editor.workspace().history().undo_steps(), 2);
+    assert_eq!(script.steps(), 2);
 }

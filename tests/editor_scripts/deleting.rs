@@ -75,7 +75,7 @@ fn every_deletion_offers_to_be_undone() {
     script.tool(ToolKind::Delete);
     script.click(script.at_vertex(3));
     assert!(offers(&script), "{}", script.message());
-    assert_eq!(script.editor.workspace().history().undo_steps(), 1);
+    assert_eq!(script.steps(), 1);
     script.command(Command::Undo);
     assert_eq!(script.polygon(), before);
     script.command(Command::DeleteCurve);

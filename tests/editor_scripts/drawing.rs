@@ -179,9 +179,9 @@ fn hasty_clicks_measure_as_clicks_do() {
     );
     // Undo takes back a first point that waits for the second.
     script.click(from);
-    let steps = script.editor.workspace().history().undo_steps();
+    let steps = script.steps();
     script.command(Command::Undo);
-    assert_eq!(script.editor.workspace().history().undo_steps(), steps);
+    assert_eq!(script.steps(), steps);
     assert!(script.editor.hint().starts_with("Click two points"));
 }
 
@@ -197,11 +197,11 @@ fn a_key_that_is_held_makes_one_step() {
     }
     let moved = script.polygon().vertex(3).x - before.vertex(3).x;
     assert!((moved / once - 21.0).abs() < 1e-9, "{moved} against {once}");
-    assert_eq!(script.editor.workspace().history().undo_steps(), 1);
+    assert_eq!(script.steps(), 1);
     // Released and pressed again it is another step.
     script.key(Key::Right);
     script.input(Input::KeyRepeated(Key::Right));
-    assert_eq!(script.editor.workspace().history().undo_steps(), 2);
+    assert_eq!(script.steps(), 2);
     script.command(Command::Undo);
     script.command(Command::Undo);
     assert_eq!(script.polygon(), before);

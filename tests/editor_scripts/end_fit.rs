@@ -18,7 +18,7 @@ fn the_end_follows_its_target_by_dragging_the_body_and_the_ring() {
         .extend(0.0);
     script.end_fit_action(EndFitAction::SetPoint(goal));
     script.end_fit_action(EndFitAction::SetDirection(Some(direction)));
-    let steps = script.editor.workspace().history().undo_steps();
+    let steps = script.steps();
     let viewport = *script.editor.view().viewport();
     // The body is taken by a terminal vertex and let go a few points beside the target.
     let last = script.polygon().vertices().len() - 1;
@@ -40,7 +40,7 @@ fn the_end_follows_its_target_by_dragging_the_body_and_the_ring() {
     let report = script.end_fit().expect("figures");
     assert!(report.angle.abs() < 1e-12, "{}", report.angle);
     assert!(report.difference.length() < 1e-12 * script.polygon().size());
-    assert_eq!(script.editor.workspace().history().undo_steps(), steps + 2);
+    assert_eq!(script.steps(), steps + 2);
 }
 
 /// Find an angle at which the ring is not covered by another handle.
@@ -258,5 +258,5 @@ fn the_panel_calls_off_a_drag_instead_of_keeping_half_of_it() {
     script.move_to(at + 60.0);
     script.release(at + 60.0);
     assert_eq!(script.polygon(), before);
-    assert_eq!(script.editor.workspace().history().undo_steps(), 1);
+    assert_eq!(script.steps(), 1);
 }

@@ -47,10 +47,6 @@ fn moved(script: &Script, to: DVec3) -> Vec<Edit> {
     }]
 }
 
-fn steps(script: &Script) -> usize {
-    script.editor.workspace().history().undo_steps()
-}
-
 /// A folder, and a path in it.
 fn file(name: &str) -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().expect("a folder");
@@ -80,7 +76,7 @@ fn check_saved(script: &mut Script, before: &Document) {
     assert!(preview.is_some() && script.editor.workspace().preview() == preview);
     assert!(script.editor.document().is_same(&shown));
     assert!(script.editor.workspace().settled().is_same(before));
-    assert_eq!(steps(script), 0);
+    assert_eq!(script.steps(), 0);
 }
 
 #[test]
@@ -91,7 +87,7 @@ fn saving_in_the_middle_of_a_drag_ends_nothing_and_writes_no_preview() {
     let to = script.at_vertex(3) + BY;
     script.move_to(to);
     script.release(to);
-    assert_eq!(steps(&script), 1);
+    assert_eq!(script.steps(), 1);
     assert!(script.editor.workspace().is_modified(), "the drag is kept");
     script.command(Command::Undo);
     assert!(!script.editor.workspace().is_modified());
@@ -111,7 +107,7 @@ fn saving_in_the_middle_of_a_field_ends_nothing_and_writes_no_preview() {
     check_saved(&mut script, &before);
     let shown = script.editor.document().clone();
     script.editor.commit_preview();
-    assert_eq!(steps(&script), 1);
+    assert_eq!(script.steps(), 1);
     assert!(script.editor.document().is_same(&shown));
     assert!(script.editor.workspace().is_modified(), "the value is kept");
 
@@ -154,7 +150,7 @@ fn what_is_more_than_showing_keeps_a_field_and_takes_back_a_drag() {
         script.command(command);
         leave_its_own_preview(&mut script, command);
         assert_eq!(script.editor.workspace().preview(), None, "{command:?}");
-        let of_its_own = steps(&script) - 1;
+        let of_its_own = script.steps() - 1;
         for _ in 0..of_its_own {
             script.command(Command::Undo);
         }
@@ -167,14 +163,12 @@ fn what_is_more_than_showing_keeps_a_field_and_takes_back_a_drag() {
         leave_its_own_preview(&mut script, command);
         assert_eq!(script.editor.workspace().preview(), None, "{command:?}");
         assert!(!script.editor.hand().is_dragging(), "{command:?}");
-        while steps(&script) > 0 {
-            script.command(Command::Undo);
-        }
+        script.undo_all();
         assert!(script.editor.document().is_same(&before), "{command:?}");
         // Of the drag nothing can be made again.
         let redone = |script: &mut Script| {
             script.command(Command::Redo);
-            steps(script)
+            script.steps()
         };
         assert!(redone(&mut script) <= of_its_own, "{command:?}");
     }
@@ -198,14 +192,14 @@ fn undo_in_the_middle_of_a_drag_takes_back_only_the_drag() {
     script.move_to(at + BY);
     script.command(Command::Undo);
     assert!(script.editor.document().is_same(&before));
-    assert_eq!(steps(&script), 1);
+    assert_eq!(script.steps(), 1);
     assert!(!script.editor.is_enabled(Command::Redo));
     // The rest of the drag does nothing.
     script.move_to(at + 2.0 * BY);
     script.release(at + 2.0 * BY);
     assert!(script.editor.document().is_same(&before));
     script.command(Command::Undo);
-    assert_eq!(steps(&script), 0);
+    assert_eq!(script.steps(), 0);
 }
 
 #[test]
@@ -218,10 +212,10 @@ fn undo_with_a_fields_preview_keeps_its_value_as_a_step_and_takes_that_back() {
     assert_eq!(script.editor.label(Command::Undo), "Undo set coordinate");
     script.command(Command::Undo);
     assert!(script.editor.document().is_same(&before));
-    assert_eq!(steps(&script), 1);
+    assert_eq!(script.steps(), 1);
     script.command(Command::Redo);
     assert!(script.editor.document().is_same(&shown));
-    assert_eq!(steps(&script), 2);
+    assert_eq!(script.steps(), 2);
 }
 
 #[test]
@@ -230,7 +224,7 @@ fn escape_takes_back_what_a_field_shows() {
     script.key(Key::Escape);
     assert!(script.editor.document().is_same(&before));
     assert_eq!(script.editor.workspace().preview(), None);
-    assert_eq!(steps(&script), 0);
+    assert_eq!(script.steps(), 0);
     assert!(!script.editor.is_enabled(Command::Undo));
     assert!(!script.editor.is_enabled(Command::Redo));
 }
@@ -295,7 +289,7 @@ fn a_field_that_ends_leaves_a_drag_alone() {
     script.editor.abort_preview();
     assert!(script.editor.hand().is_dragging());
     assert!(script.editor.document().is_same(&shown));
-    assert_eq!(steps(&script), 0);
+    assert_eq!(script.steps(), 0);
     script.key(Key::Escape);
     assert!(script.editor.document().is_same(&before));
 }

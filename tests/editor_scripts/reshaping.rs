@@ -47,7 +47,7 @@ fn dragging_a_closed_vertex_moves_it_alone_and_the_float_polygon_follows() {
     let farthest = before.vertices().iter().zip(after.vertices());
     let farthest = farthest.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
     assert!(farthest > 3e5 * way, "{farthest}");
-    assert_eq!(script.editor.workspace().history().undo_steps(), 1);
+    assert_eq!(script.steps(), 1);
     script.command(Command::Undo);
     assert_eq!(script.polygon(), before);
 }
@@ -159,7 +159,7 @@ fn splitting_at_a_knot_is_exact_and_makes_two_curves() {
         summary.contains("extrema: 2 before, 1 and 1 now"),
         "{summary}"
     );
-    assert_eq!(script.editor.workspace().history().undo_steps(), 1);
+    assert_eq!(script.steps(), 1);
     script.command(Command::Undo);
     let given = [
         ("from", Value::Real(0.5)),
@@ -255,7 +255,7 @@ fn why_a_closed_vertex_cannot_go_there_is_told_until_it_can_go_on() {
     assert_eq!(script.editor.message(), None);
     assert_ne!(script.polygon(), shown);
     script.release(at + DVec2::new(6.0, 0.0));
-    assert_eq!(script.editor.workspace().history().undo_steps(), 1);
+    assert_eq!(script.steps(), 1);
 }
 
 #[test]

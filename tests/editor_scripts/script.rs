@@ -149,6 +149,18 @@ impl Script {
         self.check();
     }
 
+    /// The number of steps that can be taken back.
+    pub fn steps(&self) -> usize {
+        self.editor.workspace().history().undo_steps()
+    }
+
+    /// Take back every step.
+    pub fn undo_all(&mut self) {
+        while self.steps() > 0 {
+            self.command(Command::Undo);
+        }
+    }
+
     /// Apply an operation with some values.
     pub fn operate(&mut self, name: &str, given: &[(&str, Value)]) -> Reply {
         let reply = self.editor.apply_operation(operation(name), given);

@@ -30,7 +30,7 @@ fn one_drag_is_one_step_and_undo_and_redo_are_exact() {
     script.drag_vertex(2, DVec2::new(31.0, 17.0));
     let after = script.polygon();
     assert_ne!(before, after);
-    assert_eq!(script.editor.workspace().history().undo_steps(), 1);
+    assert_eq!(script.steps(), 1);
     script.command(Command::Undo);
     assert_eq!(script.polygon(), before);
     assert!(!script.editor.workspace().is_modified());
@@ -52,7 +52,7 @@ fn escape_in_mid_drag_restores_bit_for_bit_and_leaves_no_step() {
     script.move_to(at + DVec2::new(90.0, 10.0));
     script.release(at + DVec2::new(90.0, 10.0));
     assert_eq!(script.polygon(), before);
-    assert_eq!(script.editor.workspace().history().undo_steps(), 0);
+    assert_eq!(script.steps(), 0);
     assert!(!script.editor.workspace().is_modified());
 }
 
@@ -64,7 +64,7 @@ fn a_drag_that_ends_where_it_began_leaves_no_step() {
     script.move_to(at + 50.0);
     script.move_to(at);
     script.release(at);
-    assert_eq!(script.editor.workspace().history().undo_steps(), 0);
+    assert_eq!(script.steps(), 0);
     assert!(!script.editor.workspace().is_modified());
 }
 
@@ -105,7 +105,7 @@ fn many_vertices_are_dragged_as_one_body() {
     for (index, vertex) in script.polygon().vertices().iter().enumerate() {
         assert!(vertex.distance(before.vertex(index) + way) < 1e-12 * before.size());
     }
-    assert_eq!(script.editor.workspace().history().undo_steps(), 1);
+    assert_eq!(script.steps(), 1);
 }
 
 #[test]

@@ -147,7 +147,7 @@ fn a_leg_of_a_selection_takes_the_selection_along() {
         let moved = polygon_of(&script, id).vertex(0) - before.vertex(0);
         assert!(moved.y < 0.0 && moved.x.abs() < 1e-9, "{moved}");
     }
-    assert_eq!(script.editor.workspace().history().undo_steps(), 2);
+    assert_eq!(script.steps(), 2);
 }
 
 #[test]
@@ -224,7 +224,7 @@ fn pasting_in_the_middle_of_a_drag_calls_the_drag_off() {
             .map(|c| c.polygon.clone())
     };
     assert_eq!(polygon(&script), Some(before));
-    assert_eq!(script.editor.workspace().history().undo_steps(), 1);
+    assert_eq!(script.steps(), 1);
     script.command(Command::Undo);
     assert_eq!(script.editor.document().len(), 1);
 }

@@ -77,10 +77,6 @@ fn script_of(polygon: FloatPolygon) -> Script {
     script
 }
 
-fn steps(script: &Script) -> usize {
-    script.editor.workspace().history().undo_steps()
-}
-
 fn is_applied(script: &Script) -> bool {
     script.editor.trial().is_some_and(Trial::is_applied)
 }
@@ -98,7 +94,7 @@ fn check_left(script: &Script, before: &Document) {
     assert!(script.editor.trial().is_none());
     assert_eq!(script.editor.workspace().preview(), None);
     check_is(script, before);
-    assert_eq!(steps(script), 0);
+    assert_eq!(script.steps(), 0);
     assert_eq!(script.selected(), [2]);
     assert!(!script.editor.is_enabled(Command::Redo));
 }
@@ -150,14 +146,14 @@ fn applying_makes_one_step_with_the_operations_name() {
             assert!(is_applied(&script), "{name}");
             assert!(!script.editor.is_trying());
             check_is(&script, &shown);
-            assert_eq!(steps(&script), 1);
+            assert_eq!(script.steps(), 1);
             let label = operation(name).label;
             assert!(script.message().starts_with(label), "{}", script.message());
             let expected = format!("Undo {}{}", label[..1].to_lowercase(), &label[1..]);
             assert_eq!(script.editor.label(Command::Undo), expected);
             script.command(Command::Undo);
             check_is(&script, &before);
-            assert_eq!(steps(&script), 0);
+            assert_eq!(script.steps(), 0);
             script.command(Command::Redo);
             check_is(&script, &shown);
         }
@@ -181,7 +177,7 @@ fn operations_without_parameters_are_applied_at_once() {
         let (mut script, before) = s_curve();
         script.command(Command::Operation(operation(name)));
         assert!(!script.editor.is_trying());
-        assert_eq!(steps(&script), 1);
+        assert_eq!(script.steps(), 1);
         assert!(!script.editor.document().is_same(&before));
         script.command(Command::Undo);
         check_is(&script, &before);
@@ -199,7 +195,7 @@ fn a_value_changes_what_is_shown() {
         at_once.operate("extend", &given).expect("a step");
         check_is(&script, at_once.editor.document());
         assert!(script.editor.workspace().settled().is_same(&before));
-        assert_eq!(steps(&script), 0);
+        assert_eq!(script.steps(), 0);
     }
 }
 
@@ -210,7 +206,7 @@ fn a_value_changed_after_applying_amends_the_step() {
         let set = script.set("segments", Value::Whole(segments));
         set.expect("a number of segments");
         assert!(is_applied(&script));
-        assert_eq!(steps(&script), 1);
+        assert_eq!(script.steps(), 1);
         let (mut at_once, _) = s_curve();
         let given = [("segments", Value::Whole(segments))];
         at_once.operate("extend", &given).expect("a step");
@@ -219,7 +215,7 @@ fn a_value_changed_after_applying_amends_the_step() {
     let amended = script.editor.document().clone();
     script.command(Command::Undo);
     check_is(&script, &before);
-    assert_eq!(steps(&script), 0);
+    assert_eq!(script.steps(), 0);
     script.command(Command::Redo);
     check_is(&script, &amended);
     assert!(script.editor.trial().is_none(), "redo ended it");
@@ -234,16 +230,16 @@ fn amending_what_changed_nothing_keeps_the_step_before() {
     let same = [("degree", Value::Whole(degree))];
     script.operate("reinterpret-degree", &same).expect("a note");
     check_is(&script, &dragged);
-    assert_eq!(steps(&script), 1);
+    assert_eq!(script.steps(), 1);
     // There is no step of its own yet: the first change makes one, after the drag.
     for (given, expected) in [(degree - 1, 2), (degree, 1), (degree - 2, 2)] {
         script.set("degree", Value::Whole(given)).expect("a degree");
-        assert_eq!(steps(&script), expected);
+        assert_eq!(script.steps(), expected);
         assert_eq!(script.polygon().degree(), given);
     }
     script.command(Command::Undo);
     check_is(&script, &dragged);
-    assert_eq!(steps(&script), 1);
+    assert_eq!(script.steps(), 1);
 }
 
 /// The paper's arc, one segment, with a target beside each end.
@@ -266,7 +262,7 @@ const JOINT: Value = Value::Choice(0);
 #[test]
 fn what_does_not_reach_its_target_is_refused_with_what_is_left() {
     let mut script = arc_with_targets();
-    let (before, made) = (script.editor.document().clone(), steps(&script));
+    let (before, made) = (script.editor.document().clone(), script.steps());
     script.try_out("correct-ends").expect("an operation");
     script.set("method", STEPS).expect("a method");
     let report = script.trial_report();
@@ -281,22 +277,22 @@ fn what_does_not_reach_its_target_is_refused_with_what_is_left() {
     );
     assert!(refused.0.contains("is left"), "{refused}");
     check_is(&script, &before);
-    assert_eq!(steps(&script), made);
+    assert_eq!(script.steps(), made);
     // Another method can still be chosen.
     assert!(script.editor.is_trying());
     script.set("method", JOINT).expect("a method");
     assert!(script.trial_report().reached);
     script.editor.apply_trial().expect("a step");
-    assert_eq!(steps(&script), made + 1);
+    assert_eq!(script.steps(), made + 1);
     // Back to what does not reach it: the step is gone, and those before it are not.
     let corrected = script.editor.document().clone();
     script.set("method", STEPS).expect("a method");
     check_is(&script, &before);
-    assert_eq!(steps(&script), made);
+    assert_eq!(script.steps(), made);
     assert!(is_applied(&script));
     script.set("method", JOINT).expect("a method");
     check_is(&script, &corrected);
-    assert_eq!(steps(&script), made + 1);
+    assert_eq!(script.steps(), made + 1);
     script.command(Command::Undo);
     check_is(&script, &before);
     // Applied at once it is refused as well, and nothing stays tried out.
@@ -314,7 +310,7 @@ fn a_value_that_is_not_allowed_is_refused_and_the_values_stay() {
         if is_applied {
             script.editor.apply_trial().expect("a step");
         }
-        let (shown, made) = (script.editor.document().clone(), steps(&script));
+        let (shown, made) = (script.editor.document().clone(), script.steps());
         let values = |script: &Script| {
             let trial = script.editor.trial().expect("an operation");
             trial.values().clone()
@@ -334,7 +330,7 @@ fn a_value_that_is_not_allowed_is_refused_and_the_values_stay() {
             assert_eq!(values(&script), given, "{value:?}");
             assert!(script.trial_report().reached);
             check_is(&script, &shown);
-            assert_eq!(steps(&script), made);
+            assert_eq!(script.steps(), made);
         }
         script.set("at", Value::Real(0.5)).expect("a place");
         assert_ne!(values(&script), given);
@@ -353,10 +349,10 @@ fn values_that_make_no_curve_together_are_told_and_not_applied() {
     let refused = script.editor.apply_trial().expect_err("a refusal");
     assert_eq!(refused.0, error);
     assert!(script.editor.is_trying());
-    assert_eq!(steps(&script), 0);
+    assert_eq!(script.steps(), 0);
     script.set("from", Value::Real(0.25)).expect("a place");
     script.editor.apply_trial().expect("a step");
-    assert_eq!(steps(&script), 1);
+    assert_eq!(script.steps(), 1);
 }
 
 #[test]
@@ -413,7 +409,7 @@ fn what_cannot_run_is_not_begun() {
         let (mut script, _) = s_curve();
         let curve = script.curve();
         script.editor.set_locked(curve, true).expect("a curve");
-        let (before, made) = (script.editor.document().clone(), steps(&script));
+        let (before, made) = (script.editor.document().clone(), script.steps());
         let given = script.editor.execute(Command::Operation(operation));
         assert_eq!(given, Ok(Note::silent()), "it is not offered");
         let refused = script.editor.try_operation(operation);
@@ -423,7 +419,7 @@ fn what_cannot_run_is_not_begun() {
         assert!(script.editor.trial().is_none());
         assert_eq!(script.editor.workspace().preview(), None);
         check_is(&script, &before);
-        assert_eq!(steps(&script), made);
+        assert_eq!(script.steps(), made);
     }
 }
 
@@ -504,9 +500,7 @@ fn every_other_command_takes_the_preview_back() {
             "{command:?}"
         );
         script.editor.leave_trial();
-        while steps(&script) > 0 {
-            script.command(Command::Undo);
-        }
+        script.undo_all();
         check_is(&script, &before);
     }
 }
@@ -524,7 +518,7 @@ fn a_drag_takes_the_preview_back() {
     let expected: Vec<bool> = (0..moved.len()).map(|vertex| vertex == 3).collect();
     assert_eq!(moved, expected, "nothing is rounded");
     script.release(at + BY);
-    assert_eq!(steps(&script), 1);
+    assert_eq!(script.steps(), 1);
     script.command(Command::Undo);
     check_is(&script, &before);
 }
@@ -551,7 +545,7 @@ fn a_number_field_takes_the_preview_back() {
     let moved = moved_vertices(&before, &script);
     assert_eq!(moved.iter().filter(|moved| **moved).count(), 1);
     script.editor.commit_preview();
-    assert_eq!(steps(&script), 1);
+    assert_eq!(script.steps(), 1);
     script.command(Command::Undo);
     check_is(&script, &before);
 }
@@ -564,7 +558,7 @@ fn another_operation_takes_the_preview_back() {
     assert_eq!(trial.operation().name, "extend");
     assert!(trial.input().document().is_same(&before));
     script.editor.apply_trial().expect("a step");
-    assert_eq!(steps(&script), 1);
+    assert_eq!(script.steps(), 1);
     let (mut at_once, _) = s_curve();
     at_once.operate("extend", &[]).expect("a step");
     check_is(&script, at_once.editor.document());
@@ -573,7 +567,7 @@ fn another_operation_takes_the_preview_back() {
 #[test]
 fn another_curve_ends_what_is_tried_out_and_what_was_applied() {
     let (mut script, [arc, other]) = two();
-    let (before, made) = (script.editor.document().clone(), steps(&script));
+    let (before, made) = (script.editor.document().clone(), script.steps());
     script.try_out("round").expect("an operation");
     script.editor.activate(other);
     assert!(script.editor.trial().is_none());
@@ -590,7 +584,7 @@ fn another_curve_ends_what_is_tried_out_and_what_was_applied() {
     assert!(is_applied(&script));
     script.editor.activate(other);
     assert!(script.editor.trial().is_none());
-    assert_eq!(steps(&script), made + 1);
+    assert_eq!(script.steps(), made + 1);
     // A value that comes too late changes nothing.
     let rounded = script.editor.document().clone();
     assert_eq!(script.set("digits", Value::Whole(0)), Ok(()));
@@ -624,9 +618,7 @@ fn the_panel_of_what_was_applied_ends_with_the_next_step_undo_or_redo() {
         assert_eq!(script.set("digits", Value::Whole(0)), Ok(()));
         check_is(&script, &shown);
         script.editor.end_preview();
-        while steps(&script) > 0 {
-            script.command(Command::Undo);
-        }
+        script.undo_all();
         check_is(&script, &before);
     }
 }
@@ -655,7 +647,7 @@ fn what_is_selected_meanwhile_is_what_the_next_command_is_about() {
     script.editor.select_vertex(script.curve(), 0, false);
     script.command(Command::Delete);
     assert!(script.editor.trial().is_none());
-    assert_eq!(steps(&script), 1);
+    assert_eq!(script.steps(), 1);
     assert!(!script.polygon().vertices().contains(&vertex));
     // Where vertices get other numbers, what was selected before counts.
     let (mut script, _) = trying("split");
@@ -774,9 +766,9 @@ fn what_is_applied_before_it_is_known_is_applied_when_it_is() {
         .expect("begun");
     assert!(!has_run(&script), "it is not waited for");
     assert_eq!(script.editor.apply_trial(), Ok(Note::silent()));
-    assert_eq!(steps(&script), 0);
+    assert_eq!(script.steps(), 0);
     wait_until(&mut script, &woken, is_applied);
-    assert_eq!(steps(&script), 1);
+    assert_eq!(script.steps(), 1);
     let message = script.editor.message().expect("what it came to");
     assert!(
         message.text.starts_with(operation("elevate-degree").label),
@@ -790,7 +782,7 @@ fn what_is_applied_before_it_is_known_is_applied_when_it_is() {
 #[test]
 fn what_is_refused_late_is_told_and_changes_nothing() {
     let mut script = arc_with_targets();
-    let (before, made) = (script.editor.document().clone(), steps(&script));
+    let (before, made) = (script.editor.document().clone(), script.steps());
     let woken = run_in_background(&mut script);
     let given = [("method", STEPS)];
     // It may be known at once: then the reply is the refusal.
@@ -801,7 +793,7 @@ fn what_is_refused_late_is_told_and_changes_nothing() {
     wait_until(&mut script, &woken, is_refused);
     assert!(at_once.is_ok_and(|note| note == Note::silent()) || script.editor.trial().is_none());
     check_is(&script, &before);
-    assert_eq!(steps(&script), made);
+    assert_eq!(script.steps(), made);
     assert!(
         script
             .editor
@@ -839,7 +831,7 @@ fn what_is_left_before_it_is_known_never_comes() {
             script.editor.begin_frame();
             assert!(script.editor.trial().is_none(), "{name}");
             check_is(&script, &before);
-            assert_eq!(steps(&script), 0, "{name}");
+            assert_eq!(script.steps(), 0, "{name}");
         }
     }
 }
@@ -857,7 +849,7 @@ fn a_value_that_is_worked_out_while_its_step_is_undone_changes_nothing() {
         .apply_operation(operation("round"), &[])
         .expect("asked for");
     wait_until(&mut script, &woken, is_applied);
-    assert_eq!(steps(&script), 2);
+    assert_eq!(script.steps(), 2);
     let set = script.editor.set_value("digits", Value::Whole(0));
     set.expect("a number of digits");
     script.editor.execute(Command::Undo).expect("undone");
@@ -866,7 +858,7 @@ fn a_value_that_is_worked_out_while_its_step_is_undone_changes_nothing() {
     woken.recv_timeout(LONG).expect("the frame is woken");
     script.editor.begin_frame();
     check_is(&script, &before);
-    assert_eq!(steps(&script), 0);
+    assert_eq!(script.steps(), 0);
 }
 
 #[test]
@@ -883,7 +875,7 @@ fn a_late_value_amends_the_step() {
     set.expect("a number of segments");
     wait_until(&mut script, &woken, |script| segments(script) == once + 3);
     assert!(is_applied(&script));
-    assert_eq!(steps(&script), 1);
+    assert_eq!(script.steps(), 1);
     script.command(Command::Undo);
     check_is(&script, &before);
 }

@@ -112,7 +112,7 @@ fn the_comb_is_scaled_by_the_tip_of_a_tooth() {
         (after / before - 1.5).abs() < 0.01,
         "{after} against {before}"
     );
-    assert_eq!(script.editor.workspace().history().undo_steps(), 0);
+    assert_eq!(script.steps(), 0);
 }
 
 #[test]
