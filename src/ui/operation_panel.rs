@@ -303,7 +303,7 @@ fn features_ui(ui: &mut Ui, trial: &Trial) {
         ("Undecided", |counts| counts.undecided),
     ];
     let (before, after) = (&features.before, &features.after);
-    before_after_ui(ui, "", "before", "afterwards");
+    before_after_ui(ui, "", "before", "after");
     for (number, (name, count)) in kinds.into_iter().enumerate() {
         let mut all = before.iter().chain(after);
         // Extrema of the curvature are what a curve is judged by: told even if there are none.
@@ -327,7 +327,7 @@ fn joined(counts: &[FeatureCounts], text: impl Fn(&FeatureCounts) -> String) -> 
 
 /// One row of figures in two columns: what was, and what is.
 fn before_after_ui(ui: &mut Ui, name: &str, before: &str, after: &str) {
-    let told = format!("{name}: {before} before, {after} afterwards");
+    let told = format!("{name}: {before} before, {after} after");
     let size = vec2(ui.available_width(), 5.0 * STEP);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     let tokens = Tokens::of(ui);
