@@ -198,7 +198,14 @@ fn correction(criterion: &mut Criterion) {
             let jet = polygon.end_jet(end);
             let point = jet.point + DVec3::new(0.1, -0.05, 0.0);
             let direction = Some(jet.first + DVec3::new(0.0, 0.02, 0.0));
-            (end, EndTarget { point, direction })
+            (
+                end,
+                EndTarget {
+                    point,
+                    direction,
+                    ..EndTarget::default()
+                },
+            )
         });
         group.bench_function(BenchmarkId::from_parameter(vertices), |bencher| {
             bencher.iter(|| correct_jointly(black_box(&polygon), &targets));

@@ -46,6 +46,7 @@ fn targets_near(
         let target = EndTarget {
             point: jet.point + random.vector(shift * polygon.size(), in_space),
             direction: Some(tangent + random.vector(angle, in_space)),
+            ..EndTarget::default()
         };
         (end, target)
     });

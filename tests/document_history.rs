@@ -156,6 +156,7 @@ fn every_edit_is_undone_and_redone() {
     let target = EndTarget {
         point: DVec3::ONE,
         direction: None,
+        ..EndTarget::default()
     };
     let added = Box::new(Curve::new("third", cubic()));
     let edits = [
@@ -337,7 +338,11 @@ fn targets_without_usable_numbers_are_refused() {
                 check_target_refused(
                     &mut history,
                     curve,
-                    EndTarget { point, direction },
+                    EndTarget {
+                        point,
+                        direction,
+                        ..EndTarget::default()
+                    },
                     expected,
                 );
             }
@@ -346,6 +351,7 @@ fn targets_without_usable_numbers_are_refused() {
     let nowhere = EndTarget {
         point: DVec3::ONE,
         direction: Some(DVec3::ZERO),
+        ..EndTarget::default()
     };
     check_target_refused(&mut history, curve, nowhere, expected);
 }

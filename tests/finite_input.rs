@@ -51,6 +51,7 @@ fn call_everything(polygon: &FloatPolygon, target: DVec3, direction: DVec3) {
         let target = EndTarget {
             point: target,
             direction: Some(direction),
+            ..EndTarget::default()
         };
         (end, target)
     });

@@ -14,6 +14,7 @@ use super::control_polygon::MAX_MAGNITUDE;
 use super::end::{End, rotation_between};
 use super::error::PolygonError;
 use super::float_polygon::FloatPolygon;
+use super::jet::Jet;
 use super::vector;
 
 /// Passes without halving of the residual after which the loop is taken not to converge.
@@ -22,32 +23,62 @@ const PATIENCE: usize = 4;
 /// The most passes that the loop makes.
 const MOST_PASSES: usize = 100;
 
-/// What an end of the curve shall be.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What an end of the curve is to be.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EndTarget {
     /// Where the end point shall lie.
     pub point: DVec3,
     /// The direction that the tangent shall have, along rising u; of any length but 0. `None`
     /// leaves the direction free.
     pub direction: Option<DVec3>,
+    /// The curvature that the curve shall have there: signed for a planar curve, positive where it
+    /// turns left; its magnitude counts in space. `None` leaves it free.
+    pub curvature: Option<f64>,
+    /// The normal of the osculating plane of a curve in space, along C′ × C″; of any length but 0.
+    /// `None` leaves the plane free. A planar curve has its plane already.
+    pub normal: Option<DVec3>,
+    /// The slope dκ/ds of the curvature by arc length. `None` leaves it free.
+    pub slope: Option<f64>,
 }
 
 impl EndTarget {
-    /// Turn the direction round, as when the curve is passed through the other way.
-    pub fn turned(self) -> Self {
+    /// Turn the target round, as when the curve, `planar` or not, is passed through the other way:
+    /// the direction points back. The signed curvature of a planar curve changes its sign, and its
+    /// slope stays; in space the curvature stays, its slope and the normal change their signs.
+    pub fn turned(self, planar: bool) -> Self {
+        let turned = |number: f64| -number;
         Self {
+            point: self.point,
             direction: self.direction.map(|direction| -direction),
-            ..self
+            curvature: self.curvature.map(|it| if planar { -it } else { it }),
+            normal: self.normal.map(|normal| -normal),
+            slope: if planar {
+                self.slope
+            } else {
+                self.slope.map(turned)
+            },
         }
     }
 
-    /// Whether every number of the target can be used: the point's coordinates up to 1e100 in
-    /// magnitude, the direction's too, and not all of these 0.
+    /// Whether every number of the target can be used: up to 1e100 in magnitude, and no vector but
+    /// the point 0.
     pub fn is_usable(&self) -> bool {
         // The largest component of a vector passes over what is not a number.
-        let usable = |vector: DVec3| vector.to_array().iter().all(|c| c.abs() <= MAX_MAGNITUDE);
-        let directed = |direction: DVec3| usable(direction) && direction != DVec3::ZERO;
-        usable(self.point) && self.direction.is_none_or(directed)
+        let usable = |number: f64| number.abs() <= MAX_MAGNITUDE;
+        let bounded = |vector: DVec3| vector.to_array().into_iter().all(usable);
+        let directed = |direction: DVec3| bounded(direction) && direction != DVec3::ZERO;
+        bounded(self.point)
+            && self.direction.is_none_or(directed)
+            && self.normal.is_none_or(directed)
+            && self.curvature.is_none_or(usable)
+            && self.slope.is_none_or(usable)
+    }
+
+    /// Whether the target can be met without leaving the plane z = 0.
+    pub fn is_planar(&self) -> bool {
+        let level = |vector: DVec3| vector.z == 0.0;
+        let upright = |vector: DVec3| vector.x == 0.0 && vector.y == 0.0;
+        level(self.point) && self.direction.is_none_or(level) && self.normal.is_none_or(upright)
     }
 }
 
@@ -60,26 +91,63 @@ pub struct EndDifference {
     /// turns positive; in space not negative. 0 where no direction is asked for, or where the
     /// curve has no tangent.
     pub angle: f64,
+    /// The curvature that is missing, target minus actual; 0 where none is asked for.
+    pub curvature: f64,
+    /// The angle in radians, not negative, by which the osculating plane must turn; 0 where no plane
+    /// is asked for, or where the curve has none.
+    pub plane: f64,
+    /// The slope of the curvature that is missing, target minus actual; 0 where none is asked for.
+    pub slope: f64,
 }
 
 impl EndDifference {
     /// Measure what one end lacks of its target.
     pub fn between(polygon: &FloatPolygon, end: End, target: &EndTarget) -> Self {
-        let jet = polygon.end_jet(end);
+        let planar = polygon.is_planar() && target.is_planar();
+        Self::of_jet(&polygon.end_jet(end), planar, target)
+    }
+
+    /// Measure what a point of a curve, `planar` or not, lacks of a target.
+    pub fn of_jet(jet: &Jet, planar: bool, target: &EndTarget) -> Self {
         let angle = match (jet.tangent(), target.direction) {
             (Some(actual), Some(wanted)) => angle_between(actual, wanted),
             _ => 0.0,
         };
+        let curvature = target.curvature.map_or(0.0, |wanted| {
+            let wanted = if planar { wanted } else { wanted.abs() };
+            wanted - jet.curvature_of(planar)
+        });
+        let actual = vector::scaled(jet.first)
+            .0
+            .cross(vector::scaled(jet.second).0);
+        let plane = match target.normal.filter(|_| !planar) {
+            Some(wanted) if actual != DVec3::ZERO => angle_between(actual, wanted).abs(),
+            _ => 0.0,
+        };
+        let slope = target
+            .slope
+            .map_or(0.0, |wanted| wanted - jet.curvature_slope(planar));
         Self {
             vector: target.point - jet.point,
             angle,
+            curvature,
+            plane,
+            slope,
         }
     }
 
-    /// Express both differences as one length: the larger of the position difference and of
-    /// the arc that `size` sweeps through the difference angle.
+    /// Express the differences as one length, the largest of: the position difference; the arcs that
+    /// `size` sweeps through the angles; the curvature times `size`², its slope times `size`³.
+    /// Infinite where the curve has no curvature or slope to compare.
     pub fn residual(&self, size: f64) -> f64 {
-        vector::length(self.vector).max(self.angle.abs() * size)
+        let lengths = [
+            vector::length(self.vector),
+            self.angle.abs() * size,
+            self.plane * size,
+            self.curvature.abs() * size * size,
+            self.slope.abs() * size * size * size,
+        ];
+        lengths.into_iter().fold(0.0, vector::larger)
     }
 }
 

@@ -46,6 +46,25 @@ impl Jet {
         }
     }
 
+    /// Compute the slope dκ/ds of the curvature by arc length, of the signed curvature if `planar`:
+    /// (|C′|² (C′ × C‴)·b − 3 (C′·C″) (C′ × C″)·b) / |C′|⁶, b the unit normal of the plane, in space
+    /// that of the osculating plane. Not a number at a cusp, and in space where the curvature is 0.
+    pub fn curvature_slope(&self, planar: bool) -> f64 {
+        let (first, a) = vector::scaled(self.first);
+        let (second, b) = vector::scaled(self.second);
+        let (third, c) = vector::scaled(self.third);
+        let normal = first.cross(second);
+        let across = if planar {
+            DVec3::Z
+        } else {
+            normal / normal.length()
+        };
+        let squared = first.length_squared();
+        let turning = squared * first.cross(third).dot(across) * (c / a / a / a);
+        let stretching = 3.0 * first.dot(second) * normal.dot(across) * (b / a / a) * (b / a / a);
+        (turning - stretching) / squared.powi(3)
+    }
+
     /// Compute the torsion (C′ × C″) · C‴ / |C′ × C″|²; not a number where the curvature is 0.
     pub fn torsion(&self) -> f64 {
         let (first, a) = vector::scaled(self.first);

@@ -213,6 +213,7 @@ fn checked(target: Option<Target>, end: End) -> Result<Option<EndTarget>, Proble
     let target = EndTarget {
         point: point.into(),
         direction: direction.map(DVec3::from),
+        ..EndTarget::default()
     };
     let end = end.name();
     let vectors = [target.point, target.direction.unwrap_or_default()];

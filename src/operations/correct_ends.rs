@@ -115,8 +115,7 @@ fn at_once(curve: &Curve, tolerance: f64) -> Result<Correction, OperationError> 
         let jet = curve.polygon.end_jet(end);
         EndTarget {
             point: jet.point,
-            direction: jet.tangent(),
-        }
+            direction: jet.tangent(), ..EndTarget::default() }
     };
     let targets = End::BOTH.map(|end| (end, curve.targets.get(end).unwrap_or_else(|| kept(end))));
     if residual(curve, &curve.polygon) <= tolerance {

@@ -8,7 +8,6 @@ use super::operation::Operation;
 use super::outcome::{Deviation, Outcome};
 use super::values::Values;
 use crate::document::Edit;
-use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{End, Progress};
 
 /// The operation: its description, and how it is checked and run.
@@ -28,7 +27,8 @@ fn run(input: &Input, _: &Values, _: &Progress) -> Result<Outcome, OperationErro
     outcome.renumbered = true;
     // The targets stay where they are: each becomes the other end's.
     for end in End::BOTH {
-        let target = curve.targets.get(end.other()).map(EndTarget::turned);
+        let target = curve.targets.get(end.other());
+        let target = target.map(|target| target.turned(curve.polygon.is_planar()));
         if target != curve.targets.get(end) {
             outcome.edits.push(Edit::SetTarget {
                 curve: id,

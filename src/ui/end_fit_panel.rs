@@ -65,8 +65,13 @@ fn preview(editor: &mut Editor, report: &EndFitReport, action: EndFitAction) {
         EndFitAction::SetPoint(point) => EndTarget {
             point,
             direction: report.target_direction,
+            ..EndTarget::default()
         },
-        EndFitAction::SetDirection(direction) => EndTarget { point, direction },
+        EndFitAction::SetDirection(direction) => EndTarget {
+            point,
+            direction,
+            ..EndTarget::default()
+        },
         _ => return,
     };
     let edit = Edit::SetTarget {

@@ -129,6 +129,7 @@ pub fn with_targets(mut curve: Curve) -> Curve {
         let target = EndTarget {
             point: jet.point + DVec3::new(1.5, -1.0, 0.0),
             direction: Some(DVec3::new(1.0, 2.0, 0.0)),
+            ..EndTarget::default()
         };
         curve.targets.set(end, Some(target));
     }

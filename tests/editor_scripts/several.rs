@@ -282,6 +282,7 @@ fn targets_of_any_direction_survive_a_file() {
     let target = EndTarget {
         point: DVec3::ZERO,
         direction: Some(direction),
+        ..EndTarget::default()
     };
     let curve = script.curve();
     let edit = Edit::SetTarget {

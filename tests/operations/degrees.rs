@@ -21,7 +21,7 @@ fn reversing_swaps_and_turns_the_targets_and_twice_changes_nothing() {
     let last = runner.polygon().segments() as f64;
     let off = apart(runner.polygon(), &curves[0].polygon, |u| last - u);
     assert!(off <= ROUNDING * runner.polygon().size(), "{off:e}");
-    assert_eq!(curves[0].targets.start, Some(target.turned()));
+    assert_eq!(curves[0].targets.start, Some(target.turned(true)));
     assert_eq!(curves[0].targets.finish, None);
     let (_, again) = Runner::curves(curves).done("reverse", &[]);
     assert_eq!(&again[0], runner.curve());

@@ -130,6 +130,7 @@ fn what_cannot_be_reached_is_told_with_what_is_left() {
     let target = |x| EndTarget {
         point: DVec3::new(x, 0.0, 0.0),
         direction: Some(DVec3::Y),
+        ..EndTarget::default()
     };
     let runner = Runner::of(polygon)
         .with_target(End::Start, target(0.0))
@@ -177,6 +178,7 @@ fn missing_targets_and_directions_are_refused() {
     let target = EndTarget {
         point: DVec3::ZERO,
         direction: None,
+        ..EndTarget::default()
     };
     let runner = runner.with_target(End::Finish, target);
     assert_eq!(

@@ -118,6 +118,7 @@ pub fn beside(polygon: &FloatPolygon, end: End, share: f64, angle: f64) -> EndTa
     EndTarget {
         point: jet.point + away.extend(0.0),
         direction: Some(glam::DVec2::from_angle(angle).rotate(along).extend(0.0)),
+        ..EndTarget::default()
     }
 }
 

@@ -241,6 +241,7 @@ pub fn nearest_other_end(
     Some(EndTarget {
         point: jet.point,
         direction: direction.map(|along| if picked == end { -along } else { along }),
+        ..EndTarget::default()
     })
 }
 

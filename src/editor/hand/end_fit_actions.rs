@@ -131,11 +131,25 @@ impl Editor {
             }
             EndFitAction::TargetActual => {
                 let (point, direction) = (jet.point, jet.tangent());
-                ("Set target", Some(EndTarget { point, direction }))
+                (
+                    "Set target",
+                    Some(EndTarget {
+                        point,
+                        direction,
+                        ..EndTarget::default()
+                    }),
+                )
             }
             EndFitAction::SetPoint(point) => {
                 let direction = target.map_or(jet.tangent(), |target| target.direction);
-                ("Set target point", Some(EndTarget { point, direction }))
+                (
+                    "Set target point",
+                    Some(EndTarget {
+                        point,
+                        direction,
+                        ..EndTarget::default()
+                    }),
+                )
             }
             EndFitAction::SetDirection(direction) => {
                 let point = target.map_or(jet.point, |target| target.point);
@@ -143,9 +157,19 @@ impl Editor {
                     Some(_) => "Set target direction",
                     None => "Free target direction",
                 };
-                (label, Some(EndTarget { point, direction }))
+                (
+                    label,
+                    Some(EndTarget {
+                        point,
+                        direction,
+                        ..EndTarget::default()
+                    }),
+                )
             }
-            EndFitAction::TurnRound => ("Turn target round", target.map(EndTarget::turned)),
+            EndFitAction::TurnRound => (
+                "Turn target round",
+                target.map(|target| target.turned(curve.polygon.is_planar())),
+            ),
             _ => ("Clear target", None),
         };
         let edit = Edit::SetTarget {

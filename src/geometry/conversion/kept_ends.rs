@@ -18,6 +18,7 @@ pub(super) fn with_ends(polygon: FloatPolygon, jets: [Jet; 2]) -> FloatPolygon {
     let target = |jet: Jet| EndTarget {
         point: jet.point,
         direction: jet.tangent().filter(|_| polygon.degree() > 1),
+        ..EndTarget::default()
     };
     let targets = [
         (End::Start, target(jets[0])),

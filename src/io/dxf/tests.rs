@@ -225,6 +225,7 @@ fn losses_are_reported() {
     curve.targets.finish = Some(EndTarget {
         point: DVec3::X,
         direction: None,
+        ..EndTarget::default()
     });
     let written = "a_b".to_owned();
     check(

@@ -59,10 +59,12 @@ fn everything_is_kept() {
         start: Some(EndTarget {
             point: DVec3::new(1.0, 2.0, 0.0),
             direction: None,
+            ..EndTarget::default()
         }),
         finish: Some(EndTarget {
             point: DVec3::new(1.0, 2.0, 3.0),
             direction: Some(DVec3::X),
+            ..EndTarget::default()
         }),
     };
     let text = text_of(&[&curve, &line("b")]);
@@ -104,6 +106,7 @@ fn what_others_write_is_read() {
     expected.targets.finish = Some(EndTarget {
         point: DVec3::new(7.0, 8.0, 0.0),
         direction: None,
+        ..EndTarget::default()
     });
     expected.colour = Some(Colour([255, 0, 16]));
     check(

@@ -69,10 +69,7 @@ fn what_a_table_does_not_hold_is_reported() {
     changed.colour = Some(Colour([1, 2, 3]));
     changed.visible = false;
     changed.locked = true;
-    changed.targets.start = Some(crate::geometry::end_correction::EndTarget {
-        point: DVec3::ZERO,
-        direction: None,
-    });
+    changed.targets.start = Some(crate::geometry::end_correction::EndTarget::default());
     let losses = write(&[&changed], PolygonKind::Bezier).unwrap().losses;
     let losses: Vec<Loss> = losses.losses.into_iter().map(|(_, loss)| loss).collect();
     let expected = [

@@ -315,6 +315,7 @@ impl EndFitTool {
                 let target = EndTarget {
                     point: jet.point + context.movement(by, subject.is_planar()),
                     direction: jet.tangent(),
+                    ..EndTarget::default()
                 };
                 vec![subject.set_target("Set target point", target)]
             }
