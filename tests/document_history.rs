@@ -1,6 +1,8 @@
 //! The document and its history: gestures, undo and redo, locked curves, edits that fail.
 
-use batten::document::{Colour, Curve, CurveId, Document, Edit, EditError, History};
+use batten::document::{
+    Colour, Curve, CurveId, Document, Edit, EditError, History, LockedVertices,
+};
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::{End, FloatPolygon};
 use glam::DVec3;
@@ -144,6 +146,16 @@ fn gestures_that_change_nothing_leave_no_step() {
             curve: id,
             polygon: cubic(),
         },
+        Edit::Renumber {
+            curve: id,
+            polygon: cubic(),
+            locked_vertices: LockedVertices::default(),
+        },
+        Edit::SetVerticesLocked {
+            curve: id,
+            vertices: vec![0, 4],
+            locked: false,
+        },
     ] {
         history.apply("Nothing", vec![edit.clone()]).expect("valid");
         assert_eq!(history.undo_steps(), 0, "{edit:?} left a step");
@@ -172,6 +184,16 @@ fn every_edit_is_undone_and_redone() {
             curve: id,
             vertex: 1,
             weight: 2.0,
+        },
+        Edit::SetVerticesLocked {
+            curve: id,
+            vertices: vec![3],
+            locked: true,
+        },
+        Edit::Renumber {
+            curve: id,
+            polygon: cubic(),
+            locked_vertices: LockedVertices::default(),
         },
         Edit::Rename {
             curve: id,
@@ -431,4 +453,94 @@ fn identities_are_never_given_twice() {
     history.apply("Add", add()).expect("valid");
     assert!(history.document().curve(next).is_none());
     assert!(history.document().curve(id).is_some());
+}
+
+#[test]
+fn no_edit_moves_a_locked_vertex() {
+    let (mut history, id) = history();
+    let lock = Edit::SetVerticesLocked {
+        curve: id,
+        vertices: vec![2, 0],
+        locked: true,
+    };
+    history.apply("Lock vertices", vec![lock]).expect("valid");
+    let before = bits(history.document());
+    let locked = history.document().clone();
+
+    let mut shifted = cubic();
+    let moves = [(2, DVec3::new(2.1, -0.3, 1e-300))];
+    shifted.move_vertices(moves).expect("a valid place");
+    let mut heavier = cubic();
+    heavier.set_weight(0, 2.0).expect("a valid weight");
+    let short = FloatPolygon::planar(1, &[(0.1, 0.2), (1.3, 0.7)]).expect("a valid polygon");
+    let set = |polygon| Edit::SetPolygon { curve: id, polygon };
+    let renumber = |polygon, vertices: [usize; 1]| Edit::Renumber {
+        curve: id,
+        polygon,
+        locked_vertices: vertices.into_iter().collect(),
+    };
+    let weigh = Edit::SetWeight {
+        curve: id,
+        vertex: 2,
+        weight: 2.0,
+    };
+    for (edit, vertex) in [
+        (moved(id, 3.0).remove(0), 2),
+        (set(cubic().reversed()), 0),
+        (set(shifted.clone()), 2),
+        (set(heavier), 0),
+        (set(short), 2),
+        (weigh, 2),
+        (renumber(cubic(), [1]), 1),
+        (renumber(shifted, [2]), 2),
+        (renumber(cubic(), [9]), 9),
+    ] {
+        let refused = history.apply("Move", vec![edit.clone()]);
+        let name = "first".to_owned();
+        let expected = Err(EditError::LockedVertex { name, vertex });
+        assert_eq!(refused, expected, "{edit:?}");
+        assert_eq!(bits(history.document()), before);
+    }
+
+    // What leaves them where they are can be done, and a lock can go with its point.
+    let moves = vec![(1, DVec3::ONE), (2, cubic().vertex(2))];
+    let around = Edit::MoveVertices { curve: id, moves };
+    let reversed = renumber(cubic().reversed(), [4]);
+    for edits in [vec![around], vec![reversed]] {
+        history.apply("Move", edits).expect("valid");
+        history.undo();
+        assert_eq!(bits(history.document()), before);
+        assert!(history.document().is_same(&locked));
+    }
+    history.undo();
+    assert!(!history.document().is_same(&locked));
+    history.apply("Move", moved(id, 3.0)).expect("not locked");
+}
+
+#[test]
+fn only_vertices_that_there_are_can_be_locked() {
+    let (mut history, id) = history();
+    let lock = |vertices| Edit::SetVerticesLocked {
+        curve: id,
+        vertices,
+        locked: true,
+    };
+    let error = history.apply("Lock", vec![lock(vec![4, 5])]).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "“first”: vertex 5 does not exist: the polygon has 5 vertices, counted from 0"
+    );
+    let mut curve = Curve::new("third", cubic());
+    curve.locked_vertices.set(5, true);
+    let error = history.apply("Add", vec![Edit::Add(Box::new(curve))]);
+    assert!(matches!(error, Err(EditError::Polygon { .. })), "{error:?}");
+    assert_eq!(history.undo_steps(), 0);
+
+    let hide = Edit::SetVisible {
+        curve: id,
+        visible: false,
+    };
+    history.apply("Hide", vec![hide]).expect("valid");
+    let refused = history.apply("Lock", vec![lock(vec![0])]);
+    assert!(matches!(refused, Err(EditError::Hidden { .. })));
 }

@@ -2,6 +2,7 @@
 
 use super::error::EditError;
 use super::extras::Extras;
+use super::locked_vertices::LockedVertices;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{End, FloatPolygon};
 
@@ -65,6 +66,8 @@ pub struct Curve {
     pub locked: bool,
     /// The float polygon.
     pub polygon: FloatPolygon,
+    /// The vertices that no edit moves.
+    pub locked_vertices: LockedVertices,
     /// Where the ends shall be.
     pub targets: EndTargets,
     /// What its file said of it that this program does not know. Every edit keeps it; copies and
@@ -106,7 +109,43 @@ impl Curve {
         Err(EditError::Locked { name })
     }
 
-    /// Make a visible, unlocked curve without targets.
+    /// Refuse a polygon that moves a locked vertex, changes its weight or does not have it.
+    ///
+    /// # Errors
+    /// [`EditError::LockedVertex`].
+    pub fn check_held(&self, polygon: &FloatPolygon) -> Result<(), EditError> {
+        let vertex = |polygon: &FloatPolygon, index: usize| {
+            let point = *polygon.vertices().get(index)?;
+            Some((point, polygon.weight(index)))
+        };
+        let is_held = |index| vertex(&self.polygon, index) == vertex(polygon, index);
+        match self.locked_vertices.iter().find(|vertex| !is_held(*vertex)) {
+            None => Ok(()),
+            Some(vertex) => Err(self.refused_vertex(vertex)),
+        }
+    }
+
+    /// Refuse if one of some vertices is locked.
+    ///
+    /// # Errors
+    /// [`EditError::LockedVertex`].
+    pub fn check_vertices_unlocked(
+        &self,
+        vertices: impl IntoIterator<Item = usize>,
+    ) -> Result<(), EditError> {
+        let mut vertices = vertices.into_iter();
+        match vertices.find(|vertex| self.locked_vertices.contains(*vertex)) {
+            None => Ok(()),
+            Some(vertex) => Err(self.refused_vertex(vertex)),
+        }
+    }
+
+    fn refused_vertex(&self, vertex: usize) -> EditError {
+        let name = self.name.clone();
+        EditError::LockedVertex { name, vertex }
+    }
+
+    /// Make a visible, unlocked curve without locked vertices and targets.
     pub fn new(name: impl Into<String>, polygon: FloatPolygon) -> Self {
         Self {
             name: name.into(),
@@ -114,6 +153,7 @@ impl Curve {
             visible: true,
             locked: false,
             polygon,
+            locked_vertices: LockedVertices::default(),
             targets: EndTargets::default(),
             extras: Extras::default(),
         }

@@ -7,27 +7,47 @@ use glam::DVec3;
 use super::curve::{Colour, Curve, CurveId};
 use super::document::Document;
 use super::error::EditError;
+use super::locked_vertices::LockedVertices;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{End, FloatPolygon, PolygonError};
 
 /// A change to a document.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Edit {
-    /// Put vertices of a curve's float polygon somewhere else.
+    /// Put vertices of a curve's float polygon somewhere else. Locked ones cannot be moved.
     MoveVertices {
         /// The curve.
         curve: CurveId,
         /// The vertices, counted from 0, with their new places.
         moves: Vec<(usize, DVec3)>,
     },
-    /// Give a curve another float polygon.
+    /// Give a curve another float polygon, whose vertices have the same numbers: locked ones must
+    /// be where they were.
     SetPolygon {
         /// The curve.
         curve: CurveId,
         /// The new polygon.
         polygon: FloatPolygon,
     },
-    /// Change the weight of a vertex.
+    /// Give a curve a float polygon whose vertices have other numbers, as after an insertion.
+    Renumber {
+        /// The curve.
+        curve: CurveId,
+        /// The new polygon.
+        polygon: FloatPolygon,
+        /// Which of its vertices are locked: each is one that was locked before, at its point.
+        locked_vertices: LockedVertices,
+    },
+    /// Lock vertices of a curve, or unlock them.
+    SetVerticesLocked {
+        /// The curve.
+        curve: CurveId,
+        /// The vertices, counted from 0.
+        vertices: Vec<usize>,
+        /// Whether they shall be locked.
+        locked: bool,
+    },
+    /// Change the weight of a vertex, unless it is locked.
     SetWeight {
         /// The curve.
         curve: CurveId,
@@ -100,6 +120,16 @@ impl Document {
                 *old = polygon;
                 Ok(())
             }),
+            Edit::Renumber {
+                curve,
+                polygon,
+                locked_vertices,
+            } => self.renumber(curve, polygon, locked_vertices),
+            Edit::SetVerticesLocked {
+                curve,
+                vertices,
+                locked,
+            } => self.lock_vertices(curve, &vertices, locked),
             Edit::SetWeight {
                 curve,
                 vertex,
@@ -127,6 +157,7 @@ impl Document {
             }
             Edit::Add(curve) if !curve.targets.are_usable() => Err(EditError::BadTarget),
             Edit::Add(curve) => {
+                check_vertices(&curve, curve.locked_vertices.iter())?;
                 self.push(*curve);
                 Ok(())
             }
@@ -164,9 +195,58 @@ impl Document {
             name: name(),
             error,
         })?;
+        shared.check_held(&changed.polygon)?;
         *shared = Arc::new(changed);
         Ok(())
     }
+
+    fn renumber(
+        &mut self,
+        id: CurveId,
+        polygon: FloatPolygon,
+        locked_vertices: LockedVertices,
+    ) -> Result<(), EditError> {
+        let index = self.position(id).ok_or(EditError::NoSuchCurve)?;
+        let shared = &mut self.curves[index].1;
+        shared.check_editable()?;
+        let held = shared.locked_vertices.carried(&shared.polygon, &polygon);
+        if let Some(vertex) = locked_vertices.iter().find(|new| !held.contains(*new)) {
+            let name = shared.name.clone();
+            return Err(EditError::LockedVertex { name, vertex });
+        }
+        let changed = Arc::make_mut(shared);
+        changed.polygon = polygon;
+        changed.locked_vertices = locked_vertices;
+        Ok(())
+    }
+
+    fn lock_vertices(
+        &mut self,
+        id: CurveId,
+        vertices: &[usize],
+        locked: bool,
+    ) -> Result<(), EditError> {
+        let curve = self.curve(id).ok_or(EditError::NoSuchCurve)?;
+        curve.check_visible()?;
+        check_vertices(curve, vertices.iter().copied())?;
+        self.change(id, |curve| {
+            for vertex in vertices {
+                curve.locked_vertices.set(*vertex, locked);
+            }
+        })
+    }
+}
+
+/// Refuse vertices that a curve does not have.
+fn check_vertices(
+    curve: &Curve,
+    mut vertices: impl Iterator<Item = usize>,
+) -> Result<(), EditError> {
+    let checked = vertices.try_for_each(|vertex| curve.polygon.check_index(vertex));
+    checked.map_err(|error| EditError::Polygon {
+        name: curve.name.clone(),
+        error,
+    })
 }
 
 #[cfg(test)]

@@ -23,6 +23,14 @@ pub enum EditError {
         /// The curve's name.
         name: String,
     },
+    /// A vertex is locked.
+    #[error("vertex {vertex} of {} is locked: unlock it to change or delete it", quoted(.name))]
+    LockedVertex {
+        /// The curve's name.
+        name: String,
+        /// The vertex, counted from 0.
+        vertex: usize,
+    },
     /// The curve's new shape is not one.
     #[error("{}: {error}", quoted(.name))]
     Polygon {

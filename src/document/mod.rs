@@ -8,6 +8,7 @@ mod edit;
 mod error;
 mod extras;
 mod history;
+mod locked_vertices;
 mod names;
 mod wording;
 
@@ -17,5 +18,6 @@ pub use edit::Edit;
 pub use error::EditError;
 pub use extras::Extras;
 pub use history::History;
+pub use locked_vertices::LockedVertices;
 pub use names::free_name;
 pub use wording::{cut, escaped, quoted};

@@ -175,7 +175,11 @@ impl FloatPolygon {
         }
     }
 
-    fn check_index(&self, index: usize) -> Result<(), PolygonError> {
+    /// Refuse the number of a vertex that does not exist.
+    ///
+    /// # Errors
+    /// [`PolygonError::NoSuchVertex`].
+    pub fn check_index(&self, index: usize) -> Result<(), PolygonError> {
         let count = self.vertices.len();
         if index < count {
             Ok(())
