@@ -2,39 +2,11 @@
 
 use super::float_polygon::FloatPolygon;
 use super::polygon_figures::Range;
+use super::quadrature::{quadrature, settled_quadrature};
 use super::vector;
-
-/// Nodes and weights of Gauss–Legendre quadrature with 16 points on \[−1, 1\]: the positive
-/// half; the other half mirrors it.
-const NODES: [(f64, f64); 8] = [
-    (0.095_012_509_837_637_44, 0.189_450_610_455_068_5),
-    (0.281_603_550_779_258_9, 0.182_603_415_044_923_6),
-    (0.458_016_777_657_227_4, 0.169_156_519_395_002_54),
-    (0.617_876_244_402_643_7, 0.149_595_988_816_576_73),
-    (0.755_404_408_355_003, 0.124_628_971_255_533_88),
-    (0.865_631_202_387_831_7, 0.095_158_511_682_492_78),
-    (0.944_575_023_073_232_6, 0.062_253_523_938_647_894),
-    (0.989_400_934_991_649_9, 0.027_152_459_411_754_096),
-];
-
-/// Halvings after which an interval is taken as it is: it is then 2⁻⁴⁰ of a segment.
-const DEEPEST: usize = 40;
-
-/// Halvings of one segment after which all remaining intervals are taken as they are. Cusps take
-/// a hundred or two.
-const MOST_HALVINGS: usize = 500;
 
 /// Roundings that a quadrature may differ by from that of its halves.
 const ROUNDINGS: f64 = 16.0 * f64::EPSILON;
-
-/// One segment being measured.
-struct Measurement<'a> {
-    polygon: &'a FloatPolygon,
-    segment: usize,
-    /// How much a length may err for an interval of the whole segment.
-    allowed: f64,
-    halvings: usize,
-}
 
 impl FloatPolygon {
     /// Measure the arc length of the whole curve to the relative `tolerance`.
@@ -54,16 +26,11 @@ impl FloatPolygon {
     /// # Panics
     /// If the curve has no segment with this number.
     pub fn segment_arc_length(&self, segment: usize, from: f64, to: f64, tolerance: f64) -> f64 {
-        let mut measurement = Measurement {
-            polygon: self,
-            segment,
-            allowed: 0.0,
-            halvings: 0,
-        };
-        let whole = measurement.quadrature(from, to);
+        let speed = |t: f64| [self.segment_speed(segment, t)];
+        let whole = quadrature(from, to, &speed);
         let rounding = ROUNDINGS * self.greatest_term(segment) * (to - from).abs();
-        measurement.allowed = rounding.max(tolerance * whole);
-        measurement.halved(from, to, whole, 0)
+        let allowed = [rounding.max(tolerance * whole[0])];
+        settled_quadrature([from, to], whole, allowed, &speed).values[0]
     }
 
     /// Bound the speed of a polynomial curve on a segment, and with it what rounding does to it,
@@ -86,35 +53,10 @@ impl FloatPolygon {
     }
 }
 
-impl Measurement<'_> {
-    fn halved(&mut self, from: f64, to: f64, whole: f64, depth: usize) -> f64 {
-        let middle = 0.5 * (from + to);
-        let left = self.quadrature(from, middle);
-        let right = self.quadrature(middle, to);
-        let difference = (left + right - whole).abs();
-        let allowed = self.allowed * 0.5_f64.powi(depth as i32);
-        // Where numbers overflow, halving would go on for ever.
-        let hopeless =
-            !difference.is_finite() || depth == DEEPEST || self.halvings == MOST_HALVINGS;
-        if difference <= allowed || hopeless {
-            return left + right;
-        }
-        self.halvings += 1;
-        self.halved(from, middle, left, depth + 1) + self.halved(middle, to, right, depth + 1)
-    }
-
-    fn quadrature(&self, from: f64, to: f64) -> f64 {
-        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-        let speed = |t: f64| self.polygon.segment_speed(self.segment, t);
-        let sum = NODES.iter().map(|(node, weight)| {
-            weight * (speed(middle - half * node) + speed(middle + half * node))
-        });
-        half * sum.sum::<f64>()
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use std::cell::Cell;
+
     use glam::DVec3;
 
     use super::*;
@@ -126,15 +68,16 @@ mod tests {
                 (0..8).map(|i| DVec3::new(far + 10.0 * f64::from(i), f64::from(i * i), 0.0));
             let weights = (0..8).map(|i| 1.0 + 0.3 * f64::from(i % 3)).collect();
             let polygon = FloatPolygon::new(3, vertices.collect(), Some(weights), false).unwrap();
-            let mut measurement = Measurement {
-                polygon: &polygon,
-                segment: 0,
-                allowed: ROUNDINGS * polygon.greatest_term(0),
-                halvings: 0,
+            let evaluations = Cell::new(0);
+            let speed = |t: f64| {
+                evaluations.set(evaluations.get() + 1);
+                [polygon.segment_speed(0, t)]
             };
-            let whole = measurement.quadrature(0.0, 1.0);
-            let length = measurement.halved(0.0, 1.0, whole, 0);
-            (length, measurement.halvings)
+            let whole = quadrature(0.0, 1.0, &speed);
+            let allowed = [ROUNDINGS * polygon.greatest_term(0)];
+            let length = settled_quadrature([0.0, 1.0], whole, allowed, &speed).values[0];
+            // An interval is halved with twice 16 evaluations.
+            (length, evaluations.get() / 32)
         };
         let (near, _) = measured(0.0);
         for far in [1e3, 1e6, 1e9] {

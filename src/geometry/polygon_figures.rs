@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::end_correction::angle_between;
 use super::float_polygon::FloatPolygon;
 use super::jet::Jet;
+use super::vector;
 
 /// The smallest and the largest of some values.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,6 +71,35 @@ pub fn discrete_curvature(before: DVec3, corner: DVec3, after: DVec3) -> f64 {
         ..Jet::default()
     };
     differences.curvature_of(before.z == 0.0 && corner.z == 0.0 && after.z == 0.0)
+}
+
+/// Measure the angle by which a polygon in space leaves its plane along the leg from `start` to
+/// `end`, in radians: from the osculating plane of its three vertices `before`, `start`, `end` to
+/// that of `start`, `end`, `after`. Positive where the torsion is, as on a right-handed helix. 0
+/// where a corner is straight or a leg has no length.
+pub fn torsion_angle(before: DVec3, start: DVec3, end: DVec3, after: DVec3) -> f64 {
+    let [entering, leg, leaving] =
+        [start - before, end - start, after - end].map(|leg| vector::scaled(leg).0);
+    let (first, second) = (entering.cross(leg), leg.cross(leaving));
+    if first == DVec3::ZERO || second == DVec3::ZERO {
+        return 0.0;
+    }
+    (leg.length() * entering.dot(second)).atan2(first.dot(second))
+}
+
+/// Compute the discrete torsion of a polygon at the leg from `start` to `end`, from the central
+/// differences about its middle: (D₁ × D₂) · D₃ / |D₁ × D₂|² with D₁ = end − start,
+/// D₂ = (before − start − end + after)/2 and D₃ = after − 3 end + 3 start − before. Not a number
+/// where D₁ and D₂ are parallel.
+pub fn discrete_torsion(before: DVec3, start: DVec3, end: DVec3, after: DVec3) -> f64 {
+    let [entering, leg, leaving] = [start - before, end - start, after - end];
+    let differences = Jet {
+        first: leg,
+        second: 0.5 * (leaving - entering),
+        third: leaving - 2.0 * leg + entering,
+        ..Jet::default()
+    };
+    differences.torsion()
 }
 
 impl FloatPolygon {

@@ -7,6 +7,7 @@ mod witness;
 
 mod cases;
 mod exact_counts;
+mod harmony;
 mod intervals;
 mod invariance;
 mod trends;

@@ -72,18 +72,23 @@ impl CurvatureLevels {
         }
     }
 
-    /// Compute the point of the logarithmic curvature graph: (log ρ, log |ρ ds/dρ|) to base 10,
-    /// with the radius of curvature ρ = 1/|κ|; ρ ds/dρ is −κ/(dκ/ds).
-    ///
-    /// The graph of a log-aesthetic curve is a straight line of slope α (Yoshida and Saito,
-    /// "Interactive aesthetic curve segments", 2006). `None` where κ or dκ/ds is 0 or beyond the
-    /// range of numbers.
+    /// Find the point of the logarithmic curvature graph: see [`logarithmic_point`].
     pub fn logarithmic(&self) -> Option<(f64, f64)> {
-        let curvature = self.curvature[0].abs().log10();
-        let slope = self.curvature_slope.abs().log10();
-        let there = curvature.is_finite() && slope.is_finite();
-        there.then_some((-curvature, curvature - slope))
+        logarithmic_point(self.curvature[0], self.curvature_slope)
     }
+}
+
+/// Compute the point of the logarithmic curvature graph at a curvature κ and its slope dκ/ds:
+/// (log ρ, log |ρ ds/dρ|) to base 10, with the radius of curvature ρ = 1/|κ|; ρ ds/dρ is −κ/(dκ/ds).
+///
+/// The graph of a log-aesthetic curve is a straight line of slope α (Yoshida and Saito,
+/// "Interactive aesthetic curve segments", 2006). `None` where κ or dκ/ds is 0 or beyond the
+/// range of numbers.
+pub fn logarithmic_point(curvature: f64, slope: f64) -> Option<(f64, f64)> {
+    let curvature = curvature.abs().log10();
+    let slope = slope.abs().log10();
+    let there = curvature.is_finite() && slope.is_finite();
+    there.then_some((-curvature, curvature - slope))
 }
 
 impl FloatPolygon {
