@@ -11,7 +11,7 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use batten::geometry::end_correction::EndTarget;
-use batten::geometry::joint_correction::correct_jointly;
+use batten::geometry::fairing::joint_correction::{Disturbance, correct_jointly};
 use batten::geometry::{Batch, End, Sampler, basis};
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, Throughput, measurement::WallTime};
 use criterion::{criterion_group, criterion_main};
@@ -208,7 +208,14 @@ fn correction(criterion: &mut Criterion) {
             )
         });
         group.bench_function(BenchmarkId::from_parameter(vertices), |bencher| {
-            bencher.iter(|| correct_jointly(black_box(&polygon), &targets));
+            bencher.iter(|| {
+                correct_jointly(
+                    black_box(&polygon),
+                    &targets,
+                    Disturbance::Differences(1),
+                    &[],
+                )
+            });
         });
     }
     group.finish();

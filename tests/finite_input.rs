@@ -5,7 +5,7 @@ mod common;
 use batten::geometry::end_correction::{
     EndDifference, EndOverlap, EndTarget, align_end, angle_between, correct_end, correct_in_turn,
 };
-use batten::geometry::joint_correction::correct_jointly;
+use batten::geometry::fairing::joint_correction::{Disturbance, correct_jointly};
 use batten::geometry::polygon_figures::{discrete_curvature, turning_angle};
 use batten::geometry::{
     Batch, BezierPolygon, ClampedPolygon, End, FloatPolygon, MAX_DEGREE, Sampler, segment_bezier,
@@ -55,7 +55,7 @@ fn call_everything(polygon: &FloatPolygon, target: DVec3, direction: DVec3) {
         };
         (end, target)
     });
-    let _ = correct_jointly(polygon, &both);
+    let _ = correct_jointly(polygon, &both, Disturbance::Differences(1), &[]);
     if polygon.is_periodic() {
         return;
     }

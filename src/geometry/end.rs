@@ -37,6 +37,16 @@ impl End {
     }
 }
 
+impl End {
+    /// The parameter u of the end on an open curve.
+    pub fn parameter(self, polygon: &FloatPolygon) -> f64 {
+        match self {
+            Self::Start => 0.0,
+            Self::Finish => polygon.segments() as f64,
+        }
+    }
+}
+
 impl FloatPolygon {
     /// Evaluate the curve's jet at one end. The tangent points along rising u at both ends; it
     /// is the direction of the first, or last, leg of the clamped polygon.

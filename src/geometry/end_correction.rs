@@ -6,7 +6,7 @@
 //! the derivative of order n − 1, rigidly: with n ≥ 3 the end's curvature is kept, with n ≥ 4 its
 //! slope too. With N ≥ 2n the other end does not feel it and one pass is exact. With fewer
 //! vertices the two groups overlap, and correcting the ends in turn converges slowly, if at all
-//! (n + 1 < N < 2n), or not (N = n + 1): see [`super::joint_correction`].
+//! (n + 1 < N < 2n), or not (N = n + 1): see [`super::fairing::joint_correction`].
 
 use glam::{DMat3, DVec3};
 

@@ -13,7 +13,7 @@ use super::targets::{check_targets, corrected, cusp, marks, residual};
 use super::values::Values;
 use crate::document::Curve;
 use crate::geometry::end_correction::{EndOverlap, EndTarget, correct_in_turn};
-use crate::geometry::joint_correction::{CorrectionError, correct_jointly};
+use crate::geometry::fairing::joint_correction::{CorrectionError, Disturbance, correct_jointly};
 use crate::geometry::{End, FloatPolygon, Progress, counted, significant};
 
 /// What is left where only rounding is left, in units of the polygon's size.
@@ -115,7 +115,9 @@ fn at_once(curve: &Curve, tolerance: f64) -> Result<Correction, OperationError> 
         let jet = curve.polygon.end_jet(end);
         EndTarget {
             point: jet.point,
-            direction: jet.tangent(), ..EndTarget::default() }
+            direction: jet.tangent(),
+            ..EndTarget::default()
+        }
     };
     let targets = End::BOTH.map(|end| (end, curve.targets.get(end).unwrap_or_else(|| kept(end))));
     if residual(curve, &curve.polygon) <= tolerance {
@@ -126,7 +128,7 @@ fn at_once(curve: &Curve, tolerance: f64) -> Result<Correction, OperationError> 
             reason: String::new(),
         });
     }
-    match correct_jointly(&curve.polygon, &targets) {
+    match correct_jointly(&curve.polygon, &targets, Disturbance::Differences(1), &[]) {
         Ok(joint) => Ok(Correction {
             residual: joint.residual,
             polygon: Some(joint.polygon).filter(|_| joint.residual <= tolerance),

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use super::inputs::Inputs;
 use crate::document::EditError;
-use crate::geometry::joint_correction::CorrectionError;
+use crate::geometry::fairing::joint_correction::CorrectionError;
 use crate::geometry::{End, MAX_DEGREE, PolygonError};
 
 /// Why an operation cannot run on an input, or with some values.

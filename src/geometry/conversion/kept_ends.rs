@@ -2,9 +2,9 @@
 
 use crate::geometry::end::End;
 use crate::geometry::end_correction::{EndDifference, EndTarget};
+use crate::geometry::fairing::joint_correction::{Disturbance, correct_jointly};
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::jet::Jet;
-use crate::geometry::joint_correction::correct_jointly;
 
 /// What is left of an end's difference by rounding, in units of the curve's size.
 const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
@@ -31,7 +31,7 @@ pub(super) fn with_ends(polygon: FloatPolygon, jets: [Jet; 2]) -> FloatPolygon {
     if met {
         return polygon;
     }
-    match correct_jointly(&polygon, &targets) {
+    match correct_jointly(&polygon, &targets, Disturbance::Differences(1), &[]) {
         Ok(correction) => correction.polygon,
         Err(_) => polygon,
     }

@@ -1,0 +1,258 @@
+//! How many features a curve has, or a stretch of it, and how many of them are more than ripple.
+
+use crate::geometry::ParametricCurve;
+use crate::geometry::features::{Extremum, Features, Root, SegmentProver};
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::jet::Jet;
+use crate::geometry::progress::Progress;
+use crate::geometry::sampler::{BATCH_ORDER, Batch, Sampler};
+
+/// Extrema with a smaller prominence, as a share of the range of values, count as ripple.
+const RIPPLE: f64 = 0.05;
+
+/// How many samples a segment is looked at before it is proved.
+const SAMPLES: usize = 8;
+
+/// Slopes below this share of the largest have no certain sign in doubles.
+const UNCERTAIN: f64 = 1e-9;
+
+/// Count the features that harmonising looks at.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ShapeCounts {
+    /// Inflections of a planar curve; zeros of the torsion of one in space.
+    pub inflections: usize,
+    /// Extrema of the curvature.
+    pub extrema: usize,
+    /// Extrema of the torsion; none in the plane.
+    pub torsion_extrema: usize,
+}
+
+impl ShapeCounts {
+    /// How many features too many or too few there are.
+    pub(super) fn distance(self, other: Self) -> usize {
+        self.inflections.abs_diff(other.inflections)
+            + self.extrema.abs_diff(other.extrema)
+            + self.torsion_extrema.abs_diff(other.torsion_extrema)
+    }
+
+    /// Whether there are more features of some kind than in another.
+    pub(super) fn exceeds(self, other: Self) -> bool {
+        self.inflections > other.inflections
+            || self.extrema > other.extrema
+            || self.torsion_extrema > other.torsion_extrema
+    }
+}
+
+/// The proved features of a stretch.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Proved {
+    pub(super) counts: ShapeCounts,
+    pub(super) undecided: usize,
+}
+
+/// Prove the features of a curve; `None` if `progress` is cancelled meanwhile.
+pub(super) fn prove(polygon: &FloatPolygon, progress: &Progress) -> Option<Features> {
+    let mut prover = SegmentProver::new(polygon.is_planar());
+    let mut segments = Vec::with_capacity(polygon.segments());
+    for segment in 0..polygon.segments() {
+        if progress.is_cancelled() {
+            return None;
+        }
+        segments.push(prover.segment(polygon, segment));
+    }
+    Some(Features::assemble(polygon, &segments))
+}
+
+/// Count the proved features that lie in a stretch.
+pub(super) fn counted(features: &Features, planar: bool, stretch: [f64; 2]) -> Proved {
+    let within = |u: [f64; 2]| u[1] >= stretch[0] && u[0] <= stretch[1];
+    let roots = |roots: &[Root]| -> usize {
+        let found = roots.iter().filter(|root| within(root.u));
+        found.map(|root| root.count).sum()
+    };
+    let extrema = |extrema: &[Extremum]| -> usize {
+        let found = extrema.iter().filter(|extremum| within(extremum.u));
+        found.map(|extremum| extremum.count).sum()
+    };
+    let doubts = features.undecided.iter().filter(|doubt| within(doubt.u));
+    let cusps = features.cusps.iter().filter(|cusp| within(cusp.u));
+    Proved {
+        counts: ShapeCounts {
+            inflections: if planar {
+                roots(&features.inflections)
+            } else {
+                roots(&features.torsion_zeros)
+            },
+            extrema: extrema(&features.curvature_extrema),
+            torsion_extrema: extrema(&features.torsion_extrema),
+        },
+        undecided: doubts.count() + cusps.count(),
+    }
+}
+
+/// Count the features that are more than ripple: extrema with a prominence of at least 5 % of the
+/// range of values, and the changes of sign between those and the ends.
+pub(super) fn significant(
+    polygon: &FloatPolygon,
+    features: &Features,
+    stretch: [f64; 2],
+) -> ShapeCounts {
+    let planar = polygon.is_planar();
+    let cyclic = polygon.is_periodic() && stretch[1] - stretch[0] >= polygon.segments() as f64;
+    let sequence = |extrema: &[Extremum], value: &dyn Fn(&Jet) -> f64| {
+        let inside = extrema
+            .iter()
+            .filter(|extremum| extremum.u[1] >= stretch[0] && extremum.u[0] <= stretch[1]);
+        let mut values: Vec<f64> = inside
+            .map(|extremum| {
+                let [low, high] = extremum.value;
+                let middle = 0.5 * (low + high);
+                let at = || value(&polygon.jet(0.5 * (extremum.u[0] + extremum.u[1])));
+                if middle.is_finite() { middle } else { at() }
+            })
+            .collect();
+        if !cyclic {
+            values.insert(0, value(&polygon.jet(stretch[0])));
+            values.push(value(&polygon.jet(stretch[1])));
+        }
+        prominent(values, cyclic)
+    };
+    let curvature = sequence(&features.curvature_extrema, &|jet| jet.curvature_of(planar));
+    let torsion = if planar {
+        Vec::new()
+    } else {
+        sequence(&features.torsion_extrema, &Jet::torsion)
+    };
+    let ends = if cyclic { 0 } else { 2 };
+    ShapeCounts {
+        inflections: sign_changes(if planar { &curvature } else { &torsion }, cyclic),
+        extrema: curvature.len().saturating_sub(ends),
+        torsion_extrema: torsion.len().saturating_sub(ends),
+    }
+}
+
+/// Take out of a sequence of extrema, the two ends among them unless it is cyclic, what differs from
+/// its neighbour by less than 5 % of the range: the smallest differences first.
+fn prominent(mut values: Vec<f64>, cyclic: bool) -> Vec<f64> {
+    values.retain(|value| value.is_finite());
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let least = RIPPLE * (high - low);
+    loop {
+        let count = values.len();
+        if count <= 2 {
+            return values;
+        }
+        let pairs = if cyclic { count } else { count - 1 };
+        let difference = |pair: usize| (values[(pair + 1) % count] - values[pair]).abs();
+        let smallest = (0..pairs).min_by(|a, b| difference(*a).total_cmp(&difference(*b)));
+        let Some(pair) = smallest.filter(|pair| difference(*pair) < least) else {
+            return values;
+        };
+        let next = (pair + 1) % count;
+        if cyclic || (pair > 0 && next < count - 1) {
+            // A maximum and a minimum go together.
+            values.remove(pair.max(next));
+            values.remove(pair.min(next));
+        } else {
+            // The end stands for the extremum beside it.
+            values.remove(if pair == 0 { next } else { pair });
+        }
+    }
+}
+
+fn sign_changes(values: &[f64], cyclic: bool) -> usize {
+    let signs: Vec<bool> = values
+        .iter()
+        .filter(|value| **value != 0.0)
+        .map(|value| *value > 0.0)
+        .collect();
+    let inside = signs.windows(2).filter(|pair| pair[0] != pair[1]).count();
+    let around = cyclic && signs.first() != signs.last();
+    inside + usize::from(around)
+}
+
+/// Look at samples whether a stretch has more features than are asked for, so that nothing needs to
+/// be proved. What is not seen here may still be there.
+pub(super) fn looks_like_more(
+    polygon: &FloatPolygon,
+    stretch: [f64; 2],
+    asked: ShapeCounts,
+) -> bool {
+    let planar = polygon.is_planar();
+    let sampler = Sampler::even(polygon.degree(), SAMPLES);
+    let mut batch = Batch::default();
+    let mut series: [Vec<f64>; 4] = Default::default();
+    let first = stretch[0].max(0.0).floor() as usize;
+    let last = (stretch[1].ceil() as usize).min(polygon.segments());
+    for segment in first..last {
+        sampler.segment(polygon, segment, BATCH_ORDER, &mut batch);
+        for index in 0..batch.len() {
+            let u = segment as f64 + index as f64 / SAMPLES as f64;
+            if u < stretch[0] || u > stretch[1] {
+                continue;
+            }
+            let jet = batch.jet(index);
+            series[0].push(jet.curvature_slope(planar));
+            if planar {
+                series[1].push(jet.signed_curvature());
+            } else {
+                series[1].push(jet.torsion());
+            }
+        }
+    }
+    if !planar {
+        let torsion = &series[1];
+        series[2] = torsion.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    }
+    let seen = ShapeCounts {
+        extrema: certain_changes(&series[0]),
+        inflections: certain_changes(&series[1]),
+        torsion_extrema: certain_changes(&series[2]),
+    };
+    seen.exceeds(asked)
+}
+
+fn certain_changes(values: &[f64]) -> usize {
+    let finite = values.iter().filter(|value| value.is_finite());
+    let largest = finite
+        .clone()
+        .fold(0.0_f64, |most, value| most.max(value.abs()));
+    let certain: Vec<f64> = finite
+        .filter(|value| value.abs() > UNCERTAIN * largest)
+        .copied()
+        .collect();
+    sign_changes(&certain, false)
+}
+
+/// The whole domain of a curve.
+pub(super) fn domain(polygon: &FloatPolygon) -> [f64; 2] {
+    [0.0, ParametricCurve::pieces(polygon) as f64]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ripple_is_told_from_what_stands_out() {
+        let cases: [(&[f64], bool, usize, usize); 5] = [
+            // A small bump on a slope.
+            (&[0.0, 5.0, 4.9, 10.0], false, 0, 0),
+            // A hump with ripple on its top.
+            (&[0.0, 9.9, 9.8, 10.0, 0.0], false, 1, 0),
+            // An extremum beside the end.
+            (&[0.0, -0.1, 10.0], false, 0, 0),
+            // Small waves about 0 on the way through.
+            (&[-10.0, 0.2, -0.2, 10.0], false, 0, 1),
+            // An oval with ripple.
+            (&[1.0, 2.0, 1.0, 1.99, 1.98, 2.0], true, 4, 0),
+        ];
+        for (values, cyclic, extrema, changes) in cases {
+            let left = prominent(values.to_vec(), cyclic);
+            let ends = if cyclic { 0 } else { 2 };
+            assert_eq!(left.len() - ends, extrema, "{values:?}: {left:?}");
+            assert_eq!(sign_changes(&left, cyclic), changes, "{values:?}: {left:?}");
+        }
+    }
+}

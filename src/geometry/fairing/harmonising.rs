@@ -1,0 +1,386 @@
+//! Harmonising: the least change that leaves the features asked for.
+
+use glam::DVec3;
+use thiserror::Error;
+
+use super::counts::{ShapeCounts, counted, domain, looks_like_more, prove, significant};
+use super::problem::Problem;
+use crate::geometry::end_correction::EndTarget;
+use crate::geometry::error::PolygonError;
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::progress::Progress;
+
+/// The weights ε at which the search begins and ends.
+const CLOSENESS: [f64; 2] = [1e3, 1e-12];
+
+/// The factor between the weights of the first sweep.
+const SWEEP: f64 = 0.1;
+
+/// How close the largest ε is found, as a factor.
+const FOUND: f64 = 1.2;
+
+/// The most steps for one ε.
+const MOST_STEPS: usize = 20;
+
+/// The orders of the differences of curvature that are tried: second differences straighten the
+/// curvature, third ones keep a bend of it.
+const ORDERS: [usize; 2] = [2, 3];
+
+/// To what an end is held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Held {
+    /// Nothing.
+    Free,
+    /// The point.
+    Position,
+    /// Point and direction.
+    Direction,
+    /// Point, direction and curvature, in space with the osculating plane.
+    Curvature,
+    /// All these and the slope of the curvature.
+    Slope,
+    /// Everything up to the derivative of order n − 1: the curve beyond stays as it is.
+    All,
+}
+
+/// What is asked of harmonising; `None` leaves the choice to what stands out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Harmony<'a> {
+    /// The stretch [u₀, u₁] of the curve; `None` for all of it.
+    pub stretch: Option<[f64; 2]>,
+    /// To what its two ends are held.
+    pub ends: [Held; 2],
+    /// The vertices that stay where they are.
+    pub locked: &'a [usize],
+    /// How many extrema of the curvature shall be left.
+    pub extrema: Option<usize>,
+    /// How many inflections, or in space zeros of the torsion.
+    pub inflections: Option<usize>,
+    /// How many extrema of the torsion, in space.
+    pub torsion_extrema: Option<usize>,
+    /// How far the curve may move.
+    pub largest_deviation: Option<f64>,
+}
+
+/// What harmonising found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Harmonised {
+    /// The polygon with the least change found that has what is asked for, or else the one that
+    /// comes closest.
+    pub polygon: FloatPolygon,
+    /// Whether it has what is asked for: proved features, held ends, deviation.
+    pub reached: bool,
+    /// How many features were asked for.
+    pub asked: ShapeCounts,
+    /// How many are proved.
+    pub counts: ShapeCounts,
+    /// How many places are undecided, cusps among them.
+    pub undecided: usize,
+    /// A bound of how far the curve moves.
+    pub deviation: f64,
+    /// How many Gauss–Newton steps were made in all.
+    pub iterations: usize,
+}
+
+/// Why a curve cannot be harmonised.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum HarmonyError {
+    /// The stretch is no part of the curve.
+    #[error(
+        "a stretch from u = {from} to {to} is no part of the curve: give two rising numbers from 0 to {end}"
+    )]
+    BadStretch {
+        /// Where it would begin.
+        from: f64,
+        /// Where it would end.
+        to: f64,
+        /// Where the curve ends.
+        end: f64,
+    },
+    /// No vertex may move.
+    #[error("no vertex may move: free the ends or vertices, or choose a longer stretch")]
+    NothingMoves,
+    /// The computation was ended early.
+    #[error("harmonising was cancelled")]
+    Cancelled,
+    /// A vertex would leave the range of numbers.
+    #[error(transparent)]
+    Polygon(#[from] PolygonError),
+}
+
+/// Move vertices as little as possible so that the features asked for are left, proved.
+///
+/// Minimises Σ(ΔᵐK)² ℓ² + w Σ(Δ² log leg)² + ε Σ|P − P⁰|²/ℓ² with the ends held, K the discrete
+/// curvature and ℓ the mean leg (in space with the torsion angles), for falling ε until the
+/// features are those asked for, then for the largest such ε; m = 2 and 3 are tried, and the smaller
+/// move is kept. Rational curves keep their weights.
+///
+/// # Errors
+/// [`HarmonyError`].
+pub fn harmonise(
+    polygon: &FloatPolygon,
+    harmony: &Harmony,
+    progress: &Progress,
+) -> Result<Harmonised, HarmonyError> {
+    let [begin, end] = domain(polygon);
+    let stretch = harmony.stretch.unwrap_or([begin, end]);
+    if !(begin <= stretch[0] && stretch[0] < stretch[1] && stretch[1] <= end) {
+        return Err(HarmonyError::BadStretch {
+            from: stretch[0],
+            to: stretch[1],
+            end,
+        });
+    }
+    let features = prove(polygon, progress).ok_or(HarmonyError::Cancelled)?;
+    let own = significant(polygon, &features, stretch);
+    let asked = ShapeCounts {
+        inflections: harmony.inflections.unwrap_or(own.inflections),
+        extrema: harmony.extrema.unwrap_or(own.extrema),
+        torsion_extrema: harmony.torsion_extrema.unwrap_or(own.torsion_extrema),
+    };
+    let found = counted(&features, polygon.is_planar(), stretch);
+    let unchanged = Harmonised {
+        polygon: polygon.clone(),
+        reached: found.counts == asked && found.undecided == 0,
+        asked,
+        counts: found.counts,
+        undecided: found.undecided,
+        deviation: 0.0,
+        iterations: 0,
+    };
+    if unchanged.reached {
+        return Ok(unchanged);
+    }
+    let moves = |vertex| {
+        !harmony.locked.contains(&vertex) && may_move(polygon, stretch, harmony.ends, vertex)
+    };
+    let mut problem = Problem::new(polygon, polygon.is_planar(), moves);
+    if problem.freedoms() == 0 {
+        return Err(HarmonyError::NothingMoves);
+    }
+    for (u, held) in ends(polygon, stretch, harmony) {
+        if let Some(target) = kept(polygon, u, held) {
+            problem.hold(u, &target, None);
+        }
+    }
+    let mut search = Search {
+        problem,
+        stretch,
+        asked,
+        most: harmony.largest_deviation.unwrap_or(f64::INFINITY),
+        progress,
+        best: Candidate {
+            harmonised: unchanged,
+            largest_move: 0.0,
+        },
+        polygon,
+        iterations: 0,
+    };
+    for (index, order) in ORDERS.into_iter().enumerate() {
+        search.run(order, index as f64 / ORDERS.len() as f64)?;
+    }
+    let iterations = search.iterations;
+    Ok(Harmonised {
+        iterations,
+        ..search.best.harmonised
+    })
+}
+
+/// The ends of a stretch with what holds them; a whole periodic curve has none.
+fn ends(polygon: &FloatPolygon, stretch: [f64; 2], harmony: &Harmony) -> Vec<(f64, Held)> {
+    if polygon.is_periodic() && stretch == domain(polygon) {
+        return Vec::new();
+    }
+    stretch.into_iter().zip(harmony.ends).collect()
+}
+
+/// Whether a vertex may move: its support [i − n, i + 1] meets the stretch, and does not reach beyond
+/// an end where everything is held.
+fn may_move(polygon: &FloatPolygon, stretch: [f64; 2], ends: [Held; 2], vertex: usize) -> bool {
+    let length = polygon.segments() as f64;
+    let whole = stretch == domain(polygon);
+    if polygon.is_periodic() && whole {
+        return true;
+    }
+    let support = |turn: f64| {
+        let end = vertex as f64 + 1.0 + turn * length;
+        [end - polygon.degree() as f64 - 1.0, end]
+    };
+    let fits = |[from, to]: [f64; 2]| {
+        let inside = to > stretch[0] && from < stretch[1];
+        let starts = ends[0] != Held::All || from >= stretch[0];
+        let stops = ends[1] != Held::All || to <= stretch[1];
+        inside && starts && stops
+    };
+    if polygon.is_periodic() {
+        // Every turn of the support that meets the stretch must fit.
+        let turns = [-1.0, 0.0, 1.0].map(support);
+        let mut meeting = turns
+            .into_iter()
+            .filter(|[from, to]| *to > stretch[0] && *from < stretch[1])
+            .peekable();
+        meeting.peek().is_some() && meeting.all(fits)
+    } else {
+        fits(support(0.0))
+    }
+}
+
+/// What a curve has at a parameter, as a target, as far as it is held.
+fn kept(polygon: &FloatPolygon, u: f64, held: Held) -> Option<EndTarget> {
+    if held == Held::Free || held == Held::All {
+        return None;
+    }
+    let (jet, planar) = (polygon.jet(u), polygon.is_planar());
+    let from = |least: Held| held >= least;
+    let normal = jet.first.cross(jet.second);
+    let curvature = jet.curvature_of(planar);
+    let slope = jet.curvature_slope(planar);
+    Some(EndTarget {
+        point: jet.point,
+        direction: jet.tangent().filter(|_| from(Held::Direction)),
+        curvature: Some(curvature).filter(|it| from(Held::Curvature) && it.is_finite()),
+        normal: Some(normal).filter(|it| !planar && from(Held::Curvature) && *it != DVec3::ZERO),
+        slope: Some(slope).filter(|it| from(Held::Slope) && it.is_finite()),
+    })
+}
+
+/// A polygon that was found.
+struct Candidate {
+    harmonised: Harmonised,
+    largest_move: f64,
+}
+
+impl Candidate {
+    /// How far it is from what is asked; the largest move decides between equals.
+    fn rank(&self) -> (bool, usize, f64) {
+        let found = &self.harmonised;
+        let excess = found.counts.distance(found.asked) + found.undecided;
+        (!found.reached, excess, self.largest_move)
+    }
+}
+
+/// What one ε leaves.
+#[derive(Clone, Copy, PartialEq)]
+enum Found {
+    /// More features of some kind than asked for, or undecided places.
+    More,
+    /// Just those.
+    Asked,
+    /// None too many of any kind, and of some too few.
+    Fewer,
+}
+
+struct Search<'a> {
+    problem: Problem<'a>,
+    polygon: &'a FloatPolygon,
+    stretch: [f64; 2],
+    asked: ShapeCounts,
+    most: f64,
+    progress: &'a Progress,
+    best: Candidate,
+    iterations: usize,
+}
+
+impl Search<'_> {
+    /// Search with differences of one order; so much was done before.
+    fn run(&mut self, order: usize, done: f64) -> Result<(), HarmonyError> {
+        let [first, last] = CLOSENESS;
+        let sweep = (last / first).ln() / SWEEP.ln();
+        let begin = self.problem.smooth_begin(order);
+        let mut vertices = begin.clone();
+        let mut closeness = first;
+        while closeness >= 0.999 * last {
+            let share = (closeness / first).ln() / SWEEP.ln() / sweep;
+            self.progress.set_done(done + share / ORDERS.len() as f64);
+            // In space the way down from each ε begins without noise.
+            let before = if self.polygon.is_planar() {
+                vertices.clone()
+            } else {
+                begin.clone()
+            };
+            vertices.clone_from(&before);
+            let found = self.try_out(order, closeness, &mut vertices)?;
+            let between = [closeness, closeness / SWEEP];
+            if found != Found::More && self.narrow(order, between, found, before)? {
+                return Ok(());
+            }
+            closeness *= SWEEP;
+        }
+        Ok(())
+    }
+
+    /// Find the largest ε that leaves what is asked, between one that leaves no more and one that
+    /// leaves more; tell whether there is one.
+    fn narrow(
+        &mut self,
+        order: usize,
+        [mut low, mut high]: [f64; 2],
+        found: Found,
+        begin: Vec<DVec3>,
+    ) -> Result<bool, HarmonyError> {
+        let mut reached = found == Found::Asked;
+        while high / low > FOUND {
+            let middle = (high * low).sqrt();
+            let mut vertices = begin.clone();
+            let found = self.try_out(order, middle, &mut vertices)?;
+            reached |= found == Found::Asked;
+            match found {
+                Found::More => high = middle,
+                Found::Asked | Found::Fewer => low = middle,
+            }
+        }
+        Ok(reached)
+    }
+
+    /// Go down for one ε, keep what is found if it is better, and tell whether it is what is asked.
+    fn try_out(
+        &mut self,
+        order: usize,
+        closeness: f64,
+        vertices: &mut Vec<DVec3>,
+    ) -> Result<Found, HarmonyError> {
+        if self.progress.is_cancelled() {
+            return Err(HarmonyError::Cancelled);
+        }
+        let objective = self.problem.harmony(order, closeness);
+        let found = self.problem.descend(objective, vertices, MOST_STEPS);
+        self.iterations += found.steps;
+        *vertices = found.vertices;
+        let Ok(polygon) = self.problem.polygon(vertices) else {
+            return Ok(Found::More);
+        };
+        if looks_like_more(&polygon, self.stretch, self.asked)
+            && self.best.harmonised.iterations > 0
+        {
+            return Ok(Found::More);
+        }
+        let features = prove(&polygon, self.progress).ok_or(HarmonyError::Cancelled)?;
+        let proved = counted(&features, polygon.is_planar(), self.stretch);
+        let deviation = self.polygon.deviation(&polygon)?;
+        let moves = self.polygon.vertices().iter().zip(polygon.vertices());
+        let moves = moves.map(|(before, after)| before.distance(*after));
+        let has = proved.counts == self.asked && proved.undecided == 0;
+        let candidate = Candidate {
+            largest_move: moves.fold(0.0, f64::max),
+            harmonised: Harmonised {
+                polygon,
+                reached: has && deviation <= self.most,
+                asked: self.asked,
+                counts: proved.counts,
+                undecided: proved.undecided,
+                deviation,
+                iterations: self.iterations,
+            },
+        };
+        if candidate.rank() < self.best.rank() {
+            self.best = candidate;
+        }
+        Ok(if has {
+            Found::Asked
+        } else if proved.undecided > 0 || proved.counts.exceeds(self.asked) {
+            Found::More
+        } else {
+            Found::Fewer
+        })
+    }
+}

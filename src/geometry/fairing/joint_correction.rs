@@ -1,0 +1,309 @@
+//! Both ends at once: the least disturbance that meets every end condition.
+
+use glam::DVec3;
+use thiserror::Error;
+
+use super::objective::Objective;
+use super::problem::Problem;
+use crate::geometry::end::End;
+use crate::geometry::end_correction::{EndDifference, EndTarget};
+use crate::geometry::error::PolygonError;
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::vector;
+
+/// The weight μ of the moves themselves; a correction fades over about 1/√μ vertices.
+const FIDELITY: f64 = 1e-3;
+
+/// The residual, in units of the curve's size, above which points and directions count as not met.
+const MET: f64 = 1e-11;
+
+/// The same for curvatures and their slopes, in units of the larger of what is asked and 1 over the
+/// size, and over its square.
+const CURVATURE_MET: f64 = 1e-10;
+
+/// The most steps of harmonious corrections.
+const MOST_STEPS: usize = 50;
+
+/// The weight ε of the moves in a harmonious correction.
+const CLOSENESS: f64 = 1.0;
+
+/// Into how many parts the way to a curvature is divided at most.
+const MOST_PARTS: f64 = 256.0;
+
+/// Why both ends cannot be corrected at once.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum CorrectionError {
+    /// A periodic curve has no ends.
+    #[error("the curve is periodic and has no ends: open it first")]
+    Periodic,
+    /// A target direction or normal is the zero vector.
+    #[error("the {} has a target direction of length 0: give it a direction", .end.name())]
+    NoDirection {
+        /// The end.
+        end: End,
+    },
+    /// The conditions contradict each other or the polygon has too few vertices for them.
+    #[error(
+        "{conditions} end conditions cannot be met by {freedoms} coordinates that may change (off by {residual:.2e}): ask for less, unlock vertices, or give the curve more of them"
+    )]
+    NotSolvable {
+        /// The number of conditions.
+        conditions: usize,
+        /// How many coordinates of vertices may change.
+        freedoms: usize,
+        /// The largest residual left, as a length.
+        residual: f64,
+    },
+    /// A vertex would leave the range of numbers.
+    #[error(transparent)]
+    Polygon(#[from] PolygonError),
+}
+
+/// What a correction disturbs as little as possible.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Disturbance {
+    /// The k-th differences of the vertices' moves, k = 1, 2 or 3: 1 moves the vertices least, 3
+    /// bends the curve most evenly.
+    Differences(usize),
+    /// The harmony of the polygon, as [`harmonise`](super::harmonising::harmonise) measures it.
+    Harmony,
+}
+
+/// The result of a joint correction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointCorrection {
+    /// The corrected polygon.
+    pub polygon: FloatPolygon,
+    /// The largest residual of an end afterwards, as [`EndDifference::residual`] measures it.
+    pub residual: f64,
+    /// The number of steps.
+    pub steps: usize,
+}
+
+/// Move the vertices, except the `locked` ones, as little as possible so that every target is met,
+/// for any N ≥ n + 1, polynomial or rational, in the plane or in space.
+///
+/// The moves δ minimise Σ|Δᵏδᵢ|² + μ Σ|δᵢ|², or the harmony functional. Points and directions are
+/// linear in the vertices and met at once; curvatures and slopes are approached by Newton's steps,
+/// and where those fail from what the curve has, part by part. A planar curve with planar targets
+/// stays planar. Should a tangent come out backwards, the system is solved again with the
+/// tangent's old length prescribed.
+///
+/// # Errors
+/// [`CorrectionError`] if the curve is periodic, a direction is 0, or the conditions cannot be
+/// met.
+pub fn correct_jointly(
+    polygon: &FloatPolygon,
+    targets: &[(End, EndTarget)],
+    disturbance: Disturbance,
+    locked: &[usize],
+) -> Result<JointCorrection, CorrectionError> {
+    if polygon.is_periodic() {
+        return Err(CorrectionError::Periodic);
+    }
+    let is_zero =
+        |vector: Option<DVec3>| vector.is_some_and(|vector| vector::direction(vector).is_none());
+    let zero = |target: &EndTarget| is_zero(target.direction) || is_zero(target.normal);
+    if let Some((end, _)) = targets.iter().find(|(_, target)| zero(target)) {
+        return Err(CorrectionError::NoDirection { end: *end });
+    }
+    let correction = Correction {
+        polygon,
+        targets,
+        disturbance,
+        locked,
+    };
+    let free = correction.solve(Speed::Free);
+    match free {
+        // A backward tangent is half a turn away from its target, so the target counts as missed.
+        Err(CorrectionError::NotSolvable { .. }) => correction.solve(Speed::Kept).or(free),
+        Ok(found) if !points_forward(&found.polygon, targets) => correction.solve(Speed::Kept),
+        other => other,
+    }
+}
+
+/// Whether the length of an end's derivative is free or kept.
+#[derive(Clone, Copy, PartialEq)]
+enum Speed {
+    Free,
+    Kept,
+}
+
+fn points_forward(polygon: &FloatPolygon, targets: &[(End, EndTarget)]) -> bool {
+    targets.iter().all(|(end, target)| {
+        let along = |direction: DVec3| polygon.end_jet(*end).first.dot(direction) > 0.0;
+        target.direction.is_none_or(along)
+    })
+}
+
+struct Correction<'a> {
+    polygon: &'a FloatPolygon,
+    targets: &'a [(End, EndTarget)],
+    disturbance: Disturbance,
+    locked: &'a [usize],
+}
+
+impl Correction<'_> {
+    fn solve(&self, speed: Speed) -> Result<JointCorrection, CorrectionError> {
+        let problem = self.problem(self.targets, speed);
+        let direct = self.finish(&problem, problem.before(), 0);
+        match direct {
+            Err(CorrectionError::NotSolvable { .. }) if self.bends() => {
+                self.part_by_part(speed).unwrap_or(direct)
+            }
+            other => other,
+        }
+    }
+
+    /// Whether a target asks for more than points and directions.
+    fn bends(&self) -> bool {
+        let mut targets = self.targets.iter();
+        targets.any(|(_, target)| target.curvature.is_some() || target.slope.is_some())
+    }
+
+    fn problem(&self, targets: &[(End, EndTarget)], speed: Speed) -> Problem<'_> {
+        let polygon = self.polygon;
+        let mut targets_and_own = targets.iter();
+        let planar = polygon.is_planar() && targets_and_own.all(|(_, target)| target.is_planar());
+        let moves = |vertex| !self.locked.contains(&vertex);
+        let mut problem = Problem::new(polygon, planar, moves);
+        for (end, target) in targets {
+            let kept = (speed == Speed::Kept).then(|| polygon.end_jet(*end).speed());
+            problem.hold(end.parameter(polygon), target, kept);
+        }
+        problem
+    }
+
+    /// Meet the targets, beginning at some vertices, and check what is left.
+    fn finish(
+        &self,
+        problem: &Problem,
+        begin: &[DVec3],
+        steps: usize,
+    ) -> Result<JointCorrection, CorrectionError> {
+        let unsolved = |residual| CorrectionError::NotSolvable {
+            conditions: problem.conditions(),
+            freedoms: problem.freedoms(),
+            residual,
+        };
+        let order = match self.disturbance {
+            Disturbance::Differences(order) => order,
+            Disturbance::Harmony => 1,
+        };
+        let fidelity = FIDELITY;
+        let found = problem.meet(Objective::Disturbance { order, fidelity }, begin);
+        let mut found = found.ok_or_else(|| unsolved(self.residual(self.polygon)))?;
+        if self.disturbance == Disturbance::Harmony {
+            let objective = problem.harmony(2, CLOSENESS);
+            let faired = problem.descend(objective, &found.vertices, MOST_STEPS);
+            found.steps += faired.steps;
+            found.vertices = faired.vertices;
+        }
+        let polygon = problem.polygon(&found.vertices)?;
+        let residual = self.residual(&polygon);
+        if !self.is_met(&polygon) {
+            return Err(unsolved(residual));
+        }
+        Ok(JointCorrection {
+            polygon,
+            residual,
+            steps: steps + found.steps,
+        })
+    }
+
+    /// Approach curvatures and slopes from those that the curve has once points and directions are
+    /// met. `None` if even those cannot be met.
+    fn part_by_part(&self, speed: Speed) -> Option<Result<JointCorrection, CorrectionError>> {
+        let objective = Objective::Disturbance {
+            order: 1,
+            fidelity: FIDELITY,
+        };
+        let placed: Vec<(End, EndTarget)> = self
+            .targets
+            .iter()
+            .map(|(end, target)| {
+                let placed = EndTarget {
+                    curvature: None,
+                    slope: None,
+                    ..*target
+                };
+                (*end, placed)
+            })
+            .collect();
+        let problem = self.problem(&placed, speed);
+        let mut reached = problem.meet(objective, problem.before())?;
+        let begun = problem.polygon(&reached.vertices).ok()?;
+        let (mut done, mut part) = (0.0, 0.5);
+        let mut steps = reached.steps;
+        while done < 1.0 && part * MOST_PARTS >= 1.0 {
+            let share: f64 = f64::min(1.0, done + part);
+            let targets: Vec<(End, EndTarget)> = self
+                .targets
+                .iter()
+                .map(|(end, target)| (*end, partial(&begun, *end, target, share)))
+                .collect();
+            let problem = self.problem(&targets, speed);
+            let next = problem.meet(objective, &reached.vertices)?;
+            steps += next.steps;
+            let polygon = problem.polygon(&next.vertices).ok()?;
+            let correction = Correction {
+                targets: &targets,
+                ..*self
+            };
+            if correction.is_met(&polygon) && points_forward(&polygon, &targets) {
+                (done, reached) = (share, next);
+                part *= 2.0;
+            } else {
+                part *= 0.5;
+            }
+        }
+        let problem = self.problem(self.targets, speed);
+        Some(self.finish(&problem, &reached.vertices, steps))
+    }
+
+    fn residual(&self, polygon: &FloatPolygon) -> f64 {
+        let size = self.polygon.size();
+        let left = self.targets.iter();
+        left.map(|(end, target)| EndDifference::between(polygon, *end, target).residual(size))
+            .fold(0.0, vector::larger)
+    }
+
+    /// Whether every target is met, but for rounding.
+    fn is_met(&self, polygon: &FloatPolygon) -> bool {
+        let size = self.polygon.size();
+        let reach = polygon.vertices().iter().map(|v| v.abs().max_element());
+        let scale = reach.fold(size, f64::max);
+        self.targets.iter().all(|(end, target)| {
+            let left = EndDifference::between(polygon, *end, target);
+            let placed = EndDifference {
+                curvature: 0.0,
+                slope: 0.0,
+                ..left
+            };
+            let close = |left: f64, wanted: Option<f64>, unit: f64| {
+                left.abs() <= CURVATURE_MET * wanted.map_or(unit, |wanted| wanted.abs().max(unit))
+            };
+            placed.residual(size) <= MET * scale
+                && close(left.curvature, target.curvature, size.recip())
+                && close(left.slope, target.slope, (size * size).recip())
+        })
+    }
+}
+
+/// A target with a share of the way from a curve's own curvature and slope.
+fn partial(begun: &FloatPolygon, end: End, target: &EndTarget, share: f64) -> EndTarget {
+    let (jet, planar) = (begun.end_jet(end), begun.is_planar() && target.is_planar());
+    let blend = |own: f64, wanted: f64| {
+        let own = if own.is_finite() { own } else { wanted };
+        own + share * (wanted - own)
+    };
+    EndTarget {
+        curvature: target
+            .curvature
+            .map(|wanted| blend(jet.curvature_of(planar), wanted)),
+        slope: target
+            .slope
+            .map(|wanted| blend(jet.curvature_slope(planar), wanted)),
+        ..*target
+    }
+}

@@ -1,0 +1,19 @@
+//! Reshaping curves under conditions: the least disturbance that corrects ends, and the least
+//! change that restores harmony.
+//!
+//! Both make a sum of squares of the vertices as small as possible while conditions on points and
+//! derivatives hold. Residuals and conditions are local, so the equations are banded, and the
+//! conditions, a few at each end, are eliminated: with H = JᵀJ, the gradient g and the rows A of the
+//! linearised conditions c, a step is d = −H⁻¹(g + Aᵀλ) with A d = −c.
+
+mod condition;
+mod counts;
+mod dual;
+mod flow;
+pub mod harmonising;
+mod jet_weights;
+pub mod joint_correction;
+mod normal_equations;
+mod objective;
+mod problem;
+mod unknowns;

@@ -1,0 +1,206 @@
+//! What is made as small as possible.
+
+use glam::DVec3;
+
+use super::flow::{Member, Sequence};
+use super::normal_equations::NormalEquations;
+use super::unknowns::Unknowns;
+use crate::geometry::banded::difference_stencil;
+use crate::geometry::float_polygon::FloatPolygon;
+
+/// A sum of squares of the vertices p, which were at p⁰.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Objective {
+    /// The disturbance Σ|Δᵏ(p − p⁰)|² + μ Σ|p − p⁰|².
+    Disturbance {
+        /// The order k of the differences.
+        order: usize,
+        /// The weight μ.
+        fidelity: f64,
+    },
+    /// The harmony Σ(ΔᵐK)² ℓ² + w Σ(Δ² log leg)² + ε Σ|p − p⁰|² / ℓ², with ℓ the mean leg and more
+    /// or other measures in space.
+    Harmony {
+        /// What is measured beside the legs.
+        measure: Measure,
+        /// The order m of its differences.
+        order: usize,
+        /// The weight ε.
+        closeness: f64,
+        /// The mean leg ℓ.
+        leg: f64,
+    },
+}
+
+/// What makes a polygon harmonious beside its legs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Measure {
+    /// The signed discrete curvature of a planar polygon.
+    SignedCurvature,
+    /// The discrete curvature as a vector, D₁ × D₂ / |D₁|³: smooth also where it vanishes, but it
+    /// straightens the torsion out.
+    CurvatureVector,
+    /// The discrete curvature of a polygon in space, and the torsion angles φ.
+    CurvatureAndTorsion,
+}
+
+/// The weight w of the legs' lengths beside the curvature.
+const LEGS: f64 = 0.01;
+
+/// Where an objective is evaluated.
+#[derive(Clone, Copy)]
+pub(super) struct Shape<'a> {
+    pub(super) polygon: &'a FloatPolygon,
+    /// Where the vertices were.
+    pub(super) before: &'a [DVec3],
+}
+
+impl Objective {
+    /// Gather the normal equations at some vertices.
+    pub(super) fn gather<'a>(
+        &self,
+        shape: Shape,
+        unknowns: &'a Unknowns,
+        vertices: &[DVec3],
+    ) -> NormalEquations<'a> {
+        let mut equations = NormalEquations::new(unknowns);
+        self.visit(shape, unknowns, vertices, &mut |row| match row {
+            Row::Scalar(residual, gradient) => equations.add(residual, gradient),
+            Row::Vector(residual, stencil) => equations.add_vector(residual, stencil),
+        });
+        equations
+    }
+
+    /// Evaluate it at some vertices, but for what does not depend on the unknowns.
+    pub(super) fn value(&self, shape: Shape, unknowns: &Unknowns, vertices: &[DVec3]) -> f64 {
+        let mut sum = 0.0;
+        self.visit(shape, unknowns, vertices, &mut |row| {
+            sum += match row {
+                Row::Scalar(residual, _) => residual * residual,
+                Row::Vector(residual, _) => residual.length_squared(),
+            };
+        });
+        sum
+    }
+
+    fn visit(
+        &self,
+        shape: Shape,
+        unknowns: &Unknowns,
+        vertices: &[DVec3],
+        row: &mut impl FnMut(Row),
+    ) {
+        let mut moves = |factor: f64| {
+            for (vertex, _) in unknowns.vertices() {
+                let residual = factor * (vertices[vertex] - shape.before[vertex]);
+                row(Row::Vector(residual, &[(vertex, factor)]));
+            }
+        };
+        match *self {
+            Self::Disturbance { order, fidelity } => {
+                moves(fidelity.sqrt());
+                let stencil = difference_stencil(order);
+                for first in windows(shape.polygon, stencil.len()) {
+                    let touched = wrapped(shape.polygon, first, stencil.len());
+                    let terms: Vec<(usize, f64)> = touched.zip(stencil.iter().copied()).collect();
+                    let residual = terms
+                        .iter()
+                        .map(|(vertex, weight)| {
+                            *weight * (vertices[*vertex] - shape.before[*vertex])
+                        })
+                        .sum();
+                    row(Row::Vector(residual, &terms));
+                }
+            }
+            Self::Harmony {
+                order,
+                measure,
+                closeness,
+                leg,
+            } => {
+                moves(closeness.sqrt() / leg);
+                let mut differences = |sequence, order, factor| {
+                    difference_rows(shape, unknowns, vertices, (sequence, order, factor), row);
+                };
+                differences(Sequence::LogLeg, 2, LEGS.sqrt());
+                let seen = |axis: &DVec3| (Sequence::SeenCurvature(*axis), leg);
+                let sequences = match measure {
+                    Measure::SignedCurvature => vec![seen(&DVec3::Z)],
+                    Measure::CurvatureVector => DVec3::AXES.iter().map(seen).collect(),
+                    Measure::CurvatureAndTorsion => {
+                        vec![(Sequence::Curvature, leg), (Sequence::TorsionAngle, 1.0)]
+                    }
+                };
+                for (sequence, factor) in sequences {
+                    differences(sequence, order, factor);
+                }
+            }
+        }
+    }
+}
+
+/// A residual, with its gradient by vertices, or with the weights of the vertices of which it is a
+/// combination.
+enum Row<'a> {
+    Scalar(f64, &'a [(usize, DVec3)]),
+    Vector(DVec3, &'a [(usize, f64)]),
+}
+
+/// Visit the differences of a sequence, times a factor, as far as they depend on the unknowns.
+fn difference_rows(
+    shape: Shape,
+    unknowns: &Unknowns,
+    vertices: &[DVec3],
+    (sequence, order, factor): (Sequence, usize, f64),
+    row: &mut impl FnMut(Row),
+) {
+    let stencil = difference_stencil(order);
+    let width = sequence.width() + order;
+    let mut known: Vec<Option<Member>> = vec![None; vertices.len()];
+    let mut touched = [DVec3::ZERO; 4];
+    let mut gradient: Vec<(usize, DVec3)> = Vec::with_capacity(width);
+    for first in windows(shape.polygon, width) {
+        let mut reached = wrapped(shape.polygon, first, width);
+        if !reached.any(|vertex| unknowns.moves(vertex)) {
+            continue;
+        }
+        gradient.clear();
+        gradient.extend(wrapped(shape.polygon, first, width).map(|vertex| (vertex, DVec3::ZERO)));
+        let mut residual = 0.0;
+        for (offset, weight) in stencil.iter().enumerate() {
+            let start = (first + offset) % vertices.len();
+            let member = *known[start].get_or_insert_with(|| {
+                let near = wrapped(shape.polygon, start, sequence.width());
+                for (place, vertex) in touched.iter_mut().zip(near) {
+                    *place = vertices[vertex];
+                }
+                sequence.member(&touched)
+            });
+            residual += factor * weight * member.value;
+            for (place, slope) in member.gradient[..sequence.width()].iter().enumerate() {
+                gradient[offset + place].1 += factor * weight * *slope;
+            }
+        }
+        row(Row::Scalar(residual, &gradient));
+    }
+}
+
+/// The first vertices of all runs of so many successive ones.
+fn windows(polygon: &FloatPolygon, width: usize) -> std::ops::Range<usize> {
+    let count = polygon.vertices().len();
+    if polygon.is_periodic() {
+        0..count
+    } else {
+        0..(count + 1).saturating_sub(width)
+    }
+}
+
+/// A run of successive vertices.
+fn wrapped(
+    polygon: &FloatPolygon,
+    first: usize,
+    width: usize,
+) -> impl Iterator<Item = usize> + use<> {
+    let count = polygon.vertices().len();
+    (first..first + width).map(move |vertex| vertex % count)
+}

@@ -1,0 +1,409 @@
+//! A curve that is reshaped: which vertices move, what is held, and steps towards the smallest
+//! objective under these conditions.
+
+use glam::DVec3;
+
+use super::condition::Condition;
+use super::jet_weights::JetWeights;
+use super::normal_equations::NormalEquations;
+use super::objective::{Measure, Objective, Shape};
+use super::unknowns::Unknowns;
+use crate::geometry::banded::BandedCholesky;
+use crate::geometry::end_correction::EndTarget;
+use crate::geometry::error::PolygonError;
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::pivoted_cholesky::PivotedCholesky;
+
+/// Pivots of the conditions' Gram matrix below this share of the largest count as zero.
+const RANK_TOLERANCE: f64 = 1e-13;
+
+/// Solutions repeated on what is left: they bring linear conditions down to rounding.
+const REFINEMENTS: usize = 4;
+
+/// The most steps towards conditions that are not linear.
+const MOST_STEPS: usize = 60;
+
+/// Steps below this share of the curve's size count as none.
+const NO_STEP: f64 = 4.0 * f64::EPSILON;
+
+/// What is left of the conditions, in units of the curve's size, from which on Newton's steps
+/// converge by themselves.
+const NEAR: f64 = 1e-8;
+
+/// The shortest share of a step that is tried.
+const SHORTEST_SHARE: f64 = 1.0 / 1024.0;
+
+/// The share of the promised decrease that a step must bring.
+const SUFFICIENT: f64 = 1e-4;
+
+/// The weight ε with which noise is taken from a polygon in space.
+const SMOOTHING: f64 = 1e-10;
+
+/// A relative decrease of the objective below this ends the descent.
+const SETTLED: f64 = 1e-7;
+
+/// A curve to be reshaped. Vertices stand in the polygon's own coordinates, so that what they are
+/// rounded to counts; equations are set up about its first vertex, in units of its size.
+pub(super) struct Problem<'a> {
+    polygon: &'a FloatPolygon,
+    planar: bool,
+    unknowns: Unknowns,
+    origin: DVec3,
+    scale: f64,
+    before: Vec<DVec3>,
+    held: Vec<(JetWeights, Vec<Condition>)>,
+}
+
+/// The vertices that a descent found.
+#[derive(Clone, Debug)]
+pub(super) struct Descent {
+    /// The vertices.
+    pub(super) vertices: Vec<DVec3>,
+    /// The number of steps.
+    pub(super) steps: usize,
+}
+
+impl<'a> Problem<'a> {
+    /// Let those vertices of a polygon move for which `moves` holds, in the plane z = 0 alone if
+    /// `planar`.
+    pub(super) fn new(
+        polygon: &'a FloatPolygon,
+        planar: bool,
+        moves: impl Fn(usize) -> bool,
+    ) -> Self {
+        let origin = polygon.vertex(0);
+        let size = polygon.size();
+        // A power of two: scaling rounds nothing.
+        let scale = if size > 0.0 && size.is_finite() {
+            size.log2().floor().exp2()
+        } else {
+            1.0
+        };
+        let vertices = polygon.vertices().iter();
+        Self {
+            polygon,
+            planar,
+            unknowns: Unknowns::new(polygon, planar, moves),
+            origin,
+            scale,
+            before: vertices.map(|vertex| (*vertex - origin) / scale).collect(),
+            held: Vec::new(),
+        }
+    }
+
+    /// Hold the curve at a parameter to a target; with a `speed`, |C′| too.
+    pub(super) fn hold(&mut self, u: f64, target: &EndTarget, speed: Option<f64>) {
+        let target = EndTarget {
+            point: (target.point - self.origin) / self.scale,
+            curvature: target.curvature.map(|curvature| curvature * self.scale),
+            slope: target.slope.map(|slope| slope * self.scale * self.scale),
+            ..*target
+        };
+        let speed = speed.map(|speed| speed / self.scale);
+        let conditions = Condition::of(&target, self.planar, speed);
+        self.held
+            .push((JetWeights::at(self.polygon, u), conditions));
+    }
+
+    /// The vertices as they were.
+    pub(super) fn before(&self) -> &[DVec3] {
+        self.polygon.vertices()
+    }
+
+    /// The harmony of the polygon, with differences of some order, and the moves weighed by
+    /// `closeness`.
+    pub(super) fn harmony(&self, order: usize, closeness: f64) -> Objective {
+        let measure = if self.planar {
+            Measure::SignedCurvature
+        } else {
+            Measure::CurvatureAndTorsion
+        };
+        Objective::Harmony {
+            measure,
+            order,
+            closeness,
+            leg: self.mean_leg(),
+        }
+    }
+
+    /// Where descents begin: the vertices as they were, in space freed of their noise, which would
+    /// turn torsion angles by any amount.
+    pub(super) fn smooth_begin(&self, order: usize) -> Vec<DVec3> {
+        if self.planar {
+            return self.before().to_vec();
+        }
+        let objective = Objective::Harmony {
+            measure: Measure::CurvatureVector,
+            order,
+            closeness: SMOOTHING,
+            leg: self.mean_leg(),
+        };
+        self.descend(objective, self.before(), MOST_STEPS).vertices
+    }
+
+    /// How many numbers may change.
+    pub(super) fn freedoms(&self) -> usize {
+        self.unknowns.len()
+    }
+
+    /// How many numbers are prescribed.
+    pub(super) fn conditions(&self) -> usize {
+        self.held
+            .iter()
+            .map(|(_, conditions)| conditions.len())
+            .sum()
+    }
+
+    /// The mean leg, in units of the polygon's size; 1 for a polygon of no length.
+    fn mean_leg(&self) -> f64 {
+        let legs = self.before.windows(2).map(|leg| leg[0].distance(leg[1]));
+        let sum: f64 = legs.sum();
+        if sum > 0.0 {
+            sum / (self.before.len() - 1) as f64
+        } else {
+            1.0
+        }
+    }
+
+    /// Put vertices in place; those that do not move stay to the bit.
+    ///
+    /// # Errors
+    /// [`PolygonError`] if a vertex would leave the range of numbers.
+    pub(super) fn polygon(&self, vertices: &[DVec3]) -> Result<FloatPolygon, PolygonError> {
+        let mut reshaped = self.polygon.clone();
+        let moves = self.unknowns.vertices();
+        let moves: Vec<(usize, DVec3)> = moves
+            .map(|(vertex, _)| (vertex, vertices[vertex]))
+            .collect();
+        reshaped.move_vertices(moves)?;
+        Ok(reshaped)
+    }
+
+    /// Find the vertices with the smallest quadratic objective that meet the conditions, beginning
+    /// at some vertices. `None` if the equations cannot be solved at all; whether the conditions
+    /// are met, the caller measures.
+    pub(super) fn meet(&self, objective: Objective, begin: &[DVec3]) -> Option<Descent> {
+        let mut all = self.held.iter().flat_map(|(_, conditions)| conditions);
+        let most = if all.all(Condition::is_linear) {
+            1
+        } else {
+            MOST_STEPS
+        };
+        let mut vertices = begin.to_vec();
+        let mut steps = 0;
+        // The equations of a quadratic objective are the same everywhere.
+        let (_, factor) = self.equations(objective, &vertices).factor()?;
+        let mut conditions = self.linearise(&factor, &vertices)?;
+        while steps < most {
+            let gradient = self.equations(objective, &vertices).gradient();
+            let step = conditions.step(&factor, &gradient);
+            let missing = conditions.missing(&conditions.left);
+            let mut share = 1.0;
+            let mut moved = self.moved(&vertices, &step, share);
+            while missing > NEAR
+                && share > SHORTEST_SHARE
+                && conditions.missing(&self.left(&moved)) > (1.0 - 0.25 * share) * missing
+            {
+                share *= 0.5;
+                moved = self.moved(&vertices, &step, share);
+            }
+            vertices = moved;
+            steps += 1;
+            if steps < most {
+                conditions = self.linearise(&factor, &vertices)?;
+            }
+            let length = step.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
+            if length <= NO_STEP {
+                break;
+            }
+        }
+        Some(Descent {
+            vertices: self.restored(&conditions, vertices),
+            steps,
+        })
+    }
+
+    /// Go down to a smallest objective along vertices that meet the conditions, beginning at some
+    /// that do, by at most so many Gauss–Newton steps.
+    pub(super) fn descend(&self, objective: Objective, begin: &[DVec3], most: usize) -> Descent {
+        let mut vertices = begin.to_vec();
+        let mut value = self.value(objective, &vertices);
+        let mut steps = 0;
+        while steps < most {
+            let Some((gradient, factor)) = self.equations(objective, &vertices).factor() else {
+                break;
+            };
+            let Some(conditions) = self.linearise(&factor, &vertices) else {
+                break;
+            };
+            let step = conditions.step(&factor, &gradient);
+            let promised = -2.0 * dot(&gradient, &step);
+            let mut share = 1.0;
+            let found = loop {
+                let moved = self.moved(&vertices, &step, share);
+                let moved = self.restored(&conditions, moved);
+                let reached = self.value(objective, &moved);
+                if reached <= value - SUFFICIENT * share * promised {
+                    break Some((moved, reached));
+                }
+                share *= 0.5;
+                if share < SHORTEST_SHARE {
+                    break None;
+                }
+            };
+            steps += 1;
+            let Some((moved, reached)) = found else {
+                break;
+            };
+            let settled = value - reached <= SETTLED * value;
+            (vertices, value) = (moved, reached);
+            if settled {
+                break;
+            }
+        }
+        Descent { vertices, steps }
+    }
+
+    /// Take back by what a step misses the conditions.
+    fn restored(&self, conditions: &Linearised, mut vertices: Vec<DVec3>) -> Vec<DVec3> {
+        if self.held.is_empty() {
+            return vertices;
+        }
+        for _ in 0..REFINEMENTS {
+            let left = self.left(&vertices);
+            let step = conditions.correction(&left);
+            vertices = self.moved(&vertices, &step, 1.0);
+            if conditions.missing(&left) <= NO_STEP {
+                break;
+            }
+        }
+        vertices
+    }
+
+    fn shape(&self) -> Shape<'_> {
+        Shape {
+            polygon: self.polygon,
+            before: &self.before,
+        }
+    }
+
+    fn moved(&self, vertices: &[DVec3], step: &[f64], share: f64) -> Vec<DVec3> {
+        self.unknowns.moved(vertices, step, share * self.scale)
+    }
+
+    /// Vertices about the first one, in units of the size.
+    fn local(&self, vertices: &[DVec3]) -> Vec<DVec3> {
+        let local = |vertex: &DVec3| (*vertex - self.origin) / self.scale;
+        vertices.iter().map(local).collect()
+    }
+
+    fn value(&self, objective: Objective, vertices: &[DVec3]) -> f64 {
+        objective.value(self.shape(), &self.unknowns, &self.local(vertices))
+    }
+
+    fn equations(&self, objective: Objective, vertices: &[DVec3]) -> NormalEquations<'_> {
+        objective.gather(self.shape(), &self.unknowns, &self.local(vertices))
+    }
+
+    /// What the conditions miss.
+    fn left(&self, vertices: &[DVec3]) -> Vec<f64> {
+        let vertices = &self.local(vertices);
+        let conditions = self.held.iter().flat_map(|(weights, conditions)| {
+            conditions.iter().map(move |condition| (weights, condition))
+        });
+        conditions
+            .map(|(weights, condition)| condition.linearised(weights, vertices).0)
+            .collect()
+    }
+
+    fn linearise(&self, factor: &BandedCholesky, vertices: &[DVec3]) -> Option<Linearised> {
+        let vertices = &self.local(vertices);
+        let mut left = Vec::new();
+        let mut rows = Vec::new();
+        for (weights, conditions) in &self.held {
+            for condition in conditions {
+                let (missing, gradient) = condition.linearised(weights, vertices);
+                left.push(missing);
+                rows.push(self.row(&gradient));
+            }
+        }
+        let responses: Vec<Vec<f64>> = rows.iter().map(|row| factor.solve(row)).collect();
+        let entry = |row: usize, column: usize| dot(&rows[row], &responses[column]);
+        // Points and derivatives, and the ends of a curve with very different weights, differ by
+        // orders of magnitude: each condition is measured in its own unit.
+        let units: Vec<f64> = (0..rows.len())
+            .map(|row| entry(row, row).sqrt().recip())
+            .map(|unit| if unit.is_finite() { unit } else { 0.0 })
+            .collect();
+        let gram = |row: usize, column: usize| units[row] * entry(row, column) * units[column];
+        let gram = PivotedCholesky::new(rows.len(), gram, RANK_TOLERANCE)?;
+        Some(Linearised {
+            left,
+            rows,
+            responses,
+            units,
+            gram,
+            unknowns: self.unknowns.len(),
+        })
+    }
+
+    fn row(&self, gradient: &[(usize, DVec3)]) -> Vec<f64> {
+        let mut row = vec![0.0; self.unknowns.len()];
+        for (vertex, slope) in gradient {
+            if let Some(first) = self.unknowns.first(*vertex) {
+                for axis in 0..self.unknowns.axes() {
+                    row[first + axis] += slope[axis];
+                }
+            }
+        }
+        row
+    }
+}
+
+/// The conditions near some vertices.
+struct Linearised {
+    left: Vec<f64>,
+    rows: Vec<Vec<f64>>,
+    responses: Vec<Vec<f64>>,
+    units: Vec<f64>,
+    gram: PivotedCholesky,
+    unknowns: usize,
+}
+
+impl Linearised {
+    /// The step to the smallest quadratic model on which the conditions hold.
+    fn step(&self, factor: &BandedCholesky, gradient: &[f64]) -> Vec<f64> {
+        let downhill = factor.solve(gradient);
+        let rows = self.rows.iter().zip(&self.left);
+        let left: Vec<f64> = rows.map(|(row, left)| left - dot(row, &downhill)).collect();
+        let correction = self.correction(&left);
+        let parts = correction.iter().zip(&downhill);
+        parts.map(|(correction, down)| correction - down).collect()
+    }
+
+    /// The smallest step that takes away what is left of the conditions.
+    fn correction(&self, left: &[f64]) -> Vec<f64> {
+        let scaled = left.iter().zip(&self.units);
+        let scaled: Vec<f64> = scaled.map(|(left, unit)| -left * unit).collect();
+        let multipliers = self.gram.solve(&scaled);
+        let mut step = vec![0.0; self.unknowns];
+        for ((response, multiplier), unit) in
+            self.responses.iter().zip(multipliers).zip(&self.units)
+        {
+            for (part, value) in step.iter_mut().zip(response) {
+                *part += multiplier * unit * value;
+            }
+        }
+        step
+    }
+
+    /// What is left of the conditions, each in its own unit.
+    fn missing(&self, left: &[f64]) -> f64 {
+        let scaled = left.iter().zip(&self.units);
+        scaled.fold(0.0, |most, (left, unit)| most.max((left * unit).abs()))
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

@@ -1,0 +1,208 @@
+//! Harmonising noisy polygons of curves with known features.
+
+use batten::geometry::end_correction::{EndDifference, EndTarget};
+use batten::geometry::fairing::harmonising::{Harmony, Held, harmonise};
+use batten::geometry::features::{Features, Quantity};
+use batten::geometry::{End, FloatPolygon, Progress};
+use glam::DVec3;
+
+use crate::common::Random;
+
+/// What curves there are before the noise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Shape {
+    Clothoid,
+    Spiral,
+    Inflected,
+    Humped,
+}
+
+impl Shape {
+    const ALL: [Self; 4] = [Self::Clothoid, Self::Spiral, Self::Inflected, Self::Humped];
+
+    /// The extrema of the curvature and the inflections.
+    fn features(self) -> (usize, usize) {
+        match self {
+            Self::Clothoid | Self::Spiral => (0, 0),
+            Self::Inflected => (0, 1),
+            Self::Humped => (1, 0),
+        }
+    }
+
+    /// Put vertices of unit legs on a curve of this shape.
+    fn vertices(self, random: &mut Random, count: usize) -> Vec<DVec3> {
+        let turn = random.between(0.5, 3.0);
+        let low = random.between(0.1, 0.6);
+        let ratio = random.between(2.0, 6.0);
+        let middle = random.between(0.35, 0.65);
+        let narrow = random.between(2.0, 4.0);
+        let curvature = |share: f64| match self {
+            Self::Clothoid => low + (1.0 - low) * share,
+            Self::Spiral => ratio.powf(share),
+            Self::Inflected => 2.0 * share - 2.0 * middle,
+            Self::Humped => low + (-(narrow * (share - middle)).powi(2)).exp(),
+        };
+        const STEPS: usize = 64;
+        let length = (count - 1) as f64;
+        let steps = STEPS * (count - 1);
+        let share = |step: usize| (step as f64 + 0.5) / steps as f64;
+        let total: f64 = (0..steps).map(|step| curvature(share(step)).abs()).sum();
+        let scale = turn / (total / steps as f64 * length);
+        let mut angle = random.between(0.0, 6.0);
+        let mut point = DVec3::ZERO;
+        let mut vertices = vec![point];
+        for step in 0..steps {
+            let turned = scale * curvature(share(step)) / STEPS as f64;
+            angle += 0.5 * turned;
+            point += DVec3::new(angle.cos(), angle.sin(), 0.0) / STEPS as f64;
+            angle += 0.5 * turned;
+            if (step + 1) % STEPS == 0 {
+                vertices.push(point);
+            }
+        }
+        vertices
+    }
+}
+
+/// How many curves of each shape are tried.
+const TRIALS: usize = 60;
+
+/// How far an end may move, in units of the curve's size; a direction by the angle.
+const HELD: f64 = 1e-12;
+
+/// A noisy polygon, with its noise: a share of a leg in each coordinate.
+fn noisy(shape: Shape, random: &mut Random, in_space: bool, rational: bool) -> (FloatPolygon, f64) {
+    let degree = 4 + (random.bits() % 6) as usize;
+    let count = 12 + (random.bits() % 49) as usize;
+    let noise = random.between(0.02, 0.1);
+    let mut vertices = shape.vertices(random, count);
+    let rise = random.between(0.1, 0.3);
+    for (index, vertex) in vertices.iter_mut().enumerate() {
+        if in_space {
+            // A helix on a cylinder over the planar curve: κ and τ are multiples of its curvature.
+            vertex.z += rise * index as f64;
+        }
+        *vertex += random.vector(noise, in_space);
+    }
+    let end = random.between(1.2, 2.0);
+    let weights = (0..count).map(|index| end.powf(index as f64 / count as f64));
+    let weights = rational.then(|| weights.collect());
+    let polygon = FloatPolygon::new(degree, vertices, weights, false).expect("valid");
+    (polygon, noise)
+}
+
+fn asked(extrema: usize, inflections: usize) -> Harmony<'static> {
+    Harmony {
+        stretch: None,
+        ends: [Held::Direction; 2],
+        locked: &[],
+        extrema: Some(extrema),
+        inflections: Some(inflections),
+        torsion_extrema: None,
+        largest_deviation: None,
+    }
+}
+
+fn largest_move(before: &FloatPolygon, after: &FloatPolygon) -> f64 {
+    let moves = before.vertices().iter().zip(after.vertices());
+    moves.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
+}
+
+#[track_caller]
+fn check_ends(before: &FloatPolygon, after: &FloatPolygon) {
+    for end in End::BOTH {
+        let jet = before.end_jet(end);
+        let target = EndTarget {
+            point: jet.point,
+            direction: jet.tangent(),
+            ..EndTarget::default()
+        };
+        let left = EndDifference::between(after, end, &target).residual(before.size());
+        assert!(
+            left <= HELD * before.size(),
+            "{} off by {left:e}",
+            end.name()
+        );
+    }
+}
+
+/// Harmonise so many noisy curves of a shape. Returns how many have the features they had before
+/// the noise, and the median of the largest moves in units of the noise.
+fn harmonise_many(shape: Shape, trials: usize, rational: bool) -> (usize, f64) {
+    let mut random = Random(7);
+    let mut ratios = Vec::new();
+    let (extrema, inflections) = shape.features();
+    for _ in 0..trials {
+        let (polygon, noise) = noisy(shape, &mut random, false, rational);
+        let found = harmonise(&polygon, &asked(extrema, inflections), &Progress::default());
+        let found = found.expect("a result");
+        check_ends(&polygon, &found.polygon);
+        assert_eq!(found.polygon.weights(), polygon.weights());
+        if found.reached {
+            let features = Features::new(&found.polygon);
+            assert_eq!(features.count(Quantity::CurvatureExtremum), extrema);
+            assert_eq!(features.count(Quantity::Inflection), inflections);
+            assert!(features.undecided.is_empty());
+            ratios.push(largest_move(&polygon, &found.polygon) / noise);
+        }
+    }
+    ratios.sort_by(f64::total_cmp);
+    let median = ratios.get(ratios.len() / 2).copied().unwrap_or(f64::NAN);
+    println!(
+        "{shape:?}: {} of {trials}, largest move {median:.2} times the noise",
+        ratios.len()
+    );
+    (ratios.len(), median)
+}
+
+fn check_shapes(trials: usize, rational: bool) {
+    for shape in Shape::ALL {
+        let (reached, median) = harmonise_many(shape, trials, rational);
+        let share = if shape == Shape::Humped { 0.95 } else { 0.98 };
+        assert!(
+            reached as f64 >= share * trials as f64,
+            "{shape:?}: {reached} of {trials}"
+        );
+        assert!(median <= 2.0, "{shape:?}: {median} times the noise");
+    }
+}
+
+#[test]
+fn the_features_before_the_noise_come_back() {
+    check_shapes(TRIALS, false);
+}
+
+/// `cargo test --test fairing -- --ignored --nocapture a_thousand`
+#[test]
+#[ignore = "a longer run of the test above"]
+fn a_thousand_noisy_polygons() {
+    check_shapes(250, false);
+    check_shapes(250, true);
+}
+
+#[test]
+fn rational_curves_keep_their_weights() {
+    check_shapes(TRIALS, true);
+}
+
+#[test]
+fn space_curves_lose_their_ripple() {
+    let mut random = Random(11);
+    let (mut reached, mut fewer) = (0, 0);
+    let trials = TRIALS / 2;
+    for _ in 0..trials {
+        let (polygon, _) = noisy(Shape::Clothoid, &mut random, true, false);
+        let harmony = Harmony {
+            torsion_extrema: Some(0),
+            ..asked(0, 0)
+        };
+        let found = harmonise(&polygon, &harmony, &Progress::default()).expect("a result");
+        check_ends(&polygon, &found.polygon);
+        let before = Features::new(&polygon).curvature_extrema.len();
+        reached += usize::from(found.reached);
+        fewer += usize::from(found.counts.extrema < before);
+    }
+    println!("space: {reached} of {trials}, {fewer} with fewer extrema");
+    assert!(reached * 5 >= trials * 4, "{reached} of {trials}");
+    assert_eq!(fewer, trials);
+}

@@ -1,0 +1,6 @@
+//! Corrections of ends, and harmonising.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod corrections;
+mod harmonising;
