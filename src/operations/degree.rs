@@ -21,7 +21,5 @@ pub(super) fn with_degree(input: &Input, degree: usize) -> Result<Outcome, Opera
     let (id, curve) = input.curve()?;
     let changed = curve.polygon.with_degree(degree)?;
     let deviation = Deviation::of(&changed);
-    let mut outcome = Outcome::reshaped(id, changed.polygon, deviation);
-    outcome.renumbered = true;
-    Ok(outcome)
+    Ok(Outcome::renumbered(id, curve, changed.polygon, deviation))
 }

@@ -10,7 +10,7 @@ use super::outcome::{Deviation, Figure, Mark, Outcome};
 use super::parameter::{Kind, Parameter};
 use super::values::Values;
 use super::which_end::{END, end};
-use crate::geometry::{MAX_ADDED_SEGMENTS, Progress};
+use crate::geometry::{End, MAX_ADDED_SEGMENTS, Progress};
 
 const SEGMENTS: Parameter = Parameter {
     name: "segments",
@@ -39,7 +39,8 @@ fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, Operatio
     let end = end(values);
     let polygon = curve.polygon.extended(end, values.whole(&SEGMENTS))?;
     let segments = Figure::count("segments", "Segments", polygon.segments());
-    let mut outcome = Outcome::reshaped(id, polygon, Deviation::Exact);
+    let mut outcome = Outcome::renumbered(id, curve, polygon, Deviation::Exact);
+    outcome.renumbered = end == End::Start;
     outcome.figures.push(segments);
     outcome
         .marks

@@ -16,6 +16,7 @@ mod error;
 mod features;
 mod input;
 mod inputs;
+mod locks;
 mod operation;
 mod outcome;
 mod parameter;

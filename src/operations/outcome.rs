@@ -2,9 +2,10 @@
 
 use glam::DVec3;
 
+use super::locks;
 use super::parameter::Unit;
 use super::value::Value;
-use crate::document::{CurveId, Document, Edit, EditError};
+use crate::document::{Curve, CurveId, Document, Edit, EditError};
 use crate::geometry::{Approximation, FloatPolygon};
 
 /// Hold what an operation comes to.
@@ -124,6 +125,26 @@ impl Outcome {
     pub(super) fn reshaped(curve: CurveId, polygon: FloatPolygon, deviation: Deviation) -> Self {
         Self {
             edits: vec![Edit::SetPolygon { curve, polygon }],
+            ..Self::unchanged(deviation)
+        }
+    }
+
+    /// Give a curve a polygon of other vertices. Those that it had before stay locked if they were;
+    /// a remark tells how many locks are lost.
+    pub(super) fn renumbered(
+        id: CurveId,
+        curve: &Curve,
+        polygon: FloatPolygon,
+        deviation: Deviation,
+    ) -> Self {
+        Self {
+            renumbered: true,
+            remarks: locks::lost(curve, &[&polygon]).into_iter().collect(),
+            edits: vec![Edit::Renumber {
+                curve: id,
+                locked_vertices: locks::locks_of(curve, &polygon),
+                polygon,
+            }],
             ..Self::unchanged(deviation)
         }
     }

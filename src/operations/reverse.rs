@@ -23,8 +23,15 @@ pub static OPERATION: Operation = Operation {
 
 fn run(input: &Input, _: &Values, _: &Progress) -> Result<Outcome, OperationError> {
     let (id, curve) = input.curve()?;
-    let mut outcome = Outcome::reshaped(id, curve.polygon.reversed(), Deviation::Exact);
+    let last = curve.polygon.vertices().len() - 1;
+    let locked = &curve.locked_vertices;
+    let mut outcome = Outcome::unchanged(Deviation::Exact);
     outcome.renumbered = true;
+    outcome.edits.push(Edit::Renumber {
+        curve: id,
+        polygon: curve.polygon.reversed(),
+        locked_vertices: locked.renumbered(|vertex| last.checked_sub(vertex)),
+    });
     // The targets stay where they are: each becomes the other end's.
     for end in End::BOTH {
         let target = curve.targets.get(end.other());

@@ -9,9 +9,10 @@ use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
 use super::parameter::{Choice, Kind, Parameter};
 use super::values::Values;
-use crate::geometry::{ClampedPolygon, FloatPolygon, PolygonError, Progress, Rounded, rounded_up};
+use crate::document::Curve;
+use crate::geometry::{ClampedPolygon, FloatPolygon, Progress, Rounded, counted, rounded_up};
 
-type Rounding = fn(&FloatPolygon, usize) -> Result<Rounded<FloatPolygon>, PolygonError>;
+type Rounding = fn(&Curve, usize) -> Result<Rounded<FloatPolygon>, OperationError>;
 
 const POLYGON: Parameter = Parameter {
     name: "polygon",
@@ -56,31 +57,56 @@ pub static OPERATION: Operation = Operation {
 
 fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
     let (id, curve) = input.curve()?;
-    let rounding: Rounding = values.choice(
-        &POLYGON,
-        &[FloatPolygon::rounded as Rounding, closed_rounded],
-    );
+    let rounding = values.choice(&POLYGON, &[float_rounded as Rounding, closed_rounded]);
     let digits = values.whole(&DIGITS);
-    let rounded = rounding(&curve.polygon, digits)?;
-    let remark = off_round_numbers(rounding, &rounded.polygon, digits)?;
+    let rounded = rounding(curve, digits)?;
+    let remark = off_round_numbers(rounding, curve, &rounded.polygon, digits)?;
     let moved = Figure::length("rounding", "Largest rounding of a vertex", rounded.moved);
     let deviation = Deviation::AtMost(rounded.deviation);
     let mut outcome = Outcome::reshaped(id, rounded.polygon, deviation);
     outcome.figures.push(moved);
     outcome.remarks.extend(remark);
+    let locked = curve.locked_vertices.iter().len();
+    if locked > 0 {
+        let vertices = counted(locked, "locked vertex keeps", "locked vertices keep");
+        outcome.remarks.push(format!("{vertices} the coordinates"));
+    }
     Ok(outcome)
+}
+
+/// Round the float S-polygon, but for its locked vertices.
+fn float_rounded(curve: &Curve, digits: usize) -> Result<Rounded<FloatPolygon>, OperationError> {
+    let before = &curve.polygon;
+    let mut rounded = before.rounded(digits)?;
+    if curve.locked_vertices.is_empty() {
+        return Ok(rounded);
+    }
+    let locked = curve.locked_vertices.iter();
+    let held: Vec<_> = locked.map(|index| (index, before.vertex(index))).collect();
+    rounded.polygon.move_vertices(held)?;
+    let pairs = before.vertices().iter().zip(rounded.polygon.vertices());
+    Ok(Rounded {
+        deviation: before.deviation(&rounded.polygon)?,
+        moved: pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max),
+        ..rounded
+    })
 }
 
 /// Say how far vertices are off round numbers afterwards, if that can be seen: the float S-polygon
 /// holds its own round numbers, but at high degrees not those of the closed one.
 fn off_round_numbers(
     rounding: Rounding,
+    curve: &Curve,
     polygon: &FloatPolygon,
     digits: usize,
-) -> Result<Option<String>, PolygonError> {
+) -> Result<Option<String>, OperationError> {
     /// What is not seen, in units of the last digit.
     const UNSEEN: f64 = 0.05;
-    let left = rounding(polygon, digits)?.moved;
+    let after = Curve {
+        polygon: polygon.clone(),
+        ..curve.clone()
+    };
+    let left = rounding(&after, digits)?.moved;
     let unit = 0.1_f64.powi(digits as i32);
     Ok((left > UNSEEN * unit).then(|| {
         let left = rounded_up(left);
@@ -88,17 +114,17 @@ fn off_round_numbers(
     }))
 }
 
-/// Round the closed S-polygon and find the float one of the curve.
-fn closed_rounded(
-    polygon: &FloatPolygon,
-    digits: usize,
-) -> Result<Rounded<FloatPolygon>, PolygonError> {
+/// Round the closed S-polygon and find the float one of the curve. That moves all of its vertices,
+/// so none can be locked.
+fn closed_rounded(curve: &Curve, digits: usize) -> Result<Rounded<FloatPolygon>, OperationError> {
+    let polygon = &curve.polygon;
     let closed = ClampedPolygon::from_float(polygon).rounded(digits)?;
     let rounded = if polygon.is_periodic() {
         closed.polygon.nearest_periodic_float()?.polygon
     } else {
         closed.polygon.to_float()?
     };
+    curve.check_held(&rounded)?;
     Ok(Rounded {
         // The float polygon is rounded once more, and a periodic one only comes near.
         deviation: polygon.deviation(&rounded)?,

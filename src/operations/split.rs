@@ -8,6 +8,7 @@ use super::editable::open;
 use super::error::OperationError;
 use super::input::Input;
 use super::inputs::Inputs;
+use super::locks;
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Mark, Outcome};
 use super::parameter::{Kind, Parameter, Unit};
@@ -60,11 +61,13 @@ fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, Operatio
     let (first, second) = curve.polygon.split(at, subdivisions)?;
     let deviation = Deviation::of(&first).or(Deviation::of(&second));
     let counts = [&first, &second].map(|part| part.polygon.vertices().len());
-    let mut outcome = Outcome::reshaped(id, first.polygon, deviation);
-    outcome.renumbered = true;
+    let lost = locks::lost(curve, &[&first.polygon, &second.polygon]);
+    let mut outcome = Outcome::renumbered(id, curve, first.polygon, deviation);
+    outcome.remarks = lost.into_iter().collect();
     outcome.edits.extend(without_target(id, curve, End::Finish));
     let mut added = Curve::new(input.document().free_name(&curve.name), second.polygon);
     added.colour = curve.colour;
+    added.locked_vertices = locks::locks_of(curve, &added.polygon);
     added.targets.finish = curve.targets.finish;
     outcome.edits.push(Edit::Add(Box::new(added)));
     outcome.figures = vec![

@@ -24,7 +24,7 @@ fn run(input: &Input, _: &Values, _: &Progress) -> Result<Outcome, OperationErro
     let (id, curve) = input.curve()?;
     let polygon = curve.polygon.subdivided()?;
     let segments = Figure::count("segments", "Segments", polygon.segments());
-    let mut outcome = Outcome::reshaped(id, polygon, Deviation::Exact);
+    let mut outcome = Outcome::renumbered(id, curve, polygon, Deviation::Exact);
     outcome.figures.push(segments);
     Ok(outcome)
 }

@@ -47,12 +47,14 @@ pub(super) fn cusp(curve: &Curve, polygon: &FloatPolygon) -> Option<String> {
 /// Put a corrected polygon in place, and tell how far the curve moves.
 ///
 /// # Errors
-/// [`OperationError::Polygon`] if that cannot be measured.
+/// [`OperationError::Edit`] if it moves a locked vertex; [`OperationError::Polygon`] if it cannot
+/// be measured how far the curve moves.
 pub(super) fn corrected(
     id: CurveId,
     curve: &Curve,
     polygon: FloatPolygon,
 ) -> Result<Outcome, OperationError> {
+    curve.check_held(&polygon)?;
     let deviation = Deviation::AtMost(curve.polygon.deviation(&polygon)?);
     Ok(Outcome::reshaped(id, polygon, deviation))
 }

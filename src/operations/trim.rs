@@ -67,8 +67,7 @@ fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, Operatio
     let deviation = Deviation::of(&part);
     let vertices = Figure::count("vertices", "Vertices", part.polygon.vertices().len());
     let ends = End::BOTH.map(|end| Mark::Point(part.polygon.end_jet(end).point));
-    let mut outcome = Outcome::reshaped(id, part.polygon, deviation);
-    outcome.renumbered = true;
+    let mut outcome = Outcome::renumbered(id, curve, part.polygon, deviation);
     if from > 0.0 {
         outcome.edits.extend(without_target(id, curve, End::Start));
     }

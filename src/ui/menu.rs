@@ -84,6 +84,7 @@ fn menus() -> [(&'static str, Vec<Entry>); 6] {
         command(Command::SelectAll),
         command(Command::SelectNone),
         Divider,
+        command(Command::ToggleVerticesLocked),
         command(Command::ToggleSnapping),
     ];
     let mut curve = vec![

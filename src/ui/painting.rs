@@ -134,7 +134,9 @@ impl Brush<'_> {
         let Some(at) = self.screen.point(vertex.at) else {
             return;
         };
-        if vertex.selected {
+        if vertex.locked {
+            self.locked_vertex(vertex, at, colour);
+        } else if vertex.selected {
             self.painter.circle_filled(at, 5.0, colour);
             self.painter
                 .circle_stroke(at, 8.0, Stroke::new(1.5, self.tokens.strong_text));
@@ -145,6 +147,19 @@ impl Brush<'_> {
         } else {
             self.painter.circle_filled(at, radius, colour);
         }
+    }
+
+    /// A locked vertex has a square ring, a free one none or a round one.
+    fn locked_vertex(&self, vertex: &VertexMark, at: Pos2, colour: Color32) {
+        let (radius, side, ring) = if vertex.selected {
+            (5.0, 16.0, self.tokens.strong_text)
+        } else {
+            (3.0, 13.0, colour)
+        };
+        self.painter.circle_filled(at, radius, colour);
+        let rect = Rect::from_center_size(at, Vec2::splat(side));
+        self.painter
+            .rect_stroke(rect, 0, Stroke::new(1.5, ring), StrokeKind::Middle);
     }
 
     /// Paint many hair lines as one mesh: a shape for each would cost half the frame rate.

@@ -1,6 +1,7 @@
 //! The rows of the table of vertices.
 
 use eframe::egui::{Align2, Id, Rect, Role, Sense, Ui, WidgetInfo, vec2};
+use lucide_icons::Icon;
 
 use super::cell_entry::Cell;
 use super::number_field::{FieldEvent, NumberField};
@@ -10,7 +11,16 @@ use super::widgets;
 use crate::document::Curve;
 
 /// The width of the column of vertex numbers.
-pub const NUMBER: f32 = 44.0;
+const NUMBER: f32 = 44.0;
+
+/// The width of the column of locks.
+const LOCK: f32 = 24.0;
+
+/// The width of what stands before the columns of numbers.
+pub const HEAD: f32 = NUMBER + LOCK;
+
+/// The size of a lock.
+const SIGN: f32 = 12.0;
 
 /// Dragging takes weights down to this: 0 is none.
 const LEAST_WEIGHT: f64 = 0.01;
@@ -25,6 +35,8 @@ pub fn id() -> Id {
 pub enum Asked {
     /// To select a vertex, alone or in addition.
     Select { vertex: usize, add: bool },
+    /// To lock a vertex, or to unlock it.
+    Lock { vertex: usize, locked: bool },
     /// To give a cell the keyboard, and to edit it.
     Focus { cell: Cell, edit: bool },
     /// What was done to a cell's field.
@@ -88,6 +100,47 @@ impl Rows<'_> {
         response.clicked().then_some(Asked::Select { vertex, add })
     }
 
+    /// Show whether a vertex is locked: pressing the lock changes it. An open lock shows where the
+    /// pointer is.
+    pub fn lock_ui(&self, ui: &mut Ui, vertex: usize, row: Rect) -> Option<Asked> {
+        let (_, rect) = ui.allocate_space(vec2(LOCK, ROW));
+        let response = ui.interact(rect, id().with(("lock", vertex)), Sense::click());
+        let response = response.on_hover_text(if self.is_locked(vertex) {
+            "Unlock the vertex"
+        } else {
+            "Lock the vertex: nothing moves it then"
+        });
+        let tokens = Tokens::of(ui);
+        let shown = match (self.is_locked(vertex), response.hovered()) {
+            (true, _) => Some((Icon::Lock, tokens.float)),
+            (false, true) => Some((Icon::LockOpen, tokens.text)),
+            (false, false) if ui.rect_contains_pointer(row) || response.has_focus() => {
+                Some((Icon::LockOpen, tokens.faint_text))
+            }
+            (false, false) => None,
+        };
+        if let Some((icon, colour)) = shown {
+            let (text, font) = (char::from(icon), theme::icon_font(SIGN));
+            ui.painter()
+                .text(rect.center(), Align2::CENTER_CENTER, text, font, colour);
+        }
+        if response.has_focus() {
+            widgets::focus_ring(ui, rect);
+        }
+        let locked = self.is_locked(vertex);
+        response.widget_info(|| {
+            let name = format!("vertex {vertex} locked");
+            WidgetInfo::selected(Role::CheckBox, true, locked, name)
+        });
+        let locked = !locked;
+        let asked = Asked::Lock { vertex, locked };
+        response.clicked().then_some(asked)
+    }
+
+    fn is_locked(&self, vertex: usize) -> bool {
+        self.curve.locked_vertices.contains(vertex)
+    }
+
     /// Show a cell in which nothing is typed.
     pub fn cell_ui(&self, ui: &mut Ui, cell: Cell, rect: Rect) -> Option<Asked> {
         let value = cell.column.value(&self.curve.polygon, cell.vertex)?;
@@ -97,7 +150,9 @@ impl Rows<'_> {
         if cell.column == Column::Weight {
             field = field.range(value.min(LEAST_WEIGHT)..=f64::MAX);
         }
-        let field = field.flat().read_only(!self.can_edit);
+        let field = field
+            .flat()
+            .read_only(!self.can_edit || self.is_locked(cell.vertex));
         let (response, event) = field.resting_ui(ui, rect, id().with(cell_key(cell)));
         if event != FieldEvent::Idle {
             return Some(Asked::Field(cell, event));
@@ -128,6 +183,7 @@ pub fn heading_ui(ui: &mut Ui, columns: &[Column], width: f32) {
                 .text(at, Align2::RIGHT_CENTER, text, theme::small_font(), colour);
         };
         cell("vertex", NUMBER);
+        cell("", LOCK);
         for column in columns {
             cell(column.name(), width);
         }

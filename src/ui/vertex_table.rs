@@ -15,7 +15,7 @@ use super::keyboard::{self, Typing};
 use super::number_field::FieldEvent;
 use super::theme::{RADIUS, ROW, STEP, Tokens};
 use super::vertex_columns::{Column, MoreColumns};
-use super::vertex_rows::{Asked, NUMBER, Rows, heading_ui, id, name};
+use super::vertex_rows::{Asked, HEAD, Rows, heading_ui, id, name};
 use crate::document::{Curve, CurveId};
 use crate::editor::{Editor, told};
 
@@ -85,7 +85,7 @@ impl VertexTable {
         let rows = Rows {
             curve,
             columns: &columns,
-            width: ((width - NUMBER) / columns.len() as f32).floor(),
+            width: ((width - HEAD) / columns.len() as f32).floor(),
             selected: &selected,
             hovered: editor.hovered_vertex(),
             pixel: editor.view().viewport().pixel(),
@@ -188,7 +188,9 @@ impl VertexTable {
 
     /// Begin to edit the cell's number: as it stands, or with another text in its place.
     fn begin(&mut self, ui: &Ui, curve_id: CurveId, curve: &Curve, text: Option<&str>) {
-        if let Err(reason) = curve.check_editable() {
+        let vertex = [self.cell.vertex];
+        let checked = curve.check_editable();
+        if let Err(reason) = checked.and_then(|()| curve.check_vertices_unlocked(vertex)) {
             self.remark = Some((self.cell, Remark::new(ui, reason.to_string())));
             return;
         }
@@ -305,7 +307,7 @@ impl VertexTable {
             visible = range.clone();
             for vertex in range {
                 let at = ui.cursor().min;
-                let width = NUMBER + rows.width * rows.columns.len() as f32;
+                let width = HEAD + rows.width * rows.columns.len() as f32;
                 let rect = Rect::from_min_size(at, vec2(width, ROW));
                 if ui.rect_contains_pointer(rect) {
                     hovered = Some(vertex);
@@ -355,6 +357,7 @@ impl VertexTable {
         let (mut asked, mut focused) = (None, None);
         ui.horizontal(|ui| {
             asked = rows.number_ui(ui, vertex);
+            asked = rows.lock_ui(ui, vertex, rect).or(asked.take());
             for column in rows.columns {
                 let cell = Cell {
                     vertex,
@@ -418,6 +421,9 @@ impl VertexTable {
     ) {
         let (cell, event) = match asked {
             Asked::Select { vertex, add } => return editor.select_vertex(curve_id, vertex, add),
+            Asked::Lock { vertex, locked } => {
+                return told(editor.lock_vertices(curve_id, vec![vertex], locked));
+            }
             Asked::Focus { cell, edit } => {
                 self.cell = cell;
                 self.remark = None;

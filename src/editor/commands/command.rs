@@ -23,6 +23,8 @@ pub enum Command {
     SelectAll,
     /// Select nothing.
     SelectNone,
+    /// Lock the selected vertices, or unlock them.
+    ToggleVerticesLocked,
     /// Make the active curve periodic, or open.
     TogglePeriodic,
     /// Do an operation on the active curve.
@@ -112,6 +114,7 @@ impl Command {
             Self::DeleteCurve,
             Self::SelectAll,
             Self::SelectNone,
+            Self::ToggleVerticesLocked,
             Self::TogglePeriodic,
             Self::ToggleVisible,
             Self::ToggleLocked,
@@ -136,6 +139,7 @@ impl Command {
             Self::DeleteCurve => "Delete curve",
             Self::SelectAll => "Select all",
             Self::SelectNone => "Select nothing",
+            Self::ToggleVerticesLocked => "Vertices locked",
             Self::TogglePeriodic => "Periodic",
             Self::Operation(operation) if operation.parameters.is_empty() => operation.label,
             // What asks for more before anything is done.
@@ -165,6 +169,9 @@ impl Command {
             Self::DeleteCurve => "Remove the active curve as a whole",
             Self::SelectAll => "Select all vertices of the active curve; again, of all curves",
             Self::SelectNone => "Select nothing",
+            Self::ToggleVerticesLocked => {
+                "Lock the selected vertices so that nothing moves them, or unlock them"
+            }
             Self::TogglePeriodic => {
                 "Join the curve's end to its start, or open it; the polygon stays"
             }
@@ -202,6 +209,7 @@ impl Command {
             }),
             Self::SelectAll => ctrl('a'),
             Self::SelectNone => ctrl_shift('a'),
+            Self::ToggleVerticesLocked => plain(Key::Character('l')),
             Self::Fit => plain(Key::Character('f')),
             Self::FitAll => plain(Key::Character('h')),
             Self::ZoomIn => plain(Key::Character('+')),

@@ -1,9 +1,9 @@
 //! Removing vertices and curves: never one by a command that is meant for the other.
 
-use crate::document::{Curve, CurveId, Edit, quoted};
+use crate::document::{Curve, CurveId, Edit, EditError, quoted};
 use crate::editor::Editor;
 use crate::editor::commands::command::Command;
-use crate::editor::commands::polygon_edits::without;
+use crate::editor::commands::polygon_edits::deletion;
 use crate::editor::reply::{Note, Reply};
 use crate::geometry::counted;
 
@@ -35,9 +35,6 @@ impl Editor {
             if indices.is_empty() {
                 continue;
             }
-            curve
-                .check_editable()
-                .map_err(|refused| refused.to_string())?;
             if indices.len() == curve.polygon.vertices().len() {
                 return Err(format!(
                     "The selection holds all vertices of {}. To remove it as a whole, use “{}”",
@@ -45,10 +42,12 @@ impl Editor {
                     Command::DeleteCurve.label()
                 ));
             }
-            let polygon = without(&curve.polygon, &indices).map_err(|error| {
-                format!("{}: {error}; lower its degree first", quoted(&curve.name))
-            })?;
-            edits.push(Edit::SetPolygon { curve: id, polygon });
+            edits.push(
+                deletion(id, curve, &indices).map_err(|refused| match refused {
+                    EditError::Polygon { .. } => format!("{refused}; lower its degree first"),
+                    refused => refused.to_string(),
+                })?,
+            );
         }
         Ok(edits)
     }

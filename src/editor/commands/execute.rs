@@ -54,6 +54,7 @@ impl Editor {
             Command::Duplicate
             | Command::Delete
             | Command::DeleteCurve
+            | Command::ToggleVerticesLocked
             | Command::ToggleVisible
             | Command::ToggleLocked => curve.is_some(),
             Command::TogglePeriodic => editable,
@@ -74,6 +75,7 @@ impl Editor {
             Command::ToggleSnapping => Some(self.hand.snapping),
             Command::Tool(tool) => Some(self.hand.tool() == tool),
             Command::View(view) => Some(self.view.viewport.orientation == view.orientation()),
+            Command::ToggleVerticesLocked => Some(self.is_selection_locked()),
             Command::TogglePeriodic => Some(curve.is_some_and(|c| c.polygon.is_periodic())),
             Command::ToggleVisible => Some(curve.is_some_and(|c| c.visible)),
             Command::ToggleLocked => Some(curve.is_some_and(|c| c.locked)),
@@ -170,6 +172,7 @@ impl Editor {
     fn execute_idle(&mut self, command: Command) -> Reply {
         match command {
             Command::Delete => return self.delete("Delete", "deleted"),
+            Command::ToggleVerticesLocked => return self.toggle_vertices_locked(),
             Command::SelectAll => self.select_all()?,
             Command::SelectNone => self.hand.selection.clear(),
             Command::Tool(tool) => self.use_tool(tool),

@@ -2,13 +2,53 @@
 
 use glam::DVec3;
 
+use crate::document::{Curve, CurveId, Edit, EditError};
 use crate::geometry::{FloatPolygon, PolygonError};
+
+/// The edit that inserts a vertex into a curve's polygon, so that it gets number `index`.
+///
+/// # Errors
+/// [`PolygonError`] if the vertex cannot be used.
+pub fn insertion(
+    id: CurveId,
+    curve: &Curve,
+    index: usize,
+    vertex: DVec3,
+) -> Result<Edit, PolygonError> {
+    let number = |old| Some(if old < index { old } else { old + 1 });
+    Ok(Edit::Renumber {
+        curve: id,
+        polygon: inserted(&curve.polygon, index, vertex)?,
+        locked_vertices: curve.locked_vertices.renumbered(number),
+    })
+}
+
+/// The edit that removes vertices from a curve's polygon, by their numbers in rising order.
+///
+/// # Errors
+/// [`EditError`] if one of them is locked, or the rest is no curve of this degree.
+pub fn deletion(id: CurveId, curve: &Curve, indices: &[usize]) -> Result<Edit, EditError> {
+    curve.check_editable()?;
+    curve.check_vertices_unlocked(indices.iter().copied())?;
+    let polygon = without(&curve.polygon, indices).map_err(|error| EditError::Polygon {
+        name: curve.name.clone(),
+        error,
+    })?;
+    let below = |old| indices.partition_point(|index| *index < old);
+    Ok(Edit::Renumber {
+        curve: id,
+        polygon,
+        locked_vertices: curve
+            .locked_vertices
+            .renumbered(|old| Some(old - below(old))),
+    })
+}
 
 /// Insert a vertex so that it gets number `index`; its weight is the geometric mean of its neighbours'.
 ///
 /// # Errors
 /// [`PolygonError`] if the vertex cannot be used.
-pub fn inserted(
+fn inserted(
     polygon: &FloatPolygon,
     index: usize,
     vertex: DVec3,
@@ -38,7 +78,7 @@ pub fn inserted(
 ///
 /// # Errors
 /// [`PolygonError::TooFewVertices`] if the rest is no curve of this degree.
-pub fn without(polygon: &FloatPolygon, indices: &[usize]) -> Result<FloatPolygon, PolygonError> {
+fn without(polygon: &FloatPolygon, indices: &[usize]) -> Result<FloatPolygon, PolygonError> {
     let kept = |index: &usize| indices.binary_search(index).is_err();
     let all = 0..polygon.vertices().len();
     let vertices = all

@@ -15,7 +15,7 @@ use crate::editor::view::layers::Layer;
 use crate::editor::view::orientation::Orientation;
 use crate::editor::view::outline::{GAP, ViewBox};
 use crate::editor::view::scene::{CurveScene, Scene, VertexMark};
-use crate::geometry::{End, FloatPolygon};
+use crate::geometry::End;
 
 /// Screen points around the canvas that are drawn too, so that strokes run off it.
 const BORDER: f64 = 16.0;
@@ -61,17 +61,12 @@ impl Editor {
             scene.active = Some(*id) == active;
             scene.locked = curve.locked;
             scene.colour = curve.colour;
-            self.draw_curve(*id, &curve.polygon, view, scene);
+            self.draw_curve(*id, curve, view, scene);
         }
     }
 
-    fn draw_curve(
-        &mut self,
-        id: CurveId,
-        polygon: &FloatPolygon,
-        view: &ViewBox,
-        scene: &mut CurveScene,
-    ) {
+    fn draw_curve(&mut self, id: CurveId, curve: &Curve, view: &ViewBox, scene: &mut CurveScene) {
+        let (polygon, locked) = (&curve.polygon, &curve.locked_vertices);
         let (layers, comb, active) = (self.layers(), self.view.comb, scene.active);
         let viewport = self.view.viewport;
         let orientation = viewport.orientation;
@@ -96,10 +91,10 @@ impl Editor {
             let mut handles = Vec::new();
             outlines.append_handles(chain, view, &mut handles);
             let selection = &self.hand.selection;
-            // A selected vertex keeps its handle in a crowd.
+            // A selected or locked vertex keeps its handle in a crowd.
             let crowd = handles.len() < polygon.vertices().len();
             if crowd {
-                handles.extend(selection.of_curve(id));
+                handles.extend(selection.of_curve(id).chain(locked.iter()));
                 handles.sort_unstable();
                 handles.dedup();
             }
@@ -109,6 +104,7 @@ impl Editor {
                     index,
                     at: viewport.flatten(polygon.vertex(index)),
                     selected: selection.contains((id, index)),
+                    locked: locked.contains(index),
                 }));
         }
         // Only the active curve shows what is derived from it: the others step back.

@@ -88,6 +88,9 @@ impl Editor {
         if let Some(weights) = curve.polygon.weights() {
             text += &format!("\nw {}", figure(*weights.get(index)?));
         }
+        if curve.locked_vertices.contains(index) {
+            text += "\nlocked";
+        }
         if self.hand.selection.active() != Some(id) {
             text = format!("{}\n{text}", curve.name);
         }

@@ -69,6 +69,8 @@ pub struct VertexMark {
     pub at: DVec2,
     /// Whether it is selected.
     pub selected: bool,
+    /// Whether the vertex itself is locked.
+    pub locked: bool,
 }
 
 /// Something that a tool draws.

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use glam::{DMat3, DVec2, DVec3};
 
 use super::tool::{Context, Cursor, Effect, Tool};
-use crate::document::{Curve, CurveId, Edit, quoted};
+use crate::document::{Curve, CurveId, Edit, EditError, quoted};
 use crate::editor::hand::end_fit::{
     EndFitAction, EndFitSettings, LastAction, nearest_other_end, other_ends,
 };
@@ -156,6 +156,13 @@ impl<'a> Subject<'a> {
 
     fn is_planar(&self) -> bool {
         self.curve.polygon.is_planar()
+    }
+
+    /// Refuse if the terminal vertices cannot be moved as one body.
+    fn check_movable(&self) -> Result<(), EditError> {
+        let terminal = self.curve.polygon.terminal_vertices(self.end);
+        self.curve.check_editable()?;
+        self.curve.check_vertices_unlocked(terminal)
     }
 
     /// What does not attract the end's target: the target itself, and the curve's own vertices.
@@ -365,7 +372,7 @@ impl EndFitTool {
             Some(Handle::OtherEnd(_)) | None => return Vec::new(),
         };
         let shapes = matches!(state, State::Body { .. } | State::Ring { .. });
-        if shapes && let Err(refused) = subject.curve.check_editable() {
+        if shapes && let Err(refused) = subject.check_movable() {
             return vec![Effect::Say(refused.to_string())];
         }
         self.state = state;

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use glam::{DVec2, DVec3};
 
 use super::tool::{Context, Cursor, Effect, Look, Tool, move_edits};
-use crate::document::{CurveId, Edit, quoted};
+use crate::document::{CurveId, Edit, EditError, quoted};
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
 use crate::editor::hand::selection::VertexId;
@@ -136,10 +136,16 @@ impl Tool for SelectTool {
             State::Idle => {
                 let selected = context.selection.vertices().len();
                 if selected > 0 && context.places(context.selection.vertices()).is_empty() {
-                    format!(
-                        "{} selected, of a locked curve: unlock it in the list of curves to edit",
-                        counted(selected, "vertex", "vertices")
-                    )
+                    let vertices = counted(selected, "vertex", "vertices");
+                    let refused = context.selection.vertices().find_map(|id| why(id, context));
+                    match refused {
+                        Some(EditError::LockedVertex { .. }) => {
+                            format!("{vertices} selected, locked: L unlocks")
+                        }
+                        _ => format!(
+                            "{vertices} selected, of a locked curve: unlock it in the list of curves to edit"
+                        ),
+                    }
                 } else if selected > 0 {
                     format!(
                         "{} selected: drag, or nudge with the arrow keys (Shift ×10); Del deletes",
@@ -236,9 +242,10 @@ impl SelectTool {
         let held = places.first();
         let held = held.map(|(_, at)| context.viewport.flatten(*at));
         let Some(held) = held else {
-            return vec![refused(hit.0, context)];
+            return vec![refused(hit, context)];
         };
-        let label = format!("Move {}", counted(taken.len(), "vertex", "vertices"));
+        let moved = context.places(taken.iter().copied()).len();
+        let label = format!("Move {}", counted(moved, "vertex", "vertices"));
         let mut effects = vec![Effect::Select(taken.clone()), Effect::Activate(hit.0)];
         effects.extend(self.move_these(place, held, taken, &label, context));
         effects
@@ -250,11 +257,12 @@ impl SelectTool {
         let count = vertex_count(leg.curve, context).max(1);
         let ends = [leg.index, (leg.index + 1) % count].map(|index| (leg.curve, index));
         if context.places(ends).is_empty() {
-            return vec![refused(leg.curve, context)];
+            return vec![refused(ends[0], context)];
         }
         let (taken, label) = if ends.iter().all(|end| context.selection.contains(*end)) {
             let taken: Vec<VertexId> = context.selection.vertices().collect();
-            let label = format!("Move {}", counted(taken.len(), "vertex", "vertices"));
+            let moved = context.places(taken.iter().copied()).len();
+            let label = format!("Move {}", counted(moved, "vertex", "vertices"));
             (taken, label)
         } else {
             (ends.into(), "Move leg".to_owned())
@@ -277,7 +285,7 @@ impl SelectTool {
             return Vec::new();
         };
         if curve.check_editable().is_err() {
-            return vec![refused(id, context)];
+            return vec![refused(vertex, context)];
         }
         self.state = State::MovingClamped(MovingClamped {
             origin: context.model(place),
@@ -345,14 +353,18 @@ fn vertex_count(curve: CurveId, context: &Context) -> usize {
     curve.map_or(0, |curve| curve.polygon.vertices().len())
 }
 
-/// Say why a curve cannot be edited.
-fn refused(curve: CurveId, context: &Context) -> Effect {
-    let found = context
-        .document
-        .curve(curve)
-        .map(|curve| curve.check_editable());
-    let refused = found.and_then(Result::err);
+/// Say why a vertex cannot be moved.
+fn refused(vertex: VertexId, context: &Context) -> Effect {
+    let refused = why(vertex, context);
     Effect::Say(refused.map_or_else(String::new, |refused| refused.to_string()))
+}
+
+/// Why a vertex cannot be moved, if that is so.
+fn why((curve, vertex): VertexId, context: &Context) -> Option<EditError> {
+    let curve = context.document.curve(curve)?;
+    let checked = curve.check_editable();
+    let checked = checked.and_then(|()| curve.check_vertices_unlocked([vertex]));
+    checked.err()
 }
 
 fn click(place: DVec2, context: &Context) -> Vec<Effect> {
@@ -428,7 +440,7 @@ fn nudge(key: Key, context: &Context) -> Vec<Effect> {
     let planar = context.planar_curves(&vertices);
     if vertices.is_empty() {
         let first = context.selection.vertices().next();
-        let refused = first.map(|id| refused(id.0, context));
+        let refused = first.map(|id| refused(id, context));
         return refused.into_iter().collect();
     }
     let label = format!("Nudge {}", counted(vertices.len(), "vertex", "vertices"));

@@ -176,12 +176,13 @@ impl Context<'_> {
         self.places(chosen)
     }
 
-    /// Look up where vertices were when the gesture began; those of locked and of hidden curves
-    /// are left out.
+    /// Look up where vertices were when the gesture began; locked ones and those of locked and of
+    /// hidden curves are left out.
     pub fn places(&self, vertices: impl IntoIterator<Item = VertexId>) -> Vec<(VertexId, DVec3)> {
         let place = |(curve, index): VertexId| {
             let found = self.before.curve(curve)?;
             found.check_editable().ok()?;
+            found.check_vertices_unlocked([index]).ok()?;
             let vertex = found.polygon.vertices().get(index)?;
             Some(((curve, index), *vertex))
         };

@@ -15,7 +15,7 @@ use crate::geometry::counted;
 
 /// What is said where there is nothing to rotate or scale.
 pub const NOTHING_TO_TRANSFORM: &str =
-    "Nothing to transform: select vertices, or a curve that is neither locked nor hidden";
+    "Nothing to transform: select vertices or a curve; what is locked or hidden stays";
 
 /// What a drag does to the vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,15 +1,17 @@
 //! Tools that change the number of vertices: add at an end, insert into a leg, delete.
 
+use std::sync::Arc;
+
 use glam::{DVec2, DVec3};
 
 use super::tool::{Context, Effect, Tool};
-use crate::document::{CurveId, Edit, quoted};
-use crate::editor::commands::polygon_edits::{inserted, without};
+use crate::document::{Curve, CurveId, quoted};
+use crate::editor::commands::polygon_edits::{deletion, insertion};
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::snapping::Carried;
 use crate::editor::view::hit::LegHit;
 use crate::editor::view::scene::Mark;
-use crate::geometry::{End, FloatPolygon};
+use crate::geometry::End;
 
 /// Legs are found from this far, in screen points, when a vertex shall be inserted.
 const LEG_REACH: f64 = 24.0;
@@ -23,8 +25,9 @@ pub struct AddVertexTool {
 /// A vertex that is being added, and dragged until the button is released.
 #[derive(Debug)]
 struct Adding {
-    curve: CurveId,
-    polygon: FloatPolygon,
+    id: CurveId,
+    /// The curve without it.
+    curve: Arc<Curve>,
     index: usize,
     /// A point as far from the eye as the new vertex will be.
     like: DVec3,
@@ -33,12 +36,9 @@ struct Adding {
 impl Adding {
     fn preview(&self, at: DVec2, context: &Context) -> Effect {
         let by = at - context.viewport.flatten(self.like);
-        let vertex = self.like + context.movement(by, self.polygon.is_planar());
-        match inserted(&self.polygon, self.index, vertex) {
-            Ok(polygon) => Effect::Preview(vec![Edit::SetPolygon {
-                curve: self.curve,
-                polygon,
-            }]),
+        let vertex = self.like + context.movement(by, self.curve.polygon.is_planar());
+        match insertion(self.id, &self.curve, self.index, vertex) {
+            Ok(edit) => Effect::Preview(vec![edit]),
             Err(error) => Effect::Say(error.to_string()),
         }
     }
@@ -46,10 +46,10 @@ impl Adding {
     /// All effects of a gesture that places one vertex.
     fn once(&self, label: &str, at: DVec2, context: &Context) -> Vec<Effect> {
         vec![
-            Effect::Activate(self.curve),
+            Effect::Activate(self.id),
             Effect::Begin(label.to_owned()),
             self.preview(at, context),
-            Effect::Select(vec![(self.curve, self.index)]),
+            Effect::Select(vec![(self.id, self.index)]),
             Effect::Commit,
         ]
     }
@@ -85,13 +85,13 @@ impl AddVertexTool {
     fn plan(&self, at: DVec2, context: &Context) -> Result<(Adding, End), String> {
         let active = context.selection.active();
         let found = active.and_then(|id| Some((id, context.document.curve(id)?)));
-        let Some((curve, found)) = found else {
+        let Some((id, curve)) = found else {
             return Err("There is no curve to add to: draw one with D".into());
         };
-        found
+        curve
             .check_editable()
             .map_err(|refused| refused.to_string())?;
-        let polygon = found.polygon.clone();
+        let polygon = &curve.polygon;
         let count = polygon.vertices().len();
         let distance = |index: usize| context.viewport.flatten(polygon.vertex(index)).distance(at);
         let end = if distance(0) < distance(count - 1) {
@@ -105,8 +105,8 @@ impl AddVertexTool {
         };
         let like = polygon.vertex(index.saturating_sub(1));
         let adding = Adding {
-            curve,
-            polygon,
+            id,
+            curve: curve.clone(),
             index,
             like,
         };
@@ -155,7 +155,9 @@ impl Tool for AddVertexTool {
             return Vec::new();
         };
         let beside = adding.index.saturating_sub(1);
-        let from = context.viewport.flatten(adding.polygon.vertex(beside));
+        let from = context
+            .viewport
+            .flatten(adding.curve.polygon.vertex(beside));
         vec![Mark::Guide([from, at]), Mark::NewVertex(at)]
     }
 }
@@ -182,8 +184,8 @@ impl InsertTool {
             return Err(String::new());
         };
         Ok(Adding {
-            curve: hit.curve,
-            polygon: found.polygon.clone(),
+            id: hit.curve,
+            curve: found.clone(),
             index: hit.index + 1,
             like: from.lerp(*to, hit.share),
         })
@@ -259,16 +261,13 @@ fn delete(curve: CurveId, index: usize, context: &Context) -> Vec<Effect> {
     let Some(found) = context.document.curve(curve) else {
         return Vec::new();
     };
-    match without(&found.polygon, &[index]) {
-        Ok(polygon) => {
-            let edit = Edit::SetPolygon { curve, polygon };
-            vec![
-                Effect::Select(Vec::new()),
-                Effect::Activate(curve),
-                Effect::Apply("Delete vertex".into(), vec![edit]),
-                Effect::Say(format!("Vertex {index} of {} deleted", quoted(&found.name))),
-            ]
-        }
-        Err(reason) => vec![Effect::Say(format!("{}: {reason}", quoted(&found.name)))],
+    match deletion(curve, found, &[index]) {
+        Ok(edit) => vec![
+            Effect::Select(Vec::new()),
+            Effect::Activate(curve),
+            Effect::Apply("Delete vertex".into(), vec![edit]),
+            Effect::Say(format!("Vertex {index} of {} deleted", quoted(&found.name))),
+        ],
+        Err(refused) => vec![Effect::Say(refused.to_string())],
     }
 }
