@@ -1,10 +1,11 @@
 //! The document and its history: gestures, undo and redo, locked curves, edits that fail.
 
 use batten::document::{
-    Colour, Curve, CurveId, Document, Edit, EditError, History, LockedVertices,
+    Colour, Curve, CurveId, Document, Edit, EditError, EndMatch, History, LockedVertices,
+    MatchPlace,
 };
 use batten::geometry::end_correction::EndTarget;
-use batten::geometry::{End, FloatPolygon};
+use batten::geometry::{Continuity, End, FloatPolygon};
 use glam::DVec3;
 
 fn cubic() -> FloatPolygon {
@@ -543,4 +544,100 @@ fn only_vertices_that_there_are_can_be_locked() {
     history.apply("Hide", vec![hide]).expect("valid");
     let refused = history.apply("Lock", vec![lock(vec![0])]);
     assert!(matches!(refused, Err(EditError::Hidden { .. })));
+}
+
+/// The second curve's start matched to an end of the first.
+fn matched(history: &History) -> EndMatch {
+    let ids: Vec<CurveId> = history.document().ids().collect();
+    EndMatch {
+        curve: ids[1],
+        end: End::Start,
+        source: ids[0],
+        place: MatchPlace::End(End::Finish),
+        continuity: Continuity::G1,
+        reversed: false,
+    }
+}
+
+#[test]
+fn a_matched_end_follows_within_the_step_and_is_undone_with_it() {
+    let (mut history, id) = history();
+    let matched = matched(&history);
+    let start = bits(history.document());
+    history
+        .apply("Match", vec![Edit::SetMatch(matched)])
+        .expect("valid");
+    let ends = |history: &History| {
+        let document = history.document();
+        let [first, second] = [matched.source, matched.curve]
+            .map(|id| document.curve(id).expect("a curve").polygon.clone());
+        (
+            first.end_jet(End::Finish).point,
+            second.end_jet(End::Start).point,
+        )
+    };
+    let (from, to) = ends(&history);
+    assert!(from.distance(to) < 1e-14);
+    let before = bits(history.document());
+
+    history.begin("Move vertex");
+    for step in 0..10 {
+        history
+            .preview(moved(id, 0.3 * f64::from(step)))
+            .expect("valid");
+        let (from, to) = ends(&history);
+        assert!(from.distance(to) < 1e-13, "{step}");
+    }
+    assert!(history.commit());
+    let after = bits(history.document());
+    assert_ne!(after, before);
+    history.undo();
+    assert_eq!(bits(history.document()), before);
+    history.redo();
+    assert_eq!(bits(history.document()), after);
+    history.undo();
+    history.undo();
+    assert_eq!(bits(history.document()), start);
+    assert_eq!(history.document().matches().len(), 0);
+}
+
+#[test]
+fn what_does_not_concern_a_match_changes_no_bit_of_its_curves() {
+    let (mut history, _) = history();
+    let matched = matched(&history);
+    history
+        .apply("Match", vec![Edit::SetMatch(matched)])
+        .expect("valid");
+    let before = bits(history.document());
+    let other = Curve::new("third", cubic());
+    history
+        .apply("Add", vec![Edit::Add(Box::new(other))])
+        .expect("valid");
+    assert_eq!(bits(history.document())[..2], before[..]);
+    let again = history.apply("Match", vec![Edit::SetMatch(matched)]);
+    assert_eq!(
+        (again, history.undo_steps()),
+        (Ok(()), 2),
+        "it is matched already"
+    );
+}
+
+#[test]
+fn removing_a_curve_removes_its_matches_and_undo_brings_them_back() {
+    let (mut history, id) = history();
+    let matched = matched(&history);
+    history
+        .apply("Match", vec![Edit::SetMatch(matched)])
+        .expect("valid");
+    let before = history.document().clone();
+    for removed in [id, matched.curve] {
+        history
+            .apply("Remove", vec![Edit::Remove(removed)])
+            .expect("valid");
+        assert_eq!(history.document().matches().len(), 0);
+        let dissolved = history.document().dissolved_since(&before).count();
+        assert_eq!(dissolved, usize::from(removed == id));
+        history.undo();
+        assert!(history.document().is_same(&before));
+    }
 }

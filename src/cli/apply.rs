@@ -57,8 +57,7 @@ pub(super) fn run(application: &Application) -> anyhow::Result<ExitCode> {
     let (outcome, report) = done.with_context(|| application.place())?;
     if outcome.reached {
         let document = outcome.applied_to(input.document())?;
-        let curves: Vec<_> = document.curves().map(|(_, curve)| curve.clone()).collect();
-        let export = format.write(&curves, document.extras(), None);
+        let export = format.write_document(&document, None);
         let destination = &application.destination;
         destination.write(export.with_context(|| destination.name())?)?;
     }
@@ -97,7 +96,7 @@ impl Application {
 
     /// Choose what the operation works on of what was read.
     fn chosen(&self, reading: Reading) -> anyhow::Result<Input> {
-        let document = Document::from_curves(reading.curves).with_extras(reading.extras);
+        let document = reading.into_document()?;
         match self.operation.inputs {
             Inputs::None => Ok(Input::new(&document, [])?),
             Inputs::One => Ok(Input::new(&document, self.curves(&document, 1)?)?),

@@ -58,6 +58,7 @@ fn exported(
     polygon: Option<PolygonKind>,
 ) -> anyhow::Result<(Export, Format)> {
     let format = destination.format()?;
-    let export = format.write(&reading.curves, &reading.extras, polygon);
+    let document = reading.clone().into_document()?;
+    let export = format.write_document(&document, polygon);
     Ok((export.with_context(|| destination.name())?, format))
 }

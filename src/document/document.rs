@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::curve::{Curve, CurveId};
+use super::end_match::EndMatch;
 use super::extras::Extras;
 use super::names::free_name;
 
@@ -13,6 +14,7 @@ use super::names::free_name;
 pub struct Document {
     pub(super) curves: Vec<(CurveId, Arc<Curve>)>,
     pub(super) next: u64,
+    pub(super) matches: Vec<EndMatch>,
     extras: Extras,
 }
 
@@ -74,17 +76,23 @@ impl Document {
         self.curves.is_empty()
     }
 
-    /// Whether the other document holds equal curves in the same order. Curves that both share
+    /// Whether the other document holds equal curves in the same order, and the same matches. Curves that both share
     /// are not compared number by number.
     pub fn is_same(&self, other: &Self) -> bool {
         let mut pairs = self.curves.iter().zip(&other.curves);
         self.curves.len() == other.curves.len()
+            && self.matches == other.matches
             && pairs.all(|(a, b)| a.0 == b.0 && (Arc::ptr_eq(&a.1, &b.1) || a.1 == b.1))
     }
 
     /// The identity that the next added curve will get.
     pub fn next_id(&self) -> CurveId {
         CurveId(self.next)
+    }
+
+    /// The identities that the next added curves will get.
+    pub fn next_ids(&self) -> impl Iterator<Item = CurveId> {
+        (self.next..).map(CurveId)
     }
 
     pub(super) fn push(&mut self, curve: Curve) -> CurveId {

@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::curve::{Colour, Curve, CurveId};
 use super::document::Document;
+use super::end_match::EndMatch;
 use super::error::EditError;
 use super::locked_vertices::LockedVertices;
 use crate::geometry::end_correction::EndTarget;
@@ -93,9 +94,18 @@ pub enum Edit {
         /// The new target.
         target: Option<EndTarget>,
     },
+    /// Keep an end matched to a place of another curve, in place of what it was matched to before.
+    SetMatch(EndMatch),
+    /// Let an end be no longer matched; its target stays.
+    RemoveMatch {
+        /// The curve.
+        curve: CurveId,
+        /// The end.
+        end: End,
+    },
     /// Add a curve behind the others. It gets [`Document::next_id`].
     Add(Box<Curve>),
-    /// Remove a curve.
+    /// Remove a curve, with the matches of its ends and to it.
     Remove(CurveId),
     /// Put a curve at another place of the list.
     Reorder {
@@ -107,7 +117,20 @@ pub enum Edit {
 }
 
 impl Document {
-    /// Make one edit.
+    /// Make some edits in a copy, one after the other; then matched ends follow.
+    ///
+    /// # Errors
+    /// [`EditError`] of the first edit that cannot be made.
+    pub fn edited(&self, edits: impl IntoIterator<Item = Edit>) -> Result<Self, EditError> {
+        let mut document = self.clone();
+        for edit in edits {
+            document.apply(edit)?;
+        }
+        document.follow(self);
+        Ok(document)
+    }
+
+    /// Make one edit. Matched ends do not follow: see [`Document::edited`].
     ///
     /// # Errors
     /// [`EditError`]; the document is unchanged then.
@@ -153,7 +176,20 @@ impl Document {
             Edit::SetTarget { curve, end, target } => {
                 let found = self.curve(curve).ok_or(EditError::NoSuchCurve)?;
                 found.check_visible()?;
+                if let Some(matched) = self.match_of(curve, end) {
+                    let source = self.curve(matched.source);
+                    return Err(EditError::MatchedEnd {
+                        name: found.name.clone(),
+                        end: end.name(),
+                        source_name: source.map_or_else(String::new, |it| it.name.clone()),
+                    });
+                }
                 self.change(curve, |curve| curve.targets.set(end, target))
+            }
+            Edit::SetMatch(matched) => self.set_match(matched),
+            Edit::RemoveMatch { curve, end } => {
+                self.remove_match(curve, end);
+                Ok(())
             }
             Edit::Add(curve) if !curve.targets.are_usable() => Err(EditError::BadTarget),
             Edit::Add(curve) => {
@@ -164,6 +200,9 @@ impl Document {
             Edit::Remove(curve) => {
                 let index = self.position(curve).ok_or(EditError::NoSuchCurve)?;
                 self.curves.remove(index);
+                let is_other =
+                    |matched: &EndMatch| ![matched.curve, matched.source].contains(&curve);
+                self.matches.retain(is_other);
                 Ok(())
             }
             Edit::Reorder { curve, place } => {

@@ -42,6 +42,38 @@ pub enum EditError {
     /// A target has a number that cannot be used.
     #[error("a target needs numbers up to 1e100, and a direction that is not 0")]
     BadTarget,
+    /// The target of an end is what its match makes it.
+    #[error("the {end} of {} is matched to {}: remove the match to set its target", quoted(.name), quoted(.source_name))]
+    MatchedEnd {
+        /// The curve's name.
+        name: String,
+        /// The end.
+        end: &'static str,
+        /// The name of the curve that it is matched to.
+        source_name: String,
+    },
+    /// A curve would follow itself.
+    #[error("{} cannot be matched to itself: choose another curve", quoted(.name))]
+    MatchToItself {
+        /// The curve's name.
+        name: String,
+    },
+    /// Curves would follow each other in a circle.
+    #[error("{} follows {} already: remove that match first", quoted(.source_name), quoted(.name))]
+    MatchCycle {
+        /// The name of the curve that would follow.
+        name: String,
+        /// The name of the one that it would follow.
+        source_name: String,
+    },
+    /// One of the curves does not have what would be matched.
+    #[error("{} cannot be matched to {}: an end needs an open curve, and u must lie on the curve", quoted(.name), quoted(.source_name))]
+    NoMatch {
+        /// The name of the curve that would follow.
+        name: String,
+        /// The name of the one that it would follow.
+        source_name: String,
+    },
     /// A name is empty.
     #[error("a curve needs a name: type at least one character")]
     EmptyName,

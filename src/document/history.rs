@@ -65,11 +65,7 @@ impl History {
         let Some(step) = &self.preview else {
             return Ok(());
         };
-        let mut document = step.document.clone();
-        for edit in edits {
-            document.apply(edit)?;
-        }
-        self.document = document;
+        self.document = step.document.edited(edits)?;
         Ok(())
     }
 

@@ -5,8 +5,10 @@ mod curve;
 #[allow(clippy::module_inception)]
 mod document;
 mod edit;
+mod end_match;
 mod error;
 mod extras;
+mod following;
 mod history;
 mod locked_vertices;
 mod names;
@@ -15,6 +17,7 @@ mod wording;
 pub use curve::{Colour, Curve, CurveId, EndTargets};
 pub use document::Document;
 pub use edit::Edit;
+pub use end_match::{EndMatch, MatchPlace};
 pub use error::EditError;
 pub use extras::Extras;
 pub use history::History;

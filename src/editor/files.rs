@@ -3,12 +3,12 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use crate::document::{Curve, Document, Edit};
+use crate::document::{Curve, CurveId, Document, Edit, EndMatch};
 use crate::editor::reply::{Note, Refusal, Reply};
 use crate::editor::{Editor, Export};
 use crate::geometry::counted;
 use crate::io::examples::EXAMPLES;
-use crate::io::{FileError, Format, Reading, disk, shown_path};
+use crate::io::{FileError, FileMatch, Format, Reading, disk, shown_path};
 
 impl Editor {
     /// Begin an empty document.
@@ -28,7 +28,7 @@ impl Editor {
             return Ok(Note::silent());
         }
         let reply = self.replace_by_files(paths);
-        self.tell(reply.map_err(Refusal::from))
+        self.tell(reply)
     }
 
     /// Open a built-in example in place of the document, by its number. The reply is told.
@@ -68,13 +68,21 @@ impl Editor {
         self.tell(reply)
     }
 
-    /// Add curves as one step and make the first of them active.
-    pub(in crate::editor) fn add_curves(&mut self, label: &str, curves: Vec<Curve>) -> Reply {
+    /// Add curves, with matches between them, as one step and make the first of them active.
+    pub(in crate::editor) fn add_curves(
+        &mut self,
+        label: &str,
+        curves: Vec<Curve>,
+        matches: &[FileMatch],
+    ) -> Reply {
         self.interrupt();
         let first = self.document().next_id();
-        let edits = curves
-            .into_iter()
-            .map(|curve| Edit::Add(Box::new(curve)))
+        let ids: Vec<CurveId> = self.document().next_ids().take(curves.len()).collect();
+        let matches = matches.iter().map(|matched| matched.between(&ids));
+        let matches = matches.collect::<Result<Vec<EndMatch>, _>>()?;
+        let added = curves.into_iter().map(|curve| Edit::Add(Box::new(curve)));
+        let edits = added
+            .chain(matches.into_iter().map(Edit::SetMatch))
             .collect();
         let added = self.make(label, edits, false)?;
         if self.document().curve(first).is_some() {
@@ -84,39 +92,35 @@ impl Editor {
         Ok(added)
     }
 
-    fn replace_by_files(&mut self, paths: &[PathBuf]) -> Result<Note, FileError> {
+    fn replace_by_files(&mut self, paths: &[PathBuf]) -> Reply {
         if let [path] = paths {
-            return Ok(self.replace_by_file(disk::read_file(path)?, path));
+            return self.replace_by_file(disk::read_file(path)?, path);
         }
-        let (curves, remarks) = read_together(paths)?;
+        let (reading, remarks) = read_together(paths)?;
         let text = format!(
             "{} read from {} files",
-            counted(curves.len(), "curve", "curves"),
+            counted(reading.curves.len(), "curve", "curves"),
             paths.len()
         );
-        self.replace(Document::from_curves(curves), None);
+        self.replace(reading.into_document()?, None);
         Ok(Note::told(with_lines(text, &remarks)))
     }
 
-    fn replace_by_file(&mut self, reading: Reading, path: &Path) -> Note {
-        let Reading {
-            curves,
-            extras,
-            remarks,
-        } = reading;
+    fn replace_by_file(&mut self, mut reading: Reading, path: &Path) -> Reply {
         let text = format!(
             "{} read from {}",
-            counted(curves.len(), "curve", "curves"),
+            counted(reading.curves.len(), "curve", "curves"),
             shown_path(path)
         );
-        let document = Document::from_curves(curves).with_extras(extras);
+        let remarks = std::mem::take(&mut reading.remarks);
+        let document = reading.into_document()?;
         let keeps = document.has_extras();
         self.replace(document, own_path(path));
         let mut text = with_lines(text, &remarks);
         if keeps {
             text += "\nUnknown keys are kept when you save.";
         }
-        Note::told(text)
+        Ok(Note::told(text))
     }
 
     fn replace_by_example(&mut self, index: usize) -> Reply {
@@ -128,9 +132,9 @@ impl Editor {
     }
 
     fn add_files(&mut self, paths: &[PathBuf]) -> Reply {
-        let (curves, remarks) = read_together(paths)?;
-        let count = curves.len();
-        self.add_curves("Import curves", curves)?;
+        let (reading, remarks) = read_together(paths)?;
+        let count = reading.curves.len();
+        self.add_curves("Import curves", reading.curves, &reading.matches)?;
         self.fit_all();
         let text = format!("{} added", counted(count, "curve", "curves"));
         Ok(Note::done(with_lines(text, &remarks)))
@@ -148,7 +152,7 @@ impl Editor {
             }
         }
         let document = self.workspace.settled();
-        let saved = disk::write_file(&path, &curves_of(document), document.extras(), None)?;
+        let saved = disk::write_document(&path, document)?;
         self.workspace.mark_saved(path);
         Ok(Note::told(with_lines(format!("Saved to {shown}"), &saved)))
     }
@@ -199,19 +203,19 @@ fn curves_of(document: &Document) -> Vec<Curve> {
 }
 
 /// Read the curves of several files, with what there is to tell of each.
-fn read_together(paths: &[PathBuf]) -> Result<(Vec<Curve>, String), FileError> {
-    let mut curves = Vec::new();
+fn read_together(paths: &[PathBuf]) -> Result<(Reading, String), FileError> {
+    let mut together = Reading::default();
     let mut lines = Vec::new();
     for path in paths {
         let reading = disk::read_file(path)?;
-        curves.extend(reading.curves);
         let remarks = reading.remarks.to_string();
+        together.append(reading);
         let named = remarks
             .lines()
             .map(|remark| format!("{}: {remark}", shown_path(path)));
         lines.extend(named);
     }
-    Ok((curves, lines.join("\n")))
+    Ok((together, lines.join("\n")))
 }
 
 /// Add lines to a message, if there are any.

@@ -21,8 +21,8 @@ use glam::DVec2;
 pub use commands::{Command, Shortcut};
 pub use files::with_extension;
 pub use hand::{
-    Button, Cursor, EndFitAction, EndFitReport, Hand, Input, Key, Modifiers, Selection, ToolKind,
-    Transformation, VertexId,
+    Button, Cursor, EndFitAction, EndFitReport, Hand, Input, Key, MatchReport, Modifiers,
+    Selection, ToolKind, Transformation, VertexId,
 };
 pub use reply::{Message, Note, Refusal, Reply, told};
 pub use report::{CurveReport, Export, Readout};
@@ -37,7 +37,7 @@ pub use worker::{Outcome, Worker};
 pub use workspace::{Interruption, PreviewId, Workspace};
 
 use crate::analysis::AnalysisCache;
-use crate::document::{CurveId, Document, Edit};
+use crate::document::{CurveId, Document, Edit, quoted};
 use hand::gesture::Gesture;
 use hand::tools::Tools;
 use patience::Patience;
@@ -192,10 +192,11 @@ impl Editor {
         self.tell(reply)
     }
 
-    /// Make edits as one step, or as a part of the last one where a key `repeats`. The first curve
-    /// of a document is brought into view.
+    /// Make edits as one step, or as a part of the last one where a key `repeats`; tells which
+    /// matches that dissolves. The first curve of a document is brought into view.
     fn make(&mut self, label: &str, edits: Vec<Edit>, repeats: bool) -> Reply {
         let was_empty = self.document().is_empty();
+        let before = self.workspace.settled().clone();
         let made = if repeats {
             self.workspace.extend(label, edits)
         } else {
@@ -206,7 +207,17 @@ impl Editor {
             self.fit_all();
         }
         made?;
-        Ok(Note::silent())
+        Ok(Note::told(self.dissolved_since(&before)))
+    }
+
+    /// Say which matches are gone because the places are that they followed, a line each.
+    fn dissolved_since(&self, before: &Document) -> String {
+        let dissolved = self.document().dissolved_since(before);
+        let lines = dissolved.map(|(matched, curve)| {
+            let (end, name) = (matched.end.name(), quoted(&curve.name));
+            format!("The {end} of {name} is no longer matched: what it followed is gone")
+        });
+        lines.collect::<Vec<String>>().join("\n")
     }
 
     /// Show what edits would make, as while a number field is dragged: begins a preview, or goes

@@ -9,6 +9,7 @@ mod bezier_polygon;
 mod blend;
 pub mod circle_comparison;
 mod clamped_polygon;
+mod continuity;
 mod control_polygon;
 mod conversion;
 mod cut;
@@ -39,6 +40,7 @@ mod wording;
 
 pub use bezier_polygon::{BezierPolygon, segment_bezier};
 pub use clamped_polygon::ClampedPolygon;
+pub use continuity::Continuity;
 pub use control_polygon::{ControlPolygon, MAX_MAGNITUDE};
 pub use conversion::{
     Amplification, Approximation, ExactPolygon, MAX_ADDED_SEGMENTS, MAX_PART_SEGMENTS,

@@ -3,11 +3,12 @@
 use std::borrow::Borrow;
 
 use super::error::{Problem, ReadError, WriteError};
+use super::file_match::FileMatch;
 use super::format::Format;
 use super::loss::Export;
 use super::reading::Reading;
 use super::{dxf, project, table};
-use crate::document::{Curve, Extras};
+use crate::document::{Curve, Document, Extras};
 use crate::geometry::PolygonKind;
 
 impl Format {
@@ -40,11 +41,32 @@ impl Format {
     ) -> Result<Export, WriteError> {
         let curves: Vec<&Curve> = curves.iter().map(Borrow::borrow).collect();
         let mut export = match self {
-            Self::Batten => project::write(&curves, extras, polygon.unwrap_or_default()),
+            Self::Batten => project::write(&curves, &[], extras, polygon.unwrap_or_default()),
             Self::Csv => table::write(&curves, polygon.unwrap_or_default())?,
             Self::Dxf => dxf::write(&curves, polygon)?,
         };
         export.losses.project_keys = self != Self::Batten && !extras.is_empty();
         Ok(export)
+    }
+
+    /// Write a document to bytes as [`Format::write`] does its curves, a project with the matches
+    /// between them.
+    ///
+    /// # Errors
+    /// As [`Format::write`].
+    pub fn write_document(
+        self,
+        document: &Document,
+        polygon: Option<PolygonKind>,
+    ) -> Result<Export, WriteError> {
+        let curves: Vec<&Curve> = document.curves().map(|(_, curve)| &**curve).collect();
+        let (matches, extras) = (FileMatch::all(document), document.extras());
+        match self {
+            Self::Batten => {
+                let kind = polygon.unwrap_or_default();
+                Ok(project::write(&curves, &matches, extras, kind))
+            }
+            _ => self.write(&curves, extras, polygon),
+        }
     }
 }

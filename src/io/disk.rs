@@ -15,7 +15,7 @@ use super::error::{FileError, FileProblem};
 use super::format::Format;
 use super::loss::{Export, LossReport};
 use super::reading::Reading;
-use crate::document::{Curve, Extras};
+use crate::document::{Curve, Document, Extras};
 use crate::geometry::PolygonKind;
 
 /// The most bytes that are read: far more than any curve, far less than fills the memory.
@@ -109,6 +109,16 @@ pub fn write_file<C: Borrow<Curve>>(
 ) -> Result<Saved, FileError> {
     let format = Format::to_write(path).map_err(FileError::at(path))?;
     let export = format.write(curves, extras, polygon);
+    write_export(path, export.map_err(FileError::at(path))?)
+}
+
+/// Write a document to a file; its extension tells the format.
+///
+/// # Errors
+/// As [`write_file`].
+pub fn write_document(path: &Path, document: &Document) -> Result<Saved, FileError> {
+    let format = Format::to_write(path).map_err(FileError::at(path))?;
+    let export = format.write_document(document, None);
     write_export(path, export.map_err(FileError::at(path))?)
 }
 

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use super::format::{Format, FormatError};
-use crate::document::{cut, escaped, quoted};
+use crate::document::{EditError, cut, escaped, quoted};
 use crate::geometry::{MAX_DEGREE, PolygonError, PolygonKind, counted};
 
 /// A place in a file, as exactly as it is known.
@@ -160,22 +160,35 @@ pub enum Problem {
         /// The polygon's kind.
         kind: PolygonKind,
     },
-    /// A target has no direction.
-    #[error("the target of the {end} has a direction of length 0: give another one, or null")]
-    NoDirection {
+    /// A target has a direction or a normal that does not point anywhere.
+    #[error("the target of the {end} has a {what} of length 0: give another one, or null")]
+    ZeroVector {
         /// The end.
         end: &'static str,
+        /// Which vector it is.
+        what: &'static str,
     },
-    /// A target has a coordinate that cannot be used.
+    /// A target has a number that cannot be used.
     #[error(
-        "the target of the {end} has the coordinate {value:e}: only numbers up to 1e100 can be used"
+        "the target of the {end} has the number {value:e}: only numbers up to 1e100 can be used"
     )]
     TargetOutOfRange {
         /// The end.
         end: &'static str,
-        /// The coordinate.
+        /// The number.
         value: f64,
     },
+    /// A match is of a curve that the project does not have.
+    #[error("a match names curve {index}, and there are {count}, counted from 0")]
+    NoSuchCurve {
+        /// The number of the curve, counted from 0.
+        index: usize,
+        /// The number of curves.
+        count: usize,
+    },
+    /// Ends cannot be matched as the project says.
+    #[error("the project's matches cannot be: {0}")]
+    Match(EditError),
     /// A table does not begin with a line that says what its vertices are.
     #[error(
         "the table does not say which curve its vertices make: put a line like “# degree=3 polygon=float periodic=false name=curve” above the line with the column names"

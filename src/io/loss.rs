@@ -40,6 +40,8 @@ pub enum Loss {
     Hidden,
     /// That the curve is locked.
     Locked,
+    /// Which vertices are locked.
+    LockedVertices,
     /// The targets of the ends.
     Targets,
     /// What its file said of it that this program does not know.
@@ -97,6 +99,8 @@ impl LossReport {
     /// Add what every format but Batten's own loses of a curve.
     pub fn add_attributes(&mut self, curve: &Curve) {
         self.add_if(curve.colour.is_some(), curve, Loss::Colour);
+        let has_locks = !curve.locked_vertices.is_empty();
+        self.add_if(has_locks, curve, Loss::LockedVertices);
         let has_targets = !curve.targets.list().is_empty();
         self.add_if(has_targets, curve, Loss::Targets);
         self.add_if(!curve.extras.is_empty(), curve, Loss::UnknownKeys);
@@ -142,6 +146,7 @@ impl fmt::Display for LossReport {
                 Loss::Colour => lost("its colour"),
                 Loss::Hidden => lost("that it is hidden"),
                 Loss::Locked => lost("that it is locked"),
+                Loss::LockedVertices => lost("which of its vertices are locked"),
                 Loss::Targets => lost("the targets of its ends"),
                 Loss::UnknownKeys => lost("its unknown keys"),
             };

@@ -7,7 +7,9 @@
 //! ```
 //!
 //! Each version has types of its own, so that a change of the curves in memory cannot change
-//! what old files mean.
+//! what old files mean. A project is written in the first version that holds all of it, so that
+//! older programs read what they can read: version 2 adds `locked_vertices` to a curve,
+//! `curvature`, `normal` and `slope` to a target, and `matches` to the project.
 
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -15,19 +17,22 @@ use serde_json::Value;
 use serde_path_to_error::{Path, Segment};
 
 use super::error::{Place, Problem, ReadError};
+use super::file_match::FileMatch;
 use super::format::Format;
 use super::json_layout;
 use super::loss::{Export, LossReport};
-use super::project_v1::{FORMAT, Project, VERSION};
+use super::project_curves::FORMAT;
 use super::reading::Reading;
 use super::text::text;
+use super::{project_v1, project_v2};
 use crate::document::{Curve, Extras, escaped};
 use crate::geometry::PolygonKind;
+use crate::geometry::end_correction::EndTarget;
 
 /// Read a project.
 ///
 /// `polygon` may be float (also if it is not given), clamped or bezier; `weights`, `periodic`,
-/// `colour`, `visible`, `locked` and `targets` may be left out. Further keys have no effect; those
+/// `colour`, `visible`, `locked`, `locked_vertices` and `targets` may be left out. Further keys have no effect; those
 /// of the project and of its curves are kept.
 ///
 /// # Errors
@@ -38,30 +43,48 @@ pub fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
     if !text.trim_start().starts_with('{') {
         return Err(Problem::WrongFormat { found: None }.into());
     }
-    match parse::<Project>(text) {
-        Ok(project) => {
-            check(&project.value.format, &project.value.version)?;
-            project.into_reading()
-        }
-        Err(error) => {
-            // If it is no project, or a newer one, that is what there is to say of it.
-            if let Ok(Header { format, version }) = parse(text) {
-                check(&format, &version)?;
-            }
-            Err(error)
-        }
+    match parse::<Header>(text) {
+        Ok(Header { format, version }) => match check(&format, &version)? {
+            Version::One => parse::<project_v1::Project>(text)?.into_reading(),
+            Version::Two => parse::<project_v2::Project>(text)?.into_reading(),
+        },
+        // What is malformed has no version that could be relied on: the first one's types tell the
+        // place.
+        Err(error) => Err(parse::<project_v1::Project>(text).err().unwrap_or(error)),
     }
 }
 
 /// Write a project with each curve held by one of its polygons; by the float polygon nothing is
-/// lost. `extras` are those of the project.
-pub fn write(curves: &[&Curve], extras: &Extras, kind: PolygonKind) -> Export {
+/// lost. `matches` are those between the curves, `extras` those of the project.
+pub fn write(
+    curves: &[&Curve],
+    matches: &[FileMatch],
+    extras: &Extras,
+    kind: PolygonKind,
+) -> Export {
     let mut losses = LossReport::new(Format::Batten);
-    let project = Project::from_curves(curves, extras, kind, &mut losses);
-    Export {
-        bytes: json_layout::to_text(&project).into_bytes(),
-        losses,
-    }
+    let bytes = if !matches.is_empty() || curves.iter().any(|curve| needs_version_2(curve)) {
+        let project = project_v2::Project::from_curves(curves, matches, extras, kind, &mut losses);
+        json_layout::to_text(&project).into_bytes()
+    } else {
+        let project = project_v1::Project::from_curves(curves, extras, kind, &mut losses);
+        json_layout::to_text(&project).into_bytes()
+    };
+    Export { bytes, losses }
+}
+
+/// Whether a curve has something that version 1 cannot hold.
+fn needs_version_2(curve: &Curve) -> bool {
+    let targets = curve.targets.list().into_iter();
+    let mut targets = targets.map(|(_, target)| target);
+    let of_version_1 = |EndTarget {
+                            point, direction, ..
+                        }| EndTarget {
+        point,
+        direction,
+        ..EndTarget::default()
+    };
+    !curve.locked_vertices.is_empty() || targets.any(|target| of_version_1(target) != target)
 }
 
 /// What every version has, however the rest of it looks.
@@ -73,17 +96,24 @@ struct Header {
     version: Value,
 }
 
-fn check(format: &Value, version: &Value) -> Result<(), Problem> {
+/// A version that can be read.
+enum Version {
+    One,
+    Two,
+}
+
+fn check(format: &Value, version: &Value) -> Result<Version, Problem> {
     let shown = |value: &Value| (!value.is_null()).then(|| value.to_string());
     if format != FORMAT {
         let found = shown(format);
         return Err(Problem::WrongFormat { found });
     }
     match version.as_u64() {
-        Some(VERSION) => Ok(()),
-        Some(found) if found > VERSION => Err(Problem::NewerVersion {
+        Some(project_v1::VERSION) => Ok(Version::One),
+        Some(project_v2::VERSION) => Ok(Version::Two),
+        Some(found) if found > project_v2::VERSION => Err(Problem::NewerVersion {
             found,
-            newest: VERSION,
+            newest: project_v2::VERSION,
         }),
         _ => Err(Problem::BadVersion {
             found: shown(version).unwrap_or("not given".to_owned()),

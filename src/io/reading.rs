@@ -3,7 +3,8 @@
 use std::collections::HashMap;
 use std::fmt;
 
-use crate::document::{Curve, Extras, quoted};
+use super::file_match::FileMatch;
+use crate::document::{Curve, Document, EditError, EndMatch, Extras, quoted};
 use crate::geometry::{PolygonKind, counted, rounded_up};
 
 /// The most unknown keys that are named one by one.
@@ -14,6 +15,8 @@ const MOST_NAMED: usize = 8;
 pub struct Reading {
     /// The curves.
     pub curves: Vec<Curve>,
+    /// The matches between them; none is of curves that are not there.
+    pub matches: Vec<FileMatch>,
     /// What a project says of itself that this program does not know.
     pub extras: Extras,
     /// What the reader should tell its user.
@@ -77,6 +80,34 @@ pub enum Owner {
         /// The curve, counted from 1, with its name.
         curve: (usize, String),
     },
+    /// Matches between curves, which keep nothing unknown.
+    Matches,
+}
+
+impl Reading {
+    /// Make a document of what was read.
+    ///
+    /// # Errors
+    /// [`EditError`] if a match cannot be; never for what a format has read.
+    pub fn into_document(self) -> Result<Document, EditError> {
+        let document = Document::from_curves(self.curves).with_extras(self.extras);
+        let ids: Vec<_> = document.ids().collect();
+        let matches = self.matches.iter().map(|matched| matched.between(&ids));
+        let matches: Vec<EndMatch> = matches.collect::<Result<_, _>>()?;
+        document.with_matches(matches)
+    }
+
+    /// Add what was read of another file: curves and the matches between them.
+    pub fn append(&mut self, other: Self) {
+        let first = self.curves.len();
+        self.curves.extend(other.curves);
+        let matches = other.matches.into_iter();
+        self.matches.extend(matches.map(|matched| FileMatch {
+            curve: first + matched.curve,
+            source: first + matched.source,
+            ..matched
+        }));
+    }
 }
 
 impl Remarks {
@@ -177,6 +208,10 @@ impl fmt::Display for Remark {
                         formatter,
                         "the key {key} of {count} curves is not known and has no effect; the first is {}",
                         curve(first)
+                    ),
+                    Owner::Matches => write!(
+                        formatter,
+                        "the key {key} of the matches is not known, has no effect and is not kept"
                     ),
                     Owner::Targets { curve: owner } => write!(
                         formatter,

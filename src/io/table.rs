@@ -77,6 +77,7 @@ pub fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
         .map(|(index, block)| block.into_curve(index + 1, &mut remarks))
         .collect();
     Ok(Reading {
+        matches: Vec::new(),
         curves: curves?,
         remarks,
         ..Reading::default()

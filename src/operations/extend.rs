@@ -5,11 +5,13 @@ use super::editable::open;
 use super::error::OperationError;
 use super::input::Input;
 use super::inputs::Inputs;
+use super::matches::{Moved, followers};
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Mark, Outcome};
 use super::parameter::{Kind, Parameter};
 use super::values::Values;
 use super::which_end::{END, end};
+use crate::document::MatchPlace;
 use crate::geometry::{End, MAX_ADDED_SEGMENTS, Progress};
 
 const SEGMENTS: Parameter = Parameter {
@@ -37,11 +39,22 @@ pub static OPERATION: Operation = Operation {
 fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
     let (id, curve) = input.curve()?;
     let end = end(values);
-    let polygon = curve.polygon.extended(end, values.whole(&SEGMENTS))?;
+    let added = values.whole(&SEGMENTS);
+    let polygon = curve.polygon.extended(end, added)?;
     let segments = Figure::count("segments", "Segments", polygon.segments());
     let mut outcome = Outcome::renumbered(id, curve, polygon, Deviation::Exact);
     outcome.renumbered = end == End::Start;
     outcome.figures.push(segments);
+    let followers = followers(input.document(), id, |place| {
+        let place = match place {
+            MatchPlace::Parameter(u) if end == End::Start => {
+                MatchPlace::Parameter(u + added as f64)
+            }
+            place => place,
+        };
+        Moved::To(id, place, false)
+    });
+    outcome.edits.extend(followers);
     outcome
         .marks
         .push(Mark::Point(curve.polygon.end_jet(end).point));

@@ -17,6 +17,7 @@ mod features;
 mod input;
 mod inputs;
 mod locks;
+mod matches;
 mod operation;
 mod outcome;
 mod parameter;

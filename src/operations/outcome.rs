@@ -169,10 +169,6 @@ impl Outcome {
     /// [`EditError`] of the first edit that cannot be made; never for the document that the
     /// operation ran on.
     pub fn applied_to(&self, document: &Document) -> Result<Document, EditError> {
-        let mut document = document.clone();
-        for edit in &self.edits {
-            document.apply(edit.clone())?;
-        }
-        Ok(document)
+        document.edited(self.edits.iter().cloned())
     }
 }

@@ -4,10 +4,11 @@ use super::editable::check_editable;
 use super::error::OperationError;
 use super::input::Input;
 use super::inputs::Inputs;
+use super::matches::{Moved, followers, without_match};
 use super::operation::Operation;
 use super::outcome::{Deviation, Outcome};
 use super::values::Values;
-use crate::document::Edit;
+use crate::document::{Edit, EndMatch, MatchPlace};
 use crate::geometry::{End, Progress};
 
 /// The operation: its description, and how it is checked and run.
@@ -27,6 +28,10 @@ fn run(input: &Input, _: &Values, _: &Progress) -> Result<Outcome, OperationErro
     let locked = &curve.locked_vertices;
     let mut outcome = Outcome::unchanged(Deviation::Exact);
     outcome.renumbered = true;
+    let document = input.document();
+    let own = End::BOTH.into_iter();
+    let removed = own.filter_map(|end| without_match(document, id, end));
+    outcome.edits.extend(removed);
     outcome.edits.push(Edit::Renumber {
         curve: id,
         polygon: curve.polygon.reversed(),
@@ -44,5 +49,25 @@ fn run(input: &Input, _: &Values, _: &Progress) -> Result<Outcome, OperationErro
             });
         }
     }
+    // The matches stay where they are, too.
+    let own = End::BOTH.into_iter();
+    let own = own.filter_map(|end| document.match_of(id, end));
+    let turned = own.map(|matched| {
+        Edit::SetMatch(EndMatch {
+            end: matched.end.other(),
+            reversed: !matched.reversed,
+            ..*matched
+        })
+    });
+    outcome.edits.extend(turned);
+    let segments = curve.polygon.segments() as f64;
+    let followers = followers(document, id, |place| {
+        let place = match place {
+            MatchPlace::End(end) => MatchPlace::End(end.other()),
+            MatchPlace::Parameter(u) => MatchPlace::Parameter(segments - u),
+        };
+        Moved::To(id, place, true)
+    });
+    outcome.edits.extend(followers);
     Ok(outcome)
 }

@@ -3,17 +3,18 @@
 use std::ops::Bound;
 
 use super::amount::Amount;
-use super::cutting::{SUBDIVISIONS, without_target};
+use super::cutting::{SUBDIVISIONS, on_part, without_target};
 use super::editable::open;
 use super::error::OperationError;
 use super::input::Input;
 use super::inputs::Inputs;
 use super::locks;
+use super::matches::{Moved, followers};
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Mark, Outcome};
 use super::parameter::{Kind, Parameter, Unit};
 use super::values::Values;
-use crate::document::{Curve, Edit};
+use crate::document::{Curve, Edit, EndMatch, MatchPlace};
 use crate::geometry::{End, Progress};
 
 /// Where a cut is offered: at the knot in the middle.
@@ -60,16 +61,36 @@ fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, Operatio
     let subdivisions = values.whole(&SUBDIVISIONS) as u32;
     let (first, second) = curve.polygon.split(at, subdivisions)?;
     let deviation = Deviation::of(&first).or(Deviation::of(&second));
+    let segments = [&first, &second].map(|part| part.polygon.segments());
     let counts = [&first, &second].map(|part| part.polygon.vertices().len());
     let lost = locks::lost(curve, &[&first.polygon, &second.polygon]);
     let mut outcome = Outcome::renumbered(id, curve, first.polygon, deviation);
     outcome.remarks = lost.into_iter().collect();
-    outcome.edits.extend(without_target(id, curve, End::Finish));
+    let document = input.document();
+    let cut_off = without_target(document, id, curve, End::Finish);
+    outcome.edits.extend(cut_off);
     let mut added = Curve::new(input.document().free_name(&curve.name), second.polygon);
     added.colour = curve.colour;
     added.locked_vertices = locks::locks_of(curve, &added.polygon);
     added.targets.finish = curve.targets.finish;
     outcome.edits.push(Edit::Add(Box::new(added)));
+    // The end goes with the second part, and so does what it follows and what follows it.
+    let second = document.next_id();
+    let own = document.match_of(id, End::Finish);
+    let own = own.map(|matched| {
+        Edit::SetMatch(EndMatch {
+            curve: second,
+            ..*matched
+        })
+    });
+    outcome.edits.extend(own);
+    let last = curve.polygon.segments() as f64;
+    let followers = followers(document, id, |place| match place {
+        MatchPlace::End(End::Finish) => Moved::To(second, place, false),
+        MatchPlace::Parameter(u) if u > at => on_part(second, place, (at, last), segments[1]),
+        place => on_part(id, place, (0.0, at), segments[0]),
+    });
+    outcome.edits.extend(followers);
     outcome.figures = vec![
         Figure::count("first_vertices", "Vertices of the first part", counts[0]),
         Figure::count("second_vertices", "Vertices of the second part", counts[1]),

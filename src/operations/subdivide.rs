@@ -4,9 +4,11 @@ use super::editable::check_editable;
 use super::error::OperationError;
 use super::input::Input;
 use super::inputs::Inputs;
+use super::matches::{Moved, followers};
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
 use super::values::Values;
+use crate::document::MatchPlace;
 use crate::geometry::Progress;
 
 /// The operation: its description, and how it is checked and run.
@@ -26,5 +28,13 @@ fn run(input: &Input, _: &Values, _: &Progress) -> Result<Outcome, OperationErro
     let segments = Figure::count("segments", "Segments", polygon.segments());
     let mut outcome = Outcome::renumbered(id, curve, polygon, Deviation::Exact);
     outcome.figures.push(segments);
+    let followers = followers(input.document(), id, |place| {
+        let place = match place {
+            MatchPlace::Parameter(u) => MatchPlace::Parameter(2.0 * u),
+            place => place,
+        };
+        Moved::To(id, place, false)
+    });
+    outcome.edits.extend(followers);
     Ok(outcome)
 }

@@ -3,16 +3,18 @@
 use std::ops::Bound;
 
 use super::amount::Amount;
-use super::cutting::{SUBDIVISIONS, without_target};
+use super::cutting::{SUBDIVISIONS, on_part, without_target};
 use super::editable::check_editable;
 use super::error::OperationError;
 use super::input::Input;
 use super::inputs::Inputs;
+use super::matches::followers;
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Mark, Outcome};
 use super::parameter::{Kind, Parameter, Unit};
 use super::values::Values;
-use crate::geometry::{End, Progress};
+use crate::document::{Edit, MatchPlace};
+use crate::geometry::{End, Progress, counted};
 
 const FROM: Parameter = Parameter {
     name: "from",
@@ -65,15 +67,39 @@ fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, Operatio
     let subdivisions = values.whole(&SUBDIVISIONS) as u32;
     let part = polygon.trimmed(from, to, subdivisions)?;
     let deviation = Deviation::of(&part);
+    let segments = part.polygon.segments();
     let vertices = Figure::count("vertices", "Vertices", part.polygon.vertices().len());
     let ends = End::BOTH.map(|end| Mark::Point(part.polygon.end_jet(end).point));
     let mut outcome = Outcome::renumbered(id, curve, part.polygon, deviation);
     if from > 0.0 {
-        outcome.edits.extend(without_target(id, curve, End::Start));
+        let cut_off = without_target(input.document(), id, curve, End::Start);
+        outcome.edits.extend(cut_off);
     }
     if to < polygon.segments() as f64 {
-        outcome.edits.extend(without_target(id, curve, End::Finish));
+        let cut_off = without_target(input.document(), id, curve, End::Finish);
+        outcome.edits.extend(cut_off);
     }
+    let turn = polygon.segments() as f64;
+    let followers = followers(input.document(), id, |place| {
+        // On a periodic curve the part may lie past the joint.
+        let place = match place {
+            MatchPlace::Parameter(u) if u < from && to > turn => MatchPlace::Parameter(u + turn),
+            place => place,
+        };
+        on_part(id, place, (from, to), segments)
+    });
+    let is_removed = |edit: &&Edit| matches!(edit, Edit::RemoveMatch { .. });
+    let removed = followers.iter().filter(is_removed).count();
+    if removed > 0 {
+        let matches = counted(
+            removed,
+            "match to it is removed",
+            "matches to it are removed",
+        );
+        let why = "what was followed is cut off";
+        outcome.remarks.push(format!("{matches}: {why}"));
+    }
+    outcome.edits.extend(followers);
     outcome.figures.push(vertices);
     outcome.marks.extend(ends);
     Ok(outcome)

@@ -4,6 +4,9 @@ use eframe::egui::{Button, Checkbox, Ui, vec2};
 use glam::{DVec2, DVec3};
 use lucide_icons::Icon;
 
+use super::end_fit_asked::Asked;
+use super::end_fit_curvature::curvature_ui;
+use super::end_fit_match::match_ui;
 use super::end_fit_steps::{
     angle_text, field_width, figure_pairs, indented, remark_ui, step_button, step_ui,
 };
@@ -12,9 +15,8 @@ use super::number_field::{FieldEvent, NumberField};
 use super::theme::{ROW, STEP, Tokens};
 use super::widgets::IconButton;
 use super::{figures, widgets};
-use crate::document::Edit;
 use crate::editor::{Editor, EndFitAction, EndFitReport, Layer, Refusal, told};
-use crate::geometry::end_correction::{EndOverlap, EndTarget};
+use crate::geometry::end_correction::EndOverlap;
 use crate::geometry::{End, counted};
 use crate::operations::LargestMove;
 
@@ -48,38 +50,12 @@ impl EndFitPanel {
             self.step = Some(step);
             match action {
                 Asked::Action(action) => told(editor.end_fit_action(action)),
-                Asked::Preview(action) => preview(editor, &report, action),
+                Asked::Preview(action) => editor.preview_end_fit(action),
                 Asked::Commit => editor.commit_preview(),
                 Asked::Abort => editor.abort_preview(),
             }
         }
     }
-}
-
-/// Show what a target field would make while it is dragged.
-fn preview(editor: &mut Editor, report: &EndFitReport, action: EndFitAction) {
-    let (Some(curve), Some(point)) = (editor.active(), report.target_point) else {
-        return;
-    };
-    let target = match action {
-        EndFitAction::SetPoint(point) => EndTarget {
-            point,
-            direction: report.target_direction,
-            ..EndTarget::default()
-        },
-        EndFitAction::SetDirection(direction) => EndTarget {
-            point,
-            direction,
-            ..EndTarget::default()
-        },
-        _ => return,
-    };
-    let edit = Edit::SetTarget {
-        curve,
-        end: report.end,
-        target: Some(target),
-    };
-    editor.preview("Set target", vec![edit]);
 }
 
 fn empty_ui(ui: &mut Ui, editor: &Editor) {
@@ -93,14 +69,6 @@ fn empty_ui(ui: &mut Ui, editor: &Editor) {
         None => "Select an open curve to correct its ends.",
     };
     widgets::note(ui, text);
-}
-
-/// What the panel sends to the editor.
-enum Asked {
-    Action(EndFitAction),
-    Preview(EndFitAction),
-    Commit,
-    Abort,
 }
 
 struct Panel<'a> {
@@ -158,6 +126,9 @@ impl Panel<'_> {
         if let Some(point) = report.target_point {
             self.point_ui(ui, point);
             self.direction_ui(ui);
+            if let Some(asked) = curvature_ui(ui, report) {
+                self.asked = Some((TARGET, asked));
+            }
         } else {
             widgets::note(
                 ui,
@@ -173,12 +144,6 @@ impl Panel<'_> {
             {
                 self.ask(TARGET, EndFitAction::TargetActual);
             }
-            let pick = ui.add(Button::new("Pick from curve").selected(report.picking));
-            let tooltip =
-                "Then click another curve's end: its point and direction become the target";
-            if pick.on_hover_text(tooltip).clicked() {
-                self.ask(TARGET, EndFitAction::PickFromCurve);
-            }
             if ui
                 .add_enabled(report.target_point.is_some(), Button::new("Clear"))
                 .clicked()
@@ -186,6 +151,9 @@ impl Panel<'_> {
                 self.ask(TARGET, EndFitAction::ClearTarget);
             }
         });
+        if let Some(action) = match_ui(ui, report) {
+            self.ask(TARGET, action);
+        }
         self.outcome_ui(ui, TARGET);
     }
 
@@ -301,14 +269,9 @@ impl Panel<'_> {
     }
 
     fn field(&mut self, event: FieldEvent, action: impl Fn(f64) -> EndFitAction) {
-        let asked = match event {
-            FieldEvent::Idle => return,
-            FieldEvent::Preview(value) => Asked::Preview(action(value)),
-            FieldEvent::Typed(value) => Asked::Action(action(value)),
-            FieldEvent::Commit => Asked::Commit,
-            FieldEvent::Abort => Asked::Abort,
-        };
-        self.asked = Some((TARGET, asked));
+        if let Some(asked) = Asked::of_field(event, action) {
+            self.asked = Some((TARGET, asked));
+        }
     }
 
     fn shape_ui(&mut self, ui: &mut Ui) {
@@ -334,7 +297,7 @@ impl Panel<'_> {
 
     fn difference_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
-        let is_met = report.target_point.is_some() && self.is_in_place() && self.is_aligned();
+        let is_met = self.is_in_place() && self.is_aligned() && self.is_curved();
         step_ui(ui, 3, "Difference to the target", is_met, |_| {});
         indented(ui, |ui| {
             if report.target_point.is_none() {
@@ -349,6 +312,17 @@ impl Panel<'_> {
             }
             pairs.push(("Length", plain(d.length())));
             pairs.push(("Angle", angle_text(report.angle)));
+            if let (Some(target), Some(missing)) = (report.target, report.missing) {
+                let asked = [
+                    (
+                        "Curvature",
+                        target.curvature.map(|_| plain(missing.curvature)),
+                    ),
+                    ("Plane", target.normal.map(|_| angle_text(missing.plane))),
+                    ("Slope", target.slope.map(|_| plain(missing.slope))),
+                ];
+                pairs.extend(asked.into_iter().filter_map(|(name, it)| Some((name, it?))));
+            }
             figure_pairs(ui, &pairs);
         });
     }
@@ -370,6 +344,15 @@ impl Panel<'_> {
 
     fn is_aligned(&self) -> bool {
         self.report.angle.abs() <= 1e-9
+    }
+
+    /// Whether curvature, plane and slope are as the target asks, as lengths over the curve's size.
+    fn is_curved(&self) -> bool {
+        let report = self.report;
+        let left = report
+            .missing
+            .map_or(0.0, |missing| missing.residual(report.size));
+        left <= report.tolerance
     }
 
     fn translate_ui(&mut self, ui: &mut Ui) {

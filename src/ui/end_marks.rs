@@ -2,6 +2,7 @@
 
 use eframe::egui::{Align2, Pos2, Shape, Stroke, vec2};
 use glam::DVec2;
+use lucide_icons::Icon;
 
 use super::brush::Brush;
 use super::{figures, labels, theme};
@@ -32,9 +33,13 @@ fn target(brush: &Brush<'_>, marks: &EndFitMarks) {
     if let Some(tip) = marks.target_tip {
         brush.arrow([point, tip], stroke);
     }
+    brush.dashed_chain(&marks.circle, Stroke::new(1.0, brush.tokens.target));
     let Some(at) = brush.screen.point(point) else {
         return;
     };
+    if let Some(met) = marks.matched {
+        link(brush, at, met);
+    }
     let corners = [
         vec2(0.0, -DIAMOND),
         vec2(DIAMOND, 0.0),
@@ -43,6 +48,28 @@ fn target(brush: &Brush<'_>, marks: &EndFitMarks) {
     ];
     let outline = corners.map(|corner| at + corner).to_vec();
     brush.painter.add(Shape::closed_line(outline, stroke));
+}
+
+/// Two links of a chain beside the target: the end is kept matched. In the colour of errors where
+/// that is not met.
+fn link(brush: &Brush<'_>, at: Pos2, met: bool) {
+    let tokens = brush.tokens;
+    let (icon, colour) = if met {
+        (Icon::Link, tokens.target)
+    } else {
+        (Icon::Unlink, tokens.error)
+    };
+    let place = at + vec2(-DIAMOND - 5.0, DIAMOND + 5.0);
+    let (text, font) = (char::from(icon).to_string(), theme::icon_font(14.0));
+    labels::paint(
+        brush.painter,
+        place,
+        Align2::CENTER_CENTER,
+        &text,
+        font,
+        colour,
+        tokens,
+    );
 }
 
 fn actual(brush: &Brush<'_>, marks: &EndFitMarks) {

@@ -1,8 +1,9 @@
 //! Documents of every kind that commands and tools meet.
 
-use batten::document::{Curve, Document};
-use batten::geometry::End;
+use batten::document::{Curve, MatchPlace};
 use batten::geometry::end_correction::EndTarget;
+use batten::geometry::{Continuity, End};
+use batten::io::{FileMatch, Reading};
 use glam::DVec3;
 
 use super::common::Kind;
@@ -14,6 +15,7 @@ pub struct Case {
     /// What it is an example of.
     pub name: &'static str,
     curves: Vec<Curve>,
+    matches: Vec<FileMatch>,
     active: usize,
 }
 
@@ -23,8 +25,27 @@ impl Case {
         Self {
             name,
             curves,
+            matches: Vec::new(),
             active,
         }
+    }
+
+    /// Let ends of the first curve follow the second: its start a point, its end an end.
+    fn with_matches(self) -> Self {
+        let matched = |end, place, continuity| FileMatch {
+            curve: 0,
+            end,
+            source: 1,
+            place,
+            continuity,
+            reversed: false,
+        };
+        let point = MatchPlace::Parameter(1.25);
+        let matches = vec![
+            matched(End::Start, point, Continuity::G1),
+            matched(End::Finish, MatchPlace::End(End::Start), Continuity::G2),
+        ];
+        Self { matches, ..self }
     }
 
     fn with_active(self, active: usize) -> Self {
@@ -34,7 +55,13 @@ impl Case {
     /// Open the document, make two steps and take one back, so that undo and redo have something
     /// to do, and activate a curve.
     pub fn open(&self) -> Result<Player, String> {
-        let mut player = Player::new(Document::from_curves(self.curves.iter().cloned()));
+        let reading = Reading {
+            curves: self.curves.clone(),
+            matches: self.matches.clone(),
+            ..Reading::default()
+        };
+        let document = reading.into_document();
+        let mut player = Player::new(document.map_err(|error| error.to_string())?);
         player.play(&[
             Event::Panel(Panel::OfCurve(0, OfCurve::Rename("renamed"))),
             Event::Panel(Panel::OfCurve(0, OfCurve::Recolour(Some([1, 2, 3])))),
@@ -92,16 +119,33 @@ pub fn cases() -> Vec<Case> {
         with_targets(spatial.clone()),
         periodic.clone(),
     ];
+    let matched = vec![
+        planar.clone(),
+        with_targets(rational.clone()),
+        hidden.clone(),
+    ];
     vec![
+        Case::new("matched, the follower active", matched.clone()).with_matches(),
+        Case::new("matched, the source active", matched)
+            .with_matches()
+            .with_active(1),
         Case::new("planar", vec![planar.clone()]),
         Case::new("spatial", vec![spatial]),
-        Case::new("rational", vec![rational]),
+        Case::new("rational", vec![rational.clone()]),
         Case::new("periodic", vec![periodic]),
         Case::new("periodic, rational, spatial", vec![all]),
         Case::new("single segment", vec![single]),
         Case::new("with targets", vec![with_targets(planar.clone())]),
         Case::new("several, the second active", several).with_active(1),
         Case::new("beside a hidden one", vec![planar.clone(), hidden.clone()]),
+        Case::new(
+            "with locked vertices",
+            vec![with_locks(with_targets(planar.clone()))],
+        ),
+        Case::new(
+            "rational with locked vertices",
+            vec![with_locks(rational.clone())],
+        ),
         Case::new("beside a locked one", vec![planar.clone(), locked.clone()]),
         Case::new("locked and active", vec![planar.clone(), locked]).with_active(1),
         Case::new("hidden and active", vec![planar, hidden]).with_active(1),
@@ -120,6 +164,13 @@ const PLANAR: Kind = Kind {
 
 fn curve(kind: Kind) -> Curve {
     Curve::new(format!("curve {}", kind.seed), kind.polygon())
+}
+
+/// Lock the second and the last vertex of a curve.
+fn with_locks(mut curve: Curve) -> Curve {
+    let last = curve.polygon.vertices().len() - 1;
+    curve.locked_vertices = [1, last].into_iter().collect();
+    curve
 }
 
 /// Give a curve's ends targets that it misses.

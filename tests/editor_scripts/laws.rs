@@ -6,12 +6,21 @@ use batten::geometry::FloatPolygon;
 use batten::io::{Format, Reading};
 use glam::DVec3;
 
-use super::snapshot::{Bits, Snapshot};
+use super::snapshot::{Bit, Bits, Snapshot};
 use super::watch::Done;
 use super::window::Window;
 
 /// Every polygon is one that could be made anew.
 pub fn check_document(document: &Document) -> Result<(), String> {
+    for matched in document.matches() {
+        if matched.target(document).is_none() {
+            return Err(format!("{matched:?} is of what is not there"));
+        }
+    }
+    let again = Document::clone(document).with_matches(document.matches().copied());
+    if again.is_err() {
+        return Err(format!("curves follow each other in a circle: {again:?}"));
+    }
     for (_, curve) in document.curves() {
         let polygon = &curve.polygon;
         let rebuilt = FloatPolygon::new(
@@ -25,6 +34,11 @@ pub fn check_document(document: &Document) -> Result<(), String> {
         }
         if curve.name.trim().is_empty() {
             return Err("a curve has no name".into());
+        }
+        if let Some(last) = curve.locked_vertices.iter().last()
+            && last >= polygon.vertices().len()
+        {
+            return Err(format!("“{}” has no vertex {last}", curve.name));
         }
         for (end, target) in curve.targets.list() {
             let directs = |way: DVec3| way.is_finite() && way != DVec3::ZERO;
@@ -112,6 +126,25 @@ fn check_kept(old: &Bits, new: &Bits) -> Result<(), String> {
     if old.shape != new.shape && !old.visible {
         return Err(format!("“{named}” is hidden and changed its shape"));
     }
+    if old.locked_vertices != new.locked_vertices && !old.visible {
+        return Err(format!("“{named}” is hidden and its locks changed"));
+    }
+    let vertex = |bits: &Bits, index: usize| {
+        let weights = bits
+            .shape
+            .3
+            .as_ref()
+            .map_or(Some(Bit::ONE), |all| all.get(index).copied());
+        Some((*bits.shape.2.get(index)?, weights?))
+    };
+    if old.locked_vertices == new.locked_vertices && old.shape.2.len() == new.shape.2.len() {
+        let mut locked = old.locked_vertices.iter();
+        if let Some(moved) = locked.find(|index| vertex(old, **index) != vertex(new, **index)) {
+            return Err(format!(
+                "vertex {moved} of “{named}” is locked and was moved"
+            ));
+        }
+    }
     if old.targets != new.targets && !old.visible {
         return Err(format!("“{named}” is hidden and got a target"));
     }
@@ -120,8 +153,7 @@ fn check_kept(old: &Bits, new: &Bits) -> Result<(), String> {
 
 /// What is written is read back equal.
 pub fn check_written(document: &Document) -> Result<(), String> {
-    let curves: Vec<&Curve> = document.curves().map(|(_, curve)| curve.as_ref()).collect();
-    let written = Format::Batten.write(&curves, document.extras(), None);
+    let written = Format::Batten.write_document(document, None);
     let written = written.map_err(|error| format!("cannot be written: {error}"))?;
     check_read(document, Format::Batten.read(&written.bytes))
 }
@@ -132,7 +164,17 @@ pub fn check_read<E: std::fmt::Display>(
     read: Result<Reading, E>,
 ) -> Result<(), String> {
     let read = read.map_err(|error| format!("cannot be read back: {error}"))?;
-    let (read, extras) = (read.curves, read.extras);
+    let (read, matches, extras) = (read.curves, read.matches, read.extras);
+    let place = |id| document.ids().position(|other| other == id);
+    let pairs = matches.iter().zip(document.matches());
+    let same = pairs.fold(matches.len() == document.matches().len(), |same, (a, b)| {
+        same && (Some(a.curve), Some(a.source)) == (place(b.curve), place(b.source))
+            && (a.end, a.place) == (b.end, b.place)
+            && (a.continuity, a.reversed) == (b.continuity, b.reversed)
+    });
+    if !same {
+        return Err(format!("the matches {matches:?} were read back"));
+    }
     if extras != *document.extras() {
         return Err(format!("{extras:?} was read back"));
     }

@@ -13,6 +13,8 @@ mod events;
 mod features;
 mod files;
 mod laws;
+mod locking;
+mod matching;
 mod matrix;
 mod model;
 mod places;

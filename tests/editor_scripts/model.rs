@@ -14,7 +14,7 @@ use std::path::Path;
 
 use batten::document::{Curve, Document};
 use batten::editor::{Button, Command, EndFitAction, Key, Modifiers, Transformation};
-use batten::geometry::{End, PolygonKind};
+use batten::geometry::{Continuity, End, PolygonKind};
 use batten::io::disk;
 use batten::io::examples::EXAMPLES;
 use batten::operations::{ALL, Value};
@@ -405,8 +405,13 @@ fn end_fit() -> impl Strategy<Value = EndFitAction> {
         2 => Just(EndFitAction::TargetActual),
         2 => point().prop_map(EndFitAction::SetPoint),
         2 => prop::option::of(point()).prop_map(EndFitAction::SetDirection),
+        1 => prop::option::of(number_of_any_kind()).prop_map(EndFitAction::SetCurvature),
+        1 => prop::option::of(point()).prop_map(EndFitAction::SetNormal),
+        1 => prop::option::of(number_of_any_kind()).prop_map(EndFitAction::SetSlope),
         1 => Just(EndFitAction::ClearTarget),
-        1 => Just(EndFitAction::PickFromCurve),
+        2 => Just(EndFitAction::PickFromCurve),
+        1 => (0..4_usize).prop_map(|level| EndFitAction::SetContinuity(Continuity::ALL[level])),
+        2 => any::<bool>().prop_map(EndFitAction::KeepMatched),
         1 => Just(EndFitAction::TurnRound),
         2 => Just(EndFitAction::Translate),
         2 => Just(EndFitAction::Rotate),

@@ -2,14 +2,26 @@
 
 use std::fmt;
 
-use batten::document::{Curve, CurveId, Document};
-use batten::geometry::End;
+use batten::document::{Curve, CurveId, Document, MatchPlace};
+use batten::geometry::{Continuity, End};
 use glam::DVec3;
 
 /// Hold every bit of a document.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snapshot {
     curves: Vec<(CurveId, Bits)>,
+    matches: Vec<MatchBits>,
+}
+
+/// Every bit of a match: the end that follows, the curve and place that it follows, how much, and
+/// whether it runs the other way.
+type MatchBits = ((CurveId, End), (CurveId, PlaceBits), Continuity, bool);
+
+/// Every bit of a place: an end, or a parameter.
+#[derive(Clone, Debug, PartialEq)]
+enum PlaceBits {
+    End(End),
+    Parameter(Bit),
 }
 
 /// Hold every bit of a curve.
@@ -23,16 +35,23 @@ pub struct Bits {
     pub locked: bool,
     /// Degree, whether it is periodic, vertices and weights.
     pub shape: (usize, bool, Vec<[Bit; 3]>, Option<Vec<Bit>>),
+    /// Its locked vertices.
+    pub locked_vertices: Vec<usize>,
     /// The targets of start and end.
     pub targets: [Option<TargetBits>; 2],
 }
 
-/// Every bit of a target's point and direction.
-type TargetBits = ([Bit; 3], Option<[Bit; 3]>);
+/// Every bit of a target: point, direction, normal, curvature and slope.
+type TargetBits = ([Bit; 3], [Option<[Bit; 3]>; 2], [Option<Bit>; 2]);
 
 /// A number that equals only the same bits.
 #[derive(Clone, Copy)]
 pub struct Bit(f64);
+
+impl Bit {
+    /// The weight of a vertex of a polynomial curve.
+    pub const ONE: Self = Self(1.0);
+}
 
 impl PartialEq for Bit {
     fn eq(&self, other: &Self) -> bool {
@@ -54,7 +73,13 @@ impl Bits {
         let weights = weights.map(|all| all.iter().map(|weight| Bit(*weight)).collect());
         let target = |end| {
             let target = curve.targets.get(end)?;
-            Some((bits(target.point), target.direction.map(bits)))
+            let vectors = [target.direction, target.normal];
+            let numbers = [target.curvature, target.slope];
+            Some((
+                bits(target.point),
+                vectors.map(|vector| vector.map(bits)),
+                numbers.map(|number| number.map(Bit)),
+            ))
         };
         let (degree, periodic) = (polygon.degree(), polygon.is_periodic());
         Self {
@@ -62,6 +87,7 @@ impl Bits {
             visible: curve.visible,
             locked: curve.locked,
             shape: (degree, periodic, vertices.collect(), weights),
+            locked_vertices: curve.locked_vertices.iter().collect(),
             targets: End::BOTH.map(target),
         }
     }
@@ -71,7 +97,21 @@ impl Snapshot {
     /// Take every bit of a document.
     pub fn of(document: &Document) -> Self {
         let curves = document.curves();
+        let matches = document.matches().map(|matched| {
+            let place = match matched.place {
+                MatchPlace::End(end) => PlaceBits::End(end),
+                MatchPlace::Parameter(u) => PlaceBits::Parameter(Bit(u)),
+            };
+            let own = (matched.curve, matched.end);
+            (
+                own,
+                (matched.source, place),
+                matched.continuity,
+                matched.reversed,
+            )
+        });
         Self {
+            matches: matches.collect(),
             curves: curves.map(|(id, curve)| (id, Bits::of(curve))).collect(),
         }
     }

@@ -5,6 +5,8 @@ mod canvas;
 mod fields;
 mod files;
 mod hand;
+mod locking;
+mod matching;
 mod numbers;
 mod operations;
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::document::{Curve, CurveId, Extras, free_name, quoted};
+use crate::document::{Curve, CurveId, Extras, LockedVertices, free_name, quoted};
 use crate::editor::Editor;
 use crate::editor::files::with_lines;
 use crate::editor::reply::{Note, Refusal, Reply};
@@ -114,7 +114,7 @@ impl Editor {
         })
     }
 
-    /// Add copies a little aside, named anew and unlocked. What their file said of the curves
+    /// Add copies a little aside, named anew, they and their vertices unlocked, and not matched. What their file said of the curves
     /// that Batten does not know, such as a number of their own, is not copied.
     pub(in crate::editor) fn add_copies(&mut self, label: &str, curves: Vec<Curve>) -> Reply {
         let offset = OFFSET * self.view.viewport.pixel() * DVec3::new(1.0, -1.0, 0.0);
@@ -127,6 +127,7 @@ impl Editor {
         for curve in curves {
             let mut copy = curve.clone();
             copy.locked = false;
+            copy.locked_vertices = LockedVertices::default();
             copy.visible = true;
             copy.extras = Extras::default();
             copy.name = free_name(&curve.name, |name| names.iter().any(|taken| taken == name));
@@ -145,7 +146,7 @@ impl Editor {
             }
             copies.push(copy);
         }
-        self.add_curves(label, copies)
+        self.add_curves(label, copies, &[])
     }
 
     /// The selected vertices of a curve as a table, with a header line if they make a curve: its

@@ -4,6 +4,7 @@ use crate::document::{Curve, CurveId, Edit, EditError, quoted};
 use crate::editor::Editor;
 use crate::editor::commands::command::Command;
 use crate::editor::commands::polygon_edits::deletion;
+use crate::editor::files::with_lines;
 use crate::editor::reply::{Note, Reply};
 use crate::geometry::counted;
 
@@ -35,6 +36,9 @@ impl Editor {
             if indices.is_empty() {
                 continue;
             }
+            curve
+                .check_editable()
+                .map_err(|refused| refused.to_string())?;
             if indices.len() == curve.polygon.vertices().len() {
                 return Err(format!(
                     "The selection holds all vertices of {}. To remove it as a whole, use “{}”",
@@ -54,7 +58,8 @@ impl Editor {
 
     pub(in crate::editor) fn delete_curve(&mut self, id: CurveId, curve: &Curve) -> Reply {
         curve.check_unlocked()?;
-        self.apply("Delete curve", vec![Edit::Remove(id)])?;
-        Ok(Note::done(format!("{} deleted", quoted(&curve.name))))
+        let note = self.apply("Delete curve", vec![Edit::Remove(id)])?;
+        let deleted = format!("{} deleted", quoted(&curve.name));
+        Ok(Note::done(with_lines(deleted, &note.text)))
     }
 }

@@ -54,13 +54,12 @@ impl Editor {
             Command::Duplicate
             | Command::Delete
             | Command::DeleteCurve
-            | Command::ToggleVerticesLocked
             | Command::ToggleVisible
             | Command::ToggleLocked => curve.is_some(),
             Command::TogglePeriodic => editable,
             Command::Operation(operation) => self.check_operation(operation).is_ok(),
             Command::SelectAll | Command::Fit | Command::FitAll => !self.document().is_empty(),
-            Command::SelectNone => !self.hand.selection.is_empty(),
+            Command::SelectNone | Command::ToggleVerticesLocked => !self.hand.selection.is_empty(),
             // What is dragged is dragged in the plane that is seen.
             Command::View(_) => !self.hand.is_dragging(),
             _ => true,

@@ -24,9 +24,6 @@ impl Editor {
     /// Lock the selected vertices; unlock them if all of them are locked.
     pub(in crate::editor) fn toggle_vertices_locked(&mut self) -> Reply {
         let selection = &self.hand.selection;
-        if selection.is_empty() {
-            return Err("No vertex is selected: select those that are to be locked".into());
-        }
         let locked = !self.is_selection_locked();
         let curves: BTreeSet<CurveId> = selection.vertices().map(|(curve, _)| curve).collect();
         let edit = |curve| Edit::SetVerticesLocked {

@@ -28,7 +28,6 @@ pub fn insertion(
 /// # Errors
 /// [`EditError`] if one of them is locked, or the rest is no curve of this degree.
 pub fn deletion(id: CurveId, curve: &Curve, indices: &[usize]) -> Result<Edit, EditError> {
-    curve.check_editable()?;
     curve.check_vertices_unlocked(indices.iter().copied())?;
     let polygon = without(&curve.polygon, indices).map_err(|error| EditError::Polygon {
         name: curve.name.clone(),

@@ -3,12 +3,12 @@
 use glam::{DVec2, DVec3};
 
 use crate::analysis::CurveAnalysis;
-use crate::document::{Curve, CurveId, Document};
+use crate::document::{Curve, CurveId, Document, EndMatch, MatchPlace};
 use crate::editor::reply::Reply;
 use crate::editor::view::hit::REACH;
 use crate::editor::view::viewport::Viewport;
 use crate::geometry::end_correction::{EndDifference, EndOverlap, EndTarget};
-use crate::geometry::{End, Jet, Range};
+use crate::geometry::{Continuity, End, Jet, Range};
 use crate::operations::LargestMove;
 
 /// The loop's tolerance that is offered, in units of the polygon's size.
@@ -56,6 +56,8 @@ pub struct EndFitReport {
     /// The larger of the position difference and the difference angle's arc, over both ends
     /// that have targets.
     pub residual: f64,
+    /// The size of the polygon.
+    pub size: f64,
     /// The tolerance that the loop works to, as a length.
     pub tolerance: f64,
     /// Whether every end that has a target is within the tolerance.
@@ -64,6 +66,24 @@ pub struct EndFitReport {
     pub targets: usize,
     /// Passes made by "repeat" since the targets last changed.
     pub passes: usize,
+    /// The actual curvature and its slope, as [`EndTarget`] has them; `None` at a cusp.
+    pub curvature: Option<f64>,
+    /// The slope of the actual curvature.
+    pub slope: Option<f64>,
+    /// The actual normal of the osculating plane of a curve in space.
+    pub normal: Option<DVec3>,
+    /// The target as a whole; `None` until it is set.
+    pub target: Option<EndTarget>,
+    /// What is missing of it.
+    pub missing: Option<EndDifference>,
+    /// What the end is kept matched to.
+    pub matched: Option<MatchReport>,
+    /// The ends that follow this curve: name of the curve and end.
+    pub followers: Vec<(String, End)>,
+    /// How much the next pick takes of another curve.
+    pub continuity: Continuity,
+    /// Whether the next pick is kept matched.
+    pub live: bool,
     /// Whether the next click on the canvas picks a target from another curve.
     pub picking: bool,
     /// How the two ends share their vertices.
@@ -72,6 +92,17 @@ pub struct EndFitReport {
     pub outcome: Option<Reply>,
     /// The largest move of a vertex by the last "both ends at once", and which vertex.
     pub largest_move: Option<LargestMove>,
+}
+
+/// What an end is kept matched to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MatchReport {
+    /// The name of the other curve.
+    pub source: String,
+    /// The match.
+    pub matched: EndMatch,
+    /// What is missing of each level, up to G3.
+    pub missing: EndDifference,
 }
 
 impl EndFitReport {
@@ -94,10 +125,21 @@ pub enum EndFitAction {
     SetPoint(DVec3),
     /// Type the target direction, or free it.
     SetDirection(Option<DVec3>),
-    /// Forget the target.
+    /// Type the target's curvature, or free it.
+    SetCurvature(Option<f64>),
+    /// Type the normal of the target's osculating plane, or free it.
+    SetNormal(Option<DVec3>),
+    /// Type the slope of the target's curvature, or free it.
+    SetSlope(Option<f64>),
+    /// Forget the target, and what it is matched to.
     ClearTarget,
-    /// Pick the target from another curve's end by the next click.
+    /// Pick the target from another curve by the next click: from an end, or any point.
     PickFromCurve,
+    /// Choose how much is picked of another curve, or kept matched.
+    SetContinuity(Continuity),
+    /// Choose whether what is picked is kept matched while the other curve changes. Without that
+    /// the target stays as it is now.
+    KeepMatched(bool),
     /// Turn the target direction round.
     TurnRound,
     /// Translate the terminal vertices by the difference vector (step 5).
@@ -119,6 +161,10 @@ pub struct EndFitSettings {
     pub end: End,
     /// Whether the next click picks a target from another curve.
     pub picking: bool,
+    /// How much it takes.
+    pub continuity: Continuity,
+    /// Whether it is kept matched.
+    pub live: bool,
     /// Whether the closed S-polygon stands in for the float one, as in steps 2 and 3.
     pub closed: bool,
     /// The tolerance that was typed; `None` offers one by the curve's size.
@@ -130,6 +176,8 @@ impl Default for EndFitSettings {
         Self {
             end: End::Finish,
             picking: false,
+            continuity: Continuity::default(),
+            live: false,
             closed: false,
             tolerance: None,
         }
@@ -159,7 +207,13 @@ impl EndFitSettings {
     }
 
     /// Collect the figures of the seven steps.
-    pub fn report(&self, analysis: &CurveAnalysis, last: Option<&LastAction>) -> EndFitReport {
+    pub fn report(
+        &self,
+        document: &Document,
+        id: CurveId,
+        analysis: &CurveAnalysis,
+        last: Option<&LastAction>,
+    ) -> EndFitReport {
         let curve = analysis.curve().clone();
         let polygon = &curve.polygon;
         let figures = analysis.float().figures();
@@ -170,6 +224,7 @@ impl EndFitSettings {
         let planar_angle = |direction: DVec3| {
             Some(direction.truncate().to_angle()).filter(|_| analysis.is_planar())
         };
+        let planar = analysis.is_planar();
         let size = polygon.size();
         let tolerance = self.tolerance_for(&curve);
         let targets = curve.targets.list();
@@ -197,7 +252,17 @@ impl EndFitSettings {
                 above(difference.vector, ROUNDING * far)
             }),
             angle: difference.map_or(0.0, |difference| difference.angle),
+            curvature: jet.tangent().map(|_| jet.curvature_of(planar)),
+            slope: Some(jet.curvature_slope(planar)).filter(|slope| slope.is_finite()),
+            normal: jet.first.cross(jet.second).try_normalize(),
+            target,
+            missing: difference,
+            matched: match_report(document, id, self.end),
+            followers: followers(document, id),
+            continuity: self.continuity,
+            live: self.live,
             residual,
+            size,
             tolerance,
             within: !targets.is_empty() && residual <= tolerance,
             targets: targets.len(),
@@ -208,6 +273,30 @@ impl EndFitSettings {
             largest_move: last.and_then(|last| last.largest_move),
         }
     }
+}
+
+fn match_report(document: &Document, curve: CurveId, end: End) -> Option<MatchReport> {
+    let matched = *document.match_of(curve, end)?;
+    let all = EndMatch {
+        continuity: Continuity::G3,
+        ..matched
+    };
+    let polygon = &document.curve(curve)?.polygon;
+    Some(MatchReport {
+        source: document.curve(matched.source)?.name.clone(),
+        matched,
+        missing: EndDifference::between(polygon, end, &all.target(document)?),
+    })
+}
+
+fn followers(document: &Document, source: CurveId) -> Vec<(String, End)> {
+    let matches = document.matches();
+    let following = matches.filter(|matched| matched.source == source);
+    let named = following.filter_map(|matched| {
+        let curve = document.curve(matched.curve)?;
+        Some((curve.name.clone(), matched.end))
+    });
+    named.collect()
 }
 
 /// Put components that are not above the rounding at 0.
@@ -221,27 +310,30 @@ fn above(vector: DVec3, rounding: f64) -> DVec3 {
     }))
 }
 
-/// Find the end of another curve seen nearest to a place of the view plane, as a target for an
-/// end of one's own: its point, and
-/// its direction so that the tangents continue each other.
+/// Find the end of another curve seen nearest to a place of the view plane, as something to match
+/// an end of one's own to: so that the tangents continue each other.
 pub fn nearest_other_end(
     document: &Document,
-    own: CurveId,
-    end: End,
+    (curve, end): (CurveId, End),
     place: DVec2,
     viewport: &Viewport,
-) -> Option<EndTarget> {
-    let ends = other_ends(document, Some(own));
+) -> Option<EndMatch> {
+    let ends = other_ends(document, Some(curve));
     let near = ends
-        .map(|(end, jet)| (viewport.flatten(jet.point).distance(place), end, jet))
+        .map(|(source, other, jet)| {
+            let distance = viewport.flatten(jet.point).distance(place);
+            (distance, source, other)
+        })
         .filter(|(distance, ..)| *distance <= 2.0 * REACH * viewport.pixel());
-    let (_, picked, jet) = near.min_by(|a, b| a.0.total_cmp(&b.0))?;
-    // An end goes on into a start; two ends, or two starts, run towards each other.
-    let direction = jet.tangent();
-    Some(EndTarget {
-        point: jet.point,
-        direction: direction.map(|along| if picked == end { -along } else { along }),
-        ..EndTarget::default()
+    let (_, source, picked) = near.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some(EndMatch {
+        curve,
+        end,
+        source,
+        place: MatchPlace::End(picked),
+        continuity: Continuity::default(),
+        // An end goes on into a start; two ends, or two starts, run towards each other.
+        reversed: picked == end,
     })
 }
 
@@ -249,9 +341,9 @@ pub fn nearest_other_end(
 pub fn other_ends(
     document: &Document,
     own: Option<CurveId>,
-) -> impl Iterator<Item = (End, Jet)> + '_ {
+) -> impl Iterator<Item = (CurveId, End, Jet)> + '_ {
     let others = document.curves().filter(move |(id, curve)| {
         Some(*id) != own && curve.visible && !curve.polygon.is_periodic()
     });
-    others.flat_map(|(_, curve)| End::BOTH.map(|end| (end, curve.polygon.end_jet(end))))
+    others.flat_map(|(id, curve)| End::BOTH.map(|end| (id, end, curve.polygon.end_jet(end))))
 }

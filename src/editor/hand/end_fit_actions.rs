@@ -1,14 +1,14 @@
 //! Doing what the end-fit panel asks for: the seven steps by button.
 
-use crate::document::{Curve, CurveId, Edit, quoted};
+use crate::document::{Curve, CurveId, Edit, EndMatch, quoted};
 use crate::editor::Editor;
 use crate::editor::hand::end_fit::{EndFitAction, EndFitReport, LastAction};
 use crate::editor::hand::tools::ToolKind;
 use crate::editor::reply::{Note, Refusal, Reply};
 use crate::editor::trial::Trial;
 use crate::editor::view::layers::Layer;
-use crate::geometry::End;
 use crate::geometry::end_correction::EndTarget;
+use crate::geometry::{Continuity, End};
 use crate::operations::{Operation, Report, Value, correct_ends, rotate_end, translate_end};
 
 impl Editor {
@@ -24,7 +24,7 @@ impl Editor {
         }
         let last = self.last_end_fit_action();
         let settings = &self.hand.tools.end_fit.settings;
-        Some(settings.report(self.analyses.get(id)?, last))
+        Some(settings.report(self.document(), id, self.analyses.get(id)?, last))
     }
 
     /// What the last action of the end-fit panel came to, unless something else happened since.
@@ -103,9 +103,8 @@ impl Editor {
     fn set_up(&mut self, action: EndFitAction, id: CurveId, curve: &Curve) -> Reply {
         let settings = &mut self.hand.tools.end_fit.settings;
         let end = settings.end;
-        let target = curve.targets.get(end);
-        let jet = curve.polygon.end_jet(end);
-        let (label, target) = match action {
+        let matched = self.workspace.document().match_of(id, end).copied();
+        match action {
             EndFitAction::Choose(end) => {
                 settings.end = end;
                 settings.picking = false;
@@ -129,55 +128,56 @@ impl Editor {
                 settings.tolerance = Some(tolerance);
                 return Ok(Note::silent());
             }
-            EndFitAction::TargetActual => {
-                let (point, direction) = (jet.point, jet.tangent());
-                (
-                    "Set target",
-                    Some(EndTarget {
-                        point,
-                        direction,
-                        ..EndTarget::default()
-                    }),
-                )
-            }
-            EndFitAction::SetPoint(point) => {
-                let direction = target.map_or(jet.tangent(), |target| target.direction);
-                (
-                    "Set target point",
-                    Some(EndTarget {
-                        point,
-                        direction,
-                        ..EndTarget::default()
-                    }),
-                )
-            }
-            EndFitAction::SetDirection(direction) => {
-                let point = target.map_or(jet.point, |target| target.point);
-                let label = match direction {
-                    Some(_) => "Set target direction",
-                    None => "Free target direction",
+            EndFitAction::SetContinuity(continuity) => {
+                settings.continuity = continuity;
+                let Some(matched) = matched else {
+                    return Ok(Note::silent());
                 };
-                (
-                    label,
-                    Some(EndTarget {
-                        point,
-                        direction,
-                        ..EndTarget::default()
-                    }),
-                )
+                let changed = EndMatch {
+                    continuity,
+                    ..matched
+                };
+                return self.make("Change match", vec![Edit::SetMatch(changed)], false);
             }
-            EndFitAction::TurnRound => (
-                "Turn target round",
-                target.map(|target| target.turned(curve.polygon.is_planar())),
-            ),
-            _ => ("Clear target", None),
-        };
-        let edit = Edit::SetTarget {
+            EndFitAction::KeepMatched(live) => {
+                settings.live = live;
+                if live || matched.is_none() {
+                    return Ok(Note::silent());
+                }
+                let remove = Edit::RemoveMatch { curve: id, end };
+                return self.make("Remove match", vec![remove], false);
+            }
+            EndFitAction::TurnRound if matched.is_some() => {
+                let turned = matched.map(|matched| EndMatch {
+                    reversed: !matched.reversed,
+                    ..matched
+                });
+                let edits = turned.into_iter().map(Edit::SetMatch).collect();
+                return self.make("Turn match round", edits, false);
+            }
+            _ => {}
+        }
+        let (label, target) = action.target(curve, end);
+        let mut edits = Vec::new();
+        if action == EndFitAction::ClearTarget && matched.is_some() {
+            edits.push(Edit::RemoveMatch { curve: id, end });
+        }
+        edits.push(Edit::SetTarget {
             curve: id,
             end,
             target,
-        };
-        self.make(label, vec![edit], false)
+        });
+        self.make(label, edits, false)
+    }
+
+    /// Show what a target field of the end-fit panel would make while it is dragged.
+    pub fn preview_end_fit(&mut self, action: EndFitAction) {
+        let end = self.hand.tools.end_fit.settings.end;
+        if let Some((curve, found)) = self.active_curve() {
+            let (_, target) = action.target(&found, end);
+            let edit = Edit::SetTarget { curve, end, target };
+            self.preview("Set target", vec![edit]);
+        }
     }
 
     /// The operation that an action stands for, if it is one, with its values.
@@ -198,6 +198,73 @@ impl Editor {
             }
             _ => return None,
         })
+    }
+}
+
+impl EndFitAction {
+    /// The target that an action makes of that of an end, with what the step is called.
+    fn target(self, curve: &Curve, end: End) -> (&'static str, Option<EndTarget>) {
+        let planar = curve.polygon.is_planar();
+        let jet = curve.polygon.end_jet(end);
+        let actual = |level: Continuity| level.target(&jet, planar);
+        let before = curve.targets.get(end);
+        let target = before.unwrap_or(actual(Continuity::G1));
+        // Curvature is that of a direction, and slope that of a curvature.
+        let directed = EndTarget {
+            direction: target.direction.or(actual(Continuity::G1).direction),
+            ..target
+        };
+        let set = |fixed: bool, labels: [&'static str; 2]| labels[usize::from(fixed)];
+        match self {
+            Self::TargetActual => ("Set target", Some(actual(Continuity::G1))),
+            Self::SetPoint(point) => ("Set target point", Some(EndTarget { point, ..target })),
+            Self::SetDirection(Some(direction)) => {
+                let direction = Some(direction);
+                let turned = EndTarget {
+                    direction,
+                    ..target
+                };
+                ("Set target direction", Some(turned))
+            }
+            Self::SetDirection(None) => {
+                let free = EndTarget {
+                    point: target.point,
+                    ..EndTarget::default()
+                };
+                ("Free target direction", Some(free))
+            }
+            Self::SetCurvature(curvature) => {
+                let slope = target.slope.filter(|_| curvature.is_some());
+                let curved = EndTarget {
+                    curvature,
+                    slope,
+                    ..directed
+                };
+                let labels = ["Free target curvature", "Set target curvature"];
+                (set(curvature.is_some(), labels), Some(curved))
+            }
+            Self::SetNormal(normal) => {
+                let labels = ["Free target plane", "Set target plane"];
+                let turned = EndTarget { normal, ..directed };
+                (set(normal.is_some(), labels), Some(turned))
+            }
+            Self::SetSlope(slope) => {
+                let actual = || actual(Continuity::G2).curvature;
+                let curvature = match slope {
+                    Some(_) => target.curvature.or_else(actual),
+                    None => target.curvature,
+                };
+                let sloped = EndTarget {
+                    curvature,
+                    slope,
+                    ..directed
+                };
+                let labels = ["Free target slope", "Set target slope"];
+                (set(slope.is_some(), labels), Some(sloped))
+            }
+            Self::TurnRound => ("Turn target round", before.map(|it| it.turned(planar))),
+            _ => ("Clear target", None),
+        }
     }
 }
 

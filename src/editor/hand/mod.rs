@@ -13,7 +13,7 @@ pub(in crate::editor) mod snapping;
 pub(in crate::editor) mod tools;
 mod transforming;
 
-pub use end_fit::{EndFitAction, EndFitReport};
+pub use end_fit::{EndFitAction, EndFitReport, MatchReport};
 pub use hand::Hand;
 pub use input::{Button, Input, Key, Modifiers};
 pub use selection::{Selection, VertexId};

@@ -174,7 +174,9 @@ impl Editor {
             for end in End::BOTH {
                 let chosen =
                     fitting && Some(id) == active && end == self.hand.tools.end_fit.settings.end;
-                let marks = end_marks::marks(curve, end, chosen, &self.view.viewport);
+                let matched = self.workspace.document().match_of(id, end).is_some();
+                let viewport = &self.view.viewport;
+                let marks = end_marks::marks(curve, end, chosen, matched, viewport);
                 scene.ends.extend(marks.map(|mut marks| {
                     if !self.layers().shows(Layer::Float) {
                         marks.terminal.clear();

@@ -3,6 +3,7 @@
 use glam::{DQuat, DVec2, DVec3};
 
 use crate::document::Curve;
+use crate::editor::view::osculating_circle::OsculatingCircle;
 use crate::editor::view::viewport::Viewport;
 use crate::geometry::end_correction::EndDifference;
 use crate::geometry::{End, rotation_between};
@@ -12,6 +13,9 @@ pub const ARROW: f64 = 64.0;
 
 /// The radius of the ring that rotates the terminal vertices, in screen points.
 pub const RING: f64 = 40.0;
+
+/// What may be missing of a match that counts as met, in units of the polygon's size.
+const MET: f64 = 1e-9;
 
 /// Chords in the arc that shows the difference angle.
 const ARC_STEPS: u8 = 48;
@@ -29,6 +33,10 @@ pub struct EndFitMarks {
     pub target: Option<DVec2>,
     /// The tip of the target direction's arrow; a handle.
     pub target_tip: Option<DVec2>,
+    /// The target's osculating circle, or the part of it that is near.
+    pub circle: Vec<DVec2>,
+    /// Whether what the end is kept matched to is met; `None` if it is not matched.
+    pub matched: Option<bool>,
     /// The radius of the ring that rotates the terminal vertices, in units of the model.
     pub ring: f64,
     /// The terminal vertices.
@@ -40,7 +48,13 @@ pub struct EndFitMarks {
 }
 
 /// Make the marks of one end.
-pub fn marks(curve: &Curve, end: End, chosen: bool, viewport: &Viewport) -> Option<EndFitMarks> {
+pub fn marks(
+    curve: &Curve,
+    end: End,
+    chosen: bool,
+    matched: bool,
+    viewport: &Viewport,
+) -> Option<EndFitMarks> {
     let target = curve.targets.get(end);
     if target.is_none() && !chosen {
         return None;
@@ -66,6 +80,13 @@ pub fn marks(curve: &Curve, end: End, chosen: bool, viewport: &Viewport) -> Opti
         target: target.map(|target| viewport.flatten(target.point)),
         target_tip: target
             .and_then(|target| Some(viewport.flatten(target.point) + along(target.direction?)?)),
+        circle: target
+            .and_then(|target| OsculatingCircle::of(&target, curve, end))
+            .map_or(Vec::new(), |circle| circle.chain(viewport)),
+        matched: difference.filter(|_| matched).map(|difference| {
+            let size = polygon.size();
+            difference.residual(size) <= MET * size
+        }),
         ring: RING * viewport.pixel(),
         terminal: terminal
             .map(|index| viewport.flatten(polygon.vertex(index)))

@@ -16,6 +16,7 @@ mod hovering;
 pub(in crate::editor) mod layers;
 pub(in crate::editor) mod orbit;
 mod orientation;
+pub(in crate::editor) mod osculating_circle;
 pub(in crate::editor) mod outline;
 mod outlines;
 mod panels;

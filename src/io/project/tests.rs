@@ -4,9 +4,9 @@ use glam::DVec3;
 use proptest::prelude::*;
 
 use super::*;
-use crate::document::{Colour, EndTargets};
+use crate::document::{Colour, EndTargets, MatchPlace};
 use crate::geometry::end_correction::EndTarget;
-use crate::geometry::{FloatPolygon, MAX_MAGNITUDE};
+use crate::geometry::{Continuity, End, FloatPolygon, MAX_MAGNITUDE};
 
 #[path = "../../../tests/common/repeatable.rs"]
 mod repeatable;
@@ -21,7 +21,7 @@ fn curves_of(text: &str) -> Vec<Curve> {
 }
 
 fn text_of(curves: &[&Curve]) -> String {
-    String::from_utf8(write(curves, &Extras::default(), PolygonKind::Float).bytes).unwrap()
+    String::from_utf8(write(curves, &[], &Extras::default(), PolygonKind::Float).bytes).unwrap()
 }
 
 #[test]
@@ -158,8 +158,8 @@ fn files_that_are_no_projects_are_refused() {
         "this is not a Batten project: it says \"format\": \"other\", where \"format\": \"batten\" is needed",
     );
     check(
-        r#"{"format":"batten","version":2,"curves":{}}"#,
-        "the project is of version 2, and this Batten reads versions up to 1: open it with a newer Batten",
+        r#"{"format":"batten","version":3,"curves":{}}"#,
+        "the project is of version 3, and this Batten reads versions up to 2: open it with a newer Batten",
     );
     for (version, found) in [
         ("", "not given"),
@@ -329,7 +329,7 @@ fn vertices_that_make_no_curve_are_refused_with_their_curve() {
     );
     check(
         &format!(r#""degree":2,{vertices},"targets":{{"start":{{"point":[0,1e200]}}}}"#),
-        ": the target of the start has the coordinate 1e200: only numbers up to 1e100 can be used",
+        ": the target of the start has the number 1e200: only numbers up to 1e100 can be used",
     );
 }
 
@@ -358,6 +358,8 @@ prop_compose! {
         colour in any::<Option<[u8; 3]>>(),
         visible in any::<bool>(),
         locked in any::<bool>(),
+        locked_vertices in prop::collection::vec(0..degree + 1, 0..3),
+        start in any_target(), finish in any_target(),
     ) -> Curve {
         let vertices = vertices.into_iter().map(|[x, y, z]| {
             DVec3::new(x, y, if planar { 0.0 } else { z })
@@ -365,7 +367,122 @@ prop_compose! {
         let weights = weighted.then_some(weights);
         let polygon = FloatPolygon::new(degree, vertices.collect(), weights, periodic);
         let curve = Curve::new(name, polygon.expect("valid by construction"));
-        Curve { colour: colour.map(Colour), visible, locked, ..curve }
+        let locked_vertices = locked_vertices.into_iter().collect();
+        let targets = EndTargets { start, finish };
+        Curve { colour: colour.map(Colour), visible, locked, locked_vertices, targets, ..curve }
+    }
+}
+
+prop_compose! {
+    fn any_target()(
+        point in prop::array::uniform3(number()),
+        direction in prop::option::of(prop::array::uniform3(number())),
+        normal in prop::option::of(prop::array::uniform3(number())),
+        curvature in prop::option::of(number()),
+        slope in prop::option::of(number()),
+        given in any::<bool>(),
+    ) -> Option<EndTarget> {
+        let directed = |vector: [f64; 3]| Some(DVec3::from(vector)).filter(|v| *v != DVec3::ZERO);
+        let target = EndTarget {
+            point: point.into(),
+            direction: direction.and_then(directed),
+            normal: normal.and_then(directed),
+            curvature,
+            slope,
+        };
+        given.then_some(target)
+    }
+}
+
+#[test]
+fn what_version_1_holds_is_written_as_version_1() {
+    let mut curve = line("arc");
+    curve.locked = true;
+    let target = EndTarget {
+        point: DVec3::X,
+        direction: Some(DVec3::Y),
+        ..EndTarget::default()
+    };
+    curve.targets.start = Some(target);
+    assert!(text_of(&[&curve]).contains("\"version\": 1"));
+    let more = [
+        EndTarget {
+            curvature: Some(0.5),
+            ..target
+        },
+        EndTarget {
+            normal: Some(DVec3::Z),
+            ..target
+        },
+        EndTarget {
+            slope: Some(-0.0),
+            ..target
+        },
+    ];
+    for target in more {
+        let mut curve = curve.clone();
+        curve.targets.finish = Some(target);
+        let text = text_of(&[&line("plain"), &curve]);
+        assert!(text.contains("\"version\": 2"), "{text}");
+        assert_eq!(curves_of(&text)[1], curve);
+    }
+    curve.locked_vertices.set(1, true);
+    let text = text_of(&[&curve]);
+    assert!(text.contains("\"version\": 2"), "{text}");
+    assert!(text.contains("\"locked_vertices\": [1]"), "{text}");
+    assert_eq!(curves_of(&text)[0], curve);
+}
+
+#[test]
+fn keys_of_version_2_mean_nothing_in_version_1() {
+    let text = r#"{"format":"batten","version":1,"curves":[{"degree":1,"vertices":[[0,0],[1,2]],
+        "locked_vertices":[9],"targets":{"end":{"point":[0,0],"slope":"steep"}}}]}"#;
+    let reading = read(text.as_bytes()).unwrap();
+    let curve = &reading.curves[0];
+    assert!(curve.locked_vertices.is_empty());
+    assert_eq!(curve.targets.finish.unwrap().slope, None);
+    assert_eq!(
+        curve.extras.iter().collect::<Vec<_>>(),
+        [("locked_vertices", "[9]")]
+    );
+    assert_eq!(
+        reading.remarks.to_string(),
+        "curve 1 “curve 1”: the key “slope” of its targets is not known, has no effect and is not \
+         kept\ncurve 1 “curve 1”: the key “locked_vertices” is not known and has no effect"
+    );
+    // Kept as it is, also when the file becomes one of version 2.
+    let mut curve = curve.clone();
+    curve.locked_vertices.set(0, true);
+    curve.extras = Extras::default();
+    curve.extras.push("more", "1e999");
+    assert_eq!(curves_of(&text_of(&[&curve])), [curve]);
+}
+
+#[test]
+fn wrong_content_of_version_2_is_refused_with_its_place() {
+    for (content, expected) in [
+        (
+            r#""locked_vertices":[2]"#,
+            "curve 1 “arc”: vertex 2 does not exist: the polygon has 2 vertices, counted from 0",
+        ),
+        (
+            r#""locked_vertices":[0,1.5]"#,
+            "line 1, column 116, curve 1: 1.5 cannot be counted from 0: a whole number is needed",
+        ),
+        (
+            r#""targets":{"end":{"point":[0,0],"curvature":1e101}}"#,
+            "curve 1 “arc”: the target of the end has the number 1e101: only numbers up to 1e100 \
+             can be used",
+        ),
+        (
+            r#""targets":{"start":{"point":[0,0],"normal":[0,0,0]}}"#,
+            "curve 1 “arc”: the target of the start has a normal of length 0: give another one, or \
+             null",
+        ),
+    ] {
+        let curve = format!(r#"{{"name":"arc","degree":1,"vertices":[[0,0],[1,2]],{content}}}"#);
+        let text = format!(r#"{{"format":"batten","version":2,"curves":[{curve}]}}"#);
+        assert_eq!(read(text.as_bytes()).unwrap_err().to_string(), expected);
     }
 }
 
@@ -463,5 +580,90 @@ fn long_texts_of_a_file_are_cut_in_messages() {
         let message = read(text.as_bytes()).unwrap_err().to_string();
         assert!(!message.contains(['\u{202e}', '\u{2066}']), "{message}");
         assert!(message.contains("\\u{202e}"), "{message}");
+    }
+}
+
+/// Two lines, the second of which goes on from the first.
+const MATCHED: &str = r#"{"format":"batten","version":2,"curves":[
+  {"name":"a","degree":1,"vertices":[[0,0],[1,2]]},{"name":"b","degree":1,"vertices":[[1,2],[3,3]]}],
+  "matches":[MATCH]}"#;
+
+#[test]
+fn matches_are_read_and_written() {
+    for (at, place) in [
+        ("\"start\"", MatchPlace::End(End::Start)),
+        ("\"end\"", MatchPlace::End(End::Finish)),
+        ("0.25", MatchPlace::Parameter(0.25)),
+    ] {
+        for (reversed, written) in [(true, ",\"reversed\":true"), (false, "")] {
+            let matched = format!(
+                r#"{{"curve":1,"end":"start","source":0,"at":{at},"continuity":"G2"{written},"more":1}}"#
+            );
+            let text = MATCHED.replace("MATCH", &matched);
+            let reading = read(text.as_bytes()).unwrap();
+            let expected = FileMatch {
+                curve: 1,
+                end: End::Start,
+                source: 0,
+                place,
+                continuity: Continuity::G2,
+                reversed,
+            };
+            assert_eq!(reading.matches, [expected]);
+            assert_eq!(
+                reading.remarks.to_string(),
+                "the key “more” of the matches is not known, has no effect and is not kept"
+            );
+            let document = reading.clone().into_document().unwrap();
+            let bytes = Format::Batten
+                .write_document(&document, None)
+                .unwrap()
+                .bytes;
+            let back = read(&bytes).unwrap();
+            assert_eq!(
+                (back.curves, back.matches),
+                (reading.curves, reading.matches)
+            );
+        }
+    }
+}
+
+#[test]
+fn matches_that_cannot_be_are_refused() {
+    let matched = |curve: &str, source: &str, at: &str| {
+        format!(
+            r#"{{"curve":{curve},"end":"start","source":{source},"at":{at},"continuity":"G1"}}"#
+        )
+    };
+    let circle = [matched("1", "0", "\"end\""), matched("0", "1", "1")].join(",");
+    for (matches, expected) in [
+        (
+            matched("1", "2", "0"),
+            "a match names curve 2, and there are 2, counted from 0",
+        ),
+        (
+            matched("1", "1", "0"),
+            "the project's matches cannot be: “b” cannot be matched to itself: choose another curve",
+        ),
+        (
+            matched("1", "0", "1.5"),
+            "the project's matches cannot be: “b” cannot be matched to “a”: an end needs an open \
+             curve, and u must lie on the curve",
+        ),
+        (
+            circle,
+            "the project's matches cannot be: “b” follows “a” already: remove that match first",
+        ),
+        (
+            matched("1", "0", "\"middle\""),
+            "line 3, column 62: \"start\", \"end\" or a number is needed",
+        ),
+        (
+            matched("1", "-1", "0"),
+            "line 3, column 49: -1 cannot be counted from 0: a whole number is needed",
+        ),
+    ] {
+        let text = MATCHED.replace("MATCH", &matches);
+        assert_eq!(read(text.as_bytes()).unwrap_err().to_string(), expected);
     }
 }

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use glam::{DMat3, DVec2, DVec3};
 
 use super::tool::{Context, Cursor, Effect, Tool};
-use crate::document::{Curve, CurveId, Edit, EditError, quoted};
+use crate::document::{Curve, CurveId, Edit, EditError, EndMatch, MatchPlace, quoted};
 use crate::editor::hand::end_fit::{
     EndFitAction, EndFitSettings, LastAction, nearest_other_end, other_ends,
 };
@@ -14,11 +14,12 @@ use crate::editor::hand::input::Key;
 use crate::editor::hand::snapping::{Carried, along_axis, by_fifteen_degrees};
 use crate::editor::view::end_marks::{ARROW, RING};
 use crate::editor::view::hit::REACH;
+use crate::editor::view::osculating_circle::OsculatingCircle;
 use crate::editor::view::scene::Mark;
-use crate::geometry::End;
 use crate::geometry::end_correction::{
     EndDifference, EndTarget, align_end, rotate_end, translate_end,
 };
+use crate::geometry::{Continuity, End, figure};
 
 /// The ring snaps to the target direction within this angle.
 const SNAP_ANGLE: f64 = 2.5;
@@ -43,6 +44,8 @@ enum State {
     Target { offset: DVec2 },
     /// The target direction is dragged by its tip.
     Direction,
+    /// The target's osculating circle is dragged.
+    Circle,
     /// The terminal vertices are translated as one body.
     Body {
         origin: DVec2,
@@ -59,6 +62,7 @@ enum Handle {
     Direction,
     Ring,
     Body,
+    Circle,
     OtherEnd(End),
 }
 
@@ -141,9 +145,20 @@ impl<'a> Subject<'a> {
         if vertices.any(|vertex| near(context.viewport.flatten(*vertex))) {
             return Some(Handle::Body);
         }
+        let circle = self.circle(context);
+        if circle.is_some_and(|circle| near_chain(&circle, place, context)) {
+            return Some(Handle::Circle);
+        }
         let other = self.end.other();
         let other_end = self.curve.polygon.end_jet(other).point;
         near(context.viewport.flatten(other_end)).then_some(Handle::OtherEnd(other))
+    }
+
+    /// The target's osculating circle, as it is seen.
+    fn circle(&self, context: &Context) -> Option<Vec<DVec2>> {
+        let target = self.target?;
+        let circle = OsculatingCircle::of(&target, self.curve, self.end)?;
+        Some(circle.chain(context.viewport))
     }
 
     /// Whether the end lies on its target, as far as the eye can tell.
@@ -156,6 +171,26 @@ impl<'a> Subject<'a> {
 
     fn is_planar(&self) -> bool {
         self.curve.polygon.is_planar()
+    }
+
+    /// Why the target cannot be set, if it is what a match makes it.
+    fn refused_by_match(&self, context: &Context) -> Option<String> {
+        let mut tried = context.document.clone();
+        let (curve, end, target) = (self.id, self.end, self.target);
+        let set = Edit::SetTarget { curve, end, target };
+        let refused = tried.apply(set).err()?;
+        Some(refused.to_string())
+    }
+
+    /// The target's curvature and radius, in words.
+    fn curvature(&self) -> String {
+        let curvature = self.target.and_then(|target| target.curvature);
+        let curvature = curvature.unwrap_or_default();
+        format!(
+            "κ = {}, radius {}",
+            figure(curvature),
+            figure(1.0 / curvature.abs())
+        )
     }
 
     /// Refuse if the terminal vertices cannot be moved as one body.
@@ -220,12 +255,17 @@ impl Tool for EndFitTool {
             Err(reason) => return reason,
         };
         if self.settings.picking {
-            return "Click another curve's end to take its point and direction as the target; Esc ends".into();
+            return format!(
+                "Click another curve, at its end or at any point, to match it up to {} ({}); Esc ends",
+                self.settings.continuity.name(),
+                self.settings.continuity.label()
+            );
         }
         let name = subject.end.name();
         match &self.state {
             State::Target { .. } => "Drag the target point; Shift keeps to an axis".into(),
             State::Direction => "Drag the target direction; Shift keeps to 15°".into(),
+            State::Circle => format!("Drag the osculating circle: {}", subject.curvature()),
             State::Body { .. } => format!(
                 "Step 5: drag the {} terminal vertices as one body; the {name} snaps to the target, Ctrl frees it",
                 subject.curve.polygon.terminal_vertices(subject.end).len()
@@ -241,6 +281,10 @@ impl Tool for EndFitTool {
                 match place.and_then(|place| subject.handle(place, context)) {
                     Some(Handle::Target) => "Drag to move the target point".into(),
                     Some(Handle::Direction) => "Drag to turn the target direction".into(),
+                    Some(Handle::Circle) => format!(
+                        "Drag the osculating circle to change the target's curvature: {}",
+                        subject.curvature()
+                    ),
                     Some(Handle::Ring) => "Step 6: drag the ring to rotate the terminal vertices about the end point".into(),
                     Some(Handle::Body) if subject.is_met(context) => {
                         "Step 5: drag to translate the terminal vertices; Alt-drag takes the target".into()
@@ -258,7 +302,7 @@ impl Tool for EndFitTool {
         if self.settings.picking {
             let own = context.selection.active();
             let ends = other_ends(context.document, own)
-                .map(|(_, jet)| context.viewport.flatten(jet.point));
+                .map(|(_, _, jet)| context.viewport.flatten(jet.point));
             return ends.map(Mark::Snap).collect();
         }
         match &self.state {
@@ -334,16 +378,31 @@ impl EndFitTool {
     }
 
     fn pick(&mut self, place: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
-        let (at, view) = (context.model(place), context.viewport);
-        match nearest_other_end(context.document, subject.id, subject.end, at, view) {
-            Some(target) => {
-                self.settings.picking = false;
-                vec![subject.set_target("Pick target", target)]
-            }
-            None => vec![Effect::Say(
-                "There is no other curve's end here: click nearer to one".into(),
-            )],
+        let Some(picked) = picked(place, subject, context) else {
+            return vec![Effect::Say(
+                "There is no other curve here: click on one, or near its end".into(),
+            )];
+        };
+        let matched = EndMatch {
+            continuity: self.settings.continuity,
+            ..picked
+        };
+        let Some(target) = matched.target(context.document) else {
+            return Vec::new();
+        };
+        self.settings.picking = false;
+        if self.settings.live {
+            return vec![Effect::Apply(
+                "Match end".into(),
+                vec![Edit::SetMatch(matched)],
+            )];
         }
+        let (curve, end) = (subject.id, subject.end);
+        let edits = vec![
+            Edit::RemoveMatch { curve, end },
+            subject.with_target(target),
+        ];
+        vec![Effect::Apply("Pick target".into(), edits)]
     }
 
     fn start(&mut self, place: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
@@ -358,6 +417,7 @@ impl EndFitTool {
                 (State::Target { offset }, format!("Move target of {name}"))
             }
             Some(Handle::Direction) => (State::Direction, format!("Turn target of {name}")),
+            Some(Handle::Circle) => (State::Circle, format!("Curve target of {name}")),
             Some(Handle::Body) => {
                 let state = State::Body {
                     origin,
@@ -372,6 +432,9 @@ impl EndFitTool {
             Some(Handle::OtherEnd(_)) | None => return Vec::new(),
         };
         let shapes = matches!(state, State::Body { .. } | State::Ring { .. });
+        if !shapes && let Some(refused) = subject.refused_by_match(context) {
+            return vec![Effect::Say(refused)];
+        }
         if shapes && let Err(refused) = subject.check_movable() {
             return vec![Effect::Say(refused.to_string())];
         }
@@ -384,6 +447,7 @@ impl EndFitTool {
             State::Idle => Vec::new(),
             State::Target { offset } => drag_target(at + *offset, subject, context),
             State::Direction => drag_direction(at, subject, context),
+            State::Circle => drag_circle(at, subject, context),
             State::Body { origin, snapped } => {
                 let free = at - *origin;
                 let target = subject.target.filter(|_| !context.modifiers.ctrl);
@@ -448,6 +512,63 @@ fn drag_direction(at: DVec2, subject: &Subject, context: &Context) -> Vec<Effect
         ..target
     };
     vec![Effect::Preview(vec![subject.with_target(target)])]
+}
+
+/// Give the target the curvature of the circle that touches its direction and passes through a
+/// place of the view plane: κ = 2 n·q / |q|², q the place as seen from the target.
+fn drag_circle(at: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
+    let circle = subject.target.and_then(|target| {
+        Some((
+            target,
+            OsculatingCircle::of(&target, subject.curve, subject.end)?,
+        ))
+    });
+    let Some((target, circle)) = circle else {
+        return Vec::new();
+    };
+    let Some(curvature) = circle.curvature_through(at, context.viewport) else {
+        return Vec::new();
+    };
+    let planar = subject.is_planar();
+    let turned = |normal: DVec3| if curvature < 0.0 { -normal } else { normal };
+    let target = EndTarget {
+        curvature: Some(if planar { curvature } else { curvature.abs() }),
+        normal: if planar {
+            target.normal
+        } else {
+            target.normal.map(turned)
+        },
+        ..target
+    };
+    vec![Effect::Preview(vec![subject.with_target(target)])]
+}
+
+/// What a click picks of another curve: an end that is near, or the point that is hit.
+fn picked(place: DVec2, subject: &Subject, context: &Context) -> Option<EndMatch> {
+    let own = (subject.id, subject.end);
+    let at = context.model(place);
+    let end = nearest_other_end(context.document, own, at, context.viewport);
+    end.or_else(|| {
+        let hit = context.hits.curve(place)?;
+        (hit.curve != subject.id).then_some(EndMatch {
+            curve: subject.id,
+            end: subject.end,
+            source: hit.curve,
+            place: MatchPlace::Parameter(hit.u),
+            continuity: Continuity::default(),
+            reversed: false,
+        })
+    })
+}
+
+fn near_chain(chain: &[DVec2], place: DVec2, context: &Context) -> bool {
+    let at = context.model(place);
+    let reach = 0.75 * REACH * context.viewport.pixel();
+    chain.windows(2).any(|ends| {
+        let along = ends[1] - ends[0];
+        let share = (at - ends[0]).dot(along) / along.length_squared();
+        ends[0].lerp(ends[1], share.clamp(0.0, 1.0)).distance(at) <= reach
+    })
 }
 
 fn is_near(place: DVec2, target: &EndTarget, context: &Context) -> bool {

@@ -1,0 +1,44 @@
+//! Ends that are kept matched to other curves.
+
+use super::curve::CurveId;
+use crate::geometry::{Continuity, End, FloatPolygon, Jet};
+
+/// An end of a curve that is kept matched to a place of another curve: its target is what the other
+/// curve has there, and it is corrected as often as one of the two curves changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EndMatch {
+    /// The curve that follows.
+    pub curve: CurveId,
+    /// The end of it that does.
+    pub end: End,
+    /// The curve that it follows.
+    pub source: CurveId,
+    /// Where on that curve.
+    pub place: MatchPlace,
+    /// How much is matched.
+    pub continuity: Continuity,
+    /// Whether the curve passes the place against the direction of the other.
+    pub reversed: bool,
+}
+
+/// A place of a curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum MatchPlace {
+    /// An end of an open curve, wherever it goes.
+    End(End),
+    /// A parameter u in \[0, L\].
+    Parameter(f64),
+}
+
+impl MatchPlace {
+    /// The point of a curve there with its derivatives, if the curve has this place.
+    pub fn jet(self, polygon: &FloatPolygon) -> Option<Jet> {
+        match self {
+            Self::End(end) => (!polygon.is_periodic()).then(|| polygon.end_jet(end)),
+            Self::Parameter(u) => {
+                let domain = 0.0..=polygon.segments() as f64;
+                domain.contains(&u).then(|| polygon.jet(u))
+            }
+        }
+    }
+}

@@ -1,0 +1,212 @@
+//! Matches: which ends follow other curves, and how they are brought there.
+
+use std::sync::Arc;
+
+use super::curve::{Curve, CurveId};
+use super::document::Document;
+use super::end_match::EndMatch;
+use super::error::EditError;
+use crate::geometry::end_correction::{EndDifference, EndTarget};
+use crate::geometry::fairing::joint_correction::{Disturbance, correct_jointly};
+use crate::geometry::{Continuity, End, FloatPolygon};
+
+/// What is left where only rounding is left, in units of the polygon's size: matches with less are
+/// met.
+const MET: f64 = 1e-12;
+
+impl EndMatch {
+    /// What the end must be now; `None` if one of the curves is gone or does not have the place.
+    pub fn target(&self, document: &Document) -> Option<EndTarget> {
+        let curve = &document.curve(self.curve)?.polygon;
+        let source = &document.curve(self.source)?.polygon;
+        if curve.is_periodic() {
+            return None;
+        }
+        let planar = curve.is_planar() && source.is_planar();
+        let target = self.continuity.target(&self.place.jet(source)?, planar);
+        Some(if self.reversed {
+            target.turned(planar)
+        } else {
+            target
+        })
+    }
+}
+
+impl Document {
+    /// List the matches.
+    pub fn matches(&self) -> impl ExactSizeIterator<Item = &EndMatch> {
+        self.matches.iter()
+    }
+
+    /// The match of an end, if it has one.
+    pub fn match_of(&self, curve: CurveId, end: End) -> Option<&EndMatch> {
+        let mut matches = self.matches.iter();
+        matches.find(|matched| (matched.curve, matched.end) == (curve, end))
+    }
+
+    /// List the matches of an earlier state that are gone though their curve is not, because the
+    /// place that they follow is no more.
+    pub fn dissolved_since<'a>(
+        &'a self,
+        before: &'a Self,
+    ) -> impl Iterator<Item = (&'a EndMatch, &'a Curve)> {
+        let gone = before.matches().filter(|matched| {
+            self.match_of(matched.curve, matched.end).is_none() && matched.target(self).is_none()
+        });
+        gone.filter_map(|matched| Some((matched, self.curve(matched.curve)?.as_ref())))
+    }
+
+    /// Add matches, as a file holds them; the curves stay as they are.
+    ///
+    /// # Errors
+    /// [`EditError`] if a curve or place is not there, or curves would follow each other in a
+    /// circle.
+    pub fn with_matches(
+        mut self,
+        matches: impl IntoIterator<Item = EndMatch>,
+    ) -> Result<Self, EditError> {
+        let mut matches = matches.into_iter();
+        matches.try_for_each(|matched| self.set_match(matched))?;
+        Ok(self)
+    }
+
+    pub(super) fn set_match(&mut self, matched: EndMatch) -> Result<(), EditError> {
+        let find = |id| self.curve(id).ok_or(EditError::NoSuchCurve);
+        let (curve, source) = (find(matched.curve)?, find(matched.source)?);
+        if matched.curve == matched.source {
+            let name = curve.name.clone();
+            return Err(EditError::MatchToItself { name });
+        }
+        if self.follows(matched.source, matched.curve) {
+            return Err(EditError::MatchCycle {
+                name: curve.name.clone(),
+                source_name: source.name.clone(),
+            });
+        }
+        if matched.target(self).is_none() {
+            return Err(EditError::NoMatch {
+                name: curve.name.clone(),
+                source_name: source.name.clone(),
+            });
+        }
+        self.remove_match(matched.curve, matched.end);
+        self.matches.push(matched);
+        Ok(())
+    }
+
+    pub(super) fn remove_match(&mut self, curve: CurveId, end: End) {
+        let is_other = |matched: &EndMatch| (matched.curve, matched.end) != (curve, end);
+        self.matches.retain(is_other);
+    }
+
+    /// Whether a curve is another one, or follows it directly or by others.
+    fn follows(&self, curve: CurveId, other: CurveId) -> bool {
+        curve == other
+            || self
+                .sources_of(curve)
+                .any(|source| self.follows(source, other))
+    }
+
+    fn sources_of(&self, curve: CurveId) -> impl Iterator<Item = CurveId> + '_ {
+        let own = self.matches().filter(move |matched| matched.curve == curve);
+        own.map(|matched| matched.source)
+    }
+
+    /// Let matched ends follow what has changed: the other end of a curve keeps its point and
+    /// direction, and locked vertices stay. Locked and hidden curves follow once they no longer are.
+    /// Where a match cannot be met the curve stays as it is, and its target tells what is missing.
+    pub(super) fn follow(&mut self, before: &Self) {
+        let possible = |matched: &EndMatch| matched.target(self).is_some();
+        let kept: Vec<EndMatch> = self.matches().filter(|it| possible(it)).copied().collect();
+        self.matches = kept;
+        for curve in self.followers() {
+            let sources = self.sources_of(curve).chain([curve]);
+            let changed = sources.into_iter().any(|id| !self.is_unchanged(id, before));
+            let [now, then] = [&*self, before].map(|document| {
+                let own = document.matches().filter(|matched| matched.curve == curve);
+                own.collect::<Vec<_>>()
+            });
+            if changed || now != then {
+                self.correct(curve);
+            }
+        }
+    }
+
+    /// The curves that follow others, each after those that it follows.
+    fn followers(&self) -> Vec<CurveId> {
+        let mut waiting: Vec<CurveId> = self.matches().map(|matched| matched.curve).collect();
+        waiting.sort_unstable();
+        waiting.dedup();
+        let mut ordered = Vec::with_capacity(waiting.len());
+        // There are no circles, so that each round finds at least one.
+        while !waiting.is_empty() {
+            let free = |id: &CurveId| !self.sources_of(*id).any(|source| waiting.contains(&source));
+            let (ready, rest): (Vec<_>, Vec<_>) = waiting.iter().partition(|id| free(id));
+            if ready.is_empty() {
+                break;
+            }
+            ordered.extend(ready);
+            waiting = rest;
+        }
+        ordered
+    }
+
+    fn is_unchanged(&self, id: CurveId, before: &Self) -> bool {
+        let pair = self.curve(id).zip(before.curve(id));
+        pair.is_some_and(|(now, then)| Arc::ptr_eq(now, then))
+    }
+
+    /// Give the matched ends of a curve their targets, and bring them there.
+    fn correct(&mut self, id: CurveId) {
+        let Some(curve) = self.curve(id).filter(|curve| curve.visible) else {
+            return;
+        };
+        let mut corrected = Curve::clone(curve);
+        let mut matched = Vec::new();
+        for end in End::BOTH {
+            let target = self.match_of(id, end).and_then(|it| it.target(self));
+            if let Some(target) = target {
+                corrected.targets.set(end, Some(target));
+                matched.push((end, target));
+            }
+        }
+        if !curve.locked
+            && let Some(polygon) = met(curve, &matched)
+        {
+            corrected.polygon = polygon;
+        }
+        if corrected != **curve
+            && let Some(index) = self.position(id)
+        {
+            self.curves[index].1 = Arc::new(corrected);
+        }
+    }
+}
+
+/// The polygon whose ends meet their targets; `None` if they do already, or cannot.
+fn met(curve: &Curve, matched: &[(End, EndTarget)]) -> Option<FloatPolygon> {
+    let polygon = &curve.polygon;
+    let size = polygon.size();
+    let missing = |(end, target): &(End, EndTarget)| {
+        let left = EndDifference::between(polygon, *end, target).residual(size);
+        !(left <= MET * size)
+    };
+    if !matched.iter().any(missing) {
+        return None;
+    }
+    let kept = End::BOTH
+        .into_iter()
+        .filter(|end| matched.iter().all(|(other, _)| other != end));
+    let kept = kept.map(|end| {
+        let jet = polygon.end_jet(end);
+        (end, Continuity::G1.target(&jet, polygon.is_planar()))
+    });
+    let targets: Vec<(End, EndTarget)> = matched.iter().copied().chain(kept).collect();
+    let locked: Vec<usize> = curve.locked_vertices.iter().collect();
+    let least = Disturbance::Differences(1);
+    let corrected = correct_jointly(polygon, &targets, least, &locked)
+        .ok()?
+        .polygon;
+    curve.check_held(&corrected).ok()?;
+    Some(corrected)
+}

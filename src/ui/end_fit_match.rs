@@ -1,0 +1,101 @@
+//! The end-fit panel's part about other curves: picking a target from one, and keeping it matched.
+
+use eframe::egui::{Button, Checkbox, Label, RichText, Ui, vec2};
+use lucide_icons::Icon;
+
+use super::end_fit_steps::{angle_text, figure_pairs};
+use super::theme::{ROW, STEP, Tokens};
+use super::widgets::IconButton;
+use super::{figures, icons, widgets};
+use crate::document::{MatchPlace, quoted};
+use crate::editor::{EndFitAction, EndFitReport, MatchReport};
+use crate::geometry::Continuity;
+
+/// Show the level that is picked or kept, the match that there is, and the curves that follow.
+pub fn match_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
+    let mut asked = level_ui(ui, report);
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 2.0 * STEP;
+        let pick = ui.add(Button::new("Pick from curve").selected(report.picking));
+        let tooltip = "Then click another curve, at its end or at any point: what it has there \
+                       becomes the target";
+        if pick.on_hover_text(tooltip).clicked() {
+            asked = Some(EndFitAction::PickFromCurve);
+        }
+        let mut live = report.matched.is_some() || report.live;
+        let keep = ui.add(Checkbox::new(&mut live, "Keep matched"));
+        let tooltip = "Let the end follow when the other curve changes, as part of the same step";
+        if keep.on_hover_text(tooltip).clicked() {
+            asked = Some(EndFitAction::KeepMatched(live));
+        }
+    });
+    if let Some(matched) = &report.matched {
+        asked = matched_ui(ui, matched).or(asked);
+    }
+    for (name, end) in &report.followers {
+        let text = format!("The {} of {} follows this curve", end.name(), quoted(name));
+        widgets::note(ui, &text);
+    }
+    asked
+}
+
+fn level_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
+    let mut asked = None;
+    let matched = report.matched.as_ref();
+    let now = matched.map_or(report.continuity, |it| it.matched.continuity);
+    widgets::form_row(ui, "Match", |ui| {
+        ui.spacing_mut().item_spacing.x = STEP;
+        for level in Continuity::ALL {
+            let button = Button::selectable(now == level, level.name());
+            let response = ui.add_sized(vec2(40.0, ROW), button);
+            let tooltip = format!("Match up to the {}", level.label());
+            if response.on_hover_text(tooltip).clicked() {
+                asked = Some(EndFitAction::SetContinuity(level));
+            }
+        }
+    });
+    asked
+}
+
+/// What the end follows, and what is missing of each level.
+fn matched_ui(ui: &mut Ui, report: &MatchReport) -> Option<EndFitAction> {
+    let mut asked = None;
+    let place = match report.matched.place {
+        MatchPlace::End(end) => format!("its {}", end.name()),
+        MatchPlace::Parameter(u) => format!("u = {}", figures::significant(u, 5)),
+    };
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 1.5 * STEP;
+        let tokens = Tokens::of(ui);
+        ui.label(icons::text(Icon::Link).color(tokens.target));
+        widgets::at_right(ui, |ui| {
+            ui.spacing_mut().item_spacing.x = STEP;
+            if IconButton::new(Icon::X, "Remove match").show(ui).clicked() {
+                asked = Some(EndFitAction::KeepMatched(false));
+            }
+            let turn = IconButton::new(Icon::ArrowLeftRight, "Turn match round");
+            if turn.show(ui).clicked() {
+                asked = Some(EndFitAction::TurnRound);
+            }
+            let text = format!("Follows {} at {place}", quoted(&report.source));
+            let text = RichText::new(text).color(tokens.strong_text);
+            ui.add(
+                Label::new(text)
+                    .truncate()
+                    .halign(eframe::egui::Align::LEFT),
+            );
+        });
+    });
+    let missing = &report.missing;
+    let plain = |value: f64| figures::significant(value, 4);
+    figure_pairs(
+        ui,
+        &[
+            ("G0 left", plain(missing.vector.length())),
+            ("G1 left", angle_text(missing.angle)),
+            ("G2 left", plain(missing.curvature)),
+            ("G3 left", plain(missing.slope)),
+        ],
+    );
+    asked
+}

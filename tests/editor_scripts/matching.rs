@@ -1,0 +1,562 @@
+//! Ends that are matched to other curves, and follow them.
+
+use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace};
+use batten::editor::{Command, Editor, EndFitAction, Key, ToolKind, told};
+use batten::geometry::end_correction::{EndDifference, EndTarget};
+use batten::geometry::{Continuity, End, FloatPolygon};
+use batten::operations::Value;
+use glam::{DVec2, DVec3};
+
+use super::script::Script;
+
+/// What is left of a match that is met, in units of the curve's size.
+const MET: f64 = 1e-10;
+
+fn polygon(degree: usize, points: &[(f64, f64)]) -> FloatPolygon {
+    FloatPolygon::planar(degree, points).expect("a polygon")
+}
+
+/// Two curves apart from each other: "first" runs up to "second".
+fn script() -> (Script, [CurveId; 2]) {
+    let first = [
+        (0.0, 0.0),
+        (1.0, 0.3),
+        (2.1, 0.9),
+        (3.0, 1.0),
+        (4.2, 0.8),
+        (5.0, 0.2),
+        (6.0, -0.5),
+    ];
+    let second = [
+        (8.0, 0.0),
+        (9.1, 1.0),
+        (10.0, 1.4),
+        (11.2, 1.3),
+        (12.0, 0.7),
+        (13.1, -0.4),
+        (14.0, -1.6),
+        (14.6, -3.0),
+    ];
+    let curves = [
+        Curve::new("first", polygon(4, &first)),
+        Curve::new("second", polygon(5, &second)),
+    ];
+    let document = Document::from_curves(curves);
+    let ids: Vec<CurveId> = document.ids().collect();
+    let mut editor = Editor::with_document(document);
+    editor.set_canvas_size(DVec2::new(1000.0, 700.0));
+    let mut script = Script { editor };
+    script.check();
+    script.editor.activate(ids[1]);
+    script.tool(ToolKind::EndFit);
+    (script, [ids[0], ids[1]])
+}
+
+fn curve(script: &Script, id: CurveId) -> Curve {
+    Curve::clone(script.editor.document().curve(id).expect("a curve"))
+}
+
+fn at(script: &Script, point: DVec3) -> DVec2 {
+    let viewport = script.editor.view().viewport();
+    viewport.to_screen(viewport.flatten(point))
+}
+
+/// Pick the end of the first curve for the start of the second.
+fn pick_end(script: &mut Script, ids: [CurveId; 2], level: Continuity, live: bool) {
+    script.end_fit_action(EndFitAction::Choose(End::Start));
+    script.end_fit_action(EndFitAction::SetContinuity(level));
+    script.end_fit_action(EndFitAction::KeepMatched(live));
+    script.end_fit_action(EndFitAction::PickFromCurve);
+    let end = curve(script, ids[0]).polygon.end_jet(End::Finish).point;
+    script.click(at(script, end));
+}
+
+/// What is missing at an end of the second curve for it to go on from a place of the first.
+fn missing(script: &Script, matched: &EndMatch) -> f64 {
+    let document = script.editor.document();
+    let target = matched.target(document).expect("a target");
+    let polygon = &document.curve(matched.curve).expect("a curve").polygon;
+    EndDifference::between(polygon, matched.end, &target).residual(polygon.size()) / polygon.size()
+}
+
+fn first_match(script: &Script) -> EndMatch {
+    let mut matches = script.editor.document().matches();
+    *matches.next().expect("a match")
+}
+
+#[test]
+fn a_target_is_picked_at_each_level_from_an_end_or_a_point() {
+    for level in Continuity::ALL {
+        let (mut script, ids) = script();
+        pick_end(&mut script, ids, level, false);
+        let jet = curve(&script, ids[0]).polygon.end_jet(End::Finish);
+        let found = curve(&script, ids[1]).targets.start;
+        assert_eq!(found, Some(level.target(&jet, true)), "{level:?}");
+        assert_eq!(script.editor.document().matches().len(), 0);
+
+        // At the other end the curve runs towards it: everything is turned round.
+        script.end_fit_action(EndFitAction::Choose(End::Finish));
+        script.end_fit_action(EndFitAction::PickFromCurve);
+        script.click(at(&script, jet.point));
+        let turned = level.target(&jet, true).turned(true);
+        assert_eq!(
+            curve(&script, ids[1]).targets.finish,
+            Some(turned),
+            "{level:?}"
+        );
+
+        // Any point of the other curve.
+        let source = curve(&script, ids[0]).polygon;
+        script.end_fit_action(EndFitAction::PickFromCurve);
+        script.click(at(&script, source.point(1.25)));
+        let target = curve(&script, ids[1]).targets.finish.expect("a target");
+        let near = |u: f64| (source.point(u) - target.point).length() < 1e-9;
+        let u = (0..=300_000).map(|step| f64::from(step) * 1e-5);
+        let size = source.size();
+        let nearest = u.min_by(|a, b| {
+            let off = |u: &f64| source.point(*u).distance(target.point);
+            off(a).total_cmp(&off(b))
+        });
+        let nearest = nearest.expect("a parameter");
+        assert!(near(nearest) || source.point(nearest).distance(target.point) < 1e-4 * size);
+        assert!((nearest - 1.25).abs() < 0.05, "{nearest}");
+        script.undo_all();
+        assert_eq!(curve(&script, ids[1]).targets.list(), []);
+    }
+}
+
+#[test]
+fn a_live_match_follows_a_drag_of_the_other_curve_within_its_step() {
+    for level in Continuity::ALL {
+        let (mut script, ids) = script();
+        let before = script.editor.document().clone();
+        pick_end(&mut script, ids, level, true);
+        let matched = first_match(&script);
+        assert_eq!(matched.continuity, level);
+        assert_eq!((matched.curve, matched.source), (ids[1], ids[0]));
+        assert!(
+            missing(&script, &matched) <= MET,
+            "{level:?}: {:e}",
+            missing(&script, &matched)
+        );
+        let report = script.end_fit().expect("figures");
+        let shown = report.matched.expect("a match");
+        assert_eq!(shown.source, "first");
+        assert!(shown.missing.vector.length() <= MET * 20.0);
+        assert_eq!(script.steps(), 1);
+        let settled = script.editor.document().clone();
+
+        // The far end keeps its point and direction.
+        let far = curve(&script, ids[1]).polygon.end_jet(End::Finish);
+        script.tool(ToolKind::Select);
+        script.editor.activate(ids[0]);
+        let from = script.at_vertex_of(ids[0], 6);
+        script.press(from);
+        for step in 1..=4 {
+            script.move_to(from + f64::from(step) * DVec2::new(-6.0, 9.0));
+            assert!(missing(&script, &matched) <= MET, "{level:?}");
+        }
+        let now = curve(&script, ids[1]).polygon.end_jet(End::Finish);
+        assert!(now.point.distance(far.point) < 1e-10);
+        let [now, far] = [now, far].map(|jet| jet.tangent().expect("a tangent"));
+        assert!(now.distance(far) < 1e-10);
+        // Escape restores both to the bit.
+        script.key(Key::Escape);
+        assert!(script.editor.document().is_same(&settled));
+        script.release(from);
+
+        script.drag(from, from + DVec2::new(-30.0, 40.0));
+        assert_eq!(script.steps(), 2);
+        assert!(missing(&script, &matched) <= MET, "{level:?}");
+        let dragged = script.editor.document().clone();
+        script.command(Command::Undo);
+        assert!(script.editor.document().is_same(&settled));
+        script.command(Command::Redo);
+        assert!(script.editor.document().is_same(&dragged));
+        script.undo_all();
+        assert!(script.editor.document().is_same(&before));
+    }
+}
+
+#[test]
+fn a_match_at_a_point_is_kept_and_turned_round() {
+    let (mut script, ids) = script();
+    script.end_fit_action(EndFitAction::Choose(End::Start));
+    script.end_fit_action(EndFitAction::SetContinuity(Continuity::G2));
+    script.end_fit_action(EndFitAction::KeepMatched(true));
+    script.end_fit_action(EndFitAction::PickFromCurve);
+    let source = curve(&script, ids[0]).polygon;
+    script.click(at(&script, source.point(1.5)));
+    let matched = first_match(&script);
+    let MatchPlace::Parameter(u) = matched.place else {
+        panic!("{matched:?}");
+    };
+    assert!((u - 1.5).abs() < 0.05, "{u}");
+    assert!(missing(&script, &matched) <= MET);
+    let along = |script: &Script| {
+        let jet = curve(script, ids[1]).polygon.end_jet(End::Start);
+        (jet.tangent().expect("a tangent"), jet.signed_curvature())
+    };
+    let before = along(&script);
+    script.end_fit_action(EndFitAction::TurnRound);
+    let after = along(&script);
+    assert!(before.0.distance(-after.0) < 1e-9);
+    assert!((before.1 + after.1).abs() < 1e-8);
+    assert!(first_match(&script).reversed);
+
+    // Another level is one step, and the match can be removed with the target kept.
+    script.end_fit_action(EndFitAction::SetContinuity(Continuity::G3));
+    assert!(missing(&script, &first_match(&script)) <= 1e-9);
+    let target = curve(&script, ids[1]).targets.start;
+    script.end_fit_action(EndFitAction::KeepMatched(false));
+    assert_eq!(script.editor.document().matches().len(), 0);
+    assert_eq!(curve(&script, ids[1]).targets.start, target);
+    assert_eq!(script.steps(), 4);
+    script.command(Command::Undo);
+    assert_eq!(script.editor.document().matches().len(), 1);
+}
+
+#[test]
+fn the_target_of_a_matched_end_is_not_set_by_hand() {
+    let (mut script, ids) = script();
+    pick_end(&mut script, ids, Continuity::G1, true);
+    let before = script.editor.document().clone();
+    let refusal = "the start of “second” is matched to “first”: remove the match to set its target";
+    let refused = script
+        .editor
+        .end_fit_action(EndFitAction::SetPoint(DVec3::ONE));
+    assert_eq!(refused.unwrap_err().0, refusal);
+    // The end lies on its target: Alt takes the target.
+    script.modifiers(batten::editor::Modifiers {
+        alt: true,
+        ..batten::editor::Modifiers::NONE
+    });
+    let target = before
+        .curve(ids[1])
+        .and_then(|it| it.targets.start)
+        .expect("a target");
+    let place = at(&script, target.point);
+    script.drag(place, place + 40.0);
+    script.modifiers(batten::editor::Modifiers::NONE);
+    assert_eq!(script.message(), refusal);
+    assert!(script.editor.document().is_same(&before));
+    // Clearing it takes the match away too.
+    script.end_fit_action(EndFitAction::ClearTarget);
+    assert_eq!(script.editor.document().matches().len(), 0);
+    assert_eq!(curve(&script, ids[1]).targets.start, None);
+    script.command(Command::Undo);
+    assert!(script.editor.document().is_same(&before));
+}
+
+#[test]
+fn curves_do_not_follow_each_other_in_a_circle() {
+    let (mut script, ids) = script();
+    pick_end(&mut script, ids, Continuity::G1, true);
+    let before = script.editor.document().clone();
+    script.editor.activate(ids[0]);
+    script.end_fit_action(EndFitAction::Choose(End::Start));
+    script.end_fit_action(EndFitAction::KeepMatched(true));
+    script.end_fit_action(EndFitAction::PickFromCurve);
+    let end = curve(&script, ids[1]).polygon.end_jet(End::Finish).point;
+    script.click(at(&script, end));
+    assert_eq!(
+        script.message(),
+        "“second” follows “first” already: remove that match first"
+    );
+    assert!(script.editor.document().is_same(&before));
+    let own = EndMatch {
+        curve: ids[0],
+        end: End::Start,
+        source: ids[0],
+        place: MatchPlace::End(End::Finish),
+        continuity: Continuity::G0,
+        reversed: false,
+    };
+    let refused = script.editor.apply("Match", vec![Edit::SetMatch(own)]);
+    assert_eq!(
+        refused.unwrap_err().0,
+        "“first” cannot be matched to itself: choose another curve"
+    );
+}
+
+#[test]
+fn deleting_the_other_curve_dissolves_the_match_and_undo_brings_both_back() {
+    let (mut script, ids) = script();
+    pick_end(&mut script, ids, Continuity::G2, true);
+    let before = script.editor.document().clone();
+    script.editor.activate(ids[0]);
+    script.command(Command::DeleteCurve);
+    assert_eq!(
+        script.message(),
+        "“first” deleted\nThe start of “second” is no longer matched: what it followed is gone"
+    );
+    assert_eq!(script.editor.document().matches().len(), 0);
+    assert_eq!(
+        curve(&script, ids[1]),
+        Curve::clone(before.curve(ids[1]).expect("it stays"))
+    );
+    script.command(Command::Undo);
+    assert!(script.editor.document().is_same(&before));
+
+    // A periodic curve has no end any more.
+    script.editor.activate(ids[0]);
+    script.command(Command::TogglePeriodic);
+    assert!(
+        script.message().contains("no longer matched"),
+        "{}",
+        script.message()
+    );
+    script.command(Command::Undo);
+    assert!(script.editor.document().is_same(&before));
+}
+
+#[test]
+fn a_chain_of_curves_follows_from_the_first_to_the_last() {
+    let (mut script, ids) = script();
+    let points = [
+        (16.0, -4.0),
+        (17.0, -5.0),
+        (18.0, -5.2),
+        (19.0, -4.0),
+        (20.0, -2.0),
+        (21.0, 0.0),
+    ];
+    let third = script.editor.document().next_id();
+    let added = Curve::new("third", polygon(3, &points));
+    told(script.editor.apply("Add", vec![Edit::Add(Box::new(added))]));
+    let link = |curve, source| EndMatch {
+        curve,
+        end: End::Start,
+        source,
+        place: MatchPlace::End(End::Finish),
+        continuity: Continuity::G1,
+        reversed: false,
+    };
+    let both = [link(third, ids[1]), link(ids[1], ids[0])];
+    told(
+        script
+            .editor
+            .apply("Match", both.map(Edit::SetMatch).to_vec()),
+    );
+    script.tool(ToolKind::Select);
+    script.editor.activate(ids[0]);
+    // The end of the second keeps its place, so that the third is moved by its start alone.
+    let edit = Edit::MoveVertices {
+        curve: ids[1],
+        moves: vec![(7, DVec3::new(15.0, -2.0, 0.0))],
+    };
+    told(script.editor.apply("Move", vec![edit]));
+    for matched in both {
+        assert!(missing(&script, &matched) <= MET);
+    }
+    script.drag_vertex(5, DVec2::new(10.0, 20.0));
+    for matched in both {
+        assert!(missing(&script, &matched) <= MET);
+    }
+}
+
+#[test]
+fn locked_and_hidden_curves_follow_once_they_are_free() {
+    let (mut script, ids) = script();
+    pick_end(&mut script, ids, Continuity::G1, true);
+    let matched = first_match(&script);
+    let before = curve(&script, ids[1]).polygon;
+    for protect in [Command::ToggleLocked, Command::ToggleVisible] {
+        script.tool(ToolKind::Select);
+        script.editor.activate(ids[1]);
+        script.command(protect);
+        script.editor.activate(ids[0]);
+        script.drag_vertex(5, DVec2::new(10.0, 20.0));
+        assert_eq!(curve(&script, ids[1]).polygon, before, "{protect:?}");
+        assert!(missing(&script, &matched) > 1e-3, "{protect:?}");
+        script.editor.activate(ids[1]);
+        script.command(protect);
+        assert!(missing(&script, &matched) <= MET, "{protect:?}");
+        for _ in 0..3 {
+            script.command(Command::Undo);
+        }
+        assert_eq!(curve(&script, ids[1]).polygon, before, "{protect:?}");
+    }
+}
+
+#[test]
+fn operations_on_either_curve_leave_a_match_where_it_is() {
+    let (mut script, ids) = script();
+    pick_end(&mut script, ids, Continuity::G2, true);
+    let inner = EndMatch {
+        curve: ids[1],
+        end: End::Finish,
+        source: ids[0],
+        place: MatchPlace::Parameter(1.5),
+        continuity: Continuity::G1,
+        reversed: false,
+    };
+    told(script.editor.apply("Match", vec![Edit::SetMatch(inner)]));
+    let before = script.editor.document().clone();
+    let follower = |script: &Script, id: CurveId| curve(script, id).polygon;
+    let steps: [(usize, &str, Vec<(&str, Value)>); 6] = [
+        (0, "reverse", vec![]),
+        (1, "reverse", vec![]),
+        (0, "subdivide", vec![]),
+        (
+            0,
+            "extend",
+            vec![("end", Value::Choice(0)), ("segments", Value::Whole(2))],
+        ),
+        (0, "trim", vec![("from", Value::Real(1.0))]),
+        (0, "split", vec![("at", Value::Real(1.0))]),
+    ];
+    for (number, name, values) in steps {
+        script.editor.activate(ids[number]);
+        script.operate(name, &values).expect("it can run");
+        let size = before.curve(ids[1]).expect("a curve").polygon.size();
+        let now = follower(&script, ids[1]);
+        let then = &before.curve(ids[1]).expect("a curve").polygon;
+        let then = if (number, name) == (1, "reverse") {
+            then.reversed()
+        } else {
+            then.clone()
+        };
+        let pairs = now.vertices().iter().zip(then.vertices());
+        let moved = pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+        assert!(moved < 1e-9 * size, "{name}: {moved:e}");
+        let matches: Vec<EndMatch> = script.editor.document().matches().copied().collect();
+        assert_eq!(matches.len(), 2, "{name}");
+        for matched in matches {
+            assert!(missing(&script, &matched) <= MET, "{name}: {matched:?}");
+        }
+        script.command(Command::Undo);
+        assert!(script.editor.document().is_same(&before), "{name}");
+    }
+    // What is cut off is followed no longer.
+    script.editor.activate(ids[0]);
+    script
+        .operate("trim", &[("from", Value::Real(2.0))])
+        .expect("a part");
+    assert_eq!(script.editor.document().matches().len(), 1);
+    assert!(
+        script.message().contains("1 match to it is removed"),
+        "{}",
+        script.message()
+    );
+    script.command(Command::Undo);
+
+    // The matched end goes with the second part.
+    script.editor.activate(ids[1]);
+    script.operate("split", &[]).expect("two parts");
+    let second = script.editor.document().ids().last().expect("a part");
+    let document = script.editor.document();
+    assert!(document.match_of(second, End::Finish).is_some());
+    assert!(document.match_of(ids[1], End::Start).is_some());
+    assert_eq!(document.matches().len(), 2);
+}
+
+#[test]
+fn a_match_is_saved_and_imported_with_its_curves() {
+    let (mut script, ids) = script();
+    pick_end(&mut script, ids, Continuity::G3, true);
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("matched.batten");
+    told(script.editor.save(&path));
+    let before = script.editor.document().clone();
+    let text = std::fs::read_to_string(&path).expect("a file");
+    assert!(
+        text.contains("\"version\": 2") && text.contains("\"continuity\": \"G3\""),
+        "{text}"
+    );
+
+    let mut opened = Editor::new();
+    told(opened.open(std::slice::from_ref(&path)));
+    assert!(opened.document().is_same(&before));
+
+    told(opened.import(std::slice::from_ref(&path)));
+    let ids: Vec<CurveId> = opened.document().ids().collect();
+    let matches: Vec<EndMatch> = opened.document().matches().copied().collect();
+    assert_eq!(matches.len(), 2);
+    assert_eq!((matches[1].curve, matches[1].source), (ids[3], ids[2]));
+    told(opened.execute(Command::Undo));
+    assert!(opened.document().is_same(&before));
+}
+
+#[test]
+fn the_osculating_circle_of_a_target_is_dragged() {
+    let (mut script, ids) = script();
+    script.end_fit_action(EndFitAction::Choose(End::Start));
+    script.end_fit_action(EndFitAction::TargetActual);
+    script.end_fit_action(EndFitAction::SetCurvature(Some(0.5)));
+    let target = |script: &Script| curve(script, ids[1]).targets.start.expect("a target");
+    let before = target(&script);
+    assert_eq!(before.curvature, Some(0.5));
+    let circle = script.scene().ends[0].circle.clone();
+    assert!(circle.len() > 10);
+    let [along, point] = [before.direction.expect("a direction"), before.point];
+    let across = DVec3::Z.cross(along.normalize());
+    // Every point of the circle is 2 from its centre.
+    let centre = (point + 2.0 * across).truncate();
+    for place in circle {
+        assert!((place.distance(centre) - 2.0).abs() < 1e-12);
+    }
+    // Drag its far point to the other side: the new circle passes through it.
+    let top = at(&script, point + 4.0 * across);
+    let to = at(&script, point - 8.0 * across);
+    script.press(top);
+    script.move_to(0.5 * (top + to));
+    script.move_to(to);
+    let dragged = target(&script).curvature.expect("a curvature");
+    assert!((dragged + 0.25).abs() < 1e-3, "{dragged}");
+    assert!(
+        script.editor.hint().contains("radius"),
+        "{}",
+        script.editor.hint()
+    );
+    script.key(Key::Escape);
+    assert_eq!(target(&script), before);
+    script.release(to);
+    script.drag(top, to);
+    assert!((target(&script).curvature.expect("a curvature") + 0.25).abs() < 1e-3);
+    assert_eq!(
+        script.editor.workspace().history().undo_label(),
+        Some("Curve target of start")
+    );
+    script.command(Command::Undo);
+    assert_eq!(target(&script), before);
+}
+
+#[test]
+fn fields_of_a_target_depend_on_each_other() {
+    let (mut script, ids) = script();
+    let target = |script: &Script| curve(script, ids[1]).targets.start.unwrap_or_default();
+    let jet = curve(&script, ids[1]).polygon.end_jet(End::Start);
+    script.end_fit_action(EndFitAction::Choose(End::Start));
+    script.end_fit_action(EndFitAction::SetSlope(Some(0.1)));
+    let expected = EndTarget {
+        point: jet.point,
+        direction: jet.tangent(),
+        curvature: Some(jet.signed_curvature()),
+        normal: None,
+        slope: Some(0.1),
+    };
+    assert_eq!(target(&script), expected);
+    let report = script.end_fit().expect("figures");
+    let missing = report.missing.expect("differences");
+    assert_eq!(missing.slope, 0.1 - jet.curvature_slope(true));
+    script.end_fit_action(EndFitAction::SetPoint(DVec3::ONE));
+    assert_eq!(
+        target(&script),
+        EndTarget {
+            point: DVec3::ONE,
+            ..expected
+        }
+    );
+    script.end_fit_action(EndFitAction::SetCurvature(None));
+    assert_eq!(
+        (target(&script).curvature, target(&script).slope),
+        (None, None)
+    );
+    script.end_fit_action(EndFitAction::SetCurvature(Some(2.0)));
+    script.end_fit_action(EndFitAction::SetDirection(None));
+    assert_eq!(target(&script).curvature, None);
+    assert_eq!(script.steps(), 5);
+    script.undo_all();
+    assert_eq!(curve(&script, ids[1]).targets.start, None);
+}
