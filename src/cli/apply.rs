@@ -30,6 +30,8 @@ pub(super) struct Application {
     pub(super) curves: Vec<String>,
     /// The values of the parameters that are given.
     pub(super) values: Vec<(&'static str, Value)>,
+    /// Whether the best found is written where what was asked for is not reached.
+    pub(super) best: bool,
 }
 
 /// List the operations.
@@ -44,8 +46,8 @@ pub(super) fn list() -> anyhow::Result<()> {
 }
 
 /// Apply an operation, write the document, and print the report as JSON: to the standard error if
-/// the document goes to the standard output. The exit code is 1, and nothing is written, if what
-/// was asked for is not reached.
+/// the document goes to the standard output. The exit code is 1, and nothing but the best found, if
+/// that is wanted, is written, if what was asked for is not reached.
 ///
 /// # Errors
 /// If the source cannot be read, the operation cannot run, or the destination cannot be written;
@@ -55,7 +57,7 @@ pub(super) fn run(application: &Application) -> anyhow::Result<ExitCode> {
     let input = application.input()?;
     let done = application.applied(&input);
     let (outcome, report) = done.with_context(|| application.place())?;
-    if outcome.reached {
+    if outcome.reached || (application.best && outcome.is_useful()) {
         let document = outcome.applied_to(input.document())?;
         let export = format.write_document(&document, None);
         let destination = &application.destination;
@@ -166,7 +168,7 @@ impl Application {
         progress: &Progress,
     ) -> Result<(Outcome, Report), OperationError> {
         let operation = self.operation;
-        let values = operation.values(input, self.values.iter().copied())?;
+        let values = operation.values(input, self.values.iter().cloned())?;
         let outcome = operation.run(input, &values, progress)?;
         let report = Report::of(operation, input, &outcome, progress);
         Ok((outcome, report.ok_or(OperationError::Cancelled)?))

@@ -16,6 +16,7 @@ const CURVE: &str = "curve";
 const WITH: &str = "with";
 const FROM_FORMAT: &str = "from-format";
 const TO_FORMAT: &str = "to-format";
+const BEST: &str = "best";
 
 /// What `batten apply` is asked for.
 #[derive(Debug)]
@@ -43,6 +44,8 @@ pub(super) struct Given {
     pub(super) curves: Vec<String>,
     /// The values of the parameters that are given.
     pub(super) values: Vec<(&'static str, Value)>,
+    /// Whether the best found is written where what was asked for is not reached.
+    pub(super) best: bool,
 }
 
 impl Args for ApplyArguments {
@@ -91,7 +94,7 @@ impl Given {
         let parameters = operation.parameters.iter();
         let values = parameters.filter_map(|parameter| {
             let value = matches.get_one::<Value>(parameter.name)?;
-            Some((parameter.name, *value))
+            Some((parameter.name, value.clone()))
         });
         Self {
             operation,
@@ -101,6 +104,7 @@ impl Given {
             to_format: format(TO_FORMAT),
             curves: [CURVE, WITH].into_iter().filter_map(name).collect(),
             values: values.collect(),
+            best: matches.get_flag(BEST),
         }
     }
 }
@@ -142,7 +146,9 @@ pub(super) fn command_of(operation: &'static Operation) -> Command {
         );
         command = command.arg(other.requires(CURVE));
     }
-    command.args(operation.parameters.iter().map(parameter_argument))
+    command = command.args(operation.parameters.iter().map(parameter_argument));
+    let best = Arg::new(BEST).long(BEST).action(ArgAction::SetTrue);
+    command.arg(best.help("Write the best found also where what was asked for is not reached; the exit code is 1 then"))
 }
 
 const CURVES: &str =
@@ -179,6 +185,7 @@ fn parameter_argument(parameter: &'static Parameter) -> Arg {
     let argument = option(parameter.name)
         .value_name(value_name(parameter))
         .allow_negative_numbers(true)
+        .allow_hyphen_values(matches!(parameter.kind, Kind::List { .. }))
         .help(format!("{} [{about}]", parameter.help));
     match parameter.kind {
         Kind::Choice { options, .. } => {
@@ -192,12 +199,24 @@ fn parameter_argument(parameter: &'static Parameter) -> Arg {
             .num_args(0..=1)
             .require_equals(true)
             .default_missing_value("on"),
-        Kind::Whole { .. } | Kind::Real { .. } => argument.value_parser(read),
+        Kind::Whole { .. } | Kind::Real { .. } | Kind::List { .. } => argument.value_parser(read),
     }
 }
 
 fn value_name(parameter: &Parameter) -> &'static str {
-    match (parameter.kind, parameter.unit()) {
+    match (&parameter.kind, parameter.unit()) {
+        (
+            Kind::List {
+                count, whole, unit, ..
+            },
+            _,
+        ) => match (*count.end(), *whole, *unit) {
+            (1, true, _) => "COUNT",
+            (1, ..) => "X",
+            (2, _, Unit::Parameter) => "U,U",
+            (3, ..) => "X,Y[,Z]",
+            _ => "I,J,…",
+        },
         (Kind::Choice { .. }, _) => "WORD",
         (Kind::Switch { .. }, _) => "on|off",
         (_, Unit::Length) => "LENGTH",

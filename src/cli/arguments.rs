@@ -191,6 +191,7 @@ impl Arguments {
                 destination: destination("apply", given.out, given.to_format)?,
                 curves: given.curves,
                 values: given.values,
+                best: given.best,
             }),
             Some(Command::Inspect {
                 file,

@@ -235,7 +235,7 @@ impl Editor {
         given: &[(&str, Value)],
     ) -> Result<(), Refusal> {
         let prepared = self.input_of(operation).and_then(|input| {
-            let values = operation.values(&input, given.iter().copied())?;
+            let values = operation.values(&input, given.iter().cloned())?;
             Ok((input, values))
         });
         let (input, values) = prepared.map_err(|error| Refusal(error.to_string()))?;
@@ -328,7 +328,7 @@ impl Editor {
             Ok(run) => run.outcome.edits.clone(),
             Err(_) => Vec::new(),
         };
-        let proves = run.as_ref().is_ok_and(|run| run.outcome.reached);
+        let proves = run.as_ref().is_ok_and(|run| run.outcome.is_useful());
         let Some(trial) = &mut self.operations.trial else {
             return;
         };
@@ -375,7 +375,7 @@ impl Editor {
     fn tell_of_amendment(&mut self) {
         let run = self.operations.trial.as_ref().and_then(Trial::run);
         let reply = match run {
-            Some(Ok(run)) if run.outcome.reached => Ok(Note::done(run.report.summary())),
+            Some(Ok(run)) if run.outcome.is_useful() => Ok(Note::done(run.report.summary())),
             Some(Ok(run)) => Err(Refusal(run.report.summary())),
             Some(Err(error)) => Err(Refusal(error.to_string())),
             None => return,
@@ -396,7 +396,7 @@ impl Editor {
         let renumbers = match &trial.run {
             None => return Ok(Note::silent()),
             Some(Err(error)) => return Err(Refusal(error.to_string())),
-            Some(Ok(run)) if !run.outcome.reached => return Err(Refusal(run.report.summary())),
+            Some(Ok(run)) if !run.outcome.is_useful() => return Err(Refusal(run.report.summary())),
             Some(Ok(run)) => run.outcome.renumbered,
         };
         let steps = self.workspace.history().undo_steps();

@@ -2,16 +2,20 @@
 
 use std::ops::Bound;
 
+use glam::DVec3;
+
 use super::amount::Amount;
+use super::editable::open;
 use super::error::OperationError;
 use super::input::Input;
 use super::inputs::Inputs;
+use super::lists::{LOCKED, given, locked, number, vector};
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
 use super::parameter::{Choice, Kind, Parameter, Unit};
-use super::targets::{check_targets, corrected, cusp, marks, residual};
+use super::targets::{corrected, cusp, marks, residual};
 use super::values::Values;
-use crate::document::Curve;
+use crate::document::{Curve, EditError};
 use crate::geometry::end_correction::{EndOverlap, EndTarget, correct_in_turn};
 use crate::geometry::fairing::joint_correction::{CorrectionError, Disturbance, correct_jointly};
 use crate::geometry::{End, FloatPolygon, Progress, counted, significant};
@@ -43,10 +47,37 @@ const METHOD: Parameter = Parameter {
     },
 };
 
+const ORDER: Parameter = Parameter {
+    name: "order",
+    label: "Disturb least",
+    help: "What both ends at once keep small: the first, second or third differences of the vertices' moves, or what is not harmonious",
+    kind: Kind::Choice {
+        options: &[
+            Choice {
+                name: "1",
+                label: "Order 1",
+            },
+            Choice {
+                name: "2",
+                label: "Order 2",
+            },
+            Choice {
+                name: "3",
+                label: "Order 3",
+            },
+            Choice {
+                name: "harmonious",
+                label: "Harmony",
+            },
+        ],
+        default: 0,
+    },
+};
+
 const TOLERANCE: Parameter = Parameter {
     name: "tolerance",
     label: "Tolerance",
-    help: "How far an end may stay off its target; angles count as arcs over the size of the polygon",
+    help: "How far an end may stay off its target; angles count as arcs over the size of the polygon, curvatures times its square, slopes times its cube",
     kind: Kind::Real {
         from: Bound::Excluded(Amount::Number(0.0)),
         to: Bound::Unbounded,
@@ -61,14 +92,106 @@ const TOLERANCE: Parameter = Parameter {
     },
 };
 
+/// What can be asked of one end.
+struct Asked {
+    point: Parameter,
+    direction: Parameter,
+    curvature: Parameter,
+    slope: Parameter,
+    normal: Parameter,
+}
+
+const AS_SET: &str = "as the target is set";
+
+const START: Asked = Asked {
+    point: Parameter {
+        name: "start",
+        label: "Start point",
+        help: "Where the curve begins; without a point it begins where it does",
+        kind: vector(AS_SET),
+    },
+    direction: Parameter {
+        name: "start-direction",
+        label: "Start direction",
+        help: "The direction at the start, along the curve",
+        kind: vector(AS_SET),
+    },
+    curvature: Parameter {
+        name: "start-curvature",
+        label: "Start curvature",
+        help: "The curvature at the start; of a planar curve positive where it turns left",
+        kind: number(AS_SET),
+    },
+    slope: Parameter {
+        name: "start-slope",
+        label: "Start slope",
+        help: "The slope of the curvature at the start, by arc length",
+        kind: number(AS_SET),
+    },
+    normal: Parameter {
+        name: "start-normal",
+        label: "Start normal",
+        help: "The normal of the osculating plane at the start, of a curve in space",
+        kind: vector(AS_SET),
+    },
+};
+
+const FINISH: Asked = Asked {
+    point: Parameter {
+        name: "end",
+        label: "End point",
+        help: "Where the curve ends; without a point it ends where it does",
+        kind: vector(AS_SET),
+    },
+    direction: Parameter {
+        name: "end-direction",
+        label: "End direction",
+        help: "The direction at the end, along the curve",
+        kind: vector(AS_SET),
+    },
+    curvature: Parameter {
+        name: "end-curvature",
+        label: "End curvature",
+        help: "The curvature at the end; of a planar curve positive where it turns left",
+        kind: number(AS_SET),
+    },
+    slope: Parameter {
+        name: "end-slope",
+        label: "End slope",
+        help: "The slope of the curvature at the end, by arc length",
+        kind: number(AS_SET),
+    },
+    normal: Parameter {
+        name: "end-normal",
+        label: "End normal",
+        help: "The normal of the osculating plane at the end, of a curve in space",
+        kind: vector(AS_SET),
+    },
+};
+
 /// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
     name: "correct-ends",
     label: "Correct ends",
     help: "Bring the ends of the curve to their targets; at once, an end without a target keeps its point and direction",
     inputs: Inputs::One,
-    parameters: &[METHOD, TOLERANCE],
-    check: check_targets,
+    parameters: &[
+        METHOD,
+        ORDER,
+        START.point,
+        START.direction,
+        START.curvature,
+        START.slope,
+        START.normal,
+        FINISH.point,
+        FINISH.direction,
+        FINISH.curvature,
+        FINISH.slope,
+        FINISH.normal,
+        LOCKED,
+        TOLERANCE,
+    ],
+    check: |input| open(input, "corrected at its ends").map(drop),
     run,
 };
 
@@ -82,12 +205,15 @@ struct Correction {
     reason: String,
 }
 
-type Method = fn(&Curve, f64) -> Result<Correction, OperationError>;
-
 fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
     let (id, curve) = input.curve()?;
-    let method = values.choice(&METHOD, &[at_once as Method, step_by_step]);
-    let correction = method(curve, values.real(&TOLERANCE))?;
+    let curve = &asked(curve, values)?;
+    let tolerance = values.real(&TOLERANCE);
+    let correction = if values.choice(&METHOD, &[true, false]) {
+        at_once(curve, values, tolerance)?
+    } else {
+        step_by_step(curve, tolerance)?
+    };
     let mut outcome = match correction.polygon {
         Some(polygon) if polygon == curve.polygon => {
             let mut outcome = Outcome::unchanged(Deviation::Exact);
@@ -103,14 +229,70 @@ fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, Operatio
         }
     };
     outcome.residual = Some(correction.residual);
-    outcome.figures = vec![Figure::count("passes", "Passes", correction.passes)];
+    let passes = correction.passes;
+    outcome.figures = vec![
+        Figure::count("passes", "Passes", passes),
+        Figure::count("iterations", "Iterations", passes),
+    ];
     outcome.marks = End::BOTH.map(|end| marks(curve, end)).concat();
     Ok(outcome)
 }
 
+/// The curve with the targets that are set, and what the values ask for beside them.
+///
+/// # Errors
+/// [`OperationError::NoTarget`] if nothing is asked for at all, or [`EditError::BadTarget`].
+fn asked(curve: &Curve, values: &Values) -> Result<Curve, OperationError> {
+    let mut asked = curve.clone();
+    for (end, parameters) in [(End::Start, &START), (End::Finish, &FINISH)] {
+        let target = parameters.target(curve, end, values);
+        if target.is_some_and(|target| !target.is_usable()) {
+            return Err(EditError::BadTarget.into());
+        }
+        asked.targets.set(end, target);
+    }
+    if asked.targets.list().is_empty() {
+        return Err(OperationError::NoTarget { end: None });
+    }
+    Ok(asked)
+}
+
+impl Asked {
+    /// The target of an end: the one that is set, changed by what is given. Where none is set and
+    /// no point is given, the end keeps its point and direction.
+    fn target(&self, curve: &Curve, end: End, values: &Values) -> Option<EndTarget> {
+        let vector = |parameter| match *values.list(parameter) {
+            [x, y] => Some(DVec3::new(x, y, 0.0)),
+            [x, y, z] => Some(DVec3::new(x, y, z)),
+            _ => None,
+        };
+        let set = curve.targets.get(end);
+        let [point, direction, normal] = [&self.point, &self.direction, &self.normal].map(vector);
+        let [curvature, slope] =
+            [&self.curvature, &self.slope].map(|parameter| given(values, parameter));
+        let bends = curvature.is_some() || slope.is_some() || normal.is_some();
+        if point.is_none() && direction.is_none() && !bends {
+            return set;
+        }
+        let jet = curve.polygon.end_jet(end);
+        let target = set.unwrap_or(EndTarget {
+            point: jet.point,
+            direction: jet.tangent().filter(|_| point.is_none()),
+            ..EndTarget::default()
+        });
+        Some(EndTarget {
+            point: point.unwrap_or(target.point),
+            direction: direction.or(target.direction),
+            curvature: curvature.or(target.curvature),
+            normal: normal.or(target.normal),
+            slope: slope.or(target.slope),
+        })
+    }
+}
+
 /// Correct both ends by the least disturbance. An end without a target keeps its point and
 /// direction.
-fn at_once(curve: &Curve, tolerance: f64) -> Result<Correction, OperationError> {
+fn at_once(curve: &Curve, values: &Values, tolerance: f64) -> Result<Correction, OperationError> {
     let kept = |end: End| {
         let jet = curve.polygon.end_jet(end);
         EndTarget {
@@ -120,6 +302,7 @@ fn at_once(curve: &Curve, tolerance: f64) -> Result<Correction, OperationError> 
         }
     };
     let targets = End::BOTH.map(|end| (end, curve.targets.get(end).unwrap_or_else(|| kept(end))));
+    let locked = locked(curve, values)?;
     if residual(curve, &curve.polygon) <= tolerance {
         return Ok(Correction {
             polygon: Some(curve.polygon.clone()),
@@ -128,11 +311,18 @@ fn at_once(curve: &Curve, tolerance: f64) -> Result<Correction, OperationError> 
             reason: String::new(),
         });
     }
-    match correct_jointly(&curve.polygon, &targets, Disturbance::Differences(1), &[]) {
+    let disturbances = [
+        Disturbance::Differences(1),
+        Disturbance::Differences(2),
+        Disturbance::Differences(3),
+        Disturbance::Harmony,
+    ];
+    let disturbance = values.choice(&ORDER, &disturbances);
+    match correct_jointly(&curve.polygon, &targets, disturbance, &locked) {
         Ok(joint) => Ok(Correction {
             residual: joint.residual,
             polygon: Some(joint.polygon).filter(|_| joint.residual <= tolerance),
-            passes: 1,
+            passes: joint.steps,
             reason: ROUNDING_LEAVES_MORE.to_owned(),
         }),
         Err(error @ CorrectionError::NotSolvable { residual, .. }) => Ok(Correction {
@@ -155,17 +345,24 @@ fn step_by_step(curve: &Curve, tolerance: f64) -> Result<Correction, OperationEr
     Ok(Correction {
         residual,
         passes,
-        reason: cusp.unwrap_or_else(|| why_not(&curve.polygon, passes, residual)),
+        reason: cusp.unwrap_or_else(|| why_not(curve, passes, residual)),
         polygon: Some(outcome.polygon).filter(|_| reached),
     })
 }
 
 /// Say why the loop was given up.
-fn why_not(polygon: &FloatPolygon, passes: usize, left: f64) -> String {
+fn why_not(curve: &Curve, passes: usize, left: f64) -> String {
+    let polygon = &curve.polygon;
     if left <= ROUNDING * polygon.size() {
         return ROUNDING_LEAVES_MORE.to_owned();
     }
+    let bends = |target: &EndTarget| {
+        target.curvature.is_some() || target.slope.is_some() || target.normal.is_some()
+    };
     let reason = match EndOverlap::of(polygon) {
+        _ if curve.targets.list().iter().any(|(_, target)| bends(target)) => {
+            "the steps bring points and directions to their targets, not curvatures".to_owned()
+        }
         EndOverlap::None => "the ends do not settle".to_owned(),
         EndOverlap::Partial { shared } => {
             let shared = counted(shared, "vertex", "vertices");

@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use super::inputs::Inputs;
 use crate::document::EditError;
+use crate::geometry::fairing::harmonising::HarmonyError;
 use crate::geometry::fairing::joint_correction::CorrectionError;
 use crate::geometry::{End, MAX_DEGREE, PolygonError};
 
@@ -25,6 +26,9 @@ pub enum OperationError {
     /// The ends cannot be corrected at once.
     #[error(transparent)]
     Correction(#[from] CorrectionError),
+    /// The curve cannot be harmonised.
+    #[error(transparent)]
+    Harmony(#[from] HarmonyError),
     /// There is no lower degree.
     #[error("the degree is 1 already, the lowest that there is")]
     LowestDegree,

@@ -16,6 +16,7 @@ mod error;
 mod features;
 mod input;
 mod inputs;
+mod lists;
 mod locks;
 mod matches;
 mod operation;
@@ -64,6 +65,7 @@ table! {
     translate_end,
     rotate_end,
     correct_ends,
+    harmonise,
 }
 
 /// Find an operation by its name.

@@ -85,14 +85,14 @@ impl Operation {
         value: Value,
     ) -> Result<Values, OperationError> {
         let kept = self.parameters.iter();
-        let kept = kept.map(|parameter| (parameter.name, values.get(parameter)));
+        let kept = kept.map(|parameter| (parameter.name, values.get(parameter).clone()));
         self.values(input, kept.chain([(name, value)]))
     }
 
     /// Run the operation with values that were checked for this input.
     ///
     /// The document accepts the edits of the outcome. Where what was asked for is not reached, the
-    /// outcome says so and has no edits.
+    /// outcome says so; edits are those of the best that was found then, if there is one.
     ///
     /// # Errors
     /// As [`Operation::check`]; if the values make no curve; [`OperationError::Cancelled`]

@@ -11,7 +11,8 @@ use crate::geometry::{Approximation, FloatPolygon};
 /// Hold what an operation comes to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
-    /// Whether what was asked for is reached; there are no edits if not.
+    /// Whether what was asked for is reached; if not, edits are those of the best that was found, if
+    /// there is one.
     pub reached: bool,
     /// What is left of a target or tolerance, as a length.
     pub residual: Option<f64>,
@@ -62,7 +63,7 @@ impl Deviation {
 }
 
 /// A figure that belongs to one operation only.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     /// Its key in JSON.
     pub name: &'static str,
@@ -161,6 +162,11 @@ impl Outcome {
             remarks: Vec::new(),
             marks: Vec::new(),
         }
+    }
+
+    /// Whether there is something to keep: what was asked for, or the best that was found.
+    pub fn is_useful(&self) -> bool {
+        self.reached || !self.edits.is_empty()
     }
 
     /// Make the edits in a copy of a document.

@@ -1,7 +1,7 @@
 //! A parameter of an operation, described once.
 
 use std::fmt::Display;
-use std::ops::Bound;
+use std::ops::{Bound, RangeInclusive};
 
 use super::amount::Amount;
 use super::error::OperationError;
@@ -9,7 +9,7 @@ use super::input::Input;
 use super::value::Value;
 
 /// Describe a parameter.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Parameter {
     /// What the command line calls it.
     pub name: &'static str,
@@ -22,7 +22,7 @@ pub struct Parameter {
 }
 
 /// What values a parameter takes.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub enum Kind {
     /// Whole numbers.
     Whole {
@@ -55,6 +55,17 @@ pub enum Kind {
     Switch {
         /// What it is if it is not given.
         default: bool,
+    },
+    /// Some finite numbers, such as the coordinates of a point, or none.
+    List {
+        /// How many there can be.
+        count: RangeInclusive<usize>,
+        /// Whether they are whole numbers from 0 on.
+        whole: bool,
+        /// Their unit.
+        unit: Unit,
+        /// What it means if none is given.
+        none: &'static str,
     },
 }
 
@@ -95,6 +106,7 @@ impl Parameter {
             Kind::Real { default, .. } => Value::Real(default.of(input)?),
             Kind::Choice { default, .. } => Value::Choice(default),
             Kind::Switch { default } => Value::Switch(default),
+            Kind::List { .. } => Value::List(Vec::new()),
         })
     }
 
@@ -120,7 +132,7 @@ impl Parameter {
     ///
     /// # Errors
     /// [`OperationError::WrongKind`], [`OperationError::OutOfRange`], or as [`Amount::of`].
-    pub fn check(&self, value: Value, input: &Input) -> Result<(), OperationError> {
+    pub fn check(&self, value: &Value, input: &Input) -> Result<(), OperationError> {
         self.check_kind(value)?;
         match self.limits(input)? {
             Some(limits) => self.check_limits(value, limits),
@@ -150,37 +162,49 @@ impl Parameter {
                 "off" => Some(Value::Switch(false)),
                 _ => None,
             },
+            Kind::List { unit, .. } => {
+                let parts = text.split(',').filter(|_| !text.is_empty());
+                let numbers = parts.map(|part| part.trim().parse().ok());
+                let numbers: Option<Vec<f64>> = numbers.collect();
+                let typed = |numbers: Vec<f64>| numbers.into_iter().map(|it| unit.typed(it));
+                numbers.map(|numbers| Value::List(typed(numbers).collect()))
+            }
         };
         let value = value.ok_or_else(|| self.wrong_kind())?;
-        self.check_kind(value)?;
+        self.check_kind(&value)?;
         let fixed = |bound: Bound<Amount>| match bound {
             Bound::Included(Amount::Number(number)) => Bound::Included(number),
             Bound::Excluded(Amount::Number(number)) => Bound::Excluded(number),
             _ => Bound::Unbounded,
         };
         if let Some((from, to)) = self.range() {
-            self.check_limits(value, (fixed(from), fixed(to)))?;
+            self.check_limits(&value, (fixed(from), fixed(to)))?;
         }
         Ok(value)
     }
 
     /// Write a value as [`Parameter::read`] reads it.
-    pub fn text(&self, value: Value) -> String {
-        match (self.kind, value) {
+    pub fn text(&self, value: &Value) -> String {
+        let shown = |number: &f64| self.unit().shown(*number).to_string();
+        match (&self.kind, value) {
             (Kind::Choice { options, .. }, Value::Choice(index)) => options
-                .get(index)
+                .get(*index)
                 .map_or_else(String::new, |option| option.name.to_owned()),
             (_, Value::Whole(number)) => number.to_string(),
-            (_, Value::Real(number)) => self.unit().shown(number).to_string(),
+            (_, Value::Real(number)) => shown(number),
             (_, Value::Choice(index)) => index.to_string(),
-            (_, Value::Switch(on)) => if on { "on" } else { "off" }.to_owned(),
+            (_, Value::Switch(on)) => if *on { "on" } else { "off" }.to_owned(),
+            (_, Value::List(numbers)) => {
+                let numbers: Vec<String> = numbers.iter().map(shown).collect();
+                numbers.join(", ")
+            }
         }
     }
 
     /// The unit of its numbers.
     pub fn unit(&self) -> Unit {
         match self.kind {
-            Kind::Real { unit, .. } => unit,
+            Kind::Real { unit, .. } | Kind::List { unit, .. } => unit,
             Kind::Whole { .. } | Kind::Choice { .. } | Kind::Switch { .. } => Unit::None,
         }
     }
@@ -195,6 +219,7 @@ impl Parameter {
                 return names.join(" or ");
             }
             Kind::Switch { .. } => return "on or off".to_owned(),
+            Kind::List { .. } => return self.list_words(),
         };
         let words = self.range().map(|(from, to)| {
             let words = |amount: Amount| self.amount_words(amount);
@@ -210,14 +235,38 @@ impl Parameter {
     pub fn default_words(&self) -> String {
         match self.kind {
             Kind::Whole { default, .. } | Kind::Real { default, .. } => self.amount_words(default),
-            Kind::Choice { default, .. } => self.text(Value::Choice(default)),
-            Kind::Switch { default } => self.text(Value::Switch(default)),
+            Kind::Choice { default, .. } => self.text(&Value::Choice(default)),
+            Kind::Switch { default } => self.text(&Value::Switch(default)),
+            Kind::List { none, .. } => none.to_owned(),
+        }
+    }
+
+    /// Say which lists it takes: "2 or 3 numbers, separated by commas".
+    fn list_words(&self) -> String {
+        let Kind::List {
+            count, whole, unit, ..
+        } = &self.kind
+        else {
+            return String::new();
+        };
+        let (least, most) = (*count.start(), *count.end());
+        let noun = match (*whole, *unit) {
+            (true, _) => ("a whole number", "whole numbers"),
+            (false, Unit::Parameter) => ("a parameter u", "parameters u"),
+            _ => ("a number", "numbers"),
+        };
+        let (one, several) = noun;
+        match (least, most) {
+            (1, 1) => one.to_owned(),
+            (_, usize::MAX) => format!("{several}, separated by commas"),
+            (least, most) if least == most => format!("{least} {several}, separated by commas"),
+            (least, most) => format!("{least} or {most} {several}, separated by commas"),
         }
     }
 
     fn amount_words(&self, amount: Amount) -> String {
         match amount {
-            Amount::Number(number) => self.text(Value::Real(number)),
+            Amount::Number(number) => self.text(&Value::Real(number)),
             amount => amount.to_string(),
         }
     }
@@ -226,15 +275,23 @@ impl Parameter {
         match self.kind {
             Kind::Whole { from, to, .. } => Some((Bound::Included(from), Bound::Included(to))),
             Kind::Real { from, to, .. } => Some((from, to)),
-            Kind::Choice { .. } | Kind::Switch { .. } => None,
+            Kind::Choice { .. } | Kind::Switch { .. } | Kind::List { .. } => None,
         }
     }
 
-    fn check_kind(&self, value: Value) -> Result<(), OperationError> {
-        let fits = match (self.kind, value) {
+    fn check_kind(&self, value: &Value) -> Result<(), OperationError> {
+        let fits = match (&self.kind, value) {
             (Kind::Whole { .. }, Value::Whole(_)) | (Kind::Switch { .. }, Value::Switch(_)) => true,
             (Kind::Real { .. }, Value::Real(number)) => number.is_finite(),
-            (Kind::Choice { options, .. }, Value::Choice(index)) => index < options.len(),
+            (Kind::Choice { options, .. }, Value::Choice(index)) => *index < options.len(),
+            (Kind::List { count, whole, .. }, Value::List(numbers)) => {
+                let fits = |number: &f64| {
+                    let counts = *number >= 0.0 && number.fract() == 0.0;
+                    number.is_finite() && (!*whole || counts)
+                };
+                let given = numbers.is_empty() || count.contains(&numbers.len());
+                given && numbers.iter().all(fits)
+            }
             _ => false,
         };
         if fits { Ok(()) } else { Err(self.wrong_kind()) }
@@ -247,17 +304,17 @@ impl Parameter {
         }
     }
 
-    fn check_limits(&self, value: Value, limits: Limits) -> Result<(), OperationError> {
+    fn check_limits(&self, value: &Value, limits: Limits) -> Result<(), OperationError> {
         use std::ops::RangeBounds;
         let number = match value {
-            Value::Whole(number) => number as f64,
-            Value::Real(number) => number,
-            Value::Choice(_) | Value::Switch(_) => return Ok(()),
+            Value::Whole(number) => *number as f64,
+            Value::Real(number) => *number,
+            Value::Choice(_) | Value::Switch(_) | Value::List(_) => return Ok(()),
         };
         if limits.contains(&number) {
             return Ok(());
         }
-        let words = |number: f64| self.text(Value::Real(number));
+        let words = |number: f64| self.text(&Value::Real(number));
         let needed = bounds_words(limits.0.map(words), limits.1.map(words));
         Err(OperationError::OutOfRange {
             label: self.label,

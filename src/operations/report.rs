@@ -21,8 +21,10 @@ pub struct Report {
     pub name: &'static str,
     /// What the step of undo is called.
     pub label: &'static str,
-    /// Whether what was asked for is reached; nothing is changed if not.
+    /// Whether what was asked for is reached.
     pub reached: bool,
+    /// Whether there is something to keep: what was asked for, or the best that was found.
+    pub useful: bool,
     /// What is left of a target or tolerance, as a length.
     pub residual: Option<f64>,
     /// How far the curve moves.
@@ -50,7 +52,7 @@ impl Report {
     /// Find one of the operation's own figures.
     pub fn figure(&self, name: &str) -> Option<Value> {
         let mut figures = self.figures.iter();
-        Some(figures.find(|figure| figure.name == name)?.value)
+        Some(figures.find(|figure| figure.name == name)?.value.clone())
     }
 
     /// Tell at once what an operation did, without features.
@@ -59,6 +61,7 @@ impl Report {
             name: operation.name,
             label: operation.label,
             reached: outcome.reached,
+            useful: outcome.is_useful(),
             residual: outcome.residual,
             deviation: outcome.deviation,
             largest_move: largest_move(input, outcome),

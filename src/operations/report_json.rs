@@ -30,10 +30,11 @@ impl Serialize for Report {
         let after = features.map(|features| &features.after);
         map.serialize_entry("features_after", &after)?;
         for figure in &self.figures {
-            let value = match figure.value {
+            let value = match &figure.value {
                 Value::Whole(count) | Value::Choice(count) => json!(count),
-                Value::Real(number) => json!(figure.unit.shown(number)),
+                Value::Real(number) => json!(figure.unit.shown(*number)),
                 Value::Switch(on) => json!(on),
+                Value::List(numbers) => json!(numbers),
             };
             map.serialize_entry(figure.name, &value)?;
         }

@@ -10,7 +10,13 @@ impl Report {
     /// curvature extrema: 2 before, 3 now".
     pub fn summary(&self) -> String {
         let mut parts = Vec::new();
-        if self.reached {
+        if !self.reached {
+            parts.push(match self.useful {
+                true => "not reached, this is the best found".to_owned(),
+                false => "not reached, nothing is changed".to_owned(),
+            });
+        }
+        if self.useful {
             match self.deviation {
                 Deviation::Exact => parts.push("exact".to_owned()),
                 Deviation::AtMost(bound) => {
@@ -18,13 +24,11 @@ impl Report {
                 }
                 Deviation::Unmeasured => {}
             }
-        } else {
-            parts.push("not reached, nothing is changed".to_owned());
         }
         if let Some(residual) = self.residual {
             parts.push(format!("{} is left", significant(residual, 4)));
         }
-        if let Some(features) = self.features.as_ref().filter(|_| self.reached) {
+        if let Some(features) = self.features.as_ref().filter(|_| self.useful) {
             let [before, after] = [&features.before, &features.after].map(|counts| extrema(counts));
             parts.push(match (before, after) {
                 (Some(before), Some(after)) => {

@@ -1,7 +1,7 @@
 //! A value of a parameter, or a figure.
 
 /// A value of a parameter.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// A whole number.
     Whole(usize),
@@ -11,4 +11,6 @@ pub enum Value {
     Choice(usize),
     /// On or off.
     Switch(bool),
+    /// Some finite numbers; none where nothing is given.
+    List(Vec<f64>),
 }

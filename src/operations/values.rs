@@ -32,7 +32,7 @@ impl Values {
             *known = value;
         }
         for (parameter, (_, value)) in parameters.iter().zip(&values) {
-            parameter.check(*value, input)?;
+            parameter.check(value, input)?;
         }
         Ok(Self(values))
     }
@@ -41,10 +41,10 @@ impl Values {
     ///
     /// # Panics
     /// If it is no parameter of the operation that the values were checked for.
-    pub fn get(&self, parameter: &Parameter) -> Value {
+    pub fn get(&self, parameter: &Parameter) -> &Value {
         let mut values = self.0.iter();
         match values.find(|(name, _)| *name == parameter.name) {
-            Some((_, value)) => *value,
+            Some((_, value)) => value,
             None => panic!("“{}” is no parameter of this operation", parameter.name),
         }
     }
@@ -55,7 +55,7 @@ impl Values {
     /// As [`Values::get`], and if the parameter takes something else.
     pub(super) fn whole(&self, parameter: &Parameter) -> usize {
         match self.get(parameter) {
-            Value::Whole(number) => number,
+            Value::Whole(number) => *number,
             other => panic!("“{}” is {other:?}, no whole number", parameter.name),
         }
     }
@@ -66,7 +66,7 @@ impl Values {
     /// As [`Values::whole`].
     pub(super) fn real(&self, parameter: &Parameter) -> f64 {
         match self.get(parameter) {
-            Value::Real(number) => number,
+            Value::Real(number) => *number,
             other => panic!("“{}” is {other:?}, no number", parameter.name),
         }
     }
@@ -77,8 +77,19 @@ impl Values {
     /// As [`Values::whole`], and if there are more options than meanings.
     pub(super) fn choice<T: Copy>(&self, parameter: &Parameter, meanings: &[T]) -> T {
         match self.get(parameter) {
-            Value::Choice(index) => meanings[index],
+            Value::Choice(index) => meanings[*index],
             other => panic!("“{}” is {other:?}, no option", parameter.name),
+        }
+    }
+
+    /// The numbers of a parameter that takes lists.
+    ///
+    /// # Panics
+    /// As [`Values::whole`].
+    pub(super) fn list(&self, parameter: &Parameter) -> &[f64] {
+        match self.get(parameter) {
+            Value::List(numbers) => numbers,
+            other => panic!("“{}” is {other:?}, no list", parameter.name),
         }
     }
 }

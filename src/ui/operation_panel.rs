@@ -2,7 +2,9 @@
 
 use std::ops::{Bound, RangeInclusive};
 
-use eframe::egui::{Button, Label, ProgressBar, RichText, Role, Sense, Ui, Vec2, WidgetInfo, vec2};
+use eframe::egui::{
+    Button, Key, Label, ProgressBar, RichText, Role, Sense, TextEdit, Ui, Vec2, WidgetInfo, vec2,
+};
 use lucide_icons::Icon;
 
 use super::number_field::{FieldEvent, NumberField};
@@ -33,6 +35,8 @@ const FIELD: f32 = 120.0;
 pub struct OperationPanel {
     /// The parameter whose field is dragged, with its value before.
     dragged: Option<(&'static str, Value)>,
+    /// The parameter whose list is typed, with what is typed so far.
+    typed: Option<(&'static str, String)>,
     /// Why the last value was not accepted.
     refusal: Option<String>,
 }
@@ -83,9 +87,13 @@ impl OperationPanel {
         parameter: &'static Parameter,
     ) -> Option<Value> {
         let value = trial.values().get(parameter);
-        let row = widgets::form_row(ui, parameter.label, |ui| match (parameter.kind, value) {
-            (Kind::Choice { options, .. }, Value::Choice(chosen)) => choice_ui(ui, options, chosen),
-            (Kind::Switch { .. }, Value::Switch(mut on)) => {
+        let row = widgets::form_row(ui, parameter.label, |ui| match (&parameter.kind, value) {
+            (Kind::Choice { options, .. }, Value::Choice(chosen)) => {
+                choice_ui(ui, options, *chosen)
+            }
+            (Kind::List { none, .. }, _) => self.list_ui(ui, parameter, value, none),
+            (Kind::Switch { .. }, Value::Switch(on)) => {
+                let mut on = *on;
                 let switch = ui.checkbox(&mut on, "");
                 switch.clicked().then_some(Value::Switch(on))
             }
@@ -95,12 +103,49 @@ impl OperationPanel {
         row.inner
     }
 
+    /// A field for numbers with commas between them, which may stay empty.
+    fn list_ui(
+        &mut self,
+        ui: &mut Ui,
+        parameter: &'static Parameter,
+        value: &Value,
+        none: &str,
+    ) -> Option<Value> {
+        let typed = self.typed.as_ref();
+        let typed = typed.filter(|(name, _)| *name == parameter.name);
+        let mut text = typed.map_or_else(|| parameter.text(value), |(_, text)| text.clone());
+        let field = TextEdit::singleline(&mut text)
+            .id_salt(parameter.name)
+            .hint_text(none)
+            .desired_width(f32::INFINITY);
+        let field = ui.add(field);
+        field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, parameter.label));
+        if field.has_focus() {
+            self.typed = Some((parameter.name, text));
+            return None;
+        }
+        if !field.lost_focus() {
+            return None;
+        }
+        self.typed = None;
+        if ui.input(|input| input.key_pressed(Key::Escape)) {
+            return None;
+        }
+        match parameter.read(&text) {
+            Ok(read) => Some(read).filter(|read| read != value),
+            Err(error) => {
+                self.refusal = Some(error.to_string());
+                None
+            }
+        }
+    }
+
     fn number_ui(
         &mut self,
         ui: &mut Ui,
         trial: &Trial,
         parameter: &'static Parameter,
-        value: Value,
+        value: &Value,
     ) -> Option<Value> {
         let limits = parameter.limits(trial.input()).ok().flatten();
         let number = shown_number(value, parameter.unit());
@@ -130,7 +175,7 @@ impl OperationPanel {
             }
             FieldEvent::Typed(number) => Some(of(number)),
             FieldEvent::Preview(number) => {
-                self.dragged.get_or_insert((parameter.name, value));
+                self.dragged.get_or_insert((parameter.name, value.clone()));
                 Some(of(number))
             }
             FieldEvent::Commit => {
@@ -179,16 +224,16 @@ fn choice_ui(ui: &mut Ui, options: &'static [Choice], chosen: usize) -> Option<V
 }
 
 /// A number as its field shows it.
-fn shown_number(value: Value, unit: Unit) -> f64 {
+fn shown_number(value: &Value, unit: Unit) -> f64 {
     match value {
-        Value::Whole(number) => number as f64,
-        Value::Real(number) => unit.shown(number),
-        Value::Choice(_) | Value::Switch(_) => 0.0,
+        Value::Whole(number) => *number as f64,
+        Value::Real(number) => unit.shown(*number),
+        Value::Choice(_) | Value::Switch(_) | Value::List(_) => 0.0,
     }
 }
 
 /// The value that a field's number stands for, of the kind of another value.
-fn given_number(number: f64, like: Value, unit: Unit) -> Value {
+fn given_number(number: f64, like: &Value, unit: Unit) -> Value {
     match like {
         Value::Whole(_) => Value::Whole(number.round().max(0.0) as usize),
         _ => Value::Real(unit.typed(number)),
@@ -237,11 +282,17 @@ fn report_ui(ui: &mut Ui, trial: &Trial, report: &Report) {
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
         if !report.reached {
-            error_ui(ui, "Not reached: nothing would be changed");
+            error_ui(
+                ui,
+                match report.useful {
+                    true => "Not reached: this is the best found",
+                    false => "Not reached: nothing would be changed",
+                },
+            );
         }
         let length = |value: f64| figures::significant(value, 4);
         let deviation = match report.deviation {
-            _ if !report.reached => None,
+            _ if !report.useful => None,
             Deviation::Exact => Some("none, exact".to_owned()),
             Deviation::AtMost(0.0) => Some("none".to_owned()),
             Deviation::AtMost(bound) => Some(format!("at most {}", rounded_up(bound))),
@@ -263,7 +314,7 @@ fn report_ui(ui: &mut Ui, trial: &Trial, report: &Report) {
         for figure in &report.figures {
             widgets::figure_row(ui, figure.label, &figure_text(figure));
         }
-        if report.reached {
+        if report.useful {
             features_ui(ui, trial);
         }
     });
@@ -273,12 +324,18 @@ fn report_ui(ui: &mut Ui, trial: &Trial, report: &Report) {
 }
 
 fn figure_text(figure: &Figure) -> String {
-    match figure.value {
+    match &figure.value {
         Value::Whole(number) => number.to_string(),
-        Value::Real(number) if figure.unit == Unit::Angle => figures::degrees(number, 4),
-        Value::Real(number) => figures::significant(number, 4),
+        Value::Real(number) if figure.unit == Unit::Angle => figures::degrees(*number, 4),
+        Value::Real(number) => figures::significant(*number, 4),
         Value::Choice(index) => index.to_string(),
-        Value::Switch(on) => if on { "yes" } else { "no" }.to_owned(),
+        Value::List(numbers) => {
+            let numbers = numbers
+                .iter()
+                .map(|number| figures::significant(*number, 4));
+            numbers.collect::<Vec<_>>().join(", ")
+        }
+        Value::Switch(on) => if *on { "yes" } else { "no" }.to_owned(),
     }
 }
 
@@ -357,8 +414,9 @@ fn buttons_ui(ui: &mut Ui, trial: &Trial, progress: Option<f64>) -> Option<Asked
         return None;
     }
     let mut asked = None;
-    let fails =
-        |run: &Result<crate::editor::Run, _>| run.as_ref().map_or(true, |run| !run.outcome.reached);
+    let fails = |run: &Result<crate::editor::Run, _>| {
+        run.as_ref().map_or(true, |run| !run.outcome.is_useful())
+    };
     let enabled = !trial.run().is_some_and(fails);
     ui.add_space(STEP);
     ui.horizontal(|ui| {

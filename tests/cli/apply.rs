@@ -417,3 +417,66 @@ fn a_locked_curve_is_not_changed() {
         "a.batten: “a” is locked: unlock it in the list of curves to change its shape",
     );
 }
+
+/// A table of a degree-5 arc whose vertices are off it by turns.
+fn ripple() -> String {
+    let rows = (0..20).map(|index| {
+        let (sine, cosine) = (0.1 * f64::from(index)).sin_cos();
+        let radius = 10.0 + if index % 2 == 0 { 0.05 } else { -0.05 } + 0.02 * f64::from(index);
+        format!("{},{}\n", radius * cosine, radius * sine)
+    });
+    format!("# degree=5\nx,y\n{}", rows.collect::<String>())
+}
+
+#[test]
+fn harmonise_writes_what_it_reaches_and_the_best_only_if_wanted() {
+    let folder = Folder::new().with("ripple.csv", ripple());
+    let file = "ripple.csv";
+    let asked = ["--extrema", "0", "--inflections", "0"];
+    let found = report(
+        &folder,
+        &[&["harmonise", file, "fair.csv"][..], &asked[..]].concat(),
+    );
+    assert_eq!(found["reached"], true);
+    assert_eq!(found["features_after"][0]["curvature_extrema"], 0);
+    assert_eq!(found["features_after"][0]["undecided"], 0);
+    assert!(found["iterations"].as_u64().is_some_and(|count| count > 0));
+    for (best, written) in [(false, false), (true, true)] {
+        let mut arguments = vec![
+            "apply",
+            "harmonise",
+            &file,
+            "best.csv",
+            "--max-deviation",
+            "1e-9",
+        ];
+        arguments.extend(asked);
+        if best {
+            arguments.push("--best");
+        }
+        let output = folder.run(&arguments);
+        assert_eq!(output.status.code(), Some(1));
+        let text = String::from_utf8(output.stdout).expect("text");
+        let told: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+        assert_eq!(told["reached"], false);
+        assert_eq!(folder.path("best.csv").exists(), written);
+    }
+}
+
+#[test]
+fn values_of_lists_may_begin_with_a_minus_sign() {
+    let folder = Folder::new().with("ripple.csv", ripple());
+    let file = "ripple.csv";
+    for given in [&["--start=-1,2"][..], &["--start", "-1,2"]] {
+        let arguments = [&["correct-ends", file, "out.batten"][..], given].concat();
+        let found = report(&folder, &arguments);
+        assert_eq!(found["reached"], true, "{found}");
+    }
+    let output = folder.run(&["apply", "correct-ends", file, "no.csv", "--start", "1"]);
+    assert_eq!(output.status.code(), Some(2));
+    let text = String::from_utf8(output.stderr).expect("text");
+    assert!(
+        text.contains("2 or 3 numbers, separated by commas"),
+        "{text}"
+    );
+}

@@ -394,7 +394,8 @@ fn operations_on_either_curve_leave_a_match_where_it_is() {
     told(script.editor.apply("Match", vec![Edit::SetMatch(inner)]));
     let before = script.editor.document().clone();
     let follower = |script: &Script, id: CurveId| curve(script, id).polygon;
-    let steps: [(usize, &str, Vec<(&str, Value)>); 6] = [
+    type Step = (usize, &'static str, Vec<(&'static str, Value)>);
+    let steps: [Step; 6] = [
         (0, "reverse", vec![]),
         (1, "reverse", vec![]),
         (0, "subdivide", vec![]),

@@ -390,9 +390,11 @@ impl Window {
             }
             Panel::SetValue(parameter, number) => {
                 let value = self.parameter(*parameter).map(|found| read(found, *number));
-                value.iter().for_each(|value| self.set(*parameter, *value));
+                value
+                    .iter()
+                    .for_each(|value| self.set(*parameter, value.clone()));
             }
-            Panel::SetAnyValue(parameter, value) => self.set(*parameter, *value),
+            Panel::SetAnyValue(parameter, value) => self.set(*parameter, value.clone()),
             Panel::ApplyTrial => told(self.editor.apply_trial()),
             Panel::LeaveTrial => self.editor.leave_trial(),
             Panel::Operate(operation, numbers) => {
@@ -504,10 +506,14 @@ impl Window {
 /// Read a value of a parameter's kind from any number: it may be out of range.
 fn read(parameter: &Parameter, number: f64) -> Value {
     let whole = number as usize;
-    match parameter.kind {
+    match &parameter.kind {
         Kind::Whole { .. } => Value::Whole(whole),
         Kind::Real { .. } => Value::Real(number),
         Kind::Choice { .. } => Value::Choice(whole % 3),
         Kind::Switch { .. } => Value::Switch(whole % 2 == 1),
+        Kind::List { count, .. } => {
+            let numbers = (0..*count.start()).map(|more| (whole + more) as f64);
+            Value::List(numbers.collect())
+        }
     }
 }

@@ -96,7 +96,7 @@ fn a_round_polygon_has_the_bending_energy_of_a_circle() {
         TAU * TAU,
     );
     let variation = fairness.variation.expect("it settles");
-    assert!(0.0 <= variation && variation <= 1e-9, "{variation}");
+    assert!((0.0..=1e-9).contains(&variation), "{variation}");
 }
 
 /// The vertices of a regular polygon.

@@ -9,11 +9,21 @@ use batten::operations::{ALL, Input, Kind, OperationError, Unit, Value, find};
 use crate::runner::{Runner, examples, operation};
 
 /// What the command line has for itself.
-const RESERVED: [&str; 6] = ["curve", "with", "from-format", "to-format", "help", "list"];
+const RESERVED: [&str; 7] = [
+    "curve",
+    "with",
+    "from-format",
+    "to-format",
+    "help",
+    "list",
+    "best",
+];
 
 fn is_name(name: &str) -> bool {
     let mut letters = name.chars();
-    !name.is_empty() && letters.all(|letter| letter.is_ascii_lowercase() || letter == '-')
+    !name.is_empty()
+        && letters
+            .all(|letter| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == '-')
 }
 
 /// Whether a text begins with a capital letter and is one line without a full stop.
@@ -83,9 +93,9 @@ fn defaults_are_allowed_wherever_the_operation_can_run() {
                 values.unwrap_or_else(|error| panic!("{name} {}: {error}", operation.name));
             for parameter in operation.parameters {
                 let value = values.get(parameter);
-                assert_eq!(Ok(value), parameter.default(&runner.input));
+                assert_eq!(Ok(value), parameter.default(&runner.input).as_ref());
                 // What is written is read as the same value.
-                assert_eq!(parameter.read(&parameter.text(value)), Ok(value));
+                assert_eq!(parameter.read(&parameter.text(value)).as_ref(), Ok(value));
             }
             let outcome = operation.run(&runner.input, &values, &Progress::default());
             let outcome =
@@ -157,7 +167,15 @@ fn what_is_typed_is_read_with_the_limits_that_are_known() {
     for text in ["", "0", "-1", "1.5", "10001", "many"] {
         assert!(segments.read(text).is_err(), "{text}");
     }
-    let tolerance = operation("correct-ends").parameters[1];
+    let parameters = operation("correct-ends").parameters;
+    let named = |name| parameters.iter().find(|parameter| parameter.name == name);
+    let tolerance = named("tolerance").expect("it is there");
+    let point = named("start").expect("it is there");
+    assert_eq!(point.read(" -1, 2.5"), Ok(Value::List(vec![-1.0, 2.5])));
+    assert_eq!(point.read(""), Ok(Value::List(Vec::new())));
+    for text in ["1", "1,2,3,4", "1,x", "1,,2", "1,inf"] {
+        assert!(point.read(text).is_err(), "{text}");
+    }
     assert_eq!(tolerance.unit(), Unit::Length);
     assert_eq!(tolerance.read("1e-6"), Ok(Value::Real(1e-6)));
     for text in ["0", "-1", "inf", "NaN"] {

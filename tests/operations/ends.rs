@@ -115,7 +115,7 @@ fn an_end_without_a_target_keeps_its_point_and_direction() {
 fn what_is_within_the_tolerance_is_left_as_it_is() {
     let runner = both("hull");
     let loose = ("tolerance", Value::Real(runner.polygon().size()));
-    for given in [&[loose][..], &[loose, STEPS]] {
+    for given in [&[loose.clone()][..], &[loose, STEPS]] {
         let (outcome, _) = runner.done("correct-ends", given);
         assert_eq!(outcome.edits, []);
         assert_eq!(outcome.figures[0].value, Value::Whole(0));
@@ -139,7 +139,7 @@ fn what_cannot_be_reached_is_told_with_what_is_left() {
     assert!(!outcome.reached && outcome.edits.is_empty());
     assert!(outcome.residual.is_some_and(|left| left > 0.1));
     assert!(
-        outcome.remarks[0].contains("cannot meet these end conditions"),
+        outcome.remarks[0].contains("end conditions cannot be met"),
         "{}",
         outcome.remarks[0]
     );

@@ -6,6 +6,7 @@ mod common;
 mod degrees;
 mod descriptions;
 mod ends;
+mod harmony;
 mod locks;
 mod parts;
 mod random;

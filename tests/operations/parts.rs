@@ -60,7 +60,11 @@ fn splitting_at_a_knot_is_exact_and_divides_colour_and_targets() {
     assert_eq!(curves[1].polygon.vertices(), &before.vertices()[1..]);
     assert_eq!(outcome.deviation, Deviation::Exact);
     assert_eq!(outcome.marks, [Mark::Point(before.point(1.0))]);
-    let counts: Vec<Value> = outcome.figures.iter().map(|figure| figure.value).collect();
+    let counts: Vec<Value> = outcome
+        .figures
+        .iter()
+        .map(|figure| figure.value.clone())
+        .collect();
     assert_eq!(
         counts,
         [

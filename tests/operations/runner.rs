@@ -61,7 +61,7 @@ impl Runner {
 
     pub fn run(&self, name: &str, given: &[(&str, Value)]) -> Result<Outcome, OperationError> {
         let operation = operation(name);
-        let values = operation.values(&self.input, given.iter().copied())?;
+        let values = operation.values(&self.input, given.iter().cloned())?;
         operation.run(&self.input, &values, &Progress::default())
     }
 

@@ -58,7 +58,7 @@ static LINE: Operation = Operation {
         };
         let tip = length * DVec3::new(angle.cos(), angle.sin(), 0.0);
         let vertices = [DVec3::ZERO, tip, DVec3::ZERO];
-        added(&vertices[..if back { 3 } else { 2 }])
+        added(&vertices[..if *back { 3 } else { 2 }])
     },
 };
 
@@ -132,6 +132,7 @@ fn apply(
         destination: destination.expect("a file"),
         curves: given.curves,
         values: given.values,
+        best: false,
     };
     let curves = curves.to_vec();
     let input = application.chosen(Reading {

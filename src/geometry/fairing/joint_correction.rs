@@ -21,6 +21,9 @@ const MET: f64 = 1e-11;
 /// size, and over its square.
 const CURVATURE_MET: f64 = 1e-10;
 
+/// The rounding of a vertex, and what its coordinates are combined to, in units of the largest.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
 /// The most steps of harmonious corrections.
 const MOST_STEPS: usize = 50;
 
@@ -280,12 +283,21 @@ impl Correction<'_> {
                 slope: 0.0,
                 ..left
             };
-            let close = |left: f64, wanted: Option<f64>, unit: f64| {
-                left.abs() <= CURVATURE_MET * wanted.map_or(unit, |wanted| wanted.abs().max(unit))
+            // What the rounding of vertices makes of derivatives.
+            let speed = polygon.end_jet(*end).speed();
+            let rounding = ROUNDING * scale / (speed * speed);
+            let close = |left: f64, wanted: Option<f64>, unit: f64, rounding: f64| {
+                let wanted = wanted.map_or(unit, |wanted| wanted.abs().max(unit));
+                left.abs() <= (CURVATURE_MET * wanted).max(rounding)
             };
             placed.residual(size) <= MET * scale
-                && close(left.curvature, target.curvature, size.recip())
-                && close(left.slope, target.slope, (size * size).recip())
+                && close(left.curvature, target.curvature, size.recip(), rounding)
+                && close(
+                    left.slope,
+                    target.slope,
+                    (size * size).recip(),
+                    rounding / speed,
+                )
         })
     }
 }

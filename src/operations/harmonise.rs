@@ -1,0 +1,270 @@
+//! Harmonising: the least change that leaves the features asked for.
+
+use super::editable::{check_editable, editable};
+use super::error::OperationError;
+use super::input::Input;
+use super::inputs::Inputs;
+use super::lists::{LOCKED, count, given, locked, number};
+use super::operation::Operation;
+use super::outcome::{Deviation, Figure, Mark, Outcome};
+use super::parameter::{Choice, Kind, Parameter, Unit};
+use super::values::Values;
+use crate::geometry::fairing::harmonising::{Harmonised, Harmony, HarmonyError, Held, harmonise};
+use crate::geometry::{FloatPolygon, Progress, counted, rounded_up};
+
+const WHAT_STANDS_OUT: &str = "those that stand out";
+
+const FREE: Choice = Choice {
+    name: "free",
+    label: "Free",
+};
+
+const POSITION: Choice = Choice {
+    name: "position",
+    label: "Position",
+};
+
+const DIRECTION: Choice = Choice {
+    name: "direction",
+    label: "Direction",
+};
+
+const CURVATURE: Choice = Choice {
+    name: "curvature",
+    label: "Curvature",
+};
+
+const SLOPE: Choice = Choice {
+    name: "slope",
+    label: "Slope",
+};
+
+const SAME: Choice = Choice {
+    name: "same",
+    label: "Same",
+};
+
+const ALL: Choice = Choice {
+    name: "all",
+    label: "All",
+};
+
+const KEEP: Parameter = Parameter {
+    name: "keep",
+    label: "Keep ends",
+    help: "What the ends keep: nothing, the position, also the direction, also the curvature, also its slope; or all derivatives that join, so that the curve beyond a stretch stays",
+    kind: Kind::Choice {
+        options: &[FREE, POSITION, DIRECTION, CURVATURE, SLOPE, ALL],
+        default: 2,
+    },
+};
+
+/// The meanings of the options of [`KEEP`].
+const LEVELS: [Held; 6] = [
+    Held::Free,
+    Held::Position,
+    Held::Direction,
+    Held::Curvature,
+    Held::Slope,
+    Held::All,
+];
+
+/// An end of its own may keep something else.
+const ONE_END: Kind = Kind::Choice {
+    options: &[SAME, FREE, POSITION, DIRECTION, CURVATURE, SLOPE, ALL],
+    default: 0,
+};
+
+const KEEP_START: Parameter = Parameter {
+    name: "keep-start",
+    label: "Keep start",
+    help: "What the start keeps, if not the same as the other end",
+    kind: ONE_END,
+};
+
+const KEEP_END: Parameter = Parameter {
+    name: "keep-end",
+    label: "Keep end",
+    help: "What the end keeps, if not the same as the other end",
+    kind: ONE_END,
+};
+
+const STRETCH: Parameter = Parameter {
+    name: "stretch",
+    label: "Stretch",
+    help: "The stretch of the curve that is harmonised; its ends keep what the ends keep",
+    kind: Kind::List {
+        count: 2..=2,
+        whole: false,
+        unit: Unit::Parameter,
+        none: "the whole curve",
+    },
+};
+
+const EXTREMA: Parameter = Parameter {
+    name: "extrema",
+    label: "Curvature extrema",
+    help: "How many extrema of the curvature are to be left; those that stand out have a prominence of 5 % of the range of the curvature",
+    kind: count(WHAT_STANDS_OUT),
+};
+
+const INFLECTIONS: Parameter = Parameter {
+    name: "inflections",
+    label: "Inflections",
+    help: "How many inflections are to be left; of a curve in space, zeros of the torsion",
+    kind: count(WHAT_STANDS_OUT),
+};
+
+const TORSION_EXTREMA: Parameter = Parameter {
+    name: "torsion-extrema",
+    label: "Torsion extrema",
+    help: "How many extrema of the torsion of a curve in space are to be left",
+    kind: count(WHAT_STANDS_OUT),
+};
+
+const MAX_DEVIATION: Parameter = Parameter {
+    name: "max-deviation",
+    label: "Largest deviation",
+    help: "How far the curve may move at most",
+    kind: number("any"),
+};
+
+/// The operation: its description, and how it is checked and run.
+pub static OPERATION: Operation = Operation {
+    name: "harmonise",
+    label: "Harmonise",
+    help: "Move the vertices as little as possible so that only the features asked for are left",
+    inputs: Inputs::One,
+    parameters: &[
+        KEEP,
+        KEEP_START,
+        KEEP_END,
+        STRETCH,
+        EXTREMA,
+        INFLECTIONS,
+        TORSION_EXTREMA,
+        MAX_DEVIATION,
+        LOCKED,
+    ],
+    check: check_editable,
+    run,
+};
+
+fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
+    let curve = editable(input)?;
+    let (id, _) = input.curve()?;
+    let keep = values.choice(&KEEP, &LEVELS);
+    let end = |parameter| {
+        let of_its_own = values.choice(parameter, &one_end());
+        of_its_own.unwrap_or(keep)
+    };
+    let stretch = match *values.list(&STRETCH) {
+        [from, to] => Some([from, to]),
+        _ => None,
+    };
+    let asked = |parameter| given(values, parameter).map(|count| count as usize);
+    let locked = locked(curve, values)?;
+    let harmony = Harmony {
+        stretch,
+        ends: [end(&KEEP_START), end(&KEEP_END)],
+        locked: &locked,
+        extrema: asked(&EXTREMA),
+        inflections: asked(&INFLECTIONS),
+        torsion_extrema: asked(&TORSION_EXTREMA),
+        largest_deviation: given(values, &MAX_DEVIATION),
+    };
+    let found = match harmonise(&curve.polygon, &harmony, progress) {
+        Ok(found) => found,
+        Err(HarmonyError::Cancelled) => return Err(OperationError::Cancelled),
+        Err(error) => return Err(error.into()),
+    };
+    let mut outcome = if found.polygon == curve.polygon {
+        let mut outcome = Outcome::unchanged(Deviation::Exact);
+        if found.reached {
+            outcome.remarks = vec!["The curve has what is asked for already".to_owned()];
+        }
+        outcome
+    } else {
+        let deviation = Deviation::AtMost(found.deviation);
+        Outcome::reshaped(id, found.polygon.clone(), deviation)
+    };
+    outcome.reached = found.reached;
+    if !found.reached {
+        outcome.remarks = vec![why_not(&found, harmony.largest_deviation)];
+    }
+    outcome.figures = vec![
+        Figure::count("iterations", "Iterations", found.iterations),
+        Figure::count("asked_extrema", "Extrema asked for", found.asked.extrema),
+        Figure::count(
+            "asked_inflections",
+            "Inflections asked for",
+            found.asked.inflections,
+        ),
+    ];
+    outcome.marks = stretch_marks(&curve.polygon, stretch);
+    Ok(outcome)
+}
+
+/// The meanings of the options of one end.
+fn one_end() -> [Option<Held>; 7] {
+    let mut meanings = [None; 7];
+    for (meaning, level) in meanings[1..].iter_mut().zip(LEVELS) {
+        *meaning = Some(level);
+    }
+    meanings
+}
+
+/// Say what the best that was found lacks.
+fn why_not(found: &Harmonised, most: Option<f64>) -> String {
+    let (has, asked) = (found.counts, found.asked);
+    if has == asked && found.undecided == 0 {
+        let most = most.unwrap_or(f64::INFINITY);
+        return format!(
+            "The curve moves by up to {}, and {most} is allowed: allow more, or ask for more extrema",
+            rounded_up(found.deviation)
+        );
+    }
+    let counts = [
+        (
+            has.extrema,
+            asked.extrema,
+            "curvature extremum",
+            "curvature extrema",
+        ),
+        (
+            has.inflections,
+            asked.inflections,
+            "inflection",
+            "inflections",
+        ),
+        (
+            has.torsion_extrema,
+            asked.torsion_extrema,
+            "torsion extremum",
+            "torsion extrema",
+        ),
+    ];
+    let differ = counts.iter().filter(|(has, asked, ..)| has != asked);
+    let mut parts: Vec<String> = differ
+        .map(|(has, asked, one, several)| {
+            format!(
+                "{} are left, {asked} asked for",
+                counted(*has, one, several)
+            )
+        })
+        .collect();
+    if found.undecided > 0 {
+        let places = counted(found.undecided, "place", "places");
+        parts.push(format!("{places} undecided"));
+    }
+    format!(
+        "{}: free the ends or vertices, or ask for other counts",
+        parts.join("; ")
+    )
+}
+
+/// Mark the ends of a stretch.
+fn stretch_marks(polygon: &FloatPolygon, stretch: Option<[f64; 2]>) -> Vec<Mark> {
+    let ends = stretch.into_iter().flatten();
+    ends.map(|u| Mark::Point(polygon.point(u))).collect()
+}

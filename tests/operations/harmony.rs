@@ -1,0 +1,189 @@
+//! Harmonising, and what can be asked of ends by values.
+
+use batten::document::Edit;
+use batten::geometry::features::{Features, Quantity};
+use batten::geometry::{End, FloatPolygon};
+use batten::operations::{Deviation, OperationError, Value};
+use glam::DVec3;
+
+use crate::common::Random;
+use crate::runner::Runner;
+
+/// What is left at an end that meets its target, in units of the curve's size.
+const MET: f64 = 1e-12;
+
+/// An arc of a growing curvature, with noise.
+fn noisy() -> Runner {
+    let mut random = Random(3);
+    let mut angle: f64 = 0.0;
+    let mut point = DVec3::ZERO;
+    let vertices = (0..30).map(|index| {
+        angle += 0.02 + 0.004 * f64::from(index);
+        point += DVec3::new(angle.cos(), angle.sin(), 0.0);
+        point + random.vector(0.05, false)
+    });
+    let polygon = FloatPolygon::new(5, vertices.collect(), None, false).expect("valid");
+    Runner::of(polygon)
+}
+
+fn extrema(polygon: &FloatPolygon) -> usize {
+    Features::new(polygon).count(Quantity::CurvatureExtremum)
+}
+
+fn list(numbers: &[f64]) -> Value {
+    Value::List(numbers.to_vec())
+}
+
+fn monotone() -> [(&'static str, Value); 2] {
+    ["extrema", "inflections"].map(|name| (name, list(&[0.0])))
+}
+
+#[test]
+fn a_noisy_arc_becomes_monotone_and_keeps_its_ends() {
+    let runner = noisy();
+    assert!(extrema(runner.polygon()) > 5);
+    let (outcome, curves) = runner.done("harmonise", &monotone());
+    let found = &curves[0].polygon;
+    assert_eq!(extrema(found), 0);
+    assert!(matches!(outcome.deviation, Deviation::AtMost(bound) if bound < 0.5));
+    for end in End::BOTH {
+        let [before, after] = [runner.polygon(), found].map(|polygon| polygon.end_jet(end));
+        let size = found.size();
+        assert!(before.point.distance(after.point) <= MET * size);
+        let tangents = [before, after].map(|jet| jet.tangent().expect("a tangent"));
+        assert!(tangents[0].distance(tangents[1]) <= MET);
+    }
+}
+
+#[test]
+fn a_monotone_curve_is_left_as_it_is() {
+    let (_, curves) = noisy().done("harmonise", &monotone());
+    let (outcome, again) = Runner::curves(curves.clone()).done("harmonise", &[]);
+    assert_eq!(outcome.edits, []);
+    assert_eq!(again, curves);
+}
+
+#[test]
+fn locked_vertices_stay_to_the_bit() {
+    let runner = noisy();
+    let curve = runner.id();
+    let vertices = vec![9];
+    let lock = Edit::SetVerticesLocked {
+        curve,
+        vertices,
+        locked: true,
+    };
+    let runner = runner.edited(lock);
+    let mut given = monotone().to_vec();
+    given.push(("locked", list(&[17.0])));
+    let outcome = runner.run("harmonise", &given).expect("it can run");
+    let after = outcome.applied_to(runner.input.document()).expect("edits");
+    let (_, after) = after.curves().next().expect("a curve");
+    for vertex in [9, 17] {
+        assert_eq!(
+            after.polygon.vertex(vertex),
+            runner.polygon().vertex(vertex)
+        );
+    }
+    assert_ne!(after.polygon, *runner.polygon());
+}
+
+#[test]
+fn a_stretch_leaves_the_curve_beyond_it() {
+    let runner = noisy();
+    let given = [
+        ("stretch", list(&[5.0, 20.0])),
+        ("keep", Value::Choice(5)),
+        ("extrema", list(&[0.0])),
+        ("inflections", list(&[0.0])),
+    ];
+    let outcome = runner.run("harmonise", &given).expect("it can run");
+    let after = outcome.applied_to(runner.input.document()).expect("edits");
+    let (_, after) = after.curves().next().expect("a curve");
+    for u in [0.0, 2.5, 4.75, 20.25, 23.0, 25.0] {
+        let [a, b] = [runner.polygon(), &after.polygon].map(|polygon| polygon.point(u));
+        assert_eq!(a, b, "u = {u}");
+    }
+    assert_eq!(outcome.marks.len(), 2);
+}
+
+#[test]
+fn what_cannot_be_reached_offers_the_best_found() {
+    let runner = noisy();
+    let given = [("max-deviation", list(&[1e-6]))]
+        .into_iter()
+        .chain(monotone());
+    let outcome = runner
+        .run("harmonise", &given.collect::<Vec<_>>())
+        .expect("it can run");
+    assert!(!outcome.reached);
+    assert!(outcome.is_useful());
+    assert!(
+        outcome.remarks[0].contains("is allowed"),
+        "{:?}",
+        outcome.remarks
+    );
+    let refused = runner.refused("harmonise", &[("stretch", list(&[4.0, 30.0]))]);
+    assert!(refused.contains("no part of the curve"), "{refused}");
+    let refused = runner.refused("harmonise", &[("locked", list(&[99.0]))]);
+    assert!(refused.contains("99"), "{refused}");
+}
+
+#[test]
+fn ends_are_corrected_to_what_is_given() {
+    let runner = Runner::example("s-curve");
+    let polygon = runner.polygon();
+    let jet = polygon.end_jet(End::Start);
+    let point = jet.point + DVec3::new(0.02, -0.03, 0.0) * polygon.size();
+    for order in 0..4 {
+        let given = [
+            ("order", Value::Choice(order)),
+            ("start", list(&[point.x, point.y])),
+            ("start-direction", list(&[jet.first.x, jet.first.y])),
+            ("start-curvature", list(&[0.5 / polygon.size()])),
+            ("end-curvature", list(&[0.0])),
+        ];
+        let (_, curves) = runner.done("correct-ends", &given);
+        let found = &curves[0].polygon;
+        let size = polygon.size();
+        assert!(found.end_jet(End::Start).point.distance(point) <= MET * size);
+        let curvature = found.end_jet(End::Start).signed_curvature();
+        assert!((curvature * size - 0.5).abs() <= 1e-10, "{curvature}");
+        let [before, after] = [polygon, found].map(|polygon| polygon.end_jet(End::Finish));
+        assert!(
+            before.point.distance(after.point) <= MET * size,
+            "it keeps its point"
+        );
+        assert!(after.signed_curvature().abs() * size <= 1e-10);
+    }
+    let nothing = runner.run("correct-ends", &[]);
+    assert_eq!(nothing, Err(OperationError::NoTarget { end: None }));
+}
+
+#[test]
+fn too_many_conditions_are_told() {
+    let points = [(0.0, 0.0), (1.0, 0.0), (2.0, 1.0), (2.0, 2.0)];
+    let polygon = FloatPolygon::planar(3, &points).expect("valid");
+    let runner = Runner::of(polygon);
+    let asked = |end: &'static str| {
+        let name = |what: &'static str| match (end, what) {
+            ("start", "curvature") => "start-curvature",
+            ("start", _) => "start-slope",
+            (_, "curvature") => "end-curvature",
+            _ => "end-slope",
+        };
+        [
+            (name("curvature"), list(&[0.3])),
+            (name("slope"), list(&[0.2])),
+        ]
+    };
+    let given = [asked("start"), asked("end")].concat();
+    let outcome = runner.run("correct-ends", &given).expect("it can run");
+    assert!(!outcome.reached);
+    let start = "10 end conditions cannot be met by 8 coordinates";
+    assert!(
+        outcome.remarks[0].starts_with(start),
+        "{:?}",
+        outcome.remarks
+    );
+}
