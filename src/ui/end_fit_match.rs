@@ -3,13 +3,16 @@
 use eframe::egui::{Button, Checkbox, Label, RichText, Ui, vec2};
 use lucide_icons::Icon;
 
-use super::end_fit_steps::{angle_text, figure_pairs};
+use super::end_fit_steps::{angle_text, figure_pairs, remark_ui};
 use super::theme::{ROW, STEP, Tokens};
 use super::widgets::IconButton;
 use super::{figures, icons, widgets};
 use crate::document::{MatchPlace, quoted};
 use crate::editor::{EndFitAction, EndFitReport, MatchReport};
 use crate::geometry::Continuity;
+
+/// The width of the buttons beside a match.
+const BUTTONS: f32 = 2.0 * ROW + 4.0 * STEP;
 
 /// Show the level that is picked or kept, the match that there is, and the curves that follow.
 pub fn match_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
@@ -31,6 +34,14 @@ pub fn match_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
     });
     if let Some(matched) = &report.matched {
         asked = matched_ui(ui, matched).or(asked);
+        if !report.is_met() {
+            let why = match &report.refusal {
+                Some(_) => "Not met: the curve follows once it is unlocked.",
+                None => "Not met: match less, unlock vertices, or give the curve more of them.",
+            };
+            let error = Tokens::of(ui).error;
+            remark_ui(ui, Icon::TriangleAlert, why, error);
+        }
     }
     for (name, end) in &report.followers {
         let text = format!("The {} of {} follows this curve", end.name(), quoted(name));
@@ -68,6 +79,14 @@ fn matched_ui(ui: &mut Ui, report: &MatchReport) -> Option<EndFitAction> {
         ui.spacing_mut().item_spacing.x = 1.5 * STEP;
         let tokens = Tokens::of(ui);
         ui.label(icons::text(Icon::Link).color(tokens.target));
+        let text = format!("Follows {} at {place}", quoted(&report.source));
+        let text = RichText::new(text).color(tokens.strong_text);
+        let width = ui.available_width() - BUTTONS;
+        let label = Label::new(text).truncate();
+        ui.allocate_ui(vec2(width, ROW), |ui| {
+            ui.set_width(width);
+            ui.add(label);
+        });
         widgets::at_right(ui, |ui| {
             ui.spacing_mut().item_spacing.x = STEP;
             if IconButton::new(Icon::X, "Remove match").show(ui).clicked() {
@@ -77,13 +96,6 @@ fn matched_ui(ui: &mut Ui, report: &MatchReport) -> Option<EndFitAction> {
             if turn.show(ui).clicked() {
                 asked = Some(EndFitAction::TurnRound);
             }
-            let text = format!("Follows {} at {place}", quoted(&report.source));
-            let text = RichText::new(text).color(tokens.strong_text);
-            ui.add(
-                Label::new(text)
-                    .truncate()
-                    .halign(eframe::egui::Align::LEFT),
-            );
         });
     });
     let missing = &report.missing;

@@ -124,11 +124,14 @@ impl Panel<'_> {
         let report = self.report;
         self.actual_ui(ui);
         if let Some(point) = report.target_point {
-            self.point_ui(ui, point);
-            self.direction_ui(ui);
-            if let Some(asked) = curvature_ui(ui, report) {
-                self.asked = Some((TARGET, asked));
-            }
+            // A matched end's target is what the other curve makes it.
+            ui.add_enabled_ui(report.matched.is_none(), |ui| {
+                self.point_ui(ui, point);
+                self.direction_ui(ui);
+                if let Some(asked) = curvature_ui(ui, report) {
+                    self.asked = Some((TARGET, asked));
+                }
+            });
         } else {
             widgets::note(
                 ui,
@@ -297,7 +300,7 @@ impl Panel<'_> {
 
     fn difference_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
-        let is_met = self.is_in_place() && self.is_aligned() && self.is_curved();
+        let is_met = self.is_in_place() && self.is_aligned() && report.is_met();
         step_ui(ui, 3, "Difference to the target", is_met, |_| {});
         indented(ui, |ui| {
             if report.target_point.is_none() {
@@ -314,12 +317,9 @@ impl Panel<'_> {
             pairs.push(("Angle", angle_text(report.angle)));
             if let (Some(target), Some(missing)) = (report.target, report.missing) {
                 let asked = [
-                    (
-                        "Curvature",
-                        target.curvature.map(|_| plain(missing.curvature)),
-                    ),
+                    ("dκ", target.curvature.map(|_| plain(missing.curvature))),
                     ("Plane", target.normal.map(|_| angle_text(missing.plane))),
-                    ("Slope", target.slope.map(|_| plain(missing.slope))),
+                    ("dκ′", target.slope.map(|_| plain(missing.slope))),
                 ];
                 pairs.extend(asked.into_iter().filter_map(|(name, it)| Some((name, it?))));
             }
@@ -344,15 +344,6 @@ impl Panel<'_> {
 
     fn is_aligned(&self) -> bool {
         self.report.angle.abs() <= 1e-9
-    }
-
-    /// Whether curvature, plane and slope are as the target asks, as lengths over the curve's size.
-    fn is_curved(&self) -> bool {
-        let report = self.report;
-        let left = report
-            .missing
-            .map_or(0.0, |missing| missing.residual(report.size));
-        left <= report.tolerance
     }
 
     fn translate_ui(&mut self, ui: &mut Ui) {

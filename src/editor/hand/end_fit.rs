@@ -110,6 +110,12 @@ impl EndFitReport {
     pub fn can_move(&self) -> bool {
         self.refusal.is_none()
     }
+
+    /// Whether all that the target of this end asks for is there within the tolerance.
+    pub fn is_met(&self) -> bool {
+        let left = self.missing.map(|missing| missing.residual(self.size));
+        left.is_some_and(|left| left <= self.tolerance)
+    }
 }
 
 /// Something that the end-fit panel asks for.

@@ -33,7 +33,7 @@ pub struct EndFitMarks {
     pub target: Option<DVec2>,
     /// The tip of the target direction's arrow; a handle.
     pub target_tip: Option<DVec2>,
-    /// The target's osculating circle, or the part of it that is near.
+    /// The target's osculating circle, or the part of it that is near; only of the chosen end.
     pub circle: Vec<DVec2>,
     /// Whether what the end is kept matched to is met; `None` if it is not matched.
     pub matched: Option<bool>,
@@ -81,6 +81,7 @@ pub fn marks(
         target_tip: target
             .and_then(|target| Some(viewport.flatten(target.point) + along(target.direction?)?)),
         circle: target
+            .filter(|_| chosen)
             .and_then(|target| OsculatingCircle::of(&target, curve, end))
             .map_or(Vec::new(), |circle| circle.chain(viewport)),
         matched: difference.filter(|_| matched).map(|difference| {

@@ -1,0 +1,228 @@
+//! Ends that follow other curves, in the plane and in space, polynomial and rational, at every level:
+//! what remains is measured by the jets, and by differences of points as a witness.
+
+mod common;
+
+use batten::document::{Curve, Document, Edit, EndMatch, MatchPlace};
+use batten::geometry::end_correction::EndDifference;
+use batten::geometry::{Continuity, End, FloatPolygon};
+use common::Random;
+use glam::{DMat3, DVec3};
+
+/// What is left of a match that is met, in units of the curve's size.
+const MET: f64 = 1e-10;
+
+/// A kind of curve.
+#[derive(Clone, Copy, Debug)]
+struct Kind {
+    degree: usize,
+    in_space: bool,
+    rational: bool,
+}
+
+/// Put an end of a curve beside a place: a twentieth of its size off, and turned a little from the
+/// direction there.
+fn beside(
+    polygon: &FloatPolygon,
+    end: End,
+    place: DVec3,
+    direction: DVec3,
+    random: &mut Random,
+) -> FloatPolygon {
+    let jet = polygon.end_jet(end);
+    let [from, to] = [jet.first, direction].map(|way| way.truncate());
+    let turn = DMat3::from_rotation_z(from.angle_to(to) + random.between(-0.3, 0.3));
+    let off = 0.05 * polygon.size() * random.vector(1.0, false);
+    let put = |vertex: &DVec3| place + off + turn * (*vertex - jet.point);
+    let vertices = polygon.vertices().iter().map(put).collect();
+    let weights = polygon.weights().map(<[f64]>::to_vec);
+    FloatPolygon::new(polygon.degree(), vertices, weights, false).expect("a polygon")
+}
+
+fn kinds() -> impl Iterator<Item = Kind> {
+    let flags = [(false, false), (true, false), (false, true), (true, true)];
+    (4..=7).flat_map(move |degree| {
+        flags.map(|(in_space, rational)| Kind {
+            degree,
+            in_space,
+            rational,
+        })
+    })
+}
+
+/// Two curves, and every way to match the second to the first.
+fn cases() -> impl Iterator<Item = (String, Document, EndMatch)> {
+    let random = std::cell::RefCell::new(Random(20));
+    let places = [
+        MatchPlace::End(End::Start),
+        MatchPlace::End(End::Finish),
+        MatchPlace::Parameter(2.3),
+    ];
+    kinds().flat_map(move |kind| {
+        let mut random = random.borrow_mut();
+        let mut all = Vec::new();
+        for end in End::BOTH {
+            for place in places {
+                let count = 2 * kind.degree + 4;
+                let mut gentle = || random.gentle(kind.degree, count, kind.in_space, kind.rational);
+                let [source, follower] = [gentle(), gentle()];
+                let jet = place.jet(&source).expect("a place");
+                // Going on where the other curve leads, or coming from there.
+                let reversed = place == MatchPlace::End(end);
+                let way = if reversed { -jet.first } else { jet.first };
+                let follower = beside(&follower, end, jet.point, way, &mut random);
+                let curves = [source, follower];
+                let document = Document::from_curves(curves.map(|it| Curve::new("curve", it)));
+                let ids: Vec<_> = document.ids().collect();
+                for continuity in Continuity::ALL {
+                    let matched = EndMatch {
+                        curve: ids[1],
+                        end,
+                        source: ids[0],
+                        place,
+                        continuity,
+                        reversed,
+                    };
+                    let name = format!("{kind:?}, {end:?} to {place:?}, {continuity:?}");
+                    all.push((name, document.clone(), matched));
+                }
+            }
+        }
+        all
+    })
+}
+
+fn polygon(document: &Document, index: usize) -> FloatPolygon {
+    let (_, curve) = document.curves().nth(index).expect("a curve");
+    curve.polygon.clone()
+}
+
+/// What is missing of a match, in units of the curve's size.
+fn missing(document: &Document, matched: &EndMatch) -> f64 {
+    let target = matched.target(document).expect("a target");
+    let polygon = polygon(document, 1);
+    let left = EndDifference::between(&polygon, matched.end, &target);
+    left.residual(polygon.size()) / polygon.size()
+}
+
+/// Point, unit tangent, curvature vector and its derivative by arc length, from points alone: by the
+/// circle through three of them, at steps of u that differ little in length.
+fn measured(polygon: &FloatPolygon, u: f64, inwards: f64) -> (DVec3, DVec3, DVec3, f64) {
+    let h = 3e-4 * inwards;
+    let at = |steps: f64| polygon.point(u + steps * h);
+    // Curvature vectors at two places beside the end, by second differences of arc length.
+    let curvature = |middle: f64| {
+        let [a, b, c] = [at(middle - 1.0), at(middle), at(middle + 1.0)];
+        let (back, forth) = (b - a, c - b);
+        let (p, q) = (back.length(), forth.length());
+        let vector = 2.0 * (forth / q - back / p) / (p + q);
+        (vector, b)
+    };
+    let (k1, b1) = curvature(1.0);
+    let (k3, b3) = curvature(3.0);
+    let length = b1.distance(b3);
+    let slope = (k3.length() - k1.length()) / length;
+    // Back to the end itself, a straight line through both.
+    let share = at(0.0).distance(b1) / length;
+    let vector = k1 + share * (k1 - k3);
+    let tangent = (-3.0 * at(0.0) + 4.0 * at(1.0) - at(2.0)).normalize();
+    (at(0.0), tangent, vector, slope)
+}
+
+#[test]
+fn matches_are_met_at_every_level_and_points_agree() {
+    let (mut count, mut worst) = (0, 0.0_f64);
+    for (name, document, matched) in cases() {
+        let document = document.edited([Edit::SetMatch(matched)]).expect("a match");
+        let left = missing(&document, &matched);
+        assert!(left <= MET, "{name}: {left:e}");
+        worst = worst.max(left);
+        count += 1;
+        let (source, follower) = (polygon(&document, 0), polygon(&document, 1));
+        let last = |polygon: &FloatPolygon| polygon.segments() as f64;
+        let (own, into) = match matched.end {
+            End::Start => (0.0, 1.0),
+            End::Finish => (last(&follower), -1.0),
+        };
+        // On the source, away from where the follower comes from, or on at the same place.
+        let (there, on) = match matched.place {
+            MatchPlace::End(End::Start) => (0.0, 1.0),
+            MatchPlace::End(End::Finish) => (last(&source), -1.0),
+            MatchPlace::Parameter(u) => (u, into),
+        };
+        let a = measured(&follower, own, into);
+        let b = measured(&source, there, on);
+        // Both are measured walking away from the place; the two ways are the same or opposite.
+        let size = follower.size();
+        let sense = if matches!(matched.place, MatchPlace::Parameter(_)) {
+            1.0
+        } else {
+            -1.0
+        };
+        assert!(a.0.distance(b.0) <= 1e-9 * size, "{name}");
+        if matched.continuity >= Continuity::G1 {
+            assert!(a.1.distance(sense * b.1) <= 1e-4, "{name}: {} {}", a.1, b.1);
+        }
+        if matched.continuity >= Continuity::G2 {
+            let apart = a.2.distance(b.2);
+            assert!(
+                apart <= 1e-3 * (1.0 + a.2.length()),
+                "{name}: {} {}",
+                a.2,
+                b.2
+            );
+        }
+        if matched.continuity >= Continuity::G3 {
+            let apart = (a.3 - sense * b.3).abs();
+            assert!(apart <= 1e-2 * (1.0 + a.3.abs()), "{name}: {} {}", a.3, b.3);
+        }
+    }
+    println!("{count} matches, at most {worst:e} of the size left");
+}
+
+#[test]
+fn a_follower_follows_a_moved_source_and_its_other_end_stays() {
+    for (name, document, matched) in cases() {
+        let mut document = document.edited([Edit::SetMatch(matched)]).expect("a match");
+        let far = polygon(&document, 1).end_jet(matched.end.other());
+        let source = polygon(&document, 0);
+        for step in 1..=3 {
+            let by = DVec3::new(0.05, -0.04, 0.0) * f64::from(step);
+            let moves = (0..source.vertices().len()).map(|i| (i, source.vertex(i) + by));
+            let edit = Edit::MoveVertices {
+                curve: matched.source,
+                moves: moves.collect(),
+            };
+            document = document.edited([edit]).expect("an edit");
+            let left = missing(&document, &matched);
+            assert!(left <= MET, "{name}: {left:e}");
+        }
+        let now = polygon(&document, 1).end_jet(matched.end.other());
+        let size = source.size();
+        assert!(now.point.distance(far.point) <= 1e-10 * size, "{name}");
+        let turned = now.first.normalize().distance(far.first.normalize());
+        assert!(turned <= 1e-10, "{name}: {turned:e}");
+    }
+}
+
+#[test]
+fn locked_vertices_of_a_follower_are_held() {
+    for (name, document, matched) in cases() {
+        let count = polygon(&document, 1).vertices().len();
+        let lock = Edit::SetVerticesLocked {
+            curve: matched.curve,
+            vertices: vec![count / 2, count / 2 + 1],
+            locked: true,
+        };
+        let before = polygon(&document, 1);
+        let document = document
+            .edited([lock, Edit::SetMatch(matched)])
+            .expect("a match");
+        let after = polygon(&document, 1);
+        for vertex in [count / 2, count / 2 + 1] {
+            assert_eq!(after.vertex(vertex), before.vertex(vertex), "{name}");
+        }
+        let left = missing(&document, &matched);
+        assert!(left <= MET, "{name}: {left:e}");
+    }
+}
