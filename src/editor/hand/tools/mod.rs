@@ -3,6 +3,8 @@
 
 mod draw;
 mod end_fit;
+mod end_fit_drags;
+mod end_fit_subject;
 mod measure;
 mod select;
 mod tool;

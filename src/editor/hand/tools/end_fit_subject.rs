@@ -1,0 +1,189 @@
+//! The curve and the end that the end-fit tool works on, and the handles there are.
+
+use glam::DVec2;
+
+use super::tool::{Context, Effect};
+use crate::document::{Curve, CurveId, Edit, EditError, quoted};
+use crate::editor::hand::snapping::Carried;
+use crate::editor::view::end_marks::{ARROW, RING};
+use crate::editor::view::hit::REACH;
+use crate::editor::view::osculating_circle::OsculatingCircle;
+use crate::geometry::end_correction::EndTarget;
+use crate::geometry::{End, figure};
+
+/// What of the tool's own handles is under a place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Handle {
+    Target,
+    Direction,
+    Ring,
+    Body,
+    Circle,
+    OtherEnd(End),
+}
+
+/// The curve that the tool works on, as it was when the gesture began.
+pub(super) struct Subject<'a> {
+    pub(super) id: CurveId,
+    pub(super) curve: &'a Curve,
+    pub(super) end: End,
+    pub(super) point: DVec2,
+    pub(super) target: Option<EndTarget>,
+}
+
+impl<'a> Subject<'a> {
+    pub(super) fn of(context: &Context<'a>, end: End, before: bool) -> Result<Self, String> {
+        let document = if before {
+            context.before
+        } else {
+            context.document
+        };
+        let found = context
+            .selection
+            .active()
+            .and_then(|id| Some((id, document.curve(id)?)));
+        let Some((id, curve)) = found else {
+            return Err("Choose the curve whose ends shall be corrected".into());
+        };
+        if curve.polygon.is_periodic() {
+            return Err(format!(
+                "{} is periodic and has no ends: open it in the Curve menu",
+                quoted(&curve.name)
+            ));
+        }
+        curve
+            .check_visible()
+            .map_err(|refused| refused.to_string())?;
+        Ok(Self {
+            id,
+            curve,
+            end,
+            point: context.viewport.flatten(curve.polygon.end_jet(end).point),
+            target: curve.targets.get(end),
+        })
+    }
+
+    /// The place of the target direction's handle.
+    fn direction_tip(&self, context: &Context) -> Option<DVec2> {
+        let target = self.target?;
+        let view = context.viewport;
+        let direction = view.flatten(target.direction?).try_normalize()?;
+        Some(view.flatten(target.point) + ARROW * context.viewport.pixel() * direction)
+    }
+
+    pub(super) fn handle(&self, place: DVec2, context: &Context) -> Option<Handle> {
+        let near = |model: DVec2| context.viewport.to_screen(model).distance(place) <= REACH;
+        if self.direction_tip(context).is_some_and(near) {
+            return Some(Handle::Direction);
+        }
+        if self
+            .target
+            .is_some_and(|target| near(context.viewport.flatten(target.point)))
+        {
+            // Where the end has met its target it is the end that is taken, but for Alt.
+            let met = self.is_met(context);
+            return Some(if met && !context.modifiers.alt {
+                Handle::Body
+            } else {
+                Handle::Target
+            });
+        }
+        if near(self.point) {
+            return Some(Handle::Body);
+        }
+        // The ring comes before the vertices that it crosses: there are others to take.
+        let from_end = context.viewport.to_screen(self.point).distance(place);
+        if (from_end - RING).abs() <= 0.75 * REACH {
+            return Some(Handle::Ring);
+        }
+        let terminal = self.curve.polygon.terminal_vertices(self.end);
+        let mut vertices = self.curve.polygon.vertices()[terminal].iter();
+        if vertices.any(|vertex| near(context.viewport.flatten(*vertex))) {
+            return Some(Handle::Body);
+        }
+        let circle = self.circle(context);
+        if circle.is_some_and(|circle| near_chain(&circle, place, context)) {
+            return Some(Handle::Circle);
+        }
+        let other = self.end.other();
+        let other_end = self.curve.polygon.end_jet(other).point;
+        near(context.viewport.flatten(other_end)).then_some(Handle::OtherEnd(other))
+    }
+
+    /// The target's osculating circle, as it is seen.
+    fn circle(&self, context: &Context) -> Option<Vec<DVec2>> {
+        let target = self.target?;
+        let circle = OsculatingCircle::of(&target, self.curve, self.end)?;
+        Some(circle.chain(context.viewport))
+    }
+
+    /// Whether the end lies on its target, as far as the eye can tell.
+    pub(super) fn is_met(&self, context: &Context) -> bool {
+        let target = self
+            .target
+            .map(|target| context.viewport.flatten(target.point));
+        target.is_some_and(|target| target.distance(self.point) <= context.viewport.pixel())
+    }
+
+    pub(super) fn is_planar(&self) -> bool {
+        self.curve.polygon.is_planar()
+    }
+
+    /// Why the target cannot be set, if it is what a match makes it.
+    pub(super) fn refused_by_match(&self, context: &Context) -> Option<String> {
+        let mut tried = context.document.clone();
+        let (curve, end, target) = (self.id, self.end, self.target);
+        let set = Edit::SetTarget { curve, end, target };
+        let refused = tried.apply(set).err()?;
+        Some(refused.to_string())
+    }
+
+    /// The target's curvature and radius, in words.
+    pub(super) fn curvature(&self) -> String {
+        let curvature = self.target.and_then(|target| target.curvature);
+        let curvature = curvature.unwrap_or_default();
+        format!(
+            "κ = {}, radius {}",
+            figure(curvature),
+            figure(1.0 / curvature.abs())
+        )
+    }
+
+    /// Refuse if the terminal vertices cannot be moved as one body.
+    pub(super) fn check_movable(&self) -> Result<(), EditError> {
+        let terminal = self.curve.polygon.terminal_vertices(self.end);
+        self.curve.check_editable()?;
+        self.curve.check_vertices_unlocked(terminal)
+    }
+
+    /// What does not attract the end's target: the target itself, and the curve's own vertices.
+    pub(super) fn carried(&self) -> Carried {
+        let all = 0..self.curve.polygon.vertices().len();
+        Carried {
+            vertices: all.map(|index| (self.id, index)).collect(),
+            target: Some((self.id, self.end)),
+        }
+    }
+
+    pub(super) fn with_target(&self, target: EndTarget) -> Edit {
+        Edit::SetTarget {
+            curve: self.id,
+            end: self.end,
+            target: Some(target),
+        }
+    }
+
+    pub(super) fn set_target(&self, label: &str, target: EndTarget) -> Effect {
+        Effect::Apply(label.to_owned(), vec![self.with_target(target)])
+    }
+}
+
+fn near_chain(chain: &[DVec2], place: DVec2, context: &Context) -> bool {
+    let at = context.model(place);
+    let reach = 0.75 * REACH * context.viewport.pixel();
+    chain.windows(2).any(|ends| {
+        let along = ends[1] - ends[0];
+        let share = (at - ends[0]).dot(along) / along.length_squared();
+        ends[0].lerp(ends[1], share.clamp(0.0, 1.0)).distance(at) <= reach
+    })
+}
