@@ -140,7 +140,8 @@ impl Panel<'_> {
         }
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing.x = STEP;
-            let actual = ui.button("Take actual end");
+            let free = report.matched.is_none();
+            let actual = ui.add_enabled(free, Button::new("Take actual end"));
             if actual
                 .on_hover_text("Put the target where the end is now")
                 .clicked()
@@ -319,7 +320,7 @@ impl Panel<'_> {
                 let asked = [
                     ("dκ", target.curvature.map(|_| plain(missing.curvature))),
                     ("Plane", target.normal.map(|_| angle_text(missing.plane))),
-                    ("dκ′", target.slope.map(|_| plain(missing.slope))),
+                    ("Slope", target.slope.map(|_| plain(missing.slope))),
                 ];
                 pairs.extend(asked.into_iter().filter_map(|(name, it)| Some((name, it?))));
             }

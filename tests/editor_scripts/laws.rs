@@ -97,7 +97,8 @@ pub fn check_view(window: &Window) -> Result<(), String> {
     Ok(())
 }
 
-/// Hidden and locked curves keep their shape and locked ones stay; only deleting a curve deletes one.
+/// Hidden and locked curves and locked vertices keep their shape and locked curves stay; only deleting
+/// a curve deletes one.
 pub fn check_protected(before: &Snapshot, after: &Snapshot, done: Done) -> Result<(), String> {
     for (id, old) in before.curves() {
         let named = &old.named.0;
@@ -107,7 +108,7 @@ pub fn check_protected(before: &Snapshot, after: &Snapshot, done: Done) -> Resul
                 return Err(format!("“{named}” was deleted with its vertices"));
             }
             None => {}
-            Some(new) => check_kept(old, new)?,
+            Some(new) => check_kept(old, new, after.follows(*id))?,
         }
     }
     let gone = before.curves().iter();
@@ -118,12 +119,15 @@ pub fn check_protected(before: &Snapshot, after: &Snapshot, done: Done) -> Resul
     Ok(())
 }
 
-fn check_kept(old: &Bits, new: &Bits) -> Result<(), String> {
+fn check_kept(old: &Bits, new: &Bits, follows: bool) -> Result<(), String> {
     let named = &old.named.0;
-    if old.shape != new.shape && old.locked {
+    // A matched curve follows as soon as it is free.
+    let locked = old.locked && (new.locked || !follows);
+    let hidden = !old.visible && (!new.visible || !follows);
+    if old.shape != new.shape && locked {
         return Err(format!("“{named}” is locked and changed its shape"));
     }
-    if old.shape != new.shape && !old.visible {
+    if old.shape != new.shape && hidden {
         return Err(format!("“{named}” is hidden and changed its shape"));
     }
     if old.locked_vertices != new.locked_vertices && !old.visible {
@@ -145,7 +149,7 @@ fn check_kept(old: &Bits, new: &Bits) -> Result<(), String> {
             ));
         }
     }
-    if old.targets != new.targets && !old.visible {
+    if old.targets != new.targets && hidden {
         return Err(format!("“{named}” is hidden and got a target"));
     }
     Ok(())

@@ -121,6 +121,12 @@ impl Snapshot {
         &self.curves
     }
 
+    /// Whether an end of a curve is matched to another.
+    pub fn follows(&self, id: CurveId) -> bool {
+        let mut matches = self.matches.iter();
+        matches.any(|((curve, _), ..)| *curve == id)
+    }
+
     /// Find a curve.
     pub fn curve(&self, id: CurveId) -> Option<&Bits> {
         let found = self.curves.iter().find(|(other, _)| *other == id);
