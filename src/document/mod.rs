@@ -1,5 +1,6 @@
-//! What the user has made: curves, the edits that change them, and their history. Nothing in
-//! here is derived from anything else, and nothing depends on how it is looked at.
+//! What the user has made: curves, matches between their ends, the edits that change them, and their
+//! history. Nothing in here is derived from anything else but where matched ends go, and nothing
+//! depends on how it is looked at.
 
 mod curve;
 #[allow(clippy::module_inception)]
