@@ -21,8 +21,8 @@ use glam::DVec2;
 pub use commands::{Command, Shortcut};
 pub use files::with_extension;
 pub use hand::{
-    Button, Cursor, EndFitAction, EndFitReport, Hand, Input, Key, MatchReport, Modifiers,
-    Selection, ToolKind, Transformation, VertexId,
+    Button, Cursor, EndFitAction, EndFitReport, Follow, Following, Hand, Input, Key, MatchReport,
+    Modifiers, Selection, ToolKind, Transformation, VertexId,
 };
 pub use reply::{Message, Note, Refusal, Reply, told};
 pub use report::{CurveReport, Export, Readout};

@@ -277,13 +277,16 @@ impl Canvas {
                 });
             }
         } else {
-            if y != 0.0 {
+            // With Shift the wheel turns sideways.
+            let turns = editor.hand().turns_following();
+            let turned = if turns { x + y } else { y };
+            if turned != 0.0 {
                 editor.input(Input::Zoomed {
                     at,
-                    factor: (y / WHEEL_POINTS).exp(),
+                    factor: (turned / WHEEL_POINTS).exp(),
                 });
             }
-            if x != 0.0 {
+            if x != 0.0 && !turns {
                 editor.input(Input::Panned {
                     by: DVec2::new(x, 0.0),
                 });

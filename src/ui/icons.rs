@@ -5,7 +5,7 @@ use lucide_icons::Icon;
 
 use super::action::Action;
 use super::theme;
-use crate::editor::{Command, Layer, ToolKind};
+use crate::editor::{Command, Follow, Layer, ToolKind};
 
 /// The icon of a tool.
 pub fn of_tool(tool: ToolKind) -> Icon {
@@ -73,6 +73,8 @@ fn of_command(command: Command) -> Option<Icon> {
         Command::ZoomIn => Icon::ZoomIn,
         Command::ZoomOut => Icon::ZoomOut,
         Command::ToggleSnapping => Icon::Magnet,
+        Command::Follow(Follow::InHarmony) => Icon::Waves,
+        Command::Follow(Follow::Softly) => Icon::Blend,
         Command::ToggleLayer(layer) => of_layer(layer),
         Command::Tool(tool) => of_tool(tool),
         _ => return None,

@@ -8,7 +8,7 @@ use super::feature_list::chip_ui;
 use super::shell::Shell;
 use super::theme::Tokens;
 use super::{icons, keyboard, widgets};
-use crate::editor::{Command, Editor, Layer, NamedView, ToolKind};
+use crate::editor::{Command, Editor, Follow, Layer, NamedView, ToolKind};
 use crate::geometry::PolygonKind;
 use crate::io::examples::EXAMPLES;
 use crate::operations;
@@ -86,6 +86,8 @@ fn menus() -> [(&'static str, Vec<Entry>); 6] {
         Divider,
         command(Command::ToggleVerticesLocked),
         command(Command::ToggleSnapping),
+        command(Command::Follow(Follow::InHarmony)),
+        command(Command::Follow(Follow::Softly)),
     ];
     let mut curve = vec![
         command(Command::Duplicate),

@@ -6,7 +6,7 @@ use eframe::egui::{Align2, Role, ScrollArea, Sense, Ui, Vec2, WidgetInfo};
 use super::action::Action;
 use super::theme::{self, RADIUS, STEP, Tokens};
 use super::{icons, keyboard, widgets};
-use crate::editor::{Command, Editor, ToolKind};
+use crate::editor::{Command, Editor, Follow, ToolKind};
 
 /// The rail's width in points.
 pub const WIDTH: f32 = 48.0;
@@ -36,6 +36,7 @@ fn tools_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<Action>) {
     }
     divider(ui);
     button_ui(ui, editor, Command::ToggleSnapping, commands);
+    button_ui(ui, editor, Command::Follow(Follow::InHarmony), commands);
     button_ui(ui, editor, Command::Fit, commands);
 }
 

@@ -12,6 +12,7 @@ mod end_fit;
 mod events;
 mod features;
 mod files;
+mod following;
 mod laws;
 mod locking;
 mod matching;

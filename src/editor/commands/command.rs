@@ -1,5 +1,6 @@
 //! The table of commands: menus, keys, buttons and the command palette all read it.
 
+use crate::editor::hand::following::Follow;
 use crate::editor::hand::input::{Key, Modifiers};
 use crate::editor::hand::tools::ToolKind;
 use crate::editor::view::layers::Layer;
@@ -49,6 +50,8 @@ pub enum Command {
     ToggleLayer(Layer),
     /// Snap to grid, vertices and targets, or not.
     ToggleSnapping,
+    /// Let the neighbours of dragged vertices follow, or not.
+    Follow(Follow),
     /// Take a tool into the hand.
     Tool(ToolKind),
 }
@@ -101,6 +104,7 @@ impl Command {
                 | Self::ResetComb
                 | Self::ToggleLayer(_)
                 | Self::ToggleSnapping
+                | Self::Follow(_)
         )
     }
 
@@ -125,6 +129,7 @@ impl Command {
         all.push(Self::ResetComb);
         all.extend(Layer::ALL.map(Self::ToggleLayer));
         all.push(Self::ToggleSnapping);
+        all.extend(Follow::ALL.map(Self::Follow));
         all.extend(ToolKind::ALL.map(Self::Tool));
         all
     }
@@ -154,6 +159,7 @@ impl Command {
             Self::ResetComb => "Reset comb scale",
             Self::ToggleLayer(layer) => layer.label(),
             Self::ToggleSnapping => "Snapping",
+            Self::Follow(follow) => follow.label(),
             Self::Tool(tool) => tool.label(),
         };
         label.to_owned()
@@ -188,6 +194,7 @@ impl Command {
             Self::ToggleSnapping => {
                 "Let dragged points snap to the grid, to vertices and to targets"
             }
+            Self::Follow(follow) => follow.tooltip(),
             Self::Tool(tool) => tool.tooltip(),
         };
         tooltip.to_owned()
@@ -217,6 +224,8 @@ impl Command {
             Self::View(view) => plain(Key::Function(2 + view as u8)),
             Self::ToggleLayer(layer) => plain(Key::Character(char::from(b'1' + layer as u8))),
             Self::ToggleSnapping => plain(Key::Character('g')),
+            Self::Follow(Follow::InHarmony) => plain(Key::Character('n')),
+            Self::Follow(Follow::Softly) => plain(Key::Character('j')),
             Self::Tool(tool) => plain(Key::Character(tool.letter())),
             _ => None,
         }

@@ -72,6 +72,7 @@ impl Editor {
         match command {
             Command::ToggleLayer(layer) => Some(self.layers().shows(layer)),
             Command::ToggleSnapping => Some(self.hand.snapping),
+            Command::Follow(follow) => Some(self.hand.following.follow == Some(follow)),
             Command::Tool(tool) => Some(self.hand.tool() == tool),
             Command::View(view) => Some(self.view.viewport.orientation == view.orientation()),
             Command::ToggleVerticesLocked => Some(self.is_selection_locked()),
@@ -164,6 +165,7 @@ impl Editor {
             Command::ResetComb => self.reset_comb(),
             Command::ToggleLayer(layer) => self.toggle_layer(layer),
             Command::ToggleSnapping => self.hand.snapping = !self.hand.snapping,
+            Command::Follow(follow) => self.hand.following.toggle(follow),
             _ => {}
         }
     }

@@ -48,6 +48,11 @@ impl Editor {
             match gesture {
                 Gesture::Pan(by) => self.view.viewport.pan(by),
                 Gesture::Orbit(by) => self.orbit(by),
+                Gesture::Zoom(at, factor) if self.hand.turns_following() => {
+                    let stiffer = self.hand.modifiers.shift;
+                    self.hand.following.turn(factor, stiffer);
+                    self.deliver(Gesture::Drag(at), repeats);
+                }
                 Gesture::Zoom(at, factor) => self.view.viewport.zoom(at, factor),
                 Gesture::Key(Key::Tab) => self.hand.cycle.next(self.hand.gestures.pointer()),
                 gesture => self.deliver(gesture, repeats),
@@ -133,6 +138,7 @@ impl Editor {
             modifiers: self.hand.modifiers,
             axis: self.hand.axis,
             snapping: self.hand.snapping,
+            following: self.hand.following,
             pointer: self
                 .hand
                 .gestures

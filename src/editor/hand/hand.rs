@@ -1,6 +1,7 @@
 //! What the hand holds.
 
 use crate::editor::hand::cycle::Cycle;
+use crate::editor::hand::following::Following;
 use crate::editor::hand::gesture::GestureMachine;
 use crate::editor::hand::input::Modifiers;
 use crate::editor::hand::selection::Selection;
@@ -17,6 +18,7 @@ pub struct Hand {
     pub(in crate::editor) axis: Option<usize>,
     pub(in crate::editor) snapping: bool,
     pub(in crate::editor) cycle: Cycle,
+    pub(in crate::editor) following: Following,
 }
 
 impl Hand {
@@ -33,6 +35,17 @@ impl Hand {
     /// Whether points snap.
     pub fn snaps(&self) -> bool {
         self.snapping
+    }
+
+    /// How the neighbours of dragged vertices follow.
+    pub fn following(&self) -> Following {
+        self.following
+    }
+
+    /// Whether the wheel sets how the neighbours of what is dragged follow.
+    pub fn turns_following(&self) -> bool {
+        let selects = self.tool() == ToolKind::Select;
+        selects && self.is_dragging() && self.following.follow.is_some()
     }
 
     /// Whether a drag is going on.

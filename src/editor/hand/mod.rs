@@ -4,6 +4,7 @@ mod cycle;
 mod dispatch;
 pub mod end_fit;
 mod end_fit_actions;
+pub(in crate::editor) mod following;
 pub(in crate::editor) mod gesture;
 #[allow(clippy::module_inception)]
 mod hand;
@@ -14,6 +15,7 @@ pub(in crate::editor) mod tools;
 mod transforming;
 
 pub use end_fit::{EndFitAction, EndFitReport, MatchReport};
+pub use following::{Follow, Following};
 pub use hand::Hand;
 pub use input::{Button, Input, Key, Modifiers};
 pub use selection::{Selection, VertexId};

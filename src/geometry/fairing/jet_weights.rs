@@ -53,6 +53,15 @@ impl JetWeights {
         }
     }
 
+    /// Take the weights of a point that is some combination of the vertices, without derivatives.
+    pub(super) fn of_point(weights: Vec<(usize, f64)>) -> Self {
+        let (vertices, weights) = weights
+            .into_iter()
+            .map(|(vertex, weight)| (vertex, [weight, 0.0, 0.0, 0.0]))
+            .unzip();
+        Self { vertices, weights }
+    }
+
     /// Evaluate the point and its derivatives.
     pub(super) fn jet(&self, vertices: &[DVec3]) -> [DVec3; ORDERS] {
         let mut jet = [DVec3::ZERO; ORDERS];

@@ -10,6 +10,7 @@ mod condition;
 mod counts;
 mod dual;
 mod flow;
+pub mod following;
 pub mod harmonising;
 mod jet_weights;
 pub mod joint_correction;

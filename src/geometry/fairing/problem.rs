@@ -105,6 +105,21 @@ impl<'a> Problem<'a> {
             .push((JetWeights::at(self.polygon, u), conditions));
     }
 
+    /// Hold a combination of the vertices to a point.
+    pub(super) fn hold_point(&mut self, weights: Vec<(usize, f64)>, point: DVec3) {
+        let target = EndTarget {
+            point: (point - self.origin) / self.scale,
+            ..EndTarget::default()
+        };
+        let conditions = Condition::of(&target, self.planar, None);
+        self.held.push((JetWeights::of_point(weights), conditions));
+    }
+
+    /// Weigh moves from other places than those where the vertices are now.
+    pub(super) fn moved_from(&mut self, before: &[DVec3]) {
+        self.before = self.local(before);
+    }
+
     /// The vertices as they were.
     pub(super) fn before(&self) -> &[DVec3] {
         self.polygon.vertices()

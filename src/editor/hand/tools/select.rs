@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use glam::{DVec2, DVec3};
 
 use super::tool::{Context, Cursor, Effect, Look, Tool, move_edits};
-use crate::document::{CurveId, Edit, EditError, quoted};
+use crate::document::{CurveId, EditError};
+use crate::editor::hand::following::Follow;
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
 use crate::editor::hand::selection::VertexId;
@@ -48,17 +49,23 @@ struct Moving {
     /// The curves that lie in the plane z = 0.
     planar: BTreeSet<CurveId>,
     snap: Option<DVec2>,
+    /// Where the pointer is.
+    pointer: DVec2,
 }
 
 impl Moving {
     fn drag(&mut self, place: DVec2, context: &Context) -> Effect {
+        self.pointer = context.model(place);
         let (by, snap) = movement(self.origin, self.held, place, &self.carried, context);
         self.snap = snap;
         let places = self.vertices.iter().map(|(id, at)| {
             let is_planar = self.planar.contains(&id.0);
             (*id, *at + context.movement(by, is_planar))
         });
-        Effect::Preview(move_edits(places))
+        match context.following.edits(context.before, places) {
+            Ok(edits) => Effect::Preview(edits),
+            Err(error) => Effect::Say(error.to_string()),
+        }
     }
 }
 
@@ -119,6 +126,16 @@ impl Tool for SelectTool {
 
     fn hint(&self, context: &Context) -> String {
         match &self.state {
+            State::Moving(_) if context.following.follow.is_some() => {
+                let words = context.following.words().unwrap_or_default();
+                let stiffness = match context.following.follow {
+                    Some(Follow::InHarmony) => ", with Shift how stiff they are",
+                    _ => "",
+                };
+                format!(
+                    "{words}: the wheel sets how many{stiffness}; Alt shows before, Esc cancels"
+                )
+            }
             State::Moving(Moving { vertices, .. }) => format!(
                 "Moving {}: Shift keeps to an axis, X, Y, Z to the model's, Ctrl turns snapping {}, Alt shows before, Esc cancels",
                 counted(vertices.len(), "vertex", "vertices"),
@@ -169,9 +186,12 @@ impl Tool for SelectTool {
                     context.model(*to),
                 ])]
             }
-            State::Moving(Moving {
-                snap: Some(snap), ..
-            }) => vec![Mark::Snap(*snap)],
+            State::Moving(moving) => {
+                let snap = moving.snap.map(Mark::Snap);
+                let words = context.following.words();
+                let label = words.map(|words| Mark::Label(moving.pointer, words));
+                snap.into_iter().chain(label).collect()
+            }
             _ => Vec::new(),
         }
     }
@@ -316,6 +336,7 @@ impl SelectTool {
             planar: context.planar_curves(&vertices),
             vertices,
             snap: None,
+            pointer: context.model(place),
         });
         vec![Effect::Begin(label.to_owned())]
     }
@@ -326,13 +347,13 @@ fn takes_vertex(place: DVec2, context: &Context) -> bool {
 }
 
 /// Put a vertex of the closed S-polygon somewhere else: the float S-polygon follows.
-fn move_clamped((id, index): VertexId, place: DVec3, context: &Context) -> Effect {
-    let Some(curve) = context.before.curve(id) else {
-        return Effect::Preview(Vec::new());
-    };
-    match curve.polygon.with_clamped_vertex(index, place) {
-        Ok(polygon) => Effect::Preview(vec![Edit::SetPolygon { curve: id, polygon }]),
-        Err(error) => Effect::Say(format!("{}: {error}", quoted(&curve.name))),
+fn move_clamped(vertex: VertexId, place: DVec3, context: &Context) -> Effect {
+    match context
+        .following
+        .clamped_edit(context.before, vertex, place)
+    {
+        Ok(edit) => Effect::Preview(vec![edit]),
+        Err(error) => Effect::Say(error.to_string()),
     }
 }
 

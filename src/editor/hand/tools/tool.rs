@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use glam::{DVec2, DVec3};
 
 use crate::document::{CurveId, Document, Edit};
+use crate::editor::hand::following::Following;
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Modifiers;
 use crate::editor::hand::selection::{Selection, VertexId};
@@ -32,6 +33,8 @@ pub struct Context<'a> {
     pub axis: Option<usize>,
     /// Whether snapping is on; Ctrl turns it round.
     pub snapping: bool,
+    /// How the neighbours of dragged vertices follow.
+    pub following: Following,
     /// Where the pointer is, in the view plane.
     pub pointer: Option<DVec2>,
 }
