@@ -6,7 +6,11 @@ use batten::geometry::end_correction::{
     EndDifference, EndOverlap, EndTarget, align_end, angle_between, correct_end, correct_in_turn,
 };
 use batten::geometry::fairing::joint_correction::{Disturbance, correct_jointly};
-use batten::geometry::polygon_figures::{discrete_curvature, turning_angle};
+use batten::geometry::features::Features;
+use batten::geometry::harmony::Harmony;
+use batten::geometry::polygon_figures::{
+    discrete_curvature, discrete_torsion, torsion_angle, turning_angle,
+};
 use batten::geometry::{
     Batch, BezierPolygon, ClampedPolygon, End, FloatPolygon, MAX_DEGREE, Sampler, segment_bezier,
 };
@@ -107,7 +111,13 @@ fn look_at(polygon: &FloatPolygon, target: DVec3) {
         }
     }
     let _ = segment_bezier(polygon, 0);
+    let harmony = Harmony::of(polygon, &Features::default());
+    assert_eq!(harmony.regularity.highest, degree - 1);
     let vertices = polygon.vertices();
+    for four in vertices.windows(4) {
+        let _ = torsion_angle(four[0], four[1], four[2], four[3]);
+        let _ = discrete_torsion(four[0], four[1], four[2], four[3]);
+    }
     for corner in vertices.windows(3) {
         let _ = discrete_curvature(corner[0], corner[1], corner[2]);
         let _ = turning_angle(corner[0], corner[1], corner[2]);

@@ -4,12 +4,13 @@ mod common;
 
 use std::sync::Arc;
 
-use batten::analysis::{CurveAnalysis, LevelPlot};
+use batten::analysis::{CurveAnalysis, Flow, LevelPlot};
 use batten::document::Curve;
 use batten::editor::{
     ChainOutlines, CombSettings, CurveOutlines, Orientation, PieceTrend, ViewBox,
 };
 use batten::geometry::features::Features;
+use batten::geometry::harmony::Harmony;
 use batten::geometry::{FloatPolygon, Progress};
 use common::Random;
 use glam::{DVec2, DVec3};
@@ -97,8 +98,9 @@ fn drawn(analysis: &mut CurveAnalysis, outlines: &mut Outlines, eye: Orientation
     analysis.append_discrete_curvature(&mut dots);
     points.extend(dots.into_iter().map(|(_, place)| place));
     analysis.append_levels(LevelPlot::Curvature(2), false, &mut points);
-    analysis.float().append_leg_series(&mut points);
-    analysis.float().append_turn_series(&mut points);
+    for flow in Flow::ALL {
+        analysis.float().append_flow(flow, &mut points);
+    }
     float.set_orientation(eye);
     float.update(analysis.float());
     float.append_legs(analysis.float(), &view, &mut points);
@@ -112,6 +114,15 @@ fn proved(analysis: &mut CurveAnalysis) -> Features {
         analysis.take_proof(proof.run(&Progress::default()));
     }
     analysis.known_features().expect("all is proved").clone()
+}
+
+/// Measure the harmony.
+fn measured(analysis: &mut CurveAnalysis) -> Harmony {
+    if let Some(measurement) = analysis.harmony_measurement() {
+        let measured = measurement.run(&Progress::default());
+        analysis.take_harmony(measured.expect("it is not cancelled"));
+    }
+    analysis.harmony().expect("it is measured").clone()
 }
 
 #[test]
@@ -138,7 +149,9 @@ fn an_edited_curve_is_analysed_as_if_it_were_new() {
                 let [kept, fresh] = [&kept, &fresh].map(|analysis| analysis.samples());
                 assert_eq!(kept.piece(segment), fresh.piece(segment));
             }
+            assert_eq!(kept.harmony(), None, "it was another curve's");
             assert_eq!(proved(&mut kept), proved(&mut fresh));
+            assert_eq!(measured(&mut kept), measured(&mut fresh));
             assert_eq!(kept.samples().length(), fresh.samples().length());
             let made_anew = drawn(&mut fresh, &mut Outlines::default(), eye);
             assert_eq!(drawn(&mut kept, &mut outlines, eye), made_anew);

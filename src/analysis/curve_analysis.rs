@@ -7,13 +7,16 @@ use glam::DVec2;
 
 use super::curvature_series::CurvatureSeries;
 use super::curve_samples::{CurveSamples, SampledCurve};
+use super::dependent_segments::dependent_segments;
 use super::discrete_curvature::append_discrete_curvature;
 use super::feature_proof::{FeatureProof, ProofResult, ProvedFeatures};
+use super::harmony_measurement::{HarmonyMeasurement, MeasuredHarmony};
 use super::level_series::{LevelPlot, LevelSeries};
 use super::revision::Revision;
 use super::vertex_chain::{VertexChain, changed_range};
 use crate::document::Curve;
 use crate::geometry::features::{Features, SegmentFeatures};
+use crate::geometry::harmony::Harmony;
 use crate::geometry::{ClampedPolygon, FloatPolygon};
 
 /// Hold the samples of a curve, its polygons' vertices, its features and its plots.
@@ -26,6 +29,8 @@ pub struct CurveAnalysis {
     features: ProvedFeatures,
     curvature: CurvatureSeries,
     levels: LevelSeries,
+    /// The harmony that was measured last.
+    harmony: Option<Arc<MeasuredHarmony>>,
     redone: usize,
 }
 
@@ -40,6 +45,7 @@ impl CurveAnalysis {
             features: ProvedFeatures::new(polygon.segments()),
             curvature: CurvatureSeries::default(),
             levels: LevelSeries::default(),
+            harmony: None,
             redone: polygon.segments(),
             curve,
         };
@@ -175,6 +181,29 @@ impl CurveAnalysis {
         self.features.proved()
     }
 
+    /// What is to be measured of the curve's harmony: a job for any thread. `None` if it is known, or
+    /// as long as the features are not.
+    pub fn harmony_measurement(&self) -> Option<HarmonyMeasurement> {
+        if self.harmony().is_some() {
+            return None;
+        }
+        let features = self.known_features()?.clone();
+        let known = self.harmony.clone();
+        Some(HarmonyMeasurement::new(self.curve.clone(), features, known))
+    }
+
+    /// Take a harmony that was measured: it counts as long as the curve is the one it was measured of,
+    /// and spares work for others.
+    pub fn take_harmony(&mut self, measured: MeasuredHarmony) {
+        self.harmony = Some(Arc::new(measured));
+    }
+
+    /// The harmony of the curve, once it is measured.
+    pub fn harmony(&self) -> Option<&Harmony> {
+        let measured = self.harmony.as_ref()?;
+        measured.of(&self.curve)
+    }
+
     /// Append the curvature over arc length: see [`CurvatureSeries::append`].
     pub fn append_curvature(&mut self, out: &mut Vec<DVec2>) {
         let curve = &self.curve.polygon;
@@ -229,26 +258,6 @@ impl CurveAnalysis {
                 };
                 self.clamped.replace(first, own);
             }
-        }
-    }
-}
-
-/// List the segments that depend on the vertices of a range: one range, or two where a periodic
-/// curve's segments wrap around.
-fn dependent_segments(polygon: &FloatPolygon, changed: &Range<usize>) -> Vec<Range<usize>> {
-    let (degree, segments) = (polygon.degree(), polygon.segments());
-    if !polygon.is_periodic() {
-        let first = changed.start.saturating_sub(degree);
-        return vec![first..changed.end.min(segments)];
-    }
-    if changed.len() + degree >= segments {
-        return vec![0..segments];
-    }
-    match changed.start.checked_sub(degree) {
-        Some(first) => vec![first..changed.end],
-        None => {
-            let wrapped = changed.start + segments - degree;
-            vec![0..changed.end, wrapped..segments]
         }
     }
 }

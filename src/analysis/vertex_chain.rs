@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3};
 use super::bins::{BINS, Bins};
 use super::revision::Revision;
 use crate::geometry::Range as Span;
-use crate::geometry::polygon_figures::{discrete_curvature, turning_angle};
+use crate::geometry::polygon_figures::{discrete_curvature, torsion_angle, turning_angle};
 
 /// Vertices in one block.
 pub(super) const BLOCK: usize = 64;
@@ -27,8 +27,30 @@ struct Block {
     revision: Revision,
     figures: OnceCell<ChainFigures>,
     extremes: OnceCell<Vec<(usize, f64)>>,
-    leg_series: OnceCell<Vec<DVec2>>,
-    turn_series: OnceCell<Vec<DVec2>>,
+    flows: [OnceCell<Vec<DVec2>>; Flow::ALL.len()],
+}
+
+/// Name a sequence of the flow of control vertices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flow {
+    /// The lengths of the legs.
+    Legs,
+    /// The turning angles.
+    Turns,
+    /// The discrete curvature.
+    Curvatures,
+    /// The torsion angles of a polygon in space.
+    TorsionAngles,
+}
+
+impl Flow {
+    /// All of them, as they are drawn one below the other.
+    pub const ALL: [Self; 4] = [
+        Self::Legs,
+        Self::Turns,
+        Self::Curvatures,
+        Self::TorsionAngles,
+    ];
 }
 
 /// The smallest and largest leg and turning angle of a polygon.
@@ -84,17 +106,18 @@ impl VertexChain {
     pub(super) fn replace(&mut self, first: usize, vertices: &[DVec3]) {
         let changed = first..first + vertices.len();
         self.vertices[changed.clone()].copy_from_slice(vertices);
-        // A leg reaches one vertex on and a turning angle one to either side.
+        // A torsion angle reaches one vertex back and two on; a leg and a turning angle less far.
         let count = self.vertices.len();
-        let low = changed.start.saturating_sub(2) / BLOCK;
-        let high = ((changed.end + 1).min(count) / BLOCK).min(self.blocks.len() - 1);
         let last = self.blocks.len() - 1;
+        let low = changed.start.saturating_sub(2) / BLOCK;
+        let high = ((changed.end + 1).min(count) / BLOCK).min(last);
         for index in low..=high {
             self.blocks[index] = Block::default();
         }
         if self.closed {
-            self.blocks[0] = Block::default();
-            self.blocks[last] = Block::default();
+            for index in [0, count.saturating_sub(2) / BLOCK, last] {
+                self.blocks[index] = Block::default();
+            }
         }
     }
 
@@ -116,21 +139,23 @@ impl VertexChain {
         known.copied()
     }
 
-    /// Append the lengths of the legs over the number of the vertex where each begins, thinned so
-    /// that their extrema are kept.
-    pub fn append_leg_series(&self, out: &mut Vec<DVec2>) {
+    /// Append a sequence of the flow over the vertices' numbers, thinned so that its extrema are
+    /// kept; what belongs to a leg stands at the vertex where it begins, angles are in radians.
+    /// Where there is no number there is a gap, a NaN point.
+    pub fn append_flow(&self, flow: Flow, out: &mut Vec<DVec2>) {
         for (index, block) in self.blocks.iter().enumerate() {
-            let series = || self.binned(index, |vertex| self.leg(vertex));
-            out.extend_from_slice(block.leg_series.get_or_init(series));
+            let series = || self.binned(index, |vertex| self.flow(flow, vertex));
+            out.extend_from_slice(block.flows[flow as usize].get_or_init(series));
         }
     }
 
-    /// Append the turning angles in radians over the numbers of their vertices, thinned as
-    /// [`VertexChain::append_leg_series`] does.
-    pub fn append_turn_series(&self, out: &mut Vec<DVec2>) {
-        for (index, block) in self.blocks.iter().enumerate() {
-            let series = || self.binned(index, |vertex| self.turn(vertex));
-            out.extend_from_slice(block.turn_series.get_or_init(series));
+    /// A number of the flow; `None` at the ends of an open polygon.
+    pub fn flow(&self, flow: Flow, vertex: usize) -> Option<f64> {
+        match flow {
+            Flow::Legs => self.leg(vertex),
+            Flow::Turns => self.turn(vertex),
+            Flow::Curvatures => self.curvature(vertex),
+            Flow::TorsionAngles => self.torsion_angle(vertex),
         }
     }
 
@@ -148,6 +173,7 @@ impl VertexChain {
         let mut bins = Bins::new(self.run() as f64);
         for vertex in self.block_vertices(index) {
             if let Some(value) = value(vertex) {
+                let value = if value.is_finite() { value } else { f64::NAN };
                 bins.add(DVec2::new(vertex as f64, value), &mut points);
             }
         }
@@ -157,10 +183,7 @@ impl VertexChain {
 
     fn block_extremes(&self, index: usize) -> Vec<(usize, f64)> {
         let (range, run) = (self.block_vertices(index), self.run());
-        let curvature = |i: usize| {
-            let [before, corner, after] = self.corner(i)?;
-            Some((i, discrete_curvature(before, corner, after)))
-        };
+        let curvature = |i: usize| Some((i, self.curvature(i)?));
         let runs = range
             .clone()
             .step_by(run)
@@ -190,6 +213,18 @@ impl VertexChain {
     pub fn turn(&self, index: usize) -> Option<f64> {
         self.corner(index)
             .map(|[before, corner, after]| turning_angle(before, corner, after))
+    }
+
+    /// The discrete curvature at vertex `index`.
+    fn curvature(&self, index: usize) -> Option<f64> {
+        let [before, corner, after] = self.corner(index)?;
+        Some(discrete_curvature(before, corner, after))
+    }
+
+    /// The torsion angle along the leg from vertex `index` to the next, in radians.
+    fn torsion_angle(&self, index: usize) -> Option<f64> {
+        let [before, start, end] = self.corner(index)?;
+        Some(torsion_angle(before, start, end, self.get(index + 2)?))
     }
 
     /// The vertex with its two neighbours.

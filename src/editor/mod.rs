@@ -4,6 +4,7 @@
 mod commands;
 mod files;
 mod hand;
+mod measuring;
 mod operating;
 mod patience;
 mod proving;
@@ -40,6 +41,7 @@ use crate::analysis::AnalysisCache;
 use crate::document::{CurveId, Document, Edit, quoted};
 use hand::gesture::Gesture;
 use hand::tools::Tools;
+use measuring::Measuring;
 use patience::Patience;
 use proving::Proving;
 use trial::Operations;
@@ -54,6 +56,7 @@ pub struct Editor {
     operations: Operations,
     patience: Patience,
     proving: Proving,
+    measuring: Measuring,
     message: Option<Message>,
 }
 
@@ -82,6 +85,7 @@ impl Editor {
     ) {
         self.patience = Patience::new(patience);
         self.proving = Proving::background(wake.clone());
+        self.measuring = Measuring::background(wake.clone());
         self.operations = Operations::background(wake);
     }
 

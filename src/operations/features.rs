@@ -1,17 +1,19 @@
-//! Proved features of the curves that an operation concerns, before and after it.
+//! Proved features and harmony of the curves that an operation concerns, before and after it.
 
 use std::sync::Arc;
 
 use serde::{Serialize, Serializer};
 
+use super::harmony_json;
 use super::input::Input;
 use super::outcome::Outcome;
 use crate::document::{Curve, CurveId, Document};
 use crate::geometry::features::{Features, Quantity, SegmentProver, Verdict};
+use crate::geometry::harmony::{Harmony, SegmentFairness};
 use crate::geometry::{FloatPolygon, Progress};
 
-/// Hold how many features each curve has that an operation concerns: those that were chosen, and
-/// those that it changes, adds or removes.
+/// Hold the features and the harmony of each curve that an operation concerns: those that were
+/// chosen, and those that it changes, adds or removes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FeatureComparison {
     /// The curves before the operation.
@@ -20,7 +22,7 @@ pub struct FeatureComparison {
     pub after: Vec<FeatureCounts>,
 }
 
-/// Count the proved features of a curve.
+/// Count the proved features of a curve, and hold its harmony.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FeatureCounts {
     /// The curve's name.
@@ -40,6 +42,9 @@ pub struct FeatureCounts {
     /// Whether the curvature is monotone.
     #[serde(serialize_with = "verdict")]
     pub monotone: Verdict,
+    /// The harmony of the curve and its polygon.
+    #[serde(serialize_with = "harmony_json::serialize")]
+    pub harmony: Harmony,
 }
 
 impl FeatureComparison {
@@ -68,7 +73,7 @@ impl FeatureComparison {
 }
 
 impl FeatureCounts {
-    fn of(curve: &Curve, features: &Features) -> Self {
+    fn of(curve: &Curve, (features, harmony): &(Features, Harmony)) -> Self {
         let cusps = features.cusps.iter().filter(|cusp| cusp.proved).count();
         Self {
             name: curve.name.clone(),
@@ -79,6 +84,7 @@ impl FeatureCounts {
             cusps,
             undecided: features.undecided.len() + features.cusps.len() - cusps,
             monotone: features.monotone,
+            harmony: harmony.clone(),
         }
     }
 }
@@ -120,20 +126,20 @@ struct Proof<'a> {
     done: usize,
     segments: usize,
     /// What is proved: a curve that an operation leaves as it is needs no second proof.
-    proved: Vec<(FloatPolygon, Features)>,
+    proved: Vec<(FloatPolygon, (Features, Harmony))>,
 }
 
 impl Proof<'_> {
     fn counts(&mut self, curves: &[Arc<Curve>]) -> Option<Vec<FeatureCounts>> {
         let counts = curves.iter();
         let counts = counts.map(|curve| {
-            let features = self.features(&curve.polygon)?;
-            Some(FeatureCounts::of(curve, features))
+            let known = self.known(&curve.polygon)?;
+            Some(FeatureCounts::of(curve, known))
         });
         counts.collect()
     }
 
-    fn features(&mut self, polygon: &FloatPolygon) -> Option<&Features> {
+    fn known(&mut self, polygon: &FloatPolygon) -> Option<&(Features, Harmony)> {
         let known = self.proved.iter().position(|(known, _)| known == polygon);
         let index = match known {
             Some(index) => {
@@ -141,25 +147,30 @@ impl Proof<'_> {
                 index
             }
             None => {
-                let features = self.proof(polygon)?;
-                self.proved.push((polygon.clone(), features));
+                let proof = self.proof(polygon)?;
+                self.proved.push((polygon.clone(), proof));
                 self.proved.len() - 1
             }
         };
-        self.proved.get(index).map(|(_, features)| features)
+        self.proved.get(index).map(|(_, known)| known)
     }
 
-    fn proof(&mut self, polygon: &FloatPolygon) -> Option<Features> {
-        let mut prover = SegmentProver::new(polygon.is_planar());
+    fn proof(&mut self, polygon: &FloatPolygon) -> Option<(Features, Harmony)> {
+        let planar = polygon.is_planar();
+        let mut prover = SegmentProver::new(planar);
+        let mut fairness = Vec::with_capacity(polygon.segments());
         let mut segments = Vec::with_capacity(polygon.segments());
         for segment in 0..polygon.segments() {
             if self.progress.is_cancelled() {
                 return None;
             }
             segments.push(prover.segment(polygon, segment));
+            fairness.push(SegmentFairness::new(polygon, segment, planar));
             self.advance(1);
         }
-        Some(Features::assemble(polygon, &segments))
+        let features = Features::assemble(polygon, &segments);
+        let harmony = Harmony::assemble(polygon, &features, &fairness);
+        Some((features, harmony))
     }
 
     fn advance(&mut self, segments: usize) {

@@ -14,6 +14,7 @@ mod degree;
 mod editable;
 mod error;
 mod features;
+mod harmony_json;
 mod input;
 mod inputs;
 mod lists;

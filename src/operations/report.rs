@@ -35,7 +35,7 @@ pub struct Report {
     pub figures: Vec<Figure>,
     /// What else is to say: sentences without a full stop at the end.
     pub remarks: Vec<String>,
-    /// Proved features before and afterwards; `None` until they are proved.
+    /// Proved features and harmony before and afterwards; `None` until they are proved.
     pub features: Option<FeatureComparison>,
 }
 

@@ -10,7 +10,8 @@ use super::value::Value;
 impl Serialize for Report {
     /// Write the keys `operation`, `reached`, `residual`, `deviation` (0 where the curve is the
     /// same, null where it is another and the distance is not measured), `largest_move`,
-    /// `features_before`, `features_after` (null where they are not proved), `remarks`, and the
+    /// `features_before`, `features_after` (counts and `harmony` of each curve; null where they are not
+    /// proved), `remarks`, and the
     /// operation's own figures under their names, angles in degrees.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;

@@ -3,6 +3,7 @@
 use super::features::FeatureCounts;
 use super::outcome::Deviation;
 use super::report::Report;
+use crate::geometry::harmony::Match;
 use crate::geometry::{counted, rounded_up, significant};
 
 impl Report {
@@ -38,6 +39,7 @@ impl Report {
                 (_, None) => "no curve is left".to_owned(),
             });
             parts.extend(changed_inflections(&features.before, &features.after));
+            parts.extend(changed_harmony(&features.before, &features.after));
         }
         let mut text = self.label.to_owned();
         if !parts.is_empty() {
@@ -55,6 +57,25 @@ fn changed_inflections(before: &[FeatureCounts], after: &[FeatureCounts]) -> Opt
     let count = |counts: &[FeatureCounts]| counts.iter().map(|c| c.inflections).sum::<usize>();
     let (before, after) = (count(before), count(after));
     (before != after).then(|| format!("inflections: {before} before, {after} now"))
+}
+
+/// Say what becomes of the harmony of one curve, if that changes.
+fn changed_harmony(before: &[FeatureCounts], after: &[FeatureCounts]) -> Vec<String> {
+    let ([before], [after]) = (before, after) else {
+        return Vec::new();
+    };
+    let mut said = Vec::new();
+    let [was, is] = [before, after].map(|counts| counts.harmony.curvature.verdict == Match::Agrees);
+    match (was, is) {
+        (true, false) => said.push("the discrete curvature no longer follows the curve".to_owned()),
+        (false, true) => said.push("the discrete curvature follows the curve now".to_owned()),
+        _ => {}
+    }
+    let [was, is] = [before, after].map(|counts| counts.harmony.regularity.order);
+    if was != is {
+        said.push(format!("regular to order: {was} before, {is} now"));
+    }
+    said
 }
 
 /// Say how many curvature extrema each curve has, if there is one.

@@ -78,8 +78,8 @@ impl App {
             hide_layers(&mut editor, hidden);
         }
         let mut plots = Plots::default();
-        plots.set_tab(if shell.legs {
-            Tab::Legs
+        plots.set_tab(if shell.harmony {
+            Tab::Harmony
         } else {
             Tab::Curvature
         });
@@ -122,6 +122,7 @@ impl App {
         self.canvas.send_events(&context, &mut self.editor);
         self.editor.refresh();
         self.editor.view_mut().hover_nothing();
+        self.editor.view_mut().show_harmony(false);
         self.panels_ui(ui);
         self.overlays_ui(&context);
         let actions = std::mem::take(&mut self.actions);
@@ -496,7 +497,7 @@ impl App {
             .enumerate()
             .filter(|(_, layer)| !layers.shows(*layer));
         Shell {
-            legs: self.plots.tab() == Tab::Legs,
+            harmony: self.plots.tab() == Tab::Harmony,
             hidden: Some(hidden.map(|(place, _)| place).collect()),
             ..self.shell.clone()
         }

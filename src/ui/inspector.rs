@@ -8,6 +8,7 @@ use lucide_icons::Icon;
 use super::curve_list::swatch_in;
 use super::feature_list::feature_list_ui;
 use super::figures;
+use super::harmony_list::harmony_list_ui;
 use super::number_field::{FieldEvent, NumberField};
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
 use super::transform_panel::TransformPanel;
@@ -51,6 +52,7 @@ impl Inspector {
             }
         });
         widgets::section(ui, "Features", true, |ui| feature_list_ui(ui, editor));
+        widgets::section(ui, "Harmony", false, |ui| harmony_list_ui(ui, editor));
         let title = format!("Vertices ({})", curve.polygon.vertices().len());
         let open = widgets::section_with_id(ui, "vertices", &title, true, |ui| {
             self.table.show(ui, editor, id, &curve);

@@ -23,6 +23,7 @@ mod figures;
 mod file_dialogs;
 mod gizmo;
 mod grid;
+mod harmony_list;
 mod icons;
 mod inspector;
 mod key_order;

@@ -13,6 +13,7 @@ use super::widgets::IconButton;
 use super::{figures, widgets};
 use crate::editor::{Editor, Trial, told};
 use crate::geometry::features::Verdict;
+use crate::geometry::harmony::{Harmony, Match, VertexFigure};
 use crate::geometry::rounded_up;
 use crate::operations::{
     Choice, Deviation, FeatureCounts, Figure, Kind, Limits, Parameter, Report, Unit, Value,
@@ -371,6 +372,60 @@ fn features_ui(ui: &mut Ui, trial: &Trial) {
     }
     let verdicts = |counts: &[FeatureCounts]| joined(counts, |c| verdict(c.monotone).to_owned());
     before_after_ui(ui, "Monotone", &verdicts(before), &verdicts(after));
+    for (name, text) in HARMONY {
+        let told = |counts: &[FeatureCounts]| joined(counts, |c| text(&c.harmony));
+        before_after_ui(ui, name, &told(before), &told(after));
+    }
+}
+
+/// A figure of the harmony in a few characters.
+type HarmonyText = fn(&Harmony) -> String;
+
+/// The harmony, before and afterwards.
+const HARMONY: [(&str, HarmonyText); 8] = [
+    ("Follows the curve", |harmony| {
+        follows(harmony.curvature.verdict).to_owned()
+    }),
+    ("Regular to order", |harmony| {
+        let regularity = harmony.regularity;
+        format!("{} of {}", regularity.order, regularity.highest)
+    }),
+    ("Leg change Δ²", |harmony| {
+        change(harmony.figures.legs, |value| figures::significant(value, 3))
+    }),
+    ("Turning change Δ²", |harmony| {
+        change(harmony.figures.turns, |angle| figures::degrees(angle, 3))
+    }),
+    ("Discrete κ extrema", |harmony| {
+        harmony.figures.curvature_extrema.to_string()
+    }),
+    ("Bending energy", |harmony| {
+        energy(harmony.fairness.bending_energy)
+    }),
+    ("Variation", |harmony| energy(harmony.fairness.variation)),
+    ("Slope α", |harmony| {
+        let longest = harmony.longest_slope();
+        longest.map_or("–".to_owned(), |piece| {
+            figures::significant(piece.slope, 3)
+        })
+    }),
+];
+
+fn follows(verdict: Match) -> &'static str {
+    match verdict {
+        Match::Agrees => "yes",
+        Match::Differs(_) => "no",
+        Match::Undecided(_) => "undecided",
+    }
+}
+
+fn change(figure: Option<VertexFigure>, text: impl Fn(f64) -> String) -> String {
+    figure.map_or("–".to_owned(), |figure| text(figure.value))
+}
+
+/// Write an energy, which is infinite where it is not a number.
+fn energy(energy: Option<f64>) -> String {
+    energy.map_or("∞".to_owned(), |energy| figures::significant(energy, 5))
 }
 
 fn joined(counts: &[FeatureCounts], text: impl Fn(&FeatureCounts) -> String) -> String {

@@ -2,7 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use eframe::egui::{Color32, Mesh, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, pos2, vec2};
+use eframe::egui::{
+    Align2, Color32, Mesh, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, pos2, vec2,
+};
 use glam::DVec2;
 
 use super::brush::Brush;
@@ -24,6 +26,9 @@ const CROWD: usize = 200;
 
 /// An evolute smaller than this, in points, is marked by a disc.
 const SMALL_EVOLUTE: f32 = 4.0;
+
+/// The radius of the circle round a vertex where the flow is least even.
+const UNEVEN: f32 = 9.0;
 
 /// How faint the curve is as it was.
 const GHOST: f32 = 0.35;
@@ -204,6 +209,23 @@ impl Brush<'_> {
                     let rect = Rect::from_center_size(at, Vec2::splat(14.0));
                     self.painter
                         .rect_stroke(rect, 0, accent, StrokeKind::Middle);
+                }
+            }
+            Mark::Uneven { at, text } => {
+                if let Some(at) = self.screen.point(*at) {
+                    let stroke = Stroke::new(1.5, tokens.warning);
+                    self.painter.circle_stroke(at, UNEVEN, stroke);
+                    let place = at + vec2(UNEVEN, -UNEVEN);
+                    let (align, font) = (Align2::LEFT_BOTTOM, theme::small_font());
+                    labels::paint(
+                        self.painter,
+                        place,
+                        align,
+                        text,
+                        font,
+                        tokens.warning,
+                        tokens,
+                    );
                 }
             }
             Mark::Label(at, text) => {

@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 pub struct Shell {
     pub(super) dark: bool,
     pub(super) plots: bool,
-    pub(super) legs: bool,
+    /// Whether the plot in front is that of harmony.
+    pub(super) harmony: bool,
     /// The layers that are hidden, by their place in the list.
     pub(super) hidden: Option<Vec<usize>>,
 }
@@ -18,7 +19,7 @@ impl Default for Shell {
         Self {
             dark: true,
             plots: true,
-            legs: false,
+            harmony: false,
             hidden: None,
         }
     }

@@ -19,7 +19,7 @@ const KEYS: [&str; 8] = [
 ];
 
 /// The keys of the features of each curve.
-const COUNTS: [&str; 8] = [
+const COUNTS: [&str; 9] = [
     "name",
     "inflections",
     "curvature_extrema",
@@ -28,6 +28,7 @@ const COUNTS: [&str; 8] = [
     "cusps",
     "undecided",
     "monotone",
+    "harmony",
 ];
 
 /// A folder with an example.

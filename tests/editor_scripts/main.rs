@@ -13,6 +13,7 @@ mod events;
 mod features;
 mod files;
 mod following;
+mod harmony;
 mod laws;
 mod locking;
 mod matching;

@@ -1,6 +1,7 @@
 //! What is reported of an operation.
 
 use batten::geometry::features::Verdict;
+use batten::geometry::harmony::Match;
 use batten::geometry::{End, Progress};
 use batten::operations::{FeatureComparison, OperationError, Report, Value};
 use serde_json::json;
@@ -98,8 +99,9 @@ fn all_reports_have_one_schema() {
     let runner = Runner::example("s-curve");
     let report = runner.report("round", &[("digits", Value::Whole(0))]);
     let found = serde_json::to_value(&report).expect("JSON");
-    let counts = |extrema: usize| {
+    let counts = |side: &str, extrema: usize| {
         json!([{
+            "harmony": found[side][0]["harmony"],
             "name": "s-curve",
             "inflections": 1,
             "curvature_extrema": extrema,
@@ -126,12 +128,71 @@ fn all_reports_have_one_schema() {
             "distance": report.largest_move.map(|largest| largest.distance),
             "vertex": report.largest_move.map(|largest| largest.vertex),
         },
-        "features_before": counts(2),
-        "features_after": counts(extrema),
+        "features_before": counts("features_before", 2),
+        "features_after": counts("features_after", extrema),
         "rounding": found["rounding"],
         "remarks": [],
     });
     assert_eq!(found, expected);
+}
+
+#[test]
+fn harmony_is_told_before_and_afterwards() {
+    let runner = Runner::example("s-curve");
+    let report = runner.report("round", &[("digits", Value::Whole(0))]);
+    let found = serde_json::to_value(&report).expect("JSON");
+    let features = report.features.as_ref().expect("proved");
+    for (side, counts) in [
+        ("features_before", &features.before),
+        ("features_after", &features.after),
+    ] {
+        let harmony = &counts[0].harmony;
+        let json = &found[side][0]["harmony"];
+        let keys: Vec<&String> = json.as_object().expect("an object").keys().collect();
+        let expected = [
+            "bending_energy",
+            "discrete_curvature_extrema",
+            "highest_order",
+            "irregularity",
+            "isogeometry",
+            "leg_change",
+            "length",
+            "logarithmic_graph",
+            "regular_order",
+            "sharpest_extremum",
+            "torsion_change",
+            "torsion_isogeometry",
+            "turning_change",
+            "variation",
+        ];
+        assert_eq!(keys, expected);
+        assert_eq!(
+            json["bending_energy"],
+            json!(harmony.fairness.bending_energy)
+        );
+        assert_eq!(json["variation"], json!(harmony.fairness.variation));
+        assert_eq!(json["regular_order"], json!(harmony.regularity.order));
+        let turns = harmony.figures.turns.expect("turning angles");
+        let told = json!({ "value": turns.value.to_degrees(), "vertex": turns.vertex });
+        assert_eq!(json["turning_change"], told);
+        let pieces = json["logarithmic_graph"].as_array().expect("a list");
+        assert_eq!(pieces.len(), harmony.slopes.len());
+        assert_eq!(pieces[0]["slope"], json!(harmony.slopes[0].slope));
+        assert_eq!(json["torsion_isogeometry"], json!(null));
+    }
+    let [before, after] = [&features.before, &features.after].map(|counts| &counts[0].harmony);
+    assert_ne!(before, after);
+    // The example is in harmony.
+    assert_eq!(before.curvature.verdict, Match::Agrees);
+    assert_eq!(
+        found["features_before"][0]["harmony"]["isogeometry"]["verdict"],
+        "agrees"
+    );
+    let curve = json!({ "extrema": 2, "sign_changes": 1 });
+    assert_eq!(
+        found["features_before"][0]["harmony"]["isogeometry"]["curve"],
+        curve
+    );
 }
 
 #[test]

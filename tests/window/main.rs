@@ -5,6 +5,7 @@ mod canvas;
 mod fields;
 mod files;
 mod hand;
+mod harmony;
 mod locking;
 mod matching;
 mod numbers;
@@ -37,7 +38,7 @@ fn everything_is_in_its_place() {
         "vertex 0",
         "vertex 0 x",
         "vertex 0 y",
-        "Legs and turning angles",
+        "Harmony strips",
     ] {
         window.get_by_label(label);
     }
@@ -163,7 +164,7 @@ fn the_arc_is_corrected_at_both_ends_at_once() {
 
 #[test]
 fn coordinates_are_typed_and_dragged_in_the_inspector() {
-    let mut window = open_window_of(1480.0, 1080.0);
+    let mut window = open_window_of(1480.0, 1120.0);
     let original = curve(&window);
     click(&mut window, "vertex 3 x");
     type_over(&mut window, "1.25");
@@ -193,7 +194,7 @@ fn coordinates_are_typed_and_dragged_in_the_inspector() {
 
 #[test]
 fn escape_calls_a_dragged_field_off() {
-    let mut window = open_window_of(1480.0, 1080.0);
+    let mut window = open_window_of(1480.0, 1120.0);
     let original = curve(&window);
     let field = window.get_by_label("vertex 3 y").rect().center();
     window.hover_at(field);
@@ -357,12 +358,7 @@ fn every_panel_and_dialog_has_names_in_both_themes_and_when_it_is_small() {
             }
             click(&mut window, "Take actual end");
             press(&mut window, Modifiers::NONE, Key::V);
-            for tab in [
-                "Legs and turning angles",
-                "κ level 2",
-                "Log graph",
-                "Curvature",
-            ] {
+            for tab in ["Harmony strips", "κ level 2", "Log graph", "Curvature"] {
                 click(&mut window, tab);
             }
             click(&mut window, "Verdict");

@@ -11,6 +11,7 @@ mod features;
 mod fitting;
 mod ghost;
 pub(in crate::editor) mod grid;
+mod harmony;
 pub(in crate::editor) mod hit;
 mod hovering;
 pub(in crate::editor) mod layers;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use crate::analysis::LevelPlot;
+use crate::analysis::{Flow, LevelPlot};
 use crate::document::{Curve, CurveId};
 
 /// What is plotted of the active curve.
@@ -19,8 +19,11 @@ pub enum PlotKind {
         /// Whether it is that of the curve scaled to length 1.
         normalised: bool,
     },
-    /// The lengths of the float S-polygon's legs, and its turning angles.
-    Legs,
+    /// The flow of the float S-polygon's vertices, beside that of another curve.
+    Harmony {
+        /// The other curve; `None` if there is none to compare with.
+        compared: Option<CurveId>,
+    },
 }
 
 /// The plot of the active curve that is shown; series of others are empty.
@@ -39,12 +42,13 @@ pub struct PlotScene {
     pub levels: Vec<DVec2>,
     /// The place on it of what is hovered on the canvas.
     pub hovered_level: Option<DVec2>,
-    /// The slope of the straight line through the logarithmic graph, and how well it fits: r².
-    pub slope: Option<(f64, f64)>,
-    /// Leg lengths over the number of the vertex where each begins.
-    pub legs: Vec<DVec2>,
-    /// Turning angles in degrees over the vertices' numbers.
-    pub turns: Vec<DVec2>,
+    /// The sequences of the flow over the vertices' numbers, in the order of [`Flow::ALL`], angles
+    /// in degrees; what belongs to a leg stands where it begins. The last is empty in the plane.
+    pub flow: [Vec<DVec2>; Flow::ALL.len()],
+    /// The vertex of each where the sequence is least even, with the value there.
+    pub worst: [Option<DVec2>; Flow::ALL.len()],
+    /// The flow of the curve to compare with.
+    pub compared: Option<Box<PlotScene>>,
     /// The arc length of the whole curve.
     pub length: f64,
     /// The arc length and curvature at what is hovered on the canvas.
@@ -88,15 +92,19 @@ pub struct PlotSource {
     pub curve: Arc<Curve>,
     /// The curve as it was.
     pub before: Option<Arc<Curve>>,
+    /// The curve to compare with.
+    pub compared: Option<Arc<Curve>>,
 }
 
 impl PartialEq for PlotSource {
     /// Whether both are of the very same curves.
     fn eq(&self, other: &Self) -> bool {
-        let [own, others] = [self, other].map(|source| source.before.as_ref().map(Arc::as_ptr));
+        let beside = |source: &Self| {
+            [&source.before, &source.compared].map(|curve| curve.as_ref().map(Arc::as_ptr))
+        };
         self.kind == other.kind
             && self.id == other.id
             && Arc::ptr_eq(&self.curve, &other.curve)
-            && own == others
+            && beside(self) == beside(other)
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::analysis::{CurveAnalysis, LevelPlot};
+use crate::analysis::{CurveAnalysis, Flow};
 use crate::editor::Editor;
 use crate::editor::view::plot_scene::{PlotKind, PlotScene, PlotSource};
 
@@ -30,6 +30,11 @@ impl Editor {
                 }
             }
             plots.hovered_vertex = self.vertex_hovered_on(id);
+            plots.worst = self.worst_of_flow().map(|worst| {
+                let (flow, vertex) = worst?;
+                let value = analysis.float().flow(flow, vertex)?;
+                Some(DVec2::new(vertex as f64, shown(flow, value)))
+            });
         }
         self.view.plots = plots;
     }
@@ -37,11 +42,17 @@ impl Editor {
     /// What is to be plotted; `None` if nothing is.
     fn plot_source(&self) -> Option<PlotSource> {
         let (id, kind) = self.active().zip(self.view.plot)?;
+        let curve = |id| Some(self.analyses.get(id)?.curve().clone());
+        let compared = match kind {
+            PlotKind::Harmony { compared } => compared.filter(|other| *other != id),
+            _ => None,
+        };
         Some(PlotSource {
             kind,
             id,
-            curve: self.analyses.get(id)?.curve().clone(),
+            curve: curve(id)?,
             before: self.before(),
+            compared: compared.and_then(curve),
         })
     }
 
@@ -49,13 +60,29 @@ impl Editor {
         if let Some(source) = source
             && let Some(analysis) = self.analyses.get_mut(source.id)
         {
-            plots.fill(analysis, source.kind);
-            plots.before = source.before.as_ref().map(|before| {
+            let made = |analysis| {
                 let mut plots = PlotScene::default();
-                plots.fill(self.view.ghost.analysis(before), source.kind);
+                plots.fill(analysis, source.kind);
                 Box::new(plots)
-            });
+            };
+            plots.fill(analysis, source.kind);
+            let before = source.before.as_ref();
+            plots.before = before.map(|before| made(self.view.ghost.analysis(before)));
+            plots.compared = match source.kind {
+                PlotKind::Harmony {
+                    compared: Some(other),
+                } if source.compared.is_some() => self.analyses.get_mut(other).map(made),
+                _ => None,
+            };
         }
+    }
+}
+
+/// A number of the flow as it is shown: angles in degrees.
+fn shown(flow: Flow, value: f64) -> f64 {
+    match flow {
+        Flow::Turns | Flow::TorsionAngles => value.to_degrees(),
+        Flow::Legs | Flow::Curvatures => value,
     }
 }
 
@@ -71,14 +98,16 @@ impl PlotScene {
             }
             PlotKind::Levels { plot, normalised } => {
                 analysis.append_levels(plot, normalised, &mut self.levels);
-                let is_graph = plot == LevelPlot::Logarithmic;
-                self.slope = is_graph.then(|| straight_slope(&self.levels)).flatten();
             }
-            PlotKind::Legs => {
-                analysis.float().append_leg_series(&mut self.legs);
-                analysis.float().append_turn_series(&mut self.turns);
-                for point in &mut self.turns {
-                    point.y = point.y.to_degrees();
+            PlotKind::Harmony { .. } => {
+                for (flow, series) in Flow::ALL.into_iter().zip(&mut self.flow) {
+                    if flow == Flow::TorsionAngles && self.planar {
+                        continue;
+                    }
+                    analysis.float().append_flow(flow, series);
+                    for point in series {
+                        point.y = shown(flow, point.y);
+                    }
                 }
             }
         }
@@ -90,56 +119,19 @@ impl PlotScene {
             curvature,
             discrete,
             levels,
-            legs,
-            turns,
+            flow,
             ..
         } = std::mem::take(self);
         *self = Self {
             curvature,
             discrete,
             levels,
-            legs,
-            turns,
+            flow,
             ..Self::default()
         };
         self.discrete.clear();
-        for series in [
-            &mut self.curvature,
-            &mut self.levels,
-            &mut self.legs,
-            &mut self.turns,
-        ] {
-            series.clear();
-        }
+        self.curvature.clear();
+        self.levels.clear();
+        self.flow.iter_mut().for_each(Vec::clear);
     }
-}
-
-/// The share of a graph's points, at either end in either direction, that run off to infinity
-/// and are left out when a straight line is put through it.
-const RUNS_OFF: f64 = 0.1;
-
-/// The slope of the straight line nearest to the middle of a graph, measured upwards (least
-/// squares), and how well it fits: r², 1 for a straight graph. `None` if it lies over one place.
-fn straight_slope(points: &[DVec2]) -> Option<(f64, f64)> {
-    let finite: Vec<DVec2> = points
-        .iter()
-        .copied()
-        .filter(|point| point.is_finite())
-        .collect();
-    let inner = |value: fn(&DVec2) -> f64| {
-        let mut values: Vec<f64> = finite.iter().map(value).collect();
-        values.sort_by(f64::total_cmp);
-        let beyond = (RUNS_OFF * values.len() as f64) as usize;
-        Some(*values.get(beyond)?..=*values.iter().nth_back(beyond)?)
-    };
-    let (across, along) = (inner(|point| point.x)?, inner(|point| point.y)?);
-    let is_inner = |point: &&DVec2| across.contains(&point.x) && along.contains(&point.y);
-    let inner = || finite.iter().filter(is_inner);
-    let mean = inner().sum::<DVec2>() / inner().count() as f64;
-    let (xx, xy, yy) = inner().fold((0.0, 0.0, 0.0), |(xx, xy, yy), point| {
-        let arm = *point - mean;
-        (xx + arm.x * arm.x, xy + arm.x * arm.y, yy + arm.y * arm.y)
-    });
-    let (slope, fit) = (xy / xx, xy * xy / (xx * yy));
-    (slope.is_finite() && fit.is_finite()).then_some((slope, fit))
 }

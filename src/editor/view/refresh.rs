@@ -4,11 +4,12 @@ use crate::editor::Editor;
 
 impl Editor {
     /// Bring up to date all that is derived from the document and how it is seen: analyses, features,
-    /// the scene and what is hovered, and the plot that is shown. Whoever reads any of it does so
+    /// harmony, the scene and what is hovered, and the plot that is shown. Whoever reads any of it does so
     /// after this.
     pub fn refresh(&mut self) {
         self.analyse();
         self.prove();
+        self.measure();
         self.draw();
         self.plot();
     }

@@ -90,6 +90,13 @@ pub enum Mark {
     Arm([DVec2; 2]),
     /// A place that the pointer snapped to.
     Snap(DVec2),
+    /// A vertex at which the flow of the polygon's vertices is least even.
+    Uneven {
+        /// Where it is.
+        at: DVec2,
+        /// What is uneven there, in a word or two.
+        text: String,
+    },
     /// A short text at a place.
     Label(DVec2, String),
 }

@@ -31,6 +31,8 @@ pub struct View {
     pub(in crate::editor) plots: PlotScene,
     /// What its series were made of.
     pub(in crate::editor) plotted: Option<PlotSource>,
+    /// Whether a panel shows the harmony of the active curve.
+    pub(in crate::editor) harmony: bool,
     pub(in crate::editor) outlines: Outlines,
     pub(in crate::editor) ghost: Ghost,
 }
@@ -88,6 +90,11 @@ impl View {
     /// Show another plot, or none.
     pub fn show_plot(&mut self, plot: Option<PlotKind>) {
         self.plot = plot;
+    }
+
+    /// Say whether a panel shows the harmony of the active curve, which is measured only then.
+    pub fn show_harmony(&mut self, shown: bool) {
+        self.harmony = shown;
     }
 
     /// Forget what panels marked, before they are shown anew.

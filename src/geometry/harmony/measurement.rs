@@ -69,6 +69,16 @@ impl Harmony {
     }
 }
 
+impl Harmony {
+    /// The longest piece, by its parameters, of which a slope is known.
+    pub fn longest_slope(&self) -> Option<LogarithmicPiece> {
+        let length = |piece: &&LogarithmicPiece| piece.u[1] - piece.u[0];
+        let longest =
+            |a: &&LogarithmicPiece, b: &&LogarithmicPiece| length(a).total_cmp(&length(b));
+        self.slopes.iter().max_by(longest).copied()
+    }
+}
+
 /// The fairness of the curve; what the curvature comes to at a cusp is not told.
 fn fairness(polygon: &FloatPolygon, features: &Features, segments: &[SegmentFairness]) -> Fairness {
     let fairness = Fairness::of(segments, polygon.degree() - 1);

@@ -38,7 +38,7 @@ impl Plots {
         let before = scene.before.as_deref();
         let was = before.map_or(&[][..], |before| &before.curvature);
         let points = scene.curvature.iter().chain(was).copied().chain(dots);
-        let mut wanted = bounds_of(points, false);
+        let mut wanted = bounds_of(points);
         wanted.0.x = wanted.0.x.min(-scene.flank);
         wanted.1.x = wanted.1.x.max(length + scene.flank);
         let frame = self.levels.entry((LevelPlot::Curvature(1), normalised));

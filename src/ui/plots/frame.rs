@@ -40,18 +40,14 @@ fn is_better(new: (DVec2, DVec2), old: (DVec2, DVec2)) -> bool {
 }
 
 /// The bounds that hold some points, with a margin above and below.
-pub fn bounds_of(points: impl Iterator<Item = DVec2>, from_zero: bool) -> (DVec2, DVec2) {
+pub fn bounds_of(points: impl Iterator<Item = DVec2>) -> (DVec2, DVec2) {
     let finite = points.filter(|point| point.is_finite());
-    let (mut low, mut high) = finite.fold(
+    let (low, mut high) = finite.fold(
         (DVec2::INFINITY, DVec2::NEG_INFINITY),
         |(low, high), point| (low.min(point), high.max(point)),
     );
     if !(low.x <= high.x) {
         return (DVec2::ZERO, DVec2::ONE);
-    }
-    if from_zero {
-        low.y = low.y.min(0.0);
-        high.y = high.y.max(0.0);
     }
     let size = low.y.abs().max(high.y.abs());
     // Nothing but zeros has no size of its own.
@@ -90,12 +86,12 @@ pub fn within_reason(points: &[DVec2], noise: f64) -> ((DVec2, DVec2), Option<(f
     let whole = values.first().zip(values.last());
     let most = values.get(beyond).zip(values.iter().nth_back(beyond));
     let (Some((low, high)), Some((from, to))) = (whole, most) else {
-        return (bounds_of(points.iter().copied(), false), None);
+        return (bounds_of(points.iter().copied()), None);
     };
     let reach = TALLEST * (to - from);
     if high - low < noise {
         let flat = points.iter().map(|point| DVec2::new(point.x, *low));
-        let (bottom, top) = bounds_of(flat, false);
+        let (bottom, top) = bounds_of(flat);
         return (
             (
                 bottom - DVec2::new(0.0, noise),
@@ -109,7 +105,7 @@ pub fn within_reason(points: &[DVec2], noise: f64) -> ((DVec2, DVec2), Option<(f
         .iter()
         .map(|point| DVec2::new(point.x, point.y.clamp(bottom, top)));
     let is_cut = bottom > *low || top < *high;
-    (bounds_of(shown, false), is_cut.then_some((*low, *high)))
+    (bounds_of(shown), is_cut.then_some((*low, *high)))
 }
 
 /// The bounds that hold a graph but for the share of it that runs off to infinity, in either
@@ -124,10 +120,10 @@ pub fn most_of(points: &[DVec2]) -> (DVec2, DVec2) {
     let mut across = points.iter().map(|point| point.x).collect();
     let mut along = points.iter().map(|point| point.y).collect();
     let (Some(across), Some(along)) = (inner(&mut across), inner(&mut along)) else {
-        return bounds_of(points.iter().copied(), false);
+        return bounds_of(points.iter().copied());
     };
     let corners = [DVec2::new(across.0, along.0), DVec2::new(across.1, along.1)];
-    bounds_of(corners.into_iter(), false)
+    bounds_of(corners.into_iter())
 }
 
 /// A little room at the left and right, so that the outermost dots are whole.
@@ -171,7 +167,7 @@ mod tests {
     #[test]
     fn nearly_constant_values_look_constant() {
         let points = [DVec2::new(0.0, 0.112), DVec2::new(1.0, 0.112 + 1e-9)];
-        let (low, high) = bounds_of(points.into_iter(), false);
+        let (low, high) = bounds_of(points.into_iter());
         assert!(high.y - low.y > 0.001, "{low} {high}");
     }
 }

@@ -69,17 +69,14 @@ impl Plots {
         } else {
             within_reason(&scene.levels, noise(which, extent))
         };
-        self.remark = match (scene.slope, cut) {
-            (Some((slope, fit)), _) if is_graph => {
-                let slope = figures::significant(slope, 4);
-                format!("Straight line through it: slope α ≈ {slope}, r² = {fit:.3}")
-            }
-            (_, Some((low, high))) => format!(
+        self.remark = match cut {
+            _ if is_graph => slope_remark(editor),
+            Some((low, high)) => format!(
                 "Peaks beyond the plot: {} … {}",
                 figures::significant(low, 4),
                 figures::significant(high, 4)
             ),
-            _ => String::new(),
+            None => String::new(),
         };
         let mut wanted = wanted;
         if !is_graph {
@@ -119,6 +116,24 @@ impl Plots {
             editor.view_mut().hover_length(along);
         }
     }
+}
+
+/// Say how straight the logarithmic graph is on the longest piece of monotone curvature.
+fn slope_remark(editor: &Editor) -> String {
+    let Some(harmony) = editor.harmony() else {
+        return String::new();
+    };
+    let longest = harmony.longest_slope();
+    longest.map_or(String::new(), |piece| {
+        let [from, to] = piece.u.map(|u| figures::significant(u, 4));
+        let slope = figures::significant(piece.slope, 4);
+        let straightness = figures::to_resolution(piece.straightness, 1e-4);
+        let of = match harmony.slopes.len() {
+            1 => String::new(),
+            count => format!(", longest of {count} monotone pieces"),
+        };
+        format!("Slope α {slope}, R² {straightness} (u {from} … {to}{of})")
+    })
 }
 
 /// Values below this are rounding: 1e-9 in the unit that the curve's length gives.

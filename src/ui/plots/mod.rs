@@ -1,9 +1,9 @@
-//! The plots under the canvas: curvature over arc length, and the polygon's legs and turns.
+//! The plots under the canvas: curvature over arc length, and the flow of the polygon's vertices.
 
 mod curvature;
 mod drawing;
 mod frame;
-mod legs;
+mod harmony;
 mod level_names;
 mod levels;
 
@@ -14,7 +14,8 @@ use lucide_icons::Icon;
 
 use super::theme::STEP;
 use super::widgets::{self, IconButton};
-use crate::analysis::LevelPlot;
+use crate::analysis::{Flow, LevelPlot};
+use crate::document::CurveId;
 use crate::editor::{Editor, PlotKind};
 use crate::geometry::LEVELS;
 use crate::ui::action::Action;
@@ -35,8 +36,8 @@ pub enum Tab {
     Curvature,
     /// A level of curvature or torsion, or the logarithmic graph.
     Levels(LevelPlot),
-    /// Leg lengths and turning angles over the vertices.
-    Legs,
+    /// The flow of the polygon's vertices, in strips.
+    Harmony,
 }
 
 /// What a tab is called; `short` where there is little room.
@@ -44,17 +45,30 @@ fn name(tab: Tab, short: bool) -> String {
     match tab {
         Tab::Curvature => "Curvature".to_owned(),
         Tab::Levels(plot) => tab_name(plot, short),
-        Tab::Legs if short => "Legs".to_owned(),
-        Tab::Legs => "Legs and turning angles".to_owned(),
+        Tab::Harmony => "Harmony".to_owned(),
     }
 }
+
+/// What a tab is called where there is no other to tell it from: the inspector has a section of
+/// harmony too.
+fn full_name(tab: Tab) -> String {
+    match tab {
+        Tab::Harmony => "Harmony strips".to_owned(),
+        _ => name(tab, false),
+    }
+}
+
+/// What the strips show, in a sentence.
+const STRIPS: &str = "Leg lengths, turning angles, discrete curvature and, in space, torsion angles \
+                      of the float S-polygon over its vertices; circles mark where each is least even";
 
 /// The plots' own state: what they show now, so that they keep still while the curve is dragged.
 #[derive(Default)]
 pub struct Plots {
     tab: Tab,
-    legs: Frame,
-    turns: Frame,
+    strips: [Frame; Flow::ALL.len()],
+    /// The curve that the strips are compared with.
+    compared: Option<CurveId>,
     /// What the curvature plot's dots are.
     legend: &'static str,
     /// What a plot of levels has to say.
@@ -77,7 +91,7 @@ impl Plots {
 
     /// The tabs that the active curve has: a planar one has no torsion.
     fn tabs(&self, editor: &Editor) -> Vec<Tab> {
-        let mut tabs = vec![Tab::Legs, Tab::Curvature];
+        let mut tabs = vec![Tab::Harmony, Tab::Curvature];
         tabs.extend((2..=LEVELS).map(|level| Tab::Levels(LevelPlot::Curvature(level))));
         let is_own = |tab: &Tab| self.tab == *tab;
         let torsion = (1..=LEVELS).map(|level| Tab::Levels(LevelPlot::Torsion(level)));
@@ -104,9 +118,11 @@ impl Plots {
             let short = ui.available_width() < SHORT * tabs.len() as f32;
             for tab in tabs {
                 let button = Button::selectable(shown && self.tab == tab, name(tab, short));
-                let mut response = ui.add(button).accessible_name(name(tab, false));
-                if let Tab::Levels(plot) = tab {
-                    response = response.on_hover_text(explanation(plot));
+                let mut response = ui.add(button).accessible_name(full_name(tab));
+                match tab {
+                    Tab::Curvature => {}
+                    Tab::Levels(plot) => response = response.on_hover_text(explanation(plot)),
+                    Tab::Harmony => response = response.on_hover_text(STRIPS),
                 }
                 if response.clicked() {
                     self.tab = tab;
@@ -128,21 +144,23 @@ impl Plots {
                     _ if !shown => {}
                     Tab::Curvature => self.normalised_ui(ui, self.legend),
                     Tab::Levels(plot) => self.level_bar_ui(ui, plot),
-                    Tab::Legs => {}
+                    Tab::Harmony => self.harmony_bar_ui(ui, editor),
                 }
             });
         });
     }
 
     /// What the tab in front plots.
-    fn kind(&self) -> PlotKind {
+    fn kind(&self, editor: &Editor) -> PlotKind {
         match self.tab {
             Tab::Curvature => PlotKind::Curvature,
             Tab::Levels(plot) => PlotKind::Levels {
                 plot,
                 normalised: self.normalises(plot),
             },
-            Tab::Legs => PlotKind::Legs,
+            Tab::Harmony => PlotKind::Harmony {
+                compared: self.compared(editor),
+            },
         }
     }
 
@@ -160,7 +178,7 @@ impl Plots {
             ui.take_available_space();
             return;
         }
-        let kind = self.kind();
+        let kind = self.kind(editor);
         if editor.view().plot() != Some(kind) {
             editor.view_mut().show_plot(Some(kind));
             editor.refresh();
@@ -168,7 +186,7 @@ impl Plots {
         match self.tab {
             Tab::Curvature => self.curvature_ui(ui, editor),
             Tab::Levels(plot) => self.levels_ui(ui, editor, plot),
-            Tab::Legs => self.legs_ui(ui, editor),
+            Tab::Harmony => self.harmony_ui(ui, editor),
         }
     }
 }

@@ -1,0 +1,84 @@
+//! The harmony of the active curve, and the vertices where the flow is least even.
+
+use crate::analysis::{Flow, LevelPlot};
+use crate::editor::Editor;
+use crate::editor::view::layers::Layer;
+use crate::editor::view::plot_scene::PlotKind;
+use crate::editor::view::scene::Mark;
+use crate::geometry::harmony::Harmony;
+
+/// A second difference of a logarithm or an angle that is no more than this is rounding.
+const EVEN: f64 = 1e-9;
+
+impl Editor {
+    /// The harmony of the active curve, once it is measured: only while something shows it.
+    pub fn harmony(&self) -> Option<&Harmony> {
+        self.analyses.get(self.active()?)?.harmony()
+    }
+
+    /// Measure the harmony of the active curve if something shows it.
+    pub(in crate::editor) fn measure(&mut self) {
+        let plotted = match self.view.plot {
+            Some(PlotKind::Harmony { .. }) => true,
+            Some(PlotKind::Levels { plot, .. }) => plot == LevelPlot::Logarithmic,
+            _ => false,
+        };
+        if let Some(active) = self.active().filter(|_| plotted || self.view.harmony) {
+            let (analyses, patience) = (&mut self.analyses, &mut self.patience);
+            self.measuring.advance(active, analyses, patience);
+        }
+    }
+
+    /// The vertices where the flow of the active curve is least even, if its harmony is known and
+    /// shown in strips.
+    pub(in crate::editor) fn worst_of_flow(&self) -> [Option<(Flow, usize)>; Flow::ALL.len()] {
+        let is_shown = matches!(self.view.plot, Some(PlotKind::Harmony { .. }));
+        let harmony = self.harmony().filter(|_| is_shown);
+        Flow::ALL.map(|flow| {
+            let figures = harmony?.figures;
+            let worst = match flow {
+                Flow::Legs => figures.legs,
+                Flow::Turns => figures.turns,
+                Flow::Curvatures => figures.sharpest,
+                Flow::TorsionAngles => figures.torsions,
+            };
+            // What is even throughout has no worst vertex.
+            let is_even = |value: f64| flow != Flow::Curvatures && value <= EVEN;
+            let worst = worst.filter(|figure| !is_even(figure.value))?;
+            Some((flow, worst.vertex))
+        })
+    }
+
+    /// Mark these vertices on the canvas, with the names of the strips in which they are worst.
+    pub(in crate::editor) fn flow_marks(&self) -> Vec<Mark> {
+        let Some((_, curve)) = self.active_curve() else {
+            return Vec::new();
+        };
+        if !curve.visible || !self.layers().shows(Layer::Float) {
+            return Vec::new();
+        }
+        let mut worst: Vec<(usize, String)> = Vec::new();
+        for (flow, vertex) in self.worst_of_flow().into_iter().flatten() {
+            match worst.iter_mut().find(|(known, _)| *known == vertex) {
+                Some((_, names)) => *names += &format!(", {}", short_name(flow)),
+                None => worst.push((vertex, short_name(flow).to_owned())),
+            }
+        }
+        let marks = worst.into_iter().filter_map(|(vertex, text)| {
+            let vertex = curve.polygon.vertices().get(vertex)?;
+            let at = self.view.viewport.flatten(*vertex);
+            Some(Mark::Uneven { at, text })
+        });
+        marks.collect()
+    }
+}
+
+/// What is said of a vertex beside it.
+fn short_name(flow: Flow) -> &'static str {
+    match flow {
+        Flow::Legs => "leg",
+        Flow::Turns => "angle",
+        Flow::Curvatures => "κ",
+        Flow::TorsionAngles => "torsion",
+    }
+}

@@ -1,0 +1,460 @@
+//! The harmony of the active curve in the inspector: each a sentence with its figure.
+
+use std::time::Duration;
+
+use eframe::egui::text::LayoutJob;
+use eframe::egui::{
+    Response, Role, ScrollArea, Sense, TextStyle, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+};
+use lucide_icons::Icon;
+
+use super::theme::{RADIUS, ROW, STEP, Tokens};
+use super::{figures, widgets};
+use crate::analysis::CurveAnalysis;
+use crate::editor::Editor;
+use crate::geometry::counted;
+use crate::geometry::features::ExtremumKind;
+use crate::geometry::harmony::{
+    Event, EventCounts, Harmony, HarmonyFigures, IrregularityKind, Isogeometry, LogarithmicPiece,
+    Match, Mismatch, Regularity, VertexFigure,
+};
+
+/// The rows that there is room for, however many monotone pieces there are.
+const PIECES: usize = 3;
+
+/// How often it is asked whether the harmony is known.
+const PROGRESS: Duration = Duration::from_millis(100);
+
+/// A change that is no more than this is rounding.
+const EVEN: f64 = 1e-9;
+
+/// Where on the curve a sentence points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Place {
+    Vertex(usize),
+    Parameter(f64),
+}
+
+/// What is said, whether that is as it should be (`None` of what is no judgement), and of which
+/// place.
+#[derive(Clone, Debug, PartialEq)]
+struct Sentence {
+    text: String,
+    is_good: Option<bool>,
+    place: Option<Place>,
+}
+
+/// What the pointer is on.
+#[derive(Clone, Copy, Debug)]
+struct Pointed {
+    place: Place,
+    chosen: bool,
+}
+
+impl Pointed {
+    fn at(place: Option<Place>, response: &Response) -> Option<Self> {
+        let chosen = response.clicked();
+        let place = place.filter(|_| chosen || response.hovered())?;
+        Some(Self { place, chosen })
+    }
+}
+
+/// Show the harmony of the active curve; hovering a sentence marks its place, choosing one selects
+/// its vertex or goes to its parameter.
+pub fn harmony_list_ui(ui: &mut Ui, editor: &mut Editor) {
+    editor.view_mut().show_harmony(true);
+    let Some(harmony) = editor.harmony() else {
+        widgets::caption(ui, "Measuring …");
+        ui.ctx().request_repaint_after(PROGRESS);
+        return;
+    };
+    ui.spacing_mut().item_spacing.y = 0.0;
+    let mut pointed = None;
+    for sentence in sentences(harmony) {
+        pointed = sentence_ui(ui, &sentence).or(pointed);
+    }
+    let fairness = harmony.fairness;
+    let energy = |energy: Option<f64>| {
+        energy.map_or("infinite".to_owned(), |energy| {
+            figures::significant(energy, 6)
+        })
+    };
+    widgets::figure_row(ui, "Bending energy", &energy(fairness.bending_energy))
+        .on_hover_text("∫κ² ds times the length: it does not depend on the curve's size");
+    widgets::figure_row(ui, "Variation", &energy(fairness.variation)).on_hover_text(
+        "∫(dκ/ds)² ds times the length cubed: it does not depend on the curve's size",
+    );
+    pointed = pieces_ui(ui, &harmony.slopes).or(pointed);
+    if let Some(pointed) = pointed {
+        follow(editor, pointed);
+    }
+}
+
+/// Mark the place of what is hovered, and go to that of what is chosen.
+fn follow(editor: &mut Editor, Pointed { place, chosen }: Pointed) {
+    let Some(id) = editor.active() else {
+        return;
+    };
+    match place {
+        Place::Vertex(vertex) => {
+            editor.view_mut().hover_vertex(vertex);
+            if chosen {
+                editor.select_vertex(id, vertex, false);
+            }
+        }
+        Place::Parameter(u) => {
+            let Some(sampled) = editor.analysis(id).map(CurveAnalysis::sampled) else {
+                return;
+            };
+            // On a periodic curve it may lie behind the joint.
+            let last = sampled.curve.pieces() as f64;
+            let u = if u > last { u - last } else { u };
+            let length = sampled.length_at(u);
+            editor.view_mut().hover_length(length);
+            if chosen {
+                editor.go_to(u);
+            }
+        }
+    }
+}
+
+fn sentences(harmony: &Harmony) -> Vec<Sentence> {
+    let torsion = harmony.torsion.as_ref();
+    // In space the curvature has no sign.
+    let inflections = torsion.is_none().then_some(["inflection", "inflections"]);
+    let mut sentences = vec![isogeometry(
+        "Discrete curvature",
+        inflections,
+        &harmony.curvature,
+    )];
+    let zeros = Some(["zero", "zeros"]);
+    sentences.extend(torsion.map(|torsion| isogeometry("Discrete torsion", zeros, torsion)));
+    sentences.push(regularity(&harmony.regularity));
+    sentences.extend(evenness(&harmony.figures));
+    sentences
+}
+
+/// Say whether a polygon's extrema and changes of sign are those of its curve. `zeros` is what
+/// changes of sign are called, one and several; `None` where there are none.
+fn isogeometry(name: &str, zeros: Option<[&str; 2]>, isogeometry: &Isogeometry) -> Sentence {
+    let counts = |counts: EventCounts| {
+        let all = |count: usize, [one, several]: [&str; 2]| match count {
+            0 => format!("no {several}"),
+            _ => counted(count, one, several),
+        };
+        let extrema = all(counts.extrema, ["extremum", "extrema"]);
+        zeros.map_or(extrema.clone(), |zeros| {
+            format!("{extrema}, {}", all(counts.sign_changes, zeros))
+        })
+    };
+    let curve = isogeometry.curve;
+    let zero = zeros.map_or("zero", |zeros| zeros[0]);
+    match isogeometry.verdict {
+        Match::Agrees if curve.extrema + curve.sign_changes == 0 => Sentence {
+            text: format!("{name} follows the curve: {}", counts(curve)),
+            is_good: Some(true),
+            place: None,
+        },
+        Match::Agrees => Sentence {
+            text: format!(
+                "{name} follows the curve: {} in the same order",
+                counts(curve)
+            ),
+            is_good: Some(true),
+            place: None,
+        },
+        Match::Differs(Mismatch::OfPolygon { event, vertex }) => Sentence {
+            text: format!(
+                "{name} differs first at vertex {vertex}: {} that the curve does not have",
+                article(event, zero)
+            ),
+            is_good: Some(false),
+            place: Some(Place::Vertex(vertex)),
+        },
+        Match::Differs(Mismatch::OfCurve { event, u }) => Sentence {
+            text: format!(
+                "{name} differs first at u {}: the curve has {} there",
+                figures::to_resolution(u, 0.01),
+                article(event, zero)
+            ),
+            is_good: Some(false),
+            place: Some(Place::Parameter(u)),
+        },
+        Match::Undecided([low, _]) => Sentence {
+            text: format!(
+                "{name} cannot be compared: the curve is undecided at u {}",
+                figures::to_resolution(low, 0.01)
+            ),
+            is_good: Some(false),
+            place: Some(Place::Parameter(low)),
+        },
+    }
+}
+
+fn article(event: Event, zero: &str) -> String {
+    match event {
+        Event::Extremum(ExtremumKind::Maximum) => "a maximum".to_owned(),
+        Event::Extremum(ExtremumKind::Minimum) => "a minimum".to_owned(),
+        Event::SignChange if zero.starts_with('i') => format!("an {zero}"),
+        Event::SignChange => format!("a {zero}"),
+    }
+}
+
+fn regularity(regularity: &Regularity) -> Sentence {
+    let Regularity { order, highest, .. } = *regularity;
+    let Some(found) = regularity.irregularity else {
+        return Sentence {
+            text: format!("Regular to order {order}, the highest of this degree"),
+            is_good: Some(true),
+            place: None,
+        };
+    };
+    let happens = match found.kind {
+        IrregularityKind::ZeroLeg => "vanish",
+        IrregularityKind::TurnsBack => "turn back",
+    };
+    Sentence {
+        text: format!(
+            "Regular to order {order} of {highest}; the {} differences {happens} at vertex {}",
+            ordinal(order + 1),
+            found.vertex
+        ),
+        is_good: Some(false),
+        place: Some(Place::Vertex(found.vertex)),
+    }
+}
+
+fn ordinal(number: usize) -> String {
+    let ending = match (number % 10, number % 100) {
+        (1, last) if last != 11 => "st",
+        (2, last) if last != 12 => "nd",
+        (3, last) if last != 13 => "rd",
+        _ => "th",
+    };
+    format!("{number}{ending}")
+}
+
+/// Say where the flow is least even.
+fn evenness(figures: &HarmonyFigures) -> Vec<Sentence> {
+    let even = |name: &str, figure: Option<VertexFigure>, text: &dyn Fn(f64) -> String| {
+        let figure = figure?;
+        let is_even = figure.value <= EVEN;
+        Some(Sentence {
+            text: if is_even {
+                format!("{name} even throughout")
+            } else {
+                let change = text(figure.value);
+                format!("{name} least even at vertex {}: Δ² {change}", figure.vertex)
+            },
+            is_good: None,
+            place: Some(Place::Vertex(figure.vertex)).filter(|_| !is_even),
+        })
+    };
+    let angle = |value: f64| figures::degrees(value, 2);
+    let log = |value: f64| {
+        if value.is_finite() {
+            format!("log {}", figures::significant(value, 3))
+        } else {
+            "∞, no length".to_owned()
+        }
+    };
+    let extrema = counted(figures.curvature_extrema, "extremum", "extrema");
+    let sharpest = figures.sharpest;
+    let sharpest = Sentence {
+        text: sharpest.map_or(
+            "Discrete curvature has no extremum".to_owned(),
+            |sharpest| {
+                format!(
+                    "Discrete κ: {extrema}, sharpest at vertex {}",
+                    sharpest.vertex
+                )
+            },
+        ),
+        is_good: None,
+        place: sharpest.map(|sharpest| Place::Vertex(sharpest.vertex)),
+    };
+    [
+        even("Legs", figures.legs, &log),
+        even("Turning", figures.turns, &angle),
+        even("Torsion", figures.torsions, &angle),
+        Some(sharpest),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// Show a sentence: a judgement on two lines, others on one.
+fn sentence_ui(ui: &mut Ui, sentence: &Sentence) -> Option<Pointed> {
+    let tokens = Tokens::of(ui);
+    let judgement = sentence.is_good.map(|is_good| match is_good {
+        true => (Icon::Check, tokens.good),
+        false => (Icon::TriangleAlert, tokens.warning),
+    });
+    let lines = if judgement.is_some() { 2 } else { 1 };
+    let height = lines as f32 * ui.text_style_height(&TextStyle::Body) + 1.5 * STEP;
+    let size = vec2(ui.available_width(), height);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let pointed = Pointed::at(sentence.place, &response);
+    if pointed.is_some() {
+        ui.painter().rect_filled(rect, RADIUS, tokens.button[0]);
+    }
+    let mut left = rect.left();
+    if let Some((icon, colour)) = judgement {
+        widgets::icon(ui, rect.with_max_x(left + 4.0 * STEP), icon, colour);
+        left += 6.0 * STEP;
+    }
+    let font = TextStyle::Body.resolve(ui.style());
+    let text = sentence.text.clone();
+    let mut job = LayoutJob::simple(text, font, tokens.text, rect.right() - left);
+    job.wrap.max_rows = lines;
+    let galley = ui.painter().layout_job(job);
+    let at = pos2(left, rect.center().y - 0.5 * galley.size().y);
+    let is_cut = galley.elided;
+    ui.painter().galley(at, galley, tokens.text);
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &sentence.text));
+    if is_cut {
+        response.on_hover_text(&sentence.text);
+    }
+    pointed
+}
+
+/// Show the slope of the logarithmic curvature graph on each monotone piece.
+fn pieces_ui(ui: &mut Ui, pieces: &[LogarithmicPiece]) -> Option<Pointed> {
+    let tooltip = "The slope of the logarithmic curvature graph on each piece of monotone \
+                   curvature, and how straight it is: a log-aesthetic curve has R² = 1";
+    widgets::fact_row(ui, "Logarithmic graph", "slope α and R²");
+    let size = vec2(ui.available_width(), PIECES as f32 * ROW);
+    let (_, list) = ui.allocate_space(size);
+    let mut pointed = None;
+    ui.scope_builder(UiBuilder::new().max_rect(list), |ui| {
+        if pieces.is_empty() {
+            widgets::caption(ui, "The curvature does not change");
+            return;
+        }
+        let area = ScrollArea::vertical()
+            .id_salt("slopes")
+            .auto_shrink([false, false]);
+        area.show_rows(ui, ROW, pieces.len(), |ui, range| {
+            for piece in pieces.get(range).unwrap_or_default() {
+                let row = piece_ui(ui, piece).on_hover_text(tooltip);
+                let middle = 0.5 * (piece.u[0] + piece.u[1]);
+                pointed = Pointed::at(Some(Place::Parameter(middle)), &row).or(pointed);
+            }
+        });
+    });
+    pointed
+}
+
+fn piece_ui(ui: &mut Ui, piece: &LogarithmicPiece) -> Response {
+    let tokens = Tokens::of(ui);
+    let size = vec2(ui.available_width(), ROW);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    if response.hovered() {
+        ui.painter().rect_filled(rect, RADIUS, tokens.button[0]);
+    }
+    let [from, to] = piece.u.map(|u| figures::to_resolution(u, 0.01));
+    let slope = figures::to_resolution(piece.slope, 0.001);
+    let straightness = figures::to_resolution(piece.straightness, 0.0001);
+    let place = format!("u {from} … {to}");
+    let rect = rect.shrink2(vec2(STEP, 0.0));
+    widgets::label_in(ui, rect, &place, tokens.text);
+    widgets::number_in(
+        ui,
+        rect.with_max_x(rect.right() - 18.0 * STEP),
+        &slope,
+        tokens.text,
+    );
+    widgets::number_in(ui, rect, &straightness, tokens.text);
+    let told = format!("{place}: slope α {slope}, R² {straightness}");
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &told));
+    response
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::FloatPolygon;
+    use crate::geometry::features::Features;
+
+    fn said(points: &[(f64, f64)]) -> Vec<String> {
+        let polygon = FloatPolygon::planar(5, points).expect("a polygon");
+        let harmony = Harmony::of(&polygon, &Features::new(&polygon));
+        let sentences = sentences(&harmony).into_iter();
+        sentences.map(|sentence| sentence.text).collect()
+    }
+
+    #[test]
+    fn a_spiral_is_said_to_be_in_harmony() {
+        let mut at = (0.0, 0.0);
+        let points = (0..14).map(|index| {
+            let (leg, angle) = (1.2_f64.powi(index), 0.3 * f64::from(index));
+            let point = at;
+            at = (at.0 + leg * angle.cos(), at.1 + leg * angle.sin());
+            point
+        });
+        let expected = [
+            "Discrete curvature follows the curve: no extrema, no inflections",
+            "Regular to order 4, the highest of this degree",
+            "Legs even throughout",
+            "Turning even throughout",
+            "Discrete curvature has no extremum",
+        ];
+        assert_eq!(said(&points.collect::<Vec<_>>()), expected);
+    }
+
+    #[test]
+    fn what_is_wrong_is_said_with_its_place() {
+        // A crest: the third differences change their direction there.
+        let crest = |x: i32| (f64::from(x), (0.3 * (f64::from(x) - 0.3)).cos());
+        let said = said(&(-3..=4).map(crest).collect::<Vec<_>>());
+        let follows =
+            "Discrete curvature follows the curve: 1 extremum, no inflections in the same order";
+        assert_eq!(said[0], follows);
+        let regular = "Regular to order 2 of 4; the 3rd differences turn back at vertex ";
+        assert!(said[1].starts_with(regular), "{said:?}");
+        assert!(
+            said[2].starts_with("Legs least even at vertex "),
+            "{said:?}"
+        );
+        assert!(
+            said[4].starts_with("Discrete κ: 1 extremum, sharpest at vertex 3"),
+            "{said:?}"
+        );
+    }
+
+    #[test]
+    fn what_differs_is_said_with_its_place() {
+        let differs = |verdict| {
+            let counts = Default::default();
+            let compared = Isogeometry {
+                polygon: counts,
+                curve: counts,
+                verdict,
+            };
+            let sentence = isogeometry("Discrete torsion", Some(["zero", "zeros"]), &compared);
+            (sentence.text, sentence.place)
+        };
+        let (event, vertex, u) = (Event::SignChange, 7, 3.25);
+        let of_polygon = differs(Match::Differs(Mismatch::OfPolygon { event, vertex }));
+        let text =
+            "Discrete torsion differs first at vertex 7: a zero that the curve does not have";
+        assert_eq!(of_polygon, (text.to_owned(), Some(Place::Vertex(7))));
+        let event = Event::Extremum(ExtremumKind::Minimum);
+        let of_curve = differs(Match::Differs(Mismatch::OfCurve { event, u }));
+        let text = "Discrete torsion differs first at u 3.25: the curve has a minimum there";
+        assert_eq!(of_curve, (text.to_owned(), Some(Place::Parameter(3.25))));
+        let undecided = differs(Match::Undecided([3.25, 3.5]));
+        let text = "Discrete torsion cannot be compared: the curve is undecided at u 3.25";
+        assert_eq!(undecided, (text.to_owned(), Some(Place::Parameter(3.25))));
+    }
+
+    #[test]
+    fn ordinals_are_english() {
+        let said: Vec<String> = [1, 2, 3, 4, 11, 12, 13, 21, 22, 23].map(ordinal).to_vec();
+        let expected = [
+            "1st", "2nd", "3rd", "4th", "11th", "12th", "13th", "21st", "22nd", "23rd",
+        ];
+        assert_eq!(said, expected);
+    }
+}

@@ -1,0 +1,251 @@
+//! The flow of the float S-polygon's vertices as strips, one below the other.
+
+use std::ops::RangeInclusive;
+
+use eframe::egui::{Align2, Color32, ComboBox, Stroke, Ui, Vec2, vec2};
+use egui_plot::{GridMark, HoverPosition, PlotBounds, PlotUi, uniform_grid_spacer};
+use glam::DVec2;
+
+use super::Plots;
+use super::drawing::*;
+use super::frame::bounds_of;
+use crate::analysis::Flow;
+use crate::document::CurveId;
+use crate::editor::{Editor, PlotScene};
+use crate::ui::figures;
+use crate::ui::theme::{self, STEP, Tokens};
+use crate::ui::widgets;
+
+/// The height of the axis below the last strip.
+const AXIS: f32 = 38.0;
+
+/// The room at the left of a strip for its name.
+const NAME: f32 = 112.0;
+
+/// The least height of a strip.
+const LOWEST: f32 = 24.0;
+
+/// The share of a strip's extent that is kept free above and below, beside that of every plot.
+const EDGE: f64 = 0.08;
+
+/// Dots nearer together than the first of these, in points, are smaller, and than the second are
+/// not drawn.
+const CROWDED: [f32; 2] = [14.0, 6.0];
+
+/// What a strip shows.
+fn name(flow: Flow) -> &'static str {
+    match flow {
+        Flow::Legs => "Leg length",
+        Flow::Turns => "Turning angle (°)",
+        Flow::Curvatures => "Discrete curvature",
+        Flow::TorsionAngles => "Torsion angle (°)",
+    }
+}
+
+impl Plots {
+    /// What the bar says of the strips: the curve to compare with.
+    pub(super) fn harmony_bar_ui(&mut self, ui: &mut Ui, editor: &Editor) {
+        let document = editor.document();
+        let others = document
+            .curves()
+            .filter(|(id, _)| Some(*id) != editor.active());
+        let others: Vec<(CurveId, String)> =
+            others.map(|(id, curve)| (id, curve.name.clone())).collect();
+        let compared = self.compared(editor);
+        let chosen = others.iter().find(|(id, _)| Some(*id) == compared);
+        let text = chosen.map_or("no other curve", |(_, name)| name);
+        let choice = ComboBox::from_id_salt("compared").selected_text(text.to_owned());
+        ui.add_enabled_ui(!others.is_empty(), |ui| {
+            let choice = choice.show_ui(ui, |ui| {
+                ui.selectable_value(&mut self.compared, None, "no other curve");
+                for (id, name) in others {
+                    ui.selectable_value(&mut self.compared, Some(id), name);
+                }
+            });
+            choice.response.accessible_name("Curve to compare with")
+        });
+        widgets::caption(ui, "Compare with");
+    }
+
+    /// The curve that strips are compared with, if it is another than the active one.
+    pub(super) fn compared(&self, editor: &Editor) -> Option<CurveId> {
+        let known = |id: &CurveId| editor.document().curve(*id).is_some();
+        self.compared
+            .filter(known)
+            .filter(|id| Some(*id) != editor.active())
+    }
+
+    pub(super) fn harmony_ui(&mut self, ui: &mut Ui, editor: &mut Editor) {
+        let tokens = Tokens::of(ui);
+        let dragging = editor.hand().is_dragging();
+        let scene = editor.view().plots();
+        let strips: Vec<Flow> = Flow::ALL
+            .into_iter()
+            .filter(|flow| *flow != Flow::TorsionAngles || !scene.planar)
+            .collect();
+        let count = last_vertex(scene) + 1.0;
+        let width = ui.available_width();
+        let room = ui.available_height() - AXIS;
+        let height = (room / strips.len() as f32).max(LOWEST);
+        let spacing = (width - NAME).max(1.0) / count as f32;
+        let (left, right) = (-0.5 - f64::from(NAME / spacing), count - 0.5);
+        let mut hovered = None;
+        ui.spacing_mut().item_spacing.y = 0.0;
+        for flow in &strips {
+            let is_last = Some(flow) == strips.last();
+            let frame = &mut self.strips[*flow as usize];
+            let settled = frame.settle(wanted(scene, *flow, [left, right]), dragging);
+            // All strips have one axis, whatever keeps still upwards.
+            let bounds =
+                PlotBounds::from_min_max([left, settled.min()[1]], [right, settled.max()[1]]);
+            let size = vec2(width, height + if is_last { AXIS } else { 0.0 });
+            let strip = Strip {
+                flow: *flow,
+                scene,
+                bounds,
+                spacing,
+                tokens,
+            };
+            hovered = strip.show(ui, size, is_last).or(hovered);
+        }
+        let vertex = hovered
+            .map(|x| x.round())
+            .filter(|x| (0.0..count).contains(x));
+        if let Some(vertex) = vertex {
+            editor.view_mut().hover_vertex(vertex as usize);
+        }
+    }
+}
+
+/// The curves that a strip shows, from back to front; which of them is what it is named by.
+fn shown(scene: &PlotScene) -> [Option<&PlotScene>; 3] {
+    [
+        scene.before.as_deref(),
+        scene.compared.as_deref(),
+        Some(scene),
+    ]
+}
+
+/// The greatest number of a vertex in any strip.
+fn last_vertex(scene: &PlotScene) -> f64 {
+    let all = shown(scene)
+        .into_iter()
+        .flatten()
+        .flat_map(|scene| &scene.flow);
+    let last = all.filter_map(|series| series.last()).map(|point| point.x);
+    last.fold(1.0, f64::max) + 1.0
+}
+
+/// The bounds that hold all that a strip shows: the same from left to right for all strips.
+fn wanted(scene: &PlotScene, flow: Flow, [left, right]: [f64; 2]) -> (DVec2, DVec2) {
+    let all = shown(scene).into_iter().flatten();
+    let points = all.flat_map(|scene| &scene.flow[flow as usize]).copied();
+    let (low, high) = bounds_of(points);
+    // Dots and circles at the edge of a low strip are whole.
+    let room = EDGE * (high.y - low.y);
+    let (low, high) = (low.y - room, high.y + room);
+    (DVec2::new(left, low), DVec2::new(right, high))
+}
+
+/// One strip as it is drawn.
+struct Strip<'a> {
+    flow: Flow,
+    scene: &'a PlotScene,
+    bounds: PlotBounds,
+    /// How far two vertices are apart, in points.
+    spacing: f32,
+    tokens: &'static Tokens,
+}
+
+impl Strip<'_> {
+    /// Show the strip; returns the abscissa under the pointer.
+    fn show(&self, ui: &mut Ui, size: Vec2, with_axis: bool) -> Option<f64> {
+        let (flow, tokens) = (self.flow, self.tokens);
+        let across = if with_axis { "vertex" } else { "" };
+        let plot = plot(name(flow), across, "", self.bounds, tokens)
+            .width(size.x)
+            .height(size.y)
+            .show_axes([with_axis, true])
+            .x_axis_formatter(vertex_number)
+            .y_grid_spacer(uniform_grid_spacer(|input| steps(input, 2.5)))
+            .label_formatter(move |hover| label(flow, hover));
+        let shown = plot.show(ui, |plot| {
+            plot.set_plot_bounds(self.bounds);
+            self.draw(plot);
+            hovered_x(plot)
+        });
+        let rect = shown.response.rect;
+        let painter = ui.painter_at(rect);
+        let edge = Stroke::new(1.0, tokens.axes);
+        painter.hline(rect.x_range(), rect.top(), edge);
+        let corner = rect.left_top() + vec2(STEP, 0.5 * STEP);
+        let font = theme::small_font();
+        painter.text(
+            corner,
+            Align2::LEFT_TOP,
+            name(flow),
+            font,
+            tokens.faint_text,
+        );
+        shown.inner
+    }
+
+    fn draw(&self, plot: &mut PlotUi<'_>) {
+        let (flow, tokens, scene) = (self.flow as usize, self.tokens, self.scene);
+        zero_line(plot, tokens);
+        if let Some(before) = &scene.before {
+            before_lines(plot, &before.flow[flow], tokens);
+        }
+        if let Some(compared) = &scene.compared {
+            self.series(plot, "compared", &compared.flow[flow], tokens.joints);
+        }
+        self.series(plot, "active", &scene.flow[flow], tokens.float);
+        if let Some(at) = scene.worst[flow] {
+            plot.points(ring(at, tokens).name("worst").color(tokens.warning));
+        }
+        if let Some(vertex) = scene.hovered_vertex {
+            let number = |point: &&DVec2| point.x.round() as usize == vertex;
+            let found = scene.flow[flow].iter().find(number);
+            let y = found.map_or(f64::NAN, |point| point.y);
+            cursor(plot, DVec2::new(vertex as f64, y), tokens);
+        }
+    }
+
+    fn series(&self, plot: &mut PlotUi<'_>, name: &str, points: &[DVec2], colour: Color32) {
+        lines(plot, name, points, colour.gamma_multiply(0.6));
+        let radius = if self.spacing >= CROWDED[0] { 3.0 } else { 2.0 };
+        if self.spacing >= CROWDED[1] {
+            plot.points(dots_of(name, points, colour).radius(radius));
+        }
+    }
+}
+
+/// The number of a vertex below the strips; none where the names stand.
+fn vertex_number(mark: GridMark, range: &RangeInclusive<f64>) -> String {
+    if mark.value < 0.0 {
+        String::new()
+    } else {
+        axis_number(mark, range)
+    }
+}
+
+fn label(flow: Flow, hover: &HoverPosition<'_>) -> Option<String> {
+    let HoverPosition::NearDataPoint {
+        position,
+        plot_name,
+        ..
+    } = hover
+    else {
+        return None;
+    };
+    let value = figures::significant(position.y, 6);
+    let place = match flow {
+        Flow::Legs | Flow::TorsionAngles => format!("leg {} … {}", position.x, position.x + 1.0),
+        Flow::Turns | Flow::Curvatures => format!("vertex {}", position.x),
+    };
+    let of = match *plot_name {
+        "compared" => ", other curve",
+        _ => "",
+    };
+    Some(format!("{place}{of}\n{value}"))
+}
