@@ -124,7 +124,7 @@ const TORSION_EXTREMA: Parameter = Parameter {
 
 const MAX_DEVIATION: Parameter = Parameter {
     name: "max-deviation",
-    label: "Largest deviation",
+    label: "Deviation up to",
     help: "How far the curve may move at most",
     kind: number("any"),
 };
@@ -190,7 +190,7 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
     };
     outcome.reached = found.reached;
     if !found.reached {
-        outcome.remarks = vec![why_not(&found, harmony.largest_deviation)];
+        outcome.remarks = vec![why_not(&found, &harmony)];
     }
     outcome.figures = vec![
         Figure::count("iterations", "Iterations", found.iterations),
@@ -215,50 +215,46 @@ fn one_end() -> [Option<Held>; 7] {
 }
 
 /// Say what the best that was found lacks.
-fn why_not(found: &Harmonised, most: Option<f64>) -> String {
+fn why_not(found: &Harmonised, harmony: &Harmony) -> String {
     let (has, asked) = (found.counts, found.asked);
-    if has == asked && found.undecided == 0 {
-        let most = most.unwrap_or(f64::INFINITY);
-        return format!(
-            "The curve moves by up to {}, and {most} is allowed: allow more, or ask for more extrema",
-            rounded_up(found.deviation)
-        );
-    }
     let counts = [
-        (
-            has.extrema,
-            asked.extrema,
-            "curvature extremum",
-            "curvature extrema",
-        ),
-        (
-            has.inflections,
-            asked.inflections,
-            "inflection",
-            "inflections",
-        ),
+        (has.extrema, asked.extrema, harmony.extrema),
+        (has.inflections, asked.inflections, harmony.inflections),
         (
             has.torsion_extrema,
             asked.torsion_extrema,
-            "torsion extremum",
-            "torsion extrema",
+            harmony.torsion_extrema,
         ),
     ];
-    let differ = counts.iter().filter(|(has, asked, ..)| has != asked);
-    let mut parts: Vec<String> = differ
-        .map(|(has, asked, one, several)| {
-            format!(
-                "{} are left, {asked} asked for",
-                counted(*has, one, several)
-            )
-        })
-        .collect();
+    let names = [
+        ("curvature extremum", "curvature extrema"),
+        ("inflection", "inflections"),
+        ("torsion extremum", "torsion extrema"),
+    ];
+    // Where no number is given, fewer will do.
+    let differ = |(has, asked, given): (usize, usize, Option<usize>)| {
+        has > asked || (has < asked && given.is_some())
+    };
+    let mut parts: Vec<String> = Vec::new();
+    for (count, (one, several)) in counts.into_iter().zip(names) {
+        if differ(count) {
+            let left = counted(count.0, one, several);
+            parts.push(format!("{left} left, {} asked for", count.1));
+        }
+    }
     if found.undecided > 0 {
         let places = counted(found.undecided, "place", "places");
         parts.push(format!("{places} undecided"));
     }
+    if parts.is_empty() {
+        let most = harmony.largest_deviation.unwrap_or(f64::INFINITY);
+        return format!(
+            "The curve moves by up to {}, and {most} is allowed: allow more, or ask for more features",
+            rounded_up(found.deviation)
+        );
+    }
     format!(
-        "{}: free the ends or vertices, or ask for other counts",
+        "{}: free the ends or vertices, or ask for other numbers",
         parts.join("; ")
     )
 }

@@ -39,7 +39,7 @@ pub(super) const fn vector(none: &'static str) -> Kind {
 /// Vertices that an operation must not move, beside those that are locked in the document.
 pub(super) const LOCKED: Parameter = Parameter {
     name: "locked",
-    label: "Locked vertices",
+    label: "Also locked",
     help: "Vertices that stay where they are, beside those that are locked already, counted from 0",
     kind: Kind::List {
         count: 1..=usize::MAX,

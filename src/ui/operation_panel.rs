@@ -3,7 +3,8 @@
 use std::ops::{Bound, RangeInclusive};
 
 use eframe::egui::{
-    Button, Key, Label, ProgressBar, RichText, Role, Sense, TextEdit, Ui, Vec2, WidgetInfo, vec2,
+    Button, ComboBox, Key, Label, ProgressBar, RichText, Role, Sense, TextEdit, Ui, Vec2,
+    WidgetInfo, vec2,
 };
 use lucide_icons::Icon;
 
@@ -27,6 +28,12 @@ const COLUMN: f32 = 96.0;
 
 /// Numbers of more characters than this are shown with six digits while they are not typed.
 const MOST_DIGITS: usize = 10;
+
+/// The width of the caption of a field.
+const LABEL: f32 = 104.0;
+
+/// The most options that stand side by side as buttons.
+const MOST_BUTTONS: usize = 4;
 
 /// The width of a field for a number.
 const FIELD: f32 = 120.0;
@@ -88,17 +95,19 @@ impl OperationPanel {
         parameter: &'static Parameter,
     ) -> Option<Value> {
         let value = trial.values().get(parameter);
-        let row = widgets::form_row(ui, parameter.label, |ui| match (&parameter.kind, value) {
-            (Kind::Choice { options, .. }, Value::Choice(chosen)) => {
-                choice_ui(ui, options, *chosen)
+        let row = widgets::wide_form_row(ui, parameter.label, LABEL, |ui| {
+            match (&parameter.kind, value) {
+                (Kind::Choice { options, .. }, Value::Choice(chosen)) => {
+                    choice_ui(ui, parameter.label, options, *chosen)
+                }
+                (Kind::List { none, .. }, _) => self.list_ui(ui, parameter, value, none),
+                (Kind::Switch { .. }, Value::Switch(on)) => {
+                    let mut on = *on;
+                    let switch = ui.checkbox(&mut on, "");
+                    switch.clicked().then_some(Value::Switch(on))
+                }
+                _ => self.number_ui(ui, trial, parameter, value),
             }
-            (Kind::List { none, .. }, _) => self.list_ui(ui, parameter, value, none),
-            (Kind::Switch { .. }, Value::Switch(on)) => {
-                let mut on = *on;
-                let switch = ui.checkbox(&mut on, "");
-                switch.clicked().then_some(Value::Switch(on))
-            }
-            _ => self.number_ui(ui, trial, parameter, value),
         });
         row.response.on_hover_text(parameter.help);
         row.inner
@@ -209,9 +218,27 @@ fn heading_ui(ui: &mut Ui, trial: &Trial) -> Option<Asked> {
     left.then_some(Asked::Leave)
 }
 
-/// A row of buttons of which one is pressed; those that do not fit stand below.
-fn choice_ui(ui: &mut Ui, options: &'static [Choice], chosen: usize) -> Option<Value> {
+/// A row of buttons of which one is pressed; those that do not fit stand below. Many options are a
+/// list that opens.
+fn choice_ui(ui: &mut Ui, label: &str, options: &'static [Choice], chosen: usize) -> Option<Value> {
     let mut clicked = None;
+    if options.len() > MOST_BUTTONS {
+        let now = options.get(chosen).map_or("", |option| option.label);
+        let list = ComboBox::from_id_salt(label)
+            .selected_text(now)
+            .width(FIELD);
+        let list = list.show_ui(ui, |ui| {
+            for (index, option) in options.iter().enumerate() {
+                let row = ui.selectable_label(index == chosen, option.label);
+                if row.clicked() && index != chosen {
+                    clicked = Some(Value::Choice(index));
+                }
+            }
+        });
+        let info = || WidgetInfo::labeled(Role::ComboBox, true, label);
+        list.response.widget_info(info);
+        return clicked;
+    }
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = Vec2::splat(STEP);
         for (index, option) in options.iter().enumerate() {

@@ -155,10 +155,20 @@ pub fn form_row<R>(
     name: &str,
     contents: impl FnOnce(&mut Ui) -> R,
 ) -> InnerResponse<R> {
+    wide_form_row(ui, name, CAPTION, contents)
+}
+
+/// A row as [`form_row`], with a caption of some other width.
+pub fn wide_form_row<R>(
+    ui: &mut Ui,
+    name: &str,
+    width: f32,
+    contents: impl FnOnce(&mut Ui) -> R,
+) -> InnerResponse<R> {
     ui.horizontal(|ui| {
         ui.set_min_height(ROW);
         let tokens = Tokens::of(ui);
-        let (rect, _) = ui.allocate_exact_size(Vec2::new(CAPTION, ROW), Sense::hover());
+        let (rect, _) = ui.allocate_exact_size(Vec2::new(width, ROW), Sense::hover());
         label_in(ui, rect, name, tokens.faint_text);
         contents(ui)
     })

@@ -187,3 +187,27 @@ fn too_many_conditions_are_told() {
         outcome.remarks
     );
 }
+
+#[test]
+fn without_numbers_what_stands_out_is_left() {
+    // A hump of curvature with small waves on it.
+    let mut angle: f64 = 0.0;
+    let mut point = DVec3::ZERO;
+    let vertices = (0..40).map(|index| {
+        let share = f64::from(index) / 39.0;
+        let wave = 0.005 * (2.1 * f64::from(index)).sin();
+        angle += 0.02 + 0.1 * (std::f64::consts::PI * share).sin() + wave;
+        point += DVec3::new(angle.cos(), angle.sin(), 0.0);
+        point
+    });
+    let polygon = FloatPolygon::new(4, vertices.collect(), None, false).expect("valid");
+    let runner = Runner::of(polygon);
+    assert!(extrema(runner.polygon()) > 3);
+    let (outcome, curves) = runner.done("harmonise", &[]);
+    assert_eq!(extrema(&curves[0].polygon), 1);
+    let asked = outcome
+        .figures
+        .iter()
+        .find(|figure| figure.name == "asked_extrema");
+    assert_eq!(asked.map(|figure| &figure.value), Some(&Value::Whole(1)));
+}

@@ -28,11 +28,19 @@ pub struct ShapeCounts {
 }
 
 impl ShapeCounts {
-    /// How many features too many or too few there are.
-    pub(super) fn distance(self, other: Self) -> usize {
-        self.inflections.abs_diff(other.inflections)
-            + self.extrema.abs_diff(other.extrema)
-            + self.torsion_extrema.abs_diff(other.torsion_extrema)
+    /// How many features there are too many, or too few of a kind that is asked for in number.
+    pub(super) fn distance(self, asked: Asked) -> usize {
+        let apart = |has: usize, most: usize, exact: bool| {
+            if exact {
+                has.abs_diff(most)
+            } else {
+                has.saturating_sub(most)
+            }
+        };
+        let (most, exact) = (asked.counts, asked.exact);
+        apart(self.inflections, most.inflections, exact[0])
+            + apart(self.extrema, most.extrema, exact[1])
+            + apart(self.torsion_extrema, most.torsion_extrema, exact[2])
     }
 
     /// Whether there are more features of some kind than in another.
@@ -43,11 +51,32 @@ impl ShapeCounts {
     }
 }
 
+/// How many features are to be left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Asked {
+    pub(super) counts: ShapeCounts,
+    /// Whether just so many inflections, extrema and torsion extrema are asked for, or at most so
+    /// many.
+    pub(super) exact: [bool; 3],
+}
+
 /// The proved features of a stretch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Proved {
     pub(super) counts: ShapeCounts,
     pub(super) undecided: usize,
+}
+
+impl Proved {
+    /// Whether it is what is asked for.
+    pub(super) fn has(self, asked: Asked) -> bool {
+        self.excess(asked) == 0
+    }
+
+    /// How many features there are too many or too few, undecided ones among them.
+    pub(super) fn excess(self, asked: Asked) -> usize {
+        self.counts.distance(asked) + self.undecided
+    }
 }
 
 /// Prove the features of a curve; `None` if `progress` is cancelled meanwhile.

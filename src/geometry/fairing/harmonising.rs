@@ -3,7 +3,7 @@
 use glam::DVec3;
 use thiserror::Error;
 
-use super::counts::{ShapeCounts, counted, domain, looks_like_more, prove, significant};
+use super::counts::{Asked, ShapeCounts, counted, domain, looks_like_more, prove, significant};
 use super::problem::Problem;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::error::PolygonError;
@@ -43,7 +43,9 @@ pub enum Held {
     All,
 }
 
-/// What is asked of harmonising; `None` leaves the choice to what stands out.
+/// What is asked of harmonising. Where no number of features is given, no more are to be left than
+/// stand out: extrema with a prominence of at least 5 % of the range of values, and the inflections
+/// between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Harmony<'a> {
     /// The stretch [u₀, u₁] of the curve; `None` for all of it.
@@ -133,16 +135,24 @@ pub fn harmonise(
     }
     let features = prove(polygon, progress).ok_or(HarmonyError::Cancelled)?;
     let own = significant(polygon, &features, stretch);
-    let asked = ShapeCounts {
-        inflections: harmony.inflections.unwrap_or(own.inflections),
-        extrema: harmony.extrema.unwrap_or(own.extrema),
-        torsion_extrema: harmony.torsion_extrema.unwrap_or(own.torsion_extrema),
+    let given = [
+        harmony.inflections,
+        harmony.extrema,
+        harmony.torsion_extrema,
+    ];
+    let asked = Asked {
+        counts: ShapeCounts {
+            inflections: given[0].unwrap_or(own.inflections),
+            extrema: given[1].unwrap_or(own.extrema),
+            torsion_extrema: given[2].unwrap_or(own.torsion_extrema),
+        },
+        exact: given.map(|count| count.is_some()),
     };
     let found = counted(&features, polygon.is_planar(), stretch);
     let unchanged = Harmonised {
         polygon: polygon.clone(),
-        reached: found.counts == asked && found.undecided == 0,
-        asked,
+        reached: found.has(asked),
+        asked: asked.counts,
         counts: found.counts,
         undecided: found.undecided,
         deviation: 0.0,
@@ -170,6 +180,7 @@ pub fn harmonise(
         most: harmony.largest_deviation.unwrap_or(f64::INFINITY),
         progress,
         best: Candidate {
+            excess: found.excess(asked),
             harmonised: unchanged,
             largest_move: 0.0,
         },
@@ -247,6 +258,8 @@ fn kept(polygon: &FloatPolygon, u: f64, held: Held) -> Option<EndTarget> {
 /// A polygon that was found.
 struct Candidate {
     harmonised: Harmonised,
+    /// How many features there are too many or too few, undecided ones among them.
+    excess: usize,
     largest_move: f64,
 }
 
@@ -254,8 +267,7 @@ impl Candidate {
     /// How far it is from what is asked; the largest move decides between equals.
     fn rank(&self) -> (bool, usize, f64) {
         let found = &self.harmonised;
-        let excess = found.counts.distance(found.asked) + found.undecided;
-        (!found.reached, excess, self.largest_move)
+        (!found.reached, self.excess, self.largest_move)
     }
 }
 
@@ -274,7 +286,7 @@ struct Search<'a> {
     problem: Problem<'a>,
     polygon: &'a FloatPolygon,
     stretch: [f64; 2],
-    asked: ShapeCounts,
+    asked: Asked,
     most: f64,
     progress: &'a Progress,
     best: Candidate,
@@ -349,7 +361,7 @@ impl Search<'_> {
         let Ok(polygon) = self.problem.polygon(vertices) else {
             return Ok(Found::More);
         };
-        if looks_like_more(&polygon, self.stretch, self.asked)
+        if looks_like_more(&polygon, self.stretch, self.asked.counts)
             && self.best.harmonised.iterations > 0
         {
             return Ok(Found::More);
@@ -359,13 +371,14 @@ impl Search<'_> {
         let deviation = self.polygon.deviation(&polygon)?;
         let moves = self.polygon.vertices().iter().zip(polygon.vertices());
         let moves = moves.map(|(before, after)| before.distance(*after));
-        let has = proved.counts == self.asked && proved.undecided == 0;
+        let has = proved.has(self.asked);
         let candidate = Candidate {
+            excess: proved.excess(self.asked),
             largest_move: moves.fold(0.0, f64::max),
             harmonised: Harmonised {
                 polygon,
                 reached: has && deviation <= self.most,
-                asked: self.asked,
+                asked: self.asked.counts,
                 counts: proved.counts,
                 undecided: proved.undecided,
                 deviation,
@@ -377,7 +390,7 @@ impl Search<'_> {
         }
         Ok(if has {
             Found::Asked
-        } else if proved.undecided > 0 || proved.counts.exceeds(self.asked) {
+        } else if proved.undecided > 0 || proved.counts.exceeds(self.asked.counts) {
             Found::More
         } else {
             Found::Fewer
