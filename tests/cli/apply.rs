@@ -481,3 +481,56 @@ fn values_of_lists_may_begin_with_a_minus_sign() {
         "{text}"
     );
 }
+
+/// Two curves: the start of the second is matched to the end of the first, which has a locked vertex.
+const MATCHED: &str = r#"{"format":"batten","version":2,"curves":[
+  {"name":"first","degree":3,"vertices":[[0,0],[1.25,0.4],[2,1.3],[3.2,1.1],[4.1,0.6],[5,0.3]],
+   "locked_vertices":[1]},
+  {"name":"second","degree":3,"vertices":[[3.5,0.9],[4.2,0.7],[5,0.4],[6,0.2],[7,0.7],[8,1.5],[9,2]]}],
+  "matches":[{"curve":1,"end":"start","source":0,"at":"end","continuity":"G1"}]}"#;
+
+#[test]
+fn matched_curves_follow_and_locked_vertices_stay() {
+    let folder = Folder::new();
+    fs::write(folder.path("in.batten"), MATCHED).unwrap();
+    let rounded = [
+        "round",
+        "in.batten",
+        "out.batten",
+        "--curve",
+        "first",
+        "--digits",
+        "0",
+    ];
+    let report = report(&folder, &rounded);
+    assert_eq!(
+        report["remarks"],
+        json!(["1 locked vertex keeps the coordinates"])
+    );
+    let text = fs::read_to_string(folder.path("out.batten")).unwrap();
+    let project: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(project["version"], 2);
+    assert_eq!(project["curves"][0]["locked_vertices"], json!([1]));
+    let vertices = &project["curves"][0]["vertices"];
+    assert_eq!(
+        vertices,
+        &json!([
+            [0.0, 0.0],
+            [1.25, 0.4],
+            [2.0, 1.0],
+            [3.0, 1.0],
+            [4.0, 1.0],
+            [5.0, 0.0]
+        ])
+    );
+    assert_eq!(project["matches"][0]["at"], "end");
+    let ends = |index: usize, end: &str, what: &str| {
+        numbers(&curves(&folder, "out.batten")[index]["ends"][end][what])
+    };
+    for what in ["point", "tangent"] {
+        let pairs = ends(0, "end", what).into_iter().zip(ends(1, "start", what));
+        for (from, to) in pairs {
+            assert!((from - to).abs() < 1e-12, "{what}: {from} {to}");
+        }
+    }
+}
