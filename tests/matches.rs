@@ -226,3 +226,52 @@ fn locked_vertices_of_a_follower_are_held() {
         assert!(left <= MET, "{name}: {left:e}");
     }
 }
+
+#[test]
+fn an_end_of_a_long_curve_follows_by_the_vertices_near_it() {
+    let mut random = Random(7);
+    for (count, end) in [(200, End::Start), (700, End::Finish), (2000, End::Start)] {
+        let curves = [count, count].map(|count| random.gentle(9, count, false, false));
+        let document = Document::from_curves(curves.map(|it| Curve::new("curve", it)));
+        let ids: Vec<_> = document.ids().collect();
+        let matched = EndMatch {
+            curve: ids[1],
+            end,
+            source: ids[0],
+            place: MatchPlace::End(End::Finish),
+            continuity: Continuity::G3,
+            reversed: end == End::Finish,
+        };
+        // Bring it near first, and turned as it is to be.
+        let target = matched.target(&document).expect("a target");
+        let way = target.direction.expect("a direction");
+        let near = beside(&polygon(&document, 1), end, target.point, way, &mut random);
+        let own = near.end_jet(end).point;
+        let moved = near
+            .vertices()
+            .iter()
+            .map(|it| *it - own + target.point + DVec3::X);
+        let polygon_of = |vertices| FloatPolygon::new(9, vertices, None, false).expect("a polygon");
+        let set = Edit::SetPolygon {
+            curve: matched.curve,
+            polygon: polygon_of(moved.collect()),
+        };
+        let mut document = document.edited([set]).expect("an edit");
+        let before = polygon(&document, 1);
+        document = document.edited([Edit::SetMatch(matched)]).expect("a match");
+        let after = polygon(&document, 1);
+        let (size, target) = (
+            after.end_size(end),
+            matched.target(&document).expect("a target"),
+        );
+        let left = EndDifference::between(&after, end, &target).residual(size) / size;
+        assert!(left <= 1e-10, "{count}: {left:e}");
+        assert!(document.meets(&matched));
+        let far = |polygon: &FloatPolygon| match end {
+            End::Start => polygon.vertices()[64..].to_vec(),
+            End::Finish => polygon.vertices()[..count - 64].to_vec(),
+        };
+        assert_eq!(far(&after), far(&before), "{count}");
+        assert_ne!(after, before);
+    }
+}

@@ -8,11 +8,14 @@ use super::end_match::EndMatch;
 use super::error::EditError;
 use crate::geometry::end_correction::{EndDifference, EndTarget};
 use crate::geometry::fairing::joint_correction::{Disturbance, correct_jointly};
+use crate::geometry::fairing::near_end::{correct_near_end, has_ends_apart};
 use crate::geometry::{Continuity, End, FloatPolygon};
 
-/// What is left where only rounding is left, in units of the polygon's size: matches with less are
-/// met.
-const MET: f64 = 1e-12;
+/// What is left where only rounding is left, in units of the end's size.
+const ROUNDING: f64 = 1e-12;
+
+/// What may be left of a match that counts as met, in units of the end's size.
+const MET: f64 = 1e-9;
 
 impl EndMatch {
     /// What the end must be now; `None` if one of the curves is gone or does not have the place.
@@ -42,6 +45,12 @@ impl Document {
     pub fn match_of(&self, curve: CurveId, end: End) -> Option<&EndMatch> {
         let mut matches = self.matches.iter();
         matches.find(|matched| (matched.curve, matched.end) == (curve, end))
+    }
+
+    /// Whether a match is met, but for rounding.
+    pub fn meets(&self, matched: &EndMatch) -> bool {
+        let curve = self.curve(matched.curve).zip(matched.target(self));
+        curve.is_some_and(|(curve, target)| is_met(&curve.polygon, matched.end, &target, MET))
     }
 
     /// List the matches of an earlier state that are gone though their curve is not, because the
@@ -183,30 +192,43 @@ impl Document {
     }
 }
 
+/// Whether an end has what its match asks for, as far as `tolerance`, in units of the end's size.
+fn is_met(polygon: &FloatPolygon, end: End, target: &EndTarget, tolerance: f64) -> bool {
+    let size = polygon.end_size(end);
+    EndDifference::between(polygon, end, target).residual(size) <= tolerance * size
+}
+
 /// The polygon whose ends meet their targets; `None` if they do already, or cannot.
 fn met(curve: &Curve, matched: &[(End, EndTarget)]) -> Option<FloatPolygon> {
     let polygon = &curve.polygon;
-    let size = polygon.size();
-    let missing = |(end, target): &(End, EndTarget)| {
-        let left = EndDifference::between(polygon, *end, target).residual(size);
-        !(left <= MET * size)
-    };
-    if !matched.iter().any(missing) {
+    let is_missing = |(end, target): &(End, EndTarget)| !is_met(polygon, *end, target, ROUNDING);
+    if !matched.iter().any(is_missing) {
         return None;
     }
-    let kept = End::BOTH
-        .into_iter()
-        .filter(|end| matched.iter().all(|(other, _)| other != end));
-    let kept = kept.map(|end| {
-        let jet = polygon.end_jet(end);
-        (end, Continuity::G1.target(&jet, polygon.is_planar()))
-    });
-    let targets: Vec<(End, EndTarget)> = matched.iter().copied().chain(kept).collect();
     let locked: Vec<usize> = curve.locked_vertices.iter().collect();
-    let least = Disturbance::Differences(1);
-    let corrected = correct_jointly(polygon, &targets, least, &locked)
-        .ok()?
-        .polygon;
+    let corrected = if has_ends_apart(polygon) {
+        let mut ends = matched.iter();
+        let one = |polygon: FloatPolygon, (end, target): &(End, EndTarget)| {
+            correct_near_end(&polygon, *end, target, &locked).ok()
+        };
+        ends.try_fold(polygon.clone(), one)?
+    } else {
+        let least = Disturbance::Differences(1);
+        let targets = with_kept_ends(polygon, matched);
+        correct_jointly(polygon, &targets, least, &locked)
+            .ok()?
+            .polygon
+    };
     curve.check_held(&corrected).ok()?;
     Some(corrected)
+}
+
+/// The targets of both ends: an end that is not matched keeps its point and direction.
+fn with_kept_ends(polygon: &FloatPolygon, matched: &[(End, EndTarget)]) -> Vec<(End, EndTarget)> {
+    let kept = |end: End| Continuity::G1.target(&polygon.end_jet(end), polygon.is_planar());
+    let target = |end: End| {
+        let own = matched.iter().find(|(other, _)| *other == end);
+        (end, own.map_or_else(|| kept(end), |(_, target)| *target))
+    };
+    End::BOTH.map(target).to_vec()
 }

@@ -63,11 +63,7 @@ impl ControlPolygon {
 
     /// The diagonal of the box around the vertices: the size that tolerances are relative to.
     pub fn size(&self) -> f64 {
-        let (low, high) = self.vertices.iter().fold(
-            (DVec3::INFINITY, DVec3::NEG_INFINITY),
-            |(low, high), vertex| (low.min(*vertex), high.max(*vertex)),
-        );
-        vector::length(high - low)
+        diagonal(&self.vertices)
     }
 
     /// The vertices with their weights, which are 1 for a polynomial curve.
@@ -158,4 +154,13 @@ pub(super) fn check_weight(index: usize, weight: f64) -> Result<(), PolygonError
             value: weight,
         })
     }
+}
+
+/// The diagonal of the box around some points.
+pub(super) fn diagonal(points: &[DVec3]) -> f64 {
+    let (low, high) = points.iter().fold(
+        (DVec3::INFINITY, DVec3::NEG_INFINITY),
+        |(low, high), point| (low.min(*point), high.max(*point)),
+    );
+    vector::length(high - low)
 }

@@ -3,6 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use super::basis::uniform_basis_derivative;
+use super::control_polygon::diagonal;
 use super::float_polygon::FloatPolygon;
 use super::jet::Jet;
 use super::vector;
@@ -66,6 +67,12 @@ impl FloatPolygon {
             End::Start => 0..terminal,
             End::Finish => count - terminal..count,
         }
+    }
+
+    /// The size of an end: the diagonal of the box around its terminal vertices. What is missing of
+    /// an end is relative to it, however long the curve is.
+    pub fn end_size(&self, end: End) -> f64 {
+        diagonal(&self.vertices()[self.terminal_vertices(end)])
     }
 
     /// The weights with which the terminal vertices enter the `order`-th derivative at an end of

@@ -34,7 +34,7 @@ pub fn match_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
     });
     if let Some(matched) = &report.matched {
         asked = matched_ui(ui, matched).or(asked);
-        if !report.is_met() {
+        if !matched.met {
             let why = match &report.refusal {
                 Some(_) => "Not met: the curve follows once it is unlocked.",
                 None => "Not met: match less, unlock vertices, or give the curve more of them.",

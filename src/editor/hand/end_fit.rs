@@ -103,6 +103,8 @@ pub struct MatchReport {
     pub matched: EndMatch,
     /// What is missing of each level, up to G3.
     pub missing: EndDifference,
+    /// Whether what is asked for is met.
+    pub met: bool,
 }
 
 impl EndFitReport {
@@ -291,6 +293,7 @@ fn match_report(document: &Document, curve: CurveId, end: End) -> Option<MatchRe
     Some(MatchReport {
         source: document.curve(matched.source)?.name.clone(),
         matched,
+        met: document.meets(&matched),
         missing: EndDifference::between(polygon, end, &all.target(document)?),
     })
 }

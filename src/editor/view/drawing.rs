@@ -175,7 +175,9 @@ impl Editor {
             for end in End::BOTH {
                 let chosen =
                     fitting && Some(id) == active && end == self.hand.tools.end_fit.settings.end;
-                let matched = self.workspace.document().match_of(id, end).is_some();
+                let document = self.workspace.document();
+                let matched = document.match_of(id, end);
+                let matched = matched.map(|matched| document.meets(matched));
                 let viewport = &self.view.viewport;
                 let marks = end_marks::marks(curve, end, chosen, matched, viewport);
                 scene.ends.extend(marks.map(|mut marks| {

@@ -14,9 +14,6 @@ pub const ARROW: f64 = 64.0;
 /// The radius of the ring that rotates the terminal vertices, in screen points.
 pub const RING: f64 = 40.0;
 
-/// What may be missing of a match that counts as met, in units of the polygon's size.
-const MET: f64 = 1e-9;
-
 /// Chords in the arc that shows the difference angle.
 const ARC_STEPS: u8 = 48;
 
@@ -47,12 +44,12 @@ pub struct EndFitMarks {
     pub arc: Vec<DVec2>,
 }
 
-/// Make the marks of one end.
+/// Make the marks of one end; `matched` tells whether what it is kept matched to is met.
 pub fn marks(
     curve: &Curve,
     end: End,
     chosen: bool,
-    matched: bool,
+    matched: Option<bool>,
     viewport: &Viewport,
 ) -> Option<EndFitMarks> {
     let target = curve.targets.get(end);
@@ -84,10 +81,7 @@ pub fn marks(
             .filter(|_| chosen)
             .and_then(|target| OsculatingCircle::of(&target, curve, end))
             .map_or(Vec::new(), |circle| circle.chain(viewport)),
-        matched: difference.filter(|_| matched).map(|difference| {
-            let size = polygon.size();
-            difference.residual(size) <= MET * size
-        }),
+        matched,
         ring: RING * viewport.pixel(),
         terminal: terminal
             .map(|index| viewport.flatten(polygon.vertex(index)))

@@ -14,6 +14,7 @@ pub mod following;
 pub mod harmonising;
 mod jet_weights;
 pub mod joint_correction;
+pub mod near_end;
 mod normal_equations;
 mod objective;
 mod problem;

@@ -1,0 +1,77 @@
+//! One end of a long curve corrected by the vertices near it.
+
+use glam::DVec3;
+
+use super::joint_correction::{CorrectionError, Disturbance, correct_jointly};
+use crate::geometry::end::End;
+use crate::geometry::end_correction::EndTarget;
+use crate::geometry::float_polygon::FloatPolygon;
+
+/// How many vertices are moved at least, the farthest of which are held: a correction has faded there.
+const REACH: usize = 64;
+
+/// How many vertices, in units of the degree, are moved at least.
+const REACH_OF_DEGREE: usize = 4;
+
+/// Whether both ends of a curve can be corrected by vertices of their own.
+pub fn has_ends_apart(polygon: &FloatPolygon) -> bool {
+    polygon.vertices().len() >= 2 * reach(polygon)
+}
+
+/// Bring one end of an open curve that [has its ends apart](has_ends_apart) to a target by moving only
+/// the vertices near it, as [`correct_jointly`] does, except the `locked` ones: in the same time
+/// however long the curve is, and with conditions in the size of what is moved. All beyond keeps
+/// every bit, and the curve its smoothness.
+///
+/// # Errors
+/// As [`correct_jointly`].
+pub fn correct_near_end(
+    polygon: &FloatPolygon,
+    end: End,
+    target: &EndTarget,
+    locked: &[usize],
+) -> Result<FloatPolygon, CorrectionError> {
+    let (count, reach) = (
+        polygon.vertices().len(),
+        reach(polygon).min(polygon.vertices().len()),
+    );
+    let (near, far) = match end {
+        End::Start => (0..reach, reach - polygon.degree()..reach),
+        End::Finish => (
+            count - reach..count,
+            count - reach..count - reach + polygon.degree(),
+        ),
+    };
+    // About the target as origin, so that no digits are lost to where the curve lies.
+    let origin = target.point;
+    let vertices: Vec<DVec3> = near
+        .clone()
+        .map(|index| polygon.vertex(index) - origin)
+        .collect();
+    let weights = near.clone().map(|index| polygon.weight(index)).collect();
+    let weights = Some(weights).filter(|_| polygon.is_rational());
+    let part = FloatPolygon::new(polygon.degree(), vertices, weights, false)?;
+    let target = EndTarget {
+        point: DVec3::ZERO,
+        ..*target
+    };
+    let held = |index: &usize| far.contains(index) || locked.contains(index);
+    let held_here: Vec<usize> = near
+        .clone()
+        .filter(held)
+        .map(|index| index - near.start)
+        .collect();
+    let least = Disturbance::Differences(1);
+    let corrected = correct_jointly(&part, &[(end, target)], least, &held_here)?.polygon;
+    let moves = near.clone().filter(|index| !held(index));
+    let moves: Vec<(usize, DVec3)> = moves
+        .map(|index| (index, origin + corrected.vertex(index - near.start)))
+        .collect();
+    let mut whole = polygon.clone();
+    whole.move_vertices(moves)?;
+    Ok(whole)
+}
+
+fn reach(polygon: &FloatPolygon) -> usize {
+    REACH.max(REACH_OF_DEGREE * polygon.degree())
+}
