@@ -43,6 +43,11 @@ pub fn degrees(radians: f64, decimals: usize) -> String {
     }
 }
 
+/// Write an angle given in radians as degrees with three significant digits, however small it is.
+pub fn small_angle(radians: f64) -> String {
+    significant(radians.to_degrees(), 3) + "°"
+}
+
 /// Write a number so that reading it gives the very same number.
 pub fn exact(value: f64) -> String {
     let magnitude = value.abs();

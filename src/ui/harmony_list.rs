@@ -250,7 +250,6 @@ fn evenness(figures: &HarmonyFigures) -> Vec<Sentence> {
             place: Some(Place::Vertex(figure.vertex)).filter(|_| !is_even),
         })
     };
-    let angle = |value: f64| figures::degrees(value, 2);
     let log = |value: f64| {
         if value.is_finite() {
             format!("log {}", figures::significant(value, 3))
@@ -275,8 +274,8 @@ fn evenness(figures: &HarmonyFigures) -> Vec<Sentence> {
     };
     [
         even("Legs", figures.legs, &log),
-        even("Turning", figures.turns, &angle),
-        even("Torsion", figures.torsions, &angle),
+        even("Turning", figures.turns, &figures::small_angle),
+        even("Torsion", figures.torsions, &figures::small_angle),
         Some(sharpest),
     ]
     .into_iter()

@@ -14,7 +14,7 @@ use super::widgets::IconButton;
 use super::{figures, widgets};
 use crate::editor::{Editor, Trial, told};
 use crate::geometry::features::Verdict;
-use crate::geometry::harmony::{Harmony, Match, VertexFigure};
+use crate::geometry::harmony::{Harmony, Match};
 use crate::geometry::rounded_up;
 use crate::operations::{
     Choice, Deviation, FeatureCounts, Figure, Kind, Limits, Parameter, Report, Unit, Value,
@@ -400,54 +400,61 @@ fn features_ui(ui: &mut Ui, trial: &Trial) {
     let verdicts = |counts: &[FeatureCounts]| joined(counts, |c| verdict(c.monotone).to_owned());
     before_after_ui(ui, "Monotone", &verdicts(before), &verdicts(after));
     for (name, text) in HARMONY {
-        let told = |counts: &[FeatureCounts]| joined(counts, |c| text(&c.harmony));
-        before_after_ui(ui, name, &told(before), &told(after));
+        let has = |counts: &FeatureCounts| text(&counts.harmony).is_some();
+        if before.iter().chain(after).any(has) {
+            let or_none = |text: Option<String>| text.unwrap_or_else(|| "–".to_owned());
+            let told = |counts: &[FeatureCounts]| joined(counts, |c| or_none(text(&c.harmony)));
+            before_after_ui(ui, name, &told(before), &told(after));
+        }
     }
 }
 
-/// A figure of the harmony in a few characters.
-type HarmonyText = fn(&Harmony) -> String;
+/// A figure of the harmony in a few characters; `None` of a curve that has none.
+type HarmonyText = fn(&Harmony) -> Option<String>;
 
 /// The harmony, before and afterwards.
-const HARMONY: [(&str, HarmonyText); 8] = [
-    ("Follows the curve", |harmony| {
-        follows(harmony.curvature.verdict).to_owned()
+const HARMONY: [(&str, HarmonyText); 10] = [
+    ("Discrete κ follows", |harmony| {
+        Some(follows(harmony.curvature.verdict))
+    }),
+    ("Discrete τ follows", |harmony| {
+        Some(follows(harmony.torsion?.verdict))
     }),
     ("Regular to order", |harmony| {
         let regularity = harmony.regularity;
-        format!("{} of {}", regularity.order, regularity.highest)
+        Some(format!("{} of {}", regularity.order, regularity.highest))
     }),
     ("Leg change Δ²", |harmony| {
-        change(harmony.figures.legs, |value| figures::significant(value, 3))
+        Some(figures::significant(harmony.figures.legs?.value, 3))
     }),
     ("Turning change Δ²", |harmony| {
-        change(harmony.figures.turns, |angle| figures::degrees(angle, 3))
+        Some(figures::small_angle(harmony.figures.turns?.value))
+    }),
+    ("Torsion change Δ²", |harmony| {
+        Some(figures::small_angle(harmony.figures.torsions?.value))
     }),
     ("Discrete κ extrema", |harmony| {
-        harmony.figures.curvature_extrema.to_string()
+        Some(harmony.figures.curvature_extrema.to_string())
     }),
     ("Bending energy", |harmony| {
-        energy(harmony.fairness.bending_energy)
+        Some(energy(harmony.fairness.bending_energy))
     }),
-    ("Variation", |harmony| energy(harmony.fairness.variation)),
-    ("Slope α", |harmony| {
-        let longest = harmony.longest_slope();
-        longest.map_or("–".to_owned(), |piece| {
-            figures::significant(piece.slope, 3)
-        })
+    ("Variation", |harmony| {
+        Some(energy(harmony.fairness.variation))
+    }),
+    ("Slope α (longest)", |harmony| {
+        Some(figures::significant(harmony.longest_slope()?.slope, 3))
     }),
 ];
 
-fn follows(verdict: Match) -> &'static str {
+/// Say whether a polygon's extrema and changes of sign are those of its curve.
+fn follows(verdict: Match) -> String {
     match verdict {
         Match::Agrees => "yes",
         Match::Differs(_) => "no",
         Match::Undecided(_) => "undecided",
     }
-}
-
-fn change(figure: Option<VertexFigure>, text: impl Fn(f64) -> String) -> String {
-    figure.map_or("–".to_owned(), |figure| text(figure.value))
+    .to_owned()
 }
 
 /// Write an energy, which is infinite where it is not a number.

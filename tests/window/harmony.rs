@@ -1,7 +1,7 @@
 //! The harmony in the window: strips under the canvas, sentences in the inspector.
 
 use batten::editor::PlotKind;
-use eframe::egui::{Key, Modifiers, vec2};
+use eframe::egui::{Event, Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 
 use crate::hand::*;
@@ -114,4 +114,36 @@ fn strips_are_compared_with_another_curve_that_is_chosen() {
     let shown = window.state().editor().view().plot();
     assert_eq!(shown, Some(PlotKind::Harmony { compared: other }));
     assert!(window.state().editor().view().plots().compared.is_some());
+}
+
+#[test]
+fn an_operation_tells_the_harmony_before_and_afterwards() {
+    let mut window = open_window();
+    choose(&mut window, &["File", "Examples", "Waterline"]);
+    press(&mut window, Modifiers::COMMAND, Key::P);
+    window.event(Event::Text("Round coordinates".to_owned()));
+    window.run();
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    for figure in [
+        "Discrete κ follows",
+        "Regular to order",
+        "Leg change",
+        "Turning change",
+        "Discrete κ extrema",
+        "Bending energy",
+        "Variation",
+        "Slope α",
+    ] {
+        let told = said(&window, figure);
+        assert!(
+            told.contains(" before, ") && told.ends_with(" after"),
+            "{told}"
+        );
+    }
+    assert_eq!(
+        said(&window, "Regular to order"),
+        "Regular to order: 5 of 5 before, 1 of 5 after"
+    );
+    let torsion = window.query_all_by_label_contains("Torsion change").count();
+    assert_eq!(torsion, 0, "a planar curve has none");
 }

@@ -114,6 +114,10 @@ impl Plots {
         if let Some(vertex) = vertex {
             editor.view_mut().hover_vertex(vertex as usize);
         }
+        // The strips are painted already: they mark it in the next frame.
+        if editor.hovered_vertex() != editor.view().plots().hovered_vertex {
+            ui.ctx().request_repaint();
+        }
     }
 }
 
