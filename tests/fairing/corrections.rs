@@ -468,6 +468,13 @@ fn curvature_and_slope_are_met_where_they_can_be() {
                 }
             };
             let size = polygon.size();
+            if trial % 40 == 0 {
+                let slope = unexplained(&polygon, &found.polygon, level, order);
+                assert!(
+                    slope <= STATIONARY,
+                    "trial {trial} order {order}: {slope:e}"
+                );
+            }
             for (end, target) in &targets {
                 let left = EndDifference::between(&found.polygon, *end, target);
                 let placed = EndDifference {
@@ -492,4 +499,114 @@ fn curvature_and_slope_are_met_where_they_can_be() {
         }
     }
     assert!(missed.is_empty(), "{}", missed.join("\n"));
+}
+
+/// How much of the objective's gradient the conditions may leave unexplained, as a share of it:
+/// differences of the conditions leave about the cube root of the rounding squared, times what
+/// third derivatives amplify it by.
+const STATIONARY: f64 = 1e-4;
+
+/// The share of the gradient of the objective at a correction that is no combination of gradients of
+/// what is held at the ends: 0 where what is not asked about moves least.
+fn unexplained(before: &FloatPolygon, after: &FloatPolygon, level: usize, order: usize) -> f64 {
+    let dimensions = if before.is_planar() { 2 } else { 3 };
+    let count = before.vertices().len();
+    let unknowns = count * dimensions;
+    let moves: Vec<DVec3> = before
+        .vertices()
+        .iter()
+        .zip(after.vertices())
+        .map(|(a, b)| *b - *a)
+        .collect();
+    // Differences of differences: the transposed differences have alternating signs.
+    let mut gradient = DVector::zeros(unknowns);
+    let binomial = [
+        [1.0, -1.0, 0.0, 0.0],
+        [1.0, -2.0, 1.0, 0.0],
+        [1.0, -3.0, 3.0, -1.0],
+    ][order - 1];
+    for dimension in 0..dimensions {
+        let value = |index: usize| moves[index][dimension];
+        for index in 0..count {
+            gradient[index * dimensions + dimension] += FIDELITY * value(index);
+        }
+        for first in 0..count.saturating_sub(order) {
+            let difference: f64 = (0..=order).map(|k| binomial[k] * value(first + k)).sum();
+            for k in 0..=order {
+                gradient[(first + k) * dimensions + dimension] += binomial[k] * difference;
+            }
+        }
+    }
+    let held = |polygon: &FloatPolygon| -> Vec<f64> {
+        let ends = End::BOTH.into_iter().flat_map(|end| {
+            let target = target_of(polygon, end, level);
+            let mut numbers = target.point.to_array().to_vec();
+            numbers.extend(target.direction.unwrap_or_default().to_array());
+            numbers.extend(target.curvature);
+            let normal = target.normal.unwrap_or_default();
+            numbers.extend(normal.normalize_or_zero().to_array());
+            numbers.extend(target.slope);
+            numbers
+        });
+        ends.collect()
+    };
+    let step = 1e-5;
+    let columns: Vec<DVector<f64>> = (0..unknowns)
+        .map(|unknown| {
+            let moved = |by: f64| {
+                let (index, axis) = (unknown / dimensions, unknown % dimensions);
+                let mut polygon = after.clone();
+                let mut place = polygon.vertex(index);
+                place[axis] += by;
+                polygon.move_vertices([(index, place)]).expect("in range");
+                DVector::from_vec(held(&polygon))
+            };
+            (moved(step) - moved(-step)) / (2.0 * step)
+        })
+        .collect();
+    let jacobian = DMatrix::from_columns(&columns);
+    let decomposed = jacobian.transpose().svd(true, true);
+    let bases = decomposed.u.expect("vectors");
+    let largest = decomposed.singular_values.max();
+    let mut left = gradient.clone();
+    for (column, size) in bases.column_iter().zip(decomposed.singular_values.iter()) {
+        if *size > 1e-7 * largest {
+            let share = column.dot(&left);
+            left -= share * column;
+        }
+    }
+    left.norm() / gradient.norm()
+}
+
+#[test]
+fn locked_vertices_are_held_by_corrections() {
+    let mut random = Random(22);
+    for trial in 0..100 {
+        let degree = 3 + trial % 6;
+        let in_space = trial % 2 == 0;
+        let polygon = arc(&mut random, degree, 3 * degree, in_space, trial % 3 == 0);
+        let targets = targets_near(&mut random, &polygon, 0.01, 0.03, in_space);
+        let locked = [1, 3 * degree / 2, 3 * degree - 1];
+        let disturbance = match trial % 4 {
+            3 => Disturbance::Harmony,
+            order => Disturbance::Differences(1 + order),
+        };
+        let found = correct_jointly(&polygon, &targets, disturbance, &locked).expect("room");
+        for vertex in locked {
+            assert_eq!(found.polygon.vertex(vertex), polygon.vertex(vertex));
+        }
+        let left = residual(&found.polygon, &targets, polygon.size());
+        assert!(left <= MET * polygon.size(), "trial {trial}: {left:e}");
+    }
+    let arc = regular_polygon(3, 12, 10.0).expect("a valid arc");
+    let targets = targets_near(&mut random, &arc, 0.01, 0.03, false);
+    let all = [0, 1, 2, 3];
+    let refused = correct_jointly(&arc, &targets, Disturbance::Differences(1), &all);
+    assert!(
+        matches!(
+            refused,
+            Err(CorrectionError::NotSolvable { freedoms: 0, .. })
+        ),
+        "{refused:?}"
+    );
 }
