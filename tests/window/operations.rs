@@ -228,3 +228,42 @@ fn a_field_that_is_dragged_is_called_off_by_escape_and_the_panel_stays() {
     click(&mut window, "Cancel");
     assert_eq!(steps(&window), 0);
 }
+
+#[test]
+fn lists_of_numbers_are_typed_and_may_stay_empty() {
+    let (mut window, before) = trying("Harmonise");
+    give(&mut window, "Curvature extrema", "0");
+    give(&mut window, "Inflections", "0");
+    window.get_by_label("Extrema asked for: 0");
+    assert!(
+        window.state().editor().is_trying(),
+        "Enter belongs to the field"
+    );
+    let harmonised = polygon(&window);
+    assert_ne!(harmonised, before.polygon);
+    give(&mut window, "Inflections", "x");
+    window.get_by_label_contains("Inflections: a whole number is needed");
+    assert_eq!(polygon(&window), harmonised);
+    // Esc leaves the field as it was, and only then the panel.
+    click(&mut window, "Inflections");
+    type_over(&mut window, "3");
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(window.state().editor().is_trying());
+    assert_eq!(polygon(&window), harmonised);
+    click(&mut window, "Apply");
+    assert_eq!(steps(&window), 1);
+    assert_eq!(polygon(&window), harmonised);
+}
+
+#[test]
+fn many_options_are_a_list_that_opens() {
+    let (mut window, _) = trying("Harmonise");
+    window.get_by_label("Keep ends");
+    window.get_by_label("Keep ends").click();
+    window.run();
+    click(&mut window, "Slope");
+    let editor = window.state().editor();
+    let trial = editor.trial().expect("it is tried out");
+    let keep = trial.values().get(&trial.operation().parameters[0]);
+    assert_eq!(*keep, batten::operations::Value::Choice(4));
+}
