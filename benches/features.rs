@@ -5,8 +5,11 @@ mod wavy;
 use std::hint::black_box;
 use std::time::Duration;
 
-use batten::geometry::features::{Features, SegmentProver};
+use batten::geometry::Progress;
+use batten::geometry::features::{Features, Quantity, SegmentFeatures, SegmentProver};
+use batten::geometry::vertex_moves::{LossSearch, MoveProver, RegionSearch};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use glam::DVec3;
 use wavy::wavy;
 
 /// Vertices of the curves that are put together.
@@ -62,5 +65,52 @@ fn assembly(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, segments, assembly);
+/// What a drag that keeps features and its guides take: 60 vertices, degree 9.
+fn moves(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("moves of a vertex");
+    group
+        .measurement_time(Duration::from_secs(3))
+        .warm_up_time(Duration::from_millis(500))
+        .sample_size(10);
+    let nobody = Progress::default();
+    for (name, rational) in [("polynomial", false), ("rational", true)] {
+        let polygon = wavy(60, 9, 0.0, rational);
+        let proved = SegmentFeatures::of_curve(&polygon, &nobody).unwrap_or_default();
+        let vertex = 30;
+        let mut prover = MoveProver::new(&polygon, &proved, vec![vertex]).expect("a vertex");
+        let place = polygon.vertices()[vertex] + DVec3::new(0.01, 0.02, 0.0);
+        group.bench_function(BenchmarkId::new("one place", name), |bencher| {
+            bencher.iter(|| prover.rise(black_box(&[place])));
+        });
+        let search = |levels: usize| {
+            let proved = SegmentFeatures::of_curve(&polygon, &nobody).unwrap_or_default();
+            let search = RegionSearch::new(black_box(&polygon), &proved, vertex);
+            let mut search = search.expect("a planar curve");
+            for _ in 0..levels {
+                search.refine(&nobody);
+            }
+            search
+        };
+        group.bench_function(BenchmarkId::new("first outline", name), |bencher| {
+            bencher.iter(|| search(1));
+        });
+        group.bench_function(BenchmarkId::new("finest outline", name), |bencher| {
+            bencher.iter(|| search(4));
+        });
+        let features = Features::assemble(&polygon, &proved);
+        let extremum = &features.curvature_extrema[features.curvature_extrema.len() / 2];
+        let losses = LossSearch {
+            polygon: &polygon,
+            proved: &proved,
+            quantity: Quantity::CurvatureExtremum,
+            u: 0.5 * (extremum.u[0] + extremum.u[1]),
+        };
+        group.bench_function(BenchmarkId::new("losing an extremum", name), |bencher| {
+            bencher.iter(|| black_box(&losses).run(&nobody));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, segments, assembly, moves);
 criterion_main!(benches);

@@ -100,7 +100,7 @@ impl CurveAnalysis {
             *self = Self::new(curve.clone());
             return;
         }
-        for segments in dependent_segments(new, &changed) {
+        for segments in new.dependent_segments(&changed) {
             self.redone += segments.len();
             self.samples.redo(new, segments.clone());
             self.features.forget(segments);

@@ -1,6 +1,6 @@
 //! The float polygon: control vertices on uniform, unclamped knots.
 
-use std::ops::Deref;
+use std::ops::{Deref, Range};
 
 use glam::{DVec3, DVec4};
 
@@ -69,6 +69,26 @@ impl FloatPolygon {
             self.vertices.len()
         } else {
             self.vertices.len() - self.degree
+        }
+    }
+
+    /// List the segments that depend on the vertices of a range: one range, or two where a periodic
+    /// curve's segments wrap around.
+    pub fn dependent_segments(&self, changed: &Range<usize>) -> Vec<Range<usize>> {
+        let (degree, segments) = (self.degree, self.segments());
+        if !self.periodic {
+            let first = changed.start.saturating_sub(degree);
+            return vec![first..changed.end.min(segments)];
+        }
+        if changed.len() + degree >= segments {
+            return vec![0..segments];
+        }
+        match changed.start.checked_sub(degree) {
+            Some(first) => vec![first..changed.end],
+            None => {
+                let wrapped = changed.start + segments - degree;
+                vec![0..changed.end, wrapped..segments]
+            }
         }
     }
 

@@ -36,6 +36,7 @@ mod quadrature;
 mod sampler;
 mod tables;
 mod vector;
+pub mod vertex_moves;
 mod wording;
 
 pub use bezier_polygon::{BezierPolygon, segment_bezier};

@@ -17,6 +17,7 @@ use super::variations::certain_sign;
 use super::whole_numbers::fraction;
 use crate::geometry::expansion::DoubleDouble;
 use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::progress::Progress;
 
 /// Hold what is proved of one segment, its two ends included as far as they can be seen from
 /// this side. It depends on the segment's n + 1 vertices and weights alone, so it stays valid
@@ -58,6 +59,19 @@ pub struct SegmentProver {
     planar: bool,
     quick: Arena<f64>,
     precise: Arena<DoubleDouble>,
+}
+
+impl SegmentFeatures {
+    /// Prove the features of every segment of a curve; `None` if `progress` is cancelled meanwhile.
+    pub fn of_curve(polygon: &FloatPolygon, progress: &Progress) -> Option<Vec<Self>> {
+        let mut prover = SegmentProver::new(polygon.is_planar());
+        let segments = 0..polygon.segments();
+        let prove = |segment| {
+            let wanted = !progress.is_cancelled();
+            wanted.then(|| prover.segment(polygon, segment))
+        };
+        segments.map(prove).collect()
+    }
 }
 
 impl SegmentProver {

@@ -1,0 +1,168 @@
+//! The region where a vertex may go without adding a curvature extremum or an inflection.
+
+use std::f64::consts::TAU;
+
+use glam::{DVec2, DVec3};
+
+use super::feature_rise::FeatureRise;
+use super::move_prover::MoveError;
+use super::ray::RayProver;
+use crate::geometry::Progress;
+use crate::geometry::features::SegmentFeatures;
+use crate::geometry::float_polygon::FloatPolygon;
+
+/// The numbers of rays, from coarse to fine.
+const RAYS: [usize; 4] = [12, 24, 48, 96];
+
+/// The even steps in which each ray is tried, from coarse to fine.
+const STEPS: [usize; 4] = [4, 6, 8, 12];
+
+/// Hold the region in which a vertex of a planar curve may be without adding a curvature extremum,
+/// an inflection, a cusp, or anything undecided.
+///
+/// On each of its rays every place that was tried up to its border is proved to be safe, and that
+/// just beyond is proved not to be; they are no further apart than [`super::PRECISION`] of the border's
+/// distance. Between the places that were tried, and so between the rays, the region is a guide.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SafeRegion {
+    /// The vertex.
+    pub vertex: usize,
+    /// Where the vertex is.
+    pub centre: DVec3,
+    /// How far rays are followed: [`super::reach`].
+    pub limit: f64,
+    /// The borders on the rays, whose directions are evenly spaced and begin along the x axis.
+    pub rays: Vec<RayBorder>,
+}
+
+/// Hold how far a vertex may go along a ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RayBorder {
+    /// The direction, of length 1.
+    pub direction: DVec2,
+    /// The greatest distance proved to be safe before the border, or before the limit.
+    pub safe: f64,
+    /// The least distance proved not to be safe, and what is added there; `None` if the border lies
+    /// beyond the limit.
+    pub beyond: Option<(f64, FeatureRise)>,
+}
+
+/// Search for a safe region, from coarse to fine.
+#[derive(Debug)]
+pub struct RegionSearch {
+    prover: RayProver,
+    region: SafeRegion,
+    /// How many levels are done.
+    level: usize,
+}
+
+impl SafeRegion {
+    /// List the corners of the outline, one a ray.
+    pub fn outline(&self) -> impl Iterator<Item = DVec2> + '_ {
+        let centre = self.centre.truncate();
+        self.rays
+            .iter()
+            .map(move |ray| centre + ray.safe * ray.direction)
+    }
+}
+
+impl RegionSearch {
+    /// Prepare for a vertex. `proved` are the features of all segments of the curve.
+    ///
+    /// # Errors
+    /// [`MoveError`] if the curve is not planar, if features of it are undecided, or if there is no
+    /// such vertex.
+    pub fn new(
+        polygon: &FloatPolygon,
+        proved: &[SegmentFeatures],
+        vertex: usize,
+    ) -> Result<Self, MoveError> {
+        let prover = RayProver::new(polygon, proved, vertex)?;
+        let region = SafeRegion {
+            vertex,
+            centre: prover.centre,
+            limit: prover.limit,
+            rays: Vec::new(),
+        };
+        Ok(Self {
+            prover,
+            region,
+            level: 0,
+        })
+    }
+
+    /// The region as far as it is known: without rays before the first level.
+    pub fn region(&self) -> &SafeRegion {
+        &self.region
+    }
+
+    /// Whether there is a finer level.
+    pub fn is_done(&self) -> bool {
+        self.level == RAYS.len() || self.prover.limit == 0.0
+    }
+
+    /// Find the borders of the next level: twice as many rays, each tried in shorter steps.
+    /// Nothing changes if it is cancelled meanwhile. Returns whether the level is done.
+    pub fn refine(&mut self, progress: &Progress) -> bool {
+        if self.is_done() {
+            return true;
+        }
+        let (count, steps) = (RAYS[self.level], STEPS[self.level]);
+        let mut rays = Vec::with_capacity(count);
+        for ray in 0..count {
+            let direction = DVec2::from_angle(TAU * ray as f64 / count as f64);
+            let Some(border) = self.border(direction, steps, progress) else {
+                return false;
+            };
+            rays.push(border);
+            progress.set_done(rays.len() as f64 / count as f64);
+        }
+        self.region.rays = rays;
+        self.level += 1;
+        true
+    }
+
+    /// Find the border on one ray; `None` if the search is cancelled.
+    fn border(&mut self, direction: DVec2, steps: usize, progress: &Progress) -> Option<RayBorder> {
+        let limit = self.prover.limit;
+        let mut border = RayBorder {
+            direction,
+            safe: 0.0,
+            beyond: None,
+        };
+        for distance in self.prover.tries(direction, limit, steps) {
+            self.try_at(&mut border, distance, progress)?;
+            if border.beyond.is_some() {
+                break;
+            }
+        }
+        while let Some((fails, _)) = border.beyond
+            && let Some(distance) = self.prover.between(border.safe, fails)
+        {
+            self.try_at(&mut border, distance, progress)?;
+        }
+        Some(border)
+    }
+
+    /// Prove what is added at a distance along a ray, and move the border there on the side that it
+    /// is of; `None` if the search is cancelled.
+    fn try_at(&mut self, border: &mut RayBorder, distance: f64, progress: &Progress) -> Option<()> {
+        if progress.is_cancelled() {
+            return None;
+        }
+        let undecided = FeatureRise {
+            undecided: 1,
+            ..FeatureRise::default()
+        };
+        let after = self.prover.features(border.direction, distance);
+        let rise = after.map_or(undecided, |after| {
+            FeatureRise::between(self.prover.before(), &after)
+        });
+        if rise.is_none() {
+            border.safe = distance;
+        } else {
+            border.beyond = Some((distance, rise));
+        }
+        Some(())
+    }
+}
