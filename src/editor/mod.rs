@@ -3,6 +3,7 @@
 
 mod commands;
 mod files;
+mod guides;
 mod hand;
 mod measuring;
 mod operating;
@@ -30,15 +31,16 @@ pub use report::{CurveReport, Export, Readout};
 pub use trial::{Run, Trial};
 pub use view::{
     Bounds, ChainOutlines, CombSettings, CurveOutlines, CurveScene, EndFitMarks, FeatureKind,
-    FeatureMark, FeatureReport, FeatureRow, GAP, HoverScene, Layer, Layers, Mark, NamedView,
-    Orientation, PieceTrend, PlotKind, PlotScene, REACH, Scene, VertexMark, View, ViewBox,
-    Viewport, grid_steps,
+    FeatureMark, FeatureReport, FeatureRow, GAP, GuideLabel, GuideScene, HoverScene, Layer, Layers,
+    LossArrow, Mark, NamedView, Orientation, PieceTrend, PlotKind, PlotScene, REACH, Scene,
+    VertexMark, View, ViewBox, Viewport, grid_steps,
 };
 pub use worker::{Outcome, Worker};
 pub use workspace::{Interruption, PreviewId, Workspace};
 
 use crate::analysis::AnalysisCache;
 use crate::document::{CurveId, Document, Edit, quoted};
+use guides::Guides;
 use hand::gesture::Gesture;
 use hand::tools::Tools;
 use measuring::Measuring;
@@ -57,6 +59,7 @@ pub struct Editor {
     patience: Patience,
     proving: Proving,
     measuring: Measuring,
+    guides: Guides,
     message: Option<Message>,
 }
 
@@ -86,6 +89,7 @@ impl Editor {
         self.patience = Patience::new(patience);
         self.proving = Proving::background(wake.clone());
         self.measuring = Measuring::background(wake.clone());
+        self.guides = Guides::background(wake.clone());
         self.operations = Operations::background(wake);
     }
 

@@ -8,6 +8,7 @@ use glam::DVec2;
 
 use super::brush::Brush;
 use super::chains::Screen;
+use super::keyboard::Steering;
 use super::theme::Tokens;
 use super::{gizmo, grid, keyboard, painting};
 use crate::editor::{Button, Cursor, Editor, Input, Key, Layer, Modifiers};
@@ -28,6 +29,8 @@ pub struct Canvas {
     space: bool,
     /// The axis whose key is held.
     axis: Option<usize>,
+    /// Whether the key is held that turns round whether features are kept.
+    keeping: bool,
     /// The modifiers the editor knows of.
     modifiers: Modifiers,
     /// Whether the last wheel event came from fingers on a touchpad: they push, wheels zoom.
@@ -62,9 +65,12 @@ impl Canvas {
     }
 
     fn send_event(&mut self, context: &Context, editor: &mut Editor, rect: Rect, event: &Event) {
-        if let Some((axis, pressed)) = keyboard::axis_of(event) {
+        if let Some((steering, pressed)) = keyboard::steering(event) {
             let mine = editor.hand().is_holding() || self.has_keyboard(context);
-            self.hold_axis(editor, axis, pressed && mine);
+            match steering {
+                Steering::Axis(axis) => self.hold_axis(editor, axis, pressed && mine),
+                Steering::Features => self.hold_keeping(editor, pressed && mine),
+            }
         }
         match event {
             Event::PointerMoved(pos) => self.moved(context, editor, rect, *pos),
@@ -102,6 +108,7 @@ impl Canvas {
                 if let Some(axis) = self.axis {
                     self.hold_axis(editor, axis, false);
                 }
+                self.hold_keeping(editor, false);
             }
             _ => {}
         }
@@ -207,6 +214,13 @@ impl Canvas {
         if held != self.space {
             self.space = held;
             editor.input(Input::SpaceHeld(held));
+        }
+    }
+
+    fn hold_keeping(&mut self, editor: &mut Editor, held: bool) {
+        if held != self.keeping {
+            self.keeping = held;
+            editor.input(Input::KeepingHeld(held));
         }
     }
 

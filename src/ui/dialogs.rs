@@ -83,7 +83,7 @@ fn unsaved_ui(ui: &mut Ui, after: &AfterDiscard, editor: &Editor) -> Option<Deci
 }
 
 /// What the mouse does, beside the keys that the table of commands lists.
-const MOUSE: [(&str, &str); 20] = [
+const MOUSE: [(&str, &str); 21] = [
     ("Wheel, pinch", "Zoom to the pointer"),
     ("Middle button, Space and drag", "Pan"),
     ("Right button and drag", "Turn the view"),
@@ -97,6 +97,7 @@ const MOUSE: [(&str, &str); 20] = [
     ),
     ("X, Y, Z while dragging", "Keep to an axis of the model"),
     ("Ctrl while dragging", "Snapping the other way"),
+    ("K while dragging", "Keeping features the other way"),
     ("Alt", "Show the state before the drag"),
     ("Arrows, Shift and arrows", "Nudge, ten times as far"),
     ("Tab", "Next of what lies at the pointer"),

@@ -41,22 +41,23 @@ pub fn feature_list_ui(ui: &mut Ui, editor: &mut Editor) {
         None => proving_ui(ui, editor),
     });
     let chosen = ui.scope_builder(in_place(list), |ui| {
-        report.and_then(|report| rows_ui(ui, report))
+        report.and_then(|report| rows_ui(ui, report, editor.chosen_feature()))
     });
     if let Some(u) = chosen.inner {
+        editor.choose_feature(u);
         editor.go_to(u);
     }
 }
 
 /// Show the features; returns the parameter of the one that is chosen.
-fn rows_ui(ui: &mut Ui, report: &FeatureReport) -> Option<f64> {
+fn rows_ui(ui: &mut Ui, report: &FeatureReport, own: Option<f64>) -> Option<f64> {
     let area = ScrollArea::vertical()
         .id_salt("features")
         .auto_shrink([false, false]);
     let mut chosen = None;
     area.show_rows(ui, ROW, report.rows.len(), |ui, range| {
         for row in report.rows.get(range).unwrap_or_default() {
-            if row_ui(ui, row).clicked() {
+            if row_ui(ui, row, own == Some(row.middle)).clicked() {
                 chosen = Some(row.middle);
             }
         }
@@ -159,10 +160,12 @@ fn short_name(kind: FeatureKind) -> &'static str {
     }
 }
 
-fn row_ui(ui: &mut Ui, row: &FeatureRow) -> Response {
+fn row_ui(ui: &mut Ui, row: &FeatureRow, is_chosen: bool) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
     let tokens = Tokens::of(ui);
-    if response.hovered() {
+    if is_chosen {
+        ui.painter().rect_filled(rect, RADIUS, tokens.selection);
+    } else if response.hovered() {
         ui.painter().rect_filled(rect, RADIUS, tokens.button[0]);
     }
     if response.has_focus() {
@@ -200,7 +203,7 @@ fn row_ui(ui: &mut Ui, row: &FeatureRow) -> Response {
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{name} at {u}")));
     let width = figures::significant(high - low, 2);
     response.on_hover_text(format!(
-        "{}\nu from {low}\nto {high}\n{width} wide. Click to go there.",
+        "{}\nu from {low}\nto {high}\n{width} wide. Click to go there and to see the shortest moves found that lose it.",
         row.kind.label()
     ))
 }

@@ -33,6 +33,7 @@ pub fn of_layer(layer: Layer) -> Icon {
         Layer::Targets => Icon::Goal,
         Layer::Grid => Icon::Grid3x3,
         Layer::Features => Icon::BadgeCheck,
+        Layer::SafeRegion => Icon::ShieldCheck,
     }
 }
 
@@ -75,6 +76,7 @@ fn of_command(command: Command) -> Option<Icon> {
         Command::ToggleSnapping => Icon::Magnet,
         Command::Follow(Follow::InHarmony) => Icon::Waves,
         Command::Follow(Follow::Softly) => Icon::Blend,
+        Command::ToggleKeeping => Icon::ShieldCheck,
         Command::ToggleLayer(layer) => of_layer(layer),
         Command::Tool(tool) => of_tool(tool),
         _ => return None,

@@ -136,12 +136,12 @@ pub enum Asked {
 
 /// Turns keys into commands.
 ///
-/// A key that may steer a drag along an axis stands for its command when it is released, unless
-/// the pointer was pressed meanwhile.
+/// A key that may steer a drag stands for its command when it is released, unless the pointer was
+/// pressed meanwhile.
 #[derive(Debug, Default)]
 pub struct Keyboard {
-    /// The axis whose key is held, and the command that waits for its release.
-    waiting: Option<(usize, Action)>,
+    /// What the key that is held steers, and the command that waits for its release.
+    waiting: Option<(Steering, Action)>,
 }
 
 impl Keyboard {
@@ -169,10 +169,10 @@ impl Keyboard {
             input.events.retain(|event| {
                 asked.extend(self.released(event));
                 let found = command_of(event, &table, typing);
-                match (found, axis_of(event)) {
+                match (found, steering(event)) {
                     (None, _) => true,
-                    (Some(Asked::Action(command)), Some((axis, _))) => {
-                        self.waiting = (!holding).then_some((axis, command));
+                    (Some(Asked::Action(command)), Some((steering, _))) => {
+                        self.waiting = (!holding).then_some((steering, command));
                         true
                     }
                     (Some(found), _) => {
@@ -193,7 +193,7 @@ impl Keyboard {
                 self.waiting = None;
                 None
             }
-            _ if axis_of(event) == Some((waiting, false)) => {
+            _ if steering(event) == Some((waiting, false)) => {
                 self.waiting = None;
                 Some(Asked::Action(command))
             }
@@ -202,8 +202,17 @@ impl Keyboard {
     }
 }
 
-/// The axis of the model (0 x, 1 y, 2 z) whose key an event is about, and whether it is held.
-pub fn axis_of(event: &Event) -> Option<(usize, bool)> {
+/// What a key does to a drag while it is held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Steering {
+    /// It keeps the drag to an axis of the model: 0 x, 1 y, 2 z.
+    Axis(usize),
+    /// It turns round whether features are kept.
+    Features,
+}
+
+/// What the key that an event is about does to a drag, and whether it is held.
+pub fn steering(event: &Event) -> Option<(Steering, bool)> {
     let Event::Key {
         key,
         pressed,
@@ -216,9 +225,14 @@ pub fn axis_of(event: &Event) -> Option<(usize, bool)> {
     if *pressed && modifiers.command {
         return None;
     }
-    let axes = [egui::Key::X, egui::Key::Y, egui::Key::Z];
-    let axis = axes.iter().position(|axis| axis == key)?;
-    Some((axis, *pressed))
+    let steering = match key {
+        egui::Key::X => Steering::Axis(0),
+        egui::Key::Y => Steering::Axis(1),
+        egui::Key::Z => Steering::Axis(2),
+        egui::Key::K => Steering::Features,
+        _ => return None,
+    };
+    Some((steering, *pressed))
 }
 
 fn command_of(event: &Event, table: &[(Shortcut, Action)], typing: Typing) -> Option<Asked> {

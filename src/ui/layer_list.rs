@@ -34,6 +34,7 @@ fn colour(tokens: &Tokens, layer: Layer) -> Color32 {
         Layer::Targets => tokens.target,
         Layer::Grid => tokens.joints,
         Layer::Features => tokens.rising,
+        Layer::SafeRegion => tokens.good,
     }
 }
 

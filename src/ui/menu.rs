@@ -88,6 +88,7 @@ fn menus() -> [(&'static str, Vec<Entry>); 6] {
         command(Command::ToggleSnapping),
         command(Command::Follow(Follow::InHarmony)),
         command(Command::Follow(Follow::Softly)),
+        command(Command::ToggleKeeping),
     ];
     let mut curve = vec![
         command(Command::Duplicate),

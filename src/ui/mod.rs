@@ -24,6 +24,7 @@ mod file_dialogs;
 mod gizmo;
 mod grid;
 mod harmony_list;
+mod guides;
 mod icons;
 mod inspector;
 mod key_order;

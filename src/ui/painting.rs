@@ -9,7 +9,7 @@ use glam::DVec2;
 
 use super::brush::Brush;
 use super::theme;
-use super::{end_marks, feature_marks, labels};
+use super::{end_marks, feature_marks, guides, labels};
 use crate::editor::{CurveScene, HoverScene, Mark, Scene, VertexMark};
 
 /// Half the length of the tick across a joint, in points.
@@ -52,6 +52,7 @@ pub fn paint(brush: &Brush<'_>, scene: &Scene) {
     for marks in &scene.ends {
         end_marks::paint(brush, marks);
     }
+    guides::paint(brush, &scene.guides);
 }
 
 /// Paint what belongs to the hand: marks of the tool and what is hovered.

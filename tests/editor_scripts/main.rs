@@ -14,6 +14,8 @@ mod features;
 mod files;
 mod following;
 mod harmony;
+mod guides;
+mod keeping;
 mod laws;
 mod locking;
 mod matching;

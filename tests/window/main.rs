@@ -404,3 +404,43 @@ fn nothing_is_painted_anew_when_nothing_happens() {
     let steps = window.run();
     assert!(steps <= 2, "{steps} frames for nothing");
 }
+
+#[test]
+fn the_key_that_keeps_features_steers_a_drag_and_is_a_switch_otherwise() {
+    let mut window = open_window();
+    let keeps = |window: &Window| window.state().editor().hand().keeps_features();
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    window.key_down(Key::K);
+    window.run();
+    assert!(keeps(&window));
+    let before = curve(&window);
+    let from = vertex(&window, 4);
+    drag(&mut window, from, from + vec2(120.0, 90.0));
+    let extrema = |curve: &batten::document::Curve| {
+        let features = batten::geometry::features::Features::new(&curve.polygon);
+        features.curvature_extrema.len() + features.inflections.len()
+    };
+    assert!(extrema(&curve(&window)) <= extrema(&before));
+    window.key_up(Key::K);
+    window.run();
+    assert!(!keeps(&window), "the drag took the key");
+    press(&mut window, Modifiers::NONE, Key::K);
+    assert!(keeps(&window));
+    press(&mut window, Modifiers::NONE, Key::K);
+    assert!(!keeps(&window));
+}
+
+#[test]
+fn choosing_a_feature_in_the_list_shows_how_to_lose_it() {
+    let mut window = open_window();
+    choose(&mut window, &["File", "Examples", "Bottle"]);
+    let row = window
+        .query_all_by_label_contains("κ maximum at")
+        .next()
+        .expect("a row");
+    row.click();
+    window.run();
+    assert!(window.state().editor().chosen_feature().is_some());
+    let guides = &window.state().editor().view().scene().guides;
+    assert!(!guides.arrows.is_empty(), "{:?}", guides.labels);
+}

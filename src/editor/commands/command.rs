@@ -52,6 +52,8 @@ pub enum Command {
     ToggleSnapping,
     /// Let the neighbours of dragged vertices follow, or not.
     Follow(Follow),
+    /// Let no drag add a feature, or let drags be free.
+    ToggleKeeping,
     /// Take a tool into the hand.
     Tool(ToolKind),
 }
@@ -105,6 +107,7 @@ impl Command {
                 | Self::ToggleLayer(_)
                 | Self::ToggleSnapping
                 | Self::Follow(_)
+                | Self::ToggleKeeping
         )
     }
 
@@ -128,7 +131,7 @@ impl Command {
         all.extend(NamedView::ALL.map(Self::View));
         all.push(Self::ResetComb);
         all.extend(Layer::ALL.map(Self::ToggleLayer));
-        all.push(Self::ToggleSnapping);
+        all.extend([Self::ToggleSnapping, Self::ToggleKeeping]);
         all.extend(Follow::ALL.map(Self::Follow));
         all.extend(ToolKind::ALL.map(Self::Tool));
         all
@@ -160,6 +163,7 @@ impl Command {
             Self::ToggleLayer(layer) => layer.label(),
             Self::ToggleSnapping => "Snapping",
             Self::Follow(follow) => follow.label(),
+            Self::ToggleKeeping => "Keep features while dragging",
             Self::Tool(tool) => tool.label(),
         };
         label.to_owned()
@@ -190,11 +194,17 @@ impl Command {
             Self::ZoomOut => "Show more, smaller",
             Self::View(_) => "See the model from this side; drag with the right button to orbit",
             Self::ResetComb => "Give the curvature comb a legible scale",
+            Self::ToggleLayer(Layer::SafeRegion) => {
+                "Show or hide where the selected vertex may go without adding a curvature extremum or an inflection"
+            }
             Self::ToggleLayer(_) => "Show or hide this layer",
             Self::ToggleSnapping => {
                 "Let dragged points snap to the grid, to vertices and to targets"
             }
             Self::Follow(follow) => follow.tooltip(),
+            Self::ToggleKeeping => {
+                "Let no drag add a curvature extremum or an inflection: every place is proved"
+            }
             Self::Tool(tool) => tool.tooltip(),
         };
         tooltip.to_owned()
@@ -226,6 +236,7 @@ impl Command {
             Self::ToggleSnapping => plain(Key::Character('g')),
             Self::Follow(Follow::InHarmony) => plain(Key::Character('n')),
             Self::Follow(Follow::Softly) => plain(Key::Character('j')),
+            Self::ToggleKeeping => plain(Key::Character('k')),
             Self::Tool(tool) => plain(Key::Character(tool.letter())),
             _ => None,
         }

@@ -73,6 +73,7 @@ impl Editor {
             Command::ToggleLayer(layer) => Some(self.layers().shows(layer)),
             Command::ToggleSnapping => Some(self.hand.snapping),
             Command::Follow(follow) => Some(self.hand.following.follow == Some(follow)),
+            Command::ToggleKeeping => Some(self.hand.keeps),
             Command::Tool(tool) => Some(self.hand.tool() == tool),
             Command::View(view) => Some(self.view.viewport.orientation == view.orientation()),
             Command::ToggleVerticesLocked => Some(self.is_selection_locked()),
@@ -166,6 +167,7 @@ impl Editor {
             Command::ToggleLayer(layer) => self.toggle_layer(layer),
             Command::ToggleSnapping => self.hand.snapping = !self.hand.snapping,
             Command::Follow(follow) => self.hand.following.toggle(follow),
+            Command::ToggleKeeping => self.hand.keeps = !self.hand.keeps,
             _ => {}
         }
     }

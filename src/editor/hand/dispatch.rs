@@ -1,5 +1,8 @@
 //! From inputs to gestures, to the tool in the hand, and from its effects to the document.
 
+use std::sync::Arc;
+
+use crate::document::{Curve, CurveId, Edit};
 use crate::editor::Editor;
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::{Input, Key};
@@ -24,6 +27,9 @@ impl Editor {
         }
         if let Input::AxisHeld(axis) = input {
             self.hand.axis = axis;
+        }
+        if let Input::KeepingHeld(held) = input {
+            self.hand.keeping_held = held;
         }
         let field = self.workspace.interruption() == Some(Interruption::Commits);
         match input {
@@ -71,7 +77,29 @@ impl Editor {
         if self.is_trying() && !self.hand.is_dragging() {
             return "Change the values in the panel; Enter applies, Esc cancels".into();
         }
-        self.hand.tools.used().hint(&self.context())
+        let hint = self.hand.tools.used().hint(&self.context());
+        if !self.hand.is_dragging() || !self.hand.keeps_features() {
+            return hint;
+        }
+        match self.hand.keeping.held_back() {
+            Some(reason) => format!("Held at the last place proved to add nothing; {reason}"),
+            None => format!("Keeping features; {hint}"),
+        }
+    }
+
+    /// Change the edits of a drag so that it adds no feature, if features are kept.
+    fn kept(&mut self, edits: Vec<Edit>) -> Vec<Edit> {
+        if !self.hand.keeps_features() || self.workspace.preview().is_none() {
+            return edits;
+        }
+        let analyses = &self.analyses;
+        let proved = |id: CurveId, curve: &Arc<Curve>| {
+            let analysis = analyses.get(id)?;
+            let known = analysis.proved_segments()?;
+            Arc::ptr_eq(analysis.curve(), curve).then(|| known.to_vec())
+        };
+        let settled = self.workspace.settled();
+        self.hand.keeping.keep(edits, settled, proved)
     }
 
     /// The shape of the pointer while it rests here.
@@ -150,13 +178,21 @@ impl Editor {
     fn take_effect(&mut self, effect: Effect, repeats: bool, step: &mut Step) {
         match effect {
             Effect::Begin(label) => {
+                self.hand.keeping.end();
                 self.workspace.begin(&label, Interruption::Aborts);
             }
-            Effect::Preview(edits) => self.update(edits),
+            Effect::Preview(edits) => {
+                let edits = self.kept(edits);
+                self.update(edits);
+            }
             Effect::Commit => {
+                self.hand.keeping.end();
                 self.workspace.commit();
             }
-            Effect::Abort => self.workspace.abort(),
+            Effect::Abort => {
+                self.hand.keeping.end();
+                self.workspace.abort();
+            }
             Effect::Apply(label, edits) => {
                 let reply = self.make(&label, edits, repeats);
                 *step = match self.tell(reply) {
@@ -168,6 +204,7 @@ impl Editor {
             Effect::SelectMore(vertices) => self.hand.selection.add(vertices),
             Effect::ToggleSelected(vertex) => self.hand.selection.toggle(vertex),
             Effect::Activate(curve) => self.hand.selection.activate(curve),
+            Effect::Choose(u) => self.choose_feature(u),
             Effect::Look(Look::FitAll) => self.fit_all(),
             Effect::Look(Look::Comb(comb)) => self.view.set_comb(comb),
             Effect::Say(text) if self.workspace.preview().is_some() => {

@@ -127,11 +127,13 @@ impl GestureMachine {
                 self.space = held;
                 Vec::new()
             }
-            Input::Modifiers(_) | Input::AxisHeld(_) => match (self.state, self.pointer) {
-                // A constraint came or went: the drag is seen anew under the resting pointer.
-                (State::Dragging, Some(at)) => vec![Gesture::Drag(at)],
-                _ => Vec::new(),
-            },
+            Input::Modifiers(_) | Input::AxisHeld(_) | Input::KeepingHeld(_) => {
+                match (self.state, self.pointer) {
+                    // A constraint came or went: the drag is seen anew under the resting pointer.
+                    (State::Dragging, Some(at)) => vec![Gesture::Drag(at)],
+                    _ => Vec::new(),
+                }
+            }
         }
     }
 

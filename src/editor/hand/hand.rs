@@ -4,6 +4,7 @@ use crate::editor::hand::cycle::Cycle;
 use crate::editor::hand::following::Following;
 use crate::editor::hand::gesture::GestureMachine;
 use crate::editor::hand::input::Modifiers;
+use crate::editor::hand::keeping::Keeping;
 use crate::editor::hand::selection::Selection;
 use crate::editor::hand::tools::{ToolKind, Tools};
 
@@ -19,6 +20,11 @@ pub struct Hand {
     pub(in crate::editor) snapping: bool,
     pub(in crate::editor) cycle: Cycle,
     pub(in crate::editor) following: Following,
+    /// Whether features are kept while dragging.
+    pub(in crate::editor) keeps: bool,
+    /// Whether the key is held that turns that round.
+    pub(in crate::editor) keeping_held: bool,
+    pub(in crate::editor) keeping: Keeping,
 }
 
 impl Hand {
@@ -46,6 +52,11 @@ impl Hand {
     pub fn turns_following(&self) -> bool {
         let selects = self.tool() == ToolKind::Select;
         selects && self.is_dragging() && self.following.follow.is_some()
+    }
+
+    /// Whether a drag keeps features: it adds no curvature extremum and no inflection.
+    pub fn keeps_features(&self) -> bool {
+        self.keeps != self.keeping_held
     }
 
     /// Whether a drag is going on.

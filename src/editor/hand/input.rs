@@ -131,6 +131,8 @@ pub enum Input {
     SpaceHeld(bool),
     /// The key of an axis of the model (0 x, 1 y, 2 z) went down, or none is held any more.
     AxisHeld(Option<usize>),
+    /// The key that turns round whether features are kept while dragging went down or up.
+    KeepingHeld(bool),
     /// The modifier keys that are held have changed.
     Modifiers(Modifiers),
 }

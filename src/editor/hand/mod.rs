@@ -9,6 +9,7 @@ pub(in crate::editor) mod gesture;
 #[allow(clippy::module_inception)]
 mod hand;
 pub(in crate::editor) mod input;
+mod keeping;
 pub(in crate::editor) mod selection;
 pub(in crate::editor) mod snapping;
 pub(in crate::editor) mod tools;

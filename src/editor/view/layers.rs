@@ -19,11 +19,13 @@ pub enum Layer {
     Grid,
     /// Proved monotone pieces and features.
     Features,
+    /// Where the selected vertex may go without adding a feature.
+    SafeRegion,
 }
 
 impl Layer {
-    /// Every layer, in the order of its switches: keys 1 to 8.
-    pub const ALL: [Self; 8] = [
+    /// Every layer, in the order of its switches: keys 1 to 9.
+    pub const ALL: [Self; 9] = [
         Self::Float,
         Self::Clamped,
         Self::Curve,
@@ -32,6 +34,7 @@ impl Layer {
         Self::Targets,
         Self::Grid,
         Self::Features,
+        Self::SafeRegion,
     ];
 
     /// What the layer is called on screen.
@@ -45,6 +48,7 @@ impl Layer {
             Self::Targets => "End targets",
             Self::Grid => "Grid and axes",
             Self::Features => "Proved features",
+            Self::SafeRegion => "Safe region",
         }
     }
 }
@@ -56,12 +60,14 @@ pub struct Layers {
 }
 
 impl Default for Layers {
-    /// All but the comb: together with the evolute it would hide the polygons at first sight.
+    /// All but the comb, which together with the evolute would hide the polygons at first sight, and
+    /// the safe region, which takes work to find.
     fn default() -> Self {
         let mut layers = Self {
             shown: [true; Layer::ALL.len()],
         };
         layers.set(Layer::Comb, false);
+        layers.set(Layer::SafeRegion, false);
         layers
     }
 }

@@ -5,6 +5,7 @@ use glam::DVec2;
 use crate::document::{Colour, CurveId};
 use crate::editor::view::end_marks::EndFitMarks;
 use crate::editor::view::feature_report::FeatureMark;
+use crate::editor::view::guide_scene::GuideScene;
 
 /// All that is on the canvas, from back to front. Chains are points in the model's plane; a NaN
 /// point ([`crate::editor::GAP`]) breaks them.
@@ -20,6 +21,8 @@ pub struct Scene {
     pub marks: Vec<Mark>,
     /// The end-fit tool's marks, and the targets of all curves.
     pub ends: Vec<EndFitMarks>,
+    /// What guides the move of a vertex.
+    pub guides: GuideScene,
     /// What is under the pointer.
     pub hover: Option<HoverScene>,
 }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::document::Curve;
+use crate::editor::guides::FeatureOf;
 use crate::editor::view::comb::CombSettings;
 use crate::editor::view::feature_report::FeatureReport;
 use crate::editor::view::ghost::Ghost;
@@ -25,6 +26,8 @@ pub struct View {
     pub(in crate::editor) hovered_before: Hovered,
     /// The report of the active curve's features, for the curve that it was made of.
     pub(in crate::editor) features: Option<(Arc<Curve>, FeatureReport)>,
+    /// The feature whose loss is shown.
+    pub(in crate::editor) chosen: Option<FeatureOf>,
     pub(in crate::editor) scene: Scene,
     /// Which plot is shown; `None` while plots are folded.
     pub(in crate::editor) plot: Option<PlotKind>,

@@ -23,7 +23,8 @@ const STEPS: usize = 12;
 /// Hold what was found for a vertex: a move of it that is proved to lose a feature, and to add none.
 ///
 /// The features of the curve with the vertex at `to` are proved. That it is the chosen feature that is
-/// lost, not another, follows from the places tried on the way; that no move is shorter does not.
+/// lost, not another, follows from the places tried on the straight way there, at which nothing is
+/// added either; that no move is shorter does not follow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FeatureLoss {
     /// The vertex.

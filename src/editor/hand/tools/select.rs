@@ -396,6 +396,16 @@ fn click(place: DVec2, context: &Context) -> Vec<Effect> {
             Effect::Select(vec![vertex])
         }];
     }
+    if let Some((curve, feature)) = context.hits.feature(place)
+        && !context.modifiers.shift
+    {
+        let select = Effect::Select(Vec::new());
+        return vec![
+            select,
+            Effect::Activate(curve),
+            Effect::Choose(feature.middle),
+        ];
+    }
     let curve = context.hits.curve(place).map(|hit| hit.curve);
     let curve = curve.or_else(|| context.hits.leg(place, LEG_REACH).map(|hit| hit.curve));
     match curve {

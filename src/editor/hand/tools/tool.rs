@@ -60,6 +60,8 @@ pub enum Effect {
     ToggleSelected(VertexId),
     /// Make a curve the active one.
     Activate(CurveId),
+    /// Choose a feature of the active curve, by the middle of its interval.
+    Choose(f64),
     /// Change how the model is seen.
     Look(Look),
     /// Tell the user something.

@@ -1,0 +1,282 @@
+//! The guides for moving vertices on the canvas: the safe region of the selected vertex, and the moves
+//! that lose the chosen feature.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use crate::document::Curve;
+use crate::editor::Editor;
+use crate::editor::guides::{FeatureOf, VertexOf};
+use crate::editor::hand::selection::VertexId;
+use crate::editor::hand::tools::ToolKind;
+use crate::editor::view::feature_report::FeatureKind;
+use crate::editor::view::guide_scene::{GuideLabel, GuideScene, LossArrow};
+use crate::editor::view::layers::Layer;
+use crate::editor::view::outline::GAP;
+use crate::geometry::features::Quantity;
+use crate::geometry::vertex_moves::{FeatureLoss, FeatureRise, RayBorder, SafeRegion};
+use crate::geometry::{FloatPolygon, figure};
+
+/// The most texts at the border of a safe region.
+const BORDER_LABELS: usize = 5;
+
+/// The least share of the rays that a text at the border speaks of.
+const LEAST_SHARE: f64 = 1.0 / 40.0;
+
+/// The most moves that lose a feature with their distance written at them.
+const MOVE_LABELS: usize = 3;
+
+impl Editor {
+    /// Choose a feature of the active curve by the middle of its interval: the canvas shows the
+    /// shortest moves found that lose it, until the curve changes. Chosen again it is let go.
+    pub fn choose_feature(&mut self, u: f64) {
+        let chosen = self.feature_at(u);
+        let is_same = chosen.is_some() && chosen == self.view.chosen;
+        self.view.chosen = chosen.filter(|_| !is_same);
+    }
+
+    /// The middle of the interval of the feature that is chosen.
+    pub fn chosen_feature(&self) -> Option<f64> {
+        self.view.chosen.as_ref().map(|feature| feature.u)
+    }
+
+    fn feature_at(&self, u: f64) -> Option<FeatureOf> {
+        let rows = self.features()?.rows.iter();
+        let row = rows.into_iter().find(|row| row.middle == u)?;
+        let quantity = match row.kind {
+            FeatureKind::Inflection => Quantity::Inflection,
+            FeatureKind::CurvatureMaximum | FeatureKind::CurvatureMinimum => {
+                Quantity::CurvatureExtremum
+            }
+            _ => return None,
+        };
+        let curve = self.workspace.settled().curve(self.active()?)?.clone();
+        Some(FeatureOf { curve, quantity, u })
+    }
+
+    /// See to it that the guides which are to be shown are found.
+    pub(in crate::editor) fn guide(&mut self) {
+        match self.guided_vertex() {
+            Some(vertex) => self.guides.regions.advance(&vertex),
+            None => self.guides.regions.forget(),
+        }
+        let settled = self.settled_active();
+        let counts = |feature: &FeatureOf| {
+            let is_settled = |curve: &Arc<Curve>| Arc::ptr_eq(curve, &feature.curve);
+            settled.as_ref().is_some_and(is_settled)
+        };
+        self.view.chosen = self.view.chosen.take().filter(counts);
+        match &self.view.chosen {
+            Some(feature) => self.guides.losses.advance(feature),
+            None => self.guides.losses.forget(),
+        }
+    }
+
+    /// The vertex whose safe region is to be shown: the single one that is selected, of the active
+    /// curve, where it can be moved.
+    fn guided_vertex(&self) -> Option<VertexOf> {
+        let shows = self.layers().shows(Layer::SafeRegion);
+        if !shows || self.hand.tool() != ToolKind::Select {
+            return None;
+        }
+        let mut selected = self.hand.selection.vertices();
+        let (id, vertex): VertexId = selected.next().filter(|_| selected.next().is_none())?;
+        let curve = self
+            .settled_active()
+            .filter(|_| self.active() == Some(id))?;
+        curve.check_editable().ok()?;
+        Some(VertexOf { curve, vertex })
+    }
+
+    /// The active curve without what is tried out on it.
+    fn settled_active(&self) -> Option<Arc<Curve>> {
+        let active = self.hand.selection.active()?;
+        self.workspace.settled().curve(active).cloned()
+    }
+
+    /// Draw the guides that hold for what is shown.
+    pub(in crate::editor) fn draw_guides(&self, scene: &mut GuideScene) {
+        scene.clear();
+        let Some((_, shown)) = self.active_curve().filter(|(_, curve)| curve.visible) else {
+            return;
+        };
+        let regions = &self.guides.regions;
+        if let Some(VertexOf { curve, vertex }) = regions.question()
+            && differs_at_most_at(&curve.polygon, &shown.polygon, Some(*vertex))
+        {
+            match regions.answer() {
+                Some(Err(reason)) => {
+                    let at = curve.polygon.vertex(*vertex).truncate();
+                    let text = format!("no safe region: {reason}");
+                    scene.labels.push(self.guide_label(at, DVec2::Y, text));
+                }
+                _ if regions.has_failed() => {
+                    let at = curve.polygon.vertex(*vertex).truncate();
+                    let text = "the safe region could not be found: please report this curve";
+                    scene
+                        .labels
+                        .push(self.guide_label(at, DVec2::Y, text.to_owned()));
+                }
+                _ => {
+                    if let Some(region) = regions.region() {
+                        self.draw_region(region, scene);
+                    }
+                }
+            }
+        }
+        let losses = &self.guides.losses;
+        if let Some(feature) = losses.question()
+            && differs_at_most_at(&feature.curve.polygon, &shown.polygon, None)
+        {
+            let found = match losses.answer() {
+                Some(Ok(found)) => Ok(found.as_slice()),
+                Some(Err(reason)) => Err(reason.to_string()),
+                None if losses.has_failed() => {
+                    Err("moves could not be found: please report this curve".to_owned())
+                }
+                None => Err("looking for the shortest move that loses this…".to_owned()),
+            };
+            self.draw_losses(feature, found, scene);
+        }
+    }
+
+    fn draw_region(&self, region: &SafeRegion, scene: &mut GuideScene) {
+        let corners: Vec<DVec2> = region.outline().collect();
+        let rays = &region.rays;
+        for (index, corner) in corners.iter().enumerate() {
+            let next = (index + 1) % corners.len();
+            let is_open = |index: usize| rays[index].beyond.is_none();
+            let chain = if is_open(index) && is_open(next) {
+                &mut scene.limit
+            } else {
+                &mut scene.border
+            };
+            let ends = [*corner, corners[next]].map(|corner| self.seen(corner));
+            if chain.last() != Some(&ends[0]) {
+                chain.extend([GAP, ends[0]]);
+            }
+            chain.push(ends[1]);
+        }
+        let mut runs = runs(rays);
+        runs.sort_by_key(|run| std::cmp::Reverse(run.length));
+        let least = LEAST_SHARE * rays.len() as f64;
+        let runs = runs.iter().filter(|run| run.length as f64 >= least);
+        for run in runs.take(BORDER_LABELS) {
+            let middle = (run.first + run.length / 2) % rays.len();
+            let text = match run.rise {
+                Some(rise) => rise.text(),
+                None => format!("nothing added within {}", figure(region.limit)),
+            };
+            let label = self.guide_label(corners[middle], rays[middle].direction, text);
+            scene.labels.push(label);
+        }
+    }
+
+    fn draw_losses(
+        &self,
+        feature: &FeatureOf,
+        found: Result<&[FeatureLoss], String>,
+        scene: &mut GuideScene,
+    ) {
+        let at = feature.curve.polygon.point(feature.u).truncate();
+        let losses = match found {
+            Ok(losses) => losses,
+            Err(text) => {
+                scene.labels.push(self.guide_label(at, DVec2::Y, text));
+                return;
+            }
+        };
+        let mut moves: Vec<(f64, &FeatureLoss)> = losses
+            .iter()
+            .filter_map(|loss| Some((loss.distance()?, loss)))
+            .collect();
+        moves.sort_by(|a, b| a.0.total_cmp(&b.0));
+        if moves.is_empty() {
+            let limits = losses.iter().map(|loss| loss.limit);
+            let text = format!(
+                "no move of one vertex found within {} that loses this",
+                figure(limits.fold(0.0, f64::max))
+            );
+            scene.labels.push(self.guide_label(at, DVec2::Y, text));
+        }
+        for (rank, (distance, loss)) in moves.iter().enumerate() {
+            let Some(to) = loss.to else {
+                continue;
+            };
+            let [from, to] = [loss.from, to].map(|place| place.truncate());
+            scene.arrows.push(LossArrow {
+                ends: [self.seen(from), self.seen(to)],
+                is_shortest: rank == 0,
+            });
+            if rank < MOVE_LABELS {
+                let text = format!("vertex {}: {}", loss.vertex, figure(*distance));
+                let outwards = (to - from).normalize_or(DVec2::Y);
+                scene.labels.push(self.guide_label(to, outwards, text));
+            }
+        }
+    }
+
+    /// A text at a place of the plane, on the side of a direction.
+    fn guide_label(&self, at: DVec2, outwards: DVec2, text: String) -> GuideLabel {
+        GuideLabel {
+            at: self.seen(at),
+            outwards: self.seen(outwards) - self.seen(DVec2::ZERO),
+            text,
+        }
+    }
+
+    /// Where a place of the plane z = 0 is seen.
+    fn seen(&self, place: DVec2) -> DVec2 {
+        self.view.viewport.flatten(place.extend(0.0))
+    }
+}
+
+/// Neighbouring rays beyond whose borders the same is added.
+struct Run {
+    first: usize,
+    length: usize,
+    rise: Option<FeatureRise>,
+}
+
+/// List the runs of rays, round the vertex.
+fn runs(rays: &[RayBorder]) -> Vec<Run> {
+    let rise = |index: usize| rays[index % rays.len()].beyond.map(|(_, rise)| rise);
+    let count = rays.len();
+    let starts = (0..count).filter(|index| rise(index + count - 1) != rise(*index));
+    let starts: Vec<usize> = starts.collect();
+    if starts.is_empty() {
+        // A single text stands above rather than at the right.
+        let first = count.div_ceil(4) + count - count / 2;
+        let all = (count > 0).then(|| Run {
+            first,
+            length: count,
+            rise: rise(0),
+        });
+        return all.into_iter().collect();
+    }
+    let ends = starts.iter().skip(1).copied();
+    let ends = ends.chain([starts[0] + count]);
+    let runs = starts.iter().zip(ends).map(|(first, end)| Run {
+        first: *first,
+        length: end - first,
+        rise: rise(*first),
+    });
+    runs.collect()
+}
+
+/// Whether two polygons are the same but for one vertex: a given one, or any.
+fn differs_at_most_at(before: &FloatPolygon, now: &FloatPolygon, vertex: Option<usize>) -> bool {
+    if std::ptr::eq(before, now) {
+        return true;
+    }
+    let alike = before.degree() == now.degree()
+        && before.is_periodic() == now.is_periodic()
+        && before.weights() == now.weights()
+        && before.vertices().len() == now.vertices().len();
+    let pairs = before.vertices().iter().zip(now.vertices());
+    let moved = pairs.enumerate().filter(|(_, (before, now))| before != now);
+    let mut moved = moved.map(|(index, _)| index);
+    let first = moved.next();
+    alike && moved.next().is_none() && (first.is_none() || vertex.is_none() || first == vertex)
+}
