@@ -11,11 +11,14 @@ use crate::geometry::Progress;
 use crate::geometry::features::SegmentFeatures;
 use crate::geometry::float_polygon::FloatPolygon;
 
-/// The numbers of rays, from coarse to fine.
+/// The numbers of rays, from coarse to fine. The first ones are evenly spaced.
 const RAYS: [usize; 4] = [12, 24, 48, 96];
 
-/// The even steps in which each ray is tried, from coarse to fine.
-const STEPS: [usize; 4] = [4, 6, 8, 12];
+/// The even steps in which each ray is tried.
+const STEPS: usize = 6;
+
+/// The least angle between two rays.
+const LEAST_ANGLE: f64 = TAU / 8192.0;
 
 /// Hold the region in which a vertex of a planar curve may be without adding a curvature extremum,
 /// an inflection, a cusp, or anything undecided.
@@ -31,7 +34,8 @@ pub struct SafeRegion {
     pub centre: DVec3,
     /// How far rays are followed: [`super::reach`].
     pub limit: f64,
-    /// The borders on the rays, whose directions are evenly spaced and begin along the x axis.
+    /// The borders on the rays, anticlockwise from the x axis. They are closer where the border is
+    /// further away.
     pub rays: Vec<RayBorder>,
 }
 
@@ -101,21 +105,30 @@ impl RegionSearch {
         self.level == RAYS.len() || self.prover.limit == 0.0
     }
 
-    /// Find the borders of the next level: twice as many rays, each tried in shorter steps.
-    /// Nothing changes if it is cancelled meanwhile. Returns whether the level is done.
+    /// Find the borders of the next level, with twice as many rays: new ones go between those whose
+    /// corners are furthest apart. Nothing changes if it is cancelled meanwhile. Returns whether the
+    /// level is done.
     pub fn refine(&mut self, progress: &Progress) -> bool {
         if self.is_done() {
             return true;
         }
-        let (count, steps) = (RAYS[self.level], STEPS[self.level]);
-        let mut rays = Vec::with_capacity(count);
-        for ray in 0..count {
-            let direction = DVec2::from_angle(TAU * ray as f64 / count as f64);
-            let Some(border) = self.border(direction, steps, progress) else {
+        let mut rays = self.region.rays.clone();
+        let count = RAYS[self.level];
+        let (first, missing) = (rays.len(), count - rays.len());
+        while rays.len() < count {
+            let (place, direction) = if self.level == 0 {
+                let angle = TAU * rays.len() as f64 / count as f64;
+                (rays.len(), DVec2::from_angle(angle))
+            } else if let Some(widest) = widest_gap(&rays) {
+                widest
+            } else {
+                break;
+            };
+            let Some(border) = self.border(direction, progress) else {
                 return false;
             };
-            rays.push(border);
-            progress.set_done(rays.len() as f64 / count as f64);
+            rays.insert(place, border);
+            progress.set_done((rays.len() - first) as f64 / missing as f64);
         }
         self.region.rays = rays;
         self.level += 1;
@@ -123,14 +136,14 @@ impl RegionSearch {
     }
 
     /// Find the border on one ray; `None` if the search is cancelled.
-    fn border(&mut self, direction: DVec2, steps: usize, progress: &Progress) -> Option<RayBorder> {
+    fn border(&mut self, direction: DVec2, progress: &Progress) -> Option<RayBorder> {
         let limit = self.prover.limit;
         let mut border = RayBorder {
             direction,
             safe: 0.0,
             beyond: None,
         };
-        for distance in self.prover.tries(direction, limit, steps) {
+        for distance in self.prover.tries(direction, limit, STEPS) {
             self.try_at(&mut border, distance, progress)?;
             if border.beyond.is_some() {
                 break;
@@ -165,4 +178,19 @@ impl RegionSearch {
         }
         Some(())
     }
+}
+
+/// Find the gap between two rays whose corners are furthest apart: where a ray between them belongs,
+/// and its direction. `None` if all gaps are narrow.
+fn widest_gap(rays: &[RayBorder]) -> Option<(usize, DVec2)> {
+    let gaps = rays.iter().enumerate().filter_map(|(index, ray)| {
+        let next = rays.get(index + 1).or(rays.first())?;
+        let angle = ray.direction.angle_to(next.direction);
+        let corners = [ray, next].map(|ray| ray.safe * ray.direction);
+        let distance = corners[0].distance(corners[1]);
+        let direction = DVec2::from_angle(0.5 * angle).rotate(ray.direction);
+        (angle >= 2.0 * LEAST_ANGLE).then_some((distance, index + 1, direction))
+    });
+    gaps.max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, place, direction)| (place, direction))
 }
