@@ -1,7 +1,8 @@
 //! The guides for moving vertices on the canvas: the border of the safe region, the moves that lose a
 //! feature, and their texts.
 
-use eframe::egui::{Align2, Pos2, Rect, Shape, Stroke, Vec2, vec2};
+use eframe::egui::{Align2, Color32, Mesh, Pos2, Rect, Shape, Stroke, Vec2, pos2, vec2};
+use glam::DVec2;
 
 use super::brush::Brush;
 use super::labels;
@@ -14,9 +15,18 @@ const CLEARANCE: f32 = 8.0;
 /// A move shorter than this, in points, is marked by a ring.
 const SHORT: f32 = 10.0;
 
+/// What lies further from the window than this, in points, is not filled.
+const FARTHEST: f64 = 1e5;
+
+/// How far texts stay from the canvas's edge, where the grid's numbers are.
+const EDGE: f32 = 6.0 * STEP;
+
 /// Paint the guides.
 pub fn paint(brush: &Brush<'_>, guides: &GuideScene) {
     let own = brush.tokens.good;
+    if let Some((centre, corners)) = &guides.region {
+        brush.fan(*centre, corners, own.gamma_multiply(0.12));
+    }
     brush.dashed_chain(&guides.border, Stroke::new(1.25, own));
     let faint = Stroke::new(1.0, own.gamma_multiply(0.5));
     for line in brush.screen.lines(&guides.limit) {
@@ -34,9 +44,32 @@ pub fn paint(brush: &Brush<'_>, guides: &GuideScene) {
 }
 
 impl Brush<'_> {
+    /// Fill the triangles between a point and the corners round it.
+    fn fan(&self, centre: DVec2, corners: &[DVec2], colour: Color32) {
+        let place = |point: DVec2| {
+            let place = self.screen.exact(point);
+            // Single numbers are exact enough within this distance.
+            let is_near = place.abs().max_element() < FARTHEST;
+            is_near.then(|| pos2(place.x as f32, place.y as f32))
+        };
+        let all = [centre].into_iter().chain(corners.iter().copied());
+        let Some(places) = all.map(place).collect::<Option<Vec<Pos2>>>() else {
+            return;
+        };
+        let mut mesh = Mesh::default();
+        for place in places {
+            mesh.colored_vertex(place, colour);
+        }
+        let count = corners.len() as u32;
+        for corner in 0..count {
+            mesh.add_triangle(0, 1 + corner, 1 + (corner + 1) % count);
+        }
+        self.painter.add(Shape::mesh(mesh));
+    }
+
     fn loss(&self, arrow: &LossArrow) {
         let strength = if arrow.is_shortest { 1.0 } else { 0.5 };
-        let colour = self.tokens.warning.gamma_multiply(strength);
+        let colour = self.tokens.accent.gamma_multiply(strength);
         let stroke = Stroke::new(1.5, colour);
         self.arrow(arrow.ends, stroke);
         let ends = arrow.ends.map(|end| self.screen.point(end));
@@ -49,7 +82,8 @@ impl Brush<'_> {
 
     /// Write a text outside of its place and within the canvas, unless an earlier one is there.
     fn guide_label(&self, label: &GuideLabel, taken: &mut Vec<Rect>) {
-        let Some(at) = self.screen.point(label.at) else {
+        let place = self.screen.point(label.at);
+        let Some(at) = place.filter(|at| self.rect.contains(*at)) else {
             return;
         };
         let font = theme::small_font();
@@ -74,7 +108,7 @@ fn beside(canvas: Rect, at: Pos2, outwards: Vec2, size: Vec2) -> Rect {
     let outwards = outwards.normalized();
     let half = 0.5 * (outwards.x.abs() * size.x + outwards.y.abs() * size.y);
     let rect = Rect::from_center_size(at + outwards * (CLEARANCE + half), size);
-    let room = canvas.shrink(STEP);
+    let room = canvas.shrink(EDGE);
     let low = (room.min - rect.min).max(Vec2::ZERO);
     let high = (room.max - rect.max).min(Vec2::ZERO);
     rect.translate(low + high)
@@ -82,8 +116,6 @@ fn beside(canvas: Rect, at: Pos2, outwards: Vec2, size: Vec2) -> Rect {
 
 #[cfg(test)]
 mod tests {
-    use eframe::egui::pos2;
-
     use super::*;
 
     #[test]
@@ -95,6 +127,7 @@ mod tests {
             let place = pos2(200.0, 150.0);
             let rect = beside(canvas, place, outwards, size);
             assert!(!rect.contains(place), "{outwards:?}: {rect:?}");
+            assert!(canvas.contains_rect(rect));
             let corner = beside(canvas, pos2(399.0, 1.0), outwards, size);
             assert!(canvas.contains_rect(corner), "{outwards:?}: {corner:?}");
         }

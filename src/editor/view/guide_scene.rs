@@ -6,7 +6,9 @@ use glam::DVec2;
 /// [`crate::editor::GAP`].
 #[derive(Clone, Debug, Default)]
 pub struct GuideScene {
-    /// The border of the selected vertex's safe region.
+    /// The selected vertex, and the corners of its safe region round it.
+    pub region: Option<(DVec2, Vec<DVec2>)>,
+    /// The border of that region.
     pub border: Vec<DVec2>,
     /// Where the region goes on beyond the radius in which it was looked for.
     pub limit: Vec<DVec2>,
@@ -39,6 +41,7 @@ pub struct GuideLabel {
 impl GuideScene {
     /// Show nothing.
     pub fn clear(&mut self) {
+        self.region = None;
         self.border.clear();
         self.limit.clear();
         self.arrows.clear();

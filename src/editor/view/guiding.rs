@@ -16,7 +16,7 @@ use crate::editor::view::layers::Layer;
 use crate::editor::view::outline::GAP;
 use crate::geometry::features::Quantity;
 use crate::geometry::vertex_moves::{FeatureLoss, FeatureRise, RayBorder, SafeRegion};
-use crate::geometry::{FloatPolygon, figure};
+use crate::geometry::{FloatPolygon, significant};
 
 /// The most texts at the border of a safe region.
 const BORDER_LABELS: usize = 5;
@@ -26,6 +26,9 @@ const LEAST_SHARE: f64 = 1.0 / 40.0;
 
 /// The most moves that lose a feature with their distance written at them.
 const MOVE_LABELS: usize = 3;
+
+/// The digits of distances.
+const DIGITS: usize = 3;
 
 impl Editor {
     /// Choose a feature of the active curve by the middle of its interval: the canvas shows the
@@ -144,6 +147,8 @@ impl Editor {
     fn draw_region(&self, region: &SafeRegion, scene: &mut GuideScene) {
         let corners: Vec<DVec2> = region.outline().collect();
         let rays = &region.rays;
+        let seen = corners.iter().map(|corner| self.seen(*corner)).collect();
+        scene.region = Some((self.seen(region.centre.truncate()), seen));
         for (index, corner) in corners.iter().enumerate() {
             let next = (index + 1) % corners.len();
             let is_open = |index: usize| rays[index].beyond.is_none();
@@ -166,7 +171,7 @@ impl Editor {
             let middle = (run.first + run.length / 2) % rays.len();
             let text = match run.rise {
                 Some(rise) => rise.text(),
-                None => format!("nothing added within {}", figure(region.limit)),
+                None => format!("nothing added within {}", significant(region.limit, DIGITS)),
             };
             let label = self.guide_label(corners[middle], rays[middle].direction, text);
             scene.labels.push(label);
@@ -196,7 +201,7 @@ impl Editor {
             let limits = losses.iter().map(|loss| loss.limit);
             let text = format!(
                 "no move of one vertex found within {} that loses this",
-                figure(limits.fold(0.0, f64::max))
+                significant(limits.fold(0.0, f64::max), DIGITS)
             );
             scene.labels.push(self.guide_label(at, DVec2::Y, text));
         }
@@ -210,7 +215,7 @@ impl Editor {
                 is_shortest: rank == 0,
             });
             if rank < MOVE_LABELS {
-                let text = format!("vertex {}: {}", loss.vertex, figure(*distance));
+                let text = format!("vertex {}: {}", loss.vertex, significant(*distance, DIGITS));
                 let outwards = (to - from).normalize_or(DVec2::Y);
                 scene.labels.push(self.guide_label(to, outwards, text));
             }
@@ -246,10 +251,11 @@ fn runs(rays: &[RayBorder]) -> Vec<Run> {
     let starts = (0..count).filter(|index| rise(index + count - 1) != rise(*index));
     let starts: Vec<usize> = starts.collect();
     if starts.is_empty() {
-        // A single text stands above rather than at the right.
-        let first = count.div_ceil(4) + count - count / 2;
-        let all = (count > 0).then(|| Run {
-            first,
+        // A single text stands below: what is told of the vertex stands above.
+        let heights = rays.iter().map(|ray| ray.direction.y).enumerate();
+        let lowest = heights.min_by(|a, b| a.1.total_cmp(&b.1));
+        let all = lowest.map(|(lowest, _)| Run {
+            first: lowest + count - count / 2,
             length: count,
             rise: rise(0),
         });
