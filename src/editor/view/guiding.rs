@@ -89,6 +89,7 @@ impl Editor {
             .settled_active()
             .filter(|_| self.active() == Some(id))?;
         curve.check_editable().ok()?;
+        curve.check_vertices_unlocked([vertex]).ok()?;
         Some(VertexOf { curve, vertex })
     }
 
@@ -192,8 +193,10 @@ impl Editor {
                 return;
             }
         };
+        let locked = &feature.curve.locked_vertices;
         let mut moves: Vec<(f64, &FeatureLoss)> = losses
             .iter()
+            .filter(|loss| !locked.contains(loss.vertex))
             .filter_map(|loss| Some((loss.distance()?, loss)))
             .collect();
         moves.sort_by(|a, b| a.0.total_cmp(&b.0));
