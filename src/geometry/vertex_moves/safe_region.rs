@@ -12,10 +12,10 @@ use crate::geometry::features::SegmentFeatures;
 use crate::geometry::float_polygon::FloatPolygon;
 
 /// The numbers of rays, from coarse to fine. The first ones are evenly spaced.
-const RAYS: [usize; 4] = [12, 24, 48, 96];
+const RAYS: [usize; 4] = [8, 24, 48, 96];
 
 /// The even steps in which each ray is tried.
-const STEPS: usize = 6;
+const STEPS: usize = 4;
 
 /// The least angle between two rays.
 const LEAST_ANGLE: f64 = TAU / 8192.0;
@@ -105,7 +105,7 @@ impl RegionSearch {
         self.level == RAYS.len() || self.prover.limit == 0.0
     }
 
-    /// Find the borders of the next level, with twice as many rays: new ones go between those whose
+    /// Find the borders of the next level, with more rays: new ones go between those whose
     /// corners are furthest apart. Nothing changes if it is cancelled meanwhile. Returns whether the
     /// level is done.
     pub fn refine(&mut self, progress: &Progress) -> bool {
