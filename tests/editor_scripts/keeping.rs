@@ -78,7 +78,7 @@ fn a_kept_drag_goes_where_it_is_safe_and_near_to_where_it_is_not() {
     // Straight up until it is held back.
     let mut last = 0.0;
     let mut step = 0;
-    while script.editor.hint().starts_with("Keeping") || step == 0 {
+    while script.editor.hint().starts_with("Features are kept") || step == 0 {
         step += 1;
         assert!(step < 200, "never held back");
         script.move_to(at + DVec2::new(0.0, -4.0 * f64::from(step)));

@@ -83,7 +83,7 @@ impl Editor {
         }
         match self.hand.keeping.held_back() {
             Some(reason) => format!("Held at the last place proved to add nothing; {reason}"),
-            None => format!("Keeping features; {hint}"),
+            None => format!("Features are kept. {hint}"),
         }
     }
 

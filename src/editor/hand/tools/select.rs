@@ -165,7 +165,7 @@ impl Tool for SelectTool {
                     }
                 } else if selected > 0 {
                     format!(
-                        "{} selected: drag, or nudge with the arrow keys (Shift ×10); Del deletes",
+                        "{} selected: drag (K keeps features), or nudge with the arrow keys (Shift ×10); Del deletes",
                         counted(selected, "vertex", "vertices")
                     )
                 } else if context.document.is_empty() {
