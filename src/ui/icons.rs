@@ -33,7 +33,7 @@ pub fn of_layer(layer: Layer) -> Icon {
         Layer::Targets => Icon::Goal,
         Layer::Grid => Icon::Grid3x3,
         Layer::Features => Icon::BadgeCheck,
-        Layer::SafeRegion => Icon::ShieldCheck,
+        Layer::SafeRegion => Icon::CircleDashed,
     }
 }
 

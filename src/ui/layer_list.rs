@@ -14,7 +14,9 @@ use crate::geometry::noun;
 /// Show the layers.
 pub fn layer_list_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
     ui.spacing_mut().item_spacing.y = 0.0;
-    for layer in Layer::ALL {
+    // The safe region's switch stands beside the tools, with that which keeps features.
+    let listed = Layer::ALL.into_iter();
+    for layer in listed.filter(|layer| *layer != Layer::SafeRegion) {
         row_ui(ui, editor, layer, commands);
     }
     if editor.layers().shows(Layer::Comb) {

@@ -6,7 +6,7 @@ use eframe::egui::{Align2, Role, ScrollArea, Sense, Ui, Vec2, WidgetInfo};
 use super::action::Action;
 use super::theme::{self, RADIUS, STEP, Tokens};
 use super::{icons, keyboard, widgets};
-use crate::editor::{Command, Editor, Follow, ToolKind};
+use crate::editor::{Command, Editor, Follow, Layer, ToolKind};
 
 /// The rail's width in points.
 pub const WIDTH: f32 = 48.0;
@@ -35,9 +35,15 @@ fn tools_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<Action>) {
         button_ui(ui, editor, Command::Tool(tool), commands);
     }
     divider(ui);
-    button_ui(ui, editor, Command::ToggleSnapping, commands);
-    button_ui(ui, editor, Command::Follow(Follow::InHarmony), commands);
-    button_ui(ui, editor, Command::Fit, commands);
+    for command in [
+        Command::ToggleSnapping,
+        Command::Follow(Follow::InHarmony),
+        Command::ToggleKeeping,
+        Command::ToggleLayer(Layer::SafeRegion),
+        Command::Fit,
+    ] {
+        button_ui(ui, editor, command, commands);
+    }
 }
 
 fn divider(ui: &mut Ui) {

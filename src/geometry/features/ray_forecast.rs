@@ -13,6 +13,10 @@ use crate::geometry::float_polygon::FloatPolygon;
 /// Samples of each segment, besides its start and its end.
 const SAMPLES: usize = 15;
 
+/// How far samples stay off the knots, in a segment's parameter: a root that passes a knot changes the
+/// signs on its two sides one after the other.
+const OFF_KNOTS: f64 = 1e-3;
+
 /// How exactly a change is found, as a share of the ray.
 const PRECISION: f64 = 1e-5;
 
@@ -64,8 +68,16 @@ impl RayForecast {
         let segments = in_order(polygon, vertex);
         for segment in segments.clone() {
             let segment = segment % polygon.segments();
+            let ends_here = |is_end: bool| is_end && !polygon.is_periodic();
+            let low = if ends_here(segment == 0) {
+                0.0
+            } else {
+                OFF_KNOTS
+            };
+            let ends = ends_here(segment + 1 == polygon.segments());
+            let high = if ends { 1.0 } else { 1.0 - OFF_KNOTS };
             for step in 0..=SAMPLES + 1 {
-                let t = step as f64 / (SAMPLES + 1) as f64;
+                let t = (step as f64 / (SAMPLES + 1) as f64).clamp(low, high);
                 let jet = polygon.segment_jet(segment, t);
                 let own = influence.segment_jet(segment, t);
                 samples.push(Sample {
