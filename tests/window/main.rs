@@ -433,7 +433,7 @@ fn the_key_that_keeps_features_steers_a_drag_and_is_a_switch_otherwise() {
 #[test]
 fn choosing_a_feature_in_the_list_shows_how_to_lose_it() {
     let mut window = open_window();
-    choose(&mut window, &["File", "Examples", "Bottle"]);
+    choose(&mut window, &["File", "Examples", "S-curve"]);
     let row = window
         .query_all_by_label_contains("κ maximum at")
         .next()
