@@ -11,7 +11,7 @@ use crate::geometry::error::PolygonError;
 use crate::geometry::float_polygon::FloatPolygon;
 
 /// Samples of each segment, besides its start and its end.
-const SAMPLES: usize = 15;
+const SAMPLES: usize = 47;
 
 /// How far samples stay off the knots, in a segment's parameter: a root that passes a knot changes the
 /// signs on its two sides one after the other.
