@@ -7,7 +7,6 @@ use glam::DVec2;
 
 use super::curvature_series::CurvatureSeries;
 use super::curve_samples::{CurveSamples, SampledCurve};
-use super::dependent_segments::dependent_segments;
 use super::discrete_curvature::append_discrete_curvature;
 use super::feature_proof::{FeatureProof, ProofResult, ProvedFeatures};
 use super::harmony_measurement::{HarmonyMeasurement, MeasuredHarmony};

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::dependent_segments::changed_segments;
+use super::changed_segments::changed_segments;
 use crate::document::Curve;
 use crate::geometry::Progress;
 use crate::geometry::features::Features;

@@ -3,10 +3,10 @@
 
 mod bins;
 mod cache;
+mod changed_segments;
 mod curvature_series;
 mod curve_analysis;
 mod curve_samples;
-mod dependent_segments;
 mod discrete_curvature;
 mod feature_proof;
 mod harmony_measurement;

@@ -261,8 +261,8 @@ fn kept(before: &[f64], after: &[f64]) -> Vec<usize> {
     }
     let mut kept = Vec::with_capacity(after.len());
     let mut skipped = 0;
-    for index in 0..after.len() {
-        while skipped < lost && costs[index][skipped + 1] <= costs[index][skipped] {
+    for (index, costs) in costs.iter().enumerate().take(after.len()) {
+        while skipped < lost && costs[skipped + 1] <= costs[skipped] {
             skipped += 1;
         }
         kept.push(index + skipped);

@@ -24,28 +24,5 @@ pub(super) fn changed_segments(
     let weighted = changed_range(before, after);
     let ranges = moved.into_iter().chain(weighted);
     let changed = ranges.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end));
-    Some(changed.map_or(Vec::new(), |changed| dependent_segments(new, &changed)))
-}
-
-/// List the segments that depend on the vertices of a range: one range, or two where a periodic
-/// curve's segments wrap around.
-pub(super) fn dependent_segments(
-    polygon: &FloatPolygon,
-    changed: &Range<usize>,
-) -> Vec<Range<usize>> {
-    let (degree, segments) = (polygon.degree(), polygon.segments());
-    if !polygon.is_periodic() {
-        let first = changed.start.saturating_sub(degree);
-        return vec![first..changed.end.min(segments)];
-    }
-    if changed.len() + degree >= segments {
-        return vec![0..segments];
-    }
-    match changed.start.checked_sub(degree) {
-        Some(first) => vec![first..changed.end],
-        None => {
-            let wrapped = changed.start + segments - degree;
-            vec![0..changed.end, wrapped..segments]
-        }
-    }
+    Some(changed.map_or(Vec::new(), |changed| new.dependent_segments(&changed)))
 }
