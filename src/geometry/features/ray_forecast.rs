@@ -10,15 +10,15 @@ use crate::geometry::cut::cut;
 use crate::geometry::error::PolygonError;
 use crate::geometry::float_polygon::FloatPolygon;
 
-/// Samples of each segment, besides its start and its end.
-const SAMPLES: usize = 47;
+/// Evenly spaced samples of each segment.
+const SAMPLES: usize = 31;
 
-/// How far samples stay off the knots, in a segment's parameter: a root that passes a knot changes the
-/// signs on its two sides one after the other.
-const OFF_KNOTS: f64 = 1e-3;
+/// Samples beside its knots, where features come in threes as one passes: from the knot, in the
+/// segment's parameter. On a knot itself a root would change the signs of both of its sides at once.
+const BESIDE_KNOTS: [f64; 3] = [1e-5, 1e-3, 1e-2];
 
 /// How exactly a change is found, as a share of the ray.
-const PRECISION: f64 = 1e-5;
+const PRECISION: f64 = 1e-6;
 
 /// Where to cut: off the middle, where a root would lie on the cut of symmetrical curves.
 const CUT: f64 = 0.53125;
@@ -68,16 +68,7 @@ impl RayForecast {
         let segments = in_order(polygon, vertex);
         for segment in segments.clone() {
             let segment = segment % polygon.segments();
-            let ends_here = |is_end: bool| is_end && !polygon.is_periodic();
-            let low = if ends_here(segment == 0) {
-                0.0
-            } else {
-                OFF_KNOTS
-            };
-            let ends = ends_here(segment + 1 == polygon.segments());
-            let high = if ends { 1.0 } else { 1.0 - OFF_KNOTS };
-            for step in 0..=SAMPLES + 1 {
-                let t = (step as f64 / (SAMPLES + 1) as f64).clamp(low, high);
+            for t in parameters(polygon, segment) {
                 let jet = polygon.segment_jet(segment, t);
                 let own = influence.segment_jet(segment, t);
                 samples.push(Sample {
@@ -191,6 +182,20 @@ impl Ring for RayRing {
         }
         sum
     }
+}
+
+/// List the parameters at which a segment is sampled, in rising order. Where the curve ends there is a
+/// sample at its end.
+fn parameters(polygon: &FloatPolygon, segment: usize) -> Vec<f64> {
+    let ends = |is_outermost: bool| is_outermost && !polygon.is_periodic();
+    let mut parameters = Vec::with_capacity(SAMPLES + 2 * BESIDE_KNOTS.len() + 2);
+    parameters.extend(ends(segment == 0).then_some(0.0));
+    parameters.extend(BESIDE_KNOTS);
+    let even = 1..=SAMPLES;
+    parameters.extend(even.map(|step| step as f64 / (SAMPLES + 1) as f64));
+    parameters.extend(BESIDE_KNOTS.iter().rev().map(|beside| 1.0 - beside));
+    parameters.extend(ends(segment + 1 == polygon.segments()).then_some(1.0));
+    parameters
 }
 
 /// The segments that depend on a vertex in the order of the curve, with half of the one before and

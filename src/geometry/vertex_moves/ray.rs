@@ -17,7 +17,7 @@ const NEAREST: f64 = 1e-9;
 const ASIDE: f64 = 0.4 * PRECISION;
 
 /// The most changes that are tried on one ray, the nearest first.
-const MOST_CHANGES: usize = 16;
+const MOST_CHANGES: usize = 24;
 
 /// The radius within which moves of a vertex are looked for: twice the longest leg that meets it,
 /// or where these have no length the size of the polygon; 0 if all of it is one point.
