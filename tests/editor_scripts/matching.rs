@@ -557,3 +557,37 @@ fn fields_of_a_target_depend_on_each_other() {
     script.undo_all();
     assert_eq!(curve(&script, ids[1]).targets.start, None);
 }
+
+#[test]
+fn a_match_that_cannot_be_met_is_shown_and_met_once_it_can_be() {
+    let (mut script, ids) = script();
+    let all = (0..8).collect::<Vec<usize>>();
+    told(script.editor.lock_vertices(ids[1], all.clone(), true));
+    let before = curve(&script, ids[1]).polygon;
+    pick_end(&mut script, ids, Continuity::G1, true);
+    let matched = first_match(&script);
+    assert_eq!(curve(&script, ids[1]).polygon, before);
+    assert!(!script.editor.document().meets(&matched));
+    let shown = script.end_fit().and_then(|report| report.matched);
+    assert!(!shown.expect("a match").met);
+    let marks = |script: &mut Script| -> Vec<Option<bool>> {
+        let ends = &script.scene().ends;
+        ends.iter().map(|marks| marks.matched).collect()
+    };
+    assert_eq!(marks(&mut script), [Some(false)]);
+
+    // Some of the vertices are enough.
+    told(
+        script
+            .editor
+            .lock_vertices(ids[1], all[..5].to_vec(), false),
+    );
+    assert!(script.editor.document().meets(&matched));
+    assert_eq!(marks(&mut script), [Some(true)]);
+    let after = curve(&script, ids[1]).polygon;
+    assert_eq!(after.vertices()[5..], before.vertices()[5..]);
+    assert_ne!(after.vertices()[..5], before.vertices()[..5]);
+    script.command(Command::Undo);
+    assert_eq!(curve(&script, ids[1]).polygon, before);
+    assert_eq!(marks(&mut script), [Some(false)]);
+}
