@@ -165,7 +165,7 @@ fn compare(cases: impl Iterator<Item = usize>, every: usize) -> Tally {
     }
     println!("{tally:?}");
     println!(
-        "{:.2} % of the places between rays are not safe",
+        "{:.4} % of the places between rays are not safe",
         100.0 * tally.unsafe_between as f64 / tally.between as f64
     );
     tally

@@ -25,7 +25,8 @@ const LEAST_ANGLE: f64 = TAU / 8192.0;
 ///
 /// On each of its rays every place that was tried up to its border is proved to be safe, and that
 /// just beyond is proved not to be; they are no further apart than [`super::PRECISION`] of the border's
-/// distance. Between the places that were tried, and so between the rays, the region is a guide.
+/// distance. Between the places that were tried, and so between the rays, the region is a guide: of
+/// 96 000 places inside the outlines of 1 000 random cases 4 were not safe (`tests/vertex_moves`).
 #[derive(Clone, Debug, PartialEq)]
 pub struct SafeRegion {
     /// The vertex.
