@@ -30,7 +30,7 @@ const COLUMN: f32 = 96.0;
 const MOST_DIGITS: usize = 10;
 
 /// The width of the caption of a field.
-const LABEL: f32 = 104.0;
+const LABEL: f32 = 112.0;
 
 /// The most options that stand side by side as buttons.
 const MOST_BUTTONS: usize = 4;

@@ -59,7 +59,7 @@ impl Default for Following {
         Self {
             follow: None,
             span: 5.0,
-            stiffness: 0.01,
+            stiffness: 1e-4,
         }
     }
 }
