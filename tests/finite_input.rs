@@ -69,7 +69,6 @@ fn call_everything(polygon: &FloatPolygon, target: DVec3, direction: DVec3) {
         let _ = correct_end(polygon, *end, target);
         let _ = align_end(polygon, *end, direction);
         let _ = EndDifference::between(polygon, *end, target).residual(polygon.size());
-        let _ = (polygon.end_weights(*end, 0), polygon.end_weights(*end, 3));
     }
 }
 

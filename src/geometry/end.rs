@@ -2,7 +2,6 @@
 
 use glam::{DMat3, DVec3};
 
-use super::basis::uniform_basis_derivative;
 use super::control_polygon::diagonal;
 use super::float_polygon::FloatPolygon;
 use super::jet::Jet;
@@ -73,23 +72,6 @@ impl FloatPolygon {
     /// an end is relative to it, however long the curve is.
     pub fn end_size(&self, end: End) -> f64 {
         diagonal(&self.vertices()[self.terminal_vertices(end)])
-    }
-
-    /// The weights with which the terminal vertices enter the `order`-th derivative at an end of
-    /// a polynomial curve: Eulerian numbers over n! for the point itself. The vertex beyond them
-    /// that enters the n-th derivative is left out.
-    pub fn end_weights(&self, end: End, order: usize) -> Vec<f64> {
-        let t = match end {
-            End::Start => 0.0,
-            End::Finish => 1.0,
-        };
-        let mut weights = uniform_basis_derivative(self.degree(), order, t);
-        let excess = weights.len() - self.terminal_vertices(end).len();
-        if end == End::Finish {
-            weights.rotate_left(excess);
-        }
-        weights.truncate(weights.len() - excess);
-        weights
     }
 }
 
