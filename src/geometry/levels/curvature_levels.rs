@@ -72,7 +72,7 @@ impl CurvatureLevels {
         }
     }
 
-    /// Find the point of the logarithmic curvature graph: see [`logarithmic_point`].
+    /// Find the point of the logarithmic curvature graph: X = log ρ, Y = log |ρ ds/dρ|.
     pub fn logarithmic(&self) -> Option<(f64, f64)> {
         logarithmic_point(self.curvature[0], self.curvature_slope)
     }
