@@ -212,7 +212,7 @@ fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, Operatio
     let correction = if values.choice(&METHOD, &[true, false]) {
         at_once(curve, values, tolerance)?
     } else {
-        step_by_step(curve, tolerance)?
+        step_by_step(curve, values, tolerance)?
     };
     let mut outcome = match correction.polygon {
         Some(polygon) if polygon == curve.polygon => {
@@ -336,16 +336,29 @@ fn at_once(curve: &Curve, values: &Values, tolerance: f64) -> Result<Correction,
 }
 
 /// Repeat steps 2 to 6 on every end that has a target.
-fn step_by_step(curve: &Curve, tolerance: f64) -> Result<Correction, OperationError> {
+fn step_by_step(
+    curve: &Curve,
+    values: &Values,
+    tolerance: f64,
+) -> Result<Correction, OperationError> {
+    let locked = locked(curve, values)?;
     let outcome = correct_in_turn(&curve.polygon, &curve.targets.list(), tolerance)?;
     let residual = outcome.residuals.last().copied().unwrap_or_default();
     let passes = outcome.passes();
-    let cusp = cusp(curve, &outcome.polygon);
-    let reached = outcome.converged && cusp.is_none();
+    let moves =
+        |vertex: &&usize| outcome.polygon.vertex(**vertex) != curve.polygon.vertex(**vertex);
+    let moved = locked.iter().find(moves);
+    let refused = match moved {
+        Some(vertex) => Some(format!(
+            "The steps would move vertex {vertex}, which is locked. Use “both ends at once”"
+        )),
+        None => cusp(curve, &outcome.polygon),
+    };
+    let reached = outcome.converged && refused.is_none();
     Ok(Correction {
         residual,
         passes,
-        reason: cusp.unwrap_or_else(|| why_not(curve, passes, residual)),
+        reason: refused.unwrap_or_else(|| why_not(curve, passes, residual)),
         polygon: Some(outcome.polygon).filter(|_| reached),
     })
 }

@@ -8,7 +8,7 @@ use super::matches::{Moved, followers};
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
 use super::values::Values;
-use crate::document::MatchPlace;
+use crate::document::{Curve, Edit, MatchPlace};
 use crate::geometry::Progress;
 
 /// The operation: its description, and how it is checked and run.
@@ -28,6 +28,17 @@ fn run(input: &Input, _: &Values, _: &Progress) -> Result<Outcome, OperationErro
     let segments = Figure::count("segments", "Segments", polygon.segments());
     let mut outcome = Outcome::renumbered(id, curve, polygon, Deviation::Exact);
     outcome.figures.push(segments);
+    let locked = halved_locks(curve);
+    if !locked.is_empty() {
+        outcome.remarks = vec![
+            "Locks go to the vertices that stand in the same places along the curve".to_owned(),
+        ];
+        outcome.edits.push(Edit::SetVerticesLocked {
+            curve: id,
+            vertices: locked,
+            locked: true,
+        });
+    }
     let followers = followers(input.document(), id, |place| {
         let place = match place {
             MatchPlace::Parameter(u) => MatchPlace::Parameter(2.0 * u),
@@ -37,4 +48,25 @@ fn run(input: &Input, _: &Values, _: &Progress) -> Result<Outcome, OperationErro
     });
     outcome.edits.extend(followers);
     Ok(outcome)
+}
+
+/// The vertices that take the places of the locked ones: those with the Greville abscissa that is
+/// nearest to theirs, now that u counts twice as many segments. Vertex i stands at i − (n − 1)/2.
+fn halved_locks(curve: &Curve) -> Vec<usize> {
+    let polygon = &curve.polygon;
+    let before = polygon.vertices().len();
+    let offset = (polygon.degree() - 1) / 2;
+    let count = if polygon.is_periodic() {
+        2 * before
+    } else {
+        2 * before - polygon.degree()
+    };
+    let halved = |vertex: usize| {
+        if polygon.is_periodic() {
+            (2 * vertex + count - offset) % count
+        } else {
+            (2 * vertex).saturating_sub(offset).min(count - 1)
+        }
+    };
+    curve.locked_vertices.iter().map(halved).collect()
 }

@@ -161,6 +161,26 @@ fn ends_are_corrected_to_what_is_given() {
 }
 
 #[test]
+fn steps_do_not_move_locked_vertices() {
+    let runner = Runner::example("bottle");
+    let start = runner.polygon().end_jet(End::Start).point;
+    let given = [
+        ("method", Value::Choice(1)),
+        ("start", list(&[start.x + 1.0, start.y])),
+        ("locked", list(&[1.0])),
+    ];
+    let outcome = runner.run("correct-ends", &given).expect("it can run");
+    assert!(!outcome.reached && outcome.edits.is_empty());
+    assert!(
+        outcome.remarks[0].contains("vertex 1, which is locked"),
+        "{:?}",
+        outcome.remarks
+    );
+    let (_, curves) = runner.done("correct-ends", &given[1..]);
+    assert_eq!(curves[0].polygon.vertex(1), runner.polygon().vertex(1));
+}
+
+#[test]
 fn too_many_conditions_are_told() {
     let points = [(0.0, 0.0), (1.0, 0.0), (2.0, 1.0), (2.0, 2.0)];
     let polygon = FloatPolygon::planar(3, &points).expect("valid");

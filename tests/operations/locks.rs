@@ -49,7 +49,6 @@ fn parts_keep_the_locks_of_vertices_that_they_have() {
 fn other_vertices_are_not_locked_and_the_report_says_so() {
     let lost = "3 locks are removed: their vertices are no longer there";
     for (name, values) in [
-        ("subdivide", vec![]),
         ("trim", vec![("from", Value::Real(0.5))]),
         ("split", vec![("at", Value::Real(2.5))]),
         ("elevate-degree", vec![]),
@@ -107,7 +106,8 @@ fn no_operation_moves_a_locked_vertex() {
         let runner = runner(example, &[1, 3]);
         let before = runner.polygon();
         let held = [1, 3].map(|vertex| before.vertex(vertex));
-        for operation in ALL {
+        // Subdividing gives locks to other vertices.
+        for operation in ALL.iter().filter(|operation| operation.name != "subdivide") {
             let Ok(outcome) = runner.run(operation.name, &[]) else {
                 continue;
             };
@@ -119,6 +119,41 @@ fn no_operation_moves_a_locked_vertex() {
                     assert!(held.contains(&place), "{} of {example}", operation.name);
                 }
             }
+        }
+    }
+}
+
+#[test]
+fn subdividing_locks_the_vertices_at_the_same_places_along_the_curve() {
+    for example in ["hull", "s-curve", "periodic"] {
+        let locked = [0, 1, 4];
+        let runner = runner(example, &locked);
+        let before = runner.polygon();
+        let (_, curves) = runner.done("subdivide", &[]);
+        let after = &curves[0].polygon;
+        let length = after.segments() as f64;
+        for vertex in locked {
+            let wanted = 2.0 * before.greville(vertex);
+            // Beyond the ends of an open curve there are fewer vertices than before.
+            let first = after.greville(0);
+            let wanted = if before.is_periodic() {
+                wanted
+            } else {
+                wanted.max(first)
+            };
+            let apart = |other: usize| {
+                let apart = (after.greville(other) - wanted).abs();
+                if before.is_periodic() {
+                    apart.min((length - apart).abs())
+                } else {
+                    apart
+                }
+            };
+            let near = locks(&curves[0])
+                .into_iter()
+                .map(apart)
+                .fold(f64::INFINITY, f64::min);
+            assert!(near <= 0.5, "{example} {vertex}: {near}");
         }
     }
 }
