@@ -203,7 +203,7 @@ impl Command {
             }
             Self::Follow(follow) => follow.tooltip(),
             Self::ToggleKeeping => {
-                "Let no drag add a curvature extremum or an inflection: every place is proved"
+                "Let no drag add a curvature extremum or an inflection to what is dragged: every place is proved"
             }
             Self::Tool(tool) => tool.tooltip(),
         };

@@ -19,6 +19,9 @@ use crate::geometry::{counted, figure};
 /// How near to a leg the pointer must be to take it, in screen points: less than to a vertex.
 const LEG_REACH: f64 = 0.5 * REACH;
 
+/// How far below the pointer a label stands, in screen points: what is dragged is told above.
+const LABEL_BELOW: f64 = 72.0;
+
 /// The select tool's state.
 #[derive(Debug, Default)]
 pub struct SelectTool {
@@ -189,7 +192,8 @@ impl Tool for SelectTool {
             State::Moving(moving) => {
                 let snap = moving.snap.map(Mark::Snap);
                 let words = context.following.words();
-                let label = words.map(|words| Mark::Label(moving.pointer, words));
+                let below = DVec2::new(0.0, -LABEL_BELOW * context.viewport.pixel());
+                let label = words.map(|words| Mark::Label(moving.pointer + below, words));
                 snap.into_iter().chain(label).collect()
             }
             _ => Vec::new(),
