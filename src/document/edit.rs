@@ -176,14 +176,7 @@ impl Document {
             Edit::SetTarget { curve, end, target } => {
                 let found = self.curve(curve).ok_or(EditError::NoSuchCurve)?;
                 found.check_visible()?;
-                if let Some(matched) = self.match_of(curve, end) {
-                    let source = self.curve(matched.source);
-                    return Err(EditError::MatchedEnd {
-                        name: found.name.clone(),
-                        end: end.name(),
-                        source_name: source.map_or_else(String::new, |it| it.name.clone()),
-                    });
-                }
+                self.check_unmatched(curve, end)?;
                 self.change(curve, |curve| curve.targets.set(end, target))
             }
             Edit::SetMatch(matched) => self.set_match(matched),

@@ -47,6 +47,23 @@ impl Document {
         matches.find(|matched| (matched.curve, matched.end) == (curve, end))
     }
 
+    /// Refuse if an end is matched: its target is what it follows.
+    ///
+    /// # Errors
+    /// [`EditError::MatchedEnd`], or [`EditError::NoSuchCurve`].
+    pub fn check_unmatched(&self, curve: CurveId, end: End) -> Result<(), EditError> {
+        let found = self.curve(curve).ok_or(EditError::NoSuchCurve)?;
+        let Some(matched) = self.match_of(curve, end) else {
+            return Ok(());
+        };
+        let source = self.curve(matched.source);
+        Err(EditError::MatchedEnd {
+            name: found.name.clone(),
+            end: end.name(),
+            source_name: source.map_or_else(String::new, |it| it.name.clone()),
+        })
+    }
+
     /// Whether a match is met, but for rounding.
     pub fn meets(&self, matched: &EndMatch) -> bool {
         let curve = self.curve(matched.curve).zip(matched.target(self));

@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use crate::document::{Curve, CurveId, Document, Edit};
 use crate::editor::Editor;
-use crate::editor::files::with_lines;
 use crate::editor::hand::selection::Selection;
 use crate::editor::hand::tools::ToolKind;
 use crate::editor::reply::{Message, Note, Refusal, Reply, told};
@@ -409,8 +408,6 @@ impl Editor {
             Some(Ok(run)) => run.report.summary(),
             _ => String::new(),
         };
-        let before = trial.input.document().clone();
-        let said = with_lines(said, &self.dissolved_since(&before));
         if renumbers {
             self.hand.selection.clear();
         }

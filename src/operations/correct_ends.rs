@@ -15,7 +15,7 @@ use super::outcome::{Deviation, Figure, Outcome};
 use super::parameter::{Choice, Kind, Parameter, Unit};
 use super::targets::{corrected, cusp, marks, residual};
 use super::values::Values;
-use crate::document::{Curve, EditError};
+use crate::document::{Curve, CurveId, EditError};
 use crate::geometry::end_correction::{EndOverlap, EndTarget, correct_in_turn};
 use crate::geometry::fairing::joint_correction::{CorrectionError, Disturbance, correct_jointly};
 use crate::geometry::{End, FloatPolygon, Progress, counted, significant};
@@ -207,7 +207,7 @@ struct Correction {
 
 fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
     let (id, curve) = input.curve()?;
-    let curve = &asked(curve, values)?;
+    let curve = &asked(input, id, curve, values)?;
     let tolerance = values.real(&TOLERANCE);
     let correction = if values.choice(&METHOD, &[true, false]) {
         at_once(curve, values, tolerance)?
@@ -241,11 +241,20 @@ fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, Operatio
 /// The curve with the targets that are set, and what the values ask for beside them.
 ///
 /// # Errors
-/// [`OperationError::NoTarget`] if nothing is asked for at all, or [`EditError::BadTarget`].
-fn asked(curve: &Curve, values: &Values) -> Result<Curve, OperationError> {
+/// [`OperationError::NoTarget`] if nothing is asked for at all, [`EditError::BadTarget`], or
+/// [`EditError::MatchedEnd`].
+fn asked(
+    input: &Input,
+    id: CurveId,
+    curve: &Curve,
+    values: &Values,
+) -> Result<Curve, OperationError> {
     let mut asked = curve.clone();
     for (end, parameters) in [(End::Start, &START), (End::Finish, &FINISH)] {
         let target = parameters.target(curve, end, values);
+        if target != curve.targets.get(end) {
+            input.document().check_unmatched(id, end)?;
+        }
         if target.is_some_and(|target| !target.is_usable()) {
             return Err(EditError::BadTarget.into());
         }

@@ -5,6 +5,7 @@ use std::hash::{Hash, Hasher};
 use super::error::OperationError;
 use super::input::Input;
 use super::inputs::Inputs;
+use super::matches;
 use super::outcome::Outcome;
 use super::parameter::Parameter;
 use super::value::Value;
@@ -104,8 +105,10 @@ impl Operation {
         progress: &Progress,
     ) -> Result<Outcome, OperationError> {
         self.check(input)?;
-        let outcome = (self.run)(input, values, progress)?;
-        outcome.applied_to(input.document())?;
+        let mut outcome = (self.run)(input, values, progress)?;
+        let after = outcome.applied_to(input.document())?;
+        let remarks = matches::remarks(input.document(), &outcome.edits, &after);
+        outcome.remarks.extend(remarks);
         if progress.is_cancelled() {
             return Err(OperationError::Cancelled);
         }

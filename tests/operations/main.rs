@@ -8,6 +8,7 @@ mod descriptions;
 mod ends;
 mod harmony;
 mod locks;
+mod matches;
 mod parts;
 mod random;
 mod reports;

@@ -71,7 +71,7 @@ const MOST: f64 = 1000.0;
 const STIFFNESS: [f64; 2] = [1e-8, 1e4];
 
 /// How much faster the stiffness changes than the span when the wheel turns.
-const STIFFNESS_TURN: i32 = 8;
+const STIFFNESS_TURN: i32 = 2;
 
 impl Following {
     /// How many neighbours follow on each side.

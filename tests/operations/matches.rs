@@ -1,0 +1,90 @@
+//! What operations say of ends that follow other curves.
+
+use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace};
+use batten::geometry::{Continuity, End, FloatPolygon, Progress};
+use batten::operations::{Input, OperationError, Outcome, Value};
+
+use crate::runner::operation;
+
+/// Two curves, the start of the second following the end of the first.
+fn matched() -> (Document, [CurveId; 2]) {
+    let curve = |name: &str, shift: f64| {
+        let points: Vec<(f64, f64)> = (0..9)
+            .map(|index| (shift + f64::from(index), 0.1 * f64::from(index * index)))
+            .collect();
+        Curve::new(name, FloatPolygon::planar(4, &points).expect("valid"))
+    };
+    let document = Document::from_curves([curve("first", 0.0), curve("second", 9.0)]);
+    let ids: Vec<CurveId> = document.ids().collect();
+    let matched = EndMatch {
+        curve: ids[1],
+        end: End::Start,
+        source: ids[0],
+        place: MatchPlace::End(End::Finish),
+        continuity: Continuity::G1,
+        reversed: false,
+    };
+    let document = document
+        .edited([Edit::SetMatch(matched)])
+        .expect("it can be matched");
+    (document, [ids[0], ids[1]])
+}
+
+fn run(
+    document: &Document,
+    curve: CurveId,
+    name: &str,
+    given: &[(&str, Value)],
+) -> Result<Outcome, OperationError> {
+    let input = Input::new(document, [curve])?;
+    let operation = operation(name);
+    let values = operation.values(&input, given.iter().cloned())?;
+    operation.run(&input, &values, &Progress::default())
+}
+
+#[test]
+fn an_end_that_follows_has_no_other_target() {
+    let (document, [_, second]) = matched();
+    let elsewhere = [("start", Value::List(vec![0.0, 5.0]))];
+    let refused = run(&document, second, "correct-ends", &elsewhere).expect_err("it follows");
+    let message = refused.to_string();
+    assert!(message.contains("is matched to “first”"), "{message}");
+    let other = [("end", Value::List(vec![20.0, 5.0]))];
+    let outcome = run(&document, second, "correct-ends", &other).expect("it is free");
+    assert!(outcome.reached);
+}
+
+#[test]
+fn what_becomes_of_a_match_is_told() {
+    let (document, [first, second]) = matched();
+    let digits = [("digits", Value::Whole(1))];
+    let rounded = run(&document, second, "round", &digits).expect("it can run");
+    let corrected = "“second” was corrected afterwards, so that it meets its match";
+    assert!(
+        rounded.remarks.iter().any(|it| it == corrected),
+        "{:?}",
+        rounded.remarks
+    );
+    let from = [("from", Value::Real(1.0))];
+    let trimmed = run(&document, second, "trim", &from).expect("it can run");
+    let gone = "The start of “second” is no longer matched";
+    assert!(
+        trimmed.remarks.iter().any(|it| it == gone),
+        "{:?}",
+        trimmed.remarks
+    );
+    // A follower that is locked stays behind.
+    let lock = Edit::SetLocked {
+        curve: second,
+        locked: true,
+    };
+    let locked = document.edited([lock]).expect("an edit");
+    let moved = [("end", Value::List(vec![9.0, 5.0]))];
+    let outcome = run(&locked, first, "correct-ends", &moved).expect("it can run");
+    let left = "The start of “second” does not meet its match now";
+    assert!(
+        outcome.remarks.iter().any(|it| it == left),
+        "{:?}",
+        outcome.remarks
+    );
+}
