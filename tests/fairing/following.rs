@@ -2,7 +2,7 @@
 
 use batten::geometry::end_correction::{EndDifference, EndTarget};
 use batten::geometry::fairing::following::{Moved, follow_in_harmony, follow_softly};
-use batten::geometry::polygon_figures::discrete_curvature;
+use batten::geometry::polygon_figures::{discrete_curvature, turning_angle};
 use batten::geometry::{ClampedPolygon, End, FloatPolygon};
 use glam::DVec3;
 
@@ -143,4 +143,20 @@ fn a_soft_drag_falls_off() {
     }
     assert_eq!(moved(5), DVec3::ZERO);
     assert!(follow_softly(&polygon, &[(20, place)], 3, &[]).is_err());
+}
+
+#[test]
+fn large_moves_do_not_fold_the_polygon() {
+    let polygon = fair(34, 5, false, false);
+    for span in 5..20 {
+        for legs in [1.0, 2.0, 4.0] {
+            let place = polygon.vertex(15) + legs * DVec3::new(0.6, 0.8, 0.0);
+            let moved = Moved::Vertices(vec![(15, place)]);
+            let found = follow_in_harmony(&polygon, &moved, span, 1e-4, &[]).expect("valid");
+            let corners = found.vertices().windows(3);
+            let turns = corners.map(|c| turning_angle(c[0], c[1], c[2]).abs());
+            let most = turns.fold(0.0, f64::max);
+            assert!(most < 1.2, "span {span}, {legs} legs: {most}");
+        }
+    }
 }

@@ -50,7 +50,7 @@ pub fn follow_in_harmony(
     locked: &[usize],
 ) -> Result<FloatPolygon, PolygonError> {
     let count = polygon.vertices().len();
-    let mut begun = polygon.clone();
+    let mut begun;
     let mut held = End::BOTH.map(|end| kept(polygon, end)).to_vec();
     let mut near = vec![false; count];
     let mut fixed = vec![false; count];
@@ -59,6 +59,8 @@ pub fn follow_in_harmony(
     }
     let clamped = match moved {
         Moved::Vertices(moves) => {
+            // From a falloff the way to harmony is short and does not fold the polygon.
+            begun = follow_softly(polygon, moves, span, locked)?;
             begun.move_vertices(moves.iter().copied())?;
             for (vertex, _) in moves {
                 mark_near(&mut near, *vertex, span, polygon.is_periodic());
