@@ -206,3 +206,41 @@ fn space_curves_lose_their_ripple() {
     assert!(reached * 5 >= trials * 4, "{reached} of {trials}");
     assert_eq!(fewer, trials);
 }
+
+#[test]
+fn a_stretch_of_a_noisy_curve_becomes_harmonious_by_itself() {
+    let mut random = Random(19);
+    let (mut reached, trials) = ([0; 2], 20);
+    for _ in 0..trials {
+        let mut vertices = Shape::Clothoid.vertices(&mut random, 44);
+        for vertex in &mut vertices {
+            *vertex += random.vector(0.03, false);
+        }
+        let polygon = FloatPolygon::new(5, vertices, None, false).expect("valid");
+        for (count, held) in reached.iter_mut().zip([Held::Free, Held::Direction]) {
+            let stretch = [8.0, 26.0];
+            let harmony = Harmony {
+                stretch: Some(stretch),
+                ends: [held; 2],
+                ..asked(0, 0)
+            };
+            let found = harmonise(&polygon, &harmony, &Progress::default()).expect("a result");
+            *count += usize::from(found.reached);
+            let features = Features::new(&found.polygon);
+            let mut inside = features.curvature_extrema.iter();
+            let any = inside.any(|it| it.u[1] >= stretch[0] && it.u[0] <= stretch[1]);
+            assert_eq!(any, found.counts.extrema > 0);
+            if held == Held::Direction {
+                for u in stretch {
+                    let [a, b] = [&polygon, &found.polygon].map(|it| it.jet(u));
+                    assert!(a.point.distance(b.point) <= HELD * polygon.size());
+                }
+            }
+        }
+    }
+    println!("stretches: {reached:?} of {trials}");
+    assert!(
+        reached.into_iter().all(|count| count * 20 >= trials * 19),
+        "{reached:?}"
+    );
+}

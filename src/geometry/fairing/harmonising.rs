@@ -168,6 +168,7 @@ pub fn harmonise(
     if problem.freedoms() == 0 {
         return Err(HarmonyError::NothingMoves);
     }
+    problem.count_only(|vertex| counts(polygon, stretch, harmony.ends, vertex));
     for (u, held) in ends(polygon, stretch, harmony) {
         if let Some(target) = kept(polygon, u, held) {
             problem.hold(u, &target, None);
@@ -203,6 +204,15 @@ fn ends(polygon: &FloatPolygon, stretch: [f64; 2], harmony: &Harmony) -> Vec<(f6
         return Vec::new();
     }
     stretch.into_iter().zip(harmony.ends).collect()
+}
+
+/// Whether the harmony of a vertex counts: it acts on the stretch, or on what the stretch joins in
+/// all derivatives.
+fn counts(polygon: &FloatPolygon, stretch: [f64; 2], ends: [Held; 2], vertex: usize) -> bool {
+    let acts = may_move(polygon, stretch, [Held::Free; 2], vertex);
+    let end = vertex as f64 + 1.0;
+    let before = end <= stretch[0];
+    acts || ends[usize::from(!before)] == Held::All
 }
 
 /// Whether a vertex may move: its support [i − n, i + 1] meets the stretch, and does not reach beyond

@@ -53,6 +53,8 @@ pub(super) struct Shape<'a> {
     pub(super) polygon: &'a FloatPolygon,
     /// Where the vertices were.
     pub(super) before: &'a [DVec3],
+    /// The vertices whose harmony counts: differences over others do not.
+    pub(super) counts: &'a [bool],
 }
 
 impl Objective {
@@ -162,6 +164,10 @@ fn difference_rows(
     for first in windows(shape.polygon, width) {
         let mut reached = wrapped(shape.polygon, first, width);
         if !reached.any(|vertex| unknowns.moves(vertex)) {
+            continue;
+        }
+        let mut reached = wrapped(shape.polygon, first, width);
+        if !reached.all(|vertex| shape.counts[vertex]) {
             continue;
         }
         gradient.clear();

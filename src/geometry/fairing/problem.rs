@@ -52,6 +52,8 @@ pub(super) struct Problem<'a> {
     scale: f64,
     before: Vec<DVec3>,
     held: Vec<(JetWeights, Vec<Condition>)>,
+    /// The vertices whose harmony counts.
+    counts: Vec<bool>,
 }
 
 /// The vertices that a descent found.
@@ -88,6 +90,7 @@ impl<'a> Problem<'a> {
             scale,
             before: vertices.map(|vertex| (*vertex - origin) / scale).collect(),
             held: Vec::new(),
+            counts: vec![true; polygon.vertices().len()],
         }
     }
 
@@ -113,6 +116,11 @@ impl<'a> Problem<'a> {
         };
         let conditions = Condition::of(&target, self.planar, None);
         self.held.push((JetWeights::of_point(weights), conditions));
+    }
+
+    /// Let the harmony of only those vertices count for which `counts` holds.
+    pub(super) fn count_only(&mut self, counts: impl Fn(usize) -> bool) {
+        self.counts = (0..self.before.len()).map(counts).collect();
     }
 
     /// Weigh moves from other places than those where the vertices are now.
@@ -299,6 +307,7 @@ impl<'a> Problem<'a> {
         Shape {
             polygon: self.polygon,
             before: &self.before,
+            counts: &self.counts,
         }
     }
 
