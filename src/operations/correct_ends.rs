@@ -228,6 +228,12 @@ fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, Operatio
             outcome
         }
     };
+    let negative = |(_, target): &(End, EndTarget)| target.curvature.is_some_and(|it| it < 0.0);
+    if !curve.polygon.is_planar() && curve.targets.list().iter().any(negative) {
+        outcome
+            .remarks
+            .push("In space the curvature has no sign: its magnitude counts".to_owned());
+    }
     outcome.residual = Some(correction.residual);
     let passes = correction.passes;
     outcome.figures = vec![

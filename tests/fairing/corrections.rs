@@ -610,3 +610,42 @@ fn locked_vertices_are_held_by_corrections() {
         "{refused:?}"
     );
 }
+
+#[test]
+fn ends_of_space_curves_are_straightened() {
+    let mut random = Random(24);
+    for trial in 0..50 {
+        let polygon = arc(&mut random, 4 + trial % 5, 16, true, trial % 2 == 0);
+        let targets = End::BOTH.map(|end| {
+            let target = EndTarget {
+                curvature: Some(0.0),
+                ..target_of(&polygon, end, 1)
+            };
+            (end, target)
+        });
+        let found = correct_jointly(&polygon, &targets, Disturbance::Differences(1), &[]);
+        let found = found.unwrap_or_else(|error| panic!("trial {trial}: {error}"));
+        for end in End::BOTH {
+            let curvature = found.polygon.end_jet(end).curvature() * polygon.size();
+            assert!(curvature <= CURVATURE_MET, "trial {trial}: {curvature:e}");
+        }
+    }
+}
+
+#[test]
+fn an_end_does_not_stop_to_have_a_curvature_that_it_cannot_have() {
+    let mut random = Random(25);
+    let polygon = arc(&mut random, 1, 8, false, false);
+    let target = EndTarget {
+        curvature: Some(0.1),
+        ..target_of(&polygon, End::Start, 1)
+    };
+    let refused = correct_jointly(
+        &polygon,
+        &[(End::Start, target)],
+        Disturbance::Differences(1),
+        &[],
+    );
+    let message = refused.expect_err("polylines are straight").to_string();
+    assert!(message.contains("contradict each other"), "{message}");
+}

@@ -55,10 +55,17 @@ impl Condition {
         }
         let seen = if planar { Some(DVec3::Z) } else { normal };
         let magnitude = |value: f64| if planar { value } else { value.abs() };
-        conditions.extend(target.curvature.map(magnitude).map(|value| match seen {
-            Some(normal) => Self::SeenCurvature { normal, value },
-            None => Self::Curvature { value },
-        }));
+        match (target.curvature.map(magnitude), seen) {
+            (None, _) => {}
+            (Some(value), Some(normal)) => conditions.push(Self::SeenCurvature { normal, value }),
+            // A straight end has no side on which its curvature could be seen: none may show any.
+            (Some(0.0), None) => {
+                let seen = axes.iter().map(|axis| (*axis, 0.0));
+                conditions
+                    .extend(seen.map(|(normal, value)| Self::SeenCurvature { normal, value }));
+            }
+            (Some(value), None) => conditions.push(Self::Curvature { value }),
+        }
         conditions.extend(target.slope.map(|value| match seen {
             Some(normal) => Self::SeenSlope { normal, value },
             None => Self::Slope { value },

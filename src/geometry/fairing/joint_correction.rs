@@ -24,6 +24,9 @@ const CURVATURE_MET: f64 = 1e-10;
 /// The rounding of a vertex, and what its coordinates are combined to, in units of the largest.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
+/// The share of its speed with which an end counts as stopped: a cusp in the making.
+const STOPPED: f64 = 1e-3;
+
 /// The most steps of harmonious corrections.
 const MOST_STEPS: usize = 50;
 
@@ -46,9 +49,7 @@ pub enum CorrectionError {
         end: End,
     },
     /// The conditions contradict each other or the polygon has too few vertices for them.
-    #[error(
-        "{conditions} end conditions cannot be met by {freedoms} coordinates that may change (off by {residual:.2e}): ask for less, unlock vertices, or give the curve more of them"
-    )]
+    #[error("{} (off by {residual:.2e}): ask for less, unlock vertices, or give the curve more of them", unsolved(*.conditions, *.freedoms))]
     NotSolvable {
         /// The number of conditions.
         conditions: usize,
@@ -60,6 +61,17 @@ pub enum CorrectionError {
     /// A vertex would leave the range of numbers.
     #[error(transparent)]
     Polygon(#[from] PolygonError),
+}
+
+fn unsolved(conditions: usize, freedoms: usize) -> String {
+    if conditions > freedoms {
+        format!(
+            "{conditions} end conditions cannot be met by {freedoms} coordinates that may change"
+        )
+    } else {
+        "the end conditions contradict each other, or lie too far from what the curve has"
+            .to_owned()
+    }
 }
 
 /// What a correction disturbs as little as possible.
@@ -283,14 +295,18 @@ impl Correction<'_> {
                 slope: 0.0,
                 ..left
             };
-            // What the rounding of vertices makes of derivatives.
+            // What the rounding of vertices makes of derivatives. An end that has all but stopped
+            // would make anything of them.
             let speed = polygon.end_jet(*end).speed();
+            let bends = target.curvature.is_some() || target.slope.is_some();
+            let stopped = bends && speed < STOPPED * self.polygon.end_jet(*end).speed();
             let rounding = ROUNDING * scale / (speed * speed);
             let close = |left: f64, wanted: Option<f64>, unit: f64, rounding: f64| {
                 let wanted = wanted.map_or(unit, |wanted| wanted.abs().max(unit));
                 left.abs() <= (CURVATURE_MET * wanted).max(rounding)
             };
-            placed.residual(size) <= MET * scale
+            !stopped
+                && placed.residual(size) <= MET * scale
                 && close(left.curvature, target.curvature, size.recip(), rounding)
                 && close(
                     left.slope,
