@@ -57,7 +57,7 @@ pub(super) fn run(application: &Application) -> anyhow::Result<ExitCode> {
     let input = application.input()?;
     let done = application.applied(&input);
     let (outcome, report) = done.with_context(|| application.place())?;
-    if outcome.reached || (application.best && outcome.is_useful()) {
+    if outcome.reached || application.best {
         let document = outcome.applied_to(input.document())?;
         let export = format.write_document(&document, None);
         let destination = &application.destination;

@@ -164,6 +164,14 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
     };
     let asked = |parameter| given(values, parameter).map(|count| count as usize);
     let locked = locked(curve, values)?;
+    let most = given(values, &MAX_DEVIATION);
+    if let Some(value) = most.filter(|most| *most < 0.0) {
+        return Err(OperationError::OutOfRange {
+            label: MAX_DEVIATION.label,
+            value: value.to_string(),
+            needed: "a length of at least 0".to_owned(),
+        });
+    }
     let harmony = Harmony {
         stretch,
         ends: [end(&KEEP_START), end(&KEEP_END)],
@@ -171,7 +179,7 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
         extrema: asked(&EXTREMA),
         inflections: asked(&INFLECTIONS),
         torsion_extrema: asked(&TORSION_EXTREMA),
-        largest_deviation: given(values, &MAX_DEVIATION),
+        largest_deviation: most,
     };
     let found = match harmonise(&curve.polygon, &harmony, progress) {
         Ok(found) => found,
@@ -201,6 +209,11 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
             found.asked.inflections,
         ),
     ];
+    if !curve.polygon.is_planar() {
+        let asked = found.asked.torsion_extrema;
+        let figure = Figure::count("asked_torsion_extrema", "Torsion extrema asked for", asked);
+        outcome.figures.push(figure);
+    }
     outcome.marks = stretch_marks(&curve.polygon, stretch);
     Ok(outcome)
 }

@@ -244,3 +244,21 @@ fn a_stretch_of_a_noisy_curve_becomes_harmonious_by_itself() {
         "{reached:?}"
     );
 }
+
+#[test]
+fn the_best_found_comes_close_where_what_is_asked_is_out_of_reach() {
+    let mut random = Random(29);
+    let mut vertices = Shape::Clothoid.vertices(&mut random, 600);
+    for vertex in &mut vertices {
+        *vertex += random.vector(0.05, false);
+    }
+    let polygon = FloatPolygon::new(5, vertices, None, false).expect("valid");
+    let before = Features::new(&polygon).count(Quantity::CurvatureExtremum);
+    let found = harmonise(&polygon, &asked(0, 0), &Progress::default()).expect("a result");
+    println!("600 vertices: {before} extrema, then {:?}", found.counts);
+    assert!(
+        found.counts.extrema * 10 <= before,
+        "{:?} of {before}",
+        found.counts
+    );
+}

@@ -86,6 +86,7 @@ fn random_values_neither_panic_nor_make_edits_that_are_refused() {
                         | OperationError::NoTarget { .. }
                         | OperationError::Edit(EditError::BadTarget)
                         | OperationError::Harmony(_)
+                        | OperationError::OutOfRange { .. }
                         | OperationError::Correction(_)),
                     ) => {
                         assert!(!error.to_string().is_empty());

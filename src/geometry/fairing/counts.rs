@@ -201,13 +201,9 @@ fn sign_changes(values: &[f64], cyclic: bool) -> usize {
     inside + usize::from(around)
 }
 
-/// Look at samples whether a stretch has more features than are asked for, so that nothing needs to
-/// be proved. What is not seen here may still be there.
-pub(super) fn looks_like_more(
-    polygon: &FloatPolygon,
-    stretch: [f64; 2],
-    asked: ShapeCounts,
-) -> bool {
+/// Look at samples how many features a stretch has at least. What is not seen here may still be
+/// there.
+pub(super) fn seen(polygon: &FloatPolygon, stretch: [f64; 2]) -> ShapeCounts {
     let planar = polygon.is_planar();
     let sampler = Sampler::even(polygon.degree(), SAMPLES);
     let mut batch = Batch::default();
@@ -234,12 +230,11 @@ pub(super) fn looks_like_more(
         let torsion = &series[1];
         series[2] = torsion.windows(2).map(|pair| pair[1] - pair[0]).collect();
     }
-    let seen = ShapeCounts {
+    ShapeCounts {
         extrema: certain_changes(&series[0]),
         inflections: certain_changes(&series[1]),
         torsion_extrema: certain_changes(&series[2]),
-    };
-    seen.exceeds(asked)
+    }
 }
 
 fn certain_changes(values: &[f64]) -> usize {

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use thiserror::Error;
 
-use super::counts::{Asked, ShapeCounts, counted, domain, looks_like_more, prove, significant};
+use super::counts::{Asked, ShapeCounts, counted, domain, prove, seen, significant};
 use super::problem::Problem;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::error::PolygonError;
@@ -185,12 +185,14 @@ pub fn harmonise(
             harmonised: unchanged,
             largest_move: 0.0,
         },
+        promising: None,
         polygon,
         iterations: 0,
     };
     for (index, order) in ORDERS.into_iter().enumerate() {
         search.run(order, index as f64 / ORDERS.len() as f64)?;
     }
+    search.prove_most_promising()?;
     let iterations = search.iterations;
     Ok(Harmonised {
         iterations,
@@ -300,27 +302,46 @@ struct Search<'a> {
     most: f64,
     progress: &'a Progress,
     best: Candidate,
+    /// What looks closest of what is certainly not what is asked, by how many features too many.
+    promising: Option<(usize, FloatPolygon)>,
     iterations: usize,
 }
 
 impl Search<'_> {
     /// Search with differences of one order; so much was done before.
     fn run(&mut self, order: usize, done: f64) -> Result<(), HarmonyError> {
+        let mut begins = vec![self.problem.before().to_vec()];
+        if !self.polygon.is_planar() {
+            begins.push(self.problem.smooth_begin(order));
+        }
+        let share = 1.0 / (ORDERS.len() * begins.len()) as f64;
+        for (index, begin) in begins.into_iter().enumerate() {
+            let warm = index == 0;
+            self.sweep(order, &begin, warm, [done + share * index as f64, share])?;
+        }
+        Ok(())
+    }
+
+    /// Let ε fall from a beginning until what is asked is left, each time from what the one before
+    /// left if `warm`; the work is the second share, after the first.
+    fn sweep(
+        &mut self,
+        order: usize,
+        begin: &[DVec3],
+        warm: bool,
+        [done, work]: [f64; 2],
+    ) -> Result<(), HarmonyError> {
         let [first, last] = CLOSENESS;
         let sweep = (last / first).ln() / SWEEP.ln();
-        let begin = self.problem.smooth_begin(order);
-        let mut vertices = begin.clone();
+        let mut vertices = begin.to_vec();
         let mut closeness = first;
         while closeness >= 0.999 * last {
             let share = (closeness / first).ln() / SWEEP.ln() / sweep;
-            self.progress.set_done(done + share / ORDERS.len() as f64);
-            // In space the way down from each ε begins without noise.
-            let before = if self.polygon.is_planar() {
-                vertices.clone()
-            } else {
-                begin.clone()
-            };
-            vertices.clone_from(&before);
+            self.progress.set_done(done + work * share);
+            if !warm {
+                vertices = begin.to_vec();
+            }
+            let before = vertices.clone();
             let found = self.try_out(order, closeness, &mut vertices)?;
             let between = [closeness, closeness / SWEEP];
             if found != Found::More && self.narrow(order, between, found, before)? {
@@ -354,7 +375,7 @@ impl Search<'_> {
         Ok(reached)
     }
 
-    /// Go down for one ε, keep what is found if it is better, and tell whether it is what is asked.
+    /// Go down for one ε, and tell whether what is found is what is asked.
     fn try_out(
         &mut self,
         order: usize,
@@ -371,11 +392,32 @@ impl Search<'_> {
         let Ok(polygon) = self.problem.polygon(vertices) else {
             return Ok(Found::More);
         };
-        if looks_like_more(&polygon, self.stretch, self.asked.counts)
-            && self.best.harmonised.iterations > 0
-        {
+        // What samples show already needs no proof.
+        let looks = seen(&polygon, self.stretch);
+        if looks.exceeds(self.asked.counts) {
+            let excess = looks.distance(self.asked);
+            if self
+                .promising
+                .as_ref()
+                .is_none_or(|(least, _)| excess < *least)
+            {
+                self.promising = Some((excess, polygon));
+            }
             return Ok(Found::More);
         }
+        self.rank(polygon)
+    }
+
+    /// Prove what looked closest, unless what is asked is reached.
+    fn prove_most_promising(&mut self) -> Result<(), HarmonyError> {
+        match self.promising.take() {
+            Some((_, polygon)) if !self.best.harmonised.reached => self.rank(polygon).map(drop),
+            _ => Ok(()),
+        }
+    }
+
+    /// Prove a polygon, keep it if it is better, and tell whether it is what is asked.
+    fn rank(&mut self, polygon: FloatPolygon) -> Result<Found, HarmonyError> {
         let features = prove(&polygon, self.progress).ok_or(HarmonyError::Cancelled)?;
         let proved = counted(&features, polygon.is_planar(), self.stretch);
         let deviation = self.polygon.deviation(&polygon)?;
