@@ -14,40 +14,17 @@ use crate::geometry::{FloatPolygon, Progress, counted, rounded_up};
 
 const WHAT_STANDS_OUT: &str = "those that stand out";
 
-const FREE: Choice = Choice {
-    name: "free",
-    label: "Free",
-};
+const FREE: Choice = option("free", "Free");
+const POSITION: Choice = option("position", "Position");
+const DIRECTION: Choice = option("direction", "Direction");
+const CURVATURE: Choice = option("curvature", "Curvature");
+const SLOPE: Choice = option("slope", "Slope");
+const SAME: Choice = option("same", "Same");
+const ALL: Choice = option("all", "All");
 
-const POSITION: Choice = Choice {
-    name: "position",
-    label: "Position",
-};
-
-const DIRECTION: Choice = Choice {
-    name: "direction",
-    label: "Direction",
-};
-
-const CURVATURE: Choice = Choice {
-    name: "curvature",
-    label: "Curvature",
-};
-
-const SLOPE: Choice = Choice {
-    name: "slope",
-    label: "Slope",
-};
-
-const SAME: Choice = Choice {
-    name: "same",
-    label: "Same",
-};
-
-const ALL: Choice = Choice {
-    name: "all",
-    label: "All",
-};
+const fn option(name: &'static str, label: &'static str) -> Choice {
+    Choice { name, label }
+}
 
 const KEEP: Parameter = Parameter {
     name: "keep",

@@ -1,15 +1,12 @@
 //! Neighbours that follow what is moved by hand.
 
-use batten::geometry::end_correction::{EndDifference, EndTarget};
 use batten::geometry::fairing::following::{Moved, follow_in_harmony, follow_softly};
 use batten::geometry::polygon_figures::{discrete_curvature, turning_angle};
-use batten::geometry::{ClampedPolygon, End, FloatPolygon};
+use batten::geometry::{ClampedPolygon, FloatPolygon};
 use glam::DVec3;
 
+use crate::check_ends;
 use crate::common::Random;
-
-/// How far what is held may move, in units of the curve's size.
-const HELD: f64 = 1e-12;
 
 const STIFFNESS: f64 = 0.01;
 
@@ -26,23 +23,6 @@ fn fair(count: usize, degree: usize, in_space: bool, periodic: bool) -> FloatPol
         DVec3::new(cosine / turn, sine / turn, z)
     });
     FloatPolygon::new(degree, vertices.collect(), None, periodic).expect("valid")
-}
-
-fn check_ends(before: &FloatPolygon, after: &FloatPolygon) {
-    for end in End::BOTH {
-        let jet = before.end_jet(end);
-        let target = EndTarget {
-            point: jet.point,
-            direction: jet.tangent(),
-            ..EndTarget::default()
-        };
-        let left = EndDifference::between(after, end, &target).residual(before.size());
-        assert!(
-            left <= HELD * before.size(),
-            "{} off by {left:e}",
-            end.name()
-        );
-    }
 }
 
 /// The largest second difference of the discrete curvature.

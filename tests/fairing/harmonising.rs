@@ -1,12 +1,12 @@
 //! Harmonising noisy polygons of curves with known features.
 
-use batten::geometry::end_correction::{EndDifference, EndTarget};
 use batten::geometry::fairing::harmonising::{Harmony, Held, harmonise};
 use batten::geometry::features::{Features, Quantity};
-use batten::geometry::{End, FloatPolygon, Progress};
+use batten::geometry::{FloatPolygon, Progress};
 use glam::DVec3;
 
 use crate::common::Random;
+use crate::{HELD, check_ends};
 
 /// What curves there are before the noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,9 +67,6 @@ impl Shape {
 /// How many curves of each shape are tried.
 const TRIALS: usize = 60;
 
-/// How far an end may move, in units of the curve's size; a direction by the angle.
-const HELD: f64 = 1e-12;
-
 /// A noisy polygon, with its noise: a share of a leg in each coordinate.
 fn noisy(shape: Shape, random: &mut Random, in_space: bool, rational: bool) -> (FloatPolygon, f64) {
     let degree = 4 + (random.bits() % 6) as usize;
@@ -106,24 +103,6 @@ fn asked(extrema: usize, inflections: usize) -> Harmony<'static> {
 fn largest_move(before: &FloatPolygon, after: &FloatPolygon) -> f64 {
     let moves = before.vertices().iter().zip(after.vertices());
     moves.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
-}
-
-#[track_caller]
-fn check_ends(before: &FloatPolygon, after: &FloatPolygon) {
-    for end in End::BOTH {
-        let jet = before.end_jet(end);
-        let target = EndTarget {
-            point: jet.point,
-            direction: jet.tangent(),
-            ..EndTarget::default()
-        };
-        let left = EndDifference::between(after, end, &target).residual(before.size());
-        assert!(
-            left <= HELD * before.size(),
-            "{} off by {left:e}",
-            end.name()
-        );
-    }
 }
 
 /// Harmonise so many noisy curves of a shape. Returns how many have the features they had before

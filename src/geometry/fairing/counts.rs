@@ -1,7 +1,6 @@
 //! How many features a curve has, or a stretch of it, and how many of them are more than ripple.
 
-use crate::geometry::ParametricCurve;
-use crate::geometry::features::{Extremum, Features, Root, SegmentProver};
+use crate::geometry::features::{Extremum, Features, Root, SegmentFeatures};
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::jet::Jet;
 use crate::geometry::progress::Progress;
@@ -81,14 +80,7 @@ impl Proved {
 
 /// Prove the features of a curve; `None` if `progress` is cancelled meanwhile.
 pub(super) fn prove(polygon: &FloatPolygon, progress: &Progress) -> Option<Features> {
-    let mut prover = SegmentProver::new(polygon.is_planar());
-    let mut segments = Vec::with_capacity(polygon.segments());
-    for segment in 0..polygon.segments() {
-        if progress.is_cancelled() {
-            return None;
-        }
-        segments.push(prover.segment(polygon, segment));
-    }
+    let segments = SegmentFeatures::of_curve(polygon, progress)?;
     Some(Features::assemble(polygon, &segments))
 }
 
@@ -251,7 +243,7 @@ fn certain_changes(values: &[f64]) -> usize {
 
 /// The whole domain of a curve.
 pub(super) fn domain(polygon: &FloatPolygon) -> [f64; 2] {
-    [0.0, ParametricCurve::pieces(polygon) as f64]
+    [0.0, polygon.segments() as f64]
 }
 
 #[cfg(test)]
