@@ -13,6 +13,7 @@ mod continuity;
 mod control_polygon;
 mod conversion;
 mod cut;
+mod differentiable;
 mod end;
 pub mod end_correction;
 mod error;
@@ -31,8 +32,10 @@ mod pivoted_cholesky;
 pub mod polygon_figures;
 mod polygon_kind;
 mod power_of_two;
+mod power_series;
 mod progress;
 mod quadrature;
+pub mod references;
 mod sampler;
 mod tables;
 mod vector;
@@ -47,6 +50,7 @@ pub use conversion::{
     Amplification, Approximation, ExactPolygon, MAX_ADDED_SEGMENTS, MAX_PART_SEGMENTS,
     MAX_SUBDIVISIONS, NearestFloat, Rounded,
 };
+pub use differentiable::Differentiable;
 pub use end::{End, rotation_between};
 pub use error::{MAX_DEGREE, PolygonError};
 pub use float_polygon::FloatPolygon;

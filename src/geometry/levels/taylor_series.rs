@@ -12,6 +12,28 @@ use std::ops::{Add, Mul, Sub};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::geometry) struct TaylorSeries<const LENGTH: usize>(pub [f64; LENGTH]);
 
+/// Sum up coefficient k of the product of two series: Σ aⱼ bₖ₋ⱼ, j = 0 … k.
+#[inline(always)]
+pub(in crate::geometry) fn product_coefficient(a: &[f64], b: &[f64], k: usize) -> f64 {
+    let mut sum = 0.0;
+    for j in 0..=k {
+        sum += a[j] * b[k - j];
+    }
+    sum
+}
+
+/// Sum up what coefficient k ≥ 1 of the power g = fᵃ follows from. With g′ f = a f′ g it is
+/// gₖ = Σ (a j − (k − j)) fⱼ gₖ₋ⱼ / (k f₀), j = 1 … k; this is the sum, without the division.
+#[inline(always)]
+pub(in crate::geometry) fn power_sum(exponent: f64, f: &[f64], g: &[f64], k: usize) -> f64 {
+    let mut sum = 0.0;
+    for j in 1..=k {
+        let factor = exponent * j as f64 - (k - j) as f64;
+        sum += factor * f[j] * g[k - j];
+    }
+    sum
+}
+
 impl<const LENGTH: usize> TaylorSeries<LENGTH> {
     /// The series of the constant 0.
     pub const ZERO: Self = Self([0.0; LENGTH]);
@@ -38,8 +60,7 @@ impl<const LENGTH: usize> TaylorSeries<LENGTH> {
 
     /// Raise to the power `halves`/2.
     ///
-    /// With g = fᵃ, g′ f = a f′ g gives gₖ = Σ (a j − (k − j)) fⱼ gₖ₋ⱼ / (k f₀), j = 1 … k. Where
-    /// f₀ = 0 the root is not smooth: all coefficients but the first are then infinite or not
+    /// The coefficients follow from each other: see [`power_sum`]. Where f₀ = 0 the root is not smooth: all coefficients but the first are then infinite or not
     /// numbers. Where f₀ < 0 none is a number.
     #[inline(always)]
     pub fn half_power(&self, halves: i32) -> Self {
@@ -48,12 +69,7 @@ impl<const LENGTH: usize> TaylorSeries<LENGTH> {
         power.0[0] = self.value().sqrt().powi(halves);
         let inverse = 1.0 / self.value();
         for k in 1..LENGTH {
-            let mut sum = 0.0;
-            for j in 1..=k {
-                let factor = exponent * j as f64 - (k - j) as f64;
-                sum += factor * self.0[j] * power.0[k - j];
-            }
-            power.0[k] = sum * inverse / k as f64;
+            power.0[k] = power_sum(exponent, &self.0, &power.0, k) * inverse / k as f64;
         }
         power
     }
@@ -82,13 +98,7 @@ impl<const LENGTH: usize> Mul for TaylorSeries<LENGTH> {
 
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        let mut product = Self::ZERO;
-        for k in 0..LENGTH {
-            for j in 0..=k {
-                product.0[k] += self.0[j] * other.0[k - j];
-            }
-        }
-        product
+        Self(from_fn(|k| product_coefficient(&self.0, &other.0, k)))
     }
 }
 

@@ -1,0 +1,161 @@
+//! Truncated power series of a length that is known only at run time: Taylor arithmetic for curves
+//! given by formulas (Griewank and Walther, "Evaluating Derivatives", chapter 13).
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::levels::taylor_series::product_coefficient;
+
+/// Hold the first coefficients of the power series of a function about a parameter t:
+/// f(t + h) = Σ cₖ hᵏ, k = 0 … order, where cₖ is the k-th derivative at t over k!.
+///
+/// Functions of series have the coefficients of the truncated series, exact up to rounding. Where a
+/// function is not defined, or not smooth, coefficients are infinite or not numbers. Series that
+/// are combined have the same order.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::geometry) struct PowerSeries(Vec<f64>);
+
+impl PowerSeries {
+    /// Write a constant as a series.
+    pub(in crate::geometry) fn constant(value: f64, order: usize) -> Self {
+        let mut coefficients = vec![0.0; order + 1];
+        coefficients[0] = value;
+        Self(coefficients)
+    }
+
+    /// Write the parameter itself as a series about t: t + h.
+    pub(in crate::geometry) fn parameter(t: f64, order: usize) -> Self {
+        let mut series = Self::constant(t, order);
+        if let Some(slope) = series.0.get_mut(1) {
+            *slope = 1.0;
+        }
+        series
+    }
+
+    /// Make the series of which coefficient k + 1 follows from those up to k.
+    pub(in crate::geometry) fn by_recurrence(
+        value: f64,
+        order: usize,
+        next: impl Fn(&[f64], usize) -> f64,
+    ) -> Self {
+        let mut coefficients = Vec::with_capacity(order + 1);
+        coefficients.push(value);
+        for k in 0..order {
+            let coefficient = next(&coefficients, k);
+            coefficients.push(coefficient);
+        }
+        Self(coefficients)
+    }
+
+    /// The coefficients, of which there is at least one.
+    pub(in crate::geometry) fn coefficients(&self) -> &[f64] {
+        &self.0
+    }
+
+    /// The order of the highest derivative.
+    pub(in crate::geometry) fn order(&self) -> usize {
+        self.0.len() - 1
+    }
+
+    /// The value of the function at the parameter itself.
+    pub(in crate::geometry) fn value(&self) -> f64 {
+        self.0[0]
+    }
+
+    /// Multiply by a number.
+    pub(in crate::geometry) fn times(mut self, factor: f64) -> Self {
+        for coefficient in &mut self.0 {
+            *coefficient *= factor;
+        }
+        self
+    }
+
+    /// Differentiate, which leaves one derivative less; of a mere value the derivative is unknown.
+    pub(in crate::geometry) fn derivative(&self) -> Self {
+        let terms = self.0.iter().enumerate().skip(1);
+        Self(terms.map(|(k, c)| k as f64 * c).collect())
+    }
+
+    /// Integrate with a given value at the parameter itself, to the given order: at most one more
+    /// than this one's.
+    pub(in crate::geometry) fn antiderivative(&self, value: f64, order: usize) -> Self {
+        Self::by_recurrence(value, order, |_, k| self.0[k] / (k + 1) as f64)
+    }
+
+    /// Compute sine and cosine: s′ = c f′, c′ = −s f′.
+    pub(in crate::geometry) fn sin_cos(&self) -> (Self, Self) {
+        let (sine, cosine) = self.value().sin_cos();
+        self.paired(sine, cosine, -1.0)
+    }
+
+    /// Solve s′ = c f′, c′ = `sign` · s f′.
+    fn paired(&self, sine: f64, cosine: f64, sign: f64) -> (Self, Self) {
+        let slope = self.derivative();
+        let (mut sines, mut cosines) = (vec![sine], vec![cosine]);
+        for k in 0..self.order() {
+            let step = 1.0 / (k + 1) as f64;
+            let rise = product_coefficient(&cosines, &slope.0, k) * step;
+            let fall = product_coefficient(&sines, &slope.0, k) * step;
+            sines.push(rise);
+            cosines.push(sign * fall);
+        }
+        (Self(sines), Self(cosines))
+    }
+
+    fn zipped(&self, other: &Self, combine: impl Fn(f64, f64) -> f64) -> Self {
+        let pairs = self.0.iter().zip(&other.0);
+        Self(pairs.map(|(a, b)| combine(*a, *b)).collect())
+    }
+}
+
+impl Add for &PowerSeries {
+    type Output = PowerSeries;
+
+    fn add(self, other: Self) -> PowerSeries {
+        self.zipped(other, |a, b| a + b)
+    }
+}
+
+impl Sub for &PowerSeries {
+    type Output = PowerSeries;
+
+    fn sub(self, other: Self) -> PowerSeries {
+        self.zipped(other, |a, b| a - b)
+    }
+}
+
+impl Neg for &PowerSeries {
+    type Output = PowerSeries;
+
+    fn neg(self) -> PowerSeries {
+        PowerSeries(self.0.iter().map(|c| -c).collect())
+    }
+}
+
+impl Mul for &PowerSeries {
+    type Output = PowerSeries;
+
+    fn mul(self, other: Self) -> PowerSeries {
+        let orders = 0..=self.order().min(other.order());
+        PowerSeries(
+            orders
+                .map(|k| product_coefficient(&self.0, &other.0, k))
+                .collect(),
+        )
+    }
+}
+
+impl Div for &PowerSeries {
+    type Output = PowerSeries;
+
+    /// Solve q b = a: qₖ = (aₖ − Σ bⱼ qₖ₋ⱼ) / b₀, j = 1 … k.
+    fn div(self, other: Self) -> PowerSeries {
+        let orders = self.order().min(other.order());
+        let inverse = 1.0 / other.value();
+        let quotient = self.value() / other.value();
+        PowerSeries::by_recurrence(quotient, orders, |q, k| {
+            // Without b₀: the sum over j = 1 … k + 1.
+            let known = product_coefficient(&other.0[1..], q, k);
+            (self.0[k + 1] - known) * inverse
+        })
+    }
+}

@@ -1,0 +1,36 @@
+//! The clothoid, or Euler spiral.
+
+use super::integral::{MOST_TURNING, unit_speed};
+use super::kind::{ReferenceKind, ReferenceParameter, SIZE};
+use crate::geometry::power_series::PowerSeries;
+
+/// The clothoid by its arc length s from the inflection.
+pub static KIND: ReferenceKind = ReferenceKind {
+    name: "clothoid",
+    label: "Clothoid",
+    help: "Curvature s/a² at arc length s: direction angle s²/(2a²)",
+    parameters: &[ReferenceParameter {
+        name: "a",
+        label: "Clothoid parameter",
+        help: "The length a: the radius of curvature is a at arc length a",
+        default: 1.0,
+        limits: SIZE,
+    }],
+    planar: true,
+    interval: |values| [0.0, 2.0 * values[0]],
+    domain,
+    series,
+};
+
+/// The direction turns by as much as can be computed.
+fn domain(values: &[f64]) -> [f64; 2] {
+    let end = values[0] * (2.0 * MOST_TURNING).sqrt();
+    [-end, end]
+}
+
+fn series(values: &[f64], s: f64, order: usize) -> [PowerSeries; 3] {
+    let angle = |s: f64| 0.5 * (s / values[0]).powi(2);
+    let relative = PowerSeries::parameter(s, order).times(1.0 / values[0]);
+    let expansion = (&relative * &relative).times(0.5);
+    unit_speed(s, order, angle, &expansion)
+}

@@ -1,0 +1,28 @@
+//! The conical spiral (paper, section 5).
+
+use super::kind::{ANY, EVERYWHERE, ReferenceKind, ReferenceParameter};
+use crate::geometry::power_series::PowerSeries;
+
+/// The conical spiral.
+pub static KIND: ReferenceKind = ReferenceKind {
+    name: "conical-spiral",
+    label: "Conical spiral",
+    help: "(t cos t, t sin t, b t): an Archimedean spiral that rises with its radius",
+    parameters: &[ReferenceParameter {
+        name: "rise",
+        label: "Rise",
+        help: "How far b it rises where its radius grows by 1",
+        default: 1.0,
+        limits: ANY,
+    }],
+    planar: false,
+    interval: |_| [0.0, 15.5],
+    domain: |_| EVERYWHERE,
+    series,
+};
+
+fn series(values: &[f64], t: f64, order: usize) -> [PowerSeries; 3] {
+    let t = PowerSeries::parameter(t, order);
+    let (sine, cosine) = t.sin_cos();
+    [&t * &cosine, &t * &sine, t.times(values[0])]
+}

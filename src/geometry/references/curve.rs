@@ -1,0 +1,197 @@
+//! A reference curve: a form over an interval, placed.
+
+use glam::DVec3;
+
+use super::error::ReferenceError;
+use super::form::ReferenceForm;
+use super::placement::Placement;
+use crate::geometry::control_polygon::MAX_MAGNITUDE;
+use crate::geometry::differentiable::Differentiable;
+use crate::geometry::parametric_curve::ParametricCurve;
+use crate::geometry::vector;
+
+/// Samples by which the turning of a curve is estimated.
+const SAMPLES: usize = 256;
+
+/// A piece may turn by about so much.
+const PIECE_TURNING: f64 = std::f64::consts::FRAC_PI_4;
+
+/// The numbers of pieces of a smooth curve.
+const PIECES: std::ops::RangeInclusive<usize> = 8..=1024;
+
+/// Hold a form, the interval of its own parameter t that is drawn, and where it lies.
+///
+/// As a [`ParametricCurve`] it has pieces over even parts of the interval, each of a moderate turning,
+/// and as many continuous derivatives as one likes; points have a piece for each straight line
+/// between two of them, and no continuous derivative.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReferenceCurve {
+    form: ReferenceForm,
+    interval: [f64; 2],
+    placement: Placement,
+    pieces: usize,
+}
+
+impl ReferenceCurve {
+    /// Draw a form from t = `from` to t = `to`, placed. Points are drawn in whole, whatever the
+    /// interval: point i stands at t = i.
+    ///
+    /// # Errors
+    /// [`ReferenceError::EmptyInterval`], [`ReferenceError::OutsideDomain`], and
+    /// [`ReferenceError::NotFinite`] if points or directions of the curve leave the range of numbers.
+    pub fn new(
+        form: ReferenceForm,
+        [from, to]: [f64; 2],
+        placement: Placement,
+    ) -> Result<Self, ReferenceError> {
+        if let ReferenceForm::Points(points) = &form {
+            return Ok(Self {
+                interval: form.default_interval(),
+                pieces: points.points().len() - 1,
+                form,
+                placement,
+            });
+        }
+        if !(from.is_finite() && to.is_finite() && from < to) {
+            return Err(ReferenceError::EmptyInterval { from, to });
+        }
+        let domain = form.domain();
+        if let Some(t) = [from, to]
+            .into_iter()
+            .find(|t| !(domain[0] <= *t && *t <= domain[1]))
+        {
+            let [from, to] = domain;
+            return Err(ReferenceError::OutsideDomain { t, from, to });
+        }
+        let mut curve = Self {
+            form,
+            interval: [from, to],
+            placement,
+            pieces: 1,
+        };
+        let turning = curve.sampled_turning()?;
+        let pieces = (turning / PIECE_TURNING).ceil() as usize;
+        curve.pieces = pieces.clamp(*PIECES.start(), *PIECES.end());
+        Ok(curve)
+    }
+
+    /// Draw a form over its default interval where its formula puts it.
+    ///
+    /// # Errors
+    /// As [`ReferenceCurve::new`].
+    pub fn of(form: ReferenceForm) -> Result<Self, ReferenceError> {
+        let interval = form.default_interval();
+        Self::new(form, interval, Placement::default())
+    }
+
+    /// The form.
+    pub fn form(&self) -> &ReferenceForm {
+        &self.form
+    }
+
+    /// The interval of the parameter t.
+    pub fn interval(&self) -> [f64; 2] {
+        self.interval
+    }
+
+    /// Where it lies.
+    pub fn placement(&self) -> &Placement {
+        &self.placement
+    }
+
+    /// Put it elsewhere.
+    pub fn placed(self, placement: Placement) -> Self {
+        Self { placement, ..self }
+    }
+
+    /// The parameter t that belongs to the parameter u of the curve in pieces.
+    pub fn parameter(&self, u: f64) -> f64 {
+        let [from, to] = self.interval;
+        let share = u / self.pieces as f64;
+        from * (1.0 - share) + to * share
+    }
+
+    fn placed_values(&self, mut values: Vec<DVec3>) -> Vec<DVec3> {
+        // Without a placement points keep their bits.
+        if self.placement != Placement::default() {
+            for (order, value) in values.iter_mut().enumerate() {
+                *value = match order {
+                    0 => self.placement.point(*value),
+                    _ => self.placement.vector(*value),
+                };
+            }
+        }
+        values
+    }
+
+    /// Sum up the angles between the directions at even parameters.
+    fn sampled_turning(&self) -> Result<f64, ReferenceError> {
+        let [from, to] = self.interval;
+        let mut last: Option<DVec3> = None;
+        let mut turning = 0.0;
+        for index in 0..=SAMPLES {
+            let share = index as f64 / SAMPLES as f64;
+            let t = from * (1.0 - share) + to * share;
+            let values = self.derivatives(t, 1);
+            let finite =
+                |value: &DVec3| value.abs().max_element() <= MAX_MAGNITUDE && !value.is_nan();
+            if !values.iter().all(finite) {
+                return Err(ReferenceError::NotFinite { t });
+            }
+            // At a cusp the direction before counts.
+            if let Some(direction) = vector::direction(values[1]) {
+                turning += last.map_or(0.0, |last| last.angle_between(direction));
+                last = Some(direction);
+            }
+        }
+        Ok(turning)
+    }
+}
+
+impl Differentiable for ReferenceCurve {
+    fn derivatives(&self, t: f64, order: usize) -> Vec<DVec3> {
+        self.placed_values(match &self.form {
+            ReferenceForm::Analytic(form) => form.derivatives(t, order),
+            ReferenceForm::Points(points) => points.derivatives(t, order),
+        })
+    }
+}
+
+impl ParametricCurve for ReferenceCurve {
+    fn pieces(&self) -> usize {
+        self.pieces
+    }
+
+    fn is_periodic(&self) -> bool {
+        false
+    }
+
+    fn is_planar(&self) -> bool {
+        self.form.is_planar() && self.placement.keeps_plane()
+    }
+
+    fn continuity(&self) -> usize {
+        if self.form.is_smooth() { usize::MAX } else { 0 }
+    }
+
+    fn fill_derivatives(&self, piece: usize, t: f64, values: &mut [DVec3]) {
+        assert!(piece < self.pieces, "piece {piece} of {}", self.pieces);
+        let Some(order) = values.len().checked_sub(1) else {
+            return;
+        };
+        let found = match &self.form {
+            // Where two legs meet the side counts.
+            ReferenceForm::Points(points) => {
+                self.placed_values(points.leg_derivatives(piece, t, order))
+            }
+            _ => self.derivatives(self.parameter(piece as f64 + t), order),
+        };
+        let [from, to] = self.interval;
+        let rate = (to - from) / self.pieces as f64;
+        let mut factor = 1.0;
+        for (value, found) in values.iter_mut().zip(found) {
+            *value = found * factor;
+            factor *= rate;
+        }
+    }
+}

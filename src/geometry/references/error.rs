@@ -1,0 +1,119 @@
+//! What can be wrong with a reference, and where in its text.
+
+use thiserror::Error;
+
+/// A reason why a form, an interval or a placement makes no curve.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum ReferenceError {
+    /// There is no kind of this name.
+    #[error("there is no reference “{name}”: the references are {known}")]
+    NoSuchKind {
+        /// The name given.
+        name: String,
+        /// The names that there are.
+        known: String,
+    },
+    /// The kind has no such parameter.
+    #[error("{kind} has no parameter “{name}”: it has {known}")]
+    NoSuchParameter {
+        /// The kind's name.
+        kind: &'static str,
+        /// The name given.
+        name: String,
+        /// The names that there are.
+        known: String,
+    },
+    /// A parameter is given twice.
+    #[error("“{name}” is given twice")]
+    Twice {
+        /// The parameter.
+        name: String,
+    },
+    /// A part of a text is no assignment.
+    #[error("“{text}” gives no parameter a value: write it as name=value")]
+    NoAssignment {
+        /// The part.
+        text: String,
+    },
+    /// A value is no number.
+    #[error("“{text}” is no number")]
+    NotANumber {
+        /// The value given.
+        text: String,
+    },
+    /// The number of values is not that of the parameters.
+    #[error("{found} values for the {needed} parameters of {kind}")]
+    ValueCount {
+        /// The kind's name.
+        kind: &'static str,
+        /// The number of values.
+        found: usize,
+        /// The number of parameters.
+        needed: usize,
+    },
+    /// A value is not allowed.
+    #[error("{label}: {value} is out of range: {needed} is needed")]
+    OutOfRange {
+        /// The parameter, as it is shown.
+        label: &'static str,
+        /// The value given.
+        value: f64,
+        /// What is needed.
+        needed: String,
+    },
+    /// The interval is empty or not finite.
+    #[error(
+        "the interval from t = {from} to t = {to} is empty: give two numbers, the smaller one first"
+    )]
+    EmptyInterval {
+        /// Where it begins.
+        from: f64,
+        /// Where it ends.
+        to: f64,
+    },
+    /// The interval leaves where the curve can be computed.
+    #[error("t = {t} is out of range: with these parameters t can run from {from} to {to}")]
+    OutsideDomain {
+        /// The end of the interval that lies outside.
+        t: f64,
+        /// The smallest t.
+        from: f64,
+        /// The largest t.
+        to: f64,
+    },
+    /// The curve has no point somewhere.
+    #[error(
+        "the curve has no point, or no direction, at t = {t}: choose an interval without this place"
+    )]
+    NotFinite {
+        /// Where.
+        t: f64,
+    },
+    /// The placement is no motion with a scale.
+    #[error(
+        "a placement needs a rotation, a scale from 1e-30 to 1e30 and a translation of finite numbers"
+    )]
+    BadPlacement,
+    /// There are too few points for a line.
+    #[error("{found} points make no line: at least 2 are needed")]
+    TooFewPoints {
+        /// The number of points.
+        found: usize,
+    },
+    /// A point is not finite or too far away.
+    #[error("point {index}: only finite coordinates up to 1e100 can be used")]
+    BadPoint {
+        /// The point, counted from 0.
+        index: usize,
+    },
+}
+
+/// A mistake in the text of a reference.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error("column {column}: {error}")]
+pub struct ReferenceTextError {
+    /// Where the mistake begins: the number of its first character, counted from 1.
+    pub column: usize,
+    /// What is wrong.
+    pub error: ReferenceError,
+}

@@ -1,0 +1,115 @@
+//! What a reference is, apart from where it lies.
+
+use glam::DVec3;
+
+use super::error::ReferenceError;
+use super::kind::ReferenceKind;
+use super::point_list::PointList;
+use crate::geometry::power_series::PowerSeries;
+
+/// A curve by its formula, or points.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ReferenceForm {
+    /// A kind of curve with its values.
+    Analytic(AnalyticForm),
+    /// Points, joined by straight lines.
+    Points(PointList),
+}
+
+/// Hold a kind of curve with a checked value for each parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AnalyticForm {
+    kind: &'static ReferenceKind,
+    values: Vec<f64>,
+}
+
+impl AnalyticForm {
+    /// Check the values of a kind, in the order of its parameters.
+    ///
+    /// # Errors
+    /// [`ReferenceError::ValueCount`] and [`ReferenceError::OutOfRange`].
+    pub fn new(kind: &'static ReferenceKind, values: Vec<f64>) -> Result<Self, ReferenceError> {
+        let (found, needed) = (values.len(), kind.parameters.len());
+        if found != needed {
+            let kind = kind.name;
+            return Err(ReferenceError::ValueCount {
+                kind,
+                found,
+                needed,
+            });
+        }
+        for (parameter, value) in kind.parameters.iter().zip(&values) {
+            parameter.check(*value)?;
+        }
+        Ok(Self { kind, values })
+    }
+
+    /// The kind.
+    pub fn kind(&self) -> &'static ReferenceKind {
+        self.kind
+    }
+
+    /// The values, in the order of the kind's parameters.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// The point at t and its derivatives by t.
+    pub(super) fn derivatives(&self, t: f64, order: usize) -> Vec<DVec3> {
+        from_series(&(self.kind.series)(&self.values, t, order))
+    }
+}
+
+/// Write the series of three coordinates as a point and its derivatives.
+pub(super) fn from_series([x, y, z]: &[PowerSeries; 3]) -> Vec<DVec3> {
+    let coordinates = x
+        .coefficients()
+        .iter()
+        .zip(y.coefficients())
+        .zip(z.coefficients());
+    let mut factorial = 1.0;
+    let derivative = |(order, ((x, y), z)): (usize, ((&f64, &f64), &f64))| {
+        factorial *= order.max(1) as f64;
+        DVec3::new(*x, *y, *z) * factorial
+    };
+    coordinates.enumerate().map(derivative).collect()
+}
+
+impl ReferenceForm {
+    /// What menus and lists call it.
+    pub fn label(&self) -> &'static str {
+        match self {
+            Self::Analytic(form) => form.kind.label,
+            Self::Points(_) => "Points",
+        }
+    }
+
+    /// Whether it lies in the plane z = 0.
+    pub fn is_planar(&self) -> bool {
+        match self {
+            Self::Analytic(form) => form.kind.planar,
+            Self::Points(points) => points.is_planar(),
+        }
+    }
+
+    /// Whether it has derivatives of every order; points have none.
+    pub fn is_smooth(&self) -> bool {
+        !matches!(self, Self::Points(_))
+    }
+
+    /// The interval of its parameter t that is drawn if none is given: of points all of them.
+    pub fn default_interval(&self) -> [f64; 2] {
+        match self {
+            Self::Analytic(form) => (form.kind.interval)(&form.values),
+            Self::Points(points) => [0.0, (points.points().len() - 1) as f64],
+        }
+    }
+
+    /// Where t may run.
+    pub fn domain(&self) -> [f64; 2] {
+        match self {
+            Self::Analytic(form) => (form.kind.domain)(&form.values),
+            Self::Points(_) => self.default_interval(),
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! Log-aesthetic curves in standard form (Yoshida and Saito, "Interactive aesthetic curve
+//! segments", 2006).
+//!
+//! The radius of curvature is ρ = (1 + Λαs)^{1/α}, e^{Λs} for α = 0, at arc length s. With ρ = e^w,
+//! w = ln(1 + Λαs)/α, the direction angle is θ = (1/Λ) ∫ e^{(α−1)w} dw. Written with
+//! ψ(x) = ln(1 + x)/x and φ(x) = (eˣ − 1)/x, which are smooth at 0, both need no special cases:
+//!
+//!   w = Λ s ψ(Λαs),   θ = (w/Λ) φ((α − 1) w),   and back:   w = Λ θ ψ(Λ(α − 1)θ),   s = (w/Λ) φ(αw).
+
+use super::integral::{MOST_TURNING, unit_speed};
+use super::kind::{ANY, ReferenceKind, ReferenceParameter};
+use crate::geometry::power_series::PowerSeries;
+
+/// The log-aesthetic curve by its arc length s.
+pub static KIND: ReferenceKind = ReferenceKind {
+    name: "log-aesthetic",
+    label: "Log-aesthetic curve",
+    help: "Radius of curvature (1 + Λαs)^(1/α) at arc length s: α = −1 is a clothoid, 0 Nielsen's spiral, 1 a logarithmic spiral, 2 a circle involute",
+    parameters: &[
+        ReferenceParameter {
+            name: "alpha",
+            label: "α",
+            help: "The slope α of the logarithmic curvature graph",
+            default: -1.0,
+            limits: ANY,
+        },
+        ReferenceParameter {
+            name: "lambda",
+            label: "Λ",
+            help: "How fast Λ the radius of curvature, 1 at s = 0, changes there",
+            default: 0.5,
+            limits: ANY,
+        },
+    ],
+    planar: true,
+    interval,
+    domain,
+    series,
+};
+
+/// From s = 0 to 1, or less if the curve ends before: nine tenths of the way there.
+fn interval(values: &[f64]) -> [f64; 2] {
+    [0.0, (0.9 * domain(values)[1]).min(1.0)]
+}
+
+/// Where 1 + Λαs > 0 and the direction turns by as much as can be computed.
+fn domain(values: &[f64]) -> [f64; 2] {
+    let [alpha, lambda] = [values[0], values[1]];
+    let end = |turning: f64| {
+        let farthest = length(alpha, lambda, turning);
+        let singular = -1.0 / (lambda * alpha);
+        // Where the direction never turns so far the curve ends at the singularity, if anywhere.
+        match (farthest.is_nan(), singular.is_finite() && singular * turning > 0.0) {
+            (false, true) if singular.abs() < farthest.abs() => singular,
+            (false, _) => farthest,
+            (true, true) => singular,
+            (true, false) => turning * f64::INFINITY,
+        }
+    };
+    [end(-MOST_TURNING), end(MOST_TURNING)]
+}
+
+fn series(values: &[f64], s: f64, order: usize) -> [PowerSeries; 3] {
+    let [alpha, lambda] = [values[0], values[1]];
+    let direction = |s: f64| angle(alpha, lambda, s);
+    // With B = 1 + Λαs, κ′ B = −Λ κ.
+    let base = 1.0 + lambda * alpha * s;
+    let start = (-lambda * s * relative_logarithm(lambda * alpha * s)).exp();
+    let curvature = PowerSeries::by_recurrence(start, order, |curvature, k| {
+        let k = k as f64;
+        -lambda * (1.0 + alpha * k) * curvature[k as usize] / ((k + 1.0) * base)
+    });
+    let expansion = curvature.antiderivative(direction(s), order);
+    unit_speed(s, order, direction, &expansion)
+}
+
+/// The direction angle θ at arc length s; not a number beyond the singularity.
+fn angle(alpha: f64, lambda: f64, s: f64) -> f64 {
+    let relative = s * relative_logarithm(lambda * alpha * s);
+    relative * relative_exponential((alpha - 1.0) * lambda * relative)
+}
+
+/// The arc length s at direction angle θ; not a number if it never turns so far.
+fn length(alpha: f64, lambda: f64, angle: f64) -> f64 {
+    let relative = angle * relative_logarithm(lambda * (alpha - 1.0) * angle);
+    relative * relative_exponential(alpha * lambda * relative)
+}
+
+/// ψ(x) = ln(1 + x)/x.
+fn relative_logarithm(x: f64) -> f64 {
+    if x == 0.0 { 1.0 } else { x.ln_1p() / x }
+}
+
+/// φ(x) = (eˣ − 1)/x.
+fn relative_exponential(x: f64) -> f64 {
+    if x == 0.0 { 1.0 } else { x.exp_m1() / x }
+}

@@ -1,0 +1,85 @@
+//! Where a reference lies.
+
+use glam::{DQuat, DVec3};
+
+use super::error::ReferenceError;
+use super::kind::SIZE;
+use std::ops::RangeBounds;
+
+/// Hold a similarity: points are rotated about the origin, scaled, and then translated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    rotation: DQuat,
+    scale: f64,
+    translation: DVec3,
+}
+
+impl Default for Placement {
+    /// Leave points where they are.
+    fn default() -> Self {
+        Self {
+            rotation: DQuat::IDENTITY,
+            scale: 1.0,
+            translation: DVec3::ZERO,
+        }
+    }
+}
+
+impl Placement {
+    /// Check a rotation, which is brought to length 1, a scale > 0 and a translation.
+    ///
+    /// # Errors
+    /// [`ReferenceError::BadPlacement`] if a number is not finite, the scale is not positive, or the
+    /// rotation is 0.
+    pub fn new(rotation: DQuat, scale: f64, translation: DVec3) -> Result<Self, ReferenceError> {
+        let length = rotation.length();
+        let fits = length.is_finite() && length > 0.0 && SIZE.contains(&scale);
+        if !fits || !translation.is_finite() {
+            return Err(ReferenceError::BadPlacement);
+        }
+        // One that has length 1 but for rounding stays as it is, to the bit.
+        let rotation = if rotation.is_normalized() {
+            rotation
+        } else {
+            rotation.normalize()
+        };
+        Ok(Self {
+            rotation,
+            scale,
+            translation,
+        })
+    }
+
+    /// The rotation, of length 1.
+    pub fn rotation(&self) -> DQuat {
+        self.rotation
+    }
+
+    /// The scale, positive.
+    pub fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    /// The translation.
+    pub fn translation(&self) -> DVec3 {
+        self.translation
+    }
+
+    /// Whether the plane z = 0 stays where it is, up side up or down.
+    pub fn keeps_plane(&self) -> bool {
+        let DQuat { x, y, z, w } = self.rotation;
+        let about_z = x == 0.0 && y == 0.0;
+        let turned_over = z == 0.0 && w == 0.0;
+        (about_z || turned_over) && self.translation.z == 0.0
+    }
+
+    /// Place a point.
+    pub fn point(&self, point: DVec3) -> DVec3 {
+        self.vector(point) + self.translation
+    }
+
+    /// Place a derivative, which does not depend on the translation.
+    pub fn vector(&self, vector: DVec3) -> DVec3 {
+        self.scale * (self.rotation * vector)
+    }
+}

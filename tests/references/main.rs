@@ -1,0 +1,7 @@
+//! Reference curves: their values, derivatives, placement and texts.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod texts;
+mod values;

@@ -1,0 +1,80 @@
+//! References as text: what is read, what is written, and mistakes with their columns.
+
+use batten::geometry::references::{KINDS, ReferenceCurve, ReferenceForm};
+
+fn read(text: &str) -> ReferenceCurve {
+    ReferenceCurve::from_text(text).unwrap_or_else(|error| panic!("{text}: {error}"))
+}
+
+fn values(curve: &ReferenceCurve) -> &[f64] {
+    match curve.form() {
+        ReferenceForm::Analytic(form) => form.values(),
+        other => panic!("{other:?} has no values"),
+    }
+}
+
+#[test]
+fn what_is_not_given_has_its_default() {
+    for kind in KINDS {
+        let curve = read(kind.name);
+        assert_eq!(values(&curve), kind.defaults());
+        assert_eq!(curve.interval(), curve.form().default_interval());
+        assert_eq!(curve.form().label(), kind.label);
+    }
+}
+
+#[test]
+fn values_and_the_interval_are_read() {
+    let curve = read(" log-aesthetic : lambda = 0.25, alpha=-2 ,to=1.5,from=-1e-1");
+    assert_eq!(values(&curve), [-2.0, 0.25]);
+    assert_eq!(curve.interval(), [-0.1, 1.5]);
+}
+
+#[test]
+fn what_is_written_is_read_back_to_the_bit() {
+    for text in [
+        "circle:radius=0.1",
+        "clothoid:a=3.3333333333333335,from=-2,to=1e-300",
+        "log-aesthetic:alpha=-1,lambda=0.5,to=0.30000000000000004",
+        "conical-spiral:rise=-7",
+    ] {
+        let curve = read(text);
+        assert_eq!(read(&curve.to_string()), curve);
+    }
+}
+
+/// Assert that a text is refused, at a column counted from 1, with these words.
+#[track_caller]
+fn assert_refused(text: &str, column: usize, words: &str) {
+    let error = ReferenceCurve::from_text(text).expect_err("a mistake");
+    assert_eq!(error.column, column, "{text}: {error}");
+    let said = error.error.to_string();
+    assert!(said.contains(words), "{text}: {said}");
+}
+
+#[test]
+fn mistakes_name_their_columns() {
+    assert_refused("", 1, "there is no reference “”");
+    assert_refused("  circel", 3, "there is no reference “circel”");
+    assert_refused("circle:", 8, "gives no parameter a value");
+    assert_refused("circle:radius=2,", 17, "gives no parameter a value");
+    assert_refused("circle:radius", 8, "“radius” gives no parameter a value");
+    assert_refused(
+        "circle: diameter=3",
+        9,
+        "circle has no parameter “diameter”",
+    );
+    assert_refused("circle:radius= 2x", 16, "“2x” is no number");
+    assert_refused("circle:radius=inf", 15, "“inf” is no number");
+    assert_refused("circle:radius=-2", 15, "Radius: -2 is out of range");
+    assert_refused("circle:radius=1,radius=2", 17, "“radius” is given twice");
+    assert_refused("circle:größe=2", 8, "no parameter “größe”");
+    assert_refused("circle:from=3,to=2", 1, "from t = 3 to t = 2 is empty");
+}
+
+#[test]
+fn intervals_beyond_the_curve_are_refused() {
+    let beyond = "log-aesthetic:alpha=-1,lambda=0.5,from=0,to=3";
+    assert_refused(beyond, 1, "t can run from");
+    assert_refused("clothoid:to=1000", 1, "t = 1000 is out of range");
+}
