@@ -4,13 +4,16 @@ mod common;
 
 use batten::geometry::circle_comparison::{CircleComparison, evolute_reach, regular_polygon};
 use batten::geometry::polygon_figures::turning_angle;
-use batten::geometry::{BezierPolygon, ClampedPolygon, FloatPolygon};
+use batten::geometry::{BezierPolygon, ClampedPolygon, FloatPolygon, RoundingTest, Shortening};
 use common::{
     assert_near, assert_points_near, list, number, numbers, point, points, reach, reference,
 };
 
 /// What the reference values, printed with 16 digits, allow.
 const EXACT: f64 = 1e-9;
+
+/// The degrees for which `circle_comparison.json` has values.
+const DEGREES: std::ops::RangeInclusive<usize> = 2..=15;
 
 /// The evolute of the ninth-degree arc lies within 6e-8 of the centre of a circle of radius 10:
 /// rounding alone takes a few millionths of that.
@@ -30,11 +33,41 @@ fn table_1_is_recomputed() {
     for (row, expected) in table.iter().zip(list(&paper["table1"])) {
         assert_eq!(row.degree as f64, number(&expected["degree"]));
         let bspline = number(&expected["bspline"]);
-        let tolerance = if row.degree == 9 { NINTH_DEGREE } else { EXACT };
-        assert_near("B-spline", row.bspline, bspline, tolerance, bspline);
+        assert_near("B-spline", row.bspline, bspline, EXACT, bspline);
         let bezier = number(&expected["bezier"]);
         assert_near("Bézier", row.bezier, bezier, EXACT, bezier);
     }
+}
+
+#[test]
+fn both_ways_to_a_circle_are_compared_for_degrees_2_to_15() {
+    let rows = reference("circle_comparison.json");
+    let rows = list(&rows["rows"]);
+    assert_eq!(rows.len(), 2 * DEGREES.count());
+    for expected in rows {
+        let [degree, sides] = ["degree", "sides"].map(|key| number(&expected[key]) as usize);
+        let found = CircleComparison::new(degree, sides, 10.0).expect("a valid arc");
+        for (key, found) in [("bspline", found.bspline), ("bezier", found.bezier)] {
+            let expected = number(&expected[key]);
+            let what = format!("{key} of degree {degree} on {sides} sides");
+            assert_near(&what, found, expected, EXACT, expected);
+        }
+    }
+}
+
+#[test]
+fn digits_are_cut_off_as_in_the_paper() {
+    let rounding = &reference("paper.json")["rounding"];
+    let test = RoundingTest::new(3, Shortening::CutOff).expect("a valid arc");
+    assert_eq!(test.after, point(&rounding["by"]));
+    let far = number(&rounding["evolute_far"]);
+    assert_near("evolute", test.evolute_reach, far, AMPLIFIED, far);
+    // With one digit more the error is about a tenth: what is cut off is multiplied, no more.
+    let nearest = RoundingTest::new(3, Shortening::Rounded).expect("a valid arc");
+    assert!(nearest.before.distance(nearest.after) < test.before.distance(test.after));
+    assert!(nearest.evolute_reach < test.evolute_reach && nearest.moved < test.moved);
+    let all = RoundingTest::new(17, Shortening::CutOff).expect("a valid arc");
+    assert_eq!((all.after, all.moved), (all.before, 0.0));
 }
 
 #[test]

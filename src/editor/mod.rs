@@ -7,6 +7,7 @@ mod guides;
 mod hand;
 mod measuring;
 mod operating;
+mod paper;
 mod patience;
 mod proving;
 mod reply;
@@ -26,6 +27,7 @@ pub use hand::{
     Button, Cursor, EndFitAction, EndFitReport, Follow, Following, Hand, Input, Key, MatchReport,
     Modifiers, Selection, ToolKind, Transformation, VertexId,
 };
+pub use paper::PaperPage;
 pub use reply::{Message, Note, Refusal, Reply, told};
 pub use report::{CurveReport, Export, Readout};
 pub use trial::{Run, Trial};

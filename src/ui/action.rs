@@ -41,6 +41,8 @@ pub enum Action {
     TogglePlots,
     /// Find an action by its name.
     Palette,
+    /// Explain the paper's figures, with their curves.
+    Paper,
     /// List the keys.
     Keys,
     /// Tell what this program is.
@@ -72,6 +74,7 @@ impl Action {
             Self::ToggleTheme,
             Self::TogglePlots,
             Self::Palette,
+            Self::Paper,
             Self::Keys,
             Self::About,
         ]);
@@ -99,6 +102,7 @@ impl Action {
             Self::ToggleTheme => "Light theme",
             Self::TogglePlots => "Plots",
             Self::Palette => "Find a command…",
+            Self::Paper => "The paper",
             Self::Keys => "Keys and mouse",
             Self::About => "About Batten",
         };
@@ -146,6 +150,9 @@ impl Action {
             Self::ToggleTheme => "Switch between the dark and the light theme",
             Self::TogglePlots => "Show or hide the plots under the canvas",
             Self::Palette => "Find a command by typing a part of its name",
+            Self::Paper => {
+                "Open the figures and the table of the paper that Batten starts from, with explanations"
+            }
             Self::Keys => "List what keys and mouse do",
             Self::About => "Tell version and licence",
         };
@@ -170,7 +177,7 @@ impl Action {
             Self::TogglePlots => Shortcut::plain(Key::Function(8)),
             Self::Palette => Shortcut::ctrl('p'),
             Self::Keys => Shortcut::plain(Key::Function(1)),
-            Self::OpenExample(_) | Self::ExportCsv(_) | Self::About => return None,
+            Self::OpenExample(_) | Self::ExportCsv(_) | Self::Paper | Self::About => return None,
         })
     }
 

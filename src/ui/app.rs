@@ -20,6 +20,7 @@ use super::menu::menu_ui;
 use super::message::message_ui;
 use super::operation_panel::OperationPanel;
 use super::palette::Palette;
+use super::paper_panel::PaperPanel;
 use super::plots::{self, Plots, Tab};
 use super::shell::Shell;
 use super::status_bar::{self, status_bar_ui};
@@ -49,6 +50,7 @@ pub struct App {
     operation: OperationPanel,
     plots: Plots,
     palette: Palette,
+    paper: PaperPanel,
     files: FileDialogs,
     dialog: Option<Dialog>,
     /// Actions that wait for the end of the frame.
@@ -94,6 +96,7 @@ impl App {
             operation: OperationPanel::default(),
             plots,
             palette: Palette::default(),
+            paper: PaperPanel::default(),
             files: FileDialogs::new(native_dialogs),
             dialog: None,
             actions: Vec::new(),
@@ -198,6 +201,9 @@ impl App {
         rail.exact_size(tool_rail::WIDTH).show(ui, |ui| {
             tool_rail_ui(ui, &self.editor, &mut self.actions);
         });
+        if let Some(page) = self.paper.show(ui, &mut self.editor) {
+            self.confirm(&ui.ctx().clone(), AfterDiscard::OpenPaper(page));
+        }
         let side = Panel::right("side").frame(Frame::NONE.fill(tokens.panel));
         side.default_size(320.0)
             .size_range(280.0..=520.0)
@@ -337,6 +343,7 @@ impl App {
             Action::New => self.confirm(context, AfterDiscard::New),
             Action::Open => self.confirm(context, AfterDiscard::Open),
             Action::OpenExample(index) => self.confirm(context, AfterDiscard::OpenExample(index)),
+            Action::Paper => self.confirm(context, AfterDiscard::OpenPaper(self.paper.page())),
             Action::Quit => self.confirm(context, AfterDiscard::Quit),
             Action::Import => self.files.ask(context, Purpose::Import, self.folder()),
             Action::Save => match self.editor.workspace().path().map(Path::to_owned) {
@@ -377,6 +384,10 @@ impl App {
             AfterDiscard::Open => self.files.ask(context, Purpose::Open, self.folder()),
             AfterDiscard::OpenFile(path) => told(self.editor.open(&[path])),
             AfterDiscard::OpenExample(index) => told(self.editor.open_example(index)),
+            AfterDiscard::OpenPaper(page) => {
+                told(self.editor.open_paper(page));
+                self.paper.open(page);
+            }
             AfterDiscard::Quit => {
                 self.leaving = true;
                 context.send_viewport_cmd(ViewportCommand::Close);

@@ -9,7 +9,7 @@ use eframe::egui::{Align2, Context, Id, Key, Label, Modal, RichText, TextEdit, U
 use super::theme::{ROW, STEP, Tokens};
 use super::widgets;
 use crate::document::quoted;
-use crate::editor::{Export, with_extension};
+use crate::editor::{Export, PaperPage, with_extension};
 use crate::io::{Format, shown_path};
 
 /// A dialog that answers "nothing" sooner than this was never shown.
@@ -26,6 +26,8 @@ pub enum AfterDiscard {
     OpenFile(PathBuf),
     /// Open a built-in example.
     OpenExample(usize),
+    /// Open the document of a page about the paper.
+    OpenPaper(PaperPage),
     /// Leave.
     Quit,
 }

@@ -127,6 +127,7 @@ fn menus() -> [(&'static str, Vec<Entry>); 6] {
     let help = vec![
         Item(Action::Palette),
         Item(Action::Keys),
+        Item(Action::Paper),
         Divider,
         Item(Action::About),
     ];

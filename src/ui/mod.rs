@@ -38,6 +38,8 @@ mod operation_panel;
 mod overlays;
 mod painting;
 mod palette;
+mod paper_pages;
+mod paper_panel;
 mod plots;
 mod shell;
 mod status_bar;

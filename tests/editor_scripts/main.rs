@@ -21,6 +21,7 @@ mod locking;
 mod matching;
 mod matrix;
 mod model;
+mod paper;
 mod places;
 mod previews;
 mod reshaping;

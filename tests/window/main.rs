@@ -10,6 +10,7 @@ mod locking;
 mod matching;
 mod numbers;
 mod operations;
+mod paper;
 
 use batten::editor::{Layer, ToolKind};
 use batten::geometry::End;

@@ -29,4 +29,5 @@ pub use exact_polygon::ExactPolygon;
 pub use extension::MAX_ADDED_SEGMENTS;
 pub use nearest_float::NearestFloat;
 pub use rounding::Rounded;
+pub(in crate::geometry) use rounding::{cut_off, rounded_off};
 pub use splitting::{MAX_PART_SEGMENTS, MAX_SUBDIVISIONS};

@@ -7,6 +7,9 @@ use crate::geometry::error::PolygonError;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::vector;
 
+/// The most digits that a double has after the decimal point.
+const DIGITS: usize = 1074;
+
 /// Hold a polygon with rounded coordinates, and what rounding did.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rounded<P> {
@@ -60,16 +63,24 @@ impl ClampedPolygon {
 }
 
 fn rounded(vertices: &[DVec3], digits: usize) -> Vec<DVec3> {
-    let round = |vertex: &DVec3| DVec3::from(vertex.to_array().map(|value| decimal(value, digits)));
+    let round =
+        |vertex: &DVec3| DVec3::from(vertex.to_array().map(|value| rounded_off(value, digits)));
     vertices.iter().map(round).collect()
 }
 
 /// Round a number as it is written with so many digits: the decimal nearest to the exact double,
 /// then the double nearest to that.
-fn decimal(value: f64, digits: usize) -> f64 {
-    // A double has at most 1074 digits behind the point; so many leave it as it is.
-    let written = format!("{value:.digits$}", digits = digits.min(1074));
+pub(in crate::geometry) fn rounded_off(value: f64, digits: usize) -> f64 {
+    let written = format!("{value:.digits$}", digits = digits.min(DIGITS));
     written.parse().unwrap_or(value)
+}
+
+/// Leave out the digits of a number that are too many: the decimal next to the exact double on the
+/// side of zero, then the double nearest to that.
+pub(in crate::geometry) fn cut_off(value: f64, digits: usize) -> f64 {
+    let written = format!("{value:.DIGITS$}");
+    let kept = written.len() - DIGITS + digits.min(DIGITS);
+    written[..kept].parse().unwrap_or(value)
 }
 
 fn moved(before: &[DVec3], after: &[DVec3]) -> f64 {
@@ -81,7 +92,7 @@ fn moved(before: &[DVec3], after: &[DVec3]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::decimal;
+    use super::{cut_off, rounded_off};
 
     #[test]
     fn decimals_are_the_nearest_to_the_exact_double() {
@@ -92,10 +103,14 @@ mod tests {
             (1e100, 3, 1e100),
         ];
         for (value, digits, expected) in cases {
-            assert_eq!(decimal(value, digits), expected);
+            assert_eq!(rounded_off(value, digits), expected);
         }
+        assert_eq!(cut_off(8.748_581_800_695_854, 3), 8.748);
+        assert_eq!(cut_off(-1.807_034_341_227_822_7, 3), -1.807);
+        assert_eq!(cut_off(-1.9, 0), -1.0);
         for value in [0.1, 1.0 / 3.0, 5e-324, -1e-300] {
-            assert_eq!(decimal(value, 2000), value);
+            assert_eq!(rounded_off(value, 2000), value);
+            assert_eq!(cut_off(value, 2000), value);
         }
     }
 }

@@ -1,0 +1,208 @@
+//! The figures and the table of the paper as documents.
+
+use glam::{DVec2, DVec3};
+
+use crate::document::{Colour, Curve, CurveId, Document, Edit};
+use crate::editor::reply::{Note, Reply};
+use crate::editor::{Editor, ToolKind};
+use crate::geometry::circle_comparison::{
+    PAPER_RADIUS, equal_leg_bezier, paper_sides, regular_polygon,
+};
+use crate::geometry::end_correction::EndTarget;
+use crate::geometry::{BezierPolygon, End, FloatPolygon, PolygonError, RoundingTest};
+
+/// The name of the curve whose closed S-polygon loses digits.
+const SHORTENED: &str = "shortened";
+
+/// Colours that tell the curves of a page apart.
+const BLUE: Colour = Colour([0x3B, 0x82, 0xD6]);
+const VERMILION: Colour = Colour([0xD5, 0x5E, 0x2A]);
+
+/// A page about the paper, with the document that it explains.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PaperPage {
+    /// Figure 1: an arc of degree 9 by its float and its closed S-polygon.
+    Arc,
+    /// Digits taken from a vertex of the closed S-polygon.
+    Rounding,
+    /// Table 1: circles by B-splines and by Bézier curves of this degree.
+    Circles {
+        /// The degree of the curves in the document.
+        degree: usize,
+    },
+    /// The seven steps that put the ends of a curve where they should be.
+    Steps,
+    /// Figure 2: one polygon with growing legs, as float and as Bézier polygon.
+    Typical,
+}
+
+impl PaperPage {
+    /// Every page, in the order of the paper.
+    pub const ALL: [Self; 5] = [
+        Self::Arc,
+        Self::Rounding,
+        Self::Circles { degree: 9 },
+        Self::Steps,
+        Self::Typical,
+    ];
+
+    /// What the page is called.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Arc => "Figure 1: an arc of degree 9",
+            Self::Rounding => "Rounding the closed S-polygon",
+            Self::Circles { .. } => "Table 1: circles, both ways",
+            Self::Steps => "Seven steps to exact ends",
+            Self::Typical => "Figure 2: Mineur–Farin polygon",
+        }
+    }
+
+    /// Where the page stands among all.
+    pub fn place(self) -> usize {
+        let same = |page: &Self| std::mem::discriminant(page) == std::mem::discriminant(&self);
+        Self::ALL.iter().position(same).unwrap_or_default()
+    }
+
+    fn document(self) -> Result<Document, PolygonError> {
+        let curves = match self {
+            Self::Arc => vec![Curve::new("arc", RoundingTest::arc()?)],
+            Self::Rounding => vec![
+                coloured("arc", RoundingTest::arc()?, BLUE),
+                coloured(SHORTENED, RoundingTest::arc()?, VERMILION),
+            ],
+            Self::Circles { degree } => circles(degree)?,
+            Self::Steps => vec![off_its_ends()?],
+            Self::Typical => typical()?,
+        };
+        Ok(Document::from_curves(curves))
+    }
+
+    /// Which curve of the document is active, counted from 0.
+    fn active(self) -> usize {
+        usize::from(matches!(self, Self::Rounding))
+    }
+}
+
+impl Editor {
+    /// Open the document of a page in place of the present one. The reply is told.
+    ///
+    /// # Errors
+    /// None: the polygons of the pages are valid.
+    pub fn open_paper(&mut self, page: PaperPage) -> Reply {
+        let reply = self.replace_by_page(page);
+        self.tell(reply)
+    }
+
+    /// Whether the document has the curve whose closed S-polygon loses digits.
+    pub fn has_shortened(&self) -> bool {
+        self.shortened().is_some()
+    }
+
+    /// Show the curve of the rounding test with so many digits kept; [`Editor::commit_preview`]
+    /// keeps it.
+    pub fn preview_shortened(&mut self, test: &RoundingTest) {
+        if let Some(curve) = self.shortened() {
+            let polygon = test.polygon.clone();
+            self.preview(
+                "Shorten coordinates",
+                vec![Edit::SetPolygon { curve, polygon }],
+            );
+        }
+    }
+
+    fn shortened(&self) -> Option<CurveId> {
+        let degree = RoundingTest::arc().ok()?.degree();
+        let mut curves = self.document().curves();
+        let fits = |curve: &Curve| {
+            let polygon = &curve.polygon;
+            curve.name == SHORTENED
+                && polygon.degree() == degree
+                && polygon.vertices().len() == degree + 1
+                && curve.check_editable().is_ok()
+        };
+        curves.find(|(_, curve)| fits(curve)).map(|(id, _)| id)
+    }
+
+    fn replace_by_page(&mut self, page: PaperPage) -> Reply {
+        let document = page.document().map_err(|error| error.to_string())?;
+        let active = document.ids().nth(page.active());
+        self.replace(document, None);
+        if let Some(active) = active {
+            self.activate(active);
+        }
+        if page == PaperPage::Steps {
+            self.use_tool(ToolKind::EndFit);
+        }
+        Ok(Note::silent())
+    }
+}
+
+fn coloured(name: &str, polygon: FloatPolygon, colour: Colour) -> Curve {
+    Curve {
+        colour: Some(colour),
+        ..Curve::new(name, polygon)
+    }
+}
+
+fn circles(degree: usize) -> Result<Vec<Curve>, PolygonError> {
+    let sides = paper_sides(degree);
+    let bspline = regular_polygon(degree, sides, PAPER_RADIUS)?;
+    let bezier = equal_leg_bezier(degree, sides, PAPER_RADIUS)?;
+    Ok(vec![
+        coloured("B-spline", bspline, BLUE),
+        coloured("Bézier", bezier, VERMILION),
+    ])
+}
+
+/// A curve of degree 5 whose ends are to be moved and turned.
+fn off_its_ends() -> Result<Curve, PolygonError> {
+    const VERTICES: [(f64, f64); 12] = [
+        (-8.0, -6.0),
+        (-6.0, -4.6),
+        (-4.0, -2.8),
+        (-1.6, -0.8),
+        (1.2, 1.1),
+        (4.4, 2.8),
+        (8.0, 4.2),
+        (12.0, 5.2),
+        (16.3, 5.8),
+        (20.8, 6.0),
+        (25.4, 5.8),
+        (30.0, 5.3),
+    ];
+    let polygon = FloatPolygon::planar(5, &VERTICES)?;
+    let mut curve = Curve::new("ends", polygon);
+    let asked = [
+        (End::Start, DVec3::new(-0.4, 0.3, 0.0), 4.0_f64),
+        (End::Finish, DVec3::new(0.3, -0.5, 0.0), -5.0),
+    ];
+    for (end, moved, degrees) in asked {
+        let jet = curve.polygon.jet(end.parameter(&curve.polygon));
+        let turn = DVec2::from_angle(degrees.to_radians());
+        let direction = turn.rotate(jet.first.truncate()).extend(0.0);
+        let target = EndTarget {
+            point: jet.point + moved,
+            direction: Some(direction),
+            ..EndTarget::default()
+        };
+        curve.targets.set(end, Some(target));
+    }
+    Ok(curve)
+}
+
+/// Figure 2: five points whose legs double at each turn by a right angle.
+fn typical() -> Result<Vec<Curve>, PolygonError> {
+    const POINTS: [(f64, f64); 5] = [
+        (0.0, 0.0),
+        (1.0, 0.0),
+        (1.0, 2.0),
+        (-3.0, 2.0),
+        (-3.0, -6.0),
+    ];
+    let bspline = FloatPolygon::planar(4, &POINTS)?;
+    let bezier = BezierPolygon::new(4, bspline.vertices().to_vec(), None)?.to_float()?;
+    Ok(vec![
+        coloured("B-spline", bspline, BLUE),
+        coloured("Bézier", bezier, VERMILION),
+    ])
+}

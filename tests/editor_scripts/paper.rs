@@ -1,0 +1,115 @@
+//! The paper's figures as documents.
+
+use batten::editor::{Command, Editor, PaperPage, ToolKind};
+use batten::geometry::features::{Features, Quantity};
+use batten::geometry::{End, FloatPolygon, RoundingTest, Shortening};
+use batten::operations::Value;
+
+use super::script::Script;
+
+/// How near ends come to their targets, relative to the curve's size.
+const EXACT: f64 = 1e-14;
+
+fn opened(page: PaperPage) -> Script {
+    let mut script = Script::example("s-curve");
+    script.editor.open_paper(page).expect("a page");
+    script.check();
+    script
+}
+
+fn polygons(editor: &Editor) -> Vec<FloatPolygon> {
+    let curves = editor.document().curves();
+    curves.map(|(_, curve)| curve.polygon.clone()).collect()
+}
+
+fn extrema(polygon: &FloatPolygon) -> usize {
+    let features = Features::new(polygon);
+    assert!(features.undecided.is_empty());
+    features.count(Quantity::CurvatureExtremum)
+}
+
+#[test]
+fn every_page_opens_its_curves_unmodified() {
+    for page in PaperPage::ALL {
+        let script = opened(page);
+        assert!(!script.editor.document().is_empty(), "{page:?}");
+        assert!(!script.editor.workspace().is_modified(), "{page:?}");
+        assert_eq!(PaperPage::ALL[page.place()], page);
+    }
+}
+
+#[test]
+fn digits_that_are_dragged_are_one_step_of_undo() {
+    let mut script = opened(PaperPage::Rounding);
+    let arc = RoundingTest::arc().expect("an arc");
+    assert_eq!(script.polygon(), arc);
+    for digits in [6, 4, 3] {
+        let test = RoundingTest::new(digits, Shortening::CutOff).expect("a test");
+        script.editor.preview_shortened(&test);
+        assert_eq!(script.polygon(), test.polygon);
+    }
+    script.editor.commit_preview();
+    assert_eq!(script.steps(), 1);
+    assert_eq!(polygons(&script.editor)[0], arc, "the other curve stays");
+    script.command(Command::Undo);
+    assert_eq!(script.polygon(), arc);
+}
+
+#[test]
+fn the_rounding_test_waits_for_a_curve_that_it_knows() {
+    let mut script = opened(PaperPage::Rounding);
+    assert!(script.editor.has_shortened());
+    script.command(Command::ToggleLocked);
+    assert!(!script.editor.has_shortened());
+    let before = script.editor.document().clone();
+    let test = RoundingTest::new(3, Shortening::Rounded).expect("a test");
+    script.editor.preview_shortened(&test);
+    assert!(script.editor.document().is_same(&before));
+    script.command(Command::ToggleLocked);
+    script
+        .operate("subdivide", &[])
+        .expect("it can be subdivided");
+    assert!(!script.editor.has_shortened());
+}
+
+#[test]
+fn circles_open_in_the_degree_that_was_asked_for() {
+    for degree in [2, 3, 15] {
+        let script = opened(PaperPage::Circles { degree });
+        let degrees = polygons(&script.editor);
+        let degrees: Vec<usize> = degrees.iter().map(|polygon| polygon.degree()).collect();
+        assert_eq!(degrees, [degree, degree]);
+    }
+}
+
+#[test]
+fn the_seven_steps_reach_the_targets_that_the_page_sets() {
+    let mut script = opened(PaperPage::Steps);
+    assert_eq!(script.editor.hand().tool(), ToolKind::EndFit);
+    let polygon = script.polygon();
+    assert!(polygon.vertices().len() >= 2 * polygon.degree());
+    for end in ["start", "end"] {
+        let which = [("end", Value::Choice(usize::from(end == "end")))];
+        for step in ["translate-end", "rotate-end"] {
+            script.operate(step, &which).expect("a step");
+        }
+    }
+    let curve = script.curve();
+    let curve = script.editor.document().curve(curve).expect("a curve");
+    for end in [End::Start, End::Finish] {
+        let jet = curve.polygon.jet(end.parameter(&curve.polygon));
+        let target = curve.targets.get(end).expect("a target");
+        let left = jet.point.distance(target.point);
+        assert!(left <= EXACT * curve.polygon.size(), "{end:?}: {left}");
+        let direction = target.direction.expect("a direction").normalize();
+        let off = jet.first.normalize().distance(direction);
+        assert!(off <= EXACT, "{end:?}: {off}");
+    }
+}
+
+#[test]
+fn figure_2_has_a_monotone_curve_and_one_that_is_not() {
+    let script = opened(PaperPage::Typical);
+    let counts: Vec<usize> = polygons(&script.editor).iter().map(extrema).collect();
+    assert_eq!(counts, [0, 1]);
+}

@@ -1,0 +1,69 @@
+//! The pages about the paper in the window.
+
+use batten::geometry::{RoundingTest, Shortening};
+use eframe::egui::{Key, Modifiers, vec2};
+use egui_kittest::kittest::Queryable;
+
+use crate::hand::*;
+
+fn turn_to(window: &mut Window, page: usize) {
+    for _ in 0..page {
+        click(window, "Next");
+    }
+}
+
+#[test]
+fn pages_open_their_curves_and_close() {
+    let mut window = open_window();
+    choose(&mut window, &["Help", "The paper"]);
+    assert_eq!(curve(&window).name, "arc");
+    window.get_by_label_contains("Exact: 5.90129e-8");
+    window.get_by_label_contains("The active curve now: 5.9012");
+    turn_to(&mut window, 2);
+    let names = ["5.92221e-8", "5.90129e-8", "2.78956e-14", "1.56125e-2"];
+    for name in names {
+        window.get_by_label_contains(name);
+    }
+    click(&mut window, "15");
+    assert_eq!(curve(&window).polygon.degree(), 15);
+    click(&mut window, "Close the paper");
+    assert!(window.query_by_label("Next").is_none());
+}
+
+#[test]
+fn the_slider_takes_digits_from_the_closed_polygon() {
+    let mut window = open_window();
+    choose(&mut window, &["Help", "The paper"]);
+    turn_to(&mut window, 1);
+    let slider = window.get_by_role(eframe::egui::accesskit::Role::Slider);
+    slider.focus();
+    window.run();
+    for _ in 0..12 {
+        press(&mut window, Modifiers::NONE, Key::ArrowLeft);
+    }
+    window.get_by_label_contains("Vertex: -1.807, 8.748");
+    window.get_by_label_contains("Evolute from centre: 3.06354e-1");
+    window.get_by_label_contains("Printed in the paper: 3.06354e-1");
+    let test = RoundingTest::new(3, Shortening::CutOff).expect("a test");
+    assert_eq!(curve(&window).polygon, test.polygon);
+    click(&mut window, "Round");
+    window.get_by_label_contains("Vertex: -1.807, 8.749");
+    let test = RoundingTest::new(3, Shortening::Rounded).expect("a test");
+    assert_eq!(curve(&window).polygon, test.polygon);
+}
+
+#[test]
+fn unsaved_changes_are_asked_about_before_a_page_takes_their_place() {
+    let mut window = open_window();
+    choose(&mut window, &["Help", "The paper"]);
+    let from = vertex(&window, 4);
+    drag(&mut window, from, from + vec2(0.0, -30.0));
+    let changed = curve(&window).polygon;
+    click(&mut window, "Next");
+    click(&mut window, "Cancel");
+    assert_eq!(curve(&window).polygon, changed);
+    window.get_by_label_contains("Exact: 5.90129e-8");
+    click(&mut window, "Next");
+    click(&mut window, "Discard");
+    assert_eq!(curve(&window).name, "shortened");
+}
