@@ -95,8 +95,15 @@ fn check_polygon(
     weights: Option<&[f64]>,
     periodic: bool,
 ) -> Result<(), PolygonError> {
+    check_size(degree, vertices.len(), periodic)?;
+    check_vertices(vertices)?;
+    check_weights(weights, vertices.len())
+}
+
+/// Refuse degrees that there are not, and numbers of vertices that make no curve.
+pub(super) fn check_size(degree: usize, found: usize, periodic: bool) -> Result<(), PolygonError> {
     check_degree(degree)?;
-    let (found, needed) = (vertices.len(), degree + 1);
+    let needed = degree + 1;
     if found < needed {
         return Err(PolygonError::TooFewVertices {
             found,
@@ -105,8 +112,7 @@ fn check_polygon(
             periodic,
         });
     }
-    check_vertices(vertices)?;
-    check_weights(weights, found)
+    Ok(())
 }
 
 pub(super) fn check_degree(degree: usize) -> Result<(), PolygonError> {

@@ -2,6 +2,7 @@
 //! corrections. Nothing in here knows of documents, files or windows, and nothing panics on
 //! finite input.
 
+pub mod approximation;
 mod arc_length;
 mod banded;
 pub mod basis;

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::float_polygon::FloatPolygon;
+use super::jet::Jet;
 use super::sampler::{Batch, Sampler};
 
 /// Samples a segment from which the search for the nearest point starts.
@@ -66,24 +67,9 @@ impl FloatPolygon {
 
     fn refine(&self, segment: usize, start: f64, target: DVec3) -> Nearest {
         let step = 1.0 / STARTS as f64;
-        let (low, high) = ((start - step).max(0.0), (start + step).min(1.0));
-        let mut t = start;
-        for _ in 0..STEPS {
-            let jet = self.segment_jet(segment, t);
-            let away = jet.point - target;
-            let slope = jet.first.length_squared() + away.dot(jet.second);
-            let next = if slope > 0.0 {
-                t - away.dot(jet.first) / slope
-            } else {
-                // Here the distance is not convex: walk downhill by a quarter of the bracket.
-                t - 0.25 * step * away.dot(jet.first).signum()
-            };
-            let next = next.clamp(low, high);
-            if (next - t).abs() <= f64::EPSILON {
-                break;
-            }
-            t = next;
-        }
+        let bracket = [(start - step).max(0.0), (start + step).min(1.0)];
+        let jet = |t| self.segment_jet(segment, t);
+        let t = refined_parameter(target, start, bracket, jet);
         let refined = self.candidate(segment, t, target);
         let unrefined = self.candidate(segment, start, target);
         if refined.distance <= unrefined.distance {
@@ -101,6 +87,35 @@ impl FloatPolygon {
             distance: point.distance(target),
         }
     }
+}
+
+/// Refine the parameter of the point of a curve nearest to `target` by Newton's method on
+/// (C − target) · C′ = 0, kept within a bracket.
+pub(super) fn refined_parameter(
+    target: DVec3,
+    start: f64,
+    [low, high]: [f64; 2],
+    jet: impl Fn(f64) -> Jet,
+) -> f64 {
+    let precision = f64::EPSILON * low.abs().max(high.abs());
+    let mut t = start;
+    for _ in 0..STEPS {
+        let jet = jet(t);
+        let away = jet.point - target;
+        let slope = jet.first.length_squared() + away.dot(jet.second);
+        let next = if slope > 0.0 {
+            t - away.dot(jet.first) / slope
+        } else {
+            // Here the distance is not convex: walk downhill by an eighth of the bracket.
+            t - 0.125 * (high - low) * away.dot(jet.first).signum()
+        };
+        let next = next.clamp(low, high);
+        if !((next - t).abs() > precision) {
+            break;
+        }
+        t = next;
+    }
+    t
 }
 
 fn local_minima(samples: &[f64]) -> impl Iterator<Item = usize> + '_ {

@@ -70,7 +70,7 @@ pub(in crate::geometry) fn quasi_interpolated(
 /// For each new vertex the first old vertex that acts, and the row of weights from there on.
 fn rows(curve: &FloatPolygon, knots: &NewKnots) -> Vec<(usize, Vec<Number>)> {
     let count = knots.segments + if knots.periodic { 0 } else { knots.degree };
-    let factors = series(knots.degree, curve.degree() / 2, knots.step);
+    let factors = greville_factors(knots.degree, curve.degree() / 2, knots.step);
     let mut known: Option<(f64, bool, Vec<Number>)> = None;
     let greville = |index: usize| {
         let middle = index as f64 - 0.5 * (knots.degree as f64 - 1.0);
@@ -100,10 +100,11 @@ fn first_vertex(curve: &FloatPolygon, segment: usize, before: usize) -> usize {
     }
 }
 
-/// The numbers a_k h^{2k} for a spline of this degree, k = 0 … `last`: a power of the series
+/// The numbers a_k h^{2k} for a spline of this degree, k = 0 … `last`, by which the even derivatives at
+/// the Greville abscissa make a vertex: a power of the series
 /// sinh(x/2) / (x/2) = Σ x^{2k} / (4^k (2k + 1)!), by the recurrence that follows from its
 /// derivative.
-fn series(degree: usize, last: usize, step: f64) -> Vec<Number> {
+pub(in crate::geometry) fn greville_factors(degree: usize, last: usize, step: f64) -> Vec<Number> {
     let mut sine = vec![Number::from(1.0)];
     for k in 1..=last {
         let divisor = (4 * (2 * k) * (2 * k + 1)) as f64;
@@ -159,7 +160,7 @@ mod tests {
         for degree in 1..=25 {
             let n = degree as f64;
             let expected = [1.0, -(n + 1.0) / 24.0, (n + 1.0) * (5.0 * n + 7.0) / 5760.0];
-            for (found, expected) in series(degree, 2, 1.0).into_iter().zip(expected) {
+            for (found, expected) in greville_factors(degree, 2, 1.0).into_iter().zip(expected) {
                 assert!((found.value() / expected - 1.0).abs() <= 4.0 * f64::EPSILON);
             }
         }
@@ -177,7 +178,7 @@ mod tests {
                     symmetric[power] += knot * symmetric[power - 1];
                 }
             }
-            let factors = series(degree, degree / 2, 1.0);
+            let factors = greville_factors(degree, degree / 2, 1.0);
             for (k, factor) in factors.into_iter().enumerate() {
                 let falling = (0..2 * k).fold(1.0, |f, j| f * (degree - j) as f64);
                 let expected = symmetric[2 * k] / falling;
@@ -194,7 +195,7 @@ mod tests {
     fn on_its_own_knots_a_spline_of_even_degree_is_reproduced() {
         // Its Greville abscissae lie in the middle of segments, on one polynomial.
         for degree in (2..=24).step_by(2) {
-            let row = taylor_row(degree, 0.5, &series(degree, degree / 2, 1.0));
+            let row = taylor_row(degree, 0.5, &greville_factors(degree, degree / 2, 1.0));
             for (index, entry) in row.into_iter().enumerate() {
                 let expected = f64::from(u8::from(index == degree / 2));
                 assert!((entry.value() - expected).abs() <= f64::EPSILON);

@@ -1,0 +1,37 @@
+//! Why there is no approximation.
+
+use thiserror::Error;
+
+use crate::geometry::error::PolygonError;
+
+/// A reason why a curve has no float polygon near it.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum ApproximationError {
+    /// The knots are not finite, or do not ascend.
+    #[error("the distance of the knots is {step}: it must be a positive number")]
+    BadStep {
+        /// The distance.
+        step: f64,
+    },
+    /// The curve has no point or derivative where a vertex needs it.
+    #[error(
+        "the curve has no point, or not all derivatives, at parameter {parameter}, where vertex {vertex} needs them: choose a part of the curve without this place"
+    )]
+    NotFinite {
+        /// The vertex, counted from 0.
+        vertex: usize,
+        /// Where the curve was expanded.
+        parameter: f64,
+    },
+    /// The curve has no point somewhere.
+    #[error(
+        "the curve has no point at parameter {parameter}: choose a part of the curve without this place"
+    )]
+    NoPoint {
+        /// Where.
+        parameter: f64,
+    },
+    /// The vertices make no polygon.
+    #[error(transparent)]
+    Polygon(#[from] PolygonError),
+}

@@ -1,0 +1,6 @@
+//! Float polygons near other curves: how far they are, and how fast they come nearer.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod places;
