@@ -41,8 +41,9 @@ pub(super) fn run(source: &Source, at: &[f64]) -> anyhow::Result<()> {
             progress.tell(format_args!(
                 "proving features: curve {curve} of {count}, segment {segment} of {segments}"
             ));
+            true
         };
-        let features = Features::with_progress(&curve.polygon, told);
+        let features = Features::proved(&curve.polygon, told).unwrap_or_default();
         inspected(curve, at, &features)
     });
     let curves = curves.collect();

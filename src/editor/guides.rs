@@ -182,7 +182,8 @@ impl Finding<VertexOf, RegionStep> {
         if self.ask(vertex) {
             let VertexOf { curve, vertex } = vertex.clone();
             let job = move |progress: &Progress| {
-                let proved = SegmentFeatures::of_curve(&curve.polygon, progress)?;
+                let proved =
+                    SegmentFeatures::of_curve(&curve.polygon, |_| !progress.is_cancelled())?;
                 match RegionSearch::new(&curve.polygon, &proved, vertex) {
                     Ok(search) => next_level(Box::new(search), progress),
                     Err(error) => Some(Err(error)),
@@ -213,7 +214,7 @@ impl Finding<FeatureOf, Vec<FeatureLoss>> {
             let FeatureOf { curve, quantity, u } = feature.clone();
             let job = move |progress: &Progress| {
                 let polygon = &curve.polygon;
-                let proved = &SegmentFeatures::of_curve(polygon, progress)?;
+                let proved = &SegmentFeatures::of_curve(polygon, |_| !progress.is_cancelled())?;
                 let search = LossSearch {
                     polygon,
                     proved,

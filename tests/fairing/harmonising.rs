@@ -224,19 +224,69 @@ fn a_stretch_of_a_noisy_curve_becomes_harmonious_by_itself() {
     );
 }
 
+/// A noisy polygon of many vertices.
+fn long(shape: Shape, count: usize, noise: f64, degree: usize) -> FloatPolygon {
+    let mut random = Random(29);
+    let mut vertices = shape.vertices(&mut random, count);
+    for vertex in &mut vertices {
+        *vertex += random.vector(noise, false);
+    }
+    FloatPolygon::new(degree, vertices, None, false).expect("valid")
+}
+
+fn check_long(shape: Shape, count: usize, noise: f64, degree: usize) {
+    let polygon = long(shape, count, noise, degree);
+    let before = Features::new(&polygon).count(Quantity::CurvatureExtremum);
+    let (extrema, inflections) = shape.features();
+    let asked = asked(extrema, inflections);
+    let found = harmonise(&polygon, &asked, &Progress::default()).expect("a result");
+    let farthest = largest_move(&polygon, &found.polygon) / noise;
+    println!(
+        "{shape:?}, {count} vertices, degree {degree}: {before} extrema, then {:?}, \
+         largest move {farthest:.1} times the noise",
+        found.counts
+    );
+    assert!(found.reached, "{:?}", found.counts);
+    check_ends(&polygon, &found.polygon);
+    let features = Features::new(&found.polygon);
+    assert_eq!(features.count(Quantity::CurvatureExtremum), extrema);
+    assert_eq!(features.count(Quantity::Inflection), inflections);
+    assert!(before > count / 2 && features.undecided.is_empty());
+}
+
+#[test]
+fn long_noisy_curves_get_their_features_back() {
+    check_long(Shape::Clothoid, 600, 0.05, 5);
+    check_long(Shape::Inflected, 2000, 0.03, 9);
+}
+
+/// `cargo test --release --test fairing -- --ignored --nocapture every_shape`
+#[test]
+#[ignore = "a longer run of the test above"]
+fn long_noisy_curves_of_every_shape() {
+    for shape in Shape::ALL {
+        for (count, degree) in [(300, 4), (600, 5), (1000, 7), (2000, 5), (2000, 9)] {
+            for noise in [0.03, 0.05] {
+                check_long(shape, count, noise, degree);
+            }
+        }
+    }
+}
+
 #[test]
 fn the_best_found_comes_close_where_what_is_asked_is_out_of_reach() {
-    let mut random = Random(29);
-    let mut vertices = Shape::Clothoid.vertices(&mut random, 600);
-    for vertex in &mut vertices {
-        *vertex += random.vector(0.05, false);
-    }
-    let polygon = FloatPolygon::new(5, vertices, None, false).expect("valid");
+    // Curvatures of both signs are held at the ends, so an inflection is left.
+    let polygon = long(Shape::Inflected, 200, 0.05, 5);
     let before = Features::new(&polygon).count(Quantity::CurvatureExtremum);
-    let found = harmonise(&polygon, &asked(0, 0), &Progress::default()).expect("a result");
-    println!("600 vertices: {before} extrema, then {:?}", found.counts);
+    let held = Harmony {
+        ends: [Held::Curvature; 2],
+        ..asked(0, 0)
+    };
+    let found = harmonise(&polygon, &held, &Progress::default()).expect("a result");
+    println!("200 vertices: {before} extrema, then {:?}", found.counts);
+    assert!(!found.reached);
     assert!(
-        found.counts.extrema * 10 <= before,
+        (found.counts.extrema + found.counts.inflections) * 10 <= before,
         "{:?} of {before}",
         found.counts
     );

@@ -1,7 +1,7 @@
 //! Random planar curves, and what is proved of them.
 
+use batten::geometry::FloatPolygon;
 use batten::geometry::features::{Features, SegmentFeatures, Verdict};
-use batten::geometry::{FloatPolygon, Progress};
 use glam::{DVec2, DVec3};
 
 use crate::common::Random;
@@ -69,7 +69,7 @@ fn wave(random: &mut Random, degree: usize, count: usize, rational: bool) -> Flo
 
 /// Prove all segments of a planar curve.
 pub fn proved(polygon: &FloatPolygon) -> Vec<SegmentFeatures> {
-    SegmentFeatures::of_curve(polygon, &Progress::default()).expect("nobody cancels")
+    SegmentFeatures::of_curve(polygon, |_| true).expect("nobody cancels")
 }
 
 /// Put one vertex elsewhere.

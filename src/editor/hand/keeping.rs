@@ -8,9 +8,9 @@ use std::time::{Duration, Instant};
 use glam::{DVec2, DVec3};
 
 use crate::document::{Curve, CurveId, Document, Edit, quoted};
+use crate::geometry::FloatPolygon;
 use crate::geometry::features::SegmentFeatures;
 use crate::geometry::vertex_moves::{FeatureRise, MoveError, MoveProver};
-use crate::geometry::{FloatPolygon, Progress};
 
 /// How long a frame tries places on the way to one that is not safe.
 const BUDGET: Duration = Duration::from_millis(3);
@@ -110,7 +110,7 @@ impl Keeping {
         }
         let polygon = &before.polygon;
         let known = proved(id, before);
-        let known = known.or_else(|| SegmentFeatures::of_curve(polygon, &Progress::default()));
+        let known = known.or_else(|| SegmentFeatures::of_curve(polygon, |_| true));
         let vertices: Vec<usize> = moves.iter().map(|(index, _)| *index).collect();
         let prover = MoveProver::new(polygon, &known.unwrap_or_default(), vertices.clone())
             .map_err(|error: MoveError| error.to_string())?;

@@ -1,9 +1,8 @@
 //! How many features a curve has, or a stretch of it, and how many of them are more than ripple.
 
-use crate::geometry::features::{Extremum, Features, Root, SegmentFeatures};
+use crate::geometry::features::{Extremum, Features, Root};
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::jet::Jet;
-use crate::geometry::progress::Progress;
 use crate::geometry::sampler::{BATCH_ORDER, Batch, Sampler};
 
 /// Extrema with a smaller prominence, as a share of the range of values, count as ripple.
@@ -76,12 +75,6 @@ impl Proved {
     pub(super) fn excess(self, asked: Asked) -> usize {
         self.counts.distance(asked) + self.undecided
     }
-}
-
-/// Prove the features of a curve; `None` if `progress` is cancelled meanwhile.
-pub(super) fn prove(polygon: &FloatPolygon, progress: &Progress) -> Option<Features> {
-    let segments = SegmentFeatures::of_curve(polygon, progress)?;
-    Some(Features::assemble(polygon, &segments))
 }
 
 /// Count the proved features that lie in a stretch.

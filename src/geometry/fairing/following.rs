@@ -105,7 +105,7 @@ pub fn follow_in_harmony(
         let met = problem.meet(least, begun.vertices());
         let met = met.map_or_else(|| begun.vertices().to_vec(), |met| met.vertices);
         problem.moved_from(polygon.vertices());
-        let harmony = problem.harmony(ORDER, stiffness);
+        let harmony = problem.harmony(problem.measure(), ORDER, stiffness);
         let followed = problem.descend(harmony, &met, MOST_STEPS);
         let followed = problem.polygon(&followed.vertices)?;
         // An end that too few vertices could hold is let go.

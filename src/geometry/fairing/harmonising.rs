@@ -3,15 +3,22 @@
 use glam::DVec3;
 use thiserror::Error;
 
-use super::counts::{Asked, ShapeCounts, counted, domain, prove, seen, significant};
-use super::problem::Problem;
+use super::counts::{Asked, ShapeCounts, counted, domain, seen, significant};
+use super::problem::{Problem, Sweep};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::error::PolygonError;
+use crate::geometry::features::Features;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
 
-/// The weights ε at which the search begins and ends.
-const CLOSENESS: [f64; 2] = [1e3, 1e-12];
+/// The weight ε at which the search begins.
+const FIRST_CLOSENESS: f64 = 1e3;
+
+/// The search ends at no larger weight ε than this: short waves give in before.
+const LAST_CLOSENESS: f64 = 1e-12;
+
+/// Beside a weight ε below this, √ε is lost in doubles.
+const LEAST_CLOSENESS: f64 = 1e-24;
 
 /// The factor between the weights of the first sweep.
 const SWEEP: f64 = 0.1;
@@ -133,7 +140,7 @@ pub fn harmonise(
             end,
         });
     }
-    let features = prove(polygon, progress).ok_or(HarmonyError::Cancelled)?;
+    let features = prove(polygon, progress)?;
     let own = significant(polygon, &features, stretch);
     let given = [
         harmony.inflections,
@@ -198,6 +205,11 @@ pub fn harmonise(
         iterations,
         ..search.best.harmonised
     })
+}
+
+fn prove(polygon: &FloatPolygon, progress: &Progress) -> Result<Features, HarmonyError> {
+    let features = Features::proved(polygon, |_| !progress.is_cancelled());
+    features.ok_or(HarmonyError::Cancelled)
 }
 
 /// The ends of a stretch with what holds them; a whole periodic curve has none.
@@ -310,41 +322,30 @@ struct Search<'a> {
 impl Search<'_> {
     /// Search with differences of one order; so much was done before.
     fn run(&mut self, order: usize, done: f64) -> Result<(), HarmonyError> {
-        let mut begins = vec![self.problem.before().to_vec()];
-        if !self.polygon.is_planar() {
-            begins.push(self.problem.smooth_begin(order));
-        }
-        let share = 1.0 / (ORDERS.len() * begins.len()) as f64;
-        for (index, begin) in begins.into_iter().enumerate() {
-            let warm = index == 0;
-            self.sweep(order, &begin, warm, [done + share * index as f64, share])?;
+        let sweeps = self.problem.sweeps(order);
+        let share = 1.0 / (ORDERS.len() * sweeps.len()) as f64;
+        for (index, sweep) in sweeps.iter().enumerate() {
+            self.sweep(sweep, [done + share * index as f64, share])?;
         }
         Ok(())
     }
 
-    /// Let ε fall from a beginning until what is asked is left, each time from what the one before
-    /// left if `warm`; the work is the second share, after the first.
-    fn sweep(
-        &mut self,
-        order: usize,
-        begin: &[DVec3],
-        warm: bool,
-        [done, work]: [f64; 2],
-    ) -> Result<(), HarmonyError> {
-        let [first, last] = CLOSENESS;
-        let sweep = (last / first).ln() / SWEEP.ln();
-        let mut vertices = begin.to_vec();
+    /// Let ε fall until what is asked is left; the work is the second share, after the first.
+    fn sweep(&mut self, sweep: &Sweep, [done, work]: [f64; 2]) -> Result<(), HarmonyError> {
+        let (first, last) = (FIRST_CLOSENESS, self.last_closeness(sweep.order));
+        let decades = (last / first).ln() / SWEEP.ln();
+        let mut vertices = sweep.begin.clone();
         let mut closeness = first;
         while closeness >= 0.999 * last {
-            let share = (closeness / first).ln() / SWEEP.ln() / sweep;
+            let share = (closeness / first).ln() / SWEEP.ln() / decades;
             self.progress.set_done(done + work * share);
-            if !warm {
-                vertices = begin.to_vec();
+            if !sweep.goes_on {
+                vertices.clone_from(&sweep.begin);
             }
             let before = vertices.clone();
-            let found = self.try_out(order, closeness, &mut vertices)?;
+            let found = self.try_out(sweep, closeness, &mut vertices)?;
             let between = [closeness, closeness / SWEEP];
-            if found != Found::More && self.narrow(order, between, found, before)? {
+            if found != Found::More && self.narrow(sweep, between, found, before)? {
                 return Ok(());
             }
             closeness *= SWEEP;
@@ -352,11 +353,19 @@ impl Search<'_> {
         Ok(())
     }
 
+    /// The weight ε at which a sweep ends: moves in a wave as long as the polygon of N vertices count
+    /// then no more than its differences of curvature do, about (2π/N)^(2m + 4).
+    fn last_closeness(&self, order: usize) -> f64 {
+        let longest = std::f64::consts::TAU / self.polygon.vertices().len() as f64;
+        let least = longest.powi(2 * order as i32 + 4);
+        least.clamp(LEAST_CLOSENESS, LAST_CLOSENESS)
+    }
+
     /// Find the largest ε that leaves what is asked, between one that leaves no more and one that
     /// leaves more; tell whether there is one.
     fn narrow(
         &mut self,
-        order: usize,
+        sweep: &Sweep,
         [mut low, mut high]: [f64; 2],
         found: Found,
         begin: Vec<DVec3>,
@@ -365,7 +374,7 @@ impl Search<'_> {
         while high / low > FOUND {
             let middle = (high * low).sqrt();
             let mut vertices = begin.clone();
-            let found = self.try_out(order, middle, &mut vertices)?;
+            let found = self.try_out(sweep, middle, &mut vertices)?;
             reached |= found == Found::Asked;
             match found {
                 Found::More => high = middle,
@@ -378,14 +387,14 @@ impl Search<'_> {
     /// Go down for one ε, and tell whether what is found is what is asked.
     fn try_out(
         &mut self,
-        order: usize,
+        sweep: &Sweep,
         closeness: f64,
         vertices: &mut Vec<DVec3>,
     ) -> Result<Found, HarmonyError> {
         if self.progress.is_cancelled() {
             return Err(HarmonyError::Cancelled);
         }
-        let objective = self.problem.harmony(order, closeness);
+        let objective = self.problem.harmony(sweep.measure, sweep.order, closeness);
         let found = self.problem.descend(objective, vertices, MOST_STEPS);
         self.iterations += found.steps;
         *vertices = found.vertices;
@@ -418,7 +427,7 @@ impl Search<'_> {
 
     /// Prove a polygon, keep it if it is better, and tell whether it is what is asked.
     fn rank(&mut self, polygon: FloatPolygon) -> Result<Found, HarmonyError> {
-        let features = prove(&polygon, self.progress).ok_or(HarmonyError::Cancelled)?;
+        let features = prove(&polygon, self.progress)?;
         let proved = counted(&features, polygon.is_planar(), self.stretch);
         let deviation = self.polygon.deviation(&polygon)?;
         let moves = self.polygon.vertices().iter().zip(polygon.vertices());

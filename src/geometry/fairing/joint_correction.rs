@@ -209,7 +209,7 @@ impl Correction<'_> {
         let found = problem.meet(Objective::Disturbance { order, fidelity }, begin);
         let mut found = found.ok_or_else(|| unsolved(self.residual(self.polygon)))?;
         if self.disturbance == Disturbance::Harmony {
-            let objective = problem.harmony(2, CLOSENESS);
+            let objective = problem.harmony(problem.measure(), 2, CLOSENESS);
             let faired = problem.descend(objective, &found.vertices, MOST_STEPS);
             found.steps += faired.steps;
             found.vertices = faired.vertices;

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::flow::{Member, Sequence};
-use super::normal_equations::NormalEquations;
+use super::least_squares::LeastSquares;
 use super::unknowns::Unknowns;
 use crate::geometry::banded::difference_stencil;
 use crate::geometry::float_polygon::FloatPolygon;
@@ -58,19 +58,19 @@ pub(super) struct Shape<'a> {
 }
 
 impl Objective {
-    /// Gather the normal equations at some vertices.
+    /// Collect the residuals at some vertices.
     pub(super) fn gather<'a>(
         &self,
         shape: Shape,
         unknowns: &'a Unknowns,
         vertices: &[DVec3],
-    ) -> NormalEquations<'a> {
-        let mut equations = NormalEquations::new(unknowns);
+    ) -> LeastSquares<'a> {
+        let mut squares = LeastSquares::new(unknowns);
         self.visit(shape, unknowns, vertices, &mut |row| match row {
-            Row::Scalar(residual, gradient) => equations.add(residual, gradient),
-            Row::Vector(residual, stencil) => equations.add_vector(residual, stencil),
+            Row::Scalar(residual, gradient) => squares.add(residual, gradient),
+            Row::Vector(residual, stencil) => squares.add_vector(residual, stencil),
         });
-        equations
+        squares
     }
 
     /// Evaluate it at some vertices, but for what does not depend on the unknowns.

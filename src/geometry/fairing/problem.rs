@@ -5,10 +5,10 @@ use glam::DVec3;
 
 use super::condition::Condition;
 use super::jet_weights::JetWeights;
-use super::normal_equations::NormalEquations;
+use super::least_squares::LeastSquares;
 use super::objective::{Measure, Objective, Shape};
 use super::unknowns::Unknowns;
-use crate::geometry::banded::BandedCholesky;
+use crate::geometry::banded::BandedQr;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::error::PolygonError;
 use crate::geometry::float_polygon::FloatPolygon;
@@ -63,6 +63,18 @@ pub(super) struct Descent {
     pub(super) vertices: Vec<DVec3>,
     /// The number of steps.
     pub(super) steps: usize,
+}
+
+/// A way to harmony, for falling weights of the moves.
+#[derive(Clone, Debug)]
+pub(super) struct Sweep {
+    pub(super) measure: Measure,
+    /// The order of the differences.
+    pub(super) order: usize,
+    /// Where descents begin.
+    pub(super) begin: Vec<DVec3>,
+    /// Whether each descent begins where the one before ended.
+    pub(super) goes_on: bool,
 }
 
 impl<'a> Problem<'a> {
@@ -133,14 +145,9 @@ impl<'a> Problem<'a> {
         self.polygon.vertices()
     }
 
-    /// The harmony of the polygon, with differences of some order, and the moves weighed by
-    /// `closeness`.
-    pub(super) fn harmony(&self, order: usize, closeness: f64) -> Objective {
-        let measure = if self.planar {
-            Measure::SignedCurvature
-        } else {
-            Measure::CurvatureAndTorsion
-        };
+    /// The harmony of the polygon by some measure, with differences of some order, and the moves
+    /// weighed by `closeness`.
+    pub(super) fn harmony(&self, measure: Measure, order: usize, closeness: f64) -> Objective {
         Objective::Harmony {
             measure,
             order,
@@ -149,19 +156,38 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Where descents begin: the vertices as they were, in space freed of their noise, which would
-    /// turn torsion angles by any amount.
-    pub(super) fn smooth_begin(&self, order: usize) -> Vec<DVec3> {
+    /// What a polygon is measured by where nothing else is wanted.
+    pub(super) fn measure(&self) -> Measure {
         if self.planar {
-            return self.before().to_vec();
+            Measure::SignedCurvature
+        } else {
+            Measure::CurvatureAndTorsion
         }
-        let objective = Objective::Harmony {
-            measure: Measure::CurvatureVector,
+    }
+
+    /// List the ways to harmony with differences of some order: from the vertices as they are. Noise
+    /// in space turns torsion angles by any amount: there also from vertices that are freed of it,
+    /// and by the curvature alone.
+    pub(super) fn sweeps(&self, order: usize) -> Vec<Sweep> {
+        let from_here = |measure| Sweep {
+            measure,
             order,
-            closeness: SMOOTHING,
-            leg: self.mean_leg(),
+            begin: self.before().to_vec(),
+            goes_on: true,
         };
-        self.descend(objective, self.before(), MOST_STEPS).vertices
+        let mut sweeps = vec![from_here(self.measure())];
+        if !self.planar {
+            let vector = Measure::CurvatureVector;
+            let smoothing = self.harmony(vector, order, SMOOTHING);
+            sweeps.push(Sweep {
+                measure: self.measure(),
+                order,
+                begin: self.descend(smoothing, self.before(), MOST_STEPS).vertices,
+                goes_on: false,
+            });
+            sweeps.push(from_here(vector));
+        }
+        sweeps
     }
 
     /// How many numbers may change.
@@ -214,12 +240,10 @@ impl<'a> Problem<'a> {
         };
         let mut vertices = begin.to_vec();
         let mut steps = 0;
-        // The equations of a quadratic objective are the same everywhere.
-        let (_, factor) = self.equations(objective, &vertices).factor()?;
-        let mut conditions = self.linearise(&factor, &vertices)?;
+        let (_, mut factors) = self.squares(objective, &vertices).factor()?;
+        let mut conditions = self.linearise(&factors, &vertices)?;
         while steps < most {
-            let gradient = self.equations(objective, &vertices).gradient();
-            let step = conditions.step(&factor, &gradient);
+            let step = conditions.step(&factors);
             let missing = conditions.missing(&conditions.left);
             let mut share = 1.0;
             let mut moved = self.moved(&vertices, &step, share);
@@ -233,7 +257,8 @@ impl<'a> Problem<'a> {
             vertices = moved;
             steps += 1;
             if steps < most {
-                conditions = self.linearise(&factor, &vertices)?;
+                (_, factors) = self.squares(objective, &vertices).factor()?;
+                conditions = self.linearise(&factors, &vertices)?;
             }
             let length = step.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
             if length <= NO_STEP {
@@ -253,13 +278,13 @@ impl<'a> Problem<'a> {
         let mut value = self.value(objective, &vertices);
         let mut steps = 0;
         while steps < most {
-            let Some((gradient, factor)) = self.equations(objective, &vertices).factor() else {
+            let Some((gradient, factors)) = self.squares(objective, &vertices).factor() else {
                 break;
             };
-            let Some(conditions) = self.linearise(&factor, &vertices) else {
+            let Some(conditions) = self.linearise(&factors, &vertices) else {
                 break;
             };
-            let step = conditions.step(&factor, &gradient);
+            let step = conditions.step(&factors);
             let promised = -2.0 * dot(&gradient, &step);
             let mut share = 1.0;
             let found = loop {
@@ -325,7 +350,7 @@ impl<'a> Problem<'a> {
         objective.value(self.shape(), &self.unknowns, &self.local(vertices))
     }
 
-    fn equations(&self, objective: Objective, vertices: &[DVec3]) -> NormalEquations<'_> {
+    fn squares(&self, objective: Objective, vertices: &[DVec3]) -> LeastSquares<'_> {
         objective.gather(self.shape(), &self.unknowns, &self.local(vertices))
     }
 
@@ -340,7 +365,7 @@ impl<'a> Problem<'a> {
             .collect()
     }
 
-    fn linearise(&self, factor: &BandedCholesky, vertices: &[DVec3]) -> Option<Linearised> {
+    fn linearise(&self, factors: &BandedQr, vertices: &[DVec3]) -> Option<Linearised> {
         let vertices = &self.local(vertices);
         let mut left = Vec::new();
         let mut rows = Vec::new();
@@ -351,7 +376,7 @@ impl<'a> Problem<'a> {
                 rows.push(self.row(&gradient));
             }
         }
-        let responses: Vec<Vec<f64>> = rows.iter().map(|row| factor.solve(row)).collect();
+        let responses: Vec<Vec<f64>> = rows.iter().map(|row| factors.solve(row)).collect();
         let entry = |row: usize, column: usize| dot(&rows[row], &responses[column]);
         // Points and derivatives, and the ends of a curve with very different weights, differ by
         // orders of magnitude: each condition is measured in its own unit.
@@ -396,8 +421,8 @@ struct Linearised {
 
 impl Linearised {
     /// The step to the smallest quadratic model on which the conditions hold.
-    fn step(&self, factor: &BandedCholesky, gradient: &[f64]) -> Vec<f64> {
-        let downhill = factor.solve(gradient);
+    fn step(&self, factors: &BandedQr) -> Vec<f64> {
+        let downhill = factors.solution();
         let rows = self.rows.iter().zip(&self.left);
         let left: Vec<f64> = rows.map(|(row, left)| left - dot(row, &downhill)).collect();
         let correction = self.correction(&left);

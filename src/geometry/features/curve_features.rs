@@ -3,7 +3,7 @@
 use super::enclosure::narrower;
 use super::exact_numerators::ExactSegment;
 use super::feature::{Cusp, Extremum, ExtremumKind, Features, Quantity, Root, Undecided, Verdict};
-use super::segment_features::{SegmentFeatures, SegmentProver};
+use super::segment_features::SegmentFeatures;
 use super::separation::{Found, join_neighbours, narrow_neighbours};
 use super::sign_piece::SignPiece;
 use super::sign_walk::{Place, SignWalk};
@@ -18,19 +18,14 @@ impl Features {
     /// the n + 1 segments that a vertex touches and put them together again with
     /// [`Features::assemble`].
     pub fn new(polygon: &FloatPolygon) -> Self {
-        Self::with_progress(polygon, |_| {})
+        Self::proved(polygon, |_| true).unwrap_or_default()
     }
 
-    /// Prove the features of a whole curve, and call `progress` before each segment with its
-    /// number.
-    pub fn with_progress(polygon: &FloatPolygon, mut progress: impl FnMut(usize)) -> Self {
-        let mut prover = SegmentProver::new(polygon.is_planar());
-        let segments = 0..polygon.segments();
-        let segments = segments.map(|segment| {
-            progress(segment);
-            prover.segment(polygon, segment)
-        });
-        Self::assemble(polygon, &segments.collect::<Vec<_>>())
+    /// Prove the features of a whole curve; `wanted` is asked before each segment, with its number,
+    /// whether to go on. `None` if not.
+    pub fn proved(polygon: &FloatPolygon, wanted: impl FnMut(usize) -> bool) -> Option<Self> {
+        let segments = SegmentFeatures::of_curve(polygon, wanted)?;
+        Some(Self::assemble(polygon, &segments))
     }
 
     /// Put the features of all segments together, joining them at the knots, in time

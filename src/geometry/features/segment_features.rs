@@ -17,7 +17,6 @@ use super::variations::certain_sign;
 use super::whole_numbers::fraction;
 use crate::geometry::expansion::DoubleDouble;
 use crate::geometry::float_polygon::FloatPolygon;
-use crate::geometry::progress::Progress;
 
 /// Hold what is proved of one segment, its two ends included as far as they can be seen from
 /// this side. It depends on the segment's n + 1 vertices and weights alone, so it stays valid
@@ -62,14 +61,15 @@ pub struct SegmentProver {
 }
 
 impl SegmentFeatures {
-    /// Prove the features of every segment of a curve; `None` if `progress` is cancelled meanwhile.
-    pub fn of_curve(polygon: &FloatPolygon, progress: &Progress) -> Option<Vec<Self>> {
+    /// Prove the features of every segment of a curve. `wanted` is asked before each one, with its
+    /// number, whether to go on; `None` if not.
+    pub fn of_curve(
+        polygon: &FloatPolygon,
+        mut wanted: impl FnMut(usize) -> bool,
+    ) -> Option<Vec<Self>> {
         let mut prover = SegmentProver::new(polygon.is_planar());
         let segments = 0..polygon.segments();
-        let prove = |segment| {
-            let wanted = !progress.is_cancelled();
-            wanted.then(|| prover.segment(polygon, segment))
-        };
+        let prove = |segment| wanted(segment).then(|| prover.segment(polygon, segment));
         segments.map(prove).collect()
     }
 }
