@@ -1,14 +1,17 @@
-//! The analyses of a document's curves.
+//! The analyses of a document's curves and references.
 
 use std::collections::BTreeMap;
 
 use super::curve_analysis::CurveAnalysis;
+use super::curve_samples::SampledCurve;
+use super::reference_analysis::ReferenceAnalysis;
 use crate::document::{CurveId, Document};
 
-/// Hold one analysis a curve, brought up to date with the document on demand.
+/// Hold one analysis a curve, and one a reference, brought up to date with the document on demand.
 #[derive(Debug, Default)]
 pub struct AnalysisCache {
     analyses: BTreeMap<CurveId, CurveAnalysis>,
+    references: BTreeMap<CurveId, ReferenceAnalysis>,
 }
 
 impl AnalysisCache {
@@ -22,6 +25,32 @@ impl AnalysisCache {
                 .and_modify(|analysis| analysis.update(curve))
                 .or_insert_with(|| CurveAnalysis::new(curve.clone()));
         }
+        self.references
+            .retain(|id, _| document.reference(*id).is_some());
+        for (id, reference) in document.references() {
+            self.references
+                .entry(id)
+                .and_modify(|analysis| analysis.update(reference))
+                .or_insert_with(|| ReferenceAnalysis::new(reference.clone()));
+        }
+    }
+
+    /// A curve or a reference with its samples: all that is asked of either to draw and to hit it.
+    pub fn sampled(&self, id: CurveId) -> Option<SampledCurve<'_>> {
+        match self.analyses.get(&id) {
+            Some(analysis) => Some(analysis.sampled()),
+            None => Some(self.references.get(&id)?.sampled()),
+        }
+    }
+
+    /// The analysis of one reference.
+    pub fn reference(&self, id: CurveId) -> Option<&ReferenceAnalysis> {
+        self.references.get(&id)
+    }
+
+    /// The analysis of one reference, to go on with.
+    pub fn reference_mut(&mut self, id: CurveId) -> Option<&mut ReferenceAnalysis> {
+        self.references.get_mut(&id)
     }
 
     /// The analysis of one curve.
@@ -34,7 +63,12 @@ impl AnalysisCache {
         self.analyses.get_mut(&id)
     }
 
-    /// All analyses.
+    /// The analyses of all references.
+    pub fn references(&self) -> impl Iterator<Item = (CurveId, &ReferenceAnalysis)> {
+        self.references.iter().map(|(id, analysis)| (*id, analysis))
+    }
+
+    /// The analyses of all curves.
     pub fn iter(&self) -> impl Iterator<Item = (CurveId, &CurveAnalysis)> {
         self.analyses.iter().map(|(id, analysis)| (*id, analysis))
     }

@@ -1,5 +1,5 @@
-//! What is known of a curve besides its polygon: samples, features and plots as plain series. Kept
-//! up to date segment by segment; nothing in here draws, or knows how a curve is seen.
+//! What is known of a curve besides its polygon, and of a reference: samples, features and plots as
+//! plain series. Kept up to date segment by segment; nothing in here draws, or knows how a curve is seen.
 
 mod bins;
 mod cache;
@@ -11,8 +11,10 @@ mod discrete_curvature;
 mod feature_proof;
 mod harmony_measurement;
 mod level_series;
+mod reference_analysis;
 mod revision;
 mod sample;
+mod sampled_features;
 mod vertex_chain;
 
 pub use cache::AnalysisCache;
@@ -22,6 +24,8 @@ pub use curve_samples::{Block, CurveSamples, SampledCurve};
 pub use feature_proof::{FeatureProof, ProofResult};
 pub use harmony_measurement::{HarmonyMeasurement, MeasuredHarmony};
 pub use level_series::{LevelPlot, LevelSeries};
+pub use reference_analysis::ReferenceAnalysis;
 pub use revision::Revision;
 pub use sample::{PieceSampler, Sample};
+pub use sampled_features::{SampledFeature, SampledKind};
 pub use vertex_chain::{ChainFigures, Flow, VertexChain};

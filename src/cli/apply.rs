@@ -119,7 +119,7 @@ impl Application {
 
     /// Find the curves that were named; without names, all if there are just so many.
     fn curves(&self, document: &Document, count: usize) -> anyhow::Result<Vec<CurveId>> {
-        if document.is_empty() {
+        if document.curves().len() == 0 {
             bail!("there is no curve");
         }
         if !self.curves.is_empty() {

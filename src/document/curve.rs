@@ -6,7 +6,7 @@ use super::locked_vertices::LockedVertices;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{End, FloatPolygon};
 
-/// The identity of a curve within its document; it survives every edit.
+/// The identity of a curve or of a reference within its document; it survives every edit. Both are counted together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct CurveId(pub(super) u64);
 

@@ -1,4 +1,4 @@
-//! A document: an ordered list of curves.
+//! A document: an ordered list of curves, and one of references.
 
 use std::sync::Arc;
 
@@ -6,13 +6,16 @@ use super::curve::{Curve, CurveId};
 use super::end_match::EndMatch;
 use super::extras::Extras;
 use super::names::free_name;
+use super::reference::Reference;
+use crate::geometry::ParametricCurve;
 
-/// Hold the curves of a project, in the order in which they are listed and drawn.
+/// Hold the curves of a project and its references, each in the order in which they are listed and drawn.
 ///
-/// Curves are shared between snapshots, so copying a document is cheap.
+/// Both are shared between snapshots, so copying a document is cheap.
 #[derive(Clone, Debug, Default)]
 pub struct Document {
     pub(super) curves: Vec<(CurveId, Arc<Curve>)>,
+    pub(super) references: Vec<(CurveId, Arc<Reference>)>,
     pub(super) next: u64,
     pub(super) matches: Vec<EndMatch>,
     extras: Extras,
@@ -28,6 +31,14 @@ impl Document {
         document
     }
 
+    /// Add references behind those that there are.
+    pub fn with_references(mut self, references: impl IntoIterator<Item = Reference>) -> Self {
+        for reference in references {
+            self.push_reference(reference);
+        }
+        self
+    }
+
     /// Add what the project's file said that this program does not know. Every edit keeps it.
     pub fn with_extras(self, extras: Extras) -> Self {
         Self { extras, ..self }
@@ -38,17 +49,24 @@ impl Document {
         &self.extras
     }
 
-    /// Whether the project or a curve has something that this program does not know.
+    /// Whether the project, a curve or a reference has something that this program does not know.
     pub fn has_extras(&self) -> bool {
         let mut curves = self.curves();
-        !self.extras.is_empty() || curves.any(|(_, curve)| !curve.extras.is_empty())
+        let mut references = self.references();
+        !self.extras.is_empty()
+            || curves.any(|(_, curve)| !curve.extras.is_empty())
+            || references.any(|(_, reference)| !reference.extras.is_empty())
     }
 
-    /// Find a name that no curve has: this one, or with another number behind it.
+    /// The names of all curves, then of all references.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        let curves = self.curves().map(|(_, curve)| curve.name.as_str());
+        curves.chain(self.references().map(|(_, it)| it.name.as_str()))
+    }
+
+    /// Find a name that neither a curve nor a reference has: this one, or with another number behind it.
     pub fn free_name(&self, name: &str) -> String {
-        free_name(name, |name| {
-            self.curves().any(|(_, curve)| curve.name == name)
-        })
+        free_name(name, |name| self.names().any(|taken| taken == name))
     }
 
     /// List the curves with their identities.
@@ -61,9 +79,48 @@ impl Document {
         self.position(id).map(|index| &self.curves[index].1)
     }
 
+    /// List the references with their identities.
+    pub fn references(&self) -> impl ExactSizeIterator<Item = (CurveId, &Arc<Reference>)> {
+        let references = self.references.iter();
+        references.map(|(id, reference)| (*id, reference))
+    }
+
+    /// Find a reference.
+    pub fn reference(&self, id: CurveId) -> Option<&Arc<Reference>> {
+        let index = self.reference_position(id)?;
+        self.references.get(index).map(|(_, reference)| reference)
+    }
+
+    /// Find the shape of a curve, or of a reference.
+    pub fn shape(&self, id: CurveId) -> Option<&dyn ParametricCurve> {
+        match self.curve(id) {
+            Some(curve) => Some(&curve.polygon),
+            None => Some(&self.reference(id)?.curve),
+        }
+    }
+
+    /// The name of a curve, or of a reference.
+    pub fn name(&self, id: CurveId) -> Option<&str> {
+        match self.curve(id) {
+            Some(curve) => Some(&curve.name),
+            None => Some(&self.reference(id)?.name),
+        }
+    }
+
+    /// Whether a curve, or a reference, is there and drawn.
+    pub fn is_visible(&self, id: CurveId) -> bool {
+        self.curve(id).is_some_and(|curve| curve.visible)
+            || self.reference(id).is_some_and(|it| it.visible)
+    }
+
     /// The identities of all curves, in order.
     pub fn ids(&self) -> impl Iterator<Item = CurveId> + '_ {
         self.curves.iter().map(|(id, _)| *id)
+    }
+
+    /// The identities of all curves, then of all references, in order.
+    pub fn all_ids(&self) -> impl Iterator<Item = CurveId> + '_ {
+        self.ids().chain(self.references.iter().map(|(id, _)| *id))
     }
 
     /// The number of curves.
@@ -71,26 +128,25 @@ impl Document {
         self.curves.len()
     }
 
-    /// Whether there is no curve.
+    /// Whether there is neither a curve nor a reference.
     pub fn is_empty(&self) -> bool {
-        self.curves.is_empty()
+        self.curves.is_empty() && self.references.is_empty()
     }
 
-    /// Whether the other document holds equal curves in the same order, and the same matches. Curves that both share
-    /// are not compared number by number.
+    /// Whether the other document holds equal curves and equal references in the same order, and the same matches.
+    /// What both share is not compared number by number.
     pub fn is_same(&self, other: &Self) -> bool {
-        let mut pairs = self.curves.iter().zip(&other.curves);
-        self.curves.len() == other.curves.len()
-            && self.matches == other.matches
-            && pairs.all(|(a, b)| a.0 == b.0 && (Arc::ptr_eq(&a.1, &b.1) || a.1 == b.1))
+        self.matches == other.matches
+            && are_same(&self.curves, &other.curves)
+            && are_same(&self.references, &other.references)
     }
 
-    /// The identity that the next added curve will get.
+    /// The identity that the next added curve or reference will get.
     pub fn next_id(&self) -> CurveId {
         CurveId(self.next)
     }
 
-    /// The identities that the next added curves will get.
+    /// The identities that the next added curves and references will get.
     pub fn next_ids(&self) -> impl Iterator<Item = CurveId> {
         (self.next..).map(CurveId)
     }
@@ -102,7 +158,24 @@ impl Document {
         id
     }
 
+    pub(super) fn push_reference(&mut self, reference: Reference) -> CurveId {
+        let id = self.next_id();
+        self.next += 1;
+        self.references.push((id, Arc::new(reference)));
+        id
+    }
+
+    pub(super) fn reference_position(&self, id: CurveId) -> Option<usize> {
+        self.references.iter().position(|(other, _)| *other == id)
+    }
+
     pub(super) fn position(&self, id: CurveId) -> Option<usize> {
         self.curves.iter().position(|(other, _)| *other == id)
     }
+}
+
+/// Whether two lists hold equal things with the same identities.
+fn are_same<T: PartialEq>(a: &[(CurveId, Arc<T>)], b: &[(CurveId, Arc<T>)]) -> bool {
+    let mut pairs = a.iter().zip(b);
+    a.len() == b.len() && pairs.all(|(a, b)| a.0 == b.0 && (Arc::ptr_eq(&a.1, &b.1) || a.1 == b.1))
 }

@@ -9,7 +9,9 @@ use super::document::Document;
 use super::end_match::EndMatch;
 use super::error::EditError;
 use super::locked_vertices::LockedVertices;
+use super::reference::Reference;
 use crate::geometry::end_correction::EndTarget;
+use crate::geometry::references::ReferenceCurve;
 use crate::geometry::{End, FloatPolygon, PolygonError};
 
 /// A change to a document.
@@ -57,30 +59,30 @@ pub enum Edit {
         /// The new weight.
         weight: f64,
     },
-    /// Give a curve another name.
+    /// Give a curve or a reference another name.
     Rename {
-        /// The curve.
+        /// The curve or the reference.
         curve: CurveId,
         /// The new name.
         name: String,
     },
-    /// Give a curve a colour of its own, or the theme's.
+    /// Give a curve or a reference a colour of its own, or the theme's.
     Recolour {
-        /// The curve.
+        /// The curve or the reference.
         curve: CurveId,
         /// The new colour.
         colour: Option<Colour>,
     },
-    /// Show or hide a curve.
+    /// Show or hide a curve or a reference.
     SetVisible {
-        /// The curve.
+        /// The curve or the reference.
         curve: CurveId,
         /// Whether it shall be drawn.
         visible: bool,
     },
-    /// Protect a curve's shape from edits, or release it.
+    /// Protect the shape of a curve or a reference from edits, or release it.
     SetLocked {
-        /// The curve.
+        /// The curve or the reference.
         curve: CurveId,
         /// Whether it shall be protected.
         locked: bool,
@@ -94,7 +96,7 @@ pub enum Edit {
         /// The new target.
         target: Option<EndTarget>,
     },
-    /// Keep an end matched to a place of another curve, in place of what it was matched to before.
+    /// Keep an end matched to a place of another curve or of a reference, in place of what it was matched to before.
     SetMatch(EndMatch),
     /// Let an end be no longer matched; its target stays.
     RemoveMatch {
@@ -105,11 +107,20 @@ pub enum Edit {
     },
     /// Add a curve behind the others. It gets [`Document::next_id`].
     Add(Box<Curve>),
-    /// Remove a curve, with the matches of its ends and to it.
+    /// Add a reference behind the others. It gets [`Document::next_id`].
+    AddReference(Box<Reference>),
+    /// Give a reference another shape or another place.
+    SetReference {
+        /// The reference.
+        reference: CurveId,
+        /// The new curve, where it is placed.
+        curve: ReferenceCurve,
+    },
+    /// Remove a curve, with the matches of its ends and to it, or a reference, with the matches to it.
     Remove(CurveId),
-    /// Put a curve at another place of the list.
+    /// Put a curve at another place among the curves, or a reference among the references.
     Reorder {
-        /// The curve.
+        /// The curve or the reference.
         curve: CurveId,
         /// Its new place, counted from 0; the last place if it lies beyond.
         place: usize,
@@ -163,13 +174,17 @@ impl Document {
                 if name.is_empty() {
                     return Err(EditError::EmptyName);
                 }
-                self.change(curve, |curve| curve.name = name)
+                self.change_attributes(curve, |item| *item.name = name)
             }
-            Edit::Recolour { curve, colour } => self.change(curve, |curve| curve.colour = colour),
+            Edit::Recolour { curve, colour } => {
+                self.change_attributes(curve, |item| *item.colour = colour)
+            }
             Edit::SetVisible { curve, visible } => {
-                self.change(curve, |curve| curve.visible = visible)
+                self.change_attributes(curve, |item| *item.visible = visible)
             }
-            Edit::SetLocked { curve, locked } => self.change(curve, |curve| curve.locked = locked),
+            Edit::SetLocked { curve, locked } => {
+                self.change_attributes(curve, |item| *item.locked = locked)
+            }
             Edit::SetTarget { target, .. } if target.is_some_and(|target| !target.is_usable()) => {
                 Err(EditError::BadTarget)
             }
@@ -190,21 +205,66 @@ impl Document {
                 self.push(*curve);
                 Ok(())
             }
+            Edit::AddReference(reference) => {
+                self.push_reference(*reference);
+                Ok(())
+            }
+            Edit::SetReference { reference, curve } => self.set_reference(reference, curve),
             Edit::Remove(curve) => {
-                let index = self.position(curve).ok_or(EditError::NoSuchCurve)?;
-                self.curves.remove(index);
+                match (self.position(curve), self.reference_position(curve)) {
+                    (Some(index), _) => drop(self.curves.remove(index)),
+                    (None, Some(index)) => drop(self.references.remove(index)),
+                    (None, None) => return Err(EditError::NoSuchCurve),
+                }
                 let is_other =
                     |matched: &EndMatch| ![matched.curve, matched.source].contains(&curve);
                 self.matches.retain(is_other);
                 Ok(())
             }
             Edit::Reorder { curve, place } => {
-                let index = self.position(curve).ok_or(EditError::NoSuchCurve)?;
-                let moved = self.curves.remove(index);
-                self.curves.insert(place.min(self.curves.len()), moved);
+                match (self.position(curve), self.reference_position(curve)) {
+                    (Some(index), _) => reorder(&mut self.curves, index, place),
+                    (None, Some(index)) => reorder(&mut self.references, index, place),
+                    (None, None) => return Err(EditError::NoSuchCurve),
+                }
                 Ok(())
             }
         }
+    }
+
+    /// Change what curves and references both have.
+    fn change_attributes(
+        &mut self,
+        id: CurveId,
+        change: impl FnOnce(Attributes<'_>),
+    ) -> Result<(), EditError> {
+        if let Some(index) = self.position(id) {
+            let curve = Arc::make_mut(&mut self.curves[index].1);
+            change(Attributes {
+                name: &mut curve.name,
+                colour: &mut curve.colour,
+                visible: &mut curve.visible,
+                locked: &mut curve.locked,
+            });
+            return Ok(());
+        }
+        let index = self.reference_position(id).ok_or(EditError::NoSuchCurve)?;
+        let reference = Arc::make_mut(&mut self.references[index].1);
+        change(Attributes {
+            name: &mut reference.name,
+            colour: &mut reference.colour,
+            visible: &mut reference.visible,
+            locked: &mut reference.locked,
+        });
+        Ok(())
+    }
+
+    fn set_reference(&mut self, id: CurveId, curve: ReferenceCurve) -> Result<(), EditError> {
+        let index = self.reference_position(id).ok_or(EditError::NoSuchCurve)?;
+        let shared = &mut self.references[index].1;
+        shared.check_editable()?;
+        Arc::make_mut(shared).curve = curve;
+        Ok(())
     }
 
     fn change(&mut self, id: CurveId, change: impl FnOnce(&mut Curve)) -> Result<(), EditError> {
@@ -267,6 +327,20 @@ impl Document {
             }
         })
     }
+}
+
+/// What curves and references both have, to be changed.
+struct Attributes<'a> {
+    name: &'a mut String,
+    colour: &'a mut Option<Colour>,
+    visible: &'a mut bool,
+    locked: &'a mut bool,
+}
+
+/// Put one of a list at another place; the last place if it lies beyond.
+fn reorder<T>(list: &mut Vec<T>, index: usize, place: usize) {
+    let moved = list.remove(index);
+    list.insert(place.min(list.len()), moved);
 }
 
 /// Refuse vertices that a curve does not have.

@@ -1,9 +1,9 @@
 //! Ends that are kept matched to other curves.
 
 use super::curve::CurveId;
-use crate::geometry::{Continuity, End, FloatPolygon, Jet};
+use crate::geometry::{Continuity, End, Jet, ParametricCurve};
 
-/// An end of a curve that is kept matched to a place of another curve: its target is what the other
+/// An end of a curve that is kept matched to a place of another curve, or of a reference: its target is what the other
 /// curve has there, and it is corrected as often as one of the two curves changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EndMatch {
@@ -11,9 +11,9 @@ pub struct EndMatch {
     pub curve: CurveId,
     /// The end of it that does.
     pub end: End,
-    /// The curve that it follows.
+    /// The curve or the reference that it follows.
     pub source: CurveId,
-    /// Where on that curve.
+    /// Where on it.
     pub place: MatchPlace,
     /// How much is matched.
     pub continuity: Continuity,
@@ -32,12 +32,15 @@ pub enum MatchPlace {
 
 impl MatchPlace {
     /// The point of a curve there with its derivatives, if the curve has this place.
-    pub fn jet(self, polygon: &FloatPolygon) -> Option<Jet> {
+    pub fn jet(self, curve: &dyn ParametricCurve) -> Option<Jet> {
+        let pieces = curve.pieces();
         match self {
-            Self::End(end) => (!polygon.is_periodic()).then(|| polygon.end_jet(end)),
+            Self::End(_) if curve.is_periodic() => None,
+            Self::End(End::Start) => Some(curve.piece_jet(0, 0.0)),
+            Self::End(End::Finish) => Some(curve.piece_jet(pieces - 1, 1.0)),
             Self::Parameter(u) => {
-                let domain = 0.0..=polygon.segments() as f64;
-                domain.contains(&u).then(|| polygon.jet(u))
+                let domain = 0.0..=pieces as f64;
+                domain.contains(&u).then(|| curve.jet(u))
             }
         }
     }

@@ -21,7 +21,7 @@ impl EndMatch {
     /// What the end must be now; `None` if one of the curves is gone or does not have the place.
     pub fn target(&self, document: &Document) -> Option<EndTarget> {
         let curve = &document.curve(self.curve)?.polygon;
-        let source = &document.curve(self.source)?.polygon;
+        let source = document.shape(self.source)?;
         if curve.is_periodic() {
             return None;
         }
@@ -56,11 +56,11 @@ impl Document {
         let Some(matched) = self.match_of(curve, end) else {
             return Ok(());
         };
-        let source = self.curve(matched.source);
+        let source = self.name(matched.source);
         Err(EditError::MatchedEnd {
             name: found.name.clone(),
             end: end.name(),
-            source_name: source.map_or_else(String::new, |it| it.name.clone()),
+            source_name: source.map_or_else(String::new, str::to_owned),
         })
     }
 
@@ -97,8 +97,9 @@ impl Document {
     }
 
     pub(super) fn set_match(&mut self, matched: EndMatch) -> Result<(), EditError> {
-        let find = |id| self.curve(id).ok_or(EditError::NoSuchCurve);
-        let (curve, source) = (find(matched.curve)?, find(matched.source)?);
+        let curve = self.curve(matched.curve).ok_or(EditError::NoSuchCurve)?;
+        let source_name = self.name(matched.source).ok_or(EditError::NoSuchCurve)?;
+        let source_name = || source_name.to_owned();
         if matched.curve == matched.source {
             let name = curve.name.clone();
             return Err(EditError::MatchToItself { name });
@@ -106,13 +107,13 @@ impl Document {
         if self.follows(matched.source, matched.curve) {
             return Err(EditError::MatchCycle {
                 name: curve.name.clone(),
-                source_name: source.name.clone(),
+                source_name: source_name(),
             });
         }
         if matched.target(self).is_none() {
             return Err(EditError::NoMatch {
                 name: curve.name.clone(),
-                source_name: source.name.clone(),
+                source_name: source_name(),
             });
         }
         self.remove_match(matched.curve, matched.end);
@@ -178,8 +179,10 @@ impl Document {
     }
 
     fn is_unchanged(&self, id: CurveId, before: &Self) -> bool {
-        let pair = self.curve(id).zip(before.curve(id));
-        pair.is_some_and(|(now, then)| Arc::ptr_eq(now, then))
+        let curves = self.curve(id).zip(before.curve(id));
+        let references = self.reference(id).zip(before.reference(id));
+        curves.is_some_and(|(now, then)| Arc::ptr_eq(now, then))
+            || references.is_some_and(|(now, then)| Arc::ptr_eq(now, then))
     }
 
     /// Give the matched ends of a curve their targets, and bring them there.

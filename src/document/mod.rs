@@ -1,4 +1,4 @@
-//! What the user has made: curves, matches between their ends, the edits that change them, and their
+//! What the user has made: curves, references, matches between their ends, the edits that change them, and their
 //! history. Nothing in here is derived from anything else but where matched ends go, and nothing
 //! depends on how it is looked at.
 
@@ -13,6 +13,7 @@ mod following;
 mod history;
 mod locked_vertices;
 mod names;
+mod reference;
 mod wording;
 
 pub use curve::{Colour, Curve, CurveId, EndTargets};
@@ -24,4 +25,5 @@ pub use extras::Extras;
 pub use history::History;
 pub use locked_vertices::LockedVertices;
 pub use names::free_name;
+pub use reference::Reference;
 pub use wording::{cut, escaped, quoted};

@@ -3,12 +3,12 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use crate::document::{Curve, CurveId, Document, Edit, EndMatch};
+use crate::document::{Curve, CurveId, Document, Edit, EndMatch, Reference};
 use crate::editor::reply::{Note, Refusal, Reply};
 use crate::editor::{Editor, Export};
 use crate::geometry::counted;
 use crate::io::examples::EXAMPLES;
-use crate::io::{FileError, FileMatch, Format, Reading, disk, shown_path};
+use crate::io::{FileError, Format, Reading, disk, shown_path};
 
 impl Editor {
     /// Begin an empty document.
@@ -58,7 +58,7 @@ impl Editor {
         self.tell(reply)
     }
 
-    /// Export the document's visible curves, without what is being tried out, which goes on. The
+    /// Export the document's visible curves and references, without what is being tried out, which goes on. The
     /// reply, also of what the format could not hold, is told.
     ///
     /// # Errors
@@ -68,24 +68,27 @@ impl Editor {
         self.tell(reply)
     }
 
-    /// Add curves, with matches between them, as one step and make the first of them active.
-    pub(in crate::editor) fn add_curves(
-        &mut self,
-        label: &str,
-        curves: Vec<Curve>,
-        matches: &[FileMatch],
-    ) -> Reply {
+    /// Add curves and references, with the matches between them, as one step and make the first of them
+    /// active.
+    pub(in crate::editor) fn add(&mut self, label: &str, added: Reading) -> Reply {
         self.interrupt();
         let first = self.document().next_id();
-        let ids: Vec<CurveId> = self.document().next_ids().take(curves.len()).collect();
-        let matches = matches.iter().map(|matched| matched.between(&ids));
+        let mut ids = self.document().next_ids();
+        let curves: Vec<CurveId> = ids.by_ref().take(added.curves.len()).collect();
+        let references: Vec<CurveId> = ids.take(added.references.len()).collect();
+        let matches = added.matches.iter();
+        let matches = matches.map(|matched| matched.between(&curves, &references));
         let matches = matches.collect::<Result<Vec<EndMatch>, _>>()?;
-        let added = curves.into_iter().map(|curve| Edit::Add(Box::new(curve)));
-        let edits = added
+        let curve = |curve: Curve| Edit::Add(Box::new(curve));
+        let reference = |reference: Reference| Edit::AddReference(Box::new(reference));
+        let curves = added.curves.into_iter().map(curve);
+        let references = added.references.into_iter().map(reference);
+        let edits = curves
+            .chain(references)
             .chain(matches.into_iter().map(Edit::SetMatch))
             .collect();
         let added = self.make(label, edits, false)?;
-        if self.document().curve(first).is_some() {
+        if self.document().name(first).is_some() {
             self.hand.selection.clear();
             self.hand.selection.activate(first);
         }
@@ -97,21 +100,13 @@ impl Editor {
             return self.replace_by_file(disk::read_file(path)?, path);
         }
         let (reading, remarks) = read_together(paths)?;
-        let text = format!(
-            "{} read from {} files",
-            counted(reading.curves.len(), "curve", "curves"),
-            paths.len()
-        );
+        let text = format!("{} read from {} files", reading.counted(), paths.len());
         self.replace(reading.into_document()?, None);
         Ok(Note::told(with_lines(text, &remarks)))
     }
 
     fn replace_by_file(&mut self, mut reading: Reading, path: &Path) -> Reply {
-        let text = format!(
-            "{} read from {}",
-            counted(reading.curves.len(), "curve", "curves"),
-            shown_path(path)
-        );
+        let text = format!("{} read from {}", reading.counted(), shown_path(path));
         let remarks = std::mem::take(&mut reading.remarks);
         let document = reading.into_document()?;
         let keeps = document.has_extras();
@@ -133,10 +128,9 @@ impl Editor {
 
     fn add_files(&mut self, paths: &[PathBuf]) -> Reply {
         let (reading, remarks) = read_together(paths)?;
-        let count = reading.curves.len();
-        self.add_curves("Import curves", reading.curves, &reading.matches)?;
+        let text = format!("{} added", reading.counted());
+        self.add("Import curves", reading)?;
         self.fit_all();
-        let text = format!("{} added", counted(count, "curve", "curves"));
         Ok(Note::done(with_lines(text, &remarks)))
     }
 
@@ -152,7 +146,7 @@ impl Editor {
             }
         }
         let document = self.workspace.settled();
-        let saved = disk::write_document(&path, document)?;
+        let saved = disk::write_document(&path, document, None)?;
         self.workspace.mark_saved(path);
         Ok(Note::told(with_lines(format!("Saved to {shown}"), &saved)))
     }
@@ -172,13 +166,19 @@ impl Editor {
         let (visible, hidden): (Vec<Curve>, Vec<Curve>) = curves_of(document)
             .into_iter()
             .partition(|curve| curve.visible);
-        if visible.is_empty() {
+        let references = document.references().map(|(_, it)| Reference::clone(it));
+        let references = references.filter(|reference| reference.visible);
+        let references: Vec<Reference> = references.collect();
+        if visible.is_empty() && references.is_empty() {
             return Err(Refusal::from(
-                "Every curve is hidden: show what you want to export",
+                "Everything is hidden: show what you want to export",
             ));
         }
-        let saved = disk::write_file(&path, &visible, document.extras(), polygon)?;
         let count = counted(visible.len(), "curve", "curves");
+        let exported = Document::from_curves(visible)
+            .with_references(references)
+            .with_extras(document.extras().clone());
+        let saved = disk::write_document(&path, &exported, polygon)?;
         let mut text = format!("{count} exported to {shown}");
         if !hidden.is_empty() {
             text += &format!(

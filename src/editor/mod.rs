@@ -21,7 +21,7 @@ use std::time::Duration;
 
 use glam::DVec2;
 
-pub use commands::{Command, Shortcut};
+pub use commands::{Command, ReferenceChange, Shortcut};
 pub use files::with_extension;
 pub use hand::{
     Button, Cursor, EndFitAction, EndFitReport, Follow, Following, Hand, Input, Key, MatchReport,
@@ -29,7 +29,7 @@ pub use hand::{
 };
 pub use paper::PaperPage;
 pub use reply::{Message, Note, Refusal, Reply, told};
-pub use report::{CurveReport, Export, Readout};
+pub use report::{CurveReport, Export, Readout, ReferenceReport};
 pub use trial::{Run, Trial};
 pub use view::{
     Bounds, ChainOutlines, CombSettings, CurveOutlines, CurveScene, EndFitMarks, FeatureKind,
@@ -126,12 +126,12 @@ impl Editor {
         self.workspace.document()
     }
 
-    /// The curve that panels show.
+    /// The curve or the reference that panels show.
     pub fn active(&self) -> Option<CurveId> {
         self.hand.selection.active()
     }
 
-    /// Make a curve the active one; vertices of other curves are no longer selected.
+    /// Make a curve or a reference the active one; vertices of other curves are no longer selected.
     pub fn activate(&mut self, curve: CurveId) {
         if self.active() != Some(curve) {
             let selection = &mut self.hand.selection;

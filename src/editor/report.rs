@@ -31,6 +31,17 @@ pub struct Readout {
     pub degree: Option<usize>,
 }
 
+/// What the inspector says of the active reference, beside the reference itself: figures of samples.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReferenceReport {
+    /// Whether it is planar.
+    pub planar: bool,
+    /// The arc length, to plotting accuracy.
+    pub length: f64,
+    /// The smallest and largest curvature among the samples.
+    pub curvature: Option<Range>,
+}
+
 /// What the inspector says of the active curve, beside the curve itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CurveReport {

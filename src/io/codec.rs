@@ -8,7 +8,7 @@ use super::format::Format;
 use super::loss::Export;
 use super::reading::Reading;
 use super::{dxf, project, table};
-use crate::document::{Curve, Document, Extras};
+use crate::document::{Curve, Document, Extras, Reference};
 use crate::geometry::PolygonKind;
 
 impl Format {
@@ -41,16 +41,16 @@ impl Format {
     ) -> Result<Export, WriteError> {
         let curves: Vec<&Curve> = curves.iter().map(Borrow::borrow).collect();
         let mut export = match self {
-            Self::Batten => project::write(&curves, &[], extras, polygon.unwrap_or_default()),
-            Self::Csv => table::write(&curves, polygon.unwrap_or_default())?,
+            Self::Batten => project::write(&curves, &[], &[], extras, polygon.unwrap_or_default()),
+            Self::Csv => table::write(&curves, &[], polygon.unwrap_or_default())?,
             Self::Dxf => dxf::write(&curves, polygon)?,
         };
         export.losses.project_keys = self != Self::Batten && !extras.is_empty();
         Ok(export)
     }
 
-    /// Write a document to bytes as [`Format::write`] does its curves, a project with the matches
-    /// between them.
+    /// Write a document to bytes as [`Format::write`] does its curves, a project with the references and
+    /// the matches, a table with the references that are points.
     ///
     /// # Errors
     /// As [`Format::write`].
@@ -60,13 +60,19 @@ impl Format {
         polygon: Option<PolygonKind>,
     ) -> Result<Export, WriteError> {
         let curves: Vec<&Curve> = document.curves().map(|(_, curve)| &**curve).collect();
+        let references: Vec<&Reference> = document.references().map(|(_, it)| &**it).collect();
         let (matches, extras) = (FileMatch::all(document), document.extras());
-        match self {
-            Self::Batten => {
-                let kind = polygon.unwrap_or_default();
-                Ok(project::write(&curves, &matches, extras, kind))
+        let kind = polygon.unwrap_or_default();
+        let mut export = match self {
+            Self::Batten => project::write(&curves, &references, &matches, extras, kind),
+            Self::Csv => table::write(&curves, &references, kind)?,
+            Self::Dxf => {
+                let mut export = dxf::write(&curves, polygon)?;
+                export.losses.add_references(references);
+                export
             }
-            _ => self.write(&curves, extras, polygon),
-        }
+        };
+        export.losses.project_keys = self != Self::Batten && !extras.is_empty();
+        Ok(export)
     }
 }

@@ -112,13 +112,18 @@ pub fn write_file<C: Borrow<Curve>>(
     write_export(path, export.map_err(FileError::at(path))?)
 }
 
-/// Write a document to a file; its extension tells the format.
+/// Write a document to a file; its extension tells the format, and `polygon` means what it does to
+/// [`Format::write`].
 ///
 /// # Errors
 /// As [`write_file`].
-pub fn write_document(path: &Path, document: &Document) -> Result<Saved, FileError> {
+pub fn write_document(
+    path: &Path,
+    document: &Document,
+    polygon: Option<PolygonKind>,
+) -> Result<Saved, FileError> {
     let format = Format::to_write(path).map_err(FileError::at(path))?;
-    let export = format.write_document(document, None);
+    let export = format.write_document(document, polygon);
     write_export(path, export.map_err(FileError::at(path))?)
 }
 

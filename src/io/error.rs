@@ -8,6 +8,7 @@ use thiserror::Error;
 
 use super::format::{Format, FormatError};
 use crate::document::{EditError, cut, escaped, quoted};
+use crate::geometry::references::ReferenceError;
 use crate::geometry::{MAX_DEGREE, PolygonError, PolygonKind, counted};
 
 /// A place in a file, as exactly as it is known.
@@ -19,7 +20,9 @@ pub struct Place {
     pub column: Option<usize>,
     /// The curve, counted from 1.
     pub curve: Option<usize>,
-    /// The curve's name.
+    /// The reference, counted from 1.
+    pub reference: Option<usize>,
+    /// The name of the curve or of the reference.
     pub name: Option<String>,
     /// The vertex, counted from 0 as on the screen.
     pub vertex: Option<usize>,
@@ -43,6 +46,15 @@ impl Place {
         }
     }
 
+    /// Name a reference: its number, counted from 1, and its name.
+    pub fn reference(number: usize, name: &str) -> Self {
+        Self {
+            reference: Some(number),
+            name: Some(name.to_owned()),
+            ..Self::default()
+        }
+    }
+
     /// Say what is wrong here.
     pub fn problem(self, problem: Problem) -> ReadError {
         ReadError {
@@ -55,14 +67,15 @@ impl Place {
 impl fmt::Display for Place {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let number = |what: &str, value: Option<usize>| Some(format!("{what} {}", value?));
-        let curve = number("curve", self.curve).map(|curve| match &self.name {
-            Some(name) => format!("{curve} {}", quoted(name)),
-            None => curve,
+        let item = number("curve", self.curve).or(number("reference", self.reference));
+        let item = item.map(|item| match &self.name {
+            Some(name) => format!("{item} {}", quoted(name)),
+            None => item,
         });
         let parts = [
             number("line", self.line),
             number("column", self.column),
-            curve,
+            item,
             number("vertex", self.vertex),
         ];
         let known: Vec<String> = parts.into_iter().flatten().collect();
@@ -186,6 +199,39 @@ pub enum Problem {
         /// The number of curves.
         count: usize,
     },
+    /// A match is of a reference that the project does not have.
+    #[error("a match names reference {index}, and there are {count}, counted from 0")]
+    NoSuchReference {
+        /// The number of the reference, counted from 0.
+        index: usize,
+        /// The number of references.
+        count: usize,
+    },
+    /// A match does not tell one thing that it follows.
+    #[error("a match follows one thing: a curve, as source, or a reference")]
+    MatchSource,
+    /// A reference does not tell what it is.
+    #[error("a reference is one of three things: a kind with values, a formula or points")]
+    NoReference,
+    /// A reference has a kind that is not known.
+    #[error("{} is not a kind of reference that this program knows: there are {known}", quoted(.name))]
+    NoSuchKind {
+        /// The name given.
+        name: String,
+        /// The names that there are.
+        known: String,
+    },
+    /// A reference has a value that its kind does not.
+    #[error("{kind} has no value {}", quoted(.name))]
+    NoSuchValue {
+        /// The kind's name.
+        kind: &'static str,
+        /// The value's name.
+        name: String,
+    },
+    /// What a reference says makes no curve.
+    #[error(transparent)]
+    Reference(#[from] ReferenceError),
     /// Ends cannot be matched as the project says.
     #[error("the project's matches cannot be: {0}")]
     Match(EditError),

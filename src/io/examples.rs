@@ -188,7 +188,7 @@ mod tests {
             let curves = example.curves().unwrap();
             let curves: Vec<&Curve> = curves.iter().collect();
             let written =
-                project::write(&curves, &[], &Extras::default(), PolygonKind::Float).bytes;
+                project::write(&curves, &[], &[], &Extras::default(), PolygonKind::Float).bytes;
             assert_eq!(
                 String::from_utf8(written).unwrap(),
                 example.text,

@@ -3,7 +3,7 @@
 use crate::document::{CurveId, Document, EditError, EndMatch, MatchPlace};
 use crate::geometry::{Continuity, End};
 
-/// An end that is matched to another curve of the same file: see [`EndMatch`]. Curves are given by
+/// An end that is matched to another curve or to a reference of the same file: see [`EndMatch`]. Curves are given by
 /// their places in the file, counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FileMatch {
@@ -11,8 +11,8 @@ pub struct FileMatch {
     pub curve: usize,
     /// The end of it that does.
     pub end: End,
-    /// The curve that it follows.
-    pub source: usize,
+    /// What it follows.
+    pub source: MatchSource,
     /// Where on that curve.
     pub place: MatchPlace,
     /// How much is matched.
@@ -21,15 +21,32 @@ pub struct FileMatch {
     pub reversed: bool,
 }
 
+/// What an end follows, by its place in the file, counted from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MatchSource {
+    /// A curve.
+    Curve(usize),
+    /// A reference.
+    Reference(usize),
+}
+
 impl FileMatch {
     /// List the matches of a document.
     pub(super) fn all(document: &Document) -> Vec<Self> {
         let place = |id| document.ids().position(|other| other == id);
+        let source = |id| match place(id) {
+            Some(place) => Some(MatchSource::Curve(place)),
+            None => {
+                let mut references = document.references();
+                let place = references.position(|(other, _)| other == id);
+                place.map(MatchSource::Reference)
+            }
+        };
         let matches = document.matches().filter_map(|matched| {
             Some(Self {
                 curve: place(matched.curve)?,
                 end: matched.end,
-                source: place(matched.source)?,
+                source: source(matched.source)?,
                 place: matched.place,
                 continuity: matched.continuity,
                 reversed: matched.reversed,
@@ -38,17 +55,27 @@ impl FileMatch {
         matches.collect()
     }
 
-    /// Find the match between curves of a document that have these identities, in the order of the
-    /// file.
+    /// Find the match between curves and references of a document that have these identities, in the
+    /// order of the file.
     ///
     /// # Errors
     /// [`EditError::NoSuchCurve`].
-    pub fn between(&self, ids: &[CurveId]) -> Result<EndMatch, EditError> {
-        let find = |index: usize| ids.get(index).copied().ok_or(EditError::NoSuchCurve);
+    pub fn between(
+        &self,
+        curves: &[CurveId],
+        references: &[CurveId],
+    ) -> Result<EndMatch, EditError> {
+        let find = |ids: &[CurveId], index: usize| {
+            let found = ids.get(index).copied();
+            found.ok_or(EditError::NoSuchCurve)
+        };
         Ok(EndMatch {
-            curve: find(self.curve)?,
+            curve: find(curves, self.curve)?,
             end: self.end,
-            source: find(self.source)?,
+            source: match self.source {
+                MatchSource::Curve(index) => find(curves, index)?,
+                MatchSource::Reference(index) => find(references, index)?,
+            },
             place: self.place,
             continuity: self.continuity,
             reversed: self.reversed,

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::format::Format;
-use crate::document::{Curve, quoted};
+use crate::document::{Curve, Reference, quoted};
 use crate::geometry::{PolygonKind, rounded_up};
 
 /// Hold a written file's bytes and what is lost with them.
@@ -20,13 +20,13 @@ pub struct Export {
 pub struct LossReport {
     /// The file's format.
     pub format: Format,
-    /// The losses, each with the name of its curve.
+    /// The losses, each with the name of its curve or its reference.
     pub losses: Vec<(String, Loss)>,
     /// Whether it does not hold what the project says that this program does not know.
     pub project_keys: bool,
 }
 
-/// Something that a file does not hold of a curve.
+/// Something that a file does not hold of a curve or a reference.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Loss {
     /// The name, which was changed to one that the format allows.
@@ -44,6 +44,8 @@ pub enum Loss {
     LockedVertices,
     /// The targets of the ends.
     Targets,
+    /// A reference as a whole.
+    Reference,
     /// What its file said of it that this program does not know.
     UnknownKeys,
     /// That the curve is periodic; it is written as an open one that ends where it begins.
@@ -106,6 +108,13 @@ impl LossReport {
         self.add_if(!curve.extras.is_empty(), curve, Loss::UnknownKeys);
     }
 
+    /// Add that references are not written.
+    pub fn add_references<'a>(&mut self, references: impl IntoIterator<Item = &'a Reference>) {
+        for reference in references {
+            self.losses.push((reference.name.clone(), Loss::Reference));
+        }
+    }
+
     /// Add a loss of one curve where `is_lost`.
     pub fn add_if(&mut self, is_lost: bool, curve: &Curve, loss: Loss) {
         if is_lost {
@@ -143,6 +152,7 @@ impl fmt::Display for LossReport {
                 Loss::PolygonWeights { kind } => {
                     format!("the {kind} polygon is drawn without its weights")
                 }
+                Loss::Reference => lost("references: this one is not exported"),
                 Loss::Colour => lost("its colour"),
                 Loss::Hidden => lost("that it is hidden"),
                 Loss::Locked => lost("that it is locked"),

@@ -21,6 +21,7 @@ mod object;
 mod polygon;
 pub mod project;
 mod project_curves;
+mod project_references;
 mod project_v1;
 mod project_v2;
 mod project_values;
@@ -30,7 +31,7 @@ mod table_header;
 mod text;
 
 pub use error::{FileError, FileProblem, Place, Problem, ReadError, WriteError, shown_path};
-pub use file_match::FileMatch;
+pub use file_match::{FileMatch, MatchSource};
 pub use format::{Format, FormatError};
 pub use loss::{Export, Loss, LossReport};
 pub use reading::{Owner, Reading, Remark, Remarks};

@@ -9,7 +9,7 @@
 //! Each version has types of its own, so that a change of the curves in memory cannot change
 //! what old files mean. A project is written in the first version that holds all of it, so that
 //! older programs read what they can read: version 2 adds `locked_vertices` to a curve,
-//! `curvature`, `normal` and `slope` to a target, and `matches` to the project.
+//! `curvature`, `normal` and `slope` to a target, and `matches` and `references` to the project.
 
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -25,7 +25,7 @@ use super::project_curves::FORMAT;
 use super::reading::Reading;
 use super::text::text;
 use super::{project_v1, project_v2};
-use crate::document::{Curve, Extras, escaped};
+use crate::document::{Curve, Extras, Reference, escaped};
 use crate::geometry::PolygonKind;
 use crate::geometry::end_correction::EndTarget;
 
@@ -55,16 +55,21 @@ pub fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
 }
 
 /// Write a project with each curve held by one of its polygons; by the float polygon nothing is
-/// lost. `matches` are those between the curves, `extras` those of the project.
+/// lost. `matches` are those between the curves and references, `extras` those of the project.
 pub fn write(
     curves: &[&Curve],
+    references: &[&Reference],
     matches: &[FileMatch],
     extras: &Extras,
     kind: PolygonKind,
 ) -> Export {
     let mut losses = LossReport::new(Format::Batten);
-    let bytes = if !matches.is_empty() || curves.iter().any(|curve| needs_version_2(curve)) {
-        let project = project_v2::Project::from_curves(curves, matches, extras, kind, &mut losses);
+    let needs_version_2 = !matches.is_empty()
+        || !references.is_empty()
+        || curves.iter().any(|curve| needs_version_2(curve));
+    let bytes = if needs_version_2 {
+        let content = (curves, references, matches);
+        let project = project_v2::Project::from_content(content, extras, kind, &mut losses);
         json_layout::to_text(&project).into_bytes()
     } else {
         let project = project_v1::Project::from_curves(curves, extras, kind, &mut losses);
@@ -139,6 +144,9 @@ fn located(text: &str, path: &Path, error: &serde_json::Error) -> ReadError {
             Segment::Seq { index } if key == "curves" && place.curve.is_none() => {
                 place.curve = Some(index + 1);
             }
+            Segment::Seq { index } if key == "references" && place.reference.is_none() => {
+                place.reference = Some(index + 1);
+            }
             Segment::Seq { index }
                 if ["vertices", "weights"].contains(&key) && place.vertex.is_none() =>
             {
@@ -200,6 +208,8 @@ fn token(text: &str, line: usize, column: usize) -> Option<&str> {
     (!number.is_finite()).then_some(token)
 }
 
+#[cfg(test)]
+mod references;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]

@@ -1,11 +1,11 @@
 //! What project files of every version say of curves, checked in one place.
 
 use super::error::{Place, Problem, ReadError};
-use super::file_match::FileMatch;
+use super::file_match::{FileMatch, MatchSource};
 use super::object::Object;
 use super::polygon::FilePolygon;
 use super::reading::{CurveKeys, Owner, Reading, Remark, Remarks};
-use crate::document::{Colour, Curve, EndTargets, Extras};
+use crate::document::{Colour, Curve, EndTargets, Extras, Reference};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{End, MAX_MAGNITUDE};
 use glam::DVec3;
@@ -49,13 +49,14 @@ impl UnknownKeys {
     }
 }
 
-/// Check the curves of a project and the matches between them, given with their unknown keys. The project has `extras` of its
-/// own.
+/// Check the curves of a project and the matches between them and its references, given with their unknown keys. The
+/// project has `extras` of its own.
 ///
 /// # Errors
 /// [`ReadError`] with the curve.
 pub(super) fn read_curves(
     given: impl Iterator<Item = FileCurve>,
+    references: Vec<Reference>,
     (matches, unknown): (Vec<FileMatch>, UnknownKeys),
     extras: Extras,
 ) -> Result<Reading, ReadError> {
@@ -77,27 +78,50 @@ pub(super) fn read_curves(
         curves.push(curve);
     }
     keys.remark(&mut remarks);
+    for (index, reference) in references.iter().enumerate() {
+        for (key, _) in reference.extras.iter() {
+            let reference = (index + 1, reference.name.clone());
+            let (key, owner) = (key.to_owned(), Owner::Reference { reference });
+            remarks.add(Remark::UnknownKey { key, owner });
+        }
+    }
     for key in unknown.0 {
         let owner = Owner::Matches;
         remarks.add(Remark::UnknownKey { key, owner });
     }
     let reading = Reading {
         curves,
+        references,
         matches,
         extras,
         remarks,
     };
-    let count = reading.curves.len();
-    let named = reading.matches.iter();
-    let mut named = named.flat_map(|matched| [matched.curve, matched.source]);
-    if let Some(index) = named.find(|index| *index >= count) {
-        return Err(Problem::NoSuchCurve { index, count }.into());
+    for matched in &reading.matches {
+        let named = [MatchSource::Curve(matched.curve), matched.source];
+        named
+            .into_iter()
+            .try_for_each(|it| check_named(it, &reading))?;
     }
     if !reading.matches.is_empty() {
         let made = reading.clone().into_document();
         made.map_err(|error| ReadError::from(Problem::Match(error)))?;
     }
     Ok(reading)
+}
+
+/// Refuse what a match names if it is not there.
+fn check_named(named: MatchSource, reading: &Reading) -> Result<(), Problem> {
+    match named {
+        MatchSource::Curve(index) if index >= reading.curves.len() => {
+            let count = reading.curves.len();
+            Err(Problem::NoSuchCurve { index, count })
+        }
+        MatchSource::Reference(index) if index >= reading.references.len() => {
+            let count = reading.references.len();
+            Err(Problem::NoSuchReference { index, count })
+        }
+        _ => Ok(()),
+    }
 }
 
 impl FileCurve {

@@ -104,7 +104,7 @@ impl Project {
             ..value.into_file_curve()
         });
         let none = (Vec::new(), UnknownKeys::default());
-        read_curves(curves, none, self.extras)
+        read_curves(curves, Vec::new(), none, self.extras)
     }
 }
 

@@ -1,19 +1,20 @@
 //! Version 2 of the project file: locked vertices, targets with curvature, osculating plane and
-//! slope of curvature, and matches of ends.
+//! slope of curvature, matches of ends, and references.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::error::ReadError;
-use super::file_match::FileMatch;
+use super::error::{Problem, ReadError};
+use super::file_match::{FileMatch, MatchSource};
 use super::loss::LossReport;
 use super::object::Object;
 use super::polygon::FilePolygon;
 use super::project_curves::{FORMAT, FileCurve, UnknownKeys, read_curves};
+use super::project_references::FileReference;
 use super::project_values::{Coordinates, Degree, HexColour, Kind, Number};
 use super::reading::Reading;
-use crate::document::{Curve, EndTargets, Extras, MatchPlace};
+use crate::document::{Curve, EndTargets, Extras, MatchPlace, Reference};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{Continuity, End, PolygonKind};
 
@@ -34,6 +35,8 @@ pub(super) struct ProjectV2 {
     #[serde(default)]
     pub version: Value,
     curves: Vec<Object<CurveV2>>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    references: Vec<Object<FileReference>>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     matches: Vec<Object<Match>>,
 }
@@ -89,15 +92,19 @@ struct Target {
     slope: Option<f64>,
 }
 
-/// An end that is matched to another curve.
+/// An end that is matched to another curve or to a reference.
 #[derive(Deserialize, Serialize)]
 #[serde(expecting = "a match, which is a JSON object")]
 struct Match {
     /// The curve that follows, counted from 0.
     curve: Number,
     end: EndName,
-    /// The curve that it follows, counted from 0.
-    source: Number,
+    /// The curve that it follows, counted from 0 …
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    source: Option<Number>,
+    /// … or the reference.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    reference: Option<Number>,
     at: MatchedPlace,
     continuity: Level,
     #[serde(default)]
@@ -130,10 +137,10 @@ enum Level {
 }
 
 impl Project {
-    /// Take what version 2 writes of curves, with the keys of the project that are not known.
-    pub(super) fn from_curves(
-        curves: &[&Curve],
-        matches: &[FileMatch],
+    /// Take what version 2 writes of curves, references and matches, with the keys of the project that
+    /// are not known.
+    pub(super) fn from_content(
+        (curves, references, matches): (&[&Curve], &[&Reference], &[FileMatch]),
         extras: &Extras,
         kind: PolygonKind,
         losses: &mut LossReport,
@@ -142,11 +149,16 @@ impl Project {
             value: CurveV2::from_curve(curve, kind, losses),
             extras: curve.extras.clone(),
         });
+        let references = references.iter().map(|reference| Object {
+            value: FileReference::of(reference),
+            extras: reference.extras.clone(),
+        });
         Self {
             value: ProjectV2 {
                 format: FORMAT.into(),
                 version: VERSION.into(),
                 curves: curves.collect(),
+                references: references.collect(),
                 matches: matches.iter().map(|it| Object::new(it.into())).collect(),
             },
             extras: extras.clone(),
@@ -163,8 +175,17 @@ impl Project {
         let mut unknown = UnknownKeys::default();
         let matches = self.value.matches.into_iter();
         let matches = matches.filter_map(|matched| unknown.strip(Some(matched)));
-        let matches = matches.map(FileMatch::from).collect();
-        read_curves(curves, (matches, unknown), self.extras)
+        let matches: Vec<FileMatch> = matches.map(FileMatch::try_from).collect::<Result<_, _>>()?;
+        let references = self.value.references.into_iter().enumerate();
+        let references = references.map(|(index, Object { value, extras })| {
+            let reference = value.into_reference(index + 1)?;
+            Ok(Reference {
+                extras,
+                ..reference
+            })
+        });
+        let references: Vec<Reference> = references.collect::<Result<_, ReadError>>()?;
+        read_curves(curves, references, (matches, unknown), self.extras)
     }
 }
 
@@ -246,12 +267,18 @@ impl From<Target> for EndTarget {
     }
 }
 
-impl From<Match> for FileMatch {
-    fn from(matched: Match) -> Self {
-        Self {
+impl TryFrom<Match> for FileMatch {
+    type Error = Problem;
+
+    fn try_from(matched: Match) -> Result<Self, Problem> {
+        Ok(Self {
             curve: matched.curve.0,
             end: matched.end.into(),
-            source: matched.source.0,
+            source: match (matched.source, matched.reference) {
+                (Some(curve), None) => MatchSource::Curve(curve.0),
+                (None, Some(reference)) => MatchSource::Reference(reference.0),
+                _ => return Err(Problem::MatchSource),
+            },
             place: match matched.at {
                 MatchedPlace::End(end) => MatchPlace::End(end.into()),
                 MatchedPlace::Parameter(u) => MatchPlace::Parameter(u),
@@ -263,7 +290,7 @@ impl From<Match> for FileMatch {
                 Level::G3 => Continuity::G3,
             },
             reversed: matched.reversed,
-        }
+        })
     }
 }
 
@@ -272,7 +299,14 @@ impl From<&FileMatch> for Match {
         Self {
             curve: Number(matched.curve),
             end: matched.end.into(),
-            source: Number(matched.source),
+            source: match matched.source {
+                MatchSource::Curve(index) => Some(Number(index)),
+                MatchSource::Reference(_) => None,
+            },
+            reference: match matched.source {
+                MatchSource::Curve(_) => None,
+                MatchSource::Reference(index) => Some(Number(index)),
+            },
             at: match matched.place {
                 MatchPlace::End(end) => MatchedPlace::End(end.into()),
                 MatchPlace::Parameter(u) => MatchedPlace::Parameter(u),

@@ -100,7 +100,7 @@ impl From<HexColour> for String {
 
 /// A point or vector: 2 or 3 numbers. A third that is `null`, and a fourth, are refused where they
 /// stand.
-#[derive(Deserialize, Serialize)]
+#[derive(Clone, Deserialize, Serialize)]
 #[serde(expecting = "2 or 3 numbers in brackets")]
 pub(super) struct Coordinates(
     f64,

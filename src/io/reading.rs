@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::fmt;
 
-use super::file_match::FileMatch;
-use crate::document::{Curve, Document, EditError, EndMatch, Extras, quoted};
+use super::file_match::{FileMatch, MatchSource};
+use crate::document::{Curve, CurveId, Document, EditError, EndMatch, Extras, Reference, quoted};
 use crate::geometry::{PolygonKind, counted, rounded_up};
 
 /// The most unknown keys that are named one by one.
@@ -15,7 +15,9 @@ const MOST_NAMED: usize = 8;
 pub struct Reading {
     /// The curves.
     pub curves: Vec<Curve>,
-    /// The matches between them; none is of curves that are not there.
+    /// The references.
+    pub references: Vec<Reference>,
+    /// The matches between them; none is of what is not there.
     pub matches: Vec<FileMatch>,
     /// What a project says of itself that this program does not know.
     pub extras: Extras,
@@ -80,6 +82,11 @@ pub enum Owner {
         /// The curve, counted from 1, with its name.
         curve: (usize, String),
     },
+    /// A reference; kept with it.
+    Reference {
+        /// The reference, counted from 1, with its name.
+        reference: (usize, String),
+    },
     /// Matches between curves, which keep nothing unknown.
     Matches,
 }
@@ -90,21 +97,46 @@ impl Reading {
     /// # Errors
     /// [`EditError`] if a match cannot be; never for what a format has read.
     pub fn into_document(self) -> Result<Document, EditError> {
-        let document = Document::from_curves(self.curves).with_extras(self.extras);
-        let ids: Vec<_> = document.ids().collect();
-        let matches = self.matches.iter().map(|matched| matched.between(&ids));
+        let document = Document::from_curves(self.curves)
+            .with_references(self.references)
+            .with_extras(self.extras);
+        let curves: Vec<CurveId> = document.ids().collect();
+        let references: Vec<CurveId> = document.references().map(|(id, _)| id).collect();
+        let matches = self.matches.iter();
+        let matches = matches.map(|matched| matched.between(&curves, &references));
         let matches: Vec<EndMatch> = matches.collect::<Result<_, _>>()?;
         document.with_matches(matches)
     }
 
-    /// Add what was read of another file: curves and the matches between them.
+    /// Whether there is neither a curve nor a reference.
+    pub fn is_empty(&self) -> bool {
+        self.curves.is_empty() && self.references.is_empty()
+    }
+
+    /// Count the curves, and the references if there are any, in words.
+    pub fn counted(&self) -> String {
+        let [curves, references] = [self.curves.len(), self.references.len()];
+        let curves_told = counted(curves, "curve", "curves");
+        let references_told = counted(references, "reference", "references");
+        match (curves, references) {
+            (_, 0) => curves_told,
+            (0, _) => references_told,
+            _ => format!("{curves_told} and {references_told}"),
+        }
+    }
+
+    /// Add what was read of another file: curves, references and the matches between them.
     pub fn append(&mut self, other: Self) {
-        let first = self.curves.len();
+        let [curves, references] = [self.curves.len(), self.references.len()];
         self.curves.extend(other.curves);
+        self.references.extend(other.references);
         let matches = other.matches.into_iter();
         self.matches.extend(matches.map(|matched| FileMatch {
-            curve: first + matched.curve,
-            source: first + matched.source,
+            curve: curves + matched.curve,
+            source: match matched.source {
+                MatchSource::Curve(index) => MatchSource::Curve(curves + index),
+                MatchSource::Reference(index) => MatchSource::Reference(references + index),
+            },
             ..matched
         }));
     }
@@ -208,6 +240,13 @@ impl fmt::Display for Remark {
                         formatter,
                         "the key {key} of {count} curves is not known and has no effect; the first is {}",
                         curve(first)
+                    ),
+                    Owner::Reference {
+                        reference: (number, name),
+                    } => write!(
+                        formatter,
+                        "reference {number} {}: the key {key} is not known and has no effect",
+                        quoted(name)
                     ),
                     Owner::Matches => write!(
                         formatter,

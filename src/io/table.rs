@@ -1,4 +1,4 @@
-//! Polygon tables as comma-separated values: one block a curve.
+//! Polygon tables as comma-separated values: one block a curve, or a list of points.
 //!
 //! ```text
 //! # degree=3 polygon=float periodic=false name=arc
@@ -11,6 +11,9 @@
 //! Space curves have the columns `x,y,z`, rational ones `x,y,z,weight`. Columns are read by
 //! their names in any order, so that `x,y,weight` is read too. Numbers are written with the
 //! digits that it takes to read the very same number again.
+//!
+//! A table without `degree=` holds points, which make a reference: the line above its column names
+//! may give it a name, as in `# name=scan`, or be left out, as may the names of the columns.
 //!
 //! Tables of spreadsheets are read too: the line of column names tells whether commas,
 //! semicolons or tabs stand between the columns, the numbers tell whether decimals follow a
@@ -27,15 +30,19 @@ use super::format::Format;
 use super::loss::{Export, Loss, LossReport};
 use super::polygon::FilePolygon;
 use super::reading::{Reading, Remark, Remarks};
-use super::table_header::TableHeader;
+use super::table_header::{CurveHeader, TableHeader, begins_table};
 use super::text::text;
-use crate::document::Curve;
+use crate::document::{Curve, Reference};
+use crate::geometry::references::{PointList, ReferenceCurve, ReferenceError, ReferenceForm};
 use crate::geometry::{PolygonError, PolygonKind};
 
 /// The columns that a table can have, in the order in which they are written.
 const COLUMNS: [&str; 4] = ["x", "y", "z", "weight"];
 
-/// Read the curves of a file of tables.
+/// The column of weights, which points do not have.
+const WEIGHT: usize = 3;
+
+/// Read the curves and the lists of points of a file of tables.
 ///
 /// # Errors
 /// [`ReadError`] with the line, and with the curve and vertex where the numbers make no curve.
@@ -47,7 +54,7 @@ pub fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
     let mut blocks: Vec<Block> = Vec::new();
     each_record(&text, separator, |line, record| {
         if let Some(header) = header_text(record, separator) {
-            if !begins_curve(&header) {
+            if !begins_table(&header) {
                 comments.add(line);
                 return Ok(());
             }
@@ -55,6 +62,9 @@ pub fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
             let header = header.map_err(|problem| Place::line(line).problem(problem))?;
             blocks.push(Block::new(line, header));
             return Ok(());
+        }
+        if begins_points(record, blocks.last()) {
+            blocks.push(Block::new(line, TableHeader::default()));
         }
         let block = blocks.last_mut();
         let block = block.ok_or_else(|| Place::line(line).problem(Problem::NoTableHeader))?;
@@ -72,24 +82,35 @@ pub fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
         });
     }
     comments.remark(&mut remarks);
-    let numbered = blocks.into_iter().enumerate();
-    let curves: Result<_, _> = numbered
-        .map(|(index, block)| block.into_curve(index + 1, &mut remarks))
-        .collect();
-    Ok(Reading {
-        matches: Vec::new(),
-        curves: curves?,
-        remarks,
-        ..Reading::default()
-    })
+    let mut reading = Reading::default();
+    for mut block in blocks {
+        match block.header.curve.take() {
+            Some(header) => {
+                let number = reading.curves.len() + 1;
+                let curve = block.into_curve(header, number, &mut remarks)?;
+                reading.curves.push(curve);
+            }
+            None => {
+                let number = reading.references.len() + 1;
+                reading.references.push(block.into_points(number)?);
+            }
+        }
+    }
+    Ok(Reading { remarks, ..reading })
 }
 
-/// Write curves as tables of one of their polygons.
+/// Write curves as tables of one of their polygons, and references that are points as tables of
+/// these, where they are placed.
 ///
 /// # Errors
 /// [`WriteError::NoCurves`]: an empty file could not be read again.
-pub fn write(curves: &[&Curve], kind: PolygonKind) -> Result<Export, WriteError> {
-    if curves.is_empty() {
+pub fn write(
+    curves: &[&Curve],
+    references: &[&Reference],
+    kind: PolygonKind,
+) -> Result<Export, WriteError> {
+    let is_list = |reference: &&&Reference| placed_points(reference).is_some();
+    if curves.is_empty() && !references.iter().any(|reference| is_list(&reference)) {
         let format = Format::Csv;
         return Err(WriteError::NoCurves { format });
     }
@@ -105,16 +126,58 @@ pub fn write(curves: &[&Curve], kind: PolygonKind) -> Result<Export, WriteError>
         losses.add_if(!curve.visible, curve, Loss::Hidden);
         losses.add_if(curve.locked, curve, Loss::Locked);
     }
+    for reference in references {
+        let Some(points) = placed_points(reference) else {
+            losses.add_references([*reference]);
+            continue;
+        };
+        if !bytes.is_empty() {
+            bytes.push(b'\n');
+        }
+        let block = points_bytes(&reference.name, &points);
+        bytes.extend(block.expect("a table of text can be written to memory"));
+    }
     Ok(Export { bytes, losses })
+}
+
+/// The points of a reference that is a list of them, where they are placed.
+fn placed_points(reference: &Reference) -> Option<Vec<DVec3>> {
+    let ReferenceForm::Points(list) = reference.curve.form() else {
+        return None;
+    };
+    let placement = reference.curve.placement();
+    let points = list.points().iter();
+    Some(points.map(|point| placement.point(*point)).collect())
+}
+
+fn points_bytes(name: &str, points: &[DVec3]) -> csv::Result<Vec<u8>> {
+    let header = TableHeader {
+        curve: None,
+        name: Some(name.to_owned()),
+    };
+    let planar = points.iter().all(|point| point.z == 0.0);
+    let columns = if planar { 2 } else { 3 };
+    let mut writer = WriterBuilder::new().flexible(true).from_writer(Vec::new());
+    writer.write_record([header.to_line()])?;
+    writer.write_record(&COLUMNS[..columns])?;
+    for point in points {
+        let values = point.to_array().map(|value| format!("{value:?}"));
+        writer.write_record(&values[..columns])?;
+    }
+    writer
+        .into_inner()
+        .map_err(|error| error.into_error().into())
 }
 
 fn block_bytes(curve: &Curve, kind: PolygonKind, losses: &mut LossReport) -> csv::Result<Vec<u8>> {
     let polygon = FilePolygon::of(&curve.polygon, kind);
     losses.extend(curve, polygon.losses(&curve.polygon));
     let header = TableHeader {
-        degree: polygon.degree,
-        kind,
-        periodic: polygon.periodic,
+        curve: Some(CurveHeader {
+            degree: polygon.degree,
+            kind,
+            periodic: polygon.periodic,
+        }),
         name: Some(curve.name.clone()),
     };
     let columns = match (&polygon.weights, curve.polygon.is_planar()) {
@@ -138,9 +201,21 @@ fn block_bytes(curve: &Curve, kind: PolygonKind, losses: &mut LossReport) -> csv
         .map_err(|error| error.into_error().into())
 }
 
-/// Whether a line that begins with `#` begins a curve; otherwise it is a comment.
-fn begins_curve(line: &str) -> bool {
-    line.contains("degree=")
+/// Whether a line of values begins a list of points that no line with a `#` announces: names of columns,
+/// or at the start of a file numbers, where no table waits for its columns.
+fn begins_points(record: &StringRecord, last: Option<&Block>) -> bool {
+    let names = columns(record);
+    let named = names.is_ok_and(|columns| !columns.contains(&WEIGHT));
+    match last {
+        None => named || are_coordinates(record),
+        Some(block) => named && !block.columns.is_empty(),
+    }
+}
+
+/// Whether a line of values has the coordinates of a point.
+fn are_coordinates(record: &StringRecord) -> bool {
+    let is_number = |text: &str| Decimals::default().number(text, "x", 0).is_ok();
+    (2..=3).contains(&record.len()) && record.iter().all(is_number)
 }
 
 /// The comments of a file.
@@ -154,7 +229,7 @@ impl Comments {
     /// Empty the lines of a text that are comments: what looks like a quotation mark in them is
     /// none.
     fn blanked<'a>(&mut self, text: &'a str) -> Cow<'a, str> {
-        let is_comment = |line: &str| line.trim_start().starts_with('#') && !begins_curve(line);
+        let is_comment = |line: &str| line.trim_start().starts_with('#') && !begins_table(line);
         if !text.lines().any(is_comment) {
             return Cow::Borrowed(text);
         }
@@ -280,7 +355,9 @@ impl Block {
         decimals: &mut Decimals,
     ) -> Result<(), ReadError> {
         let place = |problem| Place::line(line).problem(problem);
-        if self.columns.is_empty() {
+        if self.columns.is_empty() && self.header.curve.is_none() && are_coordinates(record) {
+            self.columns = (0..record.len()).collect();
+        } else if self.columns.is_empty() {
             self.columns = columns(record).map_err(place)?;
             return Ok(());
         }
@@ -300,7 +377,35 @@ impl Block {
         Ok(())
     }
 
-    fn into_curve(self, number: usize, remarks: &mut Remarks) -> Result<Curve, ReadError> {
+    /// Make a reference of the points, with this number, counted from 1.
+    fn into_points(self, number: usize) -> Result<Reference, ReadError> {
+        let name = self.header.name;
+        let name = name.unwrap_or_else(|| format!("points {number}"));
+        let place = |line: usize| Place {
+            line: Some(line),
+            ..Place::reference(number, &name)
+        };
+        if self.columns.contains(&WEIGHT) {
+            return Err(Place::line(self.line).problem(Problem::NoTableHeader));
+        }
+        let list = PointList::new(self.vertices);
+        let curve = list.and_then(|list| ReferenceCurve::of(ReferenceForm::Points(list)));
+        let curve = curve.map_err(|error| {
+            let point = match error {
+                ReferenceError::BadPoint { index, .. } => self.lines.get(index),
+                _ => None,
+            };
+            place(point.copied().unwrap_or(self.line)).problem(error.into())
+        });
+        Ok(Reference::new(name.clone(), curve?))
+    }
+
+    fn into_curve(
+        self,
+        header: CurveHeader,
+        number: usize,
+        remarks: &mut Remarks,
+    ) -> Result<Curve, ReadError> {
         let name = self.header.name;
         let name = name.unwrap_or_else(|| format!("curve {number}"));
         let place = |line: usize| Place {
@@ -315,11 +420,11 @@ impl Block {
             .iter()
             .any(|column| COLUMNS[*column] == "weight");
         let polygon = FilePolygon {
-            kind: self.header.kind,
-            degree: self.header.degree,
+            kind: header.kind,
+            degree: header.degree,
             vertices: self.vertices,
             weights: is_rational.then_some(self.weights),
-            periodic: self.header.periodic,
+            periodic: header.periodic,
         };
         let curve = polygon.into_curve(number, &name, remarks);
         curve.map_err(|problem| {

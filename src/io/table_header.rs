@@ -1,19 +1,26 @@
-//! The line above a polygon table that says which curve its vertices make.
+//! The line above a table that says which curve its vertices make, or how its points are called.
 
 use super::error::Problem;
 use crate::geometry::PolygonKind;
 
-/// What the line says: `# degree=9 polygon=float periodic=false name=arc`.
-#[derive(Clone, Debug, PartialEq)]
+/// What the line says: `# degree=9 polygon=float periodic=false name=arc`, or `# name=scan`.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct TableHeader {
+    /// Which curve the vertices make; `None` if they are points.
+    pub curve: Option<CurveHeader>,
+    /// The name, if the line says it.
+    pub name: Option<String>,
+}
+
+/// What the line says of a curve.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct CurveHeader {
     /// The degree; any whole number, the polygon checks it.
     pub degree: usize,
     /// Which polygon the vertices make; the float polygon if the line does not say.
     pub kind: PolygonKind,
     /// Whether the curve is periodic; open if the line does not say.
     pub periodic: bool,
-    /// The curve's name, if the line says it.
-    pub name: Option<String>,
 }
 
 const KEYS: [&str; 4] = ["degree", "polygon", "periodic", "name"];
@@ -21,10 +28,13 @@ const KEYS: [&str; 4] = ["degree", "polygon", "periodic", "name"];
 impl TableHeader {
     /// Write the line. A name that could be mistaken is written as a JSON string.
     pub(super) fn to_line(&self) -> String {
-        let mut line = format!(
-            "# degree={} polygon={} periodic={}",
-            self.degree, self.kind, self.periodic
-        );
+        let mut line = "#".to_owned();
+        if let Some(curve) = &self.curve {
+            line.push_str(&format!(
+                " degree={} polygon={} periodic={}",
+                curve.degree, curve.kind, curve.periodic
+            ));
+        }
         if let Some(name) = &self.name {
             line.push_str(" name=");
             if is_plain(name) {
@@ -61,8 +71,12 @@ impl TableHeader {
             rest = skipped(after);
         }
         let [degree, polygon, periodic, name] = values;
+        let name = name.filter(|name| !name.trim().is_empty());
+        if degree.is_none() && polygon.is_none() && periodic.is_none() {
+            return Ok(Self { curve: None, name });
+        }
         let degree = degree.ok_or(Problem::NoDegree)?;
-        Ok(Self {
+        let curve = CurveHeader {
             degree: usable(
                 "degree",
                 degree,
@@ -78,9 +92,21 @@ impl TableHeader {
                     text.parse().ok()
                 })
             })?,
-            name: name.filter(|name| !name.trim().is_empty()),
+        };
+        Ok(Self {
+            curve: Some(curve),
+            name,
         })
     }
+}
+
+/// Whether a line that begins with `#` begins a table: it has a degree, or its first word is one of the
+/// keys, also a misspelled degree. Otherwise it is a comment.
+pub(super) fn begins_table(line: &str) -> bool {
+    let begun = skipped(line.trim_start_matches(['\u{feff}', '"', ' ', '\t', '#']));
+    let word = begun.split(is_separator).next().unwrap_or_default();
+    let misspelled = word.starts_with("deg") && word.contains('=');
+    line.contains("degree=") || key_at(begun).is_some() || misspelled
 }
 
 /// Find one of the keys, with its `=`, at the beginning of the text.
@@ -149,10 +175,33 @@ mod tests {
 
     fn header(name: &str) -> TableHeader {
         TableHeader {
-            degree: 9,
-            kind: PolygonKind::Clamped,
-            periodic: true,
+            curve: Some(CurveHeader {
+                degree: 9,
+                kind: PolygonKind::Clamped,
+                periodic: true,
+            }),
             name: Some(name.to_owned()),
+        }
+    }
+
+    #[test]
+    fn a_line_without_a_degree_names_points() {
+        let points = TableHeader {
+            curve: None,
+            name: Some("scan 3".to_owned()),
+        };
+        assert_eq!(points.to_line(), "# name=scan 3");
+        assert_eq!(TableHeader::parse("# name=scan 3"), Ok(points));
+        for (line, begins) in [
+            ("# name=scan", true),
+            ("# degree=3", true),
+            ("# hull, degree=3", true),
+            ("# degre=1", true),
+            ("# points", false),
+            ("# measured by scanner=7", false),
+            ("#", false),
+        ] {
+            assert_eq!(begins_table(line), begins, "{line:?}");
         }
     }
 
@@ -195,12 +244,12 @@ mod tests {
     fn hand_written_lines_are_read() {
         let check = |line: &str, degree, kind, periodic, name: Option<&str>| {
             let name = name.map(str::to_owned);
-            let expected = TableHeader {
+            let curve = Some(CurveHeader {
                 degree,
                 kind,
                 periodic,
-                name,
-            };
+            });
+            let expected = TableHeader { curve, name };
             assert_eq!(TableHeader::parse(line), Ok(expected), "{line:?}");
         };
         check("#degree=3", 3, PolygonKind::Float, false, None);

@@ -283,7 +283,7 @@ fn bad_input_is_refused_with_file_and_place() {
             "cut.batten",
             "{\"format\": \"batten\",\n \"version\": 1,\n \"curves\": [",
         )
-        .with("plain.csv", "x,y\n0,0\n1,1\n")
+        .with("plain.csv", "x,y,weight\n0,0,1\n1,1,1\n")
         .with(
             "weight.batten",
             project(json!([

@@ -3,7 +3,7 @@
 use batten::document::{Curve, MatchPlace};
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::{Continuity, End};
-use batten::io::{FileMatch, Reading};
+use batten::io::{FileMatch, MatchSource, Reading};
 use glam::DVec3;
 
 use super::common::Kind;
@@ -35,7 +35,7 @@ impl Case {
         let matched = |end, place, continuity| FileMatch {
             curve: 0,
             end,
-            source: 1,
+            source: MatchSource::Curve(1),
             place,
             continuity,
             reversed: false,

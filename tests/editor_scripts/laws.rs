@@ -1,9 +1,9 @@
 //! What documents, selection and view are after anything that is done, and what protects curves.
 
-use batten::document::{Curve, Document};
+use batten::document::{Curve, Document, Reference};
 use batten::editor::Selection;
 use batten::geometry::FloatPolygon;
-use batten::io::{Format, Reading};
+use batten::io::{Format, MatchSource, Reading};
 use glam::DVec3;
 
 use super::snapshot::{Bit, Bits, Snapshot};
@@ -66,7 +66,7 @@ pub fn check_selection(document: &Document, selection: &Selection) -> Result<(),
     match selection.active() {
         None if document.is_empty() => Ok(()),
         None => Err("no curve is active".into()),
-        Some(active) if document.curve(active).is_none() => Err("the active curve is gone".into()),
+        Some(active) if document.name(active).is_none() => Err("what is active is gone".into()),
         Some(active) => {
             let own = selection.of_curve(active).next();
             if selection.is_empty() || own.is_some() {
@@ -168,11 +168,19 @@ pub fn check_read<E: std::fmt::Display>(
     read: Result<Reading, E>,
 ) -> Result<(), String> {
     let read = read.map_err(|error| format!("cannot be read back: {error}"))?;
+    let held: Vec<&Reference> = document.references().map(|(_, it)| it.as_ref()).collect();
+    if read.references.iter().collect::<Vec<&Reference>>() != held {
+        return Err(format!("read back as {:?}, not {held:?}", read.references));
+    }
     let (read, matches, extras) = (read.curves, read.matches, read.extras);
     let place = |id| document.ids().position(|other| other == id);
+    let source = |id| match document.references().position(|(other, _)| other == id) {
+        Some(place) => Some(MatchSource::Reference(place)),
+        None => place(id).map(MatchSource::Curve),
+    };
     let pairs = matches.iter().zip(document.matches());
     let same = pairs.fold(matches.len() == document.matches().len(), |same, (a, b)| {
-        same && (Some(a.curve), Some(a.source)) == (place(b.curve), place(b.source))
+        same && (Some(a.curve), Some(a.source)) == (place(b.curve), source(b.source))
             && (a.end, a.place) == (b.end, b.place)
             && (a.continuity, a.reversed) == (b.continuity, b.reversed)
     });

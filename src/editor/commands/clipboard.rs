@@ -4,10 +4,13 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::document::{Curve, CurveId, Extras, LockedVertices, free_name, quoted};
+use crate::document::{
+    Curve, CurveId, Document, Extras, LockedVertices, Reference, free_name, quoted,
+};
 use crate::editor::Editor;
 use crate::editor::files::with_lines;
 use crate::editor::reply::{Note, Refusal, Reply};
+use crate::geometry::references::Placement;
 use crate::geometry::{FloatPolygon, PolygonKind, counted};
 use crate::io::{Export as Exported, Format, Reading, WriteError};
 
@@ -15,8 +18,8 @@ use crate::io::{Export as Exported, Format, Reading, WriteError};
 const OFFSET: f64 = 24.0;
 
 impl Editor {
-    /// Add the curves of a text as one step: a project or a CSV table, as files hold them. The
-    /// reply is told.
+    /// Add the curves and references of a text as one step: a project or a CSV table, as files hold
+    /// them. The reply is told.
     ///
     /// # Errors
     /// [`Refusal`] if the text cannot be read; nothing is changed then.
@@ -38,14 +41,21 @@ impl Editor {
         copied
     }
 
-    /// Copy the selected vertices and remove them, as one step. What it came to is told.
+    /// Copy the selected vertices and remove them, or the active reference, as one step. What it came to is told.
     ///
     /// # Errors
     /// [`Refusal`] if they cannot be removed; nothing is changed then.
     pub fn cut(&mut self) -> Result<String, Refusal> {
         self.interrupt();
         let copied = self.text_of_selection();
-        let reply = copied.clone().and_then(|_| self.delete("Cut", "cut"));
+        let whole = self.active_reference();
+        let reply = copied.clone().and_then(|_| match whole {
+            Some((id, reference)) => {
+                reference.check_unlocked()?;
+                self.delete_whole(id, &reference.name)
+            }
+            None => self.delete("Cut", "cut"),
+        });
         self.tell(reply)?;
         copied
     }
@@ -58,20 +68,17 @@ impl Editor {
             Err(_) if text.trim_start().starts_with('{') => project,
             Err(_) => Format::Csv.read(text.as_bytes()),
         };
-        let Reading {
-            curves, remarks, ..
-        } = read.map_err(|error| {
+        let read = read.map_err(|error| {
             Refusal(format!(
                 "The clipboard holds no curve that can be read: {error}"
             ))
         })?;
-        if curves.is_empty() {
+        if read.is_empty() {
             return Ok(Note::told("There are no curves on the clipboard"));
         }
-        let count = curves.len();
-        self.add_copies("Paste", curves)?;
-        let text = format!("{} pasted", counted(count, "curve", "curves"));
-        Ok(Note::done(with_lines(text, &remarks)))
+        let text = with_lines(format!("{} pasted", read.counted()), &read.remarks);
+        self.add_copies("Paste", read.curves, read.references)?;
+        Ok(Note::done(text))
     }
 
     fn text_of_selection(&self) -> Result<String, Refusal> {
@@ -84,7 +91,15 @@ impl Editor {
         let is_whole = |(id, curve): &(CurveId, Arc<Curve>)| {
             self.hand.selection.of_curve(*id).count() == curve.polygon.vertices().len()
         };
-        let text = if selected.iter().all(is_whole) {
+        let reference = self.active_reference().filter(|_| selected.is_empty());
+        let text = if let Some((_, reference)) = reference {
+            let copied = Reference {
+                extras: Extras::default(),
+                ..Reference::clone(&reference)
+            };
+            let document = Document::default().with_references([copied]);
+            text_of(Format::Batten.write_document(&document, None))
+        } else if selected.iter().all(is_whole) {
             let whole = selected.into_iter().map(|(_, curve)| curve);
             let mut copied: Vec<Curve> = whole.map(Arc::unwrap_or_clone).collect();
             if copied.is_empty() {
@@ -108,30 +123,36 @@ impl Editor {
     /// What was copied.
     fn copied(&self) -> Note {
         let count = self.hand.selection.vertices().len();
-        Note::told(match self.active_curve() {
-            Some((_, curve)) if count == 0 => format!("{} copied", quoted(&curve.name)),
+        let active = self.active().and_then(|id| self.document().name(id));
+        Note::told(match active {
+            Some(name) if count == 0 => format!("{} copied", quoted(name)),
             _ => format!("{} copied", counted(count, "vertex", "vertices")),
         })
     }
 
     /// Add copies a little aside, named anew, they and their vertices unlocked, and not matched. What their file said of the curves
     /// that Batten does not know, such as a number of their own, is not copied.
-    pub(in crate::editor) fn add_copies(&mut self, label: &str, curves: Vec<Curve>) -> Reply {
+    pub(in crate::editor) fn add_copies(
+        &mut self,
+        label: &str,
+        curves: Vec<Curve>,
+        references: Vec<Reference>,
+    ) -> Reply {
         let offset = OFFSET * self.view.viewport.pixel() * DVec3::new(1.0, -1.0, 0.0);
-        let mut names: Vec<String> = self
-            .document()
-            .curves()
-            .map(|(_, c)| c.name.clone())
-            .collect();
-        let mut copies = Vec::new();
+        let mut names: Vec<String> = self.document().names().map(str::to_owned).collect();
+        let mut free = |name: &str| {
+            let name = free_name(name, |name| names.iter().any(|taken| taken == name));
+            names.push(name.clone());
+            name
+        };
+        let mut copies = Reading::default();
         for curve in curves {
             let mut copy = curve.clone();
             copy.locked = false;
             copy.locked_vertices = LockedVertices::default();
             copy.visible = true;
             copy.extras = Extras::default();
-            copy.name = free_name(&curve.name, |name| names.iter().any(|taken| taken == name));
-            names.push(copy.name.clone());
+            copy.name = free(&curve.name);
             let vertices = curve.polygon.vertices().iter().enumerate();
             let moved: Vec<(usize, DVec3)> =
                 vertices.map(|(i, vertex)| (i, *vertex + offset)).collect();
@@ -144,9 +165,22 @@ impl Editor {
                     copy.targets.set(end, target);
                 }
             }
-            copies.push(copy);
+            copies.curves.push(copy);
         }
-        self.add_curves(label, copies, &[])
+        for reference in references {
+            let placement = *reference.curve.placement();
+            let place = placement.translation() + offset;
+            let moved = Placement::new(placement.rotation(), placement.scale(), place);
+            copies.references.push(Reference {
+                name: free(&reference.name),
+                locked: false,
+                visible: true,
+                extras: Extras::default(),
+                curve: reference.curve.placed(moved.unwrap_or(placement)),
+                ..reference
+            });
+        }
+        self.add(label, copies)
     }
 
     /// The selected vertices of a curve as a table, with a header line if they make a curve: its

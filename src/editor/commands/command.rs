@@ -5,6 +5,7 @@ use crate::editor::hand::input::{Key, Modifiers};
 use crate::editor::hand::tools::ToolKind;
 use crate::editor::view::layers::Layer;
 use crate::editor::view::orbit::NamedView;
+use crate::geometry::references::{KINDS, ReferenceKind};
 use crate::operations::{self, Operation};
 
 /// Something that the user can ask for by name.
@@ -30,6 +31,8 @@ pub enum Command {
     TogglePeriodic,
     /// Do an operation on the active curve.
     Operation(&'static Operation),
+    /// Add a reference of a kind.
+    AddReference(&'static ReferenceKind),
     /// Show or hide the active curve.
     ToggleVisible,
     /// Lock or unlock the active curve.
@@ -127,6 +130,7 @@ impl Command {
             Self::ToggleLocked,
         ];
         all.extend(operations::ALL.iter().copied().map(Self::Operation));
+        all.extend(KINDS.iter().copied().map(Self::AddReference));
         all.extend([Self::Fit, Self::FitAll, Self::ZoomIn, Self::ZoomOut]);
         all.extend(NamedView::ALL.map(Self::View));
         all.push(Self::ResetComb);
@@ -152,6 +156,7 @@ impl Command {
             Self::Operation(operation) if operation.parameters.is_empty() => operation.label,
             // What asks for more before anything is done.
             Self::Operation(operation) => return format!("{}…", operation.label),
+            Self::AddReference(kind) => return format!("Add reference: {}", kind.label),
             Self::ToggleVisible => "Visible",
             Self::ToggleLocked => "Locked",
             Self::Fit => "Fit selection",
@@ -186,6 +191,7 @@ impl Command {
                 "Join the curve's end to its start, or open it; the polygon stays"
             }
             Self::Operation(operation) => operation.help,
+            Self::AddReference(kind) => return format!("{}: {}", kind.label, kind.help),
             Self::ToggleVisible => "Show or hide the active curve",
             Self::ToggleLocked => "Protect the active curve's shape from edits, or release it",
             Self::Fit => "Show the selected vertices, or everything if fewer than two are selected",

@@ -1,6 +1,6 @@
 //! Removing vertices and curves: never one by a command that is meant for the other.
 
-use crate::document::{Curve, CurveId, Edit, EditError, quoted};
+use crate::document::{CurveId, Edit, EditError, quoted};
 use crate::editor::Editor;
 use crate::editor::commands::command::Command;
 use crate::editor::commands::polygon_edits::deletion;
@@ -21,12 +21,13 @@ impl Editor {
     /// The edits that remove the selected vertices. A curve is never removed that way.
     fn deletion(&self) -> Result<Vec<Edit>, String> {
         if self.hand.selection.is_empty() {
-            let Some((_, curve)) = self.active_curve() else {
+            let active = self.active().and_then(|id| self.document().name(id));
+            let Some(name) = active else {
                 return Err("There is no curve".into());
             };
             return Err(format!(
                 "No vertex is selected. To remove {} as a whole, use “{}”",
-                quoted(&curve.name),
+                quoted(name),
                 Command::DeleteCurve.label()
             ));
         }
@@ -56,10 +57,11 @@ impl Editor {
         Ok(edits)
     }
 
-    pub(in crate::editor) fn delete_curve(&mut self, id: CurveId, curve: &Curve) -> Reply {
-        curve.check_unlocked()?;
-        let note = self.apply("Delete curve", vec![Edit::Remove(id)])?;
-        let deleted = format!("{} deleted", quoted(&curve.name));
+    /// Remove a curve or a reference.
+    pub(in crate::editor) fn delete_whole(&mut self, id: CurveId, name: &str) -> Reply {
+        let label = format!("Delete {}", self.noun(id));
+        let note = self.apply(&label, vec![Edit::Remove(id)])?;
+        let deleted = format!("{} deleted", quoted(name));
         Ok(Note::done(with_lines(deleted, &note.text)))
     }
 }

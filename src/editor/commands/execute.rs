@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::document::{Curve, CurveId, Edit, quoted};
+use crate::document::{Colour, Curve, CurveId, Edit, Reference, quoted};
 use crate::editor::commands::command::Command;
 use crate::editor::commands::polygon_edits::made_periodic;
 use crate::editor::hand::selection::VertexId;
@@ -41,6 +41,7 @@ impl Editor {
     /// Whether a command can be given now.
     pub fn is_enabled(&self, command: Command) -> bool {
         let curve = self.active_curve();
+        let active = self.active().is_some();
         let editable = curve
             .as_ref()
             .is_some_and(|(_, curve)| curve.check_editable().is_ok());
@@ -55,7 +56,7 @@ impl Editor {
             | Command::Delete
             | Command::DeleteCurve
             | Command::ToggleVisible
-            | Command::ToggleLocked => curve.is_some(),
+            | Command::ToggleLocked => active,
             Command::TogglePeriodic => editable,
             Command::Operation(operation) => self.check_operation(operation).is_ok(),
             Command::SelectAll | Command::Fit | Command::FitAll => !self.document().is_empty(),
@@ -78,8 +79,15 @@ impl Editor {
             Command::View(view) => Some(self.view.viewport.orientation == view.orientation()),
             Command::ToggleVerticesLocked => Some(self.is_selection_locked()),
             Command::TogglePeriodic => Some(curve.is_some_and(|c| c.polygon.is_periodic())),
-            Command::ToggleVisible => Some(curve.is_some_and(|c| c.visible)),
-            Command::ToggleLocked => Some(curve.is_some_and(|c| c.locked)),
+            Command::ToggleVisible => {
+                let active = self.active();
+                Some(active.is_some_and(|id| self.document().is_visible(id)))
+            }
+            Command::ToggleLocked => {
+                let reference = self.active_reference();
+                let locked = reference.map(|(_, reference)| reference.locked);
+                Some(locked.or(curve.map(|curve| curve.locked)).unwrap_or(false))
+            }
             _ => None,
         }
     }
@@ -98,6 +106,11 @@ impl Editor {
                 letters.as_str()
             )
         };
+        if let (Some(_), Command::Duplicate | Command::DeleteCurve) =
+            (self.active_reference(), command)
+        {
+            return command.label().replace("curve", "reference");
+        }
         match command {
             Command::Undo => self.undo_label().map(named),
             Command::Redo => self.workspace.history().redo_label().map(named),
@@ -109,6 +122,11 @@ impl Editor {
     pub(in crate::editor) fn active_curve(&self) -> Option<(CurveId, Arc<Curve>)> {
         let id = self.hand.selection.active()?;
         Some((id, self.document().curve(id)?.clone()))
+    }
+
+    pub(in crate::editor) fn active_reference(&self) -> Option<(CurveId, Arc<Reference>)> {
+        let id = self.hand.selection.active()?;
+        Some((id, self.document().reference(id)?.clone()))
     }
 
     /// What undo would take back: a point of what the tool has not finished comes first.
@@ -126,7 +144,7 @@ impl Editor {
             self.hand.tools.used_mut().undo();
             return Note::silent();
         }
-        let before: Vec<CurveId> = self.document().ids().collect();
+        let before: Vec<CurveId> = self.document().all_ids().collect();
         let undone = self.workspace.undo();
         self.activate_returned(&before);
         undone.map_or_else(Note::silent, |label| Note::told(format!("Undone: {label}")))
@@ -134,7 +152,7 @@ impl Editor {
 
     fn redo(&mut self) -> Note {
         self.interrupt();
-        let before: Vec<CurveId> = self.document().ids().collect();
+        let before: Vec<CurveId> = self.document().all_ids().collect();
         let redone = self.workspace.redo();
         self.activate_returned(&before);
         redone.map_or_else(Note::silent, |label| Note::told(format!("Redone: {label}")))
@@ -143,11 +161,7 @@ impl Editor {
     /// Make the first curve active that was not there before: the one that was waited for.
     fn activate_returned(&mut self, before: &[CurveId]) {
         self.document_changed();
-        let returned = self
-            .document()
-            .curves()
-            .map(|(id, _)| id)
-            .find(|id| !before.contains(id));
+        let returned = self.document().all_ids().find(|id| !before.contains(id));
         if let Some(returned) = returned {
             self.activate(returned);
         }
@@ -180,7 +194,11 @@ impl Editor {
             Command::SelectNone => self.hand.selection.clear(),
             Command::Tool(tool) => self.use_tool(tool),
             Command::Operation(operation) => return self.try_operation(operation),
+            Command::AddReference(kind) => return self.add_reference(kind),
             _ => {
+                if let Some((id, reference)) = self.active_reference() {
+                    return self.execute_on_reference(command, id, &reference);
+                }
                 let Some((id, curve)) = self.active_curve() else {
                     return Err(Refusal::from("There is no curve"));
                 };
@@ -193,11 +211,38 @@ impl Editor {
     /// Do what is done to the active curve.
     fn execute_on(&mut self, command: Command, id: CurveId, curve: &Arc<Curve>) -> Reply {
         match command {
-            Command::Duplicate => self.add_copies("Duplicate curve", vec![Curve::clone(curve)]),
-            Command::DeleteCurve => self.delete_curve(id, curve),
+            Command::Duplicate => {
+                self.add_copies("Duplicate curve", vec![Curve::clone(curve)], Vec::new())
+            }
+            Command::DeleteCurve => {
+                curve.check_unlocked()?;
+                self.delete_whole(id, &curve.name)
+            }
             Command::TogglePeriodic => self.set_periodic(id, !curve.polygon.is_periodic()),
             Command::ToggleVisible => self.set_visible(id, !curve.visible),
             Command::ToggleLocked => self.set_locked(id, !curve.locked),
+            _ => Ok(Note::silent()),
+        }
+    }
+
+    /// Do what is done to the active reference.
+    fn execute_on_reference(
+        &mut self,
+        command: Command,
+        id: CurveId,
+        reference: &Arc<Reference>,
+    ) -> Reply {
+        match command {
+            Command::Duplicate => {
+                let copy = vec![Reference::clone(reference)];
+                self.add_copies("Duplicate reference", Vec::new(), copy)
+            }
+            Command::DeleteCurve => {
+                reference.check_unlocked()?;
+                self.delete_whole(id, &reference.name)
+            }
+            Command::ToggleVisible => self.set_visible(id, !reference.visible),
+            Command::ToggleLocked => self.set_locked(id, !reference.locked),
             _ => Ok(Note::silent()),
         }
     }
@@ -210,22 +255,50 @@ impl Editor {
         self.view.layers.set(layer, !shown);
     }
 
-    /// Show or hide a curve, as one step. The reply is told.
+    /// Show or hide a curve or a reference, as one step. The reply is told.
     ///
     /// # Errors
     /// [`Refusal`] if there is no such curve.
     pub fn set_visible(&mut self, curve: CurveId, visible: bool) -> Reply {
-        let label = if visible { "Show curve" } else { "Hide curve" };
-        self.apply(label, vec![Edit::SetVisible { curve, visible }])
+        let verb = if visible { "Show" } else { "Hide" };
+        let label = format!("{verb} {}", self.noun(curve));
+        self.apply(&label, vec![Edit::SetVisible { curve, visible }])
     }
 
-    /// Protect a curve's shape or release it, as one step. The reply is told.
+    /// Protect the shape of a curve or a reference or release it, as one step. The reply is told.
     ///
     /// # Errors
     /// [`Refusal`] if there is no such curve.
     pub fn set_locked(&mut self, curve: CurveId, locked: bool) -> Reply {
-        let label = if locked { "Lock curve" } else { "Unlock curve" };
-        self.apply(label, vec![Edit::SetLocked { curve, locked }])
+        let verb = if locked { "Lock" } else { "Unlock" };
+        let label = format!("{verb} {}", self.noun(curve));
+        self.apply(&label, vec![Edit::SetLocked { curve, locked }])
+    }
+
+    /// Give a curve or a reference another name, as one step. The reply is told.
+    ///
+    /// # Errors
+    /// [`Refusal`] if the name is empty.
+    pub fn rename(&mut self, curve: CurveId, name: String) -> Reply {
+        let label = format!("Rename {}", self.noun(curve));
+        self.apply(&label, vec![Edit::Rename { curve, name }])
+    }
+
+    /// Give a curve or a reference another colour, as one step. The reply is told.
+    ///
+    /// # Errors
+    /// [`Refusal`] if there is no such curve.
+    pub fn recolour(&mut self, curve: CurveId, colour: Option<Colour>) -> Reply {
+        let label = format!("Recolour {}", self.noun(curve));
+        self.apply(&label, vec![Edit::Recolour { curve, colour }])
+    }
+
+    /// What steps of undo call a curve or a reference.
+    pub(in crate::editor) fn noun(&self, id: CurveId) -> &'static str {
+        match self.document().reference(id) {
+            Some(_) => "reference",
+            None => "curve",
+        }
     }
 
     fn select_all(&mut self) -> Result<(), Refusal> {

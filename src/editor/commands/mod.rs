@@ -6,5 +6,7 @@ mod deleting;
 mod execute;
 mod locking;
 pub(in crate::editor) mod polygon_edits;
+mod references;
 
 pub use command::{Command, Shortcut};
+pub use references::ReferenceChange;

@@ -8,7 +8,7 @@ use crate::editor::reply::Reply;
 use crate::editor::view::hit::REACH;
 use crate::editor::view::viewport::Viewport;
 use crate::geometry::end_correction::{EndDifference, EndOverlap, EndTarget};
-use crate::geometry::{Continuity, End, Jet, Range};
+use crate::geometry::{Continuity, End, Jet, ParametricCurve, Range};
 use crate::operations::LargestMove;
 
 /// The loop's tolerance that is offered, in units of the polygon's size.
@@ -346,7 +346,8 @@ pub fn nearest_other_end(
     })
 }
 
-/// List the ends of the visible curves other than `own`, with their jets.
+/// List the ends of the visible curves other than `own`, and of the visible references, with their
+/// jets.
 pub fn other_ends(
     document: &Document,
     own: Option<CurveId>,
@@ -354,5 +355,13 @@ pub fn other_ends(
     let others = document.curves().filter(move |(id, curve)| {
         Some(*id) != own && curve.visible && !curve.polygon.is_periodic()
     });
-    others.flat_map(|(id, curve)| End::BOTH.map(|end| (id, end, curve.polygon.end_jet(end))))
+    let others =
+        others.map(|(id, curve)| -> (CurveId, &dyn ParametricCurve) { (id, &curve.polygon) });
+    let references = document.references().filter(|(_, it)| it.visible);
+    let references =
+        references.map(|(id, it)| -> (CurveId, &dyn ParametricCurve) { (id, &it.curve) });
+    others.chain(references).flat_map(|(id, curve)| {
+        let jet = move |end| Some((id, end, MatchPlace::End(end).jet(curve)?));
+        End::BOTH.map(jet).into_iter().flatten()
+    })
 }

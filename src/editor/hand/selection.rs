@@ -1,4 +1,4 @@
-//! What is selected: vertices, and the active curve that panels show.
+//! What is selected: vertices, and the active curve or reference that panels show.
 
 use std::collections::BTreeSet;
 
@@ -16,12 +16,12 @@ pub struct Selection {
 }
 
 impl Selection {
-    /// The active curve.
+    /// The active curve or reference.
     pub fn active(&self) -> Option<CurveId> {
         self.active
     }
 
-    /// Make a curve the active one. Unless some of its vertices are selected, none is any more.
+    /// Make a curve or a reference the active one. Unless some of its vertices are selected, none is any more.
     pub fn activate(&mut self, curve: CurveId) {
         self.active = Some(curve);
         if self.of_curve(curve).next().is_none() {
@@ -88,9 +88,9 @@ impl Selection {
         }
         if self
             .active
-            .is_none_or(|active| document.curve(active).is_none())
+            .is_none_or(|active| document.name(active).is_none())
         {
-            self.active = document.ids().next();
+            self.active = document.all_ids().next();
         }
         self.follow();
     }

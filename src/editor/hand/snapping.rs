@@ -1,15 +1,16 @@
-//! Snapping: dragged points prefer vertices, ends, targets and the grid.
+//! Snapping: dragged points prefer vertices, ends, targets, references and the grid.
 
 use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3};
 
-use crate::document::{CurveId, Document};
+use crate::document::{CurveId, Document, MatchPlace};
 use crate::editor::hand::selection::VertexId;
 use crate::editor::view::grid::grid_steps;
 use crate::editor::view::hit::REACH;
 use crate::editor::view::viewport::Viewport;
 use crate::geometry::End;
+use crate::geometry::references::ReferenceForm;
 
 /// Screen points within which the grid attracts: less than vertices do.
 const GRID_REACH: f64 = 5.0;
@@ -21,14 +22,15 @@ pub struct Carried {
     pub vertices: BTreeSet<VertexId>,
     /// The target of a curve's end.
     pub target: Option<(CurveId, End)>,
+    /// The reference.
+    pub reference: Option<CurveId>,
 }
 
 /// Find the point of the model that a dragged place of the view plane snaps to, or `None` if
-/// nothing is near.
+/// nothing is near: vertices, end points, targets, the points of lists, and the origin.
 ///
-/// What is carried along does not attract. Vertices, end points and targets come before the
-/// grid's minor crossings.
-pub fn snap(
+/// What is carried along does not attract.
+pub fn snap_to_point(
     place: DVec2,
     document: &Document,
     carried: &Carried,
@@ -62,15 +64,35 @@ pub fn snap(
             }
         }
     }
+    for (id, reference) in document.references().filter(|(_, it)| it.visible) {
+        if carried.reference == Some(id) {
+            continue;
+        }
+        match reference.curve.form() {
+            ReferenceForm::Points(list) => {
+                let placement = reference.curve.placement();
+                let points = list.points().iter();
+                points.for_each(|point| consider(placement.point(*point)));
+            }
+            _ => {
+                let ends = End::BOTH.map(|end| MatchPlace::End(end).jet(&reference.curve));
+                let ends = ends.into_iter().flatten();
+                ends.for_each(|jet| consider(jet.point));
+            }
+        }
+    }
     consider(DVec3::ZERO);
-    best.map(|(_, point)| point).or_else(|| {
-        // Only a view along an axis of the model shows the grid.
-        viewport.orientation.axes()?;
-        let (minor, _) = grid_steps(viewport);
-        let crossing = (place / minor).round() * minor;
-        let near = crossing.distance(place) <= GRID_REACH * viewport.pixel();
-        (near && crossing.is_finite()).then(|| viewport.grounded(crossing))
-    })
+    best.map(|(_, point)| point)
+}
+
+/// Find the crossing of the grid's minor lines that a place of the view plane snaps to, if one is near.
+pub fn snap_to_grid(place: DVec2, viewport: &Viewport) -> Option<DVec3> {
+    // Only a view along an axis of the model shows the grid.
+    viewport.orientation.axes()?;
+    let (minor, _) = grid_steps(viewport);
+    let crossing = (place / minor).round() * minor;
+    let near = crossing.distance(place) <= GRID_REACH * viewport.pixel();
+    (near && crossing.is_finite()).then(|| viewport.grounded(crossing))
 }
 
 /// Constrain a movement to the nearer axis.

@@ -5,13 +5,14 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::analysis::SampledCurve;
-use crate::document::{Curve, CurveId};
+use crate::document::{Curve, CurveId, Reference};
 use crate::editor::Editor;
 use crate::editor::hand::tools::ToolKind;
-use crate::editor::view::curve_outlines::PieceTrend;
+use crate::editor::view::comb::CombSettings;
+use crate::editor::view::curve_outlines::{CurveOutlines, PieceTrend};
 use crate::editor::view::end_marks;
-use crate::editor::view::feature_report::append_marks;
-use crate::editor::view::layers::Layer;
+use crate::editor::view::feature_report::{FeatureMark, append_marks};
+use crate::editor::view::layers::{Layer, Layers};
 use crate::editor::view::orientation::Orientation;
 use crate::editor::view::outline::{GAP, ViewBox};
 use crate::editor::view::scene::{CurveScene, Scene, VertexMark};
@@ -54,16 +55,64 @@ impl Editor {
             .filter(|(_, curve)| curve.visible)
             .map(|(id, curve)| (id, curve.clone()))
             .collect();
-        // The active curve is drawn last, on top.
+        let references = self.workspace.document().references();
+        let mut references: Vec<(CurveId, Arc<Reference>)> = references
+            .filter(|(_, reference)| reference.visible)
+            .map(|(id, reference)| (id, reference.clone()))
+            .collect();
+        // What is active is drawn last, on top.
         shown.sort_by_key(|(id, _)| Some(*id) == active);
-        scenes.resize_with(shown.len(), CurveScene::default);
-        for ((id, curve), scene) in shown.iter().zip(scenes.iter_mut()) {
+        references.sort_by_key(|(id, _)| Some(*id) == active);
+        scenes.resize_with(references.len() + shown.len(), CurveScene::default);
+        let (behind, before) = scenes.split_at_mut(references.len());
+        for ((id, reference), scene) in references.iter().zip(behind) {
             scene.clear();
             scene.id = Some(*id);
+            scene.is_reference = true;
+            scene.active = Some(*id) == active;
+            scene.locked = reference.locked;
+            scene.colour = reference.colour;
+            self.draw_reference(*id, view, scene);
+        }
+        for ((id, curve), scene) in shown.iter().zip(before) {
+            scene.clear();
+            scene.id = Some(*id);
+            scene.is_reference = false;
             scene.active = Some(*id) == active;
             scene.locked = curve.locked;
             scene.colour = curve.colour;
             self.draw_curve(*id, curve, view, scene);
+        }
+    }
+
+    fn draw_reference(&mut self, id: CurveId, view: &ViewBox, scene: &mut CurveScene) {
+        let orientation = self.view.viewport.orientation;
+        self.append_features(scene.active, view, &mut scene.features);
+        let (layers, comb) = (self.layers(), self.view.comb);
+        let outlined = self.view.outlines.get_mut(id);
+        let Some((analysis, outlined)) = self.analyses.reference(id).zip(outlined) else {
+            return;
+        };
+        let sampled = analysis.sampled();
+        outlined.curve.append_curve(sampled, view, &mut scene.curve);
+        let mut points = Vec::new();
+        let chain = analysis.points();
+        outlined.float.append_handles(chain, view, &mut points);
+        let points = points.iter().filter_map(|index| chain.get(*index));
+        let places = points.map(|point| orientation.flatten(point));
+        scene.points.extend(places);
+        if scene.active && analysis.is_smooth() {
+            append_derived(&mut outlined.curve, sampled, view, (layers, comb), scene);
+        }
+    }
+
+    /// Append the marks of the features of what is active.
+    fn append_features(&self, active: bool, view: &ViewBox, out: &mut Vec<FeatureMark>) {
+        if let Some(report) = self.features()
+            && active
+            && self.layers().shows(Layer::Features)
+        {
+            append_marks(report, &self.view.viewport.orientation, view, out);
         }
     }
 
@@ -72,12 +121,7 @@ impl Editor {
         let (layers, comb, active) = (self.layers(), self.view.comb, scene.active);
         let viewport = self.view.viewport;
         let orientation = viewport.orientation;
-        if let Some(report) = self.features()
-            && active
-            && layers.shows(Layer::Features)
-        {
-            append_marks(report, &orientation, view, &mut scene.features);
-        }
+        self.append_features(active, view, &mut scene.features);
         let outlined = self.view.outlines.get_mut(id);
         let Some((analysis, outlined)) = self.analyses.get(id).zip(outlined) else {
             return;
@@ -131,14 +175,7 @@ impl Editor {
             let places = vertices.map(|vertex| viewport.flatten(vertex));
             scene.clamped_vertices.extend(places);
         }
-        let outlines = &mut outlined.curve;
-        if layers.shows(Layer::Evolute) {
-            outlines.append_evolute(sampled, view, &mut scene.evolute);
-        }
-        if layers.shows(Layer::Comb) {
-            outlines.append_comb(sampled, view, &comb, &mut scene.comb);
-            outlines.append_teeth(sampled, view, &comb, &mut scene.teeth);
-        }
+        append_derived(&mut outlined.curve, sampled, view, (layers, comb), scene);
     }
 
     /// The active curve before what is tried out on it, while Alt is held; before an operation
@@ -206,9 +243,27 @@ impl CurveScene {
             &mut self.clamped_vertices,
             &mut self.float,
             &mut self.curve,
+            &mut self.points,
         ] {
             chain.clear();
         }
+    }
+}
+
+/// Append the evolute and the comb, as far as they are shown.
+fn append_derived(
+    outlines: &mut CurveOutlines,
+    sampled: SampledCurve<'_>,
+    view: &ViewBox,
+    (layers, comb): (Layers, CombSettings),
+    scene: &mut CurveScene,
+) {
+    if layers.shows(Layer::Evolute) {
+        outlines.append_evolute(sampled, view, &mut scene.evolute);
+    }
+    if layers.shows(Layer::Comb) {
+        outlines.append_comb(sampled, view, &comb, &mut scene.comb);
+        outlines.append_teeth(sampled, view, &comb, &mut scene.teeth);
     }
 }
 

@@ -2,9 +2,11 @@
 
 use glam::{DVec2, DVec3};
 
+use crate::analysis::{ReferenceAnalysis, SampledFeature, SampledKind};
 use crate::editor::view::orientation::Orientation;
 use crate::editor::view::outline::ViewBox;
 use crate::geometry::FloatPolygon;
+use crate::geometry::ParametricCurve;
 use crate::geometry::features::{
     Extremum, ExtremumKind, Features, Quantity, Root, Trend, TrendPiece, Verdict,
 };
@@ -54,7 +56,7 @@ impl FeatureKind {
 pub struct FeatureRow {
     /// What it is.
     pub kind: FeatureKind,
-    /// The interval of u that holds it.
+    /// The interval of u that holds it; of a reference the place of its own parameter t.
     pub u: [f64; 2],
     /// How many features the interval holds: 1 unless they are too close to tell apart.
     pub count: usize,
@@ -68,10 +70,12 @@ pub struct FeatureRow {
     pub point: DVec3,
 }
 
-/// The features of the active curve.
+/// The features of the active curve or reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FeatureReport {
-    /// Whether the curvature is proved to be monotone.
+    /// Whether the features are those that samples show, and nothing is proved.
+    pub sampled: bool,
+    /// Whether the curvature is proved to be monotone; undecided where features are sampled.
     pub monotone: Verdict,
     /// Whether it is proved to be constant, as on a line or a circle.
     pub constant: bool,
@@ -88,6 +92,36 @@ impl FeatureReport {
     pub fn count(&self, kinds: &[FeatureKind]) -> usize {
         let fits = |row: &&FeatureRow| kinds.contains(&row.kind);
         self.rows.iter().filter(fits).map(|row| row.count).sum()
+    }
+
+    /// List the features of a reference that its samples show.
+    pub fn of_samples(analysis: &ReferenceAnalysis) -> Self {
+        let curve = &analysis.reference().curve;
+        let row = |feature: &SampledFeature| {
+            let t = curve.parameter(feature.u);
+            let (kind, value) = match feature.kind {
+                SampledKind::Inflection => (FeatureKind::Inflection, None),
+                SampledKind::Maximum => (FeatureKind::CurvatureMaximum, Some(feature.curvature)),
+                SampledKind::Minimum => (FeatureKind::CurvatureMinimum, Some(feature.curvature)),
+            };
+            FeatureRow {
+                kind,
+                u: [t, t],
+                count: 1,
+                value: value.map(|value| [value, value]),
+                remark: "",
+                middle: feature.u,
+                point: curve.jet(feature.u).point,
+            }
+        };
+        Self {
+            sampled: true,
+            monotone: Verdict::Undecided,
+            constant: false,
+            has_doubts: false,
+            polyline: !analysis.is_smooth(),
+            rows: analysis.features().iter().map(row).collect(),
+        }
     }
 
     /// List the features of a polygon.
@@ -154,6 +188,7 @@ impl FeatureReport {
         let is_constant = |piece: &TrendPiece| piece.trend == Trend::Constant;
         let mut doubts = features.undecided.iter();
         Self {
+            sampled: false,
             monotone: features.monotone,
             constant: features.monotone == Verdict::Proved && trends.all(is_constant),
             has_doubts: doubts.any(|doubt| doubt.quantity == Quantity::CurvatureExtremum),

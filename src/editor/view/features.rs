@@ -1,22 +1,21 @@
 //! Keeping the features of the active curve up to date, and going to one of them.
 
-use std::sync::Arc;
-
 use crate::editor::Editor;
 use crate::editor::view::feature_report::FeatureReport;
 use crate::editor::view::layers::Layer;
 use crate::editor::view::outline::Bounds;
+use crate::editor::view::shown::Shown;
 
 /// How much of a segment is shown around a feature, on either side.
 const SURROUNDINGS: f64 = 0.6;
 
 impl Editor {
-    /// The features of the active curve, once all are known: in the background this may be some
+    /// The features of the active curve or reference, once all are known: in the background this may be some
     /// frames after the curve has changed.
     pub fn features(&self) -> Option<&FeatureReport> {
-        let analysis = self.analyses.get(self.active()?)?;
-        let (curve, report) = self.view.features.as_ref()?;
-        Arc::ptr_eq(curve, analysis.curve()).then_some(report)
+        let shown = Shown::of(self.document(), self.active()?)?;
+        let (reported, report) = self.view.features.as_ref()?;
+        (*reported == shown).then_some(report)
     }
 
     /// The share of the active curve whose features are known; `None` if they cannot be proved, for
@@ -26,7 +25,8 @@ impl Editor {
         Some(known + (1.0 - known) * self.proving.share()?)
     }
 
-    /// Prove the features of the active curve, and list them once all are known.
+    /// Prove the features of the active curve, and list them once all are known. Those of a reference
+    /// are only sampled.
     pub(in crate::editor) fn prove(&mut self) {
         let Some(active) = self.active() else {
             return;
@@ -34,23 +34,29 @@ impl Editor {
         let (analyses, patience) = (&mut self.analyses, &mut self.patience);
         self.proving.advance(active, analyses, patience);
         if self.features().is_none()
+            && let Some(reference) = self.analyses.reference(active)
+        {
+            let shown = Shown::Reference(reference.reference().clone());
+            self.view.features = Some((shown, FeatureReport::of_samples(reference)));
+        }
+        if self.features().is_none()
             && let Some(analysis) = self.analyses.get(active)
             && let Some(features) = analysis.known_features()
         {
             let curve = analysis.curve().clone();
             let report = FeatureReport::of(features, &curve.polygon);
-            self.view.features = Some((curve, report));
+            self.view.features = Some((Shown::Curve(curve), report));
         }
     }
 
-    /// Show the surroundings of a parameter of the active curve, and the layer of its features.
+    /// Show the surroundings of a parameter of the active curve or reference, and the layer of its
+    /// features.
     pub fn go_to(&mut self, u: f64) {
-        let Some((_, curve)) = self.active_curve() else {
+        let active = self.active();
+        let Some(curve) = active.and_then(|id| self.document().shape(id)) else {
             return;
         };
-        let last = curve.polygon.segments() as f64;
-        let u = u.clamp(0.0, last);
-        let jet = curve.polygon.jet(u);
+        let jet = curve.jet(u.clamp(0.0, curve.pieces() as f64));
         let reach = SURROUNDINGS * jet.speed();
         let at = self.view.viewport.flatten(jet.point);
         let mut bounds = Bounds::EMPTY;

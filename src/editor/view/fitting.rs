@@ -20,12 +20,9 @@ impl Editor {
     pub(in crate::editor) fn fit_all(&mut self) {
         self.reset_comb();
         let mut bounds = Bounds::EMPTY;
-        let shown: Vec<CurveId> = self
-            .document()
-            .curves()
-            .filter(|(_, curve)| curve.visible)
-            .map(|(id, _)| id)
-            .collect();
+        let document = self.document();
+        let shown = document.all_ids().filter(|id| document.is_visible(*id));
+        let shown: Vec<CurveId> = shown.collect();
         for id in shown {
             bounds.unite(&self.bounds_of(id));
         }
@@ -37,19 +34,17 @@ impl Editor {
     pub(in crate::editor) fn reset_comb(&mut self) {
         self.analyse();
         self.view.comb = CombSettings::default();
-        let Some((analysis, bounds)) = self.active().and_then(|id| {
+        let Some((samples, bounds)) = self.active().and_then(|id| {
             let outlined = self.view.outlines.get(id)?;
-            Some((self.analyses.get(id)?, outlined.curve.bounds()))
+            Some((self.analyses.sampled(id)?.samples, outlined.curve.bounds()))
         }) else {
             return;
         };
         let extent = (bounds.high - bounds.low).max_element();
-        let largest = analysis
-            .samples()
+        let largest = samples
             .curvature()
             .map_or(0.0, |range| range.high.abs().max(range.low.abs()));
-        let segments = analysis.curve().polygon.segments();
-        self.view.comb.density = (TEETH / segments.max(1)).clamp(1, self.view.comb.density);
+        self.view.comb.density = (TEETH / samples.pieces()).clamp(1, self.view.comb.density);
         // Without curvature there is no scale to choose.
         self.view.set_comb(CombSettings {
             scale: COMB_HEIGHT * extent / largest,
@@ -78,7 +73,7 @@ impl Editor {
         let (layers, scale) = (self.layers(), self.view.comb.scale);
         let is_active = self.hand.selection.active() == Some(id);
         let outlined = self.view.outlines.get(id);
-        let Some((analysis, outlined)) = self.analyses.get(id).zip(outlined) else {
+        let Some((sampled, outlined)) = self.analyses.sampled(id).zip(outlined) else {
             return Bounds::EMPTY;
         };
         let mut bounds = outlined.curve.bounds();
@@ -88,7 +83,7 @@ impl Editor {
         if layers.shows(Layer::Comb) && is_active {
             // Long teeth are cut off: the curve must not become a speck.
             let around = bounds.grown(COMB_REACH);
-            let comb = outlined.curve.comb_bounds(analysis.sampled(), scale);
+            let comb = outlined.curve.comb_bounds(sampled, scale);
             bounds.unite(&comb.within(&around));
         }
         bounds

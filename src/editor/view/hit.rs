@@ -17,6 +17,9 @@ pub const REACH: f64 = 8.0;
 /// of a comb's tooth.
 const BESIDE: f64 = 2.0 * REACH;
 
+/// How much farther than a curve a reference counts, in screen points.
+const BEHIND: f64 = 2.0;
+
 /// The smallest length of a comb's tooth, in screen points, that can be dragged by its tip.
 const SHORTEST_TOOTH: f64 = 4.0;
 
@@ -43,10 +46,10 @@ pub struct HitTest<'a> {
     pub cycle: usize,
 }
 
-/// A place on a curve.
+/// A place on a curve or on a reference.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurveHit {
-    /// The curve.
+    /// The curve or the reference.
     pub curve: CurveId,
     /// The parameter.
     pub u: f64,
@@ -126,27 +129,36 @@ impl<'a> HitTest<'a> {
         (nearest <= reach * self.viewport.pixel()).then_some((id, index))
     }
 
-    /// Find the place on a curve under a place on the canvas.
+    /// Find the place on a curve or on a reference under a place on the canvas. Where a curve follows
+    /// a reference it is the curve that is found.
     pub fn curve(&self, place: DVec2) -> Option<CurveHit> {
-        if !self.layers.shows(Layer::Curve) {
-            return None;
-        }
-        let model = self.viewport.to_model(place);
-        let reach = REACH * self.viewport.pixel();
-        let hits = self.shown().filter_map(|(id, _)| {
-            let sampled = self.analyses.get(id)?.sampled();
-            let outlines = &self.outlines.get(id)?.curve;
-            let (u, point, distance) = outlines.nearest(sampled, model, reach)?;
-            Some((
-                distance,
-                CurveHit {
-                    curve: id,
-                    u,
-                    point,
-                },
-            ))
+        let curves = self.layers.shows(Layer::Curve).then(|| self.shown());
+        let curves = curves.into_iter().flatten().map(|(id, _)| (id, 0.0));
+        let behind = BEHIND * self.viewport.pixel();
+        let references = self.shown_references().map(|id| (id, behind));
+        let hits = curves.chain(references).filter_map(|(id, behind)| {
+            let (distance, hit) = self.hit_on(id, place)?;
+            Some((distance + behind, hit))
         });
         hits.min_by(|a, b| a.0.total_cmp(&b.0)).map(|hit| hit.1)
+    }
+
+    /// Find the place on a reference under a place on the canvas, on others than `left_out`.
+    pub fn reference(&self, place: DVec2, left_out: Option<CurveId>) -> Option<CurveHit> {
+        let others = self.shown_references().filter(|id| Some(*id) != left_out);
+        let hits = others.filter_map(|id| self.hit_on(id, place));
+        hits.min_by(|a, b| a.0.total_cmp(&b.0)).map(|hit| hit.1)
+    }
+
+    /// The place on one curve or reference under a place on the canvas, with its distance.
+    fn hit_on(&self, id: CurveId, place: DVec2) -> Option<(f64, CurveHit)> {
+        let model = self.viewport.to_model(place);
+        let reach = REACH * self.viewport.pixel();
+        let sampled = self.analyses.sampled(id)?;
+        let outlines = &self.outlines.get(id)?.curve;
+        let (u, point, distance) = outlines.nearest(sampled, model, reach)?;
+        let curve = id;
+        Some((distance, CurveHit { curve, u, point }))
     }
 
     /// Find the tooth of the active curve's comb whose tip is under a place, from its foot to its tip.
@@ -156,7 +168,11 @@ impl<'a> HitTest<'a> {
             return None;
         }
         let id = self.shown_active()?;
-        let sampled = self.analyses.get(id)?.sampled();
+        let reference = self.analyses.reference(id);
+        if reference.is_some_and(|reference| !reference.is_smooth()) {
+            return None;
+        }
+        let sampled = self.analyses.sampled(id)?;
         let (model, pixel) = (self.viewport.to_model(place), self.viewport.pixel());
         let outlines = &self.outlines.get(id)?.curve;
         let (reach, shortest) = (REACH * pixel, SHORTEST_TOOTH * pixel);
@@ -179,10 +195,9 @@ impl<'a> HitTest<'a> {
         (nearest <= REACH).then_some((id, row))
     }
 
-    /// The active curve, unless it is hidden.
+    /// The active curve or reference, unless it is hidden.
     fn shown_active(&self) -> Option<CurveId> {
-        let is_shown = |id: &CurveId| self.document.curve(*id).is_some_and(|curve| curve.visible);
-        self.active.filter(is_shown)
+        self.active.filter(|id| self.document.is_visible(*id))
     }
 
     /// Find the leg nearest to a place, within `reach` screen points.
@@ -246,6 +261,13 @@ impl<'a> HitTest<'a> {
             }
         }
         found
+    }
+
+    /// The references that can be hit.
+    fn shown_references(&self) -> impl Iterator<Item = CurveId> {
+        let references = self.document.references();
+        let visible = references.filter(|(_, reference)| reference.visible);
+        visible.map(|(id, _)| id)
     }
 
     /// The curves that can be hit.

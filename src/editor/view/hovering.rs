@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
-use crate::analysis::SampledCurve;
+use crate::analysis::{ReferenceAnalysis, SampledCurve};
 use crate::document::CurveId;
 use crate::editor::Editor;
 use crate::editor::hand::tools::ToolKind;
@@ -69,7 +69,7 @@ impl Editor {
         if let Some(index) = self.view.hovered.vertex {
             return self.vertex_hover((id, index));
         }
-        let samples = self.analyses.get(id)?.samples();
+        let samples = self.analyses.sampled(id)?.samples;
         let u = samples.parameter_at_length(self.view.hovered.length?);
         self.curve_hover(id, u)
     }
@@ -122,32 +122,42 @@ impl Editor {
     }
 
     fn curve_hover(&self, id: CurveId, u: f64) -> Option<HoverScene> {
-        let curve = self.document().curve(id).filter(|curve| curve.visible)?;
+        if !self.document().is_visible(id) {
+            return None;
+        }
         let SampledCurve {
             curve: shape,
             samples,
-        } = self.analyses.get(id)?.sampled();
+        } = self.analyses.sampled(id)?;
+        let reference = self.analyses.reference(id);
+        let is_smooth = reference.is_none_or(ReferenceAnalysis::is_smooth);
         let (planar, jet) = (samples.is_planar(), shape.jet(u));
         let curvature = jet.curvature_of(planar);
         let radius = 1.0 / curvature.abs();
+        let parameter = match reference {
+            Some(it) => format!("t {:.4}", it.reference().curve.parameter(u)),
+            None => format!("u {u:.4}"),
+        };
         let mut lines = vec![
-            format!("u {u:.4}"),
+            parameter,
             format!("x {}", figure(jet.point.x)),
             format!("y {}", figure(jet.point.y)),
         ];
         if !planar {
             lines.push(format!("z {}", figure(jet.point.z)));
         }
-        lines.push(format!("κ {}", figure(curvature)));
-        let radius = Some(radius).filter(|radius| radius.is_finite());
-        lines.push(format!("R {}", radius.map_or("∞".to_owned(), figure)));
-        let torsion = Some(jet.torsion()).filter(|torsion| !planar && torsion.is_finite());
-        lines.extend(torsion.map(|torsion| format!("τ {}", figure(torsion))));
+        if is_smooth {
+            lines.push(format!("κ {}", figure(curvature)));
+            let radius = Some(radius).filter(|radius| radius.is_finite());
+            lines.push(format!("R {}", radius.map_or("∞".to_owned(), figure)));
+            let torsion = Some(jet.torsion()).filter(|torsion| !planar && torsion.is_finite());
+            lines.extend(torsion.map(|torsion| format!("τ {}", figure(torsion))));
+        }
         if self.hand.selection.active() != Some(id) {
-            lines.insert(0, curve.name.clone());
+            lines.splice(0..0, self.document().name(id).map(str::to_owned));
         }
         let text = lines.join("\n");
-        let centre = jet.centre_of_curvature();
+        let centre = jet.centre_of_curvature().filter(|_| is_smooth);
         let seen_as_it_is = planar && self.view.viewport.orientation.is_from_above();
         let circle = centre.filter(|_| !seen_as_it_is);
         Some(HoverScene::Curve {

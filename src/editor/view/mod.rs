@@ -28,6 +28,7 @@ mod plotting;
 mod refresh;
 mod sample_chain;
 pub(in crate::editor) mod scene;
+mod shown;
 #[allow(clippy::module_inception)]
 mod view;
 pub(in crate::editor) mod viewport;

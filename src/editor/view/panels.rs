@@ -3,7 +3,7 @@
 use crate::analysis::CurveAnalysis;
 use crate::document::CurveId;
 use crate::editor::Editor;
-use crate::editor::report::{CurveReport, Readout};
+use crate::editor::report::{CurveReport, Readout, ReferenceReport};
 use crate::editor::view::scene::HoverScene;
 use crate::geometry::Amplification;
 
@@ -44,9 +44,24 @@ impl Editor {
         })
     }
 
+    /// What the inspector says of the active reference.
+    pub fn reference_report(&self) -> Option<ReferenceReport> {
+        let samples = self.analyses.reference(self.active()?)?.sampled().samples;
+        Some(ReferenceReport {
+            planar: samples.is_planar(),
+            length: samples.length(),
+            curvature: samples.curvature(),
+        })
+    }
+
     /// The vertex of the active curve that is hovered, on the canvas or in a panel.
     pub fn hovered_vertex(&self) -> Option<usize> {
         self.vertex_hovered_on(self.hand.selection.active()?)
+    }
+
+    /// Whether a curve or a reference is planar.
+    pub fn is_planar(&self, id: CurveId) -> Option<bool> {
+        Some(self.analyses.sampled(id)?.samples.is_planar())
     }
 
     /// What is known of a curve.

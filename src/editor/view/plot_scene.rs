@@ -6,6 +6,7 @@ use glam::DVec2;
 
 use crate::analysis::{Flow, LevelPlot};
 use crate::document::{Curve, CurveId};
+use crate::editor::view::shown::Shown;
 
 /// What is plotted of the active curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,10 +87,10 @@ impl PlotScene {
 pub struct PlotSource {
     /// What is plotted.
     pub kind: PlotKind,
-    /// Of which curve.
+    /// Of which curve or reference.
     pub id: CurveId,
-    /// The curve as it is.
-    pub curve: Arc<Curve>,
+    /// The curve or the reference as it is.
+    pub shown: Shown,
     /// The curve as it was.
     pub before: Option<Arc<Curve>>,
     /// The curve to compare with.
@@ -104,7 +105,7 @@ impl PartialEq for PlotSource {
         };
         self.kind == other.kind
             && self.id == other.id
-            && Arc::ptr_eq(&self.curve, &other.curve)
+            && self.shown == other.shown
             && beside(self) == beside(other)
     }
 }

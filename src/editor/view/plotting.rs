@@ -2,9 +2,10 @@
 
 use glam::DVec2;
 
-use crate::analysis::{CurveAnalysis, Flow};
+use crate::analysis::{CurveAnalysis, Flow, ReferenceAnalysis, SampledCurve};
 use crate::editor::Editor;
 use crate::editor::view::plot_scene::{PlotKind, PlotScene, PlotSource};
+use crate::editor::view::shown::Shown;
 
 impl Editor {
     /// Make the plot that is shown; its series are made anew only if its curves or its kind changed.
@@ -20,10 +21,9 @@ impl Editor {
             self.view.plotted = source;
         }
         if let Some((id, kind)) = self.active().zip(self.view.plot)
-            && let Some(analysis) = self.analyses.get(id)
+            && let Some(sampled) = self.analyses.sampled(id)
         {
             if let Some((u, curvature)) = self.view.scene.hovered_on(id) {
-                let sampled = analysis.sampled();
                 plots.hovered = Some(DVec2::new(sampled.length_at(u), curvature));
                 if let PlotKind::Levels { plot, normalised } = kind {
                     plots.hovered_level = Some(sampled.level_at(plot, normalised, u));
@@ -32,7 +32,7 @@ impl Editor {
             plots.hovered_vertex = self.vertex_hovered_on(id);
             plots.worst = self.worst_of_flow().map(|worst| {
                 let (flow, vertex) = worst?;
-                let value = analysis.float().flow(flow, vertex)?;
+                let value = self.analyses.get(id)?.float().flow(flow, vertex)?;
                 Some(DVec2::new(vertex as f64, shown(flow, value)))
             });
         }
@@ -42,6 +42,7 @@ impl Editor {
     /// What is to be plotted; `None` if nothing is.
     fn plot_source(&self) -> Option<PlotSource> {
         let (id, kind) = self.active().zip(self.view.plot)?;
+        let shown = |id| Shown::of(self.document(), id);
         let curve = |id| Some(self.analyses.get(id)?.curve().clone());
         let compared = match kind {
             PlotKind::Harmony { compared } => compared.filter(|other| *other != id),
@@ -50,13 +51,18 @@ impl Editor {
         Some(PlotSource {
             kind,
             id,
-            curve: curve(id)?,
+            shown: shown(id)?,
             before: self.before(),
             compared: compared.and_then(curve),
         })
     }
 
     fn fill(&mut self, plots: &mut PlotScene, source: Option<&PlotSource>) {
+        if let Some(source) = source
+            && let Some(reference) = self.analyses.reference_mut(source.id)
+        {
+            plots.fill_reference(reference, source.kind);
+        }
         if let Some(source) = source
             && let Some(analysis) = self.analyses.get_mut(source.id)
         {
@@ -87,10 +93,28 @@ fn shown(flow: Flow, value: f64) -> f64 {
 }
 
 impl PlotScene {
+    /// Take what series of every kind tell of their curve.
+    fn begin(&mut self, SampledCurve { samples, .. }: SampledCurve<'_>) {
+        self.planar = samples.is_planar();
+        self.length = samples.length();
+    }
+
+    /// Make the series of a reference: a list of points has none, and there is no flow of vertices.
+    fn fill_reference(&mut self, reference: &mut ReferenceAnalysis, kind: PlotKind) {
+        self.begin(reference.sampled());
+        match kind {
+            _ if !reference.is_smooth() => {}
+            PlotKind::Curvature => reference.append_curvature(&mut self.curvature),
+            PlotKind::Levels { plot, normalised } => {
+                reference.append_levels(plot, normalised, &mut self.levels);
+            }
+            PlotKind::Harmony { .. } => {}
+        }
+    }
+
     /// Make the series of a curve.
     fn fill(&mut self, analysis: &mut CurveAnalysis, kind: PlotKind) {
-        self.planar = analysis.is_planar();
-        self.length = analysis.samples().length();
+        self.begin(analysis.sampled());
         match kind {
             PlotKind::Curvature => {
                 analysis.append_curvature(&mut self.curvature);

@@ -11,7 +11,7 @@ use crate::editor::view::guide_scene::GuideScene;
 /// point ([`crate::editor::GAP`]) breaks them.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
-    /// The curves that are shown.
+    /// The references that are shown, then the curves.
     pub curves: Vec<CurveScene>,
     /// The curve as it was before the gesture or the correction, drawn faintly.
     pub ghost: Vec<DVec2>,
@@ -27,11 +27,13 @@ pub struct Scene {
     pub hover: Option<HoverScene>,
 }
 
-/// One curve's layers; those that are not shown are empty.
+/// The layers of one curve or reference; those that are not shown are empty.
 #[derive(Clone, Debug, Default)]
 pub struct CurveScene {
-    /// The curve.
+    /// The curve or the reference.
     pub id: Option<CurveId>,
+    /// Whether it is a reference.
+    pub is_reference: bool,
     /// Whether it is the active one; the others step back.
     pub active: bool,
     /// Whether it is locked.
@@ -54,6 +56,8 @@ pub struct CurveScene {
     pub vertices: Vec<VertexMark>,
     /// The curve itself.
     pub curve: Vec<DVec2>,
+    /// The points of a reference that is a list of them.
+    pub points: Vec<DVec2>,
     /// Its pieces of rising, falling and undecided curvature, in the order of
     /// [`crate::editor::PieceTrend::ALL`].
     pub pieces: [Vec<DVec2>; 3],

@@ -1,8 +1,5 @@
 //! What is seen, and how.
 
-use std::sync::Arc;
-
-use crate::document::Curve;
 use crate::editor::guides::FeatureOf;
 use crate::editor::view::comb::CombSettings;
 use crate::editor::view::feature_report::FeatureReport;
@@ -11,6 +8,7 @@ use crate::editor::view::layers::Layers;
 use crate::editor::view::outlines::Outlines;
 use crate::editor::view::plot_scene::{PlotKind, PlotScene, PlotSource};
 use crate::editor::view::scene::Scene;
+use crate::editor::view::shown::Shown;
 use crate::editor::view::viewport::Viewport;
 
 /// Hold how the model is seen, what is hovered, and what canvas and plots show.
@@ -24,8 +22,8 @@ pub struct View {
     pub(in crate::editor) hovered: Hovered,
     /// What panels said in the frame before: those that are shown first read it.
     pub(in crate::editor) hovered_before: Hovered,
-    /// The report of the active curve's features, for the curve that it was made of.
-    pub(in crate::editor) features: Option<(Arc<Curve>, FeatureReport)>,
+    /// The report of features, for the curve or the reference that it was made of.
+    pub(in crate::editor) features: Option<(Shown, FeatureReport)>,
     /// The feature whose loss is shown.
     pub(in crate::editor) chosen: Option<FeatureOf>,
     pub(in crate::editor) scene: Scene,

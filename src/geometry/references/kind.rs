@@ -1,5 +1,6 @@
 //! A kind of curve given by formulas, described once for fields and command line.
 
+use std::hash::{Hash, Hasher};
 use std::ops::{Bound, RangeBounds};
 
 use super::error::ReferenceError;
@@ -58,6 +59,12 @@ impl PartialEq for ReferenceKind {
 }
 
 impl Eq for ReferenceKind {}
+
+impl Hash for ReferenceKind {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.name.hash(state);
+    }
+}
 
 impl ReferenceKind {
     /// The values of all parameters if none is given.

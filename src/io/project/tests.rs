@@ -7,6 +7,7 @@ use super::*;
 use crate::document::{Colour, EndTargets, MatchPlace};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{Continuity, End, FloatPolygon, MAX_MAGNITUDE};
+use crate::io::MatchSource;
 
 #[path = "../../../tests/common/repeatable.rs"]
 mod repeatable;
@@ -21,7 +22,8 @@ fn curves_of(text: &str) -> Vec<Curve> {
 }
 
 fn text_of(curves: &[&Curve]) -> String {
-    String::from_utf8(write(curves, &[], &Extras::default(), PolygonKind::Float).bytes).unwrap()
+    String::from_utf8(write(curves, &[], &[], &Extras::default(), PolygonKind::Float).bytes)
+        .unwrap()
 }
 
 #[test]
@@ -506,7 +508,7 @@ proptest! {
     #[test]
     fn every_polygon_survives_a_table_bit_for_bit(mut curve in any_curve()) {
         curve.name = curve.name.trim().to_owned();
-        let bytes = super::super::table::write(&[&curve], PolygonKind::Float).expect("one curve").bytes;
+        let bytes = super::super::table::write(&[&curve], &[], PolygonKind::Float).expect("one curve").bytes;
         let back = super::super::table::read(&bytes).expect("what is written is read").curves;
         prop_assert_eq!(bits(&back[0]), bits(&curve));
         prop_assert_eq!((&back[0].name, &back[0].polygon), (&curve.name, &curve.polygon));
@@ -604,7 +606,7 @@ fn matches_are_read_and_written() {
             let expected = FileMatch {
                 curve: 1,
                 end: End::Start,
-                source: 0,
+                source: MatchSource::Curve(0),
                 place,
                 continuity: Continuity::G2,
                 reversed,

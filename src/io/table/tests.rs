@@ -3,6 +3,7 @@
 use super::*;
 use crate::document::Colour;
 use crate::geometry::FloatPolygon;
+use crate::geometry::references::Placement;
 
 fn curve(name: &str, vertices: &[[f64; 3]], weights: Option<Vec<f64>>, periodic: bool) -> Curve {
     let vertices = vertices.iter().map(|vertex| DVec3::from_array(*vertex));
@@ -37,7 +38,7 @@ fn rational() -> Curve {
 #[test]
 fn the_layout_is_as_described() {
     let check = |curve: Curve, expected: &str| {
-        let bytes = write(&[&curve], PolygonKind::Float).unwrap().bytes;
+        let bytes = write(&[&curve], &[], PolygonKind::Float).unwrap().bytes;
         assert_eq!(String::from_utf8(bytes).unwrap(), expected);
     };
     check(
@@ -57,7 +58,7 @@ fn the_layout_is_as_described() {
 #[test]
 fn tables_come_back_exactly() {
     let curves = [planar(), spatial(), rational()];
-    let export = write(&curves.each_ref(), PolygonKind::Float).unwrap();
+    let export = write(&curves.each_ref(), &[], PolygonKind::Float).unwrap();
     assert!(export.losses.is_empty(), "{}", export.losses);
     assert_eq!(read(&export.bytes).unwrap().curves, curves);
 }
@@ -70,7 +71,7 @@ fn what_a_table_does_not_hold_is_reported() {
     changed.visible = false;
     changed.locked = true;
     changed.targets.start = Some(crate::geometry::end_correction::EndTarget::default());
-    let losses = write(&[&changed], PolygonKind::Bezier).unwrap().losses;
+    let losses = write(&[&changed], &[], PolygonKind::Bezier).unwrap().losses;
     let losses: Vec<Loss> = losses.losses.into_iter().map(|(_, loss)| loss).collect();
     let expected = [
         Loss::Periodic,
@@ -81,7 +82,7 @@ fn what_a_table_does_not_hold_is_reported() {
     ];
     assert_eq!(losses, expected);
     assert!(matches!(
-        write(&[], PolygonKind::Float),
+        write(&[], &[], PolygonKind::Float),
         Err(WriteError::NoCurves { .. })
     ));
 }
@@ -126,7 +127,11 @@ fn what_is_wrong_is_named_with_its_place() {
     check("", "the file is empty");
     check("\n \n", "the file is empty");
     check(",,\n", hint);
-    check("\n\nx,y\n0,0\n", &format!("line 3: {hint}"));
+    check("\n\nx,y,weight\n0,0,1\n", &format!("line 3: {hint}"));
+    check(
+        "\n\nx,y\n0,0\n",
+        "line 3, reference 1 “points 1”: 1 points make no line: at least 2 are needed",
+    );
     check(
         "# degree=2 name=hull",
         "line 1, curve 1 “hull”: the table has no columns: put a line with their names, for example “x,y”, above its numbers",
@@ -248,7 +253,7 @@ fn every_name_survives_every_separator() {
         None,
         false,
     );
-    let bytes = write(&[&named], PolygonKind::Float).unwrap().bytes;
+    let bytes = write(&[&named], &[], PolygonKind::Float).unwrap().bytes;
     let text = String::from_utf8(bytes).unwrap();
     let (header, rows) = text.split_once('\n').unwrap();
     for separator in [",", ";", "\t"] {
@@ -297,8 +302,80 @@ fn comments_are_passed_over_and_told() {
 
 #[test]
 fn a_table_whose_curve_is_not_told_is_refused() {
-    for text in ["# points\nx,y\n0,0\n1,1\n", "# degre=1\nx;y\n0;0\n1;1\n"] {
-        let error = read(text.as_bytes()).unwrap_err();
-        assert_eq!(error.problem, Problem::NoTableHeader, "{text:?}");
+    let problem = |text: &str| read(text.as_bytes()).unwrap_err().problem;
+    for text in [
+        "a,b\n0,0\n1,1\n",
+        "# points\n0\n1\n",
+        "x,y,weight\n0,0,1\n1,1,1\n",
+    ] {
+        assert_eq!(problem(text), Problem::NoTableHeader, "{text:?}");
     }
+    let misspelled = Problem::UnknownKey("degre=1".to_owned());
+    assert_eq!(problem("# degre=1\nx;y\n0;0\n1;1\n"), misspelled);
+    assert_eq!(
+        problem("# polygon=bezier\nx,y\n0,0\n1,1\n"),
+        Problem::NoDegree
+    );
+}
+
+/// Check the points of a table's only list of them.
+fn check_points(text: &str, name: &str, expected: &[[f64; 3]]) {
+    let reading = read(text.as_bytes()).unwrap();
+    assert_eq!(reading.curves, [], "{text:?}");
+    let points = expected.iter().copied().map(DVec3::from_array).collect();
+    let list = ReferenceForm::Points(PointList::new(points).unwrap());
+    let expected = Reference::new(name, ReferenceCurve::of(list).unwrap());
+    assert_eq!(reading.references, [expected], "{text:?}");
+}
+
+#[test]
+fn a_table_without_a_degree_holds_points() {
+    let planar = [[0.0, 1.5, 0.0], [2.25, -3.0, 0.0]];
+    for text in [
+        "# points\nx,y\n0,1.5\n2.25,-3\n",
+        "x,y\n0,1.5\n2.25,-3\n",
+        "0,1.5\n2.25,-3\n",
+        "0\t1,5\n2,25\t-3\n",
+        "Y;X\n1,5;0\n-3;2,25\n",
+        "#\n# res=0.1\n0,1.5\n# half\n2.25,-3",
+    ] {
+        check_points(text, "points 1", &planar);
+    }
+    check_points("# name=scan\n0,1.5\n2.25,-3\n", "scan", &planar);
+    let spatial = [[0.0, 1.0, 2.0], [3.0, 4.0, 5.0], [6.0, 7.0, 8.0]];
+    check_points("x,y,z\n0,1,2\n3,4,5\n6,7,8\n", "points 1", &spatial);
+    let error = read(b"x,y\n0,1\n2,1e200\n").unwrap_err().to_string();
+    assert!(
+        error.starts_with("line 3, reference 1 “points 1”: point 1"),
+        "{error}"
+    );
+}
+
+#[test]
+fn curves_and_points_stand_in_one_file() {
+    let list = PointList::new(vec![DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0)]).unwrap();
+    let turned = Placement::new(glam::DQuat::from_rotation_z(0.5), 2.0, DVec3::X).unwrap();
+    let placed = ReferenceCurve::of(ReferenceForm::Points(list.clone())).unwrap();
+    let scan = Reference::new("scan", placed.placed(turned));
+    let circle = ReferenceCurve::from_text("circle:radius=2").unwrap();
+    let circle = Reference::new("round", circle);
+    let references = [&scan, &circle];
+    let export = write(&[&planar()], &references, PolygonKind::Float).unwrap();
+    assert_eq!(
+        export.losses.to_string(),
+        "“round”: the CSV table does not hold references: this one is not exported"
+    );
+    let reading = read(&export.bytes).unwrap();
+    assert_eq!(reading.curves, [planar()]);
+    let [read] = &reading.references[..] else {
+        panic!("{:?}", reading.references);
+    };
+    let ReferenceForm::Points(points) = read.curve.form() else {
+        panic!("{read:?}");
+    };
+    let expected = list.points().iter().map(|point| turned.point(*point));
+    assert_eq!(points.points(), expected.collect::<Vec<_>>());
+    assert_eq!(read.name, "scan");
+    let alone = write(&[], &[&circle], PolygonKind::Float);
+    assert!(matches!(alone, Err(WriteError::NoCurves { .. })));
 }

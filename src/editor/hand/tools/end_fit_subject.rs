@@ -162,6 +162,7 @@ impl<'a> Subject<'a> {
         Carried {
             vertices: all.map(|index| (self.id, index)).collect(),
             target: Some((self.id, self.end)),
+            reference: None,
         }
     }
 

@@ -38,8 +38,8 @@ impl MeasureTool {
             // The curve attracts where nothing more definite does.
             let snaps = context.snapping != context.modifiers.ctrl;
             let hit = context.hits.curve(view.to_screen(at)).filter(|_| snaps)?;
-            let curve = context.document.curve(hit.curve)?;
-            Some(curve.polygon.jet(hit.u).point)
+            let curve = context.document.shape(hit.curve)?;
+            Some(curve.jet(hit.u).point)
         };
         context
             .snapped_point(at, &Carried::default())

@@ -335,7 +335,7 @@ impl SelectTool {
             held,
             carried: Carried {
                 vertices: taken.into_iter().collect(),
-                target: None,
+                ..Carried::default()
             },
             planar: context.planar_curves(&vertices),
             vertices,

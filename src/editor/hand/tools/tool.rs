@@ -159,8 +159,20 @@ impl Context<'_> {
     /// something is near.
     pub fn snapped_point(&self, place: DVec2, carried: &Carried) -> Option<DVec3> {
         let snaps = self.snapping != self.modifiers.ctrl;
-        let near = || snapping::snap(place, self.before, carried, self.viewport);
+        let near = || {
+            let point = snapping::snap_to_point(place, self.before, carried, self.viewport);
+            point
+                .or_else(|| self.on_reference(place, carried))
+                .or_else(|| snapping::snap_to_grid(place, self.viewport))
+        };
         snaps.then(near).flatten()
+    }
+
+    /// The point of a reference that is seen near a place of the view plane.
+    fn on_reference(&self, place: DVec2, carried: &Carried) -> Option<DVec3> {
+        let place = self.viewport.to_screen(place);
+        let hit = self.hits.reference(place, carried.reference)?;
+        Some(self.document.shape(hit.curve)?.jet(hit.u).point)
     }
 
     /// The vertices that a transformation takes: the selected ones that can be moved, or all of

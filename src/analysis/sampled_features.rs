@@ -1,0 +1,165 @@
+//! Features of a curve that no polygon makes: found among samples, not proved.
+
+use super::curve_samples::SampledCurve;
+
+/// What rounding may make of a sampled curvature, in units of the largest one: smaller ups and
+/// downs are none.
+const ROUNDING: f64 = 1e-9;
+
+/// The golden section.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+/// Steps of a search in one dimension: each leaves at most 0.618 of an interval of two samples.
+const STEPS: usize = 40;
+
+/// A kind of sampled feature.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SampledKind {
+    /// The curvature of a planar curve changes its sign.
+    Inflection,
+    /// The curvature is greatest.
+    Maximum,
+    /// The curvature is least.
+    Minimum,
+}
+
+/// A feature that samples show.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SampledFeature {
+    /// What it is.
+    pub kind: SampledKind,
+    /// Where it is.
+    pub u: f64,
+    /// The curvature there: signed of a planar curve.
+    pub curvature: f64,
+}
+
+/// List the inflections and the extrema of the curvature within a curve that its samples show, in
+/// the order of u. An extremum must stand out from the samples around it by more than rounding.
+pub(super) fn sampled_features(sampled: SampledCurve<'_>) -> Vec<SampledFeature> {
+    let points = curvatures(sampled);
+    let largest = points.iter().map(|(_, value)| value.abs());
+    let noise = ROUNDING * largest.fold(0.0, f64::max);
+    let mut features = extrema(&points, noise, sampled);
+    if sampled.samples.is_planar() {
+        features.extend(inflections(&points, noise, sampled));
+    }
+    features.sort_by(|a, b| a.u.total_cmp(&b.u));
+    features
+}
+
+/// The finite curvatures of all samples, with their parameters.
+fn curvatures(sampled: SampledCurve<'_>) -> Vec<(f64, f64)> {
+    let samples = sampled.samples;
+    let steps = samples.steps() as f64;
+    let mut points: Vec<(f64, f64)> = Vec::new();
+    for piece in 0..samples.pieces() {
+        for (index, sample) in samples.piece(piece).iter().enumerate() {
+            let u = piece as f64 + index as f64 / steps;
+            // The end of a piece is the start of the next.
+            let is_new = points.last().is_none_or(|(last, _)| u > *last);
+            if is_new && sample.curvature.is_finite() {
+                points.push((u, sample.curvature));
+            }
+        }
+    }
+    points
+}
+
+fn curvature_at(sampled: SampledCurve<'_>, u: f64) -> f64 {
+    let planar = sampled.samples.is_planar();
+    sampled.curve.jet(u).curvature_of(planar)
+}
+
+/// The turns of a sequence: where it has risen by more than `noise` above what comes next, or
+/// fallen.
+fn extrema(points: &[(f64, f64)], noise: f64, sampled: SampledCurve<'_>) -> Vec<SampledFeature> {
+    let mut features = Vec::new();
+    let value = |index: usize| points.get(index).map_or(f64::NAN, |point| point.1);
+    let (mut low, mut high) = (0, 0);
+    // Whether the sequence rises, once it is known.
+    let mut rises: Option<bool> = None;
+    for index in 1..points.len() {
+        if value(index) > value(high) {
+            high = index;
+        }
+        if value(index) < value(low) {
+            low = index;
+        }
+        let has_risen = value(index) - value(low) > noise;
+        let has_fallen = value(high) - value(index) > noise;
+        match rises {
+            None | Some(false) if has_risen => {
+                if rises.is_some() {
+                    features.extend(extremum(SampledKind::Minimum, points, low, sampled));
+                }
+                (rises, high) = (Some(true), index);
+            }
+            None | Some(true) if has_fallen => {
+                if rises.is_some() {
+                    features.extend(extremum(SampledKind::Maximum, points, high, sampled));
+                }
+                (rises, low) = (Some(false), index);
+            }
+            _ => {}
+        }
+    }
+    features
+}
+
+/// Find an extremum between the neighbours of a sample by golden sections.
+fn extremum(
+    kind: SampledKind,
+    points: &[(f64, f64)],
+    index: usize,
+    sampled: SampledCurve<'_>,
+) -> Option<SampledFeature> {
+    let (before, after) = (points.get(index.checked_sub(1)?)?, points.get(index + 1)?);
+    let sign = if kind == SampledKind::Maximum {
+        1.0
+    } else {
+        -1.0
+    };
+    let height = |u: f64| sign * curvature_at(sampled, u);
+    let (mut from, mut to) = (before.0, after.0);
+    for _ in 0..STEPS {
+        let inner = GOLDEN * (to - from);
+        let (left, right) = (to - inner, from + inner);
+        if height(left) < height(right) {
+            from = left;
+        } else {
+            to = right;
+        }
+    }
+    let u = 0.5 * (from + to);
+    let curvature = curvature_at(sampled, u);
+    Some(SampledFeature { kind, u, curvature })
+}
+
+/// Find where the curvature changes its sign, by bisection between samples of different signs.
+fn inflections(
+    points: &[(f64, f64)],
+    noise: f64,
+    sampled: SampledCurve<'_>,
+) -> Vec<SampledFeature> {
+    let signed = points.iter().filter(|(_, value)| value.abs() > noise);
+    let signed: Vec<&(f64, f64)> = signed.collect();
+    let changes = signed.windows(2).filter(|pair| pair[0].1 * pair[1].1 < 0.0);
+    let bisected = changes.map(|pair| {
+        let (mut from, mut to) = (pair[0].0, pair[1].0);
+        for _ in 0..STEPS {
+            let middle = 0.5 * (from + to);
+            if curvature_at(sampled, middle) * pair[0].1 > 0.0 {
+                from = middle;
+            } else {
+                to = middle;
+            }
+        }
+        SampledFeature {
+            kind: SampledKind::Inflection,
+            u: 0.5 * (from + to),
+            curvature: 0.0,
+        }
+    });
+    bisected.collect()
+}

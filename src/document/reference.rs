@@ -1,0 +1,62 @@
+//! One reference of a document: what curves are drawn and measured against.
+
+use super::curve::Colour;
+use super::error::EditError;
+use super::extras::Extras;
+use crate::geometry::references::ReferenceCurve;
+
+/// Hold a reference: its curve or its points, which no vertices edit, and what the user calls it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reference {
+    /// The name shown in lists and written to files.
+    pub name: String,
+    /// The reference's own colour; `None` takes the theme's.
+    pub colour: Option<Colour>,
+    /// Whether it is drawn and can be picked.
+    pub visible: bool,
+    /// Whether its shape and place are protected from edits.
+    pub locked: bool,
+    /// Its curve, where it is placed.
+    pub curve: ReferenceCurve,
+    /// What its file said of it that this program does not know. Every edit keeps it; copies have
+    /// none.
+    pub extras: Extras,
+}
+
+impl Reference {
+    /// Make a visible, unlocked reference.
+    pub fn new(name: impl Into<String>, curve: ReferenceCurve) -> Self {
+        Self {
+            name: name.into(),
+            colour: None,
+            visible: true,
+            locked: false,
+            curve,
+            extras: Extras::default(),
+        }
+    }
+
+    /// Refuse if the reference cannot be changed: it is hidden or locked.
+    ///
+    /// # Errors
+    /// [`EditError::Hidden`] or [`EditError::Locked`].
+    pub fn check_editable(&self) -> Result<(), EditError> {
+        if !self.visible {
+            let name = self.name.clone();
+            return Err(EditError::Hidden { name });
+        }
+        self.check_unlocked()
+    }
+
+    /// Refuse if the reference is locked.
+    ///
+    /// # Errors
+    /// [`EditError::Locked`].
+    pub fn check_unlocked(&self) -> Result<(), EditError> {
+        if !self.locked {
+            return Ok(());
+        }
+        let name = self.name.clone();
+        Err(EditError::Locked { name })
+    }
+}

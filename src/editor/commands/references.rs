@@ -1,0 +1,204 @@
+//! Adding references, and changing what they are and where they lie.
+
+use glam::{DQuat, DVec2, DVec3};
+
+use crate::document::{CurveId, Edit, Reference};
+use crate::editor::Editor;
+use crate::editor::reply::{Note, Refusal, Reply};
+use crate::editor::view::outline::Bounds;
+use crate::geometry::ParametricCurve;
+use crate::geometry::references::{
+    AnalyticForm, Placement, ReferenceCurve, ReferenceError, ReferenceForm, ReferenceKind,
+};
+use crate::io::Reading;
+
+/// A new reference is placed elsewhere if less than this share of the view's smaller side shows it.
+const SMALLEST: f64 = 0.1;
+
+/// The share of the view's smaller side that a reference gets then, about.
+const SHARE: f64 = 0.4;
+
+/// Points by which the extent of a new reference is found.
+const SAMPLES: usize = 64;
+
+/// A change of a reference.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ReferenceChange {
+    /// Give a parameter of its kind, by its number, another value.
+    Value(usize, f64),
+    /// Begin or end at another parameter t.
+    Interval([f64; 2]),
+    /// Put its origin elsewhere.
+    Translate(DVec3),
+    /// Turn it otherwise.
+    Rotate(DQuat),
+    /// Make it larger or smaller.
+    Scale(f64),
+}
+
+impl ReferenceChange {
+    /// What the step of undo is called.
+    fn label(&self) -> &'static str {
+        match self {
+            Self::Value(..) => "Change reference",
+            Self::Interval(_) => "Change interval of reference",
+            Self::Translate(_) => "Move reference",
+            Self::Rotate(_) => "Rotate reference",
+            Self::Scale(_) => "Scale reference",
+        }
+    }
+
+    /// Make the changed curve.
+    fn applied_to(&self, curve: &ReferenceCurve) -> Result<ReferenceCurve, ReferenceError> {
+        let now = *curve.placement();
+        let (rotation, scale, translation) = (now.rotation(), now.scale(), now.translation());
+        let placed = |rotation, scale, translation| {
+            let placement = Placement::new(rotation, scale, translation)?;
+            Ok(curve.clone().placed(placement))
+        };
+        match self {
+            Self::Value(index, value) => {
+                let ReferenceForm::Analytic(form) = curve.form() else {
+                    return Ok(curve.clone());
+                };
+                let mut values = form.values().to_vec();
+                if let Some(own) = values.get_mut(*index) {
+                    *own = *value;
+                }
+                let form = ReferenceForm::Analytic(AnalyticForm::new(form.kind(), values)?);
+                // An interval that was never chosen is the new values' own.
+                let is_default = curve.interval() == curve.form().default_interval();
+                let interval = match is_default {
+                    true => form.default_interval(),
+                    false => curve.interval(),
+                };
+                ReferenceCurve::new(form, interval, now)
+            }
+            Self::Interval(interval) => ReferenceCurve::new(curve.form().clone(), *interval, now),
+            Self::Translate(to) => placed(rotation, scale, *to),
+            Self::Rotate(to) => placed(*to, scale, translation),
+            Self::Scale(to) => placed(rotation, *to, translation),
+        }
+    }
+}
+
+impl Editor {
+    /// Change the active reference, as one step. The reply is told.
+    ///
+    /// # Errors
+    /// [`Refusal`] if there is none, or it cannot be so; nothing is changed then.
+    pub fn change_reference(&mut self, change: &ReferenceChange) -> Reply {
+        match self.reference_edit(change) {
+            Ok(edit) => self.apply(change.label(), vec![edit]),
+            Err(refusal) => {
+                self.interrupt();
+                self.tell(Err(refusal))
+            }
+        }
+    }
+
+    /// Show what a change would make of the active reference, as while its field is dragged; what
+    /// cannot be is passed over.
+    pub fn preview_reference(&mut self, change: &ReferenceChange) {
+        if let Ok(edit) = self.reference_edit(change) {
+            self.preview(change.label(), vec![edit]);
+        }
+    }
+
+    fn reference_edit(&self, change: &ReferenceChange) -> Result<Edit, Refusal> {
+        let active = self.active_reference();
+        let (reference, found) = active.ok_or("There is no reference")?;
+        let curve = change.applied_to(&found.curve);
+        let curve = curve.map_err(|error| error.to_string())?;
+        Ok(Edit::SetReference { reference, curve })
+    }
+
+    /// Add a reference of a kind, with its defaults, where it can be seen, and make it active.
+    pub(in crate::editor) fn add_reference(&mut self, kind: &'static ReferenceKind) -> Reply {
+        let form = AnalyticForm::new(kind, kind.defaults()).map_err(|error| error.to_string())?;
+        let curve = ReferenceCurve::of(ReferenceForm::Analytic(form));
+        self.add_reference_curve(kind.label, curve.map_err(|error| error.to_string())?)
+    }
+
+    fn add_reference_curve(&mut self, label: &str, curve: ReferenceCurve) -> Reply {
+        let curve = self.placed_in_sight(curve);
+        let name = self.document().free_name(&label.to_lowercase());
+        let references = vec![Reference::new(name, curve)];
+        let added = Reading {
+            references,
+            ..Reading::default()
+        };
+        self.add("Add reference", added)?;
+        Ok(Note::silent())
+    }
+
+    /// Leave a new reference where its formula puts it if it is well seen there; otherwise put it in
+    /// the middle of the view, at a scale of 1, 2 or 5 times a power of ten.
+    fn placed_in_sight(&self, curve: ReferenceCurve) -> ReferenceCurve {
+        let view = self.view.viewport.view_box();
+        let smaller = (view.high - view.low).min_element();
+        let bounds = self.bounds_of_new(&curve);
+        let extent = (bounds.high - bounds.low).max_element();
+        let is_inside = bounds.low.cmpge(view.low).all() && bounds.high.cmple(view.high).all();
+        let usable = smaller > 0.0 && smaller.is_finite() && extent > 0.0;
+        if self.document().is_empty() || !usable || (is_inside && extent >= SMALLEST * smaller) {
+            return curve;
+        }
+        let scale = rounded_scale(SHARE * smaller / extent);
+        let middle = 0.5 * (bounds.low + bounds.high);
+        let shift = self
+            .view
+            .viewport
+            .orientation
+            .lift(0.5 * (view.low + view.high) - scale * middle);
+        let shift = if curve.is_planar() {
+            DVec3::new(shift.x, shift.y, 0.0)
+        } else {
+            shift
+        };
+        match Placement::new(DQuat::IDENTITY, scale, shift) {
+            Ok(placement) => curve.placed(placement),
+            Err(_) => curve,
+        }
+    }
+
+    fn bounds_of_new(&self, curve: &ReferenceCurve) -> Bounds {
+        let mut bounds = Bounds::EMPTY;
+        for sample in 0..=SAMPLES {
+            let u = curve.pieces() as f64 * sample as f64 / SAMPLES as f64;
+            let seen: DVec2 = self.view.viewport.flatten(curve.jet(u).point);
+            bounds.add(seen);
+        }
+        bounds
+    }
+
+    /// The active reference, if it is one.
+    pub fn active_reference_id(&self) -> Option<CurveId> {
+        self.active_reference().map(|(id, _)| id)
+    }
+}
+
+/// The largest of 1, 2 and 5 times a power of ten that is no larger than a factor.
+fn rounded_scale(factor: f64) -> f64 {
+    let power = 10f64.powf(factor.log10().floor());
+    let share = factor / power;
+    let step = match share {
+        _ if share >= 5.0 => 5.0,
+        _ if share >= 2.0 => 2.0,
+        _ => 1.0,
+    };
+    step * power
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scales_are_round() {
+        for (factor, expected) in [(1.0, 1.0), (7.3, 5.0), (0.034, 0.02), (199.0, 100.0)] {
+            let found = rounded_scale(factor);
+            assert!((found / expected - 1.0).abs() < 1e-12, "{factor}: {found}");
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! What project files say of references.
+
+use std::collections::BTreeMap;
+
+use glam::{DQuat, DVec3};
+use serde::{Deserialize, Serialize};
+
+use super::error::{Place, Problem, ReadError};
+use super::project_values::{Coordinates, HexColour};
+use crate::document::{Extras, Reference};
+use crate::geometry::references::{
+    AnalyticForm, KINDS, Placement, PointList, ReferenceCurve, ReferenceError, ReferenceForm,
+    ReferenceKind, find,
+};
+
+/// A reference as what it is: a kind with its values, or points, each over an interval and placed.
+#[derive(Deserialize, Serialize)]
+#[serde(expecting = "a reference, which is a JSON object")]
+pub(super) struct FileReference {
+    #[serde(default)]
+    name: Option<String>,
+    #[serde(default, alias = "color", skip_serializing_if = "Option::is_none")]
+    colour: Option<HexColour>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    visible: Option<bool>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    locked: Option<bool>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    kind: Option<String>,
+    /// The kind's values by their names; those that are left out have their defaults.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    values: BTreeMap<String, f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    points: Option<Vec<Coordinates>>,
+    /// The interval of the parameter t.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    interval: Option<[f64; 2]>,
+    /// A quaternion, its real part last.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    rotation: Option<[f64; 4]>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    scale: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    translation: Option<Coordinates>,
+}
+
+impl FileReference {
+    /// Write a reference.
+    pub(super) fn of(reference: &Reference) -> Self {
+        let curve = &reference.curve;
+        let mut written = Self {
+            name: Some(reference.name.clone()),
+            colour: reference.colour.map(HexColour),
+            visible: (!reference.visible).then_some(false),
+            locked: reference.locked.then_some(true),
+            kind: None,
+            values: BTreeMap::new(),
+            points: None,
+            interval: None,
+            rotation: None,
+            scale: None,
+            translation: None,
+        };
+        match curve.form() {
+            ReferenceForm::Analytic(form) => {
+                let names = form.kind().parameters.iter().map(|it| it.name.to_owned());
+                written.kind = Some(form.kind().name.to_owned());
+                written.values = names.zip(form.values().iter().copied()).collect();
+                written.interval = Some(curve.interval());
+            }
+            ReferenceForm::Points(list) => {
+                let planar = list.is_planar();
+                let points = list.points().iter();
+                let points = points.map(|point| Coordinates::of(*point, planar));
+                written.points = Some(points.collect());
+            }
+        }
+        let placement = curve.placement();
+        if *placement != Placement::default() {
+            written.rotation = Some(placement.rotation().to_array());
+            written.scale = Some(placement.scale());
+            written.translation = Some(Coordinates::of(placement.translation(), true));
+        }
+        written
+    }
+
+    /// Check the reference with this number, counted from 1.
+    ///
+    /// # Errors
+    /// [`ReadError`] with the reference.
+    pub(super) fn into_reference(self, number: usize) -> Result<Reference, ReadError> {
+        let given = self.name.clone().filter(|name| !name.trim().is_empty());
+        let name = given.unwrap_or_else(|| format!("reference {number}"));
+        let (colour, visible, locked) = (self.colour.clone(), self.visible, self.locked);
+        let curve = self.into_curve();
+        let curve = curve.map_err(|problem| Place::reference(number, &name).problem(problem))?;
+        Ok(Reference {
+            colour: colour.map(|colour| colour.0),
+            visible: visible.unwrap_or(true),
+            locked: locked.unwrap_or(false),
+            extras: Extras::default(),
+            ..Reference::new(name, curve)
+        })
+    }
+
+    fn into_curve(self) -> Result<ReferenceCurve, Problem> {
+        let placement = self.placement()?;
+        let form = match (self.kind, self.points) {
+            (Some(kind), None) => ReferenceForm::Analytic(analytic(&kind, &self.values)?),
+            (None, Some(points)) => {
+                let points = points.into_iter().map(DVec3::from).collect();
+                ReferenceForm::Points(PointList::new(points)?)
+            }
+            _ => return Err(Problem::NoReference),
+        };
+        let interval = self.interval.unwrap_or_else(|| form.default_interval());
+        Ok(ReferenceCurve::new(form, interval, placement)?)
+    }
+
+    fn placement(&self) -> Result<Placement, ReferenceError> {
+        let none = Placement::default();
+        let rotation = self.rotation.map_or(none.rotation(), DQuat::from_array);
+        let translation = self.translation.clone().map(DVec3::from);
+        Placement::new(
+            rotation,
+            self.scale.unwrap_or(none.scale()),
+            translation.unwrap_or(none.translation()),
+        )
+    }
+}
+
+/// Find a kind, and give it values by their names.
+fn analytic(name: &str, values: &BTreeMap<String, f64>) -> Result<AnalyticForm, Problem> {
+    let kind = find(name).ok_or_else(|| Problem::NoSuchKind {
+        name: name.to_owned(),
+        known: KINDS
+            .iter()
+            .map(|kind| kind.name)
+            .collect::<Vec<_>>()
+            .join(", "),
+    })?;
+    let is_known = |name: &String| kind.parameters.iter().any(|it| it.name == name);
+    if let Some(name) = values.keys().find(|name| !is_known(name)) {
+        let (kind, name) = (kind.name, name.clone());
+        return Err(Problem::NoSuchValue { kind, name });
+    }
+    Ok(AnalyticForm::new(kind, given_values(kind, values))?)
+}
+
+fn given_values(kind: &ReferenceKind, values: &BTreeMap<String, f64>) -> Vec<f64> {
+    let parameters = kind.parameters.iter();
+    let value = parameters.map(|it| values.get(it.name).copied().unwrap_or(it.default));
+    value.collect()
+}
