@@ -183,11 +183,10 @@ impl Action {
 
     /// Whether the action can be asked for now.
     pub fn is_enabled(self, editor: &Editor) -> bool {
-        let active = || editor.document().curve(editor.active()?);
         match self {
             Self::Command(command) => editor.is_enabled(command),
             Self::ExportDxf | Self::ExportCsv(_) => !editor.document().is_empty(),
-            Self::Cut | Self::Copy => active().is_some(),
+            Self::Cut | Self::Copy => editor.active().is_some(),
             _ => true,
         }
     }

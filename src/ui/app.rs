@@ -399,8 +399,8 @@ impl App {
         let extension = format.extension();
         let stem = self.editor.workspace().path().and_then(Path::file_stem);
         let name = stem.map(|stem| stem.to_string_lossy().into_owned());
-        let active = || self.editor.document().curve(self.editor.active()?);
-        let name = name.or_else(|| Some(active()?.name.clone()));
+        let active = || self.editor.document().name(self.editor.active()?);
+        let name = name.or_else(|| active().map(str::to_owned));
         let name = name.unwrap_or_else(|| "curves".into());
         let proposal = self.folder().join(format!("{name}.{extension}"));
         let export = Export { extension, polygon };

@@ -1,4 +1,4 @@
-//! The list of curves.
+//! The list of curves, and of references below them.
 
 use eframe::egui::{
     Align2, Color32, CursorIcon, Key, Rect, Response, Role, ScrollArea, Sense, Stroke, StrokeKind,
@@ -9,14 +9,14 @@ use lucide_icons::Icon;
 use super::action::Action;
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
-use crate::document::{Curve, CurveId, Edit};
+use crate::document::{Colour, Curve, CurveId, Edit, Reference};
 use crate::editor::{Command, Editor, told};
 
 /// The list's own state: the name that is being typed.
 #[derive(Default)]
 pub struct CurveList {
     renaming: Option<Renaming>,
-    /// The active curve whose row was brought into sight.
+    /// The active curve or reference whose row was brought into sight.
     in_sight: Option<CurveId>,
 }
 
@@ -32,6 +32,7 @@ enum Asked {
     Rename(CurveId),
     Lock(CurveId, bool),
     Show(CurveId, bool),
+    Renamed(CurveId, String),
     Edit(&'static str, Edit),
 }
 
@@ -51,30 +52,19 @@ impl CurveList {
             .auto_shrink([false, false])
             .show(ui, |ui| {
                 ui.spacing_mut().item_spacing.y = 0.0;
-                let curves: Vec<_> = editor
-                    .document()
-                    .curves()
-                    .map(|(id, curve)| (id, curve.clone()))
-                    .collect();
-                let active = editor.active();
-                for (place, (id, curve)) in curves.iter().enumerate() {
-                    let row = Row {
-                        id: *id,
-                        curve,
-                        place,
-                        active: active == Some(*id),
-                    };
+                for row in rows(editor) {
                     if let Some(more) = self.row_ui(ui, &row) {
                         asked = Some(more);
                     }
                 }
-                self.in_sight = active;
+                self.in_sight = editor.active();
             });
         match asked {
             Some(Asked::Activate(curve)) => editor.activate(curve),
             Some(Asked::Rename(curve)) => self.begin_renaming(editor, curve),
             Some(Asked::Lock(curve, locked)) => told(editor.set_locked(curve, locked)),
             Some(Asked::Show(curve, visible)) => told(editor.set_visible(curve, visible)),
+            Some(Asked::Renamed(curve, name)) => told(editor.rename(curve, name)),
             Some(Asked::Edit(label, edit)) => {
                 told(editor.apply(label, vec![edit]));
             }
@@ -83,10 +73,7 @@ impl CurveList {
     }
 
     fn begin_renaming(&mut self, editor: &mut Editor, curve: CurveId) {
-        let text = editor
-            .document()
-            .curve(curve)
-            .map(|curve| curve.name.clone());
+        let text = editor.document().name(curve).map(str::to_owned);
         self.renaming = text.map(|text| Renaming {
             curve,
             text,
@@ -94,7 +81,7 @@ impl CurveList {
         });
     }
 
-    fn row_ui(&mut self, ui: &mut Ui, row: &Row<'_>) -> Option<Asked> {
+    fn row_ui(&mut self, ui: &mut Ui, row: &Row) -> Option<Asked> {
         let (rect, response) =
             ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click_and_drag());
         row.paint(ui, rect, &response);
@@ -128,12 +115,12 @@ impl CurveList {
             asked = self.renaming_ui(ui, name).or(asked);
         } else {
             let tokens = Tokens::of(ui);
-            let colour = match (row.active, row.curve.visible) {
+            let colour = match (row.active, row.visible) {
                 (true, _) => tokens.strong_text,
                 (false, true) => tokens.text,
                 (false, false) => tokens.faint_text,
             };
-            widgets::label_in(ui, name, &row.curve.name, colour);
+            widgets::label_in(ui, name, &row.name, colour);
         }
         asked
     }
@@ -154,10 +141,7 @@ impl CurveList {
         }
         let Renaming { curve, text, .. } = self.renaming.take()?;
         let called_off = ui.input(|input| input.key_pressed(Key::Escape));
-        (!called_off).then_some(Asked::Edit(
-            "Rename curve",
-            Edit::Rename { curve, name: text },
-        ))
+        (!called_off).then_some(Asked::Renamed(curve, text))
     }
 }
 
@@ -170,21 +154,20 @@ fn heading_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
                 (Icon::Trash2, Command::DeleteCurve),
                 (Icon::CopyPlus, Command::Duplicate),
             ] {
-                let name = command.label();
+                let name = editor.label(command);
                 let button = IconButton::new(icon, &name).enabled(editor.is_enabled(command));
                 if button.tooltip(command.tooltip()).show(ui).clicked() {
                     commands.push(command.into());
                 }
             }
             let place = editor.active().and_then(|active| {
-                let place = editor.document().ids().position(|id| id == active)?;
-                Some((active, place))
+                let own = rows(editor).into_iter().find(|row| row.id == active)?;
+                Some((active, own.place, own.last))
             });
-            let last = editor.document().len().saturating_sub(1);
             let down = place
-                .filter(|(_, place)| *place < last)
-                .map(|(id, place)| (id, place + 1));
-            let up = place.and_then(|(id, place)| Some((id, place.checked_sub(1)?)));
+                .filter(|(_, place, last)| place < last)
+                .map(|(id, place, _)| (id, place + 1));
+            let up = place.and_then(|(id, place, _)| Some((id, place.checked_sub(1)?)));
             for (icon, name, to) in [
                 (Icon::ArrowDown, "Move curve down", down),
                 (Icon::ArrowUp, "Move curve up", up),
@@ -198,14 +181,78 @@ fn heading_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
     });
 }
 
-struct Row<'a> {
+/// A row of the list: a curve or a reference.
+struct Row {
     id: CurveId,
-    curve: &'a Curve,
+    is_reference: bool,
+    name: String,
+    colour: Option<Colour>,
+    visible: bool,
+    locked: bool,
+    /// Its place among the curves, or among the references.
     place: usize,
+    /// The last place there.
+    last: usize,
     active: bool,
 }
 
-impl Row<'_> {
+/// The rows of all curves, then of all references.
+fn rows(editor: &Editor) -> Vec<Row> {
+    let (document, active) = (editor.document(), editor.active());
+    let (curves, references) = (document.curves(), document.references());
+    let [last_curve, last_reference] = [curves.len(), references.len()].map(|it| it.max(1) - 1);
+    let curves = curves.enumerate().map(|(place, (id, curve))| {
+        let Curve {
+            name,
+            colour,
+            visible,
+            locked,
+            ..
+        } = &**curve;
+        Row {
+            id,
+            is_reference: false,
+            name: name.clone(),
+            colour: *colour,
+            visible: *visible,
+            locked: *locked,
+            place,
+            last: last_curve,
+            active: active == Some(id),
+        }
+    });
+    let references = references.enumerate().map(|(place, (id, reference))| {
+        let Reference {
+            name,
+            colour,
+            visible,
+            locked,
+            ..
+        } = &**reference;
+        Row {
+            id,
+            is_reference: true,
+            name: name.clone(),
+            colour: *colour,
+            visible: *visible,
+            locked: *locked,
+            place,
+            last: last_reference,
+            active: active == Some(id),
+        }
+    });
+    curves.chain(references).collect()
+}
+
+impl Row {
+    /// What screen readers and tooltips call it.
+    fn noun(&self) -> &'static str {
+        match self.is_reference {
+            true => "reference",
+            false => "curve",
+        }
+    }
+
     fn paint(&self, ui: &Ui, rect: Rect, response: &Response) {
         let tokens = Tokens::of(ui);
         if self.active || response.hovered() {
@@ -221,15 +268,16 @@ impl Row<'_> {
         }
         let centre = rect.left_center() + vec2(4.0 * STEP, 0.0);
         let swatch = Rect::from_center_size(centre, Vec2::splat(3.0 * STEP));
-        swatch_in(
-            ui,
-            swatch,
-            self.curve.colour.map_or(tokens.curve, theme::of_document),
-        );
-        let name = &self.curve.name;
-        response.widget_info(|| {
-            WidgetInfo::selected(Role::ListItem, true, self.active, format!("curve {name}"))
-        });
+        let own = self.colour.map(theme::of_document);
+        if self.is_reference {
+            let colour = own.unwrap_or(tokens.reference);
+            widgets::icon(ui, swatch, Icon::SplinePointer, colour);
+        } else {
+            swatch_in(ui, swatch, own.unwrap_or(tokens.curve));
+        }
+        let label = format!("{} {}", self.noun(), self.name);
+        response
+            .widget_info(|| WidgetInfo::selected(Role::ListItem, true, self.active, label.clone()));
     }
 
     /// A row can be dragged to another place.
@@ -256,7 +304,7 @@ impl Row<'_> {
             curve,
             place: self.place,
         };
-        (curve != self.id).then_some(Asked::Edit("reorder curves", edit))
+        (curve != self.id).then_some(Asked::Edit("Reorder curves", edit))
     }
 
     fn switches_ui(&self, ui: &mut Ui, row: Rect) -> Option<Asked> {
@@ -270,15 +318,11 @@ impl Row<'_> {
         };
         let Self {
             id: curve,
-            curve:
-                Curve {
-                    name,
-                    visible,
-                    locked,
-                    ..
-                },
+            name,
+            visible,
+            locked,
             ..
-        } = *self;
+        } = self;
         let mut asked = None;
         let (icon, colour) = if *locked {
             (Icon::Lock, tokens.text)
@@ -290,7 +334,7 @@ impl Row<'_> {
             .colour(colour)
             .tooltip("Protect the shape from edits");
         if button.show(ui).clicked() {
-            asked = Some(Asked::Lock(curve, !locked));
+            asked = Some(Asked::Lock(*curve, !locked));
         }
         let (icon, colour) = if *visible {
             (Icon::Eye, faint)
@@ -300,9 +344,9 @@ impl Row<'_> {
         let label = format!("Show {name}");
         let button = IconButton::new(icon, &label)
             .colour(colour)
-            .tooltip("Show or hide the curve");
+            .tooltip(format!("Show or hide the {}", self.noun()));
         if button.show(ui).clicked() {
-            asked = Some(Asked::Show(curve, !visible));
+            asked = Some(Asked::Show(*curve, !visible));
         }
         asked
     }

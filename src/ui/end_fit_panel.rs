@@ -10,7 +10,7 @@ use super::end_fit_match::match_ui;
 use super::end_fit_steps::{
     angle_text, field_width, figure_pairs, indented, remark_ui, step_button, step_ui,
 };
-use super::inspector::range;
+use super::figures::range;
 use super::number_field::{FieldEvent, NumberField};
 use super::theme::{ROW, STEP, Tokens};
 use super::widgets::IconButton;

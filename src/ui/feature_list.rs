@@ -1,4 +1,4 @@
-//! The list of proved features in the inspector, and the chip that tells the verdict.
+//! The list of features in the inspector, and the chip that tells the verdict.
 
 use std::time::Duration;
 
@@ -57,7 +57,7 @@ fn rows_ui(ui: &mut Ui, report: &FeatureReport, own: Option<f64>) -> Option<f64>
     let mut chosen = None;
     area.show_rows(ui, ROW, report.rows.len(), |ui, range| {
         for row in report.rows.get(range).unwrap_or_default() {
-            if row_ui(ui, row, own == Some(row.middle)).clicked() {
+            if row_ui(ui, row, report.sampled, own == Some(row.middle)).clicked() {
                 chosen = Some(row.middle);
             }
         }
@@ -79,10 +79,18 @@ fn verdict_ui(ui: &mut Ui, report: &FeatureReport) {
 fn verdict(report: &FeatureReport) -> (Icon, String) {
     let extrema = report.count(&[FeatureKind::CurvatureMaximum, FeatureKind::CurvatureMinimum]);
     if report.polyline {
-        return (
-            Icon::Minus,
-            "A polyline: corners have no curvature".to_owned(),
-        );
+        let text = match report.sampled {
+            true => "Points have no curvature",
+            false => "A polyline: corners have no curvature",
+        };
+        return (Icon::Minus, text.to_owned());
+    }
+    if report.sampled {
+        let text = match extrema {
+            0 => "No curvature extremum sampled".to_owned(),
+            count => format!("{} sampled", count_extrema(count)),
+        };
+        return (Icon::ChartSpline, text);
     }
     match report.monotone {
         Verdict::Disproved if report.has_doubts => {
@@ -138,6 +146,11 @@ pub fn chip_ui(ui: &mut Ui, editor: &mut Editor) -> Option<Response> {
     let response = ui.add(button).accessible_name("Verdict");
     let inflections = report.count(&[FeatureKind::Inflection]);
     let undecided = report.count(&[FeatureKind::Undecided]);
+    if report.sampled {
+        let tooltip =
+            "Features of references are sampled, not proved. The inspector lists them all.";
+        return Some(response.on_hover_text(tooltip));
+    }
     let tooltip = format!(
         "Proved for the numbers as they are: {}, {} undecided. The inspector lists them all.",
         counted(inflections, "inflection", "inflections"),
@@ -160,7 +173,7 @@ fn short_name(kind: FeatureKind) -> &'static str {
     }
 }
 
-fn row_ui(ui: &mut Ui, row: &FeatureRow, is_chosen: bool) -> Response {
+fn row_ui(ui: &mut Ui, row: &FeatureRow, sampled: bool, is_chosen: bool) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
     let tokens = Tokens::of(ui);
     if is_chosen {
@@ -183,7 +196,9 @@ fn row_ui(ui: &mut Ui, row: &FeatureRow, is_chosen: bool) -> Response {
     let u = if high - low > WIDE {
         format!("u {} … {}", figure(low), figure(high))
     } else {
-        format!("u {}", figure(row.middle))
+        let name = if sampled { "t" } else { "u" };
+        let at = if sampled { low } else { row.middle };
+        format!("{name} {}", figure(at))
     };
     let mut left = rect.with_min_x(rect.left() + 6.0 * STEP);
     left.max.x -= if high - low > WIDE { 24.0 } else { 36.0 } * STEP;
@@ -197,10 +212,17 @@ fn row_ui(ui: &mut Ui, row: &FeatureRow, is_chosen: bool) -> Response {
     };
     widgets::number_in(ui, place, &u, tokens.text);
     let value = row.value.map_or(String::new(), |bounds| {
+        if sampled {
+            return figures::significant(bounds[0], DIGITS);
+        }
         certain_text(bounds, DIGITS).unwrap_or_else(|| "?".to_owned())
     });
     widgets::number_in(ui, inner, &value, tokens.text);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{name} at {u}")));
+    if sampled {
+        let tooltip = format!("{}, sampled\nt {low}. Click to go there.", row.kind.label());
+        return response.on_hover_text(tooltip);
+    }
     let width = figures::significant(high - low, 2);
     response.on_hover_text(format!(
         "{}\nu from {low}\nto {high}\n{width} wide. Click to go there and to see the shortest moves found that lose it.",

@@ -1,5 +1,6 @@
 //! Numbers as the screen shows them.
 
+use crate::geometry::Range;
 pub use crate::geometry::significant;
 
 /// The most characters a number is written plainly with.
@@ -71,6 +72,14 @@ pub fn read(text: &str) -> Option<f64> {
         })
         .collect();
     plain.parse().ok().filter(|value: &f64| value.is_finite())
+}
+
+/// Write a range as "low … high".
+pub fn range(range: Option<Range>, text: impl Fn(f64) -> String) -> String {
+    range.map_or_else(
+        || "–".to_owned(),
+        |range| format!("{} … {}", text(range.low), text(range.high)),
+    )
 }
 
 fn without_negative_zero(text: String) -> String {

@@ -10,13 +10,14 @@ use super::feature_list::feature_list_ui;
 use super::figures;
 use super::harmony_list::harmony_list_ui;
 use super::number_field::{FieldEvent, NumberField};
+use super::reference_panel;
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
 use super::transform_panel::TransformPanel;
 use super::vertex_table::VertexTable;
 use super::widgets::{self, IconButton};
-use crate::document::{Colour, Curve, CurveId, Edit};
+use crate::document::{Colour, Curve, CurveId, Reference};
 use crate::editor::{CurveReport, Editor, told};
-use crate::geometry::{MAX_DEGREE, Range};
+use crate::geometry::MAX_DEGREE;
 use crate::operations::{Value, reinterpret_degree};
 
 /// The inspector's own state.
@@ -33,6 +34,10 @@ impl Inspector {
     pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor) {
         self.transform.show(ui, editor);
         let active = editor.active();
+        let reference = active.and_then(|id| Some((id, editor.document().reference(id)?.clone())));
+        if let Some((id, reference)) = reference {
+            return self.reference_sections_ui(ui, editor, id, &reference);
+        }
         let found = active.and_then(|id| Some((id, editor.document().curve(id)?.clone())));
         let Some((id, curve)) = found else {
             ui.strong("Inspector");
@@ -62,28 +67,68 @@ impl Inspector {
         }
     }
 
+    fn reference_sections_ui(
+        &mut self,
+        ui: &mut Ui,
+        editor: &mut Editor,
+        id: CurveId,
+        reference: &Reference,
+    ) {
+        let may_change = reference.check_editable().is_ok();
+        widgets::section(ui, "Inspector", true, |ui| {
+            ui.push_id(id, |ui| {
+                widgets::form_row(ui, "Name", |ui| {
+                    self.name_ui(ui, editor, id, &reference.name)
+                });
+                let default = Tokens::of(ui).reference;
+                widgets::form_row(ui, "Colour", |ui| {
+                    colour_ui(ui, editor, id, (reference.colour, default));
+                });
+                widgets::form_row(ui, "State", |ui| {
+                    state_ui(ui, editor, id, [reference.visible, reference.locked]);
+                });
+            });
+        });
+        widgets::section(ui, reference.curve.form().label(), true, |ui| {
+            ui.push_id(id, |ui| {
+                ui.add_enabled_ui(may_change, |ui| {
+                    reference_panel::shape_ui(ui, editor, reference);
+                });
+            });
+        });
+        widgets::section(ui, "Placement", true, |ui| {
+            ui.push_id(id, |ui| {
+                ui.add_enabled_ui(may_change, |ui| {
+                    reference_panel::placement_ui(ui, editor, &reference.curve);
+                });
+            });
+        });
+        widgets::section(ui, "Figures", true, |ui| {
+            if let Some(report) = editor.reference_report() {
+                reference_panel::figures_ui(ui, reference, &report);
+            }
+        });
+        widgets::section(ui, "Features", true, |ui| feature_list_ui(ui, editor));
+    }
+
     fn curve_ui(&mut self, ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
-        widgets::form_row(ui, "Name", |ui| self.name_ui(ui, editor, id, curve));
-        widgets::form_row(ui, "Colour", |ui| colour_ui(ui, editor, id, curve));
+        widgets::form_row(ui, "Name", |ui| self.name_ui(ui, editor, id, &curve.name));
+        let default = Tokens::of(ui).curve;
+        widgets::form_row(ui, "Colour", |ui| {
+            colour_ui(ui, editor, id, (curve.colour, default));
+        });
         ui.add_enabled_ui(curve.check_editable().is_ok(), |ui| {
             widgets::form_row(ui, "Degree", |ui| degree_ui(ui, editor, curve));
             widgets::form_row(ui, "Ends", |ui| ends_ui(ui, editor, id, curve));
         });
         widgets::form_row(ui, "State", |ui| {
-            let mut visible = curve.visible;
-            if ui.checkbox(&mut visible, "Visible").clicked() {
-                told(editor.set_visible(id, visible));
-            }
-            let mut locked = curve.locked;
-            if ui.checkbox(&mut locked, "Locked").clicked() {
-                told(editor.set_locked(id, locked));
-            }
+            state_ui(ui, editor, id, [curve.visible, curve.locked]);
         });
     }
 
-    fn name_ui(&mut self, ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
+    fn name_ui(&mut self, ui: &mut Ui, editor: &mut Editor, id: CurveId, name: &str) {
         let typed = self.name.take().filter(|(owner, _)| *owner == id);
-        let mut text = typed.map_or_else(|| curve.name.clone(), |(_, text)| text);
+        let mut text = typed.map_or_else(|| name.to_owned(), |(_, text)| text);
         let field = TextEdit::singleline(&mut text)
             .desired_width(f32::INFINITY)
             .align(Align2::LEFT_CENTER)
@@ -91,14 +136,8 @@ impl Inspector {
         let response = ui.add(field).accessible_name("Name");
         if response.lost_focus() {
             let called_off = ui.input(|input| input.key_pressed(Key::Escape));
-            if !called_off && text.trim() != curve.name {
-                told(editor.apply(
-                    "Rename curve",
-                    vec![Edit::Rename {
-                        curve: id,
-                        name: text,
-                    }],
-                ));
+            if !called_off && text.trim() != name {
+                told(editor.rename(id, text));
             }
         } else if response.has_focus() {
             self.name = Some((id, text));
@@ -148,11 +187,27 @@ fn ends_ui(ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
     }
 }
 
-/// A swatch that opens a choice of colours.
-fn colour_ui(ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
-    let tokens = Tokens::of(ui);
-    let shown = curve.colour.map_or(tokens.curve, theme::of_document);
-    let name = if curve.colour.is_some() {
+/// Switches for what a curve or a reference is: visible, locked.
+fn state_ui(ui: &mut Ui, editor: &mut Editor, id: CurveId, [visible, locked]: [bool; 2]) {
+    let mut shown = visible;
+    if ui.checkbox(&mut shown, "Visible").clicked() {
+        told(editor.set_visible(id, shown));
+    }
+    let mut protected = locked;
+    if ui.checkbox(&mut protected, "Locked").clicked() {
+        told(editor.set_locked(id, protected));
+    }
+}
+
+/// A swatch that opens a choice of colours; shows the own colour, or the theme's.
+fn colour_ui(
+    ui: &mut Ui,
+    editor: &mut Editor,
+    id: CurveId,
+    (own, default): (Option<Colour>, Color32),
+) {
+    let shown = own.map_or(default, theme::of_document);
+    let name = if own.is_some() {
         "Its own"
     } else {
         "Of the theme"
@@ -172,7 +227,7 @@ fn colour_ui(ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
             chosen = Some(None);
         }
         if let Some(colour) = chosen {
-            recolour(editor, id, colour);
+            told(editor.recolour(id, colour));
             ui.close();
         }
     });
@@ -196,10 +251,6 @@ fn choice_ui(ui: &mut Ui, name: &str, colour: Color32) -> eframe::egui::Response
     response.on_hover_text(name)
 }
 
-fn recolour(editor: &mut Editor, curve: CurveId, colour: Option<Colour>) {
-    told(editor.apply("Recolour curve", vec![Edit::Recolour { curve, colour }]));
-}
-
 fn figures_ui(ui: &mut Ui, curve: &Curve, report: &CurveReport) {
     ui.spacing_mut().item_spacing.y = 0.0;
     let kind = match (report.planar, curve.polygon.weights().is_some()) {
@@ -212,10 +263,10 @@ fn figures_ui(ui: &mut Ui, curve: &Curve, report: &CurveReport) {
     widgets::figure_row(ui, "Segments", &report.segments.to_string());
     widgets::figure_row(ui, "Length", &figures::significant(report.length, 8));
     let plain = |value: f64| figures::significant(value, 6);
-    widgets::figure_row(ui, "Curvature", &range(report.curvature, plain));
-    widgets::figure_row(ui, "Legs", &range(report.legs, plain));
+    widgets::figure_row(ui, "Curvature", &figures::range(report.curvature, plain));
+    widgets::figure_row(ui, "Legs", &figures::range(report.legs, plain));
     let angle = |value: f64| figures::degrees(value, 3);
-    widgets::figure_row(ui, "Turning angles", &range(report.turns, angle));
+    widgets::figure_row(ui, "Turning angles", &figures::range(report.turns, angle));
     let text = format!(
         "× {}",
         figures::significant(report.amplification.largest, 4)
@@ -226,12 +277,4 @@ fn figures_ui(ui: &mut Ui, curve: &Curve, report: &CurveReport) {
         figures::significant(report.amplification.norm, 4)
     );
     widgets::figure_row(ui, "Closed to float", &text).on_hover_text(tooltip);
-}
-
-/// Write a range as "low … high".
-pub fn range(range: Option<Range>, text: impl Fn(f64) -> String) -> String {
-    range.map_or_else(
-        || "–".to_owned(),
-        |range| format!("{} … {}", text(range.low), text(range.high)),
-    )
 }

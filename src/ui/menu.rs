@@ -10,6 +10,7 @@ use super::theme::Tokens;
 use super::{icons, keyboard, widgets};
 use crate::editor::{Command, Editor, Follow, Layer, NamedView, ToolKind};
 use crate::geometry::PolygonKind;
+use crate::geometry::references::KINDS;
 use crate::io::examples::EXAMPLES;
 use crate::operations;
 
@@ -21,6 +22,7 @@ enum Entry {
     Action(Action),
     Divider,
     Examples,
+    References,
 }
 
 use Entry::{Action as Item, Divider};
@@ -40,6 +42,9 @@ pub fn menu_ui(ui: &mut Ui, editor: &mut Editor, shell: &Shell, commands: &mut V
                         Item(action) => item_ui(ui, editor, shell, action, commands),
                         Divider => {
                             ui.separator();
+                        }
+                        Entry::References => {
+                            references_ui(ui, editor, shell, commands);
                         }
                         Entry::Examples => {
                             examples_ui(ui, editor, shell, commands);
@@ -91,6 +96,8 @@ fn menus() -> [(&'static str, Vec<Entry>); 6] {
         command(Command::ToggleKeeping),
     ];
     let mut curve = vec![
+        Entry::References,
+        Divider,
         command(Command::Duplicate),
         command(Command::DeleteCurve),
         Divider,
@@ -150,6 +157,24 @@ fn examples_ui(ui: &mut Ui, editor: &Editor, shell: &Shell, commands: &mut Vec<A
         }
     });
     response.response.accessible_name("Examples");
+}
+
+/// The kinds of references that can be added, from their table.
+fn references_ui(ui: &mut Ui, editor: &Editor, shell: &Shell, commands: &mut Vec<Action>) {
+    let title = (blank(), "Add reference");
+    let response = ui.menu_button(title, |ui| {
+        ui.set_min_width(WIDTH);
+        for kind in KINDS {
+            item_ui(
+                ui,
+                editor,
+                shell,
+                Command::AddReference(kind).into(),
+                commands,
+            );
+        }
+    });
+    response.response.accessible_name("Add reference");
 }
 
 fn item_ui(

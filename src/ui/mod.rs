@@ -41,6 +41,7 @@ mod palette;
 mod paper_pages;
 mod paper_panel;
 mod plots;
+mod reference_panel;
 mod shell;
 mod status_bar;
 mod theme;

@@ -94,6 +94,9 @@ impl Brush<'_> {
     fn curve(&self, curve: &CurveScene) {
         let fade = fading(curve);
         let own = curve.colour.map(theme::of_document);
+        if curve.is_reference {
+            return self.reference(curve, own.unwrap_or(self.tokens.reference));
+        }
         let colour = fade(own.unwrap_or(self.tokens.curve));
         let width = if curve.active { 2.0 } else { 1.5 };
         let tokens = self.tokens;
@@ -108,6 +111,33 @@ impl Brush<'_> {
             if let Some(at) = self.screen.point(*point) {
                 let across = vec2(normal.x as f32, -normal.y as f32) * TICK;
                 self.painter.line_segment([at - across, at + across], tick);
+            }
+        }
+    }
+
+    /// References are thinner than curves; of lists of points it is the points that count.
+    fn reference(&self, reference: &CurveScene, colour: Color32) {
+        let strength = match (reference.active, reference.locked) {
+            (true, _) => 1.0,
+            (false, false) => 0.75,
+            (false, true) => 0.55,
+        };
+        let colour = colour.gamma_multiply(strength);
+        let is_list = !reference.points.is_empty();
+        let width = if reference.active { 1.75 } else { 1.25 };
+        let line = match is_list {
+            true => Stroke::new(1.0, colour.gamma_multiply(0.5)),
+            false => Stroke::new(width, colour),
+        };
+        self.chain(&reference.curve, line);
+        let radius = match (reference.active, reference.points.len() > CROWD) {
+            (_, true) => 1.5,
+            (false, false) => 2.0,
+            (true, false) => 2.5,
+        };
+        for point in &reference.points {
+            if let Some(at) = self.screen.point(*point) {
+                self.painter.circle_filled(at, radius, colour);
             }
         }
     }

@@ -70,6 +70,8 @@ pub struct Tokens {
     pub clamped: Color32,
     /// The joints between segments.
     pub joints: Color32,
+    /// References: quieter than curves.
+    pub reference: Color32,
     /// The evolute.
     pub evolute: Color32,
     /// The curvature comb, its envelope.
@@ -137,6 +139,7 @@ static DARK: Tokens = Tokens {
     float: rgb(0xF5A524),
     clamped: rgb(0x2DD4BF),
     joints: rgb(0x94A3B8),
+    reference: rgb(0x94A3B8),
     evolute: rgb(0xA78BFA),
     comb: rgb(0x5B9BF5),
     comb_teeth: at_35_percent(0x5B9BF5),
@@ -170,6 +173,7 @@ static LIGHT: Tokens = Tokens {
     float: rgb(0xC27803),
     clamped: rgb(0x0F8F80),
     joints: rgb(0x64748B),
+    reference: rgb(0x64748B),
     evolute: rgb(0x6D4AE0),
     comb: rgb(0x2F6FD0),
     comb_teeth: at_35_percent(0x2F6FD0),

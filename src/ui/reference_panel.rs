@@ -1,0 +1,154 @@
+//! The inspector of a reference: what it is, where it lies, and its figures.
+
+use eframe::egui::Ui;
+use glam::{DQuat, DVec3, EulerRot};
+
+use super::figures;
+use super::number_field::{FieldEvent, NumberField};
+use super::widgets;
+use crate::document::Reference;
+use crate::editor::{Editor, ReferenceChange, ReferenceReport, told};
+use crate::geometry::references::{AnalyticForm, ReferenceCurve, ReferenceForm};
+
+/// The width of a field that stands alone.
+const FIELD: f32 = 120.0;
+
+/// The width of fields that stand side by side.
+const NARROW: f32 = 64.0;
+
+/// Show what a reference is, in fields made from its kind's table of parameters.
+pub fn shape_ui(ui: &mut Ui, editor: &mut Editor, reference: &Reference) {
+    let curve = &reference.curve;
+    match curve.form() {
+        ReferenceForm::Analytic(form) => {
+            widgets::note(ui, form.kind().help);
+            parameters_ui(ui, editor, form);
+            interval_ui(ui, editor, curve);
+        }
+        ReferenceForm::Points(list) => {
+            widgets::figure_row(ui, "Points", &list.points().len().to_string());
+        }
+    }
+}
+
+fn parameters_ui(ui: &mut Ui, editor: &mut Editor, form: &AnalyticForm) {
+    let parameters = form.kind().parameters.iter().zip(form.values());
+    for (index, (parameter, value)) in parameters.enumerate() {
+        let row = widgets::form_row(ui, parameter.label, |ui| {
+            let event = field(parameter.label, *value).width(FIELD).show(ui).1;
+            changed(editor, event, |value| ReferenceChange::Value(index, value));
+        });
+        row.response.on_hover_text(parameter.help);
+    }
+}
+
+fn interval_ui(ui: &mut Ui, editor: &mut Editor, curve: &ReferenceCurve) {
+    let [from, to] = curve.interval();
+    widgets::form_row(ui, "t from", |ui| {
+        let event = field("t from", from).width(NARROW).show(ui).1;
+        changed(editor, event, |from| ReferenceChange::Interval([from, to]));
+        widgets::caption(ui, "to");
+        let event = field("t to", to).width(NARROW).show(ui).1;
+        changed(editor, event, |to| ReferenceChange::Interval([from, to]));
+    });
+}
+
+/// Show where a reference lies: its origin, how it is turned, and its scale.
+pub fn placement_ui(ui: &mut Ui, editor: &mut Editor, curve: &ReferenceCurve) {
+    let placement = curve.placement();
+    let at = placement.translation();
+    let pixel = editor.view().viewport().pixel();
+    widgets::form_row(ui, "Origin", |ui| {
+        let axes = [("x", DVec3::X), ("y", DVec3::Y), ("z", DVec3::Z)];
+        for (name, axis) in axes {
+            let value = at.dot(axis);
+            let label = format!("origin {name}");
+            let shown = figures::significant(value, 6);
+            let field = NumberField::new(&label, value, shown).speed(pixel);
+            let event = field.width(NARROW).show(ui).1;
+            changed(editor, event, |to| {
+                ReferenceChange::Translate(at + axis * (to - value))
+            });
+        }
+    });
+    rotation_ui(ui, editor, placement.rotation());
+    widgets::form_row(ui, "Scale", |ui| {
+        let event = field("reference scale", placement.scale());
+        let event = event.width(FIELD).show(ui).1;
+        changed(editor, event, ReferenceChange::Scale);
+    });
+}
+
+/// One angle about the z axis; three where the reference is turned otherwise.
+fn rotation_ui(ui: &mut Ui, editor: &mut Editor, rotation: DQuat) {
+    let about_z = rotation.x == 0.0 && rotation.y == 0.0;
+    if about_z {
+        let angle = (2.0 * rotation.z.atan2(rotation.w)).to_degrees();
+        // From −180° to 180°.
+        let angle = angle - 360.0 * (angle / 360.0).round();
+        widgets::form_row(ui, "Angle", |ui| {
+            let event = angle_field("reference angle", angle)
+                .width(FIELD)
+                .show(ui)
+                .1;
+            changed(editor, event, |angle| {
+                ReferenceChange::Rotate(DQuat::from_rotation_z(angle.to_radians()))
+            });
+        });
+        return;
+    }
+    let (z, y, x) = rotation.to_euler(EulerRot::ZYX);
+    let angles = [x, y, z];
+    widgets::form_row(ui, "Angles", |ui| {
+        for (index, name) in ["angle x", "angle y", "angle z"].into_iter().enumerate() {
+            let shown = angles[index].to_degrees();
+            let event = angle_field(name, shown).width(NARROW).show(ui).1;
+            changed(editor, event, |angle| {
+                let mut angles = angles;
+                angles[index] = angle.to_radians();
+                let [x, y, z] = angles;
+                ReferenceChange::Rotate(DQuat::from_euler(EulerRot::ZYX, z, y, x))
+            });
+        }
+    });
+}
+
+fn field(name: &str, value: f64) -> NumberField<'_> {
+    let speed = (0.01 * value.abs()).max(1e-3);
+    NumberField::new(name, value, figures::significant(value, 6)).speed(speed)
+}
+
+fn angle_field(name: &str, degrees: f64) -> NumberField<'_> {
+    let shown = format!("{}°", figures::significant(degrees, 6));
+    NumberField::new(name, degrees, shown).speed(0.5)
+}
+
+/// Do what a field was dragged or typed to.
+fn changed(editor: &mut Editor, event: FieldEvent, change: impl Fn(f64) -> ReferenceChange) {
+    match event {
+        FieldEvent::Idle => {}
+        FieldEvent::Preview(value) => editor.preview_reference(&change(value)),
+        FieldEvent::Commit => editor.commit_preview(),
+        FieldEvent::Abort => editor.abort_preview(),
+        FieldEvent::Typed(value) => told(editor.change_reference(&change(value))),
+    }
+}
+
+/// Show the figures of a reference, which are those of its samples.
+pub fn figures_ui(ui: &mut Ui, reference: &Reference, report: &ReferenceReport) {
+    ui.spacing_mut().item_spacing.y = 0.0;
+    let kind = match report.planar {
+        true => "planar",
+        false => "in space",
+    };
+    widgets::fact_row(
+        ui,
+        "Kind",
+        &format!("{kind}, {}", reference.curve.form().label().to_lowercase()),
+    );
+    widgets::figure_row(ui, "Length", &figures::significant(report.length, 8));
+    if reference.curve.form().is_smooth() {
+        let plain = |value: f64| figures::significant(value, 6);
+        widgets::figure_row(ui, "Curvature", &figures::range(report.curvature, plain));
+    }
+}
