@@ -75,7 +75,7 @@ fn moves(criterion: &mut Criterion) {
     let nobody = Progress::default();
     for (name, rational) in [("polynomial", false), ("rational", true)] {
         let polygon = wavy(60, 9, 0.0, rational);
-        let proved = SegmentFeatures::of_curve(&polygon, &nobody).unwrap_or_default();
+        let proved = SegmentFeatures::of_curve(&polygon, |_| true).unwrap_or_default();
         let vertex = 30;
         let mut prover = MoveProver::new(&polygon, &proved, vec![vertex]).expect("a vertex");
         let place = polygon.vertices()[vertex] + DVec3::new(0.01, 0.02, 0.0);
@@ -83,7 +83,7 @@ fn moves(criterion: &mut Criterion) {
             bencher.iter(|| prover.rise(black_box(&[place])));
         });
         let search = |levels: usize| {
-            let proved = SegmentFeatures::of_curve(&polygon, &nobody).unwrap_or_default();
+            let proved = SegmentFeatures::of_curve(&polygon, |_| true).unwrap_or_default();
             let search = RegionSearch::new(black_box(&polygon), &proved, vertex);
             let mut search = search.expect("a planar curve");
             for _ in 0..levels {

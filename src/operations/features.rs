@@ -8,7 +8,7 @@ use super::harmony_json;
 use super::input::Input;
 use super::outcome::Outcome;
 use crate::document::{Curve, CurveId, Document};
-use crate::geometry::features::{Features, Quantity, SegmentProver, Verdict};
+use crate::geometry::features::{Features, Quantity, Verdict};
 use crate::geometry::harmony::{Harmony, SegmentFairness};
 use crate::geometry::{FloatPolygon, Progress};
 
@@ -156,19 +156,13 @@ impl Proof<'_> {
     }
 
     fn proof(&mut self, polygon: &FloatPolygon) -> Option<(Features, Harmony)> {
-        let planar = polygon.is_planar();
-        let mut prover = SegmentProver::new(planar);
-        let mut fairness = Vec::with_capacity(polygon.segments());
-        let mut segments = Vec::with_capacity(polygon.segments());
-        for segment in 0..polygon.segments() {
-            if self.progress.is_cancelled() {
-                return None;
-            }
-            segments.push(prover.segment(polygon, segment));
-            fairness.push(SegmentFairness::new(polygon, segment, planar));
+        let features = Features::proved(polygon, |_| {
             self.advance(1);
-        }
-        let features = Features::assemble(polygon, &segments);
+            !self.progress.is_cancelled()
+        })?;
+        let planar = polygon.is_planar();
+        let fairness = |segment| SegmentFairness::new(polygon, segment, planar);
+        let fairness: Vec<_> = (0..polygon.segments()).map(fairness).collect();
         let harmony = Harmony::assemble(polygon, &features, &fairness);
         Some((features, harmony))
     }
