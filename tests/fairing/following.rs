@@ -1,9 +1,13 @@
 //! Neighbours that follow what is moved by hand.
 
-use batten::geometry::fairing::following::{Moved, follow_in_harmony, follow_softly};
+use batten::geometry::end_correction::{EndDifference, EndTarget};
+use batten::geometry::fairing::following::{
+    Moved, follow_in_harmony, follow_softly, follow_target,
+};
+use batten::geometry::fairing::joint_correction::{CorrectionError, Disturbance, correct_jointly};
 use batten::geometry::polygon_figures::{discrete_curvature, turning_angle};
-use batten::geometry::{ClampedPolygon, FloatPolygon};
-use glam::DVec3;
+use batten::geometry::{ClampedPolygon, Continuity, End, FloatPolygon};
+use glam::{DQuat, DVec3};
 
 use crate::check_ends;
 use crate::common::Random;
@@ -139,4 +143,87 @@ fn large_moves_do_not_fold_the_polygon() {
             assert!(most < 1.2, "span {span}, {legs} legs: {most}");
         }
     }
+}
+
+/// A target near to what an end has, up to some level.
+fn near_target(
+    polygon: &FloatPolygon,
+    end: End,
+    level: Continuity,
+    random: &mut Random,
+    in_space: bool,
+) -> EndTarget {
+    let own = level.target(&polygon.end_jet(end), !in_space);
+    let turn = DQuat::from_rotation_z(random.vector(0.3, false).x);
+    EndTarget {
+        point: own.point + random.vector(0.5, in_space),
+        direction: own.direction.map(|direction| turn * direction),
+        normal: own.normal.map(|normal| turn * normal),
+        curvature: own.curvature.map(|curvature| 1.2 * curvature),
+        slope: own.slope,
+    }
+}
+
+#[test]
+fn an_end_follows_its_target_and_the_other_end_and_what_is_far_or_locked_stays() {
+    let mut random = Random(77);
+    for trial in 0..120 {
+        let in_space = trial % 3 == 1;
+        let degree = 3 + trial % 6;
+        let count = [40, 2 * degree + 1][trial % 2];
+        let polygon = fair(count, degree, in_space, false);
+        let end = End::BOTH[trial / 2 % 2];
+        let level = Continuity::ALL[trial / 4 % Continuity::ALL.len()];
+        let target = near_target(&polygon, end, level, &mut random, in_space);
+        let (span, locked) = (6, [count / 2]);
+        let found = follow_target(&polygon, end, &target, span, STIFFNESS, &locked);
+        let found = found.unwrap_or_else(|error| panic!("trial {trial}: {error}"));
+        let left = EndDifference::between(&found, end, &target).residual(polygon.size());
+        assert!(left <= 1e-9 * polygon.size(), "trial {trial}: {left:e}");
+        let other = end.other();
+        let kept = Continuity::G1.target(&polygon.end_jet(other), !in_space);
+        let moved = EndDifference::between(&found, other, &kept).residual(polygon.size());
+        assert!(moved <= 1e-12 * polygon.size(), "trial {trial}: {moved:e}");
+        for index in 0..count {
+            let from_end = if end == End::Start {
+                index
+            } else {
+                count - 1 - index
+            };
+            if from_end >= degree + span || locked.contains(&index) {
+                assert_eq!(found.vertex(index), polygon.vertex(index), "trial {trial}");
+            }
+        }
+        assert_eq!(found.is_planar(), !in_space, "trial {trial}");
+    }
+}
+
+#[test]
+fn following_a_target_is_smoother_than_the_least_disturbance() {
+    let polygon = fair(40, 5, false, false);
+    let jet = polygon.end_jet(End::Finish);
+    let target = EndTarget {
+        point: jet.point + DVec3::new(0.8, 0.6, 0.0),
+        direction: jet.tangent(),
+        ..EndTarget::default()
+    };
+    let followed = follow_target(&polygon, End::Finish, &target, 10, 1e-6, &[]);
+    let targets = [(End::Finish, target)];
+    let least = correct_jointly(&polygon, &targets, Disturbance::Differences(1), &[]);
+    let followed = roughness(&followed.expect("reached"));
+    let least = roughness(&least.expect("reached").polygon);
+    assert!(followed < 0.5 * least, "{followed} {least}");
+}
+
+#[test]
+fn a_target_out_of_reach_is_refused() {
+    let polygon = fair(12, 4, false, false);
+    let mut target = Continuity::G1.target(&polygon.end_jet(End::Start), true);
+    target.point.x += 0.1;
+    let all: Vec<usize> = (0..12).collect();
+    let found = follow_target(&polygon, End::Start, &target, 3, STIFFNESS, &all);
+    assert!(matches!(found, Err(CorrectionError::NotSolvable { .. })));
+    let closed = fair(12, 4, false, true);
+    let found = follow_target(&closed, End::Start, &target, 3, STIFFNESS, &[]);
+    assert_eq!(found, Err(CorrectionError::Periodic));
 }

@@ -1,13 +1,15 @@
-//! Whether the neighbours of dragged vertices follow, and how far.
+//! Whether the neighbours of dragged vertices and targets follow, and how far.
 
 use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use crate::document::{CurveId, Document, Edit, EditError};
+use crate::document::{Curve, CurveId, Document, Edit, EditError};
 use crate::editor::hand::selection::VertexId;
-use crate::geometry::fairing::following::{Moved, follow_in_harmony, follow_softly};
-use crate::geometry::{FloatPolygon, PolygonError, counted, significant};
+use crate::geometry::end_correction::EndTarget;
+use crate::geometry::fairing::following::{Moved, follow_in_harmony, follow_softly, follow_target};
+use crate::geometry::fairing::joint_correction::CorrectionError;
+use crate::geometry::{End, FloatPolygon, PolygonError, counted, significant};
 
 /// How neighbours follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -37,7 +39,7 @@ impl Follow {
                 "Let the neighbours of dragged vertices follow, the farther the less; the wheel sets how many"
             }
             Self::InHarmony => {
-                "Let the neighbours of dragged vertices follow so that the polygon stays harmonious, with the ends held; the wheel sets how many, with Shift how stiff they are"
+                "Let the neighbours of dragged vertices follow so that the polygon stays harmonious, with the ends held, and an end its dragged target; the wheel sets how many, with Shift how stiff they are"
             }
         }
     }
@@ -157,6 +159,27 @@ impl Following {
             }
             Some(Follow::Softly) | None => polygon.with_clamped_vertex(index, place),
         })
+    }
+
+    /// Whether the ends of curves follow their targets while these are dragged: in harmony alone, as a
+    /// falloff meets no direction.
+    pub fn follows_targets(&self) -> bool {
+        self.follow == Some(Follow::InHarmony)
+    }
+
+    /// Bring an end to a target, its neighbours following in harmony.
+    ///
+    /// # Errors
+    /// [`CorrectionError`] if the target cannot be met.
+    pub fn to_target(
+        &self,
+        curve: &Curve,
+        end: End,
+        target: &EndTarget,
+    ) -> Result<FloatPolygon, CorrectionError> {
+        let locked: Vec<usize> = curve.locked_vertices.iter().collect();
+        let (span, stiffness) = (self.span(), self.stiffness);
+        follow_target(&curve.polygon, end, target, span, stiffness, &locked)
     }
 
     fn edit(

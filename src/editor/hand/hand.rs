@@ -50,8 +50,14 @@ impl Hand {
 
     /// Whether the wheel sets how the neighbours of what is dragged follow.
     pub fn turns_following(&self) -> bool {
-        let selects = self.tool() == ToolKind::Select;
-        selects && self.is_dragging() && self.following.follow.is_some()
+        let follow = match self.tool() {
+            ToolKind::Select => self.following.follow.is_some(),
+            ToolKind::EndFit => {
+                self.tools.end_fit.drags_target() && self.following.follows_targets()
+            }
+            _ => false,
+        };
+        follow && self.is_dragging()
     }
 
     /// Whether a drag keeps features: it adds no curvature extremum and no inflection.

@@ -1,12 +1,13 @@
-//! Neighbours that follow a moved vertex: by harmony, or by a falloff.
+//! Neighbours that follow a moved vertex or the target of an end: by harmony, or by a falloff.
 
 use glam::DVec3;
 
+use super::joint_correction::{CorrectionError, Disturbance, correct_jointly};
 use super::objective::Objective;
 use super::problem::Problem;
 use crate::geometry::clamped_polygon::ClampedPolygon;
 use crate::geometry::end::End;
-use crate::geometry::end_correction::{EndDifference, EndTarget};
+use crate::geometry::end_correction::{EndDifference, EndTarget, align_end, translate_end};
 use crate::geometry::error::PolygonError;
 use crate::geometry::float_polygon::FloatPolygon;
 
@@ -123,6 +124,80 @@ pub fn follow_in_harmony(
             None => return Ok(followed),
         }
     }
+}
+
+/// Let an end of an open curve go to a target, and the vertices near it follow so that the polygon is
+/// harmonious there.
+///
+/// The n terminal vertices of the end and up to `span` others beside them minimise the functional of
+/// [`follow_in_harmony`], with the target as a condition. The `locked` vertices and all others stay,
+/// and so do the point and direction of the other end.
+///
+/// # Errors
+/// [`CorrectionError`] if the curve is periodic, a direction is 0, or the target cannot be met.
+pub fn follow_target(
+    polygon: &FloatPolygon,
+    end: End,
+    target: &EndTarget,
+    span: usize,
+    stiffness: f64,
+    locked: &[usize],
+) -> Result<FloatPolygon, CorrectionError> {
+    let mut near = vec![false; polygon.vertices().len()];
+    for vertex in polygon.terminal_vertices(end) {
+        mark_near(&mut near, vertex, span, false);
+    }
+    let moves = |vertex: usize| near[vertex] && !locked.contains(&vertex);
+    let mut targets = vec![(end, *target)];
+    let other = end.other();
+    if polygon.terminal_vertices(other).any(|vertex| near[vertex]) {
+        targets.extend(kept(polygon, other).map(|kept| (other, kept)));
+    }
+    let held = (0..near.len()).filter(|vertex| !moves(*vertex));
+    let held: Vec<usize> = held.collect();
+    let begun = carried(polygon, end, target, span, locked)?;
+    let met = correct_jointly(&begun, &targets, Disturbance::Differences(1), &held)?.polygon;
+    let planar = polygon.is_planar() && met.is_planar();
+    let mut problem = Problem::new(&met, planar, moves);
+    for (end, target) in &targets {
+        problem.hold(end.parameter(polygon), target, None);
+    }
+    problem.moved_from(polygon.vertices());
+    let harmony = problem.harmony(ORDER, stiffness);
+    let followed = problem.descend(harmony, met.vertices(), MOST_STEPS);
+    let followed = problem.polygon(&followed.vertices)?;
+    let left = |polygon: &FloatPolygon| {
+        let residuals = targets.iter().map(|(end, target)| {
+            EndDifference::between(polygon, *end, target).residual(polygon.size())
+        });
+        residuals.fold(0.0, f64::max)
+    };
+    // Curvatures are no linear conditions: a step may lose them.
+    let allowed = left(&met).max(HELD * met.size());
+    Ok(if left(&followed) <= allowed {
+        followed
+    } else {
+        met
+    })
+}
+
+/// Carry the terminal vertices of an end to a target's point and direction as one body, and their
+/// neighbours along by a falloff: from there the way to harmony is short.
+fn carried(
+    polygon: &FloatPolygon,
+    end: End,
+    target: &EndTarget,
+    span: usize,
+    locked: &[usize],
+) -> Result<FloatPolygon, PolygonError> {
+    let vector = EndDifference::between(polygon, end, target).vector;
+    let mut body = translate_end(polygon, end, vector)?;
+    if let Some(direction) = target.direction {
+        body = align_end(&body, end, direction)?;
+    }
+    let terminal = polygon.terminal_vertices(end);
+    let moves: Vec<(usize, DVec3)> = terminal.map(|index| (index, body.vertex(index))).collect();
+    follow_softly(polygon, &moves, span, locked)
 }
 
 /// Let the neighbours of moved vertices follow by a falloff, without any solving: a vertex that is

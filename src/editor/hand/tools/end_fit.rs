@@ -6,7 +6,7 @@ use super::end_fit_drags::{
     drag_body, drag_circle, drag_direction, drag_ring, drag_target, is_near, missing_angle,
 };
 use super::end_fit_subject::{Handle, Subject};
-use super::tool::{Context, Cursor, Effect, Tool};
+use super::tool::{Context, Cursor, Effect, Tool, followers_label};
 use crate::document::{Edit, EndMatch, MatchPlace};
 use crate::editor::hand::end_fit::{
     EndFitAction, EndFitSettings, LastAction, nearest_other_end, other_ends,
@@ -89,6 +89,13 @@ impl Tool for EndFitTool {
             );
         }
         let name = subject.end.name();
+        if let Some(words) = context.following.words()
+            && self.follows(context)
+        {
+            return format!(
+                "The {name} follows its target, {words}: the wheel sets how many, with Shift how stiff they are; Esc cancels"
+            );
+        }
         match &self.state {
             State::Target { .. } => "Drag the target point; Shift keeps to an axis".into(),
             State::Direction => "Drag the target direction; Shift keeps to 15°".into(),
@@ -105,7 +112,17 @@ impl Tool for EndFitTool {
                 let place = context
                     .pointer
                     .map(|pointer| context.viewport.to_screen(pointer));
-                match place.and_then(|place| subject.handle(place, context)) {
+                let handle = place.and_then(|place| subject.handle(place, context));
+                let is_target = matches!(
+                    handle,
+                    Some(Handle::Target | Handle::Direction | Handle::Circle)
+                );
+                if is_target && context.following.follows_targets() {
+                    return format!(
+                        "Drag the target, and the {name} follows it in harmony; N lets the curve stay"
+                    );
+                }
+                match handle {
                     Some(Handle::Target) => "Drag to move the target point".into(),
                     Some(Handle::Direction) => "Drag to turn the target direction".into(),
                     Some(Handle::Circle) => format!(
@@ -137,6 +154,10 @@ impl Tool for EndFitTool {
                 snapped: Some(place),
                 ..
             } => vec![Mark::Snap(*place)],
+            _ if self.follows(context) => {
+                let label = context.pointer.and_then(|at| followers_label(at, context));
+                label.into_iter().collect()
+            }
             _ => Vec::new(),
         }
     }
@@ -174,6 +195,19 @@ impl EndFitTool {
         self.state = State::Idle;
         self.settings.picking = false;
         self.settings.closed = false;
+    }
+
+    /// Whether a target is dragged: its point, its direction or its circle.
+    pub fn drags_target(&self) -> bool {
+        matches!(
+            self.state,
+            State::Target { .. } | State::Direction | State::Circle
+        )
+    }
+
+    /// Whether the end follows the target that is dragged.
+    fn follows(&self, context: &Context) -> bool {
+        self.drags_target() && context.following.follows_targets()
     }
 
     fn click(&mut self, place: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
@@ -261,6 +295,12 @@ impl EndFitTool {
         let shapes = matches!(state, State::Body { .. } | State::Ring { .. });
         if !shapes && let Some(refused) = subject.refused_by_match(context) {
             return vec![Effect::Say(refused)];
+        }
+        if !shapes
+            && context.following.follows_targets()
+            && let Err(refused) = subject.curve.check_editable()
+        {
+            return vec![Effect::Say(refused.to_string())];
         }
         if shapes && let Err(refused) = subject.check_movable() {
             return vec![Effect::Say(refused.to_string())];

@@ -6,7 +6,7 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::end_fit_subject::Subject;
 use super::tool::{Context, Effect};
-use crate::document::Edit;
+use crate::document::{Edit, quoted};
 use crate::editor::hand::snapping::{along_axis, by_fifteen_degrees};
 use crate::editor::view::hit::REACH;
 use crate::editor::view::osculating_circle::OsculatingCircle;
@@ -29,8 +29,7 @@ pub(super) fn drag_target(wanted: DVec2, subject: &Subject, context: &Context) -
     };
     let movement = context.movement(to - from, subject.is_planar());
     let point = target.point + movement;
-    let moved = subject.with_target(EndTarget { point, ..target });
-    vec![Effect::Preview(vec![moved])]
+    dragged(EndTarget { point, ..target }, subject, context)
 }
 
 pub(super) fn drag_direction(at: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
@@ -58,7 +57,7 @@ pub(super) fn drag_direction(at: DVec2, subject: &Subject, context: &Context) ->
         direction,
         ..target
     };
-    vec![Effect::Preview(vec![subject.with_target(target)])]
+    dragged(target, subject, context)
 }
 
 /// Give the target the curvature of the circle that touches its direction and passes through a
@@ -87,7 +86,23 @@ pub(super) fn drag_circle(at: DVec2, subject: &Subject, context: &Context) -> Ve
         },
         ..target
     };
-    vec![Effect::Preview(vec![subject.with_target(target)])]
+    dragged(target, subject, context)
+}
+
+/// Show a target that is dragged, and the curve whose end follows it if neighbours follow in harmony.
+fn dragged(target: EndTarget, subject: &Subject, context: &Context) -> Vec<Effect> {
+    let mut edits = vec![subject.with_target(target)];
+    if context.following.follows_targets() {
+        let (curve, end) = (subject.id, subject.end);
+        match context.following.to_target(subject.curve, end, &target) {
+            Ok(polygon) => edits.push(Edit::SetPolygon { curve, polygon }),
+            Err(error) => {
+                let name = quoted(&subject.curve.name);
+                return vec![Effect::Say(format!("{name} cannot follow: {error}"))];
+            }
+        }
+    }
+    vec![Effect::Preview(edits)]
 }
 
 pub(super) fn is_near(place: DVec2, target: &EndTarget, context: &Context) -> bool {

@@ -80,9 +80,10 @@ impl<'a> Subject<'a> {
             .target
             .is_some_and(|target| near(context.viewport.flatten(target.point)))
         {
-            // Where the end has met its target it is the end that is taken, but for Alt.
-            let met = self.is_met(context);
-            return Some(if met && !context.modifiers.alt {
+            // Where the end has met its target it is the end that is taken, but for Alt; the other way
+            // round where the end follows its target.
+            let follows = context.following.follows_targets();
+            return Some(if self.is_met(context) && context.modifiers.alt == follows {
                 Handle::Body
             } else {
                 Handle::Target

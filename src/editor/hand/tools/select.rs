@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3};
 
-use super::tool::{Context, Cursor, Effect, Look, Tool, move_edits};
+use super::tool::{Context, Cursor, Effect, Look, Tool, followers_label, move_edits};
 use crate::document::{CurveId, EditError};
 use crate::editor::hand::following::Follow;
 use crate::editor::hand::gesture::Gesture;
@@ -18,9 +18,6 @@ use crate::geometry::{counted, figure};
 
 /// How near to a leg the pointer must be to take it, in screen points: less than to a vertex.
 const LEG_REACH: f64 = 0.5 * REACH;
-
-/// How far below the pointer a label stands, in screen points: what is dragged is told above.
-const LABEL_BELOW: f64 = 72.0;
 
 /// The select tool's state.
 #[derive(Debug, Default)]
@@ -191,9 +188,7 @@ impl Tool for SelectTool {
             }
             State::Moving(moving) => {
                 let snap = moving.snap.map(Mark::Snap);
-                let words = context.following.words();
-                let below = DVec2::new(0.0, -LABEL_BELOW * context.viewport.pixel());
-                let label = words.map(|words| Mark::Label(moving.pointer + below, words));
+                let label = followers_label(moving.pointer, context);
                 snap.into_iter().chain(label).collect()
             }
             _ => Vec::new(),

@@ -15,6 +15,9 @@ use crate::editor::view::hit::HitTest;
 use crate::editor::view::scene::Mark;
 use crate::editor::view::viewport::Viewport;
 
+/// How far below the pointer a label stands, in screen points: what is dragged is told above.
+const LABEL_BELOW: f64 = 72.0;
+
 /// What a tool may look at. It changes nothing itself: it returns [`Effect`]s.
 pub struct Context<'a> {
     /// The document, a running gesture's preview included.
@@ -205,6 +208,13 @@ impl Context<'_> {
         };
         vertices.into_iter().filter_map(place).collect()
     }
+}
+
+/// Say beside a pointer of the view plane how the neighbours of what is dragged follow, if they do.
+pub(super) fn followers_label(pointer: DVec2, context: &Context) -> Option<Mark> {
+    let below = DVec2::new(0.0, -LABEL_BELOW * context.viewport.pixel());
+    let words = context.following.words()?;
+    Some(Mark::Label(pointer + below, words))
 }
 
 /// Turn moved vertices into edits, one a curve.
