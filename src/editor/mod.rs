@@ -195,10 +195,12 @@ impl Editor {
     /// Make edits as one step; what is being tried out is ended. The reply is told.
     ///
     /// # Errors
-    /// [`Refusal`] if they cannot be made; nothing is changed then.
+    /// [`Refusal`] if they cannot be made, or move vertices so that a feature is added while features are
+    /// kept; nothing is changed then.
     pub fn apply(&mut self, label: &str, edits: Vec<Edit>) -> Reply {
         self.interrupt();
-        let reply = self.make(label, edits, false);
+        let kept = self.check_kept(&edits);
+        let reply = kept.and_then(|()| self.make(label, edits, false));
         self.tell(reply)
     }
 
@@ -235,9 +237,16 @@ impl Editor {
     pub fn preview(&mut self, label: &str, edits: Vec<Edit>) {
         if self.workspace.interruption() != Some(Interruption::Commits) {
             self.interrupt();
+            self.hand.keeping.end();
             self.workspace.begin(label, Interruption::Commits);
         }
+        let edits = self.kept(edits);
         self.update(edits);
+        let held_back = self.hand.keeping.held_back();
+        if let Some(reason) = held_back.filter(|_| self.hand.keeps_features()) {
+            let held = format!("Held at the last place proved to add nothing; {reason}");
+            self.tell_of_update(Some(Refusal(held)));
+        }
     }
 
     /// End what is being tried out because something else is begun.

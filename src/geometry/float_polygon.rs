@@ -187,6 +187,20 @@ impl FloatPolygon {
         reversed
     }
 
+    /// Let a periodic curve begin with another of its segments, modulo L; the curve itself is the same,
+    /// and so is an open one.
+    pub fn begun_at(&self, segment: usize) -> Self {
+        let mut begun = self.clone();
+        if self.periodic {
+            let first = segment % self.vertices.len();
+            begun.polygon.vertices.rotate_left(first);
+            if let Some(weights) = &mut begun.polygon.weights {
+                weights.rotate_left(first);
+            }
+        }
+        begun
+    }
+
     fn wrapped(&self, index: usize) -> usize {
         if self.periodic {
             index % self.vertices.len()

@@ -69,7 +69,7 @@ const KEEP_END: Parameter = Parameter {
 const STRETCH: Parameter = Parameter {
     name: "stretch",
     label: "Stretch",
-    help: "The stretch of the curve that is harmonised; its ends keep what the ends keep",
+    help: "The stretch of the curve that is harmonised, of a periodic one from a larger u over the seam to a smaller; its ends keep what the ends keep",
     kind: Kind::List {
         count: 2..=2,
         whole: false,

@@ -1,10 +1,10 @@
 //! Drags that keep features: no place of them adds any.
 
-use batten::document::{Curve, Edit};
-use batten::editor::{Command, Input, Key, Modifiers, NamedView};
-use batten::geometry::FloatPolygon;
+use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace};
+use batten::editor::{Command, Editor, Input, Key, Modifiers, NamedView};
 use batten::geometry::features::Features;
 use batten::geometry::vertex_moves::FeatureRise;
+use batten::geometry::{Continuity, End, FloatPolygon};
 use glam::{DVec2, DVec3};
 
 use super::script::Script;
@@ -229,4 +229,162 @@ fn shift_and_snapping_hold_for_what_is_kept() {
     script.move_to(at + DVec2::new(3.0, 1.0));
     let after = script.polygon().vertex(6);
     assert_eq!(after.y, before.y);
+}
+
+/// A curve, and another whose start follows its end up to a level.
+fn followed(level: Continuity) -> (Script, [CurveId; 2]) {
+    let curve = |name: &str, points: &[(f64, f64)]| {
+        Curve::new(name, FloatPolygon::planar(4, points).expect("a polygon"))
+    };
+    let along = |from: f64| (0..9).map(move |i| from + 0.11 * f64::from(i));
+    // Parts of a spiral, whose curvature grows.
+    let spiral = |turn: f64| {
+        let radius = 12.0 - 3.0 * turn;
+        (radius * turn.sin(), -radius * turn.cos())
+    };
+    let first: Vec<_> = along(0.0).map(spiral).collect();
+    let second: Vec<_> = along(0.6).map(spiral).collect();
+    let curves = [curve("first", &first), curve("second", &second)];
+    let document = Document::from_curves(curves);
+    let ids: Vec<CurveId> = document.ids().collect();
+    let mut editor = Editor::with_document(document);
+    editor.set_canvas_size(DVec2::new(1000.0, 700.0));
+    let matched = Edit::SetMatch(EndMatch {
+        curve: ids[1],
+        end: End::Start,
+        source: ids[0],
+        place: MatchPlace::End(End::Finish),
+        continuity: level,
+        reversed: false,
+    });
+    editor.apply("Match", vec![matched]).expect("a match");
+    editor.activate(ids[0]);
+    (Script { editor }, [ids[0], ids[1]])
+}
+
+fn polygons(script: &Script, ids: [CurveId; 2]) -> [FloatPolygon; 2] {
+    ids.map(|id| {
+        let curve = script.editor.document().curve(id);
+        curve.expect("a curve").polygon.clone()
+    })
+}
+
+#[test]
+fn a_kept_drag_adds_nothing_to_a_curve_that_follows() {
+    // A vertex near the end is dragged, or the whole curve, which adds nothing to itself.
+    for (level, whole) in [
+        (Continuity::G1, false),
+        (Continuity::G2, false),
+        (Continuity::G1, true),
+    ] {
+        let (mut script, ids) = followed(level);
+        if whole {
+            script.command(Command::SelectAll);
+        }
+        let before = polygons(&script, ids);
+        let steps = script.steps();
+        let at = script.at_vertex(7);
+        let adds = |script: &Script| {
+            let now = polygons(script, ids);
+            [0, 1].map(|curve| !rise(&before[curve], &now[curve]).is_none())
+        };
+        let places: Vec<DVec2> = wild().map(|by| at + 0.3 * by).collect();
+        script.press(at);
+        let mut freely = Vec::new();
+        for place in &places {
+            script.move_to(*place);
+            freely.push(adds(&script));
+        }
+        assert!(freely.iter().any(|adds| adds[1]), "{level:?} {whole}");
+        assert!(!whole || freely.iter().all(|adds| !adds[0]));
+        script.key(Key::Escape);
+        script.release(at);
+        assert_eq!(polygons(&script, ids), before);
+
+        script.input(Input::KeepingHeld(true));
+        script.press(at);
+        let mut went = false;
+        for (place, freely) in places.iter().zip(freely) {
+            script.move_to(*place);
+            assert_eq!(adds(&script), [false; 2], "{level:?} {whole}");
+            went |= polygons(&script, ids) != before;
+            if freely == [false, true] {
+                let hint = script.editor.hint();
+                assert!(hint.contains("to “second”, which follows"), "{hint}");
+            }
+        }
+        assert!(went, "{level:?} {whole}");
+        let held = polygons(&script, ids);
+        script.release(at);
+        assert_eq!(polygons(&script, ids), held);
+        assert_eq!(script.steps(), steps + 1);
+        script.command(Command::Undo);
+        assert_eq!(polygons(&script, ids), before, "{level:?} {whole}");
+    }
+}
+
+#[test]
+fn a_nudge_that_would_add_a_feature_is_refused() {
+    let mut script = Script::example("hull");
+    let before = script.polygon();
+    script.editor.select_vertex(script.curve(), 6, false);
+    script.modifiers(Modifiers::SHIFT);
+    script.command(Command::ToggleKeeping);
+    let mut nudges = 0;
+    while script.message().is_empty() {
+        script.key(Key::Up);
+        assert!(rise(&before, &script.polygon()).is_none());
+        nudges += 1;
+        assert!(nudges < 500, "never refused");
+    }
+    let message = script.message();
+    assert!(
+        message.starts_with("Features are kept (K): it would add to "),
+        "{message}"
+    );
+    let (held, steps) = (script.polygon(), script.steps());
+    script.key(Key::Up);
+    assert_eq!((script.polygon(), script.steps()), (held.clone(), steps));
+    script.command(Command::ToggleKeeping);
+    script.key(Key::Up);
+    assert_ne!(script.polygon(), held);
+    assert!(!rise(&before, &script.polygon()).is_none());
+    script.undo_all();
+    assert_eq!(script.polygon(), before);
+}
+
+#[test]
+fn a_coordinate_that_would_add_a_feature_is_refused() {
+    let mut script = Script::example("hull");
+    let (curve, before) = (script.curve(), script.polygon());
+    let put = |y: f64| {
+        let moves = vec![(6, DVec3::new(before.vertex(6).x, y, 0.0))];
+        vec![Edit::MoveVertices { curve, moves }]
+    };
+    let y = before.vertex(6).y;
+    let (near, far) = (y + 1e-3 * before.size(), y + 0.3 * before.size());
+    script.command(Command::ToggleKeeping);
+    script.editor.apply("Set y", put(far)).expect_err("refused");
+    assert_eq!((script.polygon(), script.steps()), (before.clone(), 0));
+    script.editor.apply("Set y", put(near)).expect("safe");
+    script.command(Command::Undo);
+    assert_eq!(script.polygon(), before);
+
+    // A field that is dragged goes as far as it is safe, and says so.
+    script.editor.preview("Set y", put(near));
+    assert_eq!(script.polygon().vertex(6).y, near);
+    script.editor.preview("Set y", put(far));
+    script.check();
+    assert!(rise(&before, &script.polygon()).is_none());
+    assert!(script.polygon().vertex(6).y >= near);
+    let message = script.message();
+    assert!(message.starts_with("Held at the last place"), "{message}");
+    script.editor.commit_preview();
+    assert_eq!(script.steps(), 1);
+    script.undo_all();
+    assert_eq!(script.polygon(), before);
+
+    script.command(Command::ToggleKeeping);
+    script.editor.apply("Set y", put(far)).expect("freely");
+    assert!(!rise(&before, &script.polygon()).is_none());
 }

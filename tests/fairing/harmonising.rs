@@ -291,3 +291,92 @@ fn the_best_found_comes_close_where_what_is_asked_is_out_of_reach() {
         found.counts
     );
 }
+
+/// A noisy ellipse of 44 unit legs and degree 5, whose curvature is monotone over the seam, and the
+/// stretch where it is.
+fn noisy_ellipse(random: &mut Random) -> (FloatPolygon, [f64; 2]) {
+    const COUNT: usize = 44;
+    let turn = std::f64::consts::TAU / COUNT as f64;
+    let vertices = |noise: f64, random: &mut Random| {
+        let place = |index: usize| {
+            let (sine, cosine) = (turn * (index as f64 + 7.5)).sin_cos();
+            DVec3::new(9.0 * cosine, 6.0 * sine, 0.0) + random.vector(noise, false)
+        };
+        let vertices = (0..COUNT).map(place).collect();
+        FloatPolygon::new(5, vertices, None, true).expect("valid")
+    };
+    let fair = Features::new(&vertices(0.0, random));
+    let places: Vec<f64> = fair.curvature_extrema.iter().map(|it| it.u[0]).collect();
+    let (first, last) = (places[0], places[places.len() - 1]);
+    (vertices(0.03, random), [last + 0.75, first - 0.75])
+}
+
+#[test]
+fn a_stretch_over_the_seam_of_a_periodic_curve_is_harmonised_as_anywhere_else() {
+    let mut random = Random(23);
+    let (mut reached, trials) = (0, 12);
+    for trial in 0..trials {
+        let (polygon, stretch) = noisy_ellipse(&mut random);
+        assert!(stretch[0] > stretch[1], "over the seam");
+        let count = polygon.segments();
+        let inside = |polygon: &FloatPolygon| {
+            let extrema = Features::new(polygon).curvature_extrema;
+            let within = extrema
+                .iter()
+                .filter(|it| it.u[1] >= stretch[0] || it.u[0] <= stretch[1]);
+            within.map(|it| it.count).sum::<usize>()
+        };
+        assert!(inside(&polygon) > 0, "trial {trial}: noise");
+        let harmony = Harmony {
+            stretch: Some(stretch),
+            locked: &[count - 1],
+            ..asked(0, 0)
+        };
+        let found = harmonise(&polygon, &harmony, &Progress::default()).expect("a result");
+        assert_eq!(
+            inside(&found.polygon),
+            found.counts.extrema,
+            "trial {trial}"
+        );
+        reached += usize::from(found.reached);
+        assert_eq!(found.polygon.vertex(count - 1), polygon.vertex(count - 1));
+        for u in stretch {
+            let [a, b] = [&polygon, &found.polygon].map(|polygon| polygon.jet(u));
+            assert!(a.point.distance(b.point) <= HELD * polygon.size());
+        }
+        // As on the same curve that begins with the stretch.
+        let first = stretch[0].floor() as usize;
+        let shift = first as f64;
+        let elsewhere = Harmony {
+            stretch: Some([stretch[0] - shift, stretch[1] - shift + count as f64]),
+            locked: &[count - 1 - first],
+            ..harmony
+        };
+        let begun = polygon.begun_at(first);
+        let again = harmonise(&begun, &elsewhere, &Progress::default()).expect("a result");
+        assert_eq!(again.polygon.begun_at(count - first), found.polygon);
+        assert_eq!(again.counts, found.counts, "trial {trial}");
+    }
+    println!("over the seam: {reached} of {trials}");
+    assert_eq!(reached, trials);
+}
+
+#[test]
+fn a_stretch_that_is_none_is_refused() {
+    let mut random = Random(23);
+    let (polygon, _) = noisy_ellipse(&mut random);
+    let run = |polygon: &FloatPolygon, stretch: [f64; 2]| {
+        let harmony = Harmony {
+            stretch: Some(stretch),
+            ..asked(0, 0)
+        };
+        let error = harmonise(polygon, &harmony, &Progress::default()).expect_err("no stretch");
+        error.to_string()
+    };
+    let end = polygon.segments() as f64;
+    let open = FloatPolygon::new(5, polygon.vertices().to_vec(), None, false).expect("valid");
+    assert!(run(&open, [10.0, 3.0]).contains("two rising numbers"));
+    assert!(run(&polygon, [10.0, 10.0]).contains("two different numbers"));
+    assert!(run(&polygon, [end + 1.0, 3.0]).contains("two different numbers"));
+    assert!(run(&polygon, [10.6, 10.2]).contains("let a whole number lie between"));
+}

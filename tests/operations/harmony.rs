@@ -108,6 +108,40 @@ fn a_stretch_leaves_the_curve_beyond_it() {
 }
 
 #[test]
+fn a_stretch_of_a_periodic_curve_goes_over_the_seam() {
+    let mut random = Random(5);
+    let vertices = (0..40).map(|index| {
+        let (sine, cosine) = (0.157_079_632_679_489_66 * (f64::from(index) + 7.0)).sin_cos();
+        DVec3::new(9.0 * cosine, 6.0 * sine, 0.0) + random.vector(0.02, false)
+    });
+    let polygon = FloatPolygon::new(4, vertices.collect(), None, true).expect("valid");
+    let runner = Runner::of(polygon);
+    let given = [
+        ("stretch", list(&[36.0, 3.0])),
+        ("extrema", list(&[0.0])),
+        ("inflections", list(&[0.0])),
+    ];
+    let (outcome, curves) = runner.done("harmonise", &given);
+    assert_eq!(outcome.marks.len(), 2);
+    let inside = |polygon: &FloatPolygon| {
+        let extrema = Features::new(polygon).curvature_extrema;
+        let within = extrema
+            .iter()
+            .filter(|it| it.u[1] >= 36.0 || it.u[0] <= 3.0);
+        within.count()
+    };
+    assert!(inside(runner.polygon()) > 0);
+    assert_eq!(inside(&curves[0].polygon), 0);
+    // The vertices that do not act on the stretch stay.
+    for vertex in 7..36 {
+        assert_eq!(
+            curves[0].polygon.vertex(vertex),
+            runner.polygon().vertex(vertex)
+        );
+    }
+}
+
+#[test]
 fn what_cannot_be_reached_offers_the_best_found() {
     let runner = noisy();
     let given = [("max-deviation", list(&[1e-6]))]

@@ -168,7 +168,7 @@ impl Command {
             Self::ToggleLayer(layer) => layer.label(),
             Self::ToggleSnapping => "Snapping",
             Self::Follow(follow) => follow.label(),
-            Self::ToggleKeeping => "Keep features while dragging",
+            Self::ToggleKeeping => "Keep features",
             Self::Tool(tool) => tool.label(),
         };
         label.to_owned()
@@ -209,7 +209,7 @@ impl Command {
             }
             Self::Follow(follow) => follow.tooltip(),
             Self::ToggleKeeping => {
-                "Let no drag add a curvature extremum or an inflection to what is dragged: every place is proved"
+                "Let no drag, nudge or typed coordinate add a curvature extremum or an inflection to a curve or to those that follow it: every place is proved"
             }
             Self::Tool(tool) => tool.tooltip(),
         };

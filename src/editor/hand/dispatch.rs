@@ -2,15 +2,18 @@
 
 use std::sync::Arc;
 
+use crate::analysis::AnalysisCache;
 use crate::document::{Curve, CurveId, Edit};
 use crate::editor::Editor;
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::{Input, Key};
+use crate::editor::hand::keeping::Keeping;
 use crate::editor::hand::tools::{Context, Cursor, Effect, Look, ToolKind};
 use crate::editor::reply::{Message, Note, Refusal, told};
 use crate::editor::view::hit::HitTest;
 use crate::editor::view::layers::Layers;
 use crate::editor::workspace::Interruption;
+use crate::geometry::features::SegmentFeatures;
 
 /// What came of the step that a tool's effects make.
 enum Step {
@@ -88,18 +91,31 @@ impl Editor {
     }
 
     /// Change the edits of a drag so that it adds no feature, if features are kept.
-    fn kept(&mut self, edits: Vec<Edit>) -> Vec<Edit> {
+    pub(in crate::editor) fn kept(&mut self, edits: Vec<Edit>) -> Vec<Edit> {
         if !self.hand.keeps_features() || self.workspace.preview().is_none() {
             return edits;
         }
-        let analyses = &self.analyses;
-        let proved = |id: CurveId, curve: &Arc<Curve>| {
-            let analysis = analyses.get(id)?;
-            let known = analysis.proved_segments()?;
-            Arc::ptr_eq(analysis.curve(), curve).then(|| known.to_vec())
-        };
+        let proved = known_features(&self.analyses);
         let settled = self.workspace.settled();
         self.hand.keeping.keep(edits, settled, proved)
+    }
+
+    /// Refuse moves of vertices that are one step if they add a feature, if features are kept.
+    ///
+    /// # Errors
+    /// [`Refusal`] that says what would be added.
+    pub(in crate::editor) fn check_kept(&self, edits: &[Edit]) -> Result<(), Refusal> {
+        let moves = edits
+            .iter()
+            .all(|edit| matches!(edit, Edit::MoveVertices { .. }));
+        if !moves || !self.hand.keeps_features() {
+            return Ok(());
+        }
+        let proved = known_features(&self.analyses);
+        match Keeping::refusal(edits.to_vec(), self.workspace.settled(), proved) {
+            None => Ok(()),
+            Some(reason) => Err(Refusal(format!("Features are kept (K): {reason}"))),
+        }
     }
 
     /// The shape of the pointer while it rests here.
@@ -194,7 +210,8 @@ impl Editor {
                 self.workspace.abort();
             }
             Effect::Apply(label, edits) => {
-                let reply = self.make(&label, edits, repeats);
+                let kept = self.check_kept(&edits);
+                let reply = kept.and_then(|()| self.make(&label, edits, repeats));
                 *step = match self.tell(reply) {
                     Ok(_) => Step::Made,
                     Err(_) => Step::Refused,
@@ -220,5 +237,16 @@ impl Editor {
             }
             Effect::Finish => self.use_tool(ToolKind::Select),
         }
+    }
+}
+
+/// The features that are proved of curves as they are shown.
+fn known_features(
+    analyses: &AnalysisCache,
+) -> impl Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>> + '_ {
+    |id, curve| {
+        let analysis = analyses.get(id)?;
+        let known = analysis.proved_segments()?;
+        Arc::ptr_eq(analysis.curve(), curve).then(|| known.to_vec())
     }
 }

@@ -1,5 +1,5 @@
-//! Keeping features while dragging: every place is proved, and what would add a feature stays at the
-//! last place that did not.
+//! Keeping features: every place of a drag is proved, and what would add a feature stays at the last
+//! place that did not; a step that would add one is refused.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -7,10 +7,10 @@ use std::time::{Duration, Instant};
 
 use glam::{DVec2, DVec3};
 
+use super::kept_curves::{KeptCurves, Obstacle};
 use crate::document::{Curve, CurveId, Document, Edit, quoted};
 use crate::geometry::FloatPolygon;
 use crate::geometry::features::SegmentFeatures;
-use crate::geometry::vertex_moves::{FeatureRise, MoveError, MoveProver};
 
 /// How long a frame tries places on the way to one that is not safe.
 const BUDGET: Duration = Duration::from_millis(3);
@@ -18,32 +18,30 @@ const BUDGET: Duration = Duration::from_millis(3);
 /// The most halvings of that way.
 const HALVINGS: usize = 10;
 
-/// The most segments that are proved anew in every frame.
-const MOST_SEGMENTS: usize = 256;
-
 /// The angles in degrees at which a single vertex that is held back tries to go on aside.
 const ASIDE: [f64; 6] = [20.0, -20.0, 45.0, -45.0, 70.0, -70.0];
 
-/// Follow a drag, and let no feature be added by it.
+/// Follow a drag, and let no feature be added by it: to no curve that is dragged, and to none that
+/// follows by a match.
 #[derive(Debug, Default)]
 pub struct Keeping {
-    curves: BTreeMap<CurveId, Kept>,
+    curves: KeptCurves,
+    /// The last places of what is dragged that were proved to add nothing.
+    good: BTreeMap<CurveId, Moves>,
     /// Why the vertices are not where the pointer has them.
     held_back: Option<String>,
 }
 
-/// The vertices of one curve that are dragged.
-#[derive(Debug)]
-struct Kept {
-    before: Arc<Curve>,
-    vertices: Vec<usize>,
-    prover: MoveProver,
-    /// The last places that were proved to add nothing.
-    good: Vec<DVec3>,
-}
+/// Vertices of a curve with their places.
+type Moves = Vec<(usize, DVec3)>;
 
-/// The places of some vertices of a curve.
-type Places = (CurveId, Vec<(usize, DVec3)>);
+/// What a drag works on: the document as it was when it began, the edits besides moves, and what is
+/// proved of a curve's segments.
+struct Drag<'a, P> {
+    settled: &'a Document,
+    others: &'a [Edit],
+    proved: P,
+}
 
 impl Keeping {
     /// Forget the drag.
@@ -65,139 +63,132 @@ impl Keeping {
         proved: impl Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>>,
     ) -> Vec<Edit> {
         self.held_back = None;
-        let mut wanted: Vec<Places> = Vec::new();
+        let mut wanted: BTreeMap<CurveId, Moves> = BTreeMap::new();
         let mut others = Vec::new();
         for edit in edits {
-            match places(&edit, settled) {
-                Some(places) => wanted.push(places),
+            match moves(&edit, settled) {
+                Some((curve, moves)) => {
+                    wanted.insert(curve, moves);
+                }
                 None => others.push(edit),
             }
         }
-        for (id, moves) in &wanted {
-            if let Err(reason) = self.prepare(*id, moves, settled, &proved) {
-                let curve = settled.curve(*id).map(|curve| quoted(&curve.name));
-                let name = curve.unwrap_or_default();
-                self.held_back = Some(format!("features of {name} cannot be kept: {reason}"));
-                return others;
-            }
+        self.begin(&wanted, settled);
+        let drag = Drag {
+            settled,
+            others: &others,
+            proved,
+        };
+        if let Err(Obstacle::Unprovable(reason)) = self.go(&wanted, &drag) {
+            self.held_back = Some(reason);
+            return others;
         }
-        let wanted: BTreeMap<CurveId, Vec<DVec3>> = wanted
-            .into_iter()
-            .map(|(id, moves)| (id, moves.into_iter().map(|(_, place)| place).collect()))
-            .collect();
-        self.go(&wanted);
-        others.extend(wanted.keys().filter_map(|id| self.edit(*id)));
+        others.extend(edits_of(&self.good));
         others
     }
 
-    /// Prepare for the vertices of a curve that are dragged, unless it is done.
-    fn prepare(
-        &mut self,
-        id: CurveId,
-        moves: &[(usize, DVec3)],
-        settled: &Document,
-        proved: &impl Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>>,
-    ) -> Result<(), String> {
-        let Some(before) = settled.curve(id) else {
-            return Err("the curve is gone".to_owned());
-        };
-        let same = |kept: &Kept| {
-            let vertices = moves.iter().map(|(index, _)| *index);
-            Arc::ptr_eq(&kept.before, before) && vertices.eq(kept.vertices.iter().copied())
-        };
-        if self.curves.get(&id).is_some_and(same) {
-            return Ok(());
+    /// Say what edits would add to the curves of a document, if they add features or nothing can be
+    /// proved.
+    pub fn refusal(
+        edits: Vec<Edit>,
+        document: &Document,
+        proved: impl Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>>,
+    ) -> Option<String> {
+        let edited = document.edited(edits).ok()?;
+        let obstacle = KeptCurves::default()
+            .prove(document, &edited, proved)
+            .err()?;
+        Some(match obstacle {
+            Obstacle::Added(curve, added) => {
+                let curve = document.curve(curve).map(|curve| quoted(&curve.name));
+                format!("it would add to {}: {added}", curve.unwrap_or_default())
+            }
+            Obstacle::Unprovable(reason) => reason,
+        })
+    }
+
+    /// Begin where the vertices were, unless the same ones have been dragged in the last frame.
+    fn begin(&mut self, wanted: &BTreeMap<CurveId, Moves>, settled: &Document) {
+        let last = std::mem::take(&mut self.good);
+        let indices = |moves: &Moves| moves.iter().map(|(index, _)| *index).collect::<Vec<_>>();
+        for (id, moves) in wanted {
+            let same = last.get(id).filter(|last| indices(last) == indices(moves));
+            let good = same.cloned().or_else(|| {
+                let polygon = &settled.curve(*id)?.polygon;
+                let place = |(index, _): &(usize, DVec3)| (*index, polygon.vertex(*index));
+                Some(moves.iter().map(place).collect())
+            });
+            self.good.extend(good.map(|good| (*id, good)));
         }
-        let polygon = &before.polygon;
-        let known = proved(id, before);
-        let known = known.or_else(|| SegmentFeatures::of_curve(polygon, |_| true));
-        let vertices: Vec<usize> = moves.iter().map(|(index, _)| *index).collect();
-        let prover = MoveProver::new(polygon, &known.unwrap_or_default(), vertices.clone())
-            .map_err(|error: MoveError| error.to_string())?;
-        let segments = prover.dependent().len();
-        if segments > MOST_SEGMENTS {
-            return Err(format!(
-                "{segments} segments would be proved in every frame, at most {MOST_SEGMENTS} can be: drag fewer vertices"
-            ));
-        }
-        let good = vertices.iter().map(|index| polygon.vertex(*index));
-        let kept = Kept {
-            before: before.clone(),
-            good: good.collect(),
-            vertices,
-            prover,
-        };
-        self.curves.insert(id, kept);
-        Ok(())
     }
 
     /// Go to places if they are safe, otherwise as far towards them as can be proved in time.
-    fn go(&mut self, wanted: &BTreeMap<CurveId, Vec<DVec3>>) {
+    ///
+    /// # Errors
+    /// [`Obstacle::Unprovable`] if nothing can be proved of a curve.
+    fn go<P>(&mut self, wanted: &BTreeMap<CurveId, Moves>, drag: &Drag<P>) -> Result<(), Obstacle>
+    where
+        P: Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>>,
+    {
         let begin = Instant::now();
-        let Err(rise) = self.go_all_the_way(wanted) else {
-            return;
+        let (curve, added) = match self.go_all_the_way(wanted, drag) {
+            Err(Obstacle::Added(curve, added)) => (curve, added),
+            other => return other,
         };
-        let from: BTreeMap<CurveId, Vec<DVec3>> = wanted
-            .keys()
-            .filter_map(|id| Some((*id, self.curves.get(id)?.good.clone())))
-            .collect();
+        let from = self.good.clone();
         let (mut holds, mut fails) = (0.0, 1.0);
         for _ in 0..HALVINGS {
             if begin.elapsed() > BUDGET {
                 break;
             }
             let share = 0.5 * (holds + fails);
-            match self.go_all_the_way(&between(&from, wanted, share)) {
+            match self.go_all_the_way(&between(&from, wanted, share), drag) {
                 Ok(()) => holds = share,
                 Err(_) => fails = share,
             }
         }
-        self.slide(wanted, begin);
-        let added = rise.map_or_else(
-            || "it cannot be there".to_owned(),
-            |rise| format!("beyond: {}", rise.text()),
-        );
-        self.held_back = Some(added);
+        self.slide(wanted, drag, begin);
+        let follower = drag.settled.curve(curve);
+        let follower = follower.filter(|_| !wanted.contains_key(&curve));
+        let whose = follower.map(|curve| format!(" to {}, which follows", quoted(&curve.name)));
+        self.held_back = Some(format!("beyond: {added}{}", whose.unwrap_or_default()));
+        Ok(())
     }
 
     /// Prove that nothing is added at these places, and let them be the good ones.
     ///
     /// # Errors
-    /// What is added; nothing if it cannot be told.
-    fn go_all_the_way(
+    /// What stands against them.
+    fn go_all_the_way<P>(
         &mut self,
-        places: &BTreeMap<CurveId, Vec<DVec3>>,
-    ) -> Result<(), Option<FeatureRise>> {
-        for (id, places) in places {
-            if let Some(kept) = self.curves.get_mut(id) {
-                match kept.prover.rise(places) {
-                    Ok(rise) if rise.is_none() => {}
-                    Ok(rise) => return Err(Some(rise)),
-                    Err(_) => return Err(None),
-                }
-            }
-        }
-        for (id, places) in places {
-            if let Some(kept) = self.curves.get_mut(id) {
-                kept.good.clone_from(places);
-            }
-        }
+        places: &BTreeMap<CurveId, Moves>,
+        drag: &Drag<P>,
+    ) -> Result<(), Obstacle>
+    where
+        P: Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>>,
+    {
+        let edits = drag.others.iter().cloned().chain(edits_of(places));
+        let tried = drag.settled.edited(edits);
+        let tried = tried.map_err(|error| Obstacle::Unprovable(error.to_string()))?;
+        self.curves.prove(drag.settled, &tried, &drag.proved)?;
+        self.good.clone_from(places);
         Ok(())
     }
 
     /// Let a single vertex go along the border, nearer to where the pointer has it.
-    fn slide(&mut self, wanted: &BTreeMap<CurveId, Vec<DVec3>>, begin: Instant) {
-        let Some((id, [wanted])) = wanted
-            .first_key_value()
-            .filter(|_| wanted.len() == 1)
-            .map(|(id, places)| (*id, places.as_slice()))
+    fn slide<P>(&mut self, wanted: &BTreeMap<CurveId, Moves>, drag: &Drag<P>, begin: Instant)
+    where
+        P: Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>>,
+    {
+        let single = |places: &BTreeMap<CurveId, Moves>| match places.first_key_value() {
+            Some((id, moves)) if places.len() == 1 && moves.len() == 1 => Some((*id, moves[0])),
+            _ => None,
+        };
+        let Some(((id, (vertex, wanted)), (_, (_, good)))) = single(wanted).zip(single(&self.good))
         else {
             return;
         };
-        let Some([good]) = self.curves.get(&id).map(|kept| kept.good.as_slice()) else {
-            return;
-        };
-        let (good, left) = (*good, *wanted - *good);
+        let left = wanted - good;
         for degrees in ASIDE {
             if begin.elapsed() > BUDGET {
                 return;
@@ -205,41 +196,38 @@ impl Keeping {
             let angle = degrees.to_radians();
             // The foot of the way that is left on this direction: nearer than where it starts.
             let by = angle.cos() * DVec2::from_angle(angle).rotate(left.truncate());
-            let place = good + by.extend(0.0);
-            if self.go_all_the_way(&[(id, vec![place])].into()).is_ok() {
+            let place = vec![(vertex, good + by.extend(0.0))];
+            if self.go_all_the_way(&[(id, place)].into(), drag).is_ok() {
                 return;
             }
         }
     }
+}
 
-    /// The edit that puts a curve's vertices at the last good places.
-    fn edit(&self, curve: CurveId) -> Option<Edit> {
-        let kept = self.curves.get(&curve)?;
-        let moves = kept.vertices.iter().copied().zip(kept.good.iter().copied());
-        Some(Edit::MoveVertices {
-            curve,
-            moves: moves.collect(),
-        })
-    }
+/// The edits that put vertices in their places.
+fn edits_of(places: &BTreeMap<CurveId, Moves>) -> impl Iterator<Item = Edit> + '_ {
+    places.iter().map(|(curve, moves)| Edit::MoveVertices {
+        curve: *curve,
+        moves: moves.clone(),
+    })
 }
 
 /// Go a share of the way from some places to others.
 fn between(
-    from: &BTreeMap<CurveId, Vec<DVec3>>,
-    to: &BTreeMap<CurveId, Vec<DVec3>>,
+    from: &BTreeMap<CurveId, Moves>,
+    to: &BTreeMap<CurveId, Moves>,
     share: f64,
-) -> BTreeMap<CurveId, Vec<DVec3>> {
-    let of_curve = |(id, to): (&CurveId, &Vec<DVec3>)| {
-        let from = from.get(id)?;
-        let pairs = from.iter().zip(to);
-        let places = pairs.map(|(from, to)| from.lerp(*to, share));
+) -> BTreeMap<CurveId, Moves> {
+    let of_curve = |(id, to): (&CurveId, &Moves)| {
+        let pairs = from.get(id)?.iter().zip(to);
+        let places = pairs.map(|((_, from), (index, to))| (*index, from.lerp(*to, share)));
         Some((*id, places.collect()))
     };
     to.iter().filter_map(of_curve).collect()
 }
 
 /// Where an edit puts which vertices, if that is all it does.
-fn places(edit: &Edit, settled: &Document) -> Option<Places> {
+fn moves(edit: &Edit, settled: &Document) -> Option<(CurveId, Moves)> {
     match edit {
         Edit::MoveVertices { curve, moves } => Some((*curve, moves.clone())),
         Edit::SetPolygon { curve, polygon } => {

@@ -10,6 +10,7 @@ pub(in crate::editor) mod gesture;
 mod hand;
 pub(in crate::editor) mod input;
 mod keeping;
+mod kept_curves;
 pub(in crate::editor) mod selection;
 pub(in crate::editor) mod snapping;
 pub(in crate::editor) mod tools;

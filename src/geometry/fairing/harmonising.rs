@@ -55,7 +55,8 @@ pub enum Held {
 /// between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Harmony<'a> {
-    /// The stretch [u₀, u₁] of the curve; `None` for all of it.
+    /// The stretch [u₀, u₁] of the curve, of a periodic one with u₀ > u₁ over the seam; `None` for all
+    /// of it.
     pub stretch: Option<[f64; 2]>,
     /// To what its two ends are held.
     pub ends: [Held; 2],
@@ -96,7 +97,8 @@ pub struct Harmonised {
 pub enum HarmonyError {
     /// The stretch is no part of the curve.
     #[error(
-        "a stretch from u = {from} to {to} is no part of the curve: give two rising numbers from 0 to {end}"
+        "a stretch from u = {from} to {to} is no part of the curve: give two {} from 0 to {end}",
+        if *periodic { "different numbers" } else { "rising numbers" }
     )]
     BadStretch {
         /// Where it would begin.
@@ -105,6 +107,18 @@ pub enum HarmonyError {
         to: f64,
         /// Where the curve ends.
         end: f64,
+        /// Whether the curve is periodic.
+        periodic: bool,
+    },
+    /// A stretch over the seam leaves nothing where the curve could be cut.
+    #[error(
+        "a stretch from u = {from} over the seam to {to} leaves less than a segment: let a whole number lie between {to} and {from}, or harmonise the whole curve"
+    )]
+    NothingBeyond {
+        /// Where it would begin.
+        from: f64,
+        /// Where it would end.
+        to: f64,
     },
     /// No vertex may move.
     #[error("no vertex may move: free the ends or vertices, or choose a longer stretch")]
@@ -133,11 +147,16 @@ pub fn harmonise(
 ) -> Result<Harmonised, HarmonyError> {
     let [begin, end] = domain(polygon);
     let stretch = harmony.stretch.unwrap_or([begin, end]);
+    let [from, to] = stretch;
+    if polygon.is_periodic() && begin <= to && to < from && from <= end {
+        return over_the_seam(polygon, stretch, harmony, progress);
+    }
     if !(begin <= stretch[0] && stretch[0] < stretch[1] && stretch[1] <= end) {
         return Err(HarmonyError::BadStretch {
-            from: stretch[0],
-            to: stretch[1],
+            from,
+            to,
             end,
+            periodic: polygon.is_periodic(),
         });
     }
     let features = prove(polygon, progress)?;
@@ -210,6 +229,34 @@ pub fn harmonise(
 fn prove(polygon: &FloatPolygon, progress: &Progress) -> Result<Features, HarmonyError> {
     let features = Features::proved(polygon, |_| !progress.is_cancelled());
     features.ok_or(HarmonyError::Cancelled)
+}
+
+/// Harmonise a stretch of a periodic curve that goes over the seam: the seam is put elsewhere meanwhile.
+fn over_the_seam(
+    polygon: &FloatPolygon,
+    [from, to]: [f64; 2],
+    harmony: &Harmony,
+    progress: &Progress,
+) -> Result<Harmonised, HarmonyError> {
+    let first = from.floor();
+    if first < to {
+        return Err(HarmonyError::NothingBeyond { from, to });
+    }
+    let (count, seam) = (polygon.segments(), first as usize);
+    let locked = harmony.locked.iter();
+    let locked: Vec<usize> = locked
+        .map(|vertex| (vertex + 2 * count - seam) % count)
+        .collect();
+    let harmony = Harmony {
+        stretch: Some([from - first, to - first + count as f64]),
+        locked: &locked,
+        ..harmony.clone()
+    };
+    let found = harmonise(&polygon.begun_at(seam), &harmony, progress)?;
+    Ok(Harmonised {
+        polygon: found.polygon.begun_at(2 * count - seam),
+        ..found
+    })
 }
 
 /// The ends of a stretch with what holds them; a whole periodic curve has none.

@@ -83,11 +83,13 @@ impl<'a> Subject<'a> {
             // Where the end has met its target it is the end that is taken, but for Alt; the other way
             // round where the end follows its target.
             let follows = context.following.follows_targets();
-            return Some(if self.is_met(context) && context.modifiers.alt == follows {
-                Handle::Body
-            } else {
-                Handle::Target
-            });
+            return Some(
+                if self.is_met(context) && context.modifiers.alt == follows {
+                    Handle::Body
+                } else {
+                    Handle::Target
+                },
+            );
         }
         if near(self.point) {
             return Some(Handle::Body);

@@ -1,0 +1,143 @@
+//! The curves whose features are kept: what a change of the document adds to them, proved.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use crate::document::{Curve, CurveId, Document, quoted};
+use crate::geometry::features::SegmentFeatures;
+use crate::geometry::vertex_moves::MoveProver;
+use crate::geometry::FloatPolygon;
+
+/// The most segments of a curve that are proved anew in every frame.
+const MOST_SEGMENTS: usize = 256;
+
+/// The curves that have changed since a drag began, with what is proved of them as they were.
+#[derive(Debug, Default)]
+pub(super) struct KeptCurves {
+    curves: BTreeMap<CurveId, Kept>,
+}
+
+/// A curve as it was, and the vertices of it that have been elsewhere since.
+#[derive(Debug)]
+struct Kept {
+    before: Arc<Curve>,
+    proved: Vec<SegmentFeatures>,
+    vertices: Vec<usize>,
+    prover: MoveProver,
+}
+
+/// Why features are not kept.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Obstacle {
+    /// Some are added to this curve, or a vertex of it cannot be there.
+    Added(CurveId, String),
+    /// Nothing can be proved of a curve, in words.
+    Unprovable(String),
+}
+
+impl KeptCurves {
+    /// Prove that nothing is added to the curves of `before` by what makes `after` of it: to those that
+    /// were moved and to those that follow them. `known` gives the features of the segments of a curve
+    /// as it was, if they are proved already.
+    ///
+    /// # Errors
+    /// The first [`Obstacle`] found.
+    pub(super) fn prove(
+        &mut self,
+        before: &Document,
+        after: &Document,
+        known: impl Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>>,
+    ) -> Result<(), Obstacle> {
+        for (id, now) in after.curves() {
+            let Some(then) = before.curve(id).filter(|then| !Arc::ptr_eq(then, now)) else {
+                continue;
+            };
+            let moved = moved_vertices(&then.polygon, &now.polygon);
+            if moved.is_empty() {
+                continue;
+            }
+            let kept = self.kept(id, then, &moved, &known).map_err(|reason| {
+                let name = quoted(&then.name);
+                Obstacle::Unprovable(format!("features of {name} cannot be kept: {reason}"))
+            })?;
+            let vertices = kept.vertices.iter();
+            let places: Vec<_> = vertices.map(|index| now.polygon.vertex(*index)).collect();
+            match kept.prover.rise(&places) {
+                Ok(rise) if rise.is_none() => {}
+                Ok(rise) => return Err(Obstacle::Added(id, rise.text())),
+                Err(error) => return Err(Obstacle::Added(id, error.to_string())),
+            }
+        }
+        Ok(())
+    }
+
+    /// What proves moves of these vertices of a curve: made anew for vertices that had not moved yet.
+    fn kept(
+        &mut self,
+        id: CurveId,
+        before: &Arc<Curve>,
+        moved: &[usize],
+        known: &impl Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>>,
+    ) -> Result<&mut Kept, String> {
+        let last = self.curves.remove(&id);
+        let last = last.filter(|kept| Arc::ptr_eq(&kept.before, before));
+        let kept = match last {
+            Some(kept)
+                if moved
+                    .iter()
+                    .all(|it| kept.vertices.binary_search(it).is_ok()) =>
+            {
+                kept
+            }
+            Some(mut kept) => {
+                kept.vertices.extend(moved);
+                kept.vertices.sort_unstable();
+                kept.vertices.dedup();
+                Kept::new(before, kept.proved, kept.vertices)?
+            }
+            None => {
+                let proved = known(id, before)
+                    .or_else(|| SegmentFeatures::of_curve(&before.polygon, |_| true));
+                Kept::new(before, proved.unwrap_or_default(), moved.to_vec())?
+            }
+        };
+        Ok(self.curves.entry(id).or_insert(kept))
+    }
+}
+
+impl Kept {
+    fn new(
+        before: &Arc<Curve>,
+        proved: Vec<SegmentFeatures>,
+        vertices: Vec<usize>,
+    ) -> Result<Self, String> {
+        let prover = MoveProver::new(&before.polygon, &proved, vertices.clone())
+            .map_err(|error| error.to_string())?;
+        let segments = prover.dependent().len();
+        if segments > MOST_SEGMENTS {
+            return Err(format!(
+                "{segments} segments would be proved in every frame, at most {MOST_SEGMENTS} can be: drag fewer vertices"
+            ));
+        }
+        Ok(Self {
+            before: before.clone(),
+            proved,
+            vertices,
+            prover,
+        })
+    }
+}
+
+/// The vertices that are elsewhere; none for a polygon of another kind, which cannot be compared.
+fn moved_vertices(before: &FloatPolygon, after: &FloatPolygon) -> Vec<usize> {
+    let kind = |polygon: &FloatPolygon| {
+        let count = polygon.vertices().len();
+        (polygon.degree(), polygon.is_periodic(), count)
+    };
+    if kind(before) != kind(after) || before.weights() != after.weights() {
+        return Vec::new();
+    }
+    let pairs = before.vertices().iter().zip(after.vertices()).enumerate();
+    let moved = pairs.filter(|(_, (before, after))| before != after);
+    moved.map(|(index, _)| index).collect()
+}
