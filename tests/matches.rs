@@ -3,7 +3,9 @@
 
 mod common;
 
-use batten::document::{Curve, Document, Edit, EndMatch, MatchPlace};
+use std::time::{Duration, Instant};
+
+use batten::document::{Curve, CurveId, Document, Edit, EndMatch, History, MatchPlace};
 use batten::geometry::end_correction::EndDifference;
 use batten::geometry::{Continuity, End, FloatPolygon};
 use common::Random;
@@ -274,4 +276,107 @@ fn an_end_of_a_long_curve_follows_by_the_vertices_near_it() {
         assert_eq!(far(&after), far(&before), "{count}");
         assert_ne!(after, before);
     }
+}
+
+/// A curve whose end the start of another follows up to G3, and the drags of a vertex of it: to where the
+/// other can follow, far beyond, and back.
+fn stretched(locked: usize) -> (Document, [CurveId; 2], Vec<Vec<Edit>>) {
+    let wave = |from: f64, count: usize| {
+        let points = (0..count).map(|index| {
+            let x = from + index as f64;
+            (x, (0.4 * x).sin())
+        });
+        FloatPolygon::planar(6, &points.collect::<Vec<_>>()).expect("a polygon")
+    };
+    let curves = [
+        Curve::new("first", wave(0.0, 12)),
+        Curve::new("second", wave(7.0, 24)),
+    ];
+    let document = Document::from_curves(curves);
+    let ids: Vec<CurveId> = document.ids().collect();
+    let lock = Edit::SetVerticesLocked {
+        curve: ids[1],
+        vertices: (24 - locked..24).collect(),
+        locked: true,
+    };
+    let matched = Edit::SetMatch(EndMatch {
+        curve: ids[1],
+        end: End::Start,
+        source: ids[0],
+        place: MatchPlace::End(End::Finish),
+        continuity: Continuity::G3,
+        reversed: false,
+    });
+    let document = document.edited([lock, matched]).expect("a match");
+    let vertex = wave(0.0, 12).vertex(10);
+    let drags = [0.05, 0.4, 3.0, -4.0, 4.5, -5.0, 0.3, 0.1].map(|by| {
+        let moves = vec![(10, vertex + by * DVec3::new(0.3, 1.0, 0.0))];
+        let curve = ids[0];
+        vec![Edit::MoveVertices { curve, moves }]
+    });
+    (document, [ids[0], ids[1]], drags.to_vec())
+}
+
+#[test]
+fn what_a_drag_leaves_does_not_depend_on_what_could_not_be_met_on_its_way() {
+    for locked in [0, 18, 21, 22] {
+        let (document, ids, drags) = stretched(locked);
+        let polygon = |document: &Document| document.curve(ids[1]).expect("one").polygon.clone();
+        for last in [1, 3, 7] {
+            let mut history = History::new(document.clone());
+            history.begin("Drag");
+            for edits in &drags[..=last] {
+                history.preview(edits.clone()).expect("a drag");
+            }
+            history.commit();
+            let expected = document.edited(drags[last].clone()).expect("an edit");
+            let found = polygon(history.document());
+            assert_eq!(found, polygon(&expected), "{locked} locked, {last}");
+            history.undo();
+            assert!(history.document().is_same(&document));
+        }
+    }
+}
+
+#[test]
+fn a_match_out_of_reach_costs_little_in_a_drag_after_its_first_frame() {
+    let (document, _, drags) = stretched(22);
+    let timed = |work: &mut dyn FnMut()| {
+        let begin = Instant::now();
+        work();
+        begin.elapsed()
+    };
+    let far = &drags[2..6];
+    let whole: Duration = far
+        .iter()
+        .map(|edits| timed(&mut || drop(document.edited(edits.clone()))))
+        .sum();
+    let mut history = History::new(document.clone());
+    history.begin("Drag");
+    history.preview(far[0].clone()).expect("a drag");
+    assert!(
+        !history
+            .document()
+            .matches()
+            .all(|it| history.document().meets(it))
+    );
+    let frames: Duration = far
+        .iter()
+        .map(|edits| timed(&mut || history.preview(edits.clone()).expect("a drag")))
+        .sum();
+    println!("{whole:?} each tried to the end, {frames:?} in a drag");
+    assert!(5 * frames < whole, "{frames:?} {whole:?}");
+    // Back within reach it is met in the same drag.
+    let (document, _, drags) = stretched(21);
+    let mut history = History::new(document);
+    history.begin("Drag");
+    for edits in [&drags[1], &drags[0]] {
+        history.preview(edits.clone()).expect("a drag");
+    }
+    assert!(
+        history
+            .document()
+            .matches()
+            .all(|it| history.document().meets(it))
+    );
 }

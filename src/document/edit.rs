@@ -1,5 +1,6 @@
 //! Edits: every change to a document, as data, applied in one place.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -133,11 +134,23 @@ impl Document {
     /// # Errors
     /// [`EditError`] of the first edit that cannot be made.
     pub fn edited(&self, edits: impl IntoIterator<Item = Edit>) -> Result<Self, EditError> {
+        self.edited_hastily(edits, &BTreeSet::new())
+    }
+
+    /// Make edits as [`Document::edited`] does, but do not try long to let the curves in `hasty` follow.
+    ///
+    /// # Errors
+    /// As [`Document::edited`].
+    pub(super) fn edited_hastily(
+        &self,
+        edits: impl IntoIterator<Item = Edit>,
+        hasty: &BTreeSet<CurveId>,
+    ) -> Result<Self, EditError> {
         let mut document = self.clone();
         for edit in edits {
             document.apply(edit)?;
         }
-        document.follow(self);
+        document.follow(self, hasty);
         Ok(document)
     }
 

@@ -1,5 +1,6 @@
 //! Matches: which ends follow other curves, and how they are brought there.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::curve::{Curve, CurveId};
@@ -7,7 +8,9 @@ use super::document::Document;
 use super::end_match::EndMatch;
 use super::error::EditError;
 use crate::geometry::end_correction::{EndDifference, EndTarget};
-use crate::geometry::fairing::joint_correction::{Disturbance, correct_jointly};
+use crate::geometry::fairing::joint_correction::{
+    Corrector, Disturbance, correct_hastily, correct_jointly,
+};
 use crate::geometry::fairing::near_end::{correct_near_end, has_ends_apart};
 use crate::geometry::{Continuity, End, FloatPolygon};
 
@@ -139,10 +142,22 @@ impl Document {
         own.map(|matched| matched.source)
     }
 
+    /// The curves with a match that could be met, and is not.
+    pub(super) fn unmet(&self) -> BTreeSet<CurveId> {
+        let is_free = |id| {
+            let curve = self.curve(id);
+            curve.is_some_and(|curve| curve.check_editable().is_ok())
+        };
+        let unmet = self.matches().filter(|matched| !self.meets(matched));
+        let curves = unmet.map(|matched| matched.curve);
+        curves.filter(|curve| is_free(*curve)).collect()
+    }
+
     /// Let matched ends follow what has changed: the other end of a curve keeps its point and
     /// direction, and locked vertices stay. Locked and hidden curves follow once they no longer are.
-    /// Where a match cannot be met the curve stays as it is, and its target tells what is missing.
-    pub(super) fn follow(&mut self, before: &Self) {
+    /// Where a match cannot be met the curve stays as it is, and its target tells what is missing;
+    /// for the curves in `hasty` that is not tried long.
+    pub(super) fn follow(&mut self, before: &Self, hasty: &BTreeSet<CurveId>) {
         let possible = |matched: &EndMatch| matched.target(self).is_some();
         let kept: Vec<EndMatch> = self.matches().filter(|it| possible(it)).copied().collect();
         self.matches = kept;
@@ -154,7 +169,12 @@ impl Document {
                 own.collect::<Vec<_>>()
             });
             if changed || now != then {
-                self.correct(curve);
+                let correct = if hasty.contains(&curve) {
+                    correct_hastily
+                } else {
+                    correct_jointly
+                };
+                self.correct(curve, correct);
             }
         }
     }
@@ -186,7 +206,7 @@ impl Document {
     }
 
     /// Give the matched ends of a curve their targets, and bring them there.
-    fn correct(&mut self, id: CurveId) {
+    fn correct(&mut self, id: CurveId, correct: Corrector) {
         let Some(curve) = self.curve(id).filter(|curve| curve.visible) else {
             return;
         };
@@ -200,7 +220,7 @@ impl Document {
             }
         }
         if !curve.locked
-            && let Some(polygon) = met(curve, &matched)
+            && let Some(polygon) = met(curve, &matched, correct)
         {
             corrected.polygon = polygon;
         }
@@ -219,7 +239,7 @@ fn is_met(polygon: &FloatPolygon, end: End, target: &EndTarget, tolerance: f64) 
 }
 
 /// The polygon whose ends meet their targets; `None` if they do already, or cannot.
-fn met(curve: &Curve, matched: &[(End, EndTarget)]) -> Option<FloatPolygon> {
+fn met(curve: &Curve, matched: &[(End, EndTarget)], correct: Corrector) -> Option<FloatPolygon> {
     let polygon = &curve.polygon;
     let is_missing = |(end, target): &(End, EndTarget)| !is_met(polygon, *end, target, ROUNDING);
     if !matched.iter().any(is_missing) {
@@ -229,15 +249,13 @@ fn met(curve: &Curve, matched: &[(End, EndTarget)]) -> Option<FloatPolygon> {
     let corrected = if has_ends_apart(polygon) {
         let mut ends = matched.iter();
         let one = |polygon: FloatPolygon, (end, target): &(End, EndTarget)| {
-            correct_near_end(&polygon, *end, target, &locked).ok()
+            correct_near_end(&polygon, *end, target, &locked, correct).ok()
         };
         ends.try_fold(polygon.clone(), one)?
     } else {
         let least = Disturbance::Differences(1);
         let targets = with_kept_ends(polygon, matched);
-        correct_jointly(polygon, &targets, least, &locked)
-            .ok()?
-            .polygon
+        correct(polygon, &targets, least, &locked).ok()?.polygon
     };
     curve.check_held(&corrected).ok()?;
     Some(corrected)

@@ -1,5 +1,8 @@
 //! Undo and redo: labelled snapshots of the document.
 
+use std::collections::BTreeSet;
+
+use super::curve::CurveId;
 use super::document::Document;
 use super::edit::Edit;
 use super::error::EditError;
@@ -8,14 +11,27 @@ use super::error::EditError;
 ///
 /// A preview (of a drag, a typed field, an operation) is begun, shown any number of times, and
 /// committed as one step or aborted; each time starts from the state at the beginning, so nothing
-/// drifts and an abort restores it bit for bit.
+/// drifts and an abort restores it bit for bit. A match that cannot be met may take long to try: where
+/// one was not met a moment ago, it is tried only briefly until the preview is committed.
 #[derive(Clone, Debug, Default)]
 pub struct History {
     document: Document,
     saved: Document,
     undo: Vec<Step>,
     redo: Vec<Step>,
-    preview: Option<Step>,
+    preview: Option<Preview>,
+}
+
+/// What is tried out on a state of the document.
+#[derive(Clone, Debug)]
+struct Preview {
+    step: Step,
+    /// What is shown.
+    edits: Vec<Edit>,
+    /// The curves that did not meet a match in what is shown.
+    unmet: BTreeSet<CurveId>,
+    /// Whether matches were tried only briefly for what is shown.
+    hasty: bool,
 }
 
 /// A state of the document and what was done from it.
@@ -43,17 +59,33 @@ impl History {
     /// Begin a preview; one that still runs is committed first.
     pub fn begin(&mut self, label: impl Into<String>) {
         self.commit();
-        self.preview = Some(Step {
+        let step = Step {
             label: label.into(),
             document: self.document.clone(),
+        };
+        self.preview = Some(Preview {
+            step,
+            edits: Vec::new(),
+            unmet: self.document.unmet(),
+            hasty: false,
         });
     }
 
     /// The document as it was when the running preview began; as it is now if none runs.
     pub fn settled(&self) -> &Document {
-        self.preview
-            .as_ref()
-            .map_or(&self.document, |step| &step.document)
+        let preview = self.preview.as_ref();
+        preview.map_or(&self.document, |preview| &preview.step.document)
+    }
+
+    /// What `edits` would show.
+    ///
+    /// # Errors
+    /// As [`History::preview`].
+    pub fn previewed(&self, edits: Vec<Edit>) -> Result<Document, EditError> {
+        match &self.preview {
+            Some(preview) => preview.step.document.edited_hastily(edits, &preview.unmet),
+            None => self.document.edited(edits),
+        }
     }
 
     /// Show what `edits` make of the document that the preview began with. Without one there is
@@ -62,17 +94,35 @@ impl History {
     /// # Errors
     /// [`EditError`] of the first edit that cannot be made; what was shown last stays.
     pub fn preview(&mut self, edits: Vec<Edit>) -> Result<(), EditError> {
-        let Some(step) = &self.preview else {
+        let Some(preview) = &mut self.preview else {
             return Ok(());
         };
-        self.document = step.document.edited(edits)?;
+        let before = &preview.step.document;
+        self.document = before.edited_hastily(edits.clone(), &preview.unmet)?;
+        preview.hasty = !preview.unmet.is_empty();
+        preview.unmet = self.document.unmet();
+        preview.edits = edits;
         Ok(())
+    }
+
+    /// Try matches as long as it takes that were tried only briefly for what is shown, and show that if it
+    /// is `allowed`. Otherwise what is shown is what a commit keeps.
+    pub fn take_time(&mut self, allowed: impl FnOnce(&Document) -> bool) {
+        let Some(preview) = self.preview.as_mut().filter(|preview| preview.hasty) else {
+            return;
+        };
+        preview.hasty = false;
+        let tried = preview.step.document.edited(preview.edits.clone());
+        if let Some(document) = tried.ok().filter(allowed) {
+            self.document = document;
+        }
     }
 
     /// End the preview and keep what it shows as one step. Returns whether there is a step: a
     /// preview that changed nothing, or came back to where it began, leaves none.
     pub fn commit(&mut self) -> bool {
-        let Some(step) = self.preview.take() else {
+        self.take_time(|_| true);
+        let Some(Preview { step, .. }) = self.preview.take() else {
             return false;
         };
         if self.document.is_same(&step.document) {
@@ -87,7 +137,7 @@ impl History {
 
     /// End the preview and restore the document that it began with.
     pub fn abort(&mut self) {
-        if let Some(step) = self.preview.take() {
+        if let Some(Preview { step, .. }) = self.preview.take() {
             self.document = step.document;
         }
     }
@@ -147,7 +197,7 @@ impl History {
 
     /// Take back the last step, or abort the running preview. Returns its label.
     pub fn undo(&mut self) -> Option<String> {
-        if let Some(step) = self.preview.take() {
+        if let Some(Preview { step, .. }) = self.preview.take() {
             self.document = step.document;
             return Some(step.label);
         }
@@ -176,7 +226,8 @@ impl History {
 
     /// The label of the step that undo would take back.
     pub fn undo_label(&self) -> Option<&str> {
-        let step = self.preview.as_ref().or(self.undo.last());
+        let preview = self.preview.as_ref().map(|preview| &preview.step);
+        let step = preview.or(self.undo.last());
         step.map(|step| step.label.as_str())
     }
 

@@ -178,7 +178,8 @@ impl Editor {
         let exported = Document::from_curves(visible)
             .with_references(references)
             .with_extras(document.extras().clone());
-        let saved = disk::write_document(&path, &exported, polygon)?;
+        let mut saved = disk::write_document(&path, &exported, polygon)?;
+        saved.losses.add_matches(document, |curve| curve.visible);
         let mut text = format!("{count} exported to {shown}");
         if !hidden.is_empty() {
             text += &format!(

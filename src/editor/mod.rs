@@ -257,7 +257,7 @@ impl Editor {
     /// Keep what a number field shows as one step.
     pub fn commit_preview(&mut self) {
         if self.workspace.interruption() == Some(Interruption::Commits) {
-            self.workspace.commit();
+            self.commit_kept();
         }
     }
 

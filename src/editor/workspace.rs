@@ -122,6 +122,20 @@ impl Workspace {
         self.history.preview(edits)
     }
 
+    /// What edits would show.
+    ///
+    /// # Errors
+    /// As [`Workspace::update`].
+    pub fn previewed(&self, edits: Vec<Edit>) -> Result<Document, EditError> {
+        self.history.previewed(edits)
+    }
+
+    /// Try matches as long as it takes that were tried only briefly for what is shown, and show that if it
+    /// is `allowed`. Otherwise what is shown is what a commit keeps.
+    pub fn take_time(&mut self, allowed: impl FnOnce(&Document) -> bool) {
+        self.history.take_time(allowed);
+    }
+
     /// End the preview and keep what it shows as one step. Returns whether there is a step.
     pub fn commit(&mut self) -> bool {
         let made = self.preview.take().is_some() && self.history.commit();

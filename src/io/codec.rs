@@ -72,7 +72,10 @@ impl Format {
                 export
             }
         };
-        export.losses.project_keys = self != Self::Batten && !extras.is_empty();
+        if self != Self::Batten {
+            export.losses.add_matches(document, |_| true);
+            export.losses.project_keys = !extras.is_empty();
+        }
         Ok(export)
     }
 }

@@ -3,8 +3,8 @@
 use std::fmt;
 
 use super::format::Format;
-use crate::document::{Curve, Reference, quoted};
-use crate::geometry::{PolygonKind, rounded_up};
+use crate::document::{Curve, Document, Reference, quoted};
+use crate::geometry::{End, PolygonKind, rounded_up};
 
 /// Hold a written file's bytes and what is lost with them.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +46,13 @@ pub enum Loss {
     Targets,
     /// A reference as a whole.
     Reference,
+    /// That an end is kept matched to another curve.
+    Match {
+        /// The end.
+        end: End,
+        /// The name of the other curve.
+        source: String,
+    },
     /// What its file said of it that this program does not know.
     UnknownKeys,
     /// That the curve is periodic; it is written as an open one that ends where it begins.
@@ -115,6 +122,20 @@ impl LossReport {
         }
     }
 
+    /// Add the matches of a document's curves, of those that are written: every format but Batten's own
+    /// loses them.
+    pub fn add_matches(&mut self, document: &Document, is_written: impl Fn(&Curve) -> bool) {
+        for matched in document.matches() {
+            let pair = document
+                .curve(matched.curve)
+                .zip(document.name(matched.source));
+            if let Some((curve, source)) = pair.filter(|(curve, _)| is_written(curve)) {
+                let (end, source) = (matched.end, source.to_owned());
+                self.add(curve, Loss::Match { end, source });
+            }
+        }
+    }
+
     /// Add a loss of one curve where `is_lost`.
     pub fn add_if(&mut self, is_lost: bool, curve: &Curve, loss: Loss) {
         if is_lost {
@@ -158,6 +179,10 @@ impl fmt::Display for LossReport {
                 Loss::Locked => lost("that it is locked"),
                 Loss::LockedVertices => lost("which of its vertices are locked"),
                 Loss::Targets => lost("the targets of its ends"),
+                Loss::Match { end, source } => {
+                    let (end, source) = (end.name(), quoted(source));
+                    lost(&format!("that its {end} is matched to {source}"))
+                }
                 Loss::UnknownKeys => lost("its unknown keys"),
             };
             format!("{}: {text}", quoted(name))

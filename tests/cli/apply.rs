@@ -534,3 +534,21 @@ fn matched_curves_follow_and_locked_vertices_stay() {
         }
     }
 }
+
+#[test]
+fn exports_name_the_matches_and_locks_that_they_lose() {
+    let folder = Folder::new();
+    fs::write(folder.path("in.batten"), MATCHED).unwrap();
+    for (file, format) in [("out.csv", "CSV table"), ("out.dxf", "DXF")] {
+        let (_, told) = folder.done(&["convert", "in.batten", file]);
+        let expected = [
+            format!("“first”: the {format} does not hold which of its vertices are locked"),
+            format!("“second”: the {format} does not hold that its start is matched to “first”"),
+        ];
+        for line in expected {
+            assert!(told.contains(&line), "{line}: {told}");
+        }
+    }
+    let (_, told) = folder.done(&["convert", "in.batten", "out.batten"]);
+    assert!(!told.contains("matched"), "{told}");
+}

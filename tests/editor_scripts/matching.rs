@@ -1,9 +1,9 @@
 //! Ends that are matched to other curves, and follow them.
 
 use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace};
-use batten::editor::{Command, Editor, EndFitAction, Key, ToolKind, told};
+use batten::editor::{Command, Editor, EndFitAction, Export, Key, ToolKind, told};
 use batten::geometry::end_correction::{EndDifference, EndTarget};
-use batten::geometry::{Continuity, End, FloatPolygon};
+use batten::geometry::{Continuity, End, FloatPolygon, PolygonKind};
 use batten::operations::Value;
 use glam::{DVec2, DVec3};
 
@@ -473,6 +473,32 @@ fn a_match_is_saved_and_imported_with_its_curves() {
     assert_eq!((matches[1].curve, matches[1].source), (ids[3], ids[2]));
     told(opened.execute(Command::Undo));
     assert!(opened.document().is_same(&before));
+}
+
+#[test]
+fn an_export_names_the_matches_of_what_it_holds() {
+    let (mut script, ids) = script();
+    pick_end(&mut script, ids, Continuity::G1, true);
+    let folder = tempfile::tempdir().expect("a folder");
+    for extension in ["csv", "dxf"] {
+        let path = folder.path().join("matched").with_extension(extension);
+        let polygon = PolygonKind::Float;
+        let export = Export { extension, polygon };
+        told(script.editor.export(&path, &export));
+        let message = script.message();
+        let line = "that its start is matched to “first”";
+        assert!(message.contains(line), "{message}");
+    }
+    // A curve that is hidden is not exported, and nothing of it is lost.
+    told(script.editor.set_visible(ids[1], false));
+    let (path, extension) = (folder.path().join("one.csv"), "csv");
+    let polygon = PolygonKind::Float;
+    told(script.editor.export(&path, &Export { extension, polygon }));
+    assert!(
+        !script.message().contains("matched"),
+        "{}",
+        script.message()
+    );
 }
 
 #[test]

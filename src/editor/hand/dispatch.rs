@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::analysis::AnalysisCache;
-use crate::document::{Curve, CurveId, Edit};
+use crate::document::{Curve, CurveId, Document, Edit};
 use crate::editor::Editor;
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::{Input, Key};
@@ -97,7 +97,22 @@ impl Editor {
         }
         let proved = known_features(&self.analyses);
         let settled = self.workspace.settled();
-        self.hand.keeping.keep(edits, settled, proved)
+        let try_out = |edits| self.workspace.previewed(edits);
+        self.hand.keeping.keep(edits, settled, try_out, proved)
+    }
+
+    /// End a drag, or a field's preview, and keep what it shows as one step. Where features are kept, a
+    /// match that can be met after all is met only if that adds none.
+    pub(in crate::editor) fn commit_kept(&mut self) {
+        if self.hand.keeps_features() {
+            let settled = self.workspace.settled().clone();
+            let proved = known_features(&self.analyses);
+            let keeping = &mut self.hand.keeping;
+            let allowed = |after: &Document| keeping.allows(after, &settled, proved);
+            self.workspace.take_time(allowed);
+        }
+        self.hand.keeping.end();
+        self.workspace.commit();
     }
 
     /// Refuse moves of vertices that are one step if they add a feature, if features are kept.
@@ -201,10 +216,7 @@ impl Editor {
                 let edits = self.kept(edits);
                 self.update(edits);
             }
-            Effect::Commit => {
-                self.hand.keeping.end();
-                self.workspace.commit();
-            }
+            Effect::Commit => self.commit_kept(),
             Effect::Abort => {
                 self.hand.keeping.end();
                 self.workspace.abort();

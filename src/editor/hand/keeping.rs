@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use glam::{DVec2, DVec3};
 
 use super::kept_curves::{KeptCurves, Obstacle};
-use crate::document::{Curve, CurveId, Document, Edit, quoted};
+use crate::document::{Curve, CurveId, Document, Edit, EditError, quoted};
 use crate::geometry::FloatPolygon;
 use crate::geometry::features::SegmentFeatures;
 
@@ -35,10 +35,11 @@ pub struct Keeping {
 /// Vertices of a curve with their places.
 type Moves = Vec<(usize, DVec3)>;
 
-/// What a drag works on: the document as it was when it began, the edits besides moves, and what is
-/// proved of a curve's segments.
-struct Drag<'a, P> {
+/// What a drag works on: the document as it was when it began, what edits would show, the edits besides
+/// moves, and what is proved of a curve's segments.
+struct Drag<'a, T, P> {
     settled: &'a Document,
+    try_out: T,
     others: &'a [Edit],
     proved: P,
 }
@@ -55,11 +56,13 @@ impl Keeping {
     }
 
     /// Change the edits of a drag so that nothing is added to `settled`, the document as it was when
-    /// the drag began. `proved` gives the features of a curve's segments, if they are known.
+    /// the drag began, by what `try_out` says that they show. `proved` gives the features of a curve's
+    /// segments, if they are known.
     pub fn keep(
         &mut self,
         edits: Vec<Edit>,
         settled: &Document,
+        try_out: impl Fn(Vec<Edit>) -> Result<Document, EditError>,
         proved: impl Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>>,
     ) -> Vec<Edit> {
         self.held_back = None;
@@ -76,6 +79,7 @@ impl Keeping {
         self.begin(&wanted, settled);
         let drag = Drag {
             settled,
+            try_out,
             others: &others,
             proved,
         };
@@ -85,6 +89,16 @@ impl Keeping {
         }
         others.extend(edits_of(&self.good));
         others
+    }
+
+    /// Whether nothing is added to `settled` by what the drag has come to.
+    pub fn allows(
+        &mut self,
+        after: &Document,
+        settled: &Document,
+        proved: impl Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>>,
+    ) -> bool {
+        self.curves.prove(settled, after, proved).is_ok()
     }
 
     /// Say what edits would add to the curves of a document, if they add features or nothing can be
@@ -126,8 +140,13 @@ impl Keeping {
     ///
     /// # Errors
     /// [`Obstacle::Unprovable`] if nothing can be proved of a curve.
-    fn go<P>(&mut self, wanted: &BTreeMap<CurveId, Moves>, drag: &Drag<P>) -> Result<(), Obstacle>
+    fn go<T, P>(
+        &mut self,
+        wanted: &BTreeMap<CurveId, Moves>,
+        drag: &Drag<T, P>,
+    ) -> Result<(), Obstacle>
     where
+        T: Fn(Vec<Edit>) -> Result<Document, EditError>,
         P: Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>>,
     {
         let begin = Instant::now();
@@ -159,16 +178,17 @@ impl Keeping {
     ///
     /// # Errors
     /// What stands against them.
-    fn go_all_the_way<P>(
+    fn go_all_the_way<T, P>(
         &mut self,
         places: &BTreeMap<CurveId, Moves>,
-        drag: &Drag<P>,
+        drag: &Drag<T, P>,
     ) -> Result<(), Obstacle>
     where
+        T: Fn(Vec<Edit>) -> Result<Document, EditError>,
         P: Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>>,
     {
         let edits = drag.others.iter().cloned().chain(edits_of(places));
-        let tried = drag.settled.edited(edits);
+        let tried = (drag.try_out)(edits.collect());
         let tried = tried.map_err(|error| Obstacle::Unprovable(error.to_string()))?;
         self.curves.prove(drag.settled, &tried, &drag.proved)?;
         self.good.clone_from(places);
@@ -176,8 +196,9 @@ impl Keeping {
     }
 
     /// Let a single vertex go along the border, nearer to where the pointer has it.
-    fn slide<P>(&mut self, wanted: &BTreeMap<CurveId, Moves>, drag: &Drag<P>, begin: Instant)
+    fn slide<T, P>(&mut self, wanted: &BTreeMap<CurveId, Moves>, drag: &Drag<T, P>, begin: Instant)
     where
+        T: Fn(Vec<Edit>) -> Result<Document, EditError>,
         P: Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>>,
     {
         let single = |places: &BTreeMap<CurveId, Moves>| match places.first_key_value() {

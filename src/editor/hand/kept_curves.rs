@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::document::{Curve, CurveId, Document, quoted};
+use crate::geometry::FloatPolygon;
 use crate::geometry::features::SegmentFeatures;
 use crate::geometry::vertex_moves::MoveProver;
-use crate::geometry::FloatPolygon;
 
 /// The most segments of a curve that are proved anew in every frame.
 const MOST_SEGMENTS: usize = 256;

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::joint_correction::{CorrectionError, Disturbance, correct_jointly};
 use super::objective::Objective;
-use super::problem::Problem;
+use super::problem::{self, Problem};
 use crate::geometry::clamped_polygon::ClampedPolygon;
 use crate::geometry::end::End;
 use crate::geometry::end_correction::{EndDifference, EndTarget, align_end, translate_end};
@@ -103,7 +103,7 @@ pub fn follow_in_harmony(
             order: 1,
             fidelity: FIDELITY,
         };
-        let met = problem.meet(least, begun.vertices());
+        let met = problem.meet(least, begun.vertices(), problem::MOST_STEPS);
         let met = met.map_or_else(|| begun.vertices().to_vec(), |met| met.vertices);
         problem.moved_from(polygon.vertices());
         let harmony = problem.harmony(problem.measure(), ORDER, stiffness);
@@ -163,7 +163,7 @@ pub fn follow_target(
         problem.hold(end.parameter(polygon), target, None);
     }
     problem.moved_from(polygon.vertices());
-    let harmony = problem.harmony(ORDER, stiffness);
+    let harmony = problem.harmony(problem.measure(), ORDER, stiffness);
     let followed = problem.descend(harmony, met.vertices(), MOST_STEPS);
     let followed = problem.polygon(&followed.vertices)?;
     let left = |polygon: &FloatPolygon| {

@@ -4,7 +4,7 @@ use glam::DVec3;
 use thiserror::Error;
 
 use super::objective::Objective;
-use super::problem::Problem;
+use super::problem::{self, Problem};
 use crate::geometry::end::End;
 use crate::geometry::end_correction::{EndDifference, EndTarget};
 use crate::geometry::error::PolygonError;
@@ -26,6 +26,9 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// The share of its speed with which an end counts as stopped: a cusp in the making.
 const STOPPED: f64 = 1e-3;
+
+/// The most steps towards curvatures and slopes that a frame has time for.
+const HASTY_STEPS: usize = 8;
 
 /// The most steps of harmonious corrections.
 const MOST_STEPS: usize = 50;
@@ -84,6 +87,14 @@ pub enum Disturbance {
     Harmony,
 }
 
+/// A way of correcting ends jointly: [`correct_jointly`] or [`correct_hastily`].
+pub type Corrector = fn(
+    &FloatPolygon,
+    &[(End, EndTarget)],
+    Disturbance,
+    &[usize],
+) -> Result<JointCorrection, CorrectionError>;
+
 /// The result of a joint correction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JointCorrection {
@@ -113,15 +124,7 @@ pub fn correct_jointly(
     disturbance: Disturbance,
     locked: &[usize],
 ) -> Result<JointCorrection, CorrectionError> {
-    if polygon.is_periodic() {
-        return Err(CorrectionError::Periodic);
-    }
-    let is_zero =
-        |vector: Option<DVec3>| vector.is_some_and(|vector| vector::direction(vector).is_none());
-    let zero = |target: &EndTarget| is_zero(target.direction) || is_zero(target.normal);
-    if let Some((end, _)) = targets.iter().find(|(_, target)| zero(target)) {
-        return Err(CorrectionError::NoDirection { end: *end });
-    }
+    check(polygon, targets)?;
     let correction = Correction {
         polygon,
         targets,
@@ -134,6 +137,47 @@ pub fn correct_jointly(
         Err(CorrectionError::NotSolvable { .. }) => correction.solve(Speed::Kept).or(free),
         Ok(found) if !points_forward(&found.polygon, targets) => correction.solve(Speed::Kept),
         other => other,
+    }
+}
+
+/// Do as [`correct_jointly`] does in most cases, by the first steps alone: what could not be met a moment
+/// ago hardly costs anything then.
+///
+/// # Errors
+/// As [`correct_jointly`], [`CorrectionError::NotSolvable`] also where that would go on.
+pub fn correct_hastily(
+    polygon: &FloatPolygon,
+    targets: &[(End, EndTarget)],
+    disturbance: Disturbance,
+    locked: &[usize],
+) -> Result<JointCorrection, CorrectionError> {
+    check(polygon, targets)?;
+    let correction = Correction {
+        polygon,
+        targets,
+        disturbance,
+        locked,
+    };
+    let problem = correction.problem(targets, Speed::Free);
+    let found = correction.finish(&problem, problem.before(), HASTY_STEPS)?;
+    if points_forward(&found.polygon, targets) {
+        Ok(found)
+    } else {
+        Err(not_solvable(&problem, found.residual))
+    }
+}
+
+/// Refuse a polygon without ends, and targets without a direction.
+fn check(polygon: &FloatPolygon, targets: &[(End, EndTarget)]) -> Result<(), CorrectionError> {
+    if polygon.is_periodic() {
+        return Err(CorrectionError::Periodic);
+    }
+    let is_zero =
+        |vector: Option<DVec3>| vector.is_some_and(|vector| vector::direction(vector).is_none());
+    let zero = |target: &EndTarget| is_zero(target.direction) || is_zero(target.normal);
+    match targets.iter().find(|(_, target)| zero(target)) {
+        Some((end, _)) => Err(CorrectionError::NoDirection { end: *end }),
+        None => Ok(()),
     }
 }
 
@@ -151,6 +195,14 @@ fn points_forward(polygon: &FloatPolygon, targets: &[(End, EndTarget)]) -> bool 
     })
 }
 
+fn not_solvable(problem: &Problem, residual: f64) -> CorrectionError {
+    CorrectionError::NotSolvable {
+        conditions: problem.conditions(),
+        freedoms: problem.freedoms(),
+        residual,
+    }
+}
+
 struct Correction<'a> {
     polygon: &'a FloatPolygon,
     targets: &'a [(End, EndTarget)],
@@ -161,7 +213,7 @@ struct Correction<'a> {
 impl Correction<'_> {
     fn solve(&self, speed: Speed) -> Result<JointCorrection, CorrectionError> {
         let problem = self.problem(self.targets, speed);
-        let direct = self.finish(&problem, problem.before(), 0);
+        let direct = self.finish(&problem, problem.before(), problem::MOST_STEPS);
         match direct {
             Err(CorrectionError::NotSolvable { .. }) if self.bends() => {
                 self.part_by_part(speed).unwrap_or(direct)
@@ -189,24 +241,20 @@ impl Correction<'_> {
         problem
     }
 
-    /// Meet the targets, beginning at some vertices, and check what is left.
+    /// Meet the targets, beginning at some vertices, by at most so many steps, and check what is left.
     fn finish(
         &self,
         problem: &Problem,
         begin: &[DVec3],
-        steps: usize,
+        most: usize,
     ) -> Result<JointCorrection, CorrectionError> {
-        let unsolved = |residual| CorrectionError::NotSolvable {
-            conditions: problem.conditions(),
-            freedoms: problem.freedoms(),
-            residual,
-        };
+        let unsolved = |residual| not_solvable(problem, residual);
         let order = match self.disturbance {
             Disturbance::Differences(order) => order,
             Disturbance::Harmony => 1,
         };
         let fidelity = FIDELITY;
-        let found = problem.meet(Objective::Disturbance { order, fidelity }, begin);
+        let found = problem.meet(Objective::Disturbance { order, fidelity }, begin, most);
         let mut found = found.ok_or_else(|| unsolved(self.residual(self.polygon)))?;
         if self.disturbance == Disturbance::Harmony {
             let objective = problem.harmony(problem.measure(), 2, CLOSENESS);
@@ -222,7 +270,7 @@ impl Correction<'_> {
         Ok(JointCorrection {
             polygon,
             residual,
-            steps: steps + found.steps,
+            steps: found.steps,
         })
     }
 
@@ -246,7 +294,7 @@ impl Correction<'_> {
             })
             .collect();
         let problem = self.problem(&placed, speed);
-        let mut reached = problem.meet(objective, problem.before())?;
+        let mut reached = problem.meet(objective, problem.before(), problem::MOST_STEPS)?;
         let begun = problem.polygon(&reached.vertices).ok()?;
         let (mut done, mut part) = (0.0, 0.5);
         let mut steps = reached.steps;
@@ -258,7 +306,7 @@ impl Correction<'_> {
                 .map(|(end, target)| (*end, partial(&begun, *end, target, share)))
                 .collect();
             let problem = self.problem(&targets, speed);
-            let next = problem.meet(objective, &reached.vertices)?;
+            let next = problem.meet(objective, &reached.vertices, problem::MOST_STEPS)?;
             steps += next.steps;
             let polygon = problem.polygon(&next.vertices).ok()?;
             let correction = Correction {
@@ -273,7 +321,11 @@ impl Correction<'_> {
             }
         }
         let problem = self.problem(self.targets, speed);
-        Some(self.finish(&problem, &reached.vertices, steps))
+        let found = self.finish(&problem, &reached.vertices, problem::MOST_STEPS);
+        Some(found.map(|found| JointCorrection {
+            steps: steps + found.steps,
+            ..found
+        }))
     }
 
     fn residual(&self, polygon: &FloatPolygon) -> f64 {

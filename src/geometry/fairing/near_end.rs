@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::joint_correction::{CorrectionError, Disturbance, correct_jointly};
+use super::joint_correction::{CorrectionError, Corrector, Disturbance};
 use crate::geometry::end::End;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::float_polygon::FloatPolygon;
@@ -19,17 +19,18 @@ pub fn has_ends_apart(polygon: &FloatPolygon) -> bool {
 }
 
 /// Bring one end of an open curve that [has its ends apart](has_ends_apart) to a target by moving only
-/// the vertices near it, as [`correct_jointly`] does, except the `locked` ones: in the same time
-/// however long the curve is, and with conditions in the size of what is moved. All beyond keeps
-/// every bit, and the curve its smoothness.
+/// the vertices near it, except the `locked` ones, as `correct` does: in the same time however long
+/// the curve is, and with conditions in the size of what is moved. All beyond keeps every bit, and
+/// the curve its smoothness.
 ///
 /// # Errors
-/// As [`correct_jointly`].
+/// As `correct`.
 pub fn correct_near_end(
     polygon: &FloatPolygon,
     end: End,
     target: &EndTarget,
     locked: &[usize],
+    correct: Corrector,
 ) -> Result<FloatPolygon, CorrectionError> {
     let (count, reach) = (
         polygon.vertices().len(),
@@ -62,7 +63,7 @@ pub fn correct_near_end(
         .map(|index| index - near.start)
         .collect();
     let least = Disturbance::Differences(1);
-    let corrected = correct_jointly(&part, &[(end, target)], least, &held_here)?.polygon;
+    let corrected = correct(&part, &[(end, target)], least, &held_here)?.polygon;
     let moves = near.clone().filter(|index| !held(index));
     let moves: Vec<(usize, DVec3)> = moves
         .map(|index| (index, origin + corrected.vertex(index - near.start)))

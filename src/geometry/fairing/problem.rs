@@ -20,8 +20,8 @@ const RANK_TOLERANCE: f64 = 1e-13;
 /// Solutions repeated on what is left: they bring linear conditions down to rounding.
 const REFINEMENTS: usize = 4;
 
-/// The most steps towards conditions that are not linear.
-const MOST_STEPS: usize = 60;
+/// The most steps towards conditions that are not linear, where they are to be met if they can be.
+pub(super) const MOST_STEPS: usize = 60;
 
 /// Steps below this share of the curve's size count as none.
 const NO_STEP: f64 = 4.0 * f64::EPSILON;
@@ -229,14 +229,19 @@ impl<'a> Problem<'a> {
     }
 
     /// Find the vertices with the smallest quadratic objective that meet the conditions, beginning
-    /// at some vertices. `None` if the equations cannot be solved at all; whether the conditions
-    /// are met, the caller measures.
-    pub(super) fn meet(&self, objective: Objective, begin: &[DVec3]) -> Option<Descent> {
+    /// at some vertices, by at most so many steps. `None` if the equations cannot be solved at all;
+    /// whether the conditions are met, the caller measures.
+    pub(super) fn meet(
+        &self,
+        objective: Objective,
+        begin: &[DVec3],
+        most: usize,
+    ) -> Option<Descent> {
         let mut all = self.held.iter().flat_map(|(_, conditions)| conditions);
         let most = if all.all(Condition::is_linear) {
             1
         } else {
-            MOST_STEPS
+            most
         };
         let mut vertices = begin.to_vec();
         let mut steps = 0;
