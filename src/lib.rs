@@ -4,6 +4,9 @@
 //! `geometry ← document ← { analysis, io, operations } ← editor ← ui`, with `cli` beside the editor.
 #![forbid(unsafe_code)]
 
+// The parser that is made of the grammar of expressions names it.
+extern crate alloc;
+
 pub mod analysis;
 pub mod cli;
 pub mod document;

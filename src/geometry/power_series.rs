@@ -3,7 +3,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::levels::taylor_series::product_coefficient;
+use super::levels::taylor_series::{power_sum, product_coefficient};
 
 /// Hold the first coefficients of the power series of a function about a parameter t:
 /// f(t + h) = Σ cₖ hᵏ, k = 0 … order, where cₖ is the k-th derivative at t over k!.
@@ -35,7 +35,7 @@ impl PowerSeries {
     pub(in crate::geometry) fn by_recurrence(
         value: f64,
         order: usize,
-        next: impl Fn(&[f64], usize) -> f64,
+        mut next: impl FnMut(&[f64], usize) -> f64,
     ) -> Self {
         let mut coefficients = Vec::with_capacity(order + 1);
         coefficients.push(value);
@@ -61,12 +61,23 @@ impl PowerSeries {
         self.0[0]
     }
 
+    /// Add a number.
+    pub(in crate::geometry) fn plus(mut self, number: f64) -> Self {
+        self.0[0] += number;
+        self
+    }
+
     /// Multiply by a number.
     pub(in crate::geometry) fn times(mut self, factor: f64) -> Self {
         for coefficient in &mut self.0 {
             *coefficient *= factor;
         }
         self
+    }
+
+    /// Take the part that has `order` derivatives.
+    pub(in crate::geometry) fn truncated(&self, order: usize) -> Self {
+        Self(self.0[..=order].to_vec())
     }
 
     /// Differentiate, which leaves one derivative less; of a mere value the derivative is unknown.
@@ -81,10 +92,109 @@ impl PowerSeries {
         Self::by_recurrence(value, order, |_, k| self.0[k] / (k + 1) as f64)
     }
 
+    /// Compute eᶠ: g′ = f′ g.
+    pub(in crate::geometry) fn exp(&self) -> Self {
+        let slope = self.derivative();
+        Self::by_recurrence(self.value().exp(), self.order(), |g, k| {
+            product_coefficient(&slope.0, g, k) / (k + 1) as f64
+        })
+    }
+
+    /// Compute the natural logarithm: g′ = f′ / f.
+    pub(in crate::geometry) fn ln(&self) -> Self {
+        self.integrated(self.value().ln(), |f| f)
+    }
+
     /// Compute sine and cosine: s′ = c f′, c′ = −s f′.
     pub(in crate::geometry) fn sin_cos(&self) -> (Self, Self) {
         let (sine, cosine) = self.value().sin_cos();
         self.paired(sine, cosine, -1.0)
+    }
+
+    /// Compute the hyperbolic sine and cosine: s′ = c f′, c′ = s f′.
+    pub(in crate::geometry) fn sinh_cosh(&self) -> (Self, Self) {
+        self.paired(self.value().sinh(), self.value().cosh(), 1.0)
+    }
+
+    /// Compute the tangent: g′ = (1 + g²) f′.
+    pub(in crate::geometry) fn tan(&self) -> Self {
+        self.self_similar(self.value().tan(), 1.0)
+    }
+
+    /// Compute the hyperbolic tangent: g′ = (1 − g²) f′.
+    pub(in crate::geometry) fn tanh(&self) -> Self {
+        self.self_similar(self.value().tanh(), -1.0)
+    }
+
+    /// Compute the inverse sine: g′ = f′ / √(1 − f²).
+    pub(in crate::geometry) fn asin(&self) -> Self {
+        self.integrated(self.value().asin(), |f| {
+            // As a product nothing is lost where f is near 1.
+            let (below, above) = ((-&f).plus(1.0), f.plus(1.0));
+            (&below * &above).power(0.5)
+        })
+    }
+
+    /// Compute the inverse cosine: g′ = −f′ / √(1 − f²).
+    pub(in crate::geometry) fn acos(&self) -> Self {
+        let mut series = -&self.asin();
+        series.0[0] = self.value().acos();
+        series
+    }
+
+    /// Compute the inverse tangent: g′ = f′ / (1 + f²).
+    pub(in crate::geometry) fn atan(&self) -> Self {
+        self.integrated(self.value().atan(), |f| (&f * &f).plus(1.0))
+    }
+
+    /// Compute |f|, which is smooth but where f is 0: there, derivatives are not numbers.
+    pub(in crate::geometry) fn abs(&self) -> Self {
+        if self.value() > 0.0 {
+            self.clone()
+        } else if self.value() < 0.0 {
+            -self
+        } else {
+            Self::by_recurrence(self.value().abs(), self.order(), |_, _| f64::NAN)
+        }
+    }
+
+    /// Raise to a power that is a number. Whole powers of small size are those of repeated
+    /// multiplication, also where f is 0 or negative.
+    pub(in crate::geometry) fn power(&self, exponent: f64) -> Self {
+        /// Above this a whole power is one like others.
+        const FEW: f64 = 64.0;
+        if exponent.fract() == 0.0 && exponent.abs() <= FEW {
+            let power = self.whole_power(exponent.abs() as u32);
+            return if exponent < 0.0 {
+                &Self::constant(1.0, self.order()) / &power
+            } else {
+                power
+            };
+        }
+        let inverse = 1.0 / self.value();
+        Self::by_recurrence(self.value().powf(exponent), self.order(), |g, k| {
+            power_sum(exponent, &self.0, g, k + 1) * inverse / (k + 1) as f64
+        })
+    }
+
+    fn whole_power(&self, exponent: u32) -> Self {
+        let mut power = Self::constant(1.0, self.order());
+        for bit in (0..u32::BITS - exponent.leading_zeros()).rev() {
+            power = &power * &power;
+            if exponent >> bit & 1 == 1 {
+                power = &power * self;
+            }
+        }
+        power
+    }
+
+    /// Solve g′ = f′ / `slope`(f) with g = `value` at the parameter itself.
+    fn integrated(&self, value: f64, slope: impl Fn(Self) -> Self) -> Self {
+        if self.order() == 0 {
+            return Self(vec![value]);
+        }
+        let divisor = slope(self.truncated(self.order() - 1));
+        (&self.derivative() / &divisor).antiderivative(value, self.order())
     }
 
     /// Solve s′ = c f′, c′ = `sign` · s f′.
@@ -99,6 +209,18 @@ impl PowerSeries {
             cosines.push(sign * fall);
         }
         (Self(sines), Self(cosines))
+    }
+
+    /// Solve g′ = (1 + `sign` g²) f′.
+    fn self_similar(&self, value: f64, sign: f64) -> Self {
+        let slope = self.derivative();
+        let (mut values, mut factors) = (vec![value], Vec::new());
+        for k in 0..self.order() {
+            let one = if k == 0 { 1.0 } else { 0.0 };
+            factors.push(one + sign * product_coefficient(&values, &values, k));
+            values.push(product_coefficient(&slope.0, &factors, k) / (k + 1) as f64);
+        }
+        Self(values)
     }
 
     fn zipped(&self, other: &Self, combine: impl Fn(f64, f64) -> f64) -> Self {

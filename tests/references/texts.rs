@@ -37,6 +37,8 @@ fn what_is_written_is_read_back_to_the_bit() {
         "clothoid:a=3.3333333333333335,from=-2,to=1e-300",
         "log-aesthetic:alpha=-1,lambda=0.5,to=0.30000000000000004",
         "conical-spiral:rise=-7",
+        "formula:x=cos(2*t)/3;y= sin(t) ;from=-pi;to=2^0.5",
+        "formula:x=t;y=-t^2;z=e^(-t)",
     ] {
         let curve = read(text);
         assert_eq!(read(&curve.to_string()), curve);
@@ -64,12 +66,69 @@ fn mistakes_name_their_columns() {
         9,
         "circle has no parameter “diameter”",
     );
-    assert_refused("circle:radius= 2x", 16, "“2x” is no number");
+    assert_refused(
+        "circle:radius= 2x",
+        17,
+        "“x” stands where an operator or the end",
+    );
     assert_refused("circle:radius=inf", 15, "“inf” is no number");
+    assert_refused("circle:radius=1/0", 15, "“1/0” is no number");
+    assert_refused("circle:radius=2*t", 15, "“2*t” depends on t");
     assert_refused("circle:radius=-2", 15, "Radius: -2 is out of range");
     assert_refused("circle:radius=1,radius=2", 17, "“radius” is given twice");
     assert_refused("circle:größe=2", 8, "no parameter “größe”");
     assert_refused("circle:from=3,to=2", 1, "from t = 3 to t = 2 is empty");
+}
+
+#[test]
+fn mistakes_in_formulas_name_their_columns() {
+    let operand = "a number, t, a function or a parenthesis";
+    assert_refused("formula:x=t", 1, "gives no y");
+    assert_refused("formula:y=t", 1, "gives no x");
+    assert_refused("formula", 1, "gives no x");
+    assert_refused("formula:x=t;w=t", 13, "formula has no parameter “w”");
+    assert_refused("formula:x=;y=t", 11, operand);
+    assert_refused("formula:x=2*;y=t", 13, operand);
+    assert_refused("formula:x=t;y=2*(t+1", 21, "a closing parenthesis");
+    assert_refused(
+        "formula:x=t;y=t)",
+        16,
+        "“)” stands where an operator or the end",
+    );
+    assert_refused("formula:x=t;y=2 t", 17, "“t” stands where an operator");
+    assert_refused("formula:x=t;y=3+sinn(t)", 17, "“sinn” means nothing here");
+    assert_refused("formula:x=t;y=3·u", 17, "“u” means nothing here");
+    assert_refused("formula:x=t;y=sin t", 19, "“t” stands where an operator");
+    assert_refused("formula:x=t;y=1e999", 15, "“1e999” is no number");
+    assert_refused(
+        "formula:x=t;y=ln(t);from=-1;to=1",
+        1,
+        "no point, or no direction, at t = -1",
+    );
+    let deep = format!("formula:x=t;y={}t", "(".repeat(2000));
+    assert_refused(&deep, 65, "too long");
+    let long = format!("formula:x=t;y=t{}", "+t".repeat(2000));
+    assert_refused(&long, 1015, "too long");
+}
+
+#[test]
+fn expressions_bind_as_in_mathematics() {
+    for (expression, value) in [
+        ("-2^2", -4.0),
+        ("2^3^2", 512.0),
+        ("2^-2", 0.25),
+        ("8/4/2", 1.0),
+        ("8-4-2", 2.0),
+        ("2+3*4", 14.0),
+        ("-(2+3)*--4", -20.0),
+        ("abs(-3)·sqrt(16) − .5e1", 7.0),
+        ("cos(pi)+ln(e)+tan(π/4)", 1.0),
+        ("+7", 7.0),
+    ] {
+        let curve = read(&format!("conical-spiral:rise={expression}"));
+        let found = values(&curve)[0];
+        assert!((found - value).abs() <= 1e-14, "{expression} = {found}");
+    }
 }
 
 #[test]

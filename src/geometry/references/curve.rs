@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::error::ReferenceError;
-use super::form::ReferenceForm;
+use super::form::{ReferenceForm, from_series};
 use super::placement::Placement;
 use crate::geometry::control_polygon::MAX_MAGNITUDE;
 use crate::geometry::differentiable::Differentiable;
@@ -152,6 +152,7 @@ impl Differentiable for ReferenceCurve {
     fn derivatives(&self, t: f64, order: usize) -> Vec<DVec3> {
         self.placed_values(match &self.form {
             ReferenceForm::Analytic(form) => form.derivatives(t, order),
+            ReferenceForm::Formula(formula) => from_series(&formula.series(t, order)),
             ReferenceForm::Points(points) => points.derivatives(t, order),
         })
     }

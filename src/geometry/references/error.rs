@@ -41,6 +41,41 @@ pub enum ReferenceError {
         /// The value given.
         text: String,
     },
+    /// An expression does not go on as one does.
+    #[error("{} stands where {expected} is needed", found.as_ref().map_or("the end".to_owned(), |found| format!("“{found}”")))]
+    Syntax {
+        /// The character found; none at the end.
+        found: Option<String>,
+        /// What could stand there.
+        expected: &'static str,
+    },
+    /// A name in an expression that means nothing.
+    #[error(
+        "“{name}” means nothing here: there are t, pi, e and, followed by a parenthesis, {functions}"
+    )]
+    UnknownName {
+        /// The name given.
+        name: String,
+        /// The functions that there are.
+        functions: String,
+    },
+    /// An expression is too long to read.
+    #[error(
+        "the expression is too long: at most 1000 characters, and 50 parentheses within each other, can be read"
+    )]
+    TooLong,
+    /// A number depends on t.
+    #[error("“{text}” depends on t: a number is needed")]
+    NotConstant {
+        /// The expression given.
+        text: String,
+    },
+    /// A coordinate of a formula is missing.
+    #[error("the formula gives no {coordinate}: write formula:x=…;y=… and, in space, ;z=…")]
+    NoCoordinate {
+        /// The coordinate.
+        coordinate: &'static str,
+    },
     /// The number of values is not that of the parameters.
     #[error("{found} values for the {needed} parameters of {kind}")]
     ValueCount {

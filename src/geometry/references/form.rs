@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use super::error::ReferenceError;
-use super::kind::ReferenceKind;
+use super::formula::Formula;
+use super::kind::{EVERYWHERE, ReferenceKind};
 use super::point_list::PointList;
 use crate::geometry::power_series::PowerSeries;
 
@@ -12,6 +13,8 @@ use crate::geometry::power_series::PowerSeries;
 pub enum ReferenceForm {
     /// A kind of curve with its values.
     Analytic(AnalyticForm),
+    /// Formulas typed by the user.
+    Formula(Formula),
     /// Points, joined by straight lines.
     Points(PointList),
 }
@@ -80,6 +83,7 @@ impl ReferenceForm {
     pub fn label(&self) -> &'static str {
         match self {
             Self::Analytic(form) => form.kind.label,
+            Self::Formula(_) => "Formula",
             Self::Points(_) => "Points",
         }
     }
@@ -88,6 +92,7 @@ impl ReferenceForm {
     pub fn is_planar(&self) -> bool {
         match self {
             Self::Analytic(form) => form.kind.planar,
+            Self::Formula(formula) => formula.texts()[2].is_none(),
             Self::Points(points) => points.is_planar(),
         }
     }
@@ -101,6 +106,7 @@ impl ReferenceForm {
     pub fn default_interval(&self) -> [f64; 2] {
         match self {
             Self::Analytic(form) => (form.kind.interval)(&form.values),
+            Self::Formula(_) => [0.0, 1.0],
             Self::Points(points) => [0.0, (points.points().len() - 1) as f64],
         }
     }
@@ -109,6 +115,7 @@ impl ReferenceForm {
     pub fn domain(&self) -> [f64; 2] {
         match self {
             Self::Analytic(form) => (form.kind.domain)(&form.values),
+            Self::Formula(_) => EVERYWHERE,
             Self::Points(_) => self.default_interval(),
         }
     }

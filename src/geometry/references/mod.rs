@@ -7,7 +7,9 @@
 
 mod curve;
 mod error;
+mod expression;
 mod form;
+mod formula;
 mod integral;
 mod kind;
 mod placement;
@@ -17,6 +19,7 @@ mod text;
 pub use curve::ReferenceCurve;
 pub use error::{ReferenceError, ReferenceTextError};
 pub use form::{AnalyticForm, ReferenceForm};
+pub use formula::Formula;
 pub use kind::{ReferenceKind, ReferenceParameter};
 pub use placement::Placement;
 pub use point_list::PointList;
@@ -33,8 +36,19 @@ macro_rules! table {
 
 table! {
     circle,
+    ellipse,
+    parabola,
+    catenary,
+    circle_involute,
+    logarithmic_spiral,
+    archimedean_spiral,
     clothoid,
+    nielsen_spiral,
     log_aesthetic,
+    superspiral,
+    helix,
+    cubic_helix,
+    conical_helix,
     conical_spiral,
 }
 

@@ -4,18 +4,27 @@ use std::fmt;
 
 use super::curve::ReferenceCurve;
 use super::error::{ReferenceError, ReferenceTextError};
+use super::expression::Expression;
 use super::form::{AnalyticForm, ReferenceForm};
+use super::formula::{Coordinate, Formula};
 use super::kind::ReferenceKind;
 use super::placement::Placement;
 use super::{KINDS, find};
+
+/// What stands before formulas.
+const FORMULA: &str = "formula";
+
+/// The names of coordinates.
+const COORDINATES: [&str; 3] = ["x", "y", "z"];
 
 /// The names that give the interval of t.
 const INTERVAL: [&str; 2] = ["from", "to"];
 
 impl ReferenceCurve {
     /// Read a reference: a kind's name and, after a colon, values of its parameters, separated by
-    /// commas; `from` and `to` give the interval of t. What is not given has its default. It lies
-    /// where its formula puts it.
+    /// commas; or `formula:x=…;y=…;z=…` with expressions in t, without z in the plane. `from` and `to`
+    /// give the interval of t. Numbers can be expressions without t. What is not given has its default.
+    /// It lies where its formula puts it.
     ///
     /// # Errors
     /// [`ReferenceTextError`] names the column where the mistake begins.
@@ -23,14 +32,20 @@ impl ReferenceCurve {
         let whole = Part::whole(text);
         let (name, rest) = whole.split_once(':');
         let name = name.trimmed();
-        let kind = find(name.text).ok_or_else(|| {
-            name.error(ReferenceError::NoSuchKind {
-                name: name.text.to_owned(),
-                known: list(KINDS.iter().map(|kind| kind.name)),
-            })
-        })?;
-        let assignments = rest.map_or(Ok(Vec::new()), |rest| rest.assignments(','))?;
-        let (form, interval) = analytic(kind, &assignments)?;
+        let assignments =
+            |separator| rest.map_or(Ok(Vec::new()), |rest: Part| rest.assignments(separator));
+        let (form, interval) = if name.text == FORMULA {
+            formula(&whole, &assignments(';')?)?
+        } else {
+            let kind = find(name.text).ok_or_else(|| {
+                let kinds = KINDS.iter().map(|kind| kind.name);
+                name.error(ReferenceError::NoSuchKind {
+                    name: name.text.to_owned(),
+                    known: list(kinds.chain([FORMULA])),
+                })
+            })?;
+            analytic(kind, &assignments(',')?)?
+        };
         let default = form.default_interval();
         let [from, to] = [0, 1].map(|end: usize| interval[end].unwrap_or(default[end]));
         Self::new(form, [from, to], Placement::default()).map_err(|error| whole.error(error))
@@ -41,22 +56,25 @@ impl fmt::Display for ReferenceCurve {
     /// Write the reference as [`ReferenceCurve::from_text`] reads it, apart from its placement; points
     /// have no text but their number.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let form = match self.form() {
-            ReferenceForm::Analytic(form) => form,
+        let interval = INTERVAL.into_iter().zip(self.interval());
+        let interval = interval.map(|(name, value)| format!("{name}={value}"));
+        let (name, given, separator) = match self.form() {
+            ReferenceForm::Analytic(form) => {
+                let parameters = form.kind().parameters.iter().zip(form.values());
+                let given = parameters.map(|(it, value)| format!("{}={value}", it.name));
+                (form.kind().name, given.collect::<Vec<_>>(), ",")
+            }
+            ReferenceForm::Formula(formula) => {
+                let texts = COORDINATES.into_iter().zip(formula.texts());
+                let given = texts.filter_map(|(name, text)| Some(format!("{name}={}", text?)));
+                (FORMULA, given.collect(), ";")
+            }
             ReferenceForm::Points(points) => {
                 return write!(formatter, "{} points", points.points().len());
             }
         };
-        formatter.write_str(form.kind().name)?;
-        let parameters = form.kind().parameters.iter().map(|it| it.name);
-        let given = parameters.zip(form.values().iter().copied());
-        let interval = self.interval();
-        let given = given.chain(INTERVAL.into_iter().zip(interval));
-        for (index, (name, value)) in given.enumerate() {
-            let separator = if index == 0 { ':' } else { ',' };
-            write!(formatter, "{separator}{name}={value}")?;
-        }
-        Ok(())
+        let given: Vec<String> = given.into_iter().chain(interval).collect();
+        write!(formatter, "{name}:{}", given.join(separator))
     }
 }
 
@@ -90,6 +108,37 @@ fn analytic(
     let form =
         AnalyticForm::new(kind, values).map_err(|error| ReferenceTextError { column: 1, error })?;
     Ok((ReferenceForm::Analytic(form), interval))
+}
+
+/// Read formulas, and the ends of the interval that are given.
+fn formula(
+    whole: &Part<'_>,
+    assignments: &[Assignment<'_>],
+) -> Result<(ReferenceForm, [Option<f64>; 2]), ReferenceTextError> {
+    let mut coordinates: [Option<Coordinate>; 3] = [None, None, None];
+    let mut interval = [None; 2];
+    for Assignment { name, value } in assignments {
+        if let Some(end) = INTERVAL.iter().position(|known| *known == name.text) {
+            interval[end] = Some(value.number()?);
+            continue;
+        }
+        let Some(index) = COORDINATES.iter().position(|it| *it == name.text) else {
+            return Err(name.error(ReferenceError::NoSuchParameter {
+                kind: FORMULA,
+                name: name.text.to_owned(),
+                known: list(COORDINATES.into_iter().chain(INTERVAL)),
+            }));
+        };
+        coordinates[index] = Some(Coordinate {
+            text: value.text.to_owned(),
+            expression: value.expression()?,
+        });
+    }
+    let missing = |coordinate| whole.error(ReferenceError::NoCoordinate { coordinate });
+    let [x, y, z] = coordinates;
+    let x = x.ok_or_else(|| missing("x"))?;
+    let y = y.ok_or_else(|| missing("y"))?;
+    Ok((ReferenceForm::Formula(Formula { x, y, z }), interval))
 }
 
 /// A part of a text that knows where it stands.
@@ -170,13 +219,29 @@ impl<'a> Part<'a> {
         Ok(assignments)
     }
 
-    fn number(&self) -> Result<f64, ReferenceTextError> {
-        let number = self.text.parse().ok().filter(|it: &f64| it.is_finite());
-        number.ok_or_else(|| {
-            self.error(ReferenceError::NotANumber {
-                text: self.text.to_owned(),
-            })
+    fn expression(&self) -> Result<Expression, ReferenceTextError> {
+        Expression::read(self.text).map_err(|mistake| ReferenceTextError {
+            column: self.before + mistake.column,
+            ..mistake
         })
+    }
+
+    fn number(&self) -> Result<f64, ReferenceTextError> {
+        let text = || self.text.to_owned();
+        let number = match self.text.parse() {
+            Ok(number) => number,
+            Err(_) => {
+                let expression = self.expression()?;
+                if expression.depends_on_parameter() {
+                    return Err(self.error(ReferenceError::NotConstant { text: text() }));
+                }
+                expression.value()
+            }
+        };
+        let refused = || self.error(ReferenceError::NotANumber { text: text() });
+        Some(number)
+            .filter(|it: &f64| it.is_finite())
+            .ok_or_else(refused)
     }
 }
 

@@ -1,0 +1,27 @@
+//! The cubic helix.
+
+use super::kind::{EVERYWHERE, ReferenceKind, ReferenceParameter, SIZE};
+use crate::geometry::power_series::PowerSeries;
+
+/// The cubic helix.
+pub static KIND: ReferenceKind = ReferenceKind {
+    name: "cubic-helix",
+    label: "Cubic helix",
+    help: "a (t, t², 2t³/3): of constant slope, curvature and torsion are both 2/(a (1 + 2t²)²)",
+    parameters: &[ReferenceParameter { name: "a", label: "Size a", help: "The length a", default: 1.0, limits: SIZE },],
+    planar: false,
+    interval: |_| [-1.0, 1.0],
+    domain: |_| EVERYWHERE,
+    series,
+};
+
+fn series(values: &[f64], t: f64, order: usize) -> [PowerSeries; 3] {
+    let t = PowerSeries::parameter(t, order);
+    let square = &t * &t;
+    let cube = &square * &t;
+    [
+        t.times(values[0]),
+        square.times(values[0]),
+        cube.times(values[0] * 2.0 / 3.0),
+    ]
+}

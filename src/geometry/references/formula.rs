@@ -1,0 +1,35 @@
+//! Curves by formulas of one's own.
+
+use super::expression::Expression;
+use crate::geometry::power_series::PowerSeries;
+
+/// Hold formulas x(t), y(t) and, of a curve in space, z(t).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Formula {
+    pub(super) x: Coordinate,
+    pub(super) y: Coordinate,
+    pub(super) z: Option<Coordinate>,
+}
+
+/// A formula as it was typed, and what it means.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Coordinate {
+    pub(super) text: String,
+    pub(super) expression: Expression,
+}
+
+impl Formula {
+    /// The formulas as they were typed: x, y and, of a curve in space, z.
+    pub fn texts(&self) -> [Option<&str>; 3] {
+        let z = self.z.as_ref().map(|z| z.text.as_str());
+        [Some(&self.x.text), Some(&self.y.text), z]
+    }
+
+    /// Expand the coordinates about t.
+    pub(super) fn series(&self, t: f64, order: usize) -> [PowerSeries; 3] {
+        let of = |coordinate: &Coordinate| coordinate.expression.series(t, order);
+        let level = || PowerSeries::constant(0.0, order);
+        let z = self.z.as_ref().map_or_else(level, of);
+        [of(&self.x), of(&self.y), z]
+    }
+}

@@ -1,0 +1,46 @@
+//! Nielsen's spiral.
+
+use super::integral::{MOST_TURNING, integrated};
+use super::kind::{ReferenceKind, ReferenceParameter, SIZE};
+use crate::geometry::power_series::PowerSeries;
+
+/// Euler's constant γ.
+const EULER: f64 = 0.577_215_664_901_532_9;
+
+/// Nielsen's spiral by its direction angle.
+pub static KIND: ReferenceKind = ReferenceKind {
+    name: "nielsen-spiral",
+    label: "Nielsen’s spiral",
+    help: "a (Ci t, Si t), cosine and sine integral: direction angle t, curvature t/a",
+    parameters: &[ReferenceParameter {
+        name: "a",
+        label: "Size a",
+        help: "The radius of curvature at t = 1",
+        default: 1.0,
+        limits: SIZE,
+    }],
+    planar: true,
+    interval: |_| [0.5, 10.0],
+    domain: |_| [1e-30, MOST_TURNING],
+    series,
+};
+
+/// Ci t = γ + ln t + ∫ (cos u − 1)/u du, Si t = ∫ sin u/u du, from 0 to t.
+fn series(values: &[f64], t: f64, order: usize) -> [PowerSeries; 3] {
+    let relative = |u: f64| {
+        let half = (0.5 * u).sin();
+        // Quadrature never asks for u = 0.
+        [-2.0 * half * half / u, u.sin() / u]
+    };
+    let [cosine, sine] = integrated(t, [t, 1.0], relative);
+    let angle = PowerSeries::parameter(t, order);
+    let (sines, cosines) = angle.sin_cos();
+    let (rise, run) = (&sines / &angle, &cosines / &angle);
+    let x = run.antiderivative(EULER + t.ln() + cosine, order);
+    let y = rise.antiderivative(sine, order);
+    [
+        x.times(values[0]),
+        y.times(values[0]),
+        PowerSeries::constant(0.0, order),
+    ]
+}
