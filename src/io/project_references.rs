@@ -9,11 +9,11 @@ use super::error::{Place, Problem, ReadError};
 use super::project_values::{Coordinates, HexColour};
 use crate::document::{Extras, Reference};
 use crate::geometry::references::{
-    AnalyticForm, KINDS, Placement, PointList, ReferenceCurve, ReferenceError, ReferenceForm,
-    ReferenceKind, find,
+    AnalyticForm, Formula, KINDS, Placement, PointList, ReferenceCurve, ReferenceError,
+    ReferenceForm, ReferenceKind, find,
 };
 
-/// A reference as what it is: a kind with its values, or points, each over an interval and placed.
+/// A reference as what it is: a kind with its values, formulas, or points, each over an interval and placed.
 #[derive(Deserialize, Serialize)]
 #[serde(expecting = "a reference, which is a JSON object")]
 pub(super) struct FileReference {
@@ -31,6 +31,8 @@ pub(super) struct FileReference {
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     values: BTreeMap<String, f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    formula: Option<FileFormula>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     points: Option<Vec<Coordinates>>,
     /// The interval of the parameter t.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -44,6 +46,16 @@ pub(super) struct FileReference {
     translation: Option<Coordinates>,
 }
 
+/// Formulas as they were typed.
+#[derive(Deserialize, Serialize)]
+#[serde(expecting = "formulas: a JSON object with x, y and, in space, z")]
+struct FileFormula {
+    x: String,
+    y: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    z: Option<String>,
+}
+
 impl FileReference {
     /// Write a reference.
     pub(super) fn of(reference: &Reference) -> Self {
@@ -55,6 +67,7 @@ impl FileReference {
             locked: reference.locked.then_some(true),
             kind: None,
             values: BTreeMap::new(),
+            formula: None,
             points: None,
             interval: None,
             rotation: None,
@@ -66,6 +79,16 @@ impl FileReference {
                 let names = form.kind().parameters.iter().map(|it| it.name.to_owned());
                 written.kind = Some(form.kind().name.to_owned());
                 written.values = names.zip(form.values().iter().copied()).collect();
+                written.interval = Some(curve.interval());
+            }
+            ReferenceForm::Formula(formula) => {
+                let [x, y, z] = formula.texts();
+                let text = |text: Option<&str>| text.map(str::to_owned);
+                written.formula = Some(FileFormula {
+                    x: text(x).unwrap_or_default(),
+                    y: text(y).unwrap_or_default(),
+                    z: text(z),
+                });
                 written.interval = Some(curve.interval());
             }
             ReferenceForm::Points(list) => {
@@ -105,9 +128,12 @@ impl FileReference {
 
     fn into_curve(self) -> Result<ReferenceCurve, Problem> {
         let placement = self.placement()?;
-        let form = match (self.kind, self.points) {
-            (Some(kind), None) => ReferenceForm::Analytic(analytic(&kind, &self.values)?),
-            (None, Some(points)) => {
+        let form = match (self.kind, self.formula, self.points) {
+            (Some(kind), None, None) => ReferenceForm::Analytic(analytic(&kind, &self.values)?),
+            (None, Some(FileFormula { x, y, z }), None) => {
+                ReferenceForm::Formula(Formula::new(&x, &y, z.as_deref())?)
+            }
+            (None, None, Some(points)) => {
                 let points = points.into_iter().map(DVec3::from).collect();
                 ReferenceForm::Points(PointList::new(points)?)
             }

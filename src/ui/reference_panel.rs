@@ -25,6 +25,14 @@ pub fn shape_ui(ui: &mut Ui, editor: &mut Editor, reference: &Reference) {
             parameters_ui(ui, editor, form);
             interval_ui(ui, editor, curve);
         }
+        ReferenceForm::Formula(formula) => {
+            for (name, text) in ["x", "y", "z"].into_iter().zip(formula.texts()) {
+                if let Some(text) = text {
+                    widgets::figure_row(ui, name, text);
+                }
+            }
+            interval_ui(ui, editor, curve);
+        }
         ReferenceForm::Points(list) => {
             widgets::figure_row(ui, "Points", &list.points().len().to_string());
         }

@@ -70,6 +70,14 @@ pub enum ReferenceError {
         /// The expression given.
         text: String,
     },
+    /// A mistake in one of a formula's coordinates.
+    #[error("{coordinate}: {mistake}")]
+    InFormula {
+        /// The coordinate.
+        coordinate: &'static str,
+        /// The mistake, with its column in the coordinate's text.
+        mistake: Box<ReferenceTextError>,
+    },
     /// A coordinate of a formula is missing.
     #[error("the formula gives no {coordinate}: write formula:x=…;y=… and, in space, ;z=…")]
     NoCoordinate {

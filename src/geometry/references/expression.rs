@@ -228,7 +228,11 @@ fn operand(
             let name = parts.next().map_or("", |name| name.as_str());
             let function = FUNCTIONS.iter().find(|function| function.name == name);
             let function = *function.ok_or_else(|| refused(unknown_name(name)))?;
-            let empty = || refused(ReferenceError::NotANumber { text: word.to_owned() });
+            let empty = || {
+                refused(ReferenceError::NotANumber {
+                    text: word.to_owned(),
+                })
+            };
             let inner = parts.next().ok_or_else(empty)?;
             let inner = tree(priorities, text, inner.into_inner())?;
             Ok(Expression::Call(function, Box::new(inner)))

@@ -1,5 +1,6 @@
 //! Curves by formulas of one's own.
 
+use super::error::{ReferenceError, ReferenceTextError};
 use super::expression::Expression;
 use crate::geometry::power_series::PowerSeries;
 
@@ -19,6 +20,26 @@ pub(super) struct Coordinate {
 }
 
 impl Formula {
+    /// Read formulas: expressions in t, as [`ReferenceCurve::from_text`] reads them.
+    ///
+    /// [`ReferenceCurve::from_text`]: super::ReferenceCurve::from_text
+    ///
+    /// # Errors
+    /// [`ReferenceError::InFormula`] names the coordinate and the column of a mistake.
+    pub fn new(x: &str, y: &str, z: Option<&str>) -> Result<Self, ReferenceError> {
+        let read = |coordinate: &'static str, text: &str| {
+            Coordinate::read(text).map_err(|mistake| ReferenceError::InFormula {
+                coordinate,
+                mistake: Box::new(mistake),
+            })
+        };
+        Ok(Self {
+            x: read("x", x)?,
+            y: read("y", y)?,
+            z: z.map(|z| read("z", z)).transpose()?,
+        })
+    }
+
     /// The formulas as they were typed: x, y and, of a curve in space, z.
     pub fn texts(&self) -> [Option<&str>; 3] {
         let z = self.z.as_ref().map(|z| z.text.as_str());
@@ -31,5 +52,14 @@ impl Formula {
         let level = || PowerSeries::constant(0.0, order);
         let z = self.z.as_ref().map_or_else(level, of);
         [of(&self.x), of(&self.y), z]
+    }
+}
+
+impl Coordinate {
+    pub(super) fn read(text: &str) -> Result<Self, ReferenceTextError> {
+        Ok(Self {
+            text: text.to_owned(),
+            expression: Expression::read(text)?,
+        })
     }
 }

@@ -129,10 +129,8 @@ fn formula(
                 known: list(COORDINATES.into_iter().chain(INTERVAL)),
             }));
         };
-        coordinates[index] = Some(Coordinate {
-            text: value.text.to_owned(),
-            expression: value.expression()?,
-        });
+        let coordinate = Coordinate::read(value.text).map_err(|mistake| value.shifted(mistake))?;
+        coordinates[index] = Some(coordinate);
     }
     let missing = |coordinate| whole.error(ReferenceError::NoCoordinate { coordinate });
     let [x, y, z] = coordinates;
@@ -219,11 +217,12 @@ impl<'a> Part<'a> {
         Ok(assignments)
     }
 
-    fn expression(&self) -> Result<Expression, ReferenceTextError> {
-        Expression::read(self.text).map_err(|mistake| ReferenceTextError {
+    /// A mistake in this part as one of the whole text.
+    fn shifted(&self, mistake: ReferenceTextError) -> ReferenceTextError {
+        ReferenceTextError {
             column: self.before + mistake.column,
             ..mistake
-        })
+        }
     }
 
     fn number(&self) -> Result<f64, ReferenceTextError> {
@@ -231,7 +230,8 @@ impl<'a> Part<'a> {
         let number = match self.text.parse() {
             Ok(number) => number,
             Err(_) => {
-                let expression = self.expression()?;
+                let read = Expression::read(self.text);
+                let expression = read.map_err(|mistake| self.shifted(mistake))?;
                 if expression.depends_on_parameter() {
                     return Err(self.error(ReferenceError::NotConstant { text: text() }));
                 }
