@@ -326,6 +326,7 @@ impl Editor {
     /// Put right what depends on the document after it was replaced by another.
     fn document_replaced(&mut self) {
         self.hand.selection = Selection::default();
+        self.view.compare(None);
         self.document_changed();
         let used = self.hand.tool();
         self.hand.tools = Tools::default();

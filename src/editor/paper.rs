@@ -126,10 +126,12 @@ impl Editor {
     fn replace_by_page(&mut self, page: PaperPage) -> Reply {
         let document = page.document().map_err(|error| error.to_string())?;
         let active = document.ids().nth(page.active());
+        let compared = document.ids().find(|id| Some(*id) != active);
         self.replace(document, None);
         if let Some(active) = active {
             self.activate(active);
         }
+        self.view.compare(compared);
         if page == PaperPage::Steps {
             self.use_tool(ToolKind::EndFit);
         }

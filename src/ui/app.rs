@@ -292,7 +292,7 @@ impl App {
             let bar = Panel::bottom("plots folded").frame(frame).resizable(false);
             bar.exact_size(plots::BAR).show(ui, |ui| {
                 self.plots
-                    .bar_ui(ui, &self.editor, false, &mut self.actions);
+                    .bar_ui(ui, &mut self.editor, false, &mut self.actions);
             });
             return;
         }
@@ -302,7 +302,8 @@ impl App {
             .size_range(168.0..=640.0)
             .show(ui, |ui| {
                 ui.allocate_ui(egui::vec2(ui.available_width(), plots::BAR), |ui| {
-                    self.plots.bar_ui(ui, &self.editor, true, &mut self.actions);
+                    self.plots
+                        .bar_ui(ui, &mut self.editor, true, &mut self.actions);
                 });
                 self.plots.show(ui, &mut self.editor);
             });

@@ -282,9 +282,8 @@ fn typical_ui(ui: &mut Ui) {
     );
     text(
         ui,
-        "Choose each curve in the list and look at its curvature plot. The Bézier curve has a curvature \
-         maximum at t = 0.2. The curvature of the B-spline only falls, by half with every segment: \
-         κ(u + 1) = κ(u)/2.",
+        "The plot below shows the curvature of both. The Bézier curve has a maximum at t = 0.2. The \
+         curvature of the B-spline only falls, by half with every segment: κ(u + 1) = κ(u)/2.",
     );
     note(
         ui,

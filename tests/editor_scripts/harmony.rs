@@ -12,7 +12,7 @@ use glam::{DVec2, DVec3};
 
 use super::script::Script;
 
-const STRIPS: PlotKind = PlotKind::Harmony { compared: None };
+const STRIPS: PlotKind = PlotKind::Harmony;
 
 fn strips(script: &mut Script) -> PlotScene {
     script.editor.view_mut().show_plot(Some(STRIPS));
@@ -156,10 +156,8 @@ fn two_curves_are_compared_in_the_same_strips() {
     let mut script = Script { editor };
     let ids: Vec<_> = script.editor.document().ids().collect();
     script.editor.activate(ids[1]);
-    let kind = PlotKind::Harmony {
-        compared: Some(ids[0]),
-    };
-    script.editor.view_mut().show_plot(Some(kind));
+    script.editor.view_mut().show_plot(Some(STRIPS));
+    script.editor.view_mut().compare(Some(ids[0]));
     let plots = script.plots().clone();
     let other = plots.compared.as_ref().expect("another curve");
     assert_eq!(plots.flow.each_ref().map(Vec::len), [11, 10, 10, 9]);

@@ -35,6 +35,10 @@ fn every_page_opens_its_curves_unmodified() {
         assert!(!script.editor.document().is_empty(), "{page:?}");
         assert!(!script.editor.workspace().is_modified(), "{page:?}");
         assert_eq!(PaperPage::ALL[page.place()], page);
+        // A second curve is compared with the first.
+        let compared = script.editor.view().compared();
+        assert_eq!(compared.is_some(), script.editor.document().len() > 1);
+        assert!(compared.is_none() || compared != script.editor.active());
     }
 }
 

@@ -305,7 +305,7 @@ impl Window {
             normalised: true,
         };
         for kind in [
-            PlotKind::Harmony { compared: None },
+            PlotKind::Harmony,
             level(LevelPlot::Curvature(2)),
             level(LevelPlot::Logarithmic),
             PlotKind::Curvature,

@@ -19,7 +19,7 @@ impl Editor {
     /// Measure the harmony of the active curve if something shows it.
     pub(in crate::editor) fn measure(&mut self) {
         let plotted = match self.view.plot {
-            Some(PlotKind::Harmony { .. }) => true,
+            Some(PlotKind::Harmony) => true,
             Some(PlotKind::Levels { plot, .. }) => plot == LevelPlot::Logarithmic,
             _ => false,
         };
@@ -32,7 +32,7 @@ impl Editor {
     /// The vertices where the flow of the active curve is least even, if its harmony is known and
     /// shown in strips.
     pub(in crate::editor) fn worst_of_flow(&self) -> [Option<(Flow, usize)>; Flow::ALL.len()] {
-        let is_shown = matches!(self.view.plot, Some(PlotKind::Harmony { .. }));
+        let is_shown = matches!(self.view.plot, Some(PlotKind::Harmony));
         let harmony = self.harmony().filter(|_| is_shown);
         Flow::ALL.map(|flow| {
             let figures = harmony?.figures;

@@ -20,11 +20,8 @@ pub enum PlotKind {
         /// Whether it is that of the curve scaled to length 1.
         normalised: bool,
     },
-    /// The flow of the float S-polygon's vertices, beside that of another curve.
-    Harmony {
-        /// The other curve; `None` if there is none to compare with.
-        compared: Option<CurveId>,
-    },
+    /// The flow of the float S-polygon's vertices.
+    Harmony,
 }
 
 /// The plot of the active curve that is shown; series of others are empty.
@@ -48,7 +45,7 @@ pub struct PlotScene {
     pub flow: [Vec<DVec2>; Flow::ALL.len()],
     /// The vertex of each where the sequence is least even, with the value there.
     pub worst: [Option<DVec2>; Flow::ALL.len()],
-    /// The flow of the curve to compare with.
+    /// The series of the curve or reference to compare with.
     pub compared: Option<Box<PlotScene>>,
     /// The arc length of the whole curve.
     pub length: f64,
@@ -73,13 +70,15 @@ impl PlotScene {
             length: 1.0,
             planar: self.planar,
             hovered_vertex: self.hovered_vertex,
-            before: self
-                .before
-                .as_ref()
-                .map(|before| Box::new(before.at_length_one())),
+            before: at_length_one(self.before.as_deref()),
+            compared: at_length_one(self.compared.as_deref()),
             ..Self::default()
         }
     }
+}
+
+fn at_length_one(scene: Option<&PlotScene>) -> Option<Box<PlotScene>> {
+    Some(Box::new(scene?.at_length_one()))
 }
 
 /// What the series of a plot are made of.
@@ -93,19 +92,18 @@ pub struct PlotSource {
     pub shown: Shown,
     /// The curve as it was.
     pub before: Option<Arc<Curve>>,
-    /// The curve to compare with.
-    pub compared: Option<Arc<Curve>>,
+    /// What it is compared with.
+    pub compared: Option<(CurveId, Shown)>,
 }
 
 impl PartialEq for PlotSource {
     /// Whether both are of the very same curves.
     fn eq(&self, other: &Self) -> bool {
-        let beside = |source: &Self| {
-            [&source.before, &source.compared].map(|curve| curve.as_ref().map(Arc::as_ptr))
-        };
+        let before = |source: &Self| source.before.as_ref().map(Arc::as_ptr);
         self.kind == other.kind
             && self.id == other.id
             && self.shown == other.shown
-            && beside(self) == beside(other)
+            && self.compared == other.compared
+            && before(self) == before(other)
     }
 }

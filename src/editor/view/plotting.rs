@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use crate::analysis::{CurveAnalysis, Flow, ReferenceAnalysis, SampledCurve};
+use crate::document::CurveId;
 use crate::editor::Editor;
 use crate::editor::view::plot_scene::{PlotKind, PlotScene, PlotSource};
 use crate::editor::view::shown::Shown;
@@ -43,43 +44,39 @@ impl Editor {
     fn plot_source(&self) -> Option<PlotSource> {
         let (id, kind) = self.active().zip(self.view.plot)?;
         let shown = |id| Shown::of(self.document(), id);
-        let curve = |id| Some(self.analyses.get(id)?.curve().clone());
-        let compared = match kind {
-            PlotKind::Harmony { compared } => compared.filter(|other| *other != id),
-            _ => None,
-        };
+        let compared = self.view.compared.filter(|other| *other != id);
         Some(PlotSource {
             kind,
             id,
             shown: shown(id)?,
             before: self.before(),
-            compared: compared.and_then(curve),
+            compared: compared.and_then(|other| Some((other, shown(other)?))),
         })
     }
 
     fn fill(&mut self, plots: &mut PlotScene, source: Option<&PlotSource>) {
-        if let Some(source) = source
-            && let Some(reference) = self.analyses.reference_mut(source.id)
-        {
-            plots.fill_reference(reference, source.kind);
+        let Some(source) = source else {
+            return;
+        };
+        self.fill_of(plots, source.id, source.kind);
+        if let Some(before) = &source.before {
+            let mut scene = PlotScene::default();
+            scene.fill(self.view.ghost.analysis(before), source.kind);
+            plots.before = Some(Box::new(scene));
         }
-        if let Some(source) = source
-            && let Some(analysis) = self.analyses.get_mut(source.id)
-        {
-            let made = |analysis| {
-                let mut plots = PlotScene::default();
-                plots.fill(analysis, source.kind);
-                Box::new(plots)
-            };
-            plots.fill(analysis, source.kind);
-            let before = source.before.as_ref();
-            plots.before = before.map(|before| made(self.view.ghost.analysis(before)));
-            plots.compared = match source.kind {
-                PlotKind::Harmony {
-                    compared: Some(other),
-                } if source.compared.is_some() => self.analyses.get_mut(other).map(made),
-                _ => None,
-            };
+        if let Some((other, _)) = &source.compared {
+            let mut scene = PlotScene::default();
+            self.fill_of(&mut scene, *other, source.kind);
+            plots.compared = Some(Box::new(scene));
+        }
+    }
+
+    /// Make the series of a curve or a reference.
+    fn fill_of(&mut self, plots: &mut PlotScene, id: CurveId, kind: PlotKind) {
+        if let Some(reference) = self.analyses.reference_mut(id) {
+            plots.fill_reference(reference, kind);
+        } else if let Some(analysis) = self.analyses.get_mut(id) {
+            plots.fill(analysis, kind);
         }
     }
 }
@@ -108,7 +105,7 @@ impl PlotScene {
             PlotKind::Levels { plot, normalised } => {
                 reference.append_levels(plot, normalised, &mut self.levels);
             }
-            PlotKind::Harmony { .. } => {}
+            PlotKind::Harmony => {}
         }
     }
 
@@ -123,7 +120,7 @@ impl PlotScene {
             PlotKind::Levels { plot, normalised } => {
                 analysis.append_levels(plot, normalised, &mut self.levels);
             }
-            PlotKind::Harmony { .. } => {
+            PlotKind::Harmony => {
                 for (flow, series) in Flow::ALL.into_iter().zip(&mut self.flow) {
                     if flow == Flow::TorsionAngles && self.planar {
                         continue;

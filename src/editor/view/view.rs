@@ -1,5 +1,6 @@
 //! What is seen, and how.
 
+use crate::document::CurveId;
 use crate::editor::guides::FeatureOf;
 use crate::editor::view::comb::CombSettings;
 use crate::editor::view::feature_report::FeatureReport;
@@ -29,6 +30,7 @@ pub struct View {
     pub(in crate::editor) scene: Scene,
     /// Which plot is shown; `None` while plots are folded.
     pub(in crate::editor) plot: Option<PlotKind>,
+    pub(in crate::editor) compared: Option<CurveId>,
     pub(in crate::editor) plots: PlotScene,
     /// What its series were made of.
     pub(in crate::editor) plotted: Option<PlotSource>,
@@ -91,6 +93,17 @@ impl View {
     /// Show another plot, or none.
     pub fn show_plot(&mut self, plot: Option<PlotKind>) {
         self.plot = plot;
+    }
+
+    /// The curve or reference that the active one is compared with in every plot.
+    pub fn compared(&self) -> Option<CurveId> {
+        self.compared
+    }
+
+    /// Compare the active curve with another curve or reference in every plot, or with none. What is
+    /// not in the document, or is active itself, is compared with nothing.
+    pub fn compare(&mut self, other: Option<CurveId>) {
+        self.compared = other;
     }
 
     /// Say whether a panel shows the harmony of the active curve, which is measured only then.

@@ -35,10 +35,10 @@ impl Plots {
         let scene = scaled.as_ref().unwrap_or(scene);
         let length = scene.length;
         let dots = scene.discrete.iter().map(|(_, point)| *point);
-        let before = scene.before.as_deref();
-        let was = before.map_or(&[][..], |before| &before.curvature);
-        let points = scene.curvature.iter().chain(was).copied().chain(dots);
-        let mut wanted = bounds_of(points);
+        let of = |scene: Option<&PlotScene>| scene.map_or(Vec::new(), |it| it.curvature.clone());
+        let (was, other) = (of(scene.before.as_deref()), of(scene.compared.as_deref()));
+        let points = scene.curvature.iter().chain(&was).chain(&other).copied();
+        let mut wanted = bounds_of(points.chain(dots));
         wanted.0.x = wanted.0.x.min(-scene.flank);
         wanted.1.x = wanted.1.x.max(length + scene.flank);
         let frame = self.levels.entry((LevelPlot::Curvature(1), normalised));
@@ -84,7 +84,8 @@ impl Plots {
                 plot.set_plot_bounds(bounds);
                 flanks(plot, scene, bounds, tokens);
                 zero_line(plot, tokens);
-                before_lines(plot, was, tokens);
+                before_lines(plot, &was, tokens);
+                lines(plot, "compared", &other, tokens.joints);
                 lines(plot, "curvature", &scene.curvature, tokens.comb);
                 let dots: Vec<DVec2> = scene.discrete.iter().map(|(_, point)| *point).collect();
                 plot.points(dots_of("discrete", &dots, tokens.float));

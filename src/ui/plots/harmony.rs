@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use eframe::egui::{Align2, Color32, ComboBox, Stroke, Ui, Vec2, vec2};
+use eframe::egui::{Align2, Color32, Stroke, Ui, Vec2, vec2};
 use egui_plot::{GridMark, HoverPosition, PlotBounds, PlotUi, uniform_grid_spacer};
 use glam::DVec2;
 
@@ -10,11 +10,9 @@ use super::Plots;
 use super::drawing::*;
 use super::frame::bounds_of;
 use crate::analysis::Flow;
-use crate::document::CurveId;
 use crate::editor::{Editor, PlotScene};
 use crate::ui::figures;
 use crate::ui::theme::{self, STEP, Tokens};
-use crate::ui::widgets;
 
 /// The height of the axis below the last strip.
 const AXIS: f32 = 38.0;
@@ -43,38 +41,6 @@ fn name(flow: Flow) -> &'static str {
 }
 
 impl Plots {
-    /// What the bar says of the strips: the curve to compare with.
-    pub(super) fn harmony_bar_ui(&mut self, ui: &mut Ui, editor: &Editor) {
-        let document = editor.document();
-        let others = document
-            .curves()
-            .filter(|(id, _)| Some(*id) != editor.active());
-        let others: Vec<(CurveId, String)> =
-            others.map(|(id, curve)| (id, curve.name.clone())).collect();
-        let compared = self.compared(editor);
-        let chosen = others.iter().find(|(id, _)| Some(*id) == compared);
-        let text = chosen.map_or("no other curve", |(_, name)| name);
-        let choice = ComboBox::from_id_salt("compared").selected_text(text.to_owned());
-        ui.add_enabled_ui(!others.is_empty(), |ui| {
-            let choice = choice.show_ui(ui, |ui| {
-                ui.selectable_value(&mut self.compared, None, "no other curve");
-                for (id, name) in others {
-                    ui.selectable_value(&mut self.compared, Some(id), name);
-                }
-            });
-            choice.response.accessible_name("Curve to compare with")
-        });
-        widgets::caption(ui, "Compare with");
-    }
-
-    /// The curve that strips are compared with, if it is another than the active one.
-    pub(super) fn compared(&self, editor: &Editor) -> Option<CurveId> {
-        let known = |id: &CurveId| editor.document().curve(*id).is_some();
-        self.compared
-            .filter(known)
-            .filter(|id| Some(*id) != editor.active())
-    }
-
     pub(super) fn harmony_ui(&mut self, ui: &mut Ui, editor: &mut Editor) {
         let tokens = Tokens::of(ui);
         let dragging = editor.hand().is_dragging();

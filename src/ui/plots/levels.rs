@@ -64,10 +64,13 @@ impl Plots {
             ui.take_available_space();
             return;
         }
+        let other = scene.compared.as_deref();
+        let other = other.map_or(&[][..], |other| &other.levels);
+        let all: Vec<DVec2> = scene.levels.iter().chain(other).copied().collect();
         let (wanted, cut) = if is_graph {
-            (most_of(&scene.levels), None)
+            (most_of(&all), None)
         } else {
-            within_reason(&scene.levels, noise(which, extent))
+            within_reason(&all, noise(which, extent))
         };
         self.remark = match cut {
             _ if is_graph => slope_remark(editor),
@@ -102,6 +105,7 @@ impl Plots {
                 if let Some(before) = &scene.before {
                     before_lines(plot, &before.levels, tokens);
                 }
+                lines(plot, "compared", other, tokens.joints);
                 lines(plot, "level", &scene.levels, tokens.comb);
                 if let Some(at) = scene.hovered_level {
                     cursor(plot, at, tokens);

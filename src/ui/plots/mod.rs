@@ -1,5 +1,6 @@
 //! The plots under the canvas: curvature over arc length, and the flow of the polygon's vertices.
 
+mod compare;
 mod curvature;
 mod drawing;
 mod frame;
@@ -15,10 +16,10 @@ use lucide_icons::Icon;
 use super::theme::STEP;
 use super::widgets::{self, IconButton};
 use crate::analysis::{Flow, LevelPlot};
-use crate::document::CurveId;
 use crate::editor::{Editor, PlotKind};
 use crate::geometry::LEVELS;
 use crate::ui::action::Action;
+use compare::compare_ui;
 use frame::Frame;
 use level_names::{explanation, tab_name};
 
@@ -67,8 +68,6 @@ const STRIPS: &str = "Leg lengths, turning angles, discrete curvature and, in sp
 pub struct Plots {
     tab: Tab,
     strips: [Frame; Flow::ALL.len()],
-    /// The curve that the strips are compared with.
-    compared: Option<CurveId>,
     /// What the curvature plot's dots are.
     legend: &'static str,
     /// What a plot of levels has to say.
@@ -108,7 +107,7 @@ impl Plots {
     pub fn bar_ui(
         &mut self,
         ui: &mut Ui,
-        editor: &Editor,
+        editor: &mut Editor,
         shown: bool,
         commands: &mut Vec<Action>,
     ) {
@@ -140,27 +139,28 @@ impl Plots {
                 if IconButton::new(icon, name).show(ui).clicked() {
                     commands.push(Action::TogglePlots);
                 }
+                if shown {
+                    compare_ui(ui, editor);
+                }
                 match self.tab {
                     _ if !shown => {}
                     Tab::Curvature => self.normalised_ui(ui, self.legend),
                     Tab::Levels(plot) => self.level_bar_ui(ui, plot),
-                    Tab::Harmony => self.harmony_bar_ui(ui, editor),
+                    Tab::Harmony => {}
                 }
             });
         });
     }
 
     /// What the tab in front plots.
-    fn kind(&self, editor: &Editor) -> PlotKind {
+    fn kind(&self) -> PlotKind {
         match self.tab {
             Tab::Curvature => PlotKind::Curvature,
             Tab::Levels(plot) => PlotKind::Levels {
                 plot,
                 normalised: self.normalises(plot),
             },
-            Tab::Harmony => PlotKind::Harmony {
-                compared: self.compared(editor),
-            },
+            Tab::Harmony => PlotKind::Harmony,
         }
     }
 
@@ -178,7 +178,7 @@ impl Plots {
             ui.take_available_space();
             return;
         }
-        let kind = self.kind(editor);
+        let kind = self.kind();
         if editor.view().plot() != Some(kind) {
             editor.view_mut().show_plot(Some(kind));
             editor.refresh();

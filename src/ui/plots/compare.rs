@@ -1,0 +1,55 @@
+//! The choice of a curve or reference to compare the active one with.
+
+use eframe::egui::{ComboBox, Ui};
+
+use crate::document::CurveId;
+use crate::editor::Editor;
+use crate::ui::widgets;
+
+/// The width of the choice.
+const WIDTH: f32 = 120.0;
+
+/// Where the bar leaves less room than this, in points, the caption is left out.
+const NARROW: f32 = 320.0;
+
+/// Show the choice.
+pub fn compare_ui(ui: &mut Ui, editor: &mut Editor) {
+    let others = others(editor);
+    let compared = editor.view().compared();
+    let chosen = others.iter().find(|(id, _)| Some(*id) == compared);
+    let text = chosen.map_or("nothing", |(_, name)| name).to_owned();
+    let narrow = ui.available_width() < NARROW;
+    ui.add_enabled_ui(!others.is_empty(), |ui| {
+        let choice = ComboBox::from_id_salt("compared")
+            .selected_text(text)
+            .width(WIDTH)
+            .truncate();
+        let choice = choice.show_ui(ui, |ui| {
+            let mut compared = compared;
+            ui.selectable_value(&mut compared, None, "nothing");
+            for (id, name) in &others {
+                ui.selectable_value(&mut compared, Some(*id), name);
+            }
+            editor.view_mut().compare(compared);
+        });
+        let response = choice.response.accessible_name("Curve to compare with");
+        response.on_hover_text(
+            "Show the same plots of another curve or reference beside those of this one",
+        );
+    });
+    if !narrow {
+        widgets::caption(ui, "Compare with");
+    }
+}
+
+/// The curves and references beside the active one, with their names.
+fn others(editor: &Editor) -> Vec<(CurveId, String)> {
+    let document = editor.document();
+    let curves = document
+        .curves()
+        .map(|(id, curve)| (id, curve.name.clone()));
+    let references = document.references();
+    let references = references.map(|(id, reference)| (id, reference.name.clone()));
+    let all = curves.chain(references);
+    all.filter(|(id, _)| Some(*id) != editor.active()).collect()
+}
