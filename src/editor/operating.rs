@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use glam::DVec3;
+
 use crate::document::{Curve, CurveId, Document, Edit};
 use crate::editor::Editor;
 use crate::editor::hand::selection::Selection;
@@ -215,6 +217,7 @@ impl Editor {
     fn input_of(&self, operation: &Operation) -> Result<Input, OperationError> {
         let selection = &self.hand.selection;
         let active = selection.active();
+        let active = active.filter(|id| self.document().curve(*id).is_some());
         let curves: Vec<CurveId> = match operation.inputs {
             Inputs::None | Inputs::Points => Vec::new(),
             Inputs::One => active.into_iter().collect(),
@@ -225,7 +228,19 @@ impl Editor {
                 active.into_iter().chain(others).collect()
             }
         };
-        Input::new(self.workspace.settled(), curves)
+        let input = Input::new(self.workspace.settled(), curves)?;
+        let points = self.active_points().filter(|_| operation.inputs == Inputs::Points);
+        Ok(match points {
+            Some(points) => input.with_points(points),
+            None => input,
+        })
+    }
+
+    /// The points of the active reference, where they are placed, if it is a list of them.
+    fn active_points(&self) -> Option<Vec<DVec3>> {
+        let analysis = self.analyses.reference(self.active()?)?;
+        let points = analysis.points().vertices();
+        (!points.is_empty()).then(|| points.to_vec())
     }
 
     fn begin_trial(

@@ -235,6 +235,7 @@ impl Brush<'_> {
                     self.painter.circle(at, 6.0, tokens.background, accent);
                 }
             }
+            Mark::Frame { corners, arm } => self.frame(corners, *arm),
             Mark::Snap(at) => {
                 if let Some(at) = self.screen.point(*at) {
                     let rect = Rect::from_center_size(at, Vec2::splat(14.0));
@@ -264,6 +265,31 @@ impl Brush<'_> {
                     labels::tooltip(self.painter, self.rect, at, text, tokens);
                 }
             }
+        }
+    }
+
+    /// The frame of a reference: squares scale, the disc above rotates.
+    fn frame(&self, corners: &[DVec2; 4], arm: [DVec2; 2]) {
+        let accent = self.tokens.accent;
+        let line = Stroke::new(1.0, accent.gamma_multiply(0.6));
+        let sides = corners.iter().zip(corners.iter().cycle().skip(1));
+        for side in sides.map(|(from, to)| [*from, *to]).chain([arm]) {
+            if let Some(side) = self.screen.segment(side) {
+                self.painter.line_segment(side, line);
+            }
+        }
+        let outline = Stroke::new(1.5, accent);
+        for corner in corners {
+            if let Some(at) = self.screen.point(*corner) {
+                let square = Rect::from_center_size(at, Vec2::splat(9.0));
+                let fill = self.tokens.background;
+                self.painter
+                    .rect(square, 1, fill, outline, StrokeKind::Middle);
+            }
+        }
+        if let Some(at) = self.screen.point(arm[1]) {
+            self.painter
+                .circle(at, 5.5, self.tokens.background, outline);
         }
     }
 

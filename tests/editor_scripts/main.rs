@@ -24,6 +24,7 @@ mod model;
 mod paper;
 mod places;
 mod previews;
+mod references;
 mod reshaping;
 mod script;
 mod selecting;

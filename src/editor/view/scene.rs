@@ -95,6 +95,13 @@ pub enum Mark {
     Pivot(DVec2),
     /// The handle that rotates or scales, on its arm from the pivot.
     Arm([DVec2; 2]),
+    /// The frame of a reference.
+    Frame {
+        /// Its corners, handles that scale.
+        corners: [DVec2; 4],
+        /// From the middle of a side to the handle that rotates.
+        arm: [DVec2; 2],
+    },
     /// A place that the pointer snapped to.
     Snap(DVec2),
     /// A vertex at which the flow of the polygon's vertices is least even.

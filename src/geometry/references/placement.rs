@@ -65,6 +65,26 @@ impl Placement {
         self.translation
     }
 
+    /// Turn what is placed about a point.
+    ///
+    /// # Errors
+    /// [`ReferenceError::BadPlacement`] if the numbers leave their range.
+    pub fn rotated_about(&self, pivot: DVec3, turn: DQuat) -> Result<Self, ReferenceError> {
+        let translation = pivot + turn * (self.translation - pivot);
+        let rotation = (turn * self.rotation).normalize();
+        Self::new(rotation, self.scale, translation)
+    }
+
+    /// Scale what is placed about a point, by a factor > 0.
+    ///
+    /// # Errors
+    /// [`ReferenceError::BadPlacement`] if the factor is not positive, or the numbers leave their
+    /// range.
+    pub fn scaled_about(&self, pivot: DVec3, factor: f64) -> Result<Self, ReferenceError> {
+        let translation = pivot + factor * (self.translation - pivot);
+        Self::new(self.rotation, factor * self.scale, translation)
+    }
+
     /// Whether the plane z = 0 stays where it is, up side up or down.
     pub fn keeps_plane(&self) -> bool {
         let DQuat { x, y, z, w } = self.rotation;

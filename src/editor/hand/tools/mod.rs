@@ -6,6 +6,7 @@ mod end_fit;
 mod end_fit_drags;
 mod end_fit_subject;
 mod measure;
+mod reference_drags;
 mod select;
 mod tool;
 mod transform;

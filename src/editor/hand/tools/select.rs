@@ -4,13 +4,14 @@ use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3};
 
+use super::reference_drags::{Frame, ReferenceDrag, nudged};
 use super::tool::{Context, Cursor, Effect, Look, Tool, followers_label, move_edits};
 use crate::document::{CurveId, EditError};
 use crate::editor::hand::following::Follow;
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
 use crate::editor::hand::selection::VertexId;
-use crate::editor::hand::snapping::{Carried, along_axis};
+use crate::editor::hand::snapping::Carried;
 use crate::editor::view::grid::grid_steps;
 use crate::editor::view::hit::{LegHit, REACH};
 use crate::editor::view::scene::Mark;
@@ -33,6 +34,8 @@ enum State {
     Moving(Moving),
     /// A vertex of the closed S-polygon is dragged.
     MovingClamped(MovingClamped),
+    /// A reference is moved, rotated or scaled.
+    Reference(ReferenceDrag),
     /// A box is drawn, by its corners on the canvas.
     Boxing { from: DVec2, to: DVec2 },
     /// The comb is scaled by the tip of a tooth.
@@ -56,7 +59,7 @@ struct Moving {
 impl Moving {
     fn drag(&mut self, place: DVec2, context: &Context) -> Effect {
         self.pointer = context.model(place);
-        let (by, snap) = movement(self.origin, self.held, place, &self.carried, context);
+        let (by, snap) = context.movement_to(self.origin, self.held, place, &self.carried);
         self.snap = snap;
         let places = self.vertices.iter().map(|(id, at)| {
             let is_planar = self.planar.contains(&id.0);
@@ -81,7 +84,7 @@ struct MovingClamped {
 impl MovingClamped {
     fn drag(&self, place: DVec2, context: &Context) -> Effect {
         let seen = context.viewport.flatten(self.held);
-        let (by, _) = movement(self.origin, seen, place, &Carried::default(), context);
+        let (by, _) = context.movement_to(self.origin, seen, place, &Carried::default());
         let to = self.held + context.movement(by, self.planar);
         move_clamped(self.vertex, to, context)
     }
@@ -97,10 +100,13 @@ impl Tool for SelectTool {
             (State::Idle, Gesture::DoubleClick(place)) => double_click(place, context),
             (State::Idle, Gesture::DragStart(place)) => self.start(place, context),
             (State::Idle, Gesture::Key(key)) => nudge(key, context),
-            (State::Moving(_) | State::MovingClamped(_), Gesture::DragEnd(_)) => {
+            (
+                State::Moving(_) | State::MovingClamped(_) | State::Reference(_),
+                Gesture::DragEnd(_),
+            ) => {
                 vec![Effect::Commit]
             }
-            (State::Moving(_) | State::MovingClamped(_), Gesture::Cancel) => {
+            (State::Moving(_) | State::MovingClamped(_) | State::Reference(_), Gesture::Cancel) => {
                 vec![Effect::Abort]
             }
             (State::Boxing { from, .. }, Gesture::DragEnd(to)) => {
@@ -146,6 +152,7 @@ impl Tool for SelectTool {
                 vertex.1,
                 amplified(*vertex, context)
             ),
+            State::Reference(drag) => drag.hint(context.snapping),
             State::Boxing { .. } => {
                 "Release to select what is in the box; Shift adds to the selection".into()
             }
@@ -168,6 +175,9 @@ impl Tool for SelectTool {
                         "{} selected: drag (K keeps features), or nudge with the arrow keys (Shift ×10); Del deletes",
                         counted(selected, "vertex", "vertices")
                     )
+                } else if Frame::of(context).is_some() {
+                    "Drag the reference to move it, a corner of its frame to scale it, the handle above to rotate it; or nudge it with the arrow keys"
+                        .into()
                 } else if context.document.is_empty() {
                     "Nothing here yet: draw a polygon with D, or open a file with Ctrl+O".into()
                 } else {
@@ -191,6 +201,11 @@ impl Tool for SelectTool {
                 let label = followers_label(moving.pointer, context);
                 snap.into_iter().chain(label).collect()
             }
+            State::Reference(drag) => drag.marks(),
+            State::Idle => {
+                let frame = Frame::of(context);
+                frame.iter().map(Frame::mark).collect()
+            }
             _ => Vec::new(),
         }
     }
@@ -200,8 +215,14 @@ impl Tool for SelectTool {
             .pointer
             .map(|pointer| context.viewport.to_screen(pointer));
         match self.state {
-            State::Moving(_) | State::MovingClamped(_) | State::Scaling { .. } => Cursor::Move,
+            State::Moving(_)
+            | State::MovingClamped(_)
+            | State::Reference(_)
+            | State::Scaling { .. } => Cursor::Move,
             State::Idle if place.is_some_and(|place| takes_vertex(place, context)) => Cursor::Move,
+            State::Idle if place.is_some_and(|place| takes_reference(place, context)) => {
+                Cursor::Grab
+            }
             _ => Cursor::Default,
         }
     }
@@ -213,6 +234,7 @@ impl SelectTool {
             State::Idle => Vec::new(),
             State::Moving(moving) => vec![moving.drag(place, context)],
             State::MovingClamped(moving) => vec![moving.drag(place, context)],
+            State::Reference(drag) => vec![drag.drag(place, context)],
             State::Boxing { to, .. } => {
                 *to = place;
                 Vec::new()
@@ -228,6 +250,11 @@ impl SelectTool {
     }
 
     fn start(&mut self, place: DVec2, context: &Context) -> Vec<Effect> {
+        if let Some(frame) = Frame::of(context)
+            && let Some(handle) = frame.handle(place, context)
+        {
+            return self.start_reference(ReferenceDrag::by_handle(handle, &frame, place, context));
+        }
         if let Some(vertex) = context.hits.vertex(place) {
             return self.start_moving(place, vertex, context);
         }
@@ -242,11 +269,26 @@ impl SelectTool {
             self.state = State::Scaling { foot, tip, scale };
             return Vec::new();
         }
+        if let Some(hit) = context.hits.curve(place)
+            && let Some(drag) = ReferenceDrag::by_body(hit, place, context)
+        {
+            let mut effects = vec![Effect::Select(Vec::new()), Effect::Activate(hit.curve)];
+            effects.extend(self.start_reference(Some(drag)));
+            return effects;
+        }
         self.state = State::Boxing {
             from: place,
             to: place,
         };
         Vec::new()
+    }
+
+    fn start_reference(&mut self, drag: Option<(ReferenceDrag, Effect)>) -> Vec<Effect> {
+        let begun = drag.map(|(drag, effect)| {
+            self.state = State::Reference(drag);
+            effect
+        });
+        begun.into_iter().collect()
     }
 
     fn start_moving(&mut self, place: DVec2, hit: VertexId, context: &Context) -> Vec<Effect> {
@@ -345,6 +387,16 @@ fn takes_vertex(place: DVec2, context: &Context) -> bool {
     context.hits.vertex(place).is_some() || context.hits.clamped_vertex(place).is_some()
 }
 
+/// Whether a press would take a reference, or a handle of its frame.
+fn takes_reference(place: DVec2, context: &Context) -> bool {
+    let frame = Frame::of(context);
+    frame.is_some_and(|frame| frame.handle(place, context).is_some())
+        || context.hits.curve(place).is_some_and(|hit| {
+            let reference = context.document.reference(hit.curve);
+            reference.is_some_and(|reference| reference.check_editable().is_ok())
+        })
+}
+
 /// Put a vertex of the closed S-polygon somewhere else: the float S-polygon follows.
 fn move_clamped(vertex: VertexId, place: DVec3, context: &Context) -> Effect {
     match context
@@ -429,27 +481,6 @@ fn double_click(place: DVec2, context: &Context) -> Vec<Effect> {
     }
 }
 
-/// How far the vertices move, and the place that the held one snaps to.
-fn movement(
-    origin: DVec2,
-    held: DVec2,
-    place: DVec2,
-    carried: &Carried,
-    context: &Context,
-) -> (DVec2, Option<DVec2>) {
-    let free = context.model(place) - origin;
-    if context.axis.is_some() {
-        return (free, None);
-    }
-    if context.modifiers.shift {
-        return (along_axis(free), None);
-    }
-    let wanted = held + free;
-    let snapped = context.snapped(wanted, carried);
-    let snap = (snapped != wanted).then_some(snapped);
-    (snap.map_or(free, |snap| snap - held), snap)
-}
-
 /// Move the selection by an arrow key: a tenth of the grid's minor step, or all of it with Shift.
 fn nudge(key: Key, context: &Context) -> Vec<Effect> {
     let direction = match key {
@@ -466,6 +497,11 @@ fn nudge(key: Key, context: &Context) -> Vec<Effect> {
     } else {
         0.1 * minor
     };
+    if context.selection.is_empty()
+        && let Some(edit) = nudged(direction * step, context)
+    {
+        return vec![Effect::Apply("Nudge reference".to_owned(), vec![edit])];
+    }
     let vertices = context.places(context.selection.vertices());
     let planar = context.planar_curves(&vertices);
     if vertices.is_empty() {

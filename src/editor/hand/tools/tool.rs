@@ -147,6 +147,28 @@ impl Context<'_> {
         curves.into_iter().filter(is_planar).collect()
     }
 
+    /// How far what is dragged moves, in the view plane, when the pointer that began at `origin` is at a
+    /// place on the canvas, and the place that the held point snaps to. Shift keeps to an axis.
+    pub fn movement_to(
+        &self,
+        origin: DVec2,
+        held: DVec2,
+        place: DVec2,
+        carried: &Carried,
+    ) -> (DVec2, Option<DVec2>) {
+        let free = self.model(place) - origin;
+        if self.axis.is_some() {
+            return (free, None);
+        }
+        if self.modifiers.shift {
+            return (snapping::along_axis(free), None);
+        }
+        let wanted = held + free;
+        let snapped = self.snapped(wanted, carried);
+        let snap = (snapped != wanted).then_some(snapped);
+        (snap.map_or(free, |snap| snap - held), snap)
+    }
+
     /// Map a place on the canvas to the view plane.
     pub fn model(&self, place: DVec2) -> DVec2 {
         self.viewport.to_model(place)

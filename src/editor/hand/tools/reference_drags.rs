@@ -1,0 +1,263 @@
+//! Moving, rotating and scaling the active reference on the canvas: its frame, and the drags of it.
+
+use glam::{DQuat, DVec2, DVec3};
+
+use super::tool::{Context, Effect};
+use crate::document::{CurveId, Edit, Reference};
+use crate::editor::hand::snapping::{Carried, by_fifteen_degrees};
+use crate::editor::view::hit::{CurveHit, REACH};
+use crate::editor::view::scene::Mark;
+use crate::geometry::ParametricCurve;
+use crate::geometry::references::{Placement, ReferenceError};
+
+/// How far the frame stands off the reference, in screen points.
+const MARGIN: f64 = 12.0;
+
+/// How far above the frame the handle stands that rotates, in screen points.
+const ARM: f64 = 28.0;
+
+/// A frame smaller than this, in screen points, is drawn as large as this.
+const SMALLEST: f64 = 24.0;
+
+/// The frame around the active reference, as it is seen: a box in the view plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    low: DVec2,
+    high: DVec2,
+    /// Where the handle is that rotates.
+    turn: DVec2,
+}
+
+/// What of a frame is under a place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FrameHandle {
+    /// A corner, by its place and by the one opposite, about which it scales.
+    Corner([DVec2; 2]),
+    /// The handle that rotates about the middle.
+    Turn,
+}
+
+/// A drag of a reference.
+#[derive(Debug)]
+pub struct ReferenceDrag {
+    id: CurveId,
+    kind: Kind,
+    /// Where the pointer began.
+    origin: DVec2,
+    /// What is told of it.
+    label: Option<(DVec2, String)>,
+    snap: Option<DVec2>,
+}
+
+#[derive(Debug)]
+enum Kind {
+    /// The point of it that is held follows the pointer.
+    Move { held: DVec2, planar: bool },
+    /// It turns about a point, about the direction of the view.
+    Rotate { pivot: DVec3 },
+    /// It grows and shrinks about a point.
+    Scale { pivot: DVec3 },
+}
+
+impl Frame {
+    /// The frame of the active reference, if it can be changed.
+    pub fn of(context: &Context) -> Option<Self> {
+        let (id, _) = editable(context)?;
+        let bounds = context.hits.outlines.get(id)?.curve.bounds();
+        if bounds.is_empty() {
+            return None;
+        }
+        let pixel = context.viewport.pixel();
+        let middle = 0.5 * (bounds.low + bounds.high);
+        let half = (0.5 * (bounds.high - bounds.low) + MARGIN * pixel)
+            .max(DVec2::splat(0.5 * SMALLEST * pixel));
+        let (low, high) = (middle - half, middle + half);
+        let turn = DVec2::new(middle.x, high.y + ARM * pixel);
+        Some(Self { low, high, turn })
+    }
+
+    fn middle(&self) -> DVec2 {
+        0.5 * (self.low + self.high)
+    }
+
+    /// The corners, in their order around the box.
+    pub fn corners(&self) -> [DVec2; 4] {
+        let Self { low, high, .. } = *self;
+        [
+            low,
+            DVec2::new(high.x, low.y),
+            high,
+            DVec2::new(low.x, high.y),
+        ]
+    }
+
+    /// Find the handle under a place on the canvas.
+    pub fn handle(&self, place: DVec2, context: &Context) -> Option<FrameHandle> {
+        let near = |at: DVec2| context.viewport.to_screen(at).distance(place) <= REACH;
+        if near(self.turn) {
+            return Some(FrameHandle::Turn);
+        }
+        let corners = self.corners();
+        let index = corners.iter().position(|corner| near(*corner))?;
+        let opposite = corners[(index + 2) % corners.len()];
+        Some(FrameHandle::Corner([corners[index], opposite]))
+    }
+
+    /// The frame as it is drawn.
+    pub fn mark(&self) -> Mark {
+        let top = DVec2::new(self.turn.x, self.high.y);
+        Mark::Frame {
+            corners: self.corners(),
+            arm: [top, self.turn],
+        }
+    }
+}
+
+impl ReferenceDrag {
+    /// Begin to drag a handle of the frame.
+    pub fn by_handle(
+        handle: FrameHandle,
+        frame: &Frame,
+        place: DVec2,
+        context: &Context,
+    ) -> Option<(Self, Effect)> {
+        let (id, reference) = editable(context)?;
+        let origin = reference.curve.placement().translation();
+        let lifted = |at: DVec2| context.viewport.orientation.point_at(at, origin);
+        let (kind, label) = match handle {
+            FrameHandle::Turn => {
+                let pivot = lifted(frame.middle());
+                (Kind::Rotate { pivot }, "Rotate reference")
+            }
+            FrameHandle::Corner([_, opposite]) => {
+                let pivot = lifted(opposite);
+                (Kind::Scale { pivot }, "Scale reference")
+            }
+        };
+        Some(Self::begin(id, kind, label, context.model(place)))
+    }
+
+    /// Begin to drag a reference by a place on it.
+    pub fn by_body(hit: CurveHit, place: DVec2, context: &Context) -> Option<(Self, Effect)> {
+        let reference = context.document.reference(hit.curve)?;
+        reference.check_editable().ok()?;
+        let kind = Kind::Move {
+            held: hit.point,
+            planar: reference.curve.is_planar(),
+        };
+        let origin = context.model(place);
+        Some(Self::begin(hit.curve, kind, "Move reference", origin))
+    }
+
+    fn begin(id: CurveId, kind: Kind, label: &str, origin: DVec2) -> (Self, Effect) {
+        let drag = Self {
+            id,
+            kind,
+            origin,
+            label: None,
+            snap: None,
+        };
+        (drag, Effect::Begin(label.to_owned()))
+    }
+
+    /// Whether it moves the reference, or rotates it.
+    pub fn hint(&self, snapping: bool) -> String {
+        match self.kind {
+            Kind::Move { .. } => format!(
+                "Moving the reference: Shift keeps to an axis, X, Y, Z to the model's, Ctrl turns snapping {}; Esc cancels",
+                if snapping { "off" } else { "on" }
+            ),
+            Kind::Rotate { .. } => "Rotating the reference: Shift keeps to 15°, Esc cancels".into(),
+            Kind::Scale { .. } => {
+                "Scaling the reference: Shift keeps to tenths, Esc cancels".into()
+            }
+        }
+    }
+
+    /// Go on with the pointer at a place on the canvas.
+    pub fn drag(&mut self, place: DVec2, context: &Context) -> Effect {
+        let Some(before) = context.before.reference(self.id) else {
+            return Effect::Preview(Vec::new());
+        };
+        let curve = &before.curve;
+        match self.placed(curve.placement(), place, context) {
+            Ok(placement) => Effect::Preview(vec![Edit::SetReference {
+                reference: self.id,
+                curve: curve.clone().placed(placement),
+            }]),
+            Err(error) => Effect::Say(error.to_string()),
+        }
+    }
+
+    fn placed(
+        &mut self,
+        before: &Placement,
+        place: DVec2,
+        context: &Context,
+    ) -> Result<Placement, ReferenceError> {
+        let now = context.model(place);
+        let view = context.viewport;
+        match self.kind {
+            Kind::Move { held, planar } => {
+                let carried = Carried {
+                    reference: Some(self.id),
+                    ..Carried::default()
+                };
+                let (by, snap) = context.movement_to(self.origin, held, place, &carried);
+                self.snap = snap;
+                let to = before.translation() + context.movement(by, planar);
+                Placement::new(before.rotation(), before.scale(), to)
+            }
+            Kind::Rotate { pivot } => {
+                let seen = view.flatten(pivot);
+                let free = (self.origin - seen).angle_to(now - seen);
+                let angle = match context.modifiers.shift {
+                    true => by_fifteen_degrees(free),
+                    false => free,
+                };
+                self.label = Some((now, format!("{:.2}°", angle.to_degrees())));
+                let turn = DQuat::from_axis_angle(view.orientation.towards(), angle);
+                before.rotated_about(pivot, turn)
+            }
+            Kind::Scale { pivot } => {
+                let seen = view.flatten(pivot);
+                let arm = self.origin - seen;
+                let free = (now - seen).dot(arm) / arm.length_squared();
+                let factor = match context.modifiers.shift {
+                    true => (10.0 * free).round().max(1.0) / 10.0,
+                    false => free.max(1e-3),
+                };
+                self.label = Some((now, format!("× {factor:.3}")));
+                before.scaled_about(pivot, factor)
+            }
+        }
+    }
+
+    /// What is drawn while it is dragged.
+    pub fn marks(&self) -> Vec<Mark> {
+        let snap = self.snap.map(Mark::Snap);
+        let label = self.label.clone().map(|(at, text)| Mark::Label(at, text));
+        snap.into_iter().chain(label).collect()
+    }
+}
+
+/// The edit that moves the active reference by a vector of the view plane, if it can be moved.
+pub fn nudged(by: DVec2, context: &Context) -> Option<Edit> {
+    let (id, reference) = editable(context)?;
+    let curve = &reference.curve;
+    let now = curve.placement();
+    let to = now.translation() + context.movement(by, curve.is_planar());
+    let placement = Placement::new(now.rotation(), now.scale(), to).ok()?;
+    Some(Edit::SetReference {
+        reference: id,
+        curve: curve.clone().placed(placement),
+    })
+}
+
+/// The active reference, if it can be changed.
+fn editable<'a>(context: &Context<'a>) -> Option<(CurveId, &'a Reference)> {
+    let id = context.selection.active()?;
+    let reference = context.document.reference(id)?;
+    reference.check_editable().ok()?;
+    Some((id, reference))
+}

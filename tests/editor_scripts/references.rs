@@ -1,0 +1,440 @@
+//! References under the hand: added, picked, moved, rotated, scaled, hidden, copied, and measured by.
+
+use batten::document::{CurveId, MatchPlace, Reference};
+use batten::editor::{
+    Command, EndFitAction, FeatureKind, HoverScene, Key, Mark, Modifiers, NamedView, PlotKind,
+    ReferenceChange, ToolKind,
+};
+use batten::geometry::references::{ReferenceCurve, find};
+use batten::geometry::{Continuity, End, ParametricCurve};
+use glam::{DQuat, DVec2, DVec3};
+
+use super::script::Script;
+use super::several::two;
+
+/// What is left of a match that is met, in units of the curve's size.
+const MET: f64 = 1e-9;
+
+/// What a drag of whole screen points leaves of rounding, in units of what is moved.
+const ROUNDING: f64 = 1e-12;
+
+/// The paper's arc and a reference, which is active, seen as a whole.
+fn with(kind: &str) -> (Script, CurveId) {
+    let mut script = Script::example("arc");
+    script.command(Command::AddReference(find(kind).expect("a kind")));
+    script.command(Command::FitAll);
+    let id = script.curve();
+    assert!(script.editor.document().reference(id).is_some());
+    (script, id)
+}
+
+fn reference(script: &Script, id: CurveId) -> Reference {
+    let found = script.editor.document().reference(id);
+    Reference::clone(found.expect("a reference"))
+}
+
+fn curve(script: &Script, id: CurveId) -> ReferenceCurve {
+    reference(script, id).curve
+}
+
+/// Where the point at a share of a reference is on the canvas.
+fn seen(script: &Script, id: CurveId, share: f64) -> DVec2 {
+    let shape = script.editor.document().shape(id).expect("a shape");
+    let point = shape.jet(share * shape.pieces() as f64).point;
+    let viewport = script.editor.view().viewport();
+    viewport.to_screen(viewport.flatten(point))
+}
+
+/// The frame's corners and the handle that rotates, on the canvas.
+fn frame(script: &mut Script) -> ([DVec2; 4], DVec2) {
+    let viewport = *script.editor.view().viewport();
+    let frame = script.scene().marks.iter().find_map(|mark| match mark {
+        Mark::Frame { corners, arm } => Some((*corners, arm[1])),
+        _ => None,
+    });
+    let (corners, turn) = frame.expect("a frame");
+    (
+        corners.map(|corner| viewport.to_screen(corner)),
+        viewport.to_screen(turn),
+    )
+}
+
+#[test]
+fn a_new_reference_is_active_named_and_seen_and_one_step() {
+    let (mut script, id) = with("circle");
+    assert_eq!(reference(&script, id).name, "circle");
+    assert_eq!(script.steps(), 1);
+    let scene = script.scene();
+    let drawn = scene.curves.iter().find(|it| it.id == Some(id)).expect("it");
+    assert!(drawn.is_reference && drawn.active && drawn.curve.len() > 16);
+    script.command(Command::AddReference(find("circle").expect("a kind")));
+    let second = script.curve();
+    assert_eq!(reference(&script, second).name, "circle 2");
+    script.command(Command::Undo);
+    script.command(Command::Undo);
+    assert_eq!(script.editor.document().references().len(), 0);
+    assert_eq!(script.editor.document().len(), 1);
+    script.command(Command::Redo);
+    assert_eq!(script.curve(), id, "what comes back is active");
+}
+
+#[test]
+fn a_reference_that_would_be_a_speck_is_placed_in_the_middle() {
+    let mut script = Script::example("arc");
+    for _ in 0..30 {
+        script.command(Command::ZoomOut);
+    }
+    script.command(Command::AddReference(find("circle").expect("a kind")));
+    let id = script.curve();
+    let box_of = |shares: [f64; 2]| shares.map(|share| seen(&script, id, share));
+    let [right, left] = box_of([0.0, 0.5]);
+    let extent = (right.x - left.x).abs();
+    assert!((100.0..400.0).contains(&extent), "{extent}");
+    assert!((0.5 * (right + left)).distance(DVec2::new(500.0, 350.0)) < 1.0);
+}
+
+#[test]
+fn a_drag_moves_the_reference_and_esc_restores_it_to_the_bit() {
+    for kind in ["circle", "conical-spiral", "clothoid"] {
+        let (mut script, id) = with(kind);
+        let before = curve(&script, id);
+        let by = DVec2::new(60.0, -30.0);
+        let from = seen(&script, id, 0.3);
+        script.command(Command::ToggleSnapping);
+        let steps = script.steps();
+        let viewport = *script.editor.view().viewport();
+        let snaps = script.editor.hand().snaps();
+        if snaps {
+            script.command(Command::ToggleSnapping);
+        }
+        script.drag(from, from + by);
+        let moved = curve(&script, id).placement().translation();
+        let by = by / viewport.scale;
+        let expected = before.placement().translation() + DVec3::new(by.x, -by.y, 0.0);
+        assert!(moved.distance(expected) <= 1e-9 * expected.length().max(1.0), "{kind}: {moved}");
+        assert_eq!(script.steps(), steps + 1);
+        script.command(Command::Undo);
+        assert_eq!(curve(&script, id), before);
+
+        script.press(from);
+        script.move_to(from + DVec2::new(40.0, 40.0));
+        script.move_to(from + DVec2::new(80.0, 10.0));
+        assert_ne!(curve(&script, id), before);
+        script.key(Key::Escape);
+        assert_eq!(curve(&script, id), before, "{kind}");
+        assert_eq!(script.steps(), steps);
+    }
+}
+
+#[test]
+fn the_frame_scales_about_the_opposite_corner_and_rotates_about_its_middle() {
+    let (mut script, id) = with("circle");
+    let before = curve(&script, id);
+    let (corners, turn) = frame(&mut script);
+    let arm = corners[2] - corners[0];
+    script.drag(corners[2], corners[0] + 0.5 * arm);
+    let scaled = curve(&script, id);
+    assert!((scaled.placement().scale() - 0.5).abs() <= 0.01, "{scaled:?}");
+    let (now, _) = frame(&mut script);
+    // The margin of the frame keeps its size on the screen.
+    assert!(now[0].distance(corners[0]) < 20.0, "{now:?} {corners:?}");
+    script.command(Command::Undo);
+    assert_eq!(curve(&script, id), before);
+
+    let middle = 0.5 * (corners[0] + corners[2]);
+    let quarter = middle + DVec2::new(turn.y - middle.y, 0.0).abs();
+    script.modifiers(Modifiers {
+        shift: true,
+        ..Modifiers::NONE
+    });
+    script.drag(turn, quarter);
+    script.modifiers(Modifiers::NONE);
+    let turned = curve(&script, id);
+    let expected = DQuat::from_rotation_z((-90f64).to_radians());
+    let angle = turned.placement().rotation().angle_between(expected);
+    assert!(angle <= 1e-7, "{turned:?}");
+    assert!(turned.is_planar(), "turning within the plane stays in it");
+    script.command(Command::Undo);
+    assert_eq!(curve(&script, id), before);
+}
+
+#[test]
+fn in_space_it_rotates_about_the_direction_of_the_view() {
+    let (mut script, id) = with("conical-spiral");
+    script.command(Command::View(NamedView::Isometric));
+    script.command(Command::FitAll);
+    let before = curve(&script, id);
+    let (corners, turn) = frame(&mut script);
+    let middle = 0.5 * (corners[0] + corners[2]);
+    let radius = middle.distance(turn);
+    script.drag(turn, middle + radius * DVec2::from_angle(0.3));
+    let turned = curve(&script, id);
+    let rotation = turned.placement().rotation() * before.placement().rotation().inverse();
+    let (axis, angle) = rotation.to_axis_angle();
+    let towards = NamedView::Isometric.orientation().towards();
+    assert!(axis.cross(towards).length() <= 1e-9, "{axis}");
+    assert!(angle > 0.1);
+    // Nothing moves towards the eye or away from it.
+    for u in [0.0, 1.7, 3.2] {
+        let [from, to] = [&before, &turned].map(|curve| curve.jet(u).point.dot(towards));
+        assert!((from - to).abs() <= ROUNDING * 1e3, "{from} {to}");
+    }
+    script.command(Command::Undo);
+    assert_eq!(curve(&script, id), before);
+}
+
+#[test]
+fn hidden_and_locked_references_are_left_alone() {
+    let (mut script, id) = with("circle");
+    let from = seen(&script, id, 0.3);
+    let before = curve(&script, id);
+    script.command(Command::ToggleLocked);
+    script.drag(from, from + DVec2::new(50.0, 0.0));
+    assert_eq!(curve(&script, id), before);
+    let refused = script.editor.change_reference(&ReferenceChange::Scale(3.0));
+    assert!(refused.is_err());
+    let refused = script.editor.execute(Command::DeleteCurve);
+    assert!(refused.is_err(), "what is locked is not deleted");
+    script.click(from);
+    assert_eq!(script.curve(), id, "but it is picked");
+    script.command(Command::ToggleLocked);
+    script.command(Command::ToggleVisible);
+    assert!(script.scene().curves.iter().all(|it| it.id != Some(id)));
+    script.move_to(from);
+    assert_eq!(script.scene().hover, None);
+    script.drag(from, from + DVec2::new(50.0, 0.0));
+    assert_eq!(curve(&script, id), before);
+}
+
+#[test]
+fn a_click_selects_it_and_a_curve_in_front_of_it_comes_first() {
+    let (mut script, [arc, other]) = two();
+    script.command(Command::AddReference(find("circle").expect("a kind")));
+    let id = script.curve();
+    script.command(Command::FitAll);
+    script.editor.activate(arc);
+    script.click(seen(&script, id, 0.4));
+    assert_eq!(script.curve(), id);
+    assert!(script.editor.hand().selection().is_empty());
+    script.click(seen(&script, other, 0.5));
+    assert_eq!(script.curve(), other);
+}
+
+#[test]
+fn parameters_are_changed_one_step_each_and_what_cannot_be_is_refused() {
+    let (mut script, id) = with("circle");
+    let steps = script.steps();
+    let change = |script: &mut Script, change: ReferenceChange| {
+        let reply = script.editor.change_reference(&change);
+        script.check();
+        reply
+    };
+    change(&mut script, ReferenceChange::Value(0, 7.5)).expect("a radius");
+    change(&mut script, ReferenceChange::Interval([0.0, 1.0])).expect("an interval");
+    change(&mut script, ReferenceChange::Translate(DVec3::X)).expect("a place");
+    change(&mut script, ReferenceChange::Scale(2.0)).expect("a scale");
+    assert_eq!(script.steps(), steps + 4);
+    let start = curve(&script, id).jet(0.0).point;
+    assert!(start.distance(DVec3::new(16.0, 0.0, 0.0)) <= ROUNDING * 16.0, "{start}");
+    let before = curve(&script, id);
+    for refused in [
+        ReferenceChange::Value(0, -1.0),
+        ReferenceChange::Interval([2.0, 1.0]),
+        ReferenceChange::Scale(0.0),
+        ReferenceChange::Translate(DVec3::NAN),
+    ] {
+        assert!(change(&mut script, refused.clone()).is_err(), "{refused:?}");
+        assert_eq!(curve(&script, id), before);
+    }
+    // While a field is dragged nothing is refused aloud; the last good form stays.
+    script.editor.preview_reference(&ReferenceChange::Value(0, 9.0));
+    script.editor.preview_reference(&ReferenceChange::Value(0, -9.0));
+    script.check();
+    assert_ne!(curve(&script, id), before);
+    script.editor.abort_preview();
+    assert_eq!(curve(&script, id), before);
+}
+
+#[test]
+fn it_is_nudged_by_the_arrow_keys() {
+    let (mut script, id) = with("circle");
+    let before = curve(&script, id);
+    script.key(Key::Right);
+    let nudged = curve(&script, id).placement().translation() - before.placement().translation();
+    assert!(nudged.x > 0.0 && nudged.y == 0.0);
+    script.command(Command::Undo);
+    assert_eq!(curve(&script, id), before);
+}
+
+#[test]
+fn it_is_copied_cut_pasted_duplicated_and_deleted() {
+    let (mut script, id) = with("circle");
+    let text = script.editor.copy().expect("a copy");
+    script.editor.paste_text(&text).expect("a reference");
+    script.check();
+    let copy = script.curve();
+    assert_eq!(script.message(), "1 reference pasted");
+    assert_eq!(reference(&script, copy).name, "circle 2");
+    assert_eq!(curve(&script, copy).form(), curve(&script, id).form());
+    assert_ne!(curve(&script, copy).placement(), curve(&script, id).placement());
+    script.command(Command::Duplicate);
+    assert_eq!(reference(&script, script.curve()).name, "circle 3");
+    script.command(Command::DeleteCurve);
+    assert_eq!(script.message(), "“circle 3” deleted");
+    script.editor.activate(copy);
+    script.editor.cut().expect("a cut");
+    script.check();
+    assert_eq!(script.editor.document().references().len(), 1);
+    script.undo_all();
+    assert_eq!(script.editor.document().references().len(), 0);
+}
+
+#[test]
+fn a_pasted_table_of_points_is_a_list_that_is_drawn_and_has_no_comb() {
+    let mut script = Script::example("arc");
+    let pasted = script.editor.paste_text("x\ty\n0\t0\n1,5\t2\n4\t1\n");
+    pasted.expect("points");
+    script.check();
+    assert_eq!(
+        script.message(),
+        "1 reference pasted\nread with tabs between columns and decimal commas"
+    );
+    let id = script.curve();
+    script.command(Command::FitAll);
+    let scene = script.scene();
+    let drawn = scene.curves.iter().find(|it| it.id == Some(id)).expect("it");
+    assert_eq!(drawn.points.len(), 3);
+    assert!(drawn.comb.is_empty() && drawn.teeth.is_empty() && drawn.evolute.is_empty());
+    assert!(script.plots().curvature.is_empty());
+    let features = script.features().expect("a report");
+    assert!(features.sampled && features.rows.is_empty());
+}
+
+#[test]
+fn its_comb_evolute_plots_and_features_are_shown() {
+    let (mut script, id) = with("log-aesthetic");
+    for layer in [batten::editor::Layer::Comb, batten::editor::Layer::Evolute] {
+        if script.editor.is_checked(Command::ToggleLayer(layer)) == Some(false) {
+            script.command(Command::ToggleLayer(layer));
+        }
+    }
+    let scene = script.scene();
+    let drawn = scene.curves.iter().find(|it| it.id == Some(id)).expect("it");
+    assert!(!drawn.comb.is_empty() && !drawn.teeth.is_empty() && !drawn.evolute.is_empty());
+    assert!(!script.plots().curvature.is_empty());
+    let level = batten::analysis::LevelPlot::Curvature(2);
+    assert!(!script.level_plot(level, false).levels.is_empty());
+    script.editor.view_mut().show_plot(Some(PlotKind::Harmony { compared: None }));
+    script.check();
+    assert!(script.plots().flow.iter().all(Vec::is_empty));
+    let features = script.features().expect("a report");
+    assert!(features.sampled, "features of references are not proved");
+    assert_eq!(features.count(&[FeatureKind::CurvatureMaximum]), 0);
+}
+
+#[test]
+fn the_sampled_features_of_an_inner_curve_are_where_they_are() {
+    // The clothoid from −2 to 2 has its inflection at t = 0 and no extremum within.
+    let mut script = Script::example("arc");
+    script.command(Command::AddReference(find("clothoid").expect("a kind")));
+    let change = ReferenceChange::Interval([-2.0, 1.0]);
+    script.editor.change_reference(&change).expect("an interval");
+    let features = script.features().expect("a report");
+    let [row] = &features.rows[..] else {
+        panic!("{:?}", features.rows);
+    };
+    assert_eq!(row.kind, FeatureKind::Inflection);
+    assert!(row.u[0].abs() <= 1e-6, "{row:?}");
+}
+
+#[test]
+fn vertices_snap_to_its_ends_its_points_and_the_curve() {
+    let (mut script, id) = with("circle");
+    let start = curve(&script, id).jet(0.0).point;
+    let arc = script.editor.document().ids().next().expect("a curve");
+    script.editor.activate(arc);
+    if !script.editor.hand().snaps() {
+        script.command(Command::ToggleSnapping);
+    }
+    let from = script.at_vertex_of(arc, 4);
+    script.drag(from, seen(&script, id, 0.0) + DVec2::new(2.0, 3.0));
+    let vertex = |script: &Script| {
+        let curve = script.editor.document().curve(arc).expect("a curve");
+        curve.polygon.vertex(4)
+    };
+    assert_eq!(vertex(&script), start);
+    script.command(Command::Undo);
+    let on = seen(&script, id, 0.37);
+    script.drag(script.at_vertex_of(arc, 4), on + DVec2::new(1.0, 1.0));
+    let radius = start.length();
+    let off = (vertex(&script).length() - radius).abs();
+    assert!(off <= 1e-9 * radius, "{off}");
+}
+
+#[test]
+fn an_end_is_matched_to_it_by_a_click_and_follows_its_parameters() {
+    let (mut script, id) = with("circle");
+    let arc = script.editor.document().ids().next().expect("a curve");
+    script.editor.activate(arc);
+    script.tool(ToolKind::EndFit);
+    script.end_fit_action(EndFitAction::Choose(End::Finish));
+    script.end_fit_action(EndFitAction::SetContinuity(Continuity::G2));
+    script.end_fit_action(EndFitAction::KeepMatched(true));
+    script.end_fit_action(EndFitAction::PickFromCurve);
+    script.click(seen(&script, id, 0.3));
+    let matched = *script.editor.document().match_of(arc, End::Finish).expect("a match");
+    assert_eq!((matched.source, matched.continuity), (id, Continuity::G2));
+    let MatchPlace::Parameter(u) = matched.place else {
+        panic!("{matched:?}");
+    };
+    assert!(script.editor.document().meets(&matched));
+    script.editor.activate(id);
+    let change = ReferenceChange::Translate(DVec3::new(0.4, 0.3, 0.0));
+    script.editor.change_reference(&change).expect("a place");
+    script.check();
+    assert!(script.editor.document().meets(&matched));
+    let document = script.editor.document();
+    let polygon = &document.curve(arc).expect("a curve").polygon;
+    let expected = document.shape(id).expect("a reference").jet(u);
+    let end = polygon.end_jet(End::Finish);
+    assert!(end.point.distance(expected.point) <= MET * polygon.size());
+    assert!((end.signed_curvature() - expected.signed_curvature()).abs() <= 1e-6);
+}
+
+#[test]
+fn what_is_hovered_on_it_is_told_with_its_own_parameter() {
+    let (mut script, id) = with("circle");
+    script.move_to(seen(&script, id, 0.25));
+    let hover = script.scene().hover.clone();
+    let Some(HoverScene::Curve { curve, text, .. }) = hover else {
+        panic!("{hover:?}");
+    };
+    assert_eq!(curve, id);
+    assert!(text.starts_with("t 1.5") && text.contains("κ 1"), "{text}");
+}
+
+#[test]
+fn commands_of_curves_do_nothing_to_a_reference() {
+    let (mut script, id) = with("circle");
+    let before = script.editor.document().clone();
+    for command in Command::all() {
+        let own = matches!(
+            command,
+            Command::AddReference(_)
+                | Command::Duplicate
+                | Command::DeleteCurve
+                | Command::ToggleVisible
+                | Command::ToggleLocked
+                | Command::Undo
+                | Command::Redo
+        );
+        if own {
+            continue;
+        }
+        script.editor.activate(id);
+        script.command(command);
+        script.key(Key::Escape);
+        script.check();
+        assert!(script.editor.document().is_same(&before), "{command:?}");
+    }
+}
