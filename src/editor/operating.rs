@@ -229,7 +229,9 @@ impl Editor {
             }
         };
         let input = Input::new(self.workspace.settled(), curves)?;
-        let points = self.active_points().filter(|_| operation.inputs == Inputs::Points);
+        let points = self
+            .active_points()
+            .filter(|_| operation.inputs == Inputs::Points);
         Ok(match points {
             Some(points) => input.with_points(points),
             None => input,

@@ -74,6 +74,19 @@ pub fn read(text: &str) -> Option<f64> {
     plain.parse().ok().filter(|value: &f64| value.is_finite())
 }
 
+/// The most digits that a field shows.
+const MOST_DIGITS: usize = 10;
+
+/// Write a number for a field: exactly if that is short, otherwise with six significant digits.
+pub fn short(value: f64) -> String {
+    let exact = exact(value);
+    if exact.len() > MOST_DIGITS {
+        significant(value, 6)
+    } else {
+        exact
+    }
+}
+
 /// Write a range as "low … high".
 pub fn range(range: Option<Range>, text: impl Fn(f64) -> String) -> String {
     range.map_or_else(

@@ -1,6 +1,6 @@
 //! The menu bar, read from the table of commands.
 
-use eframe::egui::{Button, Color32, MenuBar, RichText, Ui};
+use eframe::egui::{Button, Color32, MenuBar, RichText, Ui, vec2};
 use lucide_icons::Icon;
 
 use super::action::Action;
@@ -44,7 +44,7 @@ pub fn menu_ui(ui: &mut Ui, editor: &mut Editor, shell: &Shell, commands: &mut V
                             ui.separator();
                         }
                         Entry::References => {
-                            references_ui(ui, editor, shell, commands);
+                            references_ui(ui, commands);
                         }
                         Entry::Examples => {
                             examples_ui(ui, editor, shell, commands);
@@ -160,18 +160,17 @@ fn examples_ui(ui: &mut Ui, editor: &Editor, shell: &Shell, commands: &mut Vec<A
 }
 
 /// The kinds of references that can be added, from their table.
-fn references_ui(ui: &mut Ui, editor: &Editor, shell: &Shell, commands: &mut Vec<Action>) {
+fn references_ui(ui: &mut Ui, commands: &mut Vec<Action>) {
     let title = (blank(), "Add reference");
     let response = ui.menu_button(title, |ui| {
         ui.set_min_width(WIDTH);
         for kind in KINDS {
-            item_ui(
-                ui,
-                editor,
-                shell,
-                Command::AddReference(kind).into(),
-                commands,
-            );
+            let button = Button::new((blank(), kind.label)).min_size(vec2(WIDTH, 0.0));
+            let response = ui.add(button).accessible_name(kind.label);
+            if response.on_hover_text(kind.help).clicked() {
+                commands.push(Command::AddReference(kind).into());
+                ui.close();
+            }
         }
     });
     response.response.accessible_name("Add reference");
@@ -191,7 +190,7 @@ fn item_ui(
     } else {
         blank()
     };
-    let mut button = Button::new((mark, label.clone())).min_size(eframe::egui::vec2(WIDTH, 0.0));
+    let mut button = Button::new((mark, label.clone())).min_size(vec2(WIDTH, 0.0));
     if let Some(shortcut) = action.shortcut() {
         let keys =
             RichText::new(keyboard::shortcut_text(shortcut)).color(Tokens::of(ui).faint_text);

@@ -26,9 +26,6 @@ const OUTDATED: f32 = 0.5;
 /// The width of a column of figures.
 const COLUMN: f32 = 96.0;
 
-/// Numbers of more characters than this are shown with six digits while they are not typed.
-const MOST_DIGITS: usize = 10;
-
 /// The width of the caption of a field.
 const LABEL: f32 = 112.0;
 
@@ -161,12 +158,7 @@ impl OperationPanel {
         let number = shown_number(value, parameter.unit());
         let range = field_range(limits, parameter.unit());
         let whole = matches!(value, Value::Whole(_));
-        let exact = figures::exact(number);
-        let shown = if exact.len() > MOST_DIGITS {
-            figures::significant(number, 6)
-        } else {
-            exact
-        };
+        let shown = figures::short(number);
         let speed = if whole { 0.05 } else { speed(&range, number) };
         let field = NumberField::new(parameter.label, number, shown)
             .range(range)

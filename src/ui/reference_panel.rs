@@ -71,7 +71,7 @@ pub fn placement_ui(ui: &mut Ui, editor: &mut Editor, curve: &ReferenceCurve) {
         for (name, axis) in axes {
             let value = at.dot(axis);
             let label = format!("origin {name}");
-            let shown = figures::significant(value, 6);
+            let shown = figures::short(value);
             let field = NumberField::new(&label, value, shown).speed(pixel);
             let event = field.width(NARROW).show(ui).1;
             changed(editor, event, |to| {
@@ -123,11 +123,11 @@ fn rotation_ui(ui: &mut Ui, editor: &mut Editor, rotation: DQuat) {
 
 fn field(name: &str, value: f64) -> NumberField<'_> {
     let speed = (0.01 * value.abs()).max(1e-3);
-    NumberField::new(name, value, figures::significant(value, 6)).speed(speed)
+    NumberField::new(name, value, figures::short(value)).speed(speed)
 }
 
 fn angle_field(name: &str, degrees: f64) -> NumberField<'_> {
-    let shown = format!("{}°", figures::significant(degrees, 6));
+    let shown = format!("{}°", figures::short(degrees));
     NumberField::new(name, degrees, shown).speed(0.5)
 }
 

@@ -65,7 +65,11 @@ fn a_new_reference_is_active_named_and_seen_and_one_step() {
     assert_eq!(reference(&script, id).name, "circle");
     assert_eq!(script.steps(), 1);
     let scene = script.scene();
-    let drawn = scene.curves.iter().find(|it| it.id == Some(id)).expect("it");
+    let drawn = scene
+        .curves
+        .iter()
+        .find(|it| it.id == Some(id))
+        .expect("it");
     assert!(drawn.is_reference && drawn.active && drawn.curve.len() > 16);
     script.command(Command::AddReference(find("circle").expect("a kind")));
     let second = script.curve();
@@ -111,7 +115,10 @@ fn a_drag_moves_the_reference_and_esc_restores_it_to_the_bit() {
         let moved = curve(&script, id).placement().translation();
         let by = by / viewport.scale;
         let expected = before.placement().translation() + DVec3::new(by.x, -by.y, 0.0);
-        assert!(moved.distance(expected) <= 1e-9 * expected.length().max(1.0), "{kind}: {moved}");
+        assert!(
+            moved.distance(expected) <= 1e-9 * expected.length().max(1.0),
+            "{kind}: {moved}"
+        );
         assert_eq!(script.steps(), steps + 1);
         script.command(Command::Undo);
         assert_eq!(curve(&script, id), before);
@@ -134,7 +141,10 @@ fn the_frame_scales_about_the_opposite_corner_and_rotates_about_its_middle() {
     let arm = corners[2] - corners[0];
     script.drag(corners[2], corners[0] + 0.5 * arm);
     let scaled = curve(&script, id);
-    assert!((scaled.placement().scale() - 0.5).abs() <= 0.01, "{scaled:?}");
+    assert!(
+        (scaled.placement().scale() - 0.5).abs() <= 0.01,
+        "{scaled:?}"
+    );
     let (now, _) = frame(&mut script);
     // The margin of the frame keeps its size on the screen.
     assert!(now[0].distance(corners[0]) < 20.0, "{now:?} {corners:?}");
@@ -235,7 +245,10 @@ fn parameters_are_changed_one_step_each_and_what_cannot_be_is_refused() {
     change(&mut script, ReferenceChange::Scale(2.0)).expect("a scale");
     assert_eq!(script.steps(), steps + 4);
     let start = curve(&script, id).jet(0.0).point;
-    assert!(start.distance(DVec3::new(16.0, 0.0, 0.0)) <= ROUNDING * 16.0, "{start}");
+    assert!(
+        start.distance(DVec3::new(16.0, 0.0, 0.0)) <= ROUNDING * 16.0,
+        "{start}"
+    );
     let before = curve(&script, id);
     for refused in [
         ReferenceChange::Value(0, -1.0),
@@ -247,8 +260,12 @@ fn parameters_are_changed_one_step_each_and_what_cannot_be_is_refused() {
         assert_eq!(curve(&script, id), before);
     }
     // While a field is dragged nothing is refused aloud; the last good form stays.
-    script.editor.preview_reference(&ReferenceChange::Value(0, 9.0));
-    script.editor.preview_reference(&ReferenceChange::Value(0, -9.0));
+    script
+        .editor
+        .preview_reference(&ReferenceChange::Value(0, 9.0));
+    script
+        .editor
+        .preview_reference(&ReferenceChange::Value(0, -9.0));
     script.check();
     assert_ne!(curve(&script, id), before);
     script.editor.abort_preview();
@@ -276,7 +293,10 @@ fn it_is_copied_cut_pasted_duplicated_and_deleted() {
     assert_eq!(script.message(), "1 reference pasted");
     assert_eq!(reference(&script, copy).name, "circle 2");
     assert_eq!(curve(&script, copy).form(), curve(&script, id).form());
-    assert_ne!(curve(&script, copy).placement(), curve(&script, id).placement());
+    assert_ne!(
+        curve(&script, copy).placement(),
+        curve(&script, id).placement()
+    );
     script.command(Command::Duplicate);
     assert_eq!(reference(&script, script.curve()).name, "circle 3");
     script.command(Command::DeleteCurve);
@@ -302,7 +322,11 @@ fn a_pasted_table_of_points_is_a_list_that_is_drawn_and_has_no_comb() {
     let id = script.curve();
     script.command(Command::FitAll);
     let scene = script.scene();
-    let drawn = scene.curves.iter().find(|it| it.id == Some(id)).expect("it");
+    let drawn = scene
+        .curves
+        .iter()
+        .find(|it| it.id == Some(id))
+        .expect("it");
     assert_eq!(drawn.points.len(), 3);
     assert!(drawn.comb.is_empty() && drawn.teeth.is_empty() && drawn.evolute.is_empty());
     assert!(script.plots().curvature.is_empty());
@@ -319,12 +343,19 @@ fn its_comb_evolute_plots_and_features_are_shown() {
         }
     }
     let scene = script.scene();
-    let drawn = scene.curves.iter().find(|it| it.id == Some(id)).expect("it");
+    let drawn = scene
+        .curves
+        .iter()
+        .find(|it| it.id == Some(id))
+        .expect("it");
     assert!(!drawn.comb.is_empty() && !drawn.teeth.is_empty() && !drawn.evolute.is_empty());
     assert!(!script.plots().curvature.is_empty());
     let level = batten::analysis::LevelPlot::Curvature(2);
     assert!(!script.level_plot(level, false).levels.is_empty());
-    script.editor.view_mut().show_plot(Some(PlotKind::Harmony { compared: None }));
+    script
+        .editor
+        .view_mut()
+        .show_plot(Some(PlotKind::Harmony { compared: None }));
     script.check();
     assert!(script.plots().flow.iter().all(Vec::is_empty));
     let features = script.features().expect("a report");
@@ -338,7 +369,10 @@ fn the_sampled_features_of_an_inner_curve_are_where_they_are() {
     let mut script = Script::example("arc");
     script.command(Command::AddReference(find("clothoid").expect("a kind")));
     let change = ReferenceChange::Interval([-2.0, 1.0]);
-    script.editor.change_reference(&change).expect("an interval");
+    script
+        .editor
+        .change_reference(&change)
+        .expect("an interval");
     let features = script.features().expect("a report");
     let [row] = &features.rows[..] else {
         panic!("{:?}", features.rows);
@@ -382,7 +416,11 @@ fn an_end_is_matched_to_it_by_a_click_and_follows_its_parameters() {
     script.end_fit_action(EndFitAction::KeepMatched(true));
     script.end_fit_action(EndFitAction::PickFromCurve);
     script.click(seen(&script, id, 0.3));
-    let matched = *script.editor.document().match_of(arc, End::Finish).expect("a match");
+    let matched = *script
+        .editor
+        .document()
+        .match_of(arc, End::Finish)
+        .expect("a match");
     assert_eq!((matched.source, matched.continuity), (id, Continuity::G2));
     let MatchPlace::Parameter(u) = matched.place else {
         panic!("{matched:?}");

@@ -11,6 +11,7 @@ mod matching;
 mod numbers;
 mod operations;
 mod paper;
+mod references;
 
 use batten::editor::{Layer, ToolKind};
 use batten::geometry::End;

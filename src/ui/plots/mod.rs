@@ -178,6 +178,19 @@ impl Plots {
             ui.take_available_space();
             return;
         }
+        let reference = editor.active_reference_id();
+        let reference = reference.and_then(|id| editor.document().reference(id));
+        if let Some(reference) = reference
+            && (self.tab == Tab::Harmony || !reference.curve.form().is_smooth())
+        {
+            let text = match self.tab {
+                Tab::Harmony => "A reference has no S-polygon whose flow could be shown.",
+                _ => "Points have no curvature. Fit a curve to them to see its plots.",
+            };
+            widgets::note(ui, text);
+            ui.take_available_space();
+            return;
+        }
         let kind = self.kind();
         if editor.view().plot() != Some(kind) {
             editor.view_mut().show_plot(Some(kind));

@@ -1,0 +1,94 @@
+//! References in the window: added by the menu, changed in the inspector, hidden and locked in the list.
+
+use batten::document::Reference;
+use batten::geometry::references::{KINDS, ReferenceForm};
+use eframe::egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable;
+
+use crate::hand::*;
+
+fn reference(window: &Window) -> Reference {
+    let document = window.state().editor().document();
+    let (_, reference) = document.references().next().expect("a reference");
+    Reference::clone(reference)
+}
+
+fn values(window: &Window) -> Vec<f64> {
+    match reference(window).curve.form() {
+        ReferenceForm::Analytic(form) => form.values().to_vec(),
+        form => panic!("{form:?}"),
+    }
+}
+
+#[test]
+fn every_kind_is_added_by_the_menu_with_fields_for_its_parameters() {
+    for kind in KINDS {
+        let mut window = open_window();
+        choose(&mut window, &["Curve", "Add reference", kind.label]);
+        for parameter in kind.parameters {
+            window.get_by_label(parameter.label);
+        }
+        let row = format!("reference {}", reference(&window).name);
+        window.get_by_label(&row);
+        press(&mut window, Modifiers::COMMAND, Key::Z);
+        assert_eq!(window.state().editor().document().references().len(), 0);
+    }
+}
+
+#[test]
+fn parameters_and_places_are_typed_and_each_is_a_step() {
+    let mut window = open_window();
+    choose(&mut window, &["Curve", "Add reference", "Circle"]);
+    let before = reference(&window);
+    click(&mut window, "Radius");
+    type_over(&mut window, "7.5");
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    assert_eq!(values(&window), [7.5]);
+    click(&mut window, "origin x");
+    type_over(&mut window, "-2");
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    assert_eq!(reference(&window).curve.placement().translation().x, -2.0);
+    click(&mut window, "reference angle");
+    type_over(&mut window, "90");
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    let turned = reference(&window);
+    let angle = 2.0 * turned.curve.placement().rotation().z.asin();
+    assert!((angle.to_degrees() - 90.0).abs() < 1e-12, "{angle}");
+
+    // What is out of range is refused beside the field, and the circle stays.
+    click(&mut window, "Radius");
+    type_over(&mut window, "-1");
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    assert_eq!(values(&window), [7.5]);
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    for _ in 0..3 {
+        press(&mut window, Modifiers::COMMAND, Key::Z);
+    }
+    assert_eq!(reference(&window), before);
+}
+
+#[test]
+fn it_is_hidden_locked_renamed_and_deleted_in_the_list() {
+    let mut window = open_window();
+    choose(&mut window, &["Curve", "Add reference", "Circle"]);
+    click(&mut window, "Lock circle");
+    assert!(reference(&window).locked);
+    click(&mut window, "Lock circle");
+    click(&mut window, "Show circle");
+    assert!(!reference(&window).visible);
+    click(&mut window, "Show circle");
+    click(&mut window, "Name");
+    press(&mut window, Modifiers::COMMAND, Key::A);
+    type_over(&mut window, "fillet");
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    assert_eq!(reference(&window).name, "fillet");
+    click(&mut window, "Delete reference");
+    assert_eq!(window.state().editor().document().references().len(), 0);
+}
+
+#[test]
+fn its_features_are_said_to_be_sampled() {
+    let mut window = open_window();
+    choose(&mut window, &["Curve", "Add reference", "Clothoid"]);
+    assert!(window.query_all_by_label_contains("sampled").count() > 0);
+}
