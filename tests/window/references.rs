@@ -20,11 +20,19 @@ fn values(window: &Window) -> Vec<f64> {
     }
 }
 
+/// Add a reference by the menu; a layer is called “Curve” too.
+fn add(window: &mut Window, kind: &str) {
+    let menu = window.query_all_by_label("Curve").next();
+    menu.expect("the menu").click();
+    window.run();
+    choose(window, &["Add reference", kind]);
+}
+
 #[test]
 fn every_kind_is_added_by_the_menu_with_fields_for_its_parameters() {
     for kind in KINDS {
         let mut window = open_window();
-        choose(&mut window, &["Curve", "Add reference", kind.label]);
+        add(&mut window, kind.label);
         for parameter in kind.parameters {
             window.get_by_label(parameter.label);
         }
@@ -38,7 +46,7 @@ fn every_kind_is_added_by_the_menu_with_fields_for_its_parameters() {
 #[test]
 fn parameters_and_places_are_typed_and_each_is_a_step() {
     let mut window = open_window();
-    choose(&mut window, &["Curve", "Add reference", "Circle"]);
+    add(&mut window, "Circle");
     let before = reference(&window);
     click(&mut window, "Radius");
     type_over(&mut window, "7.5");
@@ -70,7 +78,7 @@ fn parameters_and_places_are_typed_and_each_is_a_step() {
 #[test]
 fn it_is_hidden_locked_renamed_and_deleted_in_the_list() {
     let mut window = open_window();
-    choose(&mut window, &["Curve", "Add reference", "Circle"]);
+    add(&mut window, "Circle");
     click(&mut window, "Lock circle");
     assert!(reference(&window).locked);
     click(&mut window, "Lock circle");
@@ -89,6 +97,6 @@ fn it_is_hidden_locked_renamed_and_deleted_in_the_list() {
 #[test]
 fn its_features_are_said_to_be_sampled() {
     let mut window = open_window();
-    choose(&mut window, &["Curve", "Add reference", "Clothoid"]);
+    add(&mut window, "Clothoid");
     assert!(window.query_all_by_label_contains("sampled").count() > 0);
 }
