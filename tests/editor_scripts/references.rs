@@ -352,10 +352,7 @@ fn its_comb_evolute_plots_and_features_are_shown() {
     assert!(!script.plots().curvature.is_empty());
     let level = batten::analysis::LevelPlot::Curvature(2);
     assert!(!script.level_plot(level, false).levels.is_empty());
-    script
-        .editor
-        .view_mut()
-        .show_plot(Some(PlotKind::Harmony { compared: None }));
+    script.editor.view_mut().show_plot(Some(PlotKind::Harmony));
     script.check();
     assert!(script.plots().flow.iter().all(Vec::is_empty));
     let features = script.features().expect("a report");
