@@ -27,7 +27,7 @@ pub use hand::{
     Button, Cursor, EndFitAction, EndFitReport, Follow, Following, Hand, Input, Key, MatchReport,
     Modifiers, Selection, ToolKind, Transformation, VertexId,
 };
-pub use paper::PaperPage;
+pub use paper::{PaperError, PaperPage, spiral_deviations};
 pub use reply::{Message, Note, Refusal, Reply, told};
 pub use report::{CurveReport, Export, Readout, ReferenceReport};
 pub use trial::{Run, Trial};

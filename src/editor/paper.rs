@@ -1,14 +1,19 @@
 //! The figures and the table of the paper as documents.
 
 use glam::{DVec2, DVec3};
+use thiserror::Error;
 
-use crate::document::{Colour, Curve, CurveId, Document, Edit};
+use crate::document::{Colour, Curve, CurveId, Document, Edit, Reference};
 use crate::editor::reply::{Note, Reply};
-use crate::editor::{Editor, ToolKind};
+use crate::editor::{Command, Editor, NamedView, ToolKind};
+use crate::geometry::approximation::{
+    ApproximationError, MeasuredDeviation, Placing, UniformKnots, float_polygon,
+};
 use crate::geometry::circle_comparison::{
     PAPER_RADIUS, equal_leg_bezier, paper_sides, regular_polygon,
 };
 use crate::geometry::end_correction::EndTarget;
+use crate::geometry::references::{ReferenceCurve, ReferenceTextError};
 use crate::geometry::{BezierPolygon, End, FloatPolygon, PolygonError, RoundingTest};
 
 /// The name of the curve whose closed S-polygon loses digits.
@@ -17,6 +22,20 @@ const SHORTENED: &str = "shortened";
 /// Colours that tell the curves of a page apart.
 const BLUE: Colour = Colour([0x3B, 0x82, 0xD6]);
 const VERMILION: Colour = Colour([0xD5, 0x5E, 0x2A]);
+
+/// A reason why a page has no curves.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum PaperError {
+    /// A polygon is not valid.
+    #[error(transparent)]
+    Polygon(#[from] PolygonError),
+    /// The spiral cannot be approximated.
+    #[error(transparent)]
+    Approximation(#[from] ApproximationError),
+    /// The spiral cannot be read.
+    #[error(transparent)]
+    Reference(#[from] ReferenceTextError),
+}
 
 /// A page about the paper, with the document that it explains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,16 +53,22 @@ pub enum PaperPage {
     Steps,
     /// Figure 2: one polygon with growing legs, as float and as Bézier polygon.
     Typical,
+    /// Figure 3: a conical spiral and two float polygons near it.
+    Spiral {
+        /// The number of vertices: 20 in the paper, one a unit of the parameter.
+        vertices: usize,
+    },
 }
 
 impl PaperPage {
     /// Every page, in the order of the paper.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Arc,
         Self::Rounding,
         Self::Circles { degree: 9 },
         Self::Steps,
         Self::Typical,
+        Self::Spiral { vertices: 20 },
     ];
 
     /// What the page is called.
@@ -54,6 +79,7 @@ impl PaperPage {
             Self::Circles { .. } => "Table 1: circles, both ways",
             Self::Steps => "Seven steps to exact ends",
             Self::Typical => "Figure 2: Mineur–Farin polygon",
+            Self::Spiral { .. } => "Figure 3: conical spiral",
         }
     }
 
@@ -63,7 +89,7 @@ impl PaperPage {
         Self::ALL.iter().position(same).unwrap_or_default()
     }
 
-    fn document(self) -> Result<Document, PolygonError> {
+    fn document(self) -> Result<Document, PaperError> {
         let curves = match self {
             Self::Arc => vec![Curve::new("arc", RoundingTest::arc()?)],
             Self::Rounding => vec![
@@ -73,13 +99,23 @@ impl PaperPage {
             Self::Circles { degree } => circles(degree)?,
             Self::Steps => vec![off_its_ends()?],
             Self::Typical => typical()?,
+            Self::Spiral { vertices } => return spiral(vertices),
         };
         Ok(Document::from_curves(curves))
     }
 
     /// Which curve of the document is active, counted from 0.
     fn active(self) -> usize {
-        usize::from(matches!(self, Self::Rounding))
+        usize::from(matches!(self, Self::Rounding | Self::Spiral { .. }))
+    }
+
+    /// The tool in the hand, and from where the document is seen.
+    fn tool_and_view(self) -> (ToolKind, NamedView) {
+        match self {
+            Self::Steps => (ToolKind::EndFit, NamedView::Xy),
+            Self::Spiral { .. } => (ToolKind::Select, NamedView::Isometric),
+            _ => (ToolKind::Select, NamedView::Xy),
+        }
     }
 }
 
@@ -126,15 +162,18 @@ impl Editor {
     fn replace_by_page(&mut self, page: PaperPage) -> Reply {
         let document = page.document().map_err(|error| error.to_string())?;
         let active = document.ids().nth(page.active());
-        let compared = document.ids().find(|id| Some(*id) != active);
+        // A reference is what curves are compared with, if there is one.
+        let references = document.references().map(|(id, _)| id);
+        let compared = references.chain(document.ids());
+        let compared = compared.into_iter().find(|id| Some(*id) != active);
         self.replace(document, None);
         if let Some(active) = active {
             self.activate(active);
         }
         self.view.compare(compared);
-        if page == PaperPage::Steps {
-            self.use_tool(ToolKind::EndFit);
-        }
+        let (tool, view) = page.tool_and_view();
+        self.use_tool(tool);
+        self.execute(Command::View(view))?;
         Ok(Note::silent())
     }
 }
@@ -207,4 +246,52 @@ fn typical() -> Result<Vec<Curve>, PolygonError> {
         coloured("B-spline", bspline, BLUE),
         coloured("Bézier", bezier, VERMILION),
     ])
+}
+
+/// The degree of figure 3.
+const SPIRAL_DEGREE: usize = 8;
+
+/// Where the curve of figure 3 begins and ends on the spiral: 20 vertices, from the parameter 0 on, lie
+/// about this part.
+const SPIRAL_PART: [f64; 2] = [3.5, 15.5];
+
+/// Figure 3: the conical spiral, and float polygons by both ways to place their vertices.
+fn spiral(vertices: usize) -> Result<Document, PaperError> {
+    let (spiral, knots) = spiral_and_knots(vertices)?;
+    let mut curves = Vec::new();
+    for (placing, name, colour) in [
+        (Placing::OnCurve, "vertices on the spiral", VERMILION),
+        (Placing::Quasi, "quasi-interpolation", BLUE),
+    ] {
+        curves.push(coloured(
+            name,
+            float_polygon(&spiral, &knots, placing)?,
+            colour,
+        ));
+    }
+    let spiral = Reference::new("conical spiral", spiral);
+    Ok(Document::from_curves(curves).with_references([spiral]))
+}
+
+fn spiral_and_knots(vertices: usize) -> Result<(ReferenceCurve, UniformKnots), PaperError> {
+    const SPIRAL: &str = "formula:x=2+t*sin(t);y=2+t*cos(t);z=t;from=3.5;to=15.5";
+    let spiral = ReferenceCurve::from_text(SPIRAL)?;
+    let knots = UniformKnots::between(SPIRAL_DEGREE, SPIRAL_PART, vertices)?;
+    Ok((spiral, knots))
+}
+
+/// How far both float polygons of figure 3 are from the spiral: with vertices on it, and by
+/// quasi-interpolation.
+///
+/// # Errors
+/// None for numbers of vertices from 9 on.
+pub fn spiral_deviations(vertices: usize) -> Result<[f64; 2], PaperError> {
+    let (spiral, knots) = spiral_and_knots(vertices)?;
+    let far = |placing| {
+        let polygon = float_polygon(&spiral, &knots, placing)?;
+        let parameter = |u| knots.curve_parameter(u);
+        let measured = MeasuredDeviation::measure(&polygon, &spiral, &parameter, knots.reach())?;
+        Ok::<_, PaperError>(measured.largest)
+    };
+    Ok([far(Placing::OnCurve)?, far(Placing::Quasi)?])
 }

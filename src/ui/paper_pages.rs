@@ -1,10 +1,12 @@
 //! What each page about the paper says, and its live figures.
 
+use std::collections::HashMap;
+
 use eframe::egui::{Button, Grid, Label, RichText, Slider, Ui};
 
 use super::theme::{self, Tokens};
 use super::{figures, widgets};
-use crate::editor::{Editor, PaperPage};
+use crate::editor::{Editor, PaperPage, spiral_deviations};
 use crate::geometry::circle_comparison::{
     CircleComparison, PAPER_RADIUS, evolute_reach, paper_sides,
 };
@@ -30,12 +32,17 @@ const PRINTED: [(usize, &str, &str); 4] = [
 /// What the paper prints of the rounding test, whose coordinates are cut off after three digits.
 const PRINTED_ROUNDING: (usize, &str) = (3, "3.06354e-1");
 
+/// The numbers of vertices by which the spiral is approximated, and the steps of s that they make.
+const SPIRALS: [(usize, &str); 2] = [(20, "Steps of 1"), (32, "Steps of ½")];
+
 /// The state of the pages' controls.
 pub struct PaperPages {
     digits: usize,
     shortening: Shortening,
     /// What is computed once: the rows of the table of circles.
     circles: Vec<Result<CircleComparison, PolygonError>>,
+    /// How far the curves are from the spiral, by their number of vertices.
+    spirals: HashMap<usize, Option<[f64; 2]>>,
     /// The rounding test for the present digits.
     rounding: Option<Result<RoundingTest, PolygonError>>,
 }
@@ -46,6 +53,7 @@ impl Default for PaperPages {
             digits: MOST_DIGITS,
             shortening: Shortening::CutOff,
             circles: Vec::new(),
+            spirals: HashMap::new(),
             rounding: None,
         }
     }
@@ -66,6 +74,7 @@ impl PaperPages {
             PaperPage::Circles { degree } => return self.circles_ui(ui, degree),
             PaperPage::Steps => steps_ui(ui),
             PaperPage::Typical => typical_ui(ui),
+            PaperPage::Spiral { vertices } => return self.spiral_ui(ui, vertices),
         }
         None
     }
@@ -228,6 +237,54 @@ impl PaperPages {
         asked
     }
 
+    fn spiral_ui(&mut self, ui: &mut Ui, vertices: usize) -> Option<PaperPage> {
+        text(
+            ui,
+            "The paper approximates the conical spiral x = 2 + s sin s, y = 2 + s cos s, z = s by a curve of \
+             degree 8: the vertices of its float S-polygon are 20 points of the spiral, one unit of s \
+             apart. That keeps the shape but not the place: each turn of the polygon is drawn in.",
+        );
+        text(
+            ui,
+            "Vertices by quasi-interpolation, from the derivatives of the spiral at the same parameters, \
+             keep both.",
+        );
+        let mut asked = None;
+        ui.horizontal(|ui| {
+            for (count, name) in SPIRALS {
+                let button = Button::selectable(count == vertices, name);
+                if ui.add(button).clicked() {
+                    asked = Some(PaperPage::Spiral { vertices: count });
+                }
+            }
+        });
+        let far = self.spirals.entry(vertices);
+        let far = far.or_insert_with(|| spiral_deviations(vertices).ok());
+        widgets::caption(ui, "Largest distance from the spiral");
+        figure(
+            ui,
+            "Vertices on the spiral",
+            &scientific(far.map(|far| far[0])),
+        );
+        figure(
+            ui,
+            "Quasi-interpolation",
+            &scientific(far.map(|far| far[1])),
+        );
+        text(
+            ui,
+            "The plots below show the active curve and the spiral. Look at the levels: the same maxima, minima \
+             and inflections in the same order mean an equal shape.",
+        );
+        note(
+            ui,
+            "The paper says that curvature and torsion agree up to the second level. With steps of 1 the \
+             curvature does; level 2 of the torsion has one more maximum and minimum near the start, in \
+             both ways. With steps of ½ all of level 2 agrees. The paper gives no distance.",
+        );
+        asked
+    }
+
     fn circle(&mut self, degree: usize) -> Option<CircleComparison> {
         if self.circles.is_empty() {
             let row = |degree| CircleComparison::new(degree, paper_sides(degree), PAPER_RADIUS);
@@ -268,8 +325,8 @@ fn steps_ui(ui: &mut Ui) {
         ui,
         "The n vertices at an end fix its point and the first n − 1 derivatives, so steps 5 and 6 move \
          the end as a rigid body. With 2n vertices or more the ends do not share any, and one pass is \
-         exact. With fewer the passes only approach it, and with n + 1 they do not: Correct ends in \
-         the same panel solves for both ends at once, for every polygon.",
+         exact. With fewer the passes only approach it, and with n + 1 they do not. The button Both \
+         ends at once solves for both ends together, for every polygon.",
     );
 }
 

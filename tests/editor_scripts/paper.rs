@@ -1,9 +1,10 @@
 //! The paper's figures as documents.
 
-use batten::editor::{Command, Editor, PaperPage, ToolKind};
+use batten::editor::{Command, Editor, PaperPage, ToolKind, spiral_deviations};
 use batten::geometry::features::{Features, Quantity};
 use batten::geometry::{End, FloatPolygon, RoundingTest, Shortening};
 use batten::operations::Value;
+use glam::DVec3;
 
 use super::script::Script;
 
@@ -37,7 +38,9 @@ fn every_page_opens_its_curves_unmodified() {
         assert_eq!(PaperPage::ALL[page.place()], page);
         // A second curve is compared with the first.
         let compared = script.editor.view().compared();
-        assert_eq!(compared.is_some(), script.editor.document().len() > 1);
+        let document = script.editor.document();
+        let shown = document.len() + document.references().len();
+        assert_eq!(compared.is_some(), shown > 1);
         assert!(compared.is_none() || compared != script.editor.active());
     }
 }
@@ -116,4 +119,24 @@ fn figure_2_has_a_monotone_curve_and_one_that_is_not() {
     let script = opened(PaperPage::Typical);
     let counts: Vec<usize> = polygons(&script.editor).iter().map(extrema).collect();
     assert_eq!(counts, [0, 1]);
+}
+
+#[test]
+fn figure_3_keeps_its_place_by_quasi_interpolation() {
+    for (vertices, quasi) in [(20, 0.0012), (32, 1.7e-6)] {
+        let [on_curve, placed] = spiral_deviations(vertices).expect("a spiral");
+        assert!(placed < quasi, "{vertices}: {placed}");
+        let far = if vertices == 20 { 4.85..4.95 } else { 1.0..2.0 };
+        assert!(far.contains(&on_curve), "{vertices}: {on_curve}");
+    }
+    let script = opened(PaperPage::Spiral { vertices: 20 });
+    let polygon = script.polygon();
+    assert_eq!((polygon.degree(), polygon.vertices().len()), (8, 20));
+    let first = polygons(&script.editor)[0].vertex(0);
+    assert!(first.distance(DVec3::new(2.0, 2.0, 0.0)) < EXACT, "{first}");
+    // The next page is seen from above again, by the tool that selects.
+    let mut script = script;
+    script.editor.open_paper(PaperPage::Arc).expect("a page");
+    assert!(!script.editor.is_orbited());
+    assert_eq!(script.editor.hand().tool(), ToolKind::Select);
 }
