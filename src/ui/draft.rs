@@ -159,7 +159,8 @@ impl Remark {
     }
 }
 
-fn remark_ui(ui: &Ui, id: Id, rect: Rect, text: &str) {
+/// Say something beside a field.
+pub fn remark_ui(ui: &Ui, id: Id, rect: Rect, text: &str) {
     let tooltip = Tooltip::always_open(ui.ctx().clone(), ui.layer_id(), id, rect);
     tooltip.show(|ui| {
         ui.label(text);

@@ -8,6 +8,7 @@ use lucide_icons::Icon;
 use super::curve_list::swatch_in;
 use super::feature_list::feature_list_ui;
 use super::figures;
+use super::formula_fields::FormulaFields;
 use super::harmony_list::harmony_list_ui;
 use super::number_field::{FieldEvent, NumberField};
 use super::reference_panel;
@@ -25,6 +26,7 @@ use crate::operations::{Value, reinterpret_degree};
 pub struct Inspector {
     /// The name that is being typed, for the curve that it belongs to.
     name: Option<(CurveId, String)>,
+    formulas: FormulaFields,
     table: VertexTable,
     transform: TransformPanel,
 }
@@ -92,7 +94,8 @@ impl Inspector {
         widgets::section(ui, reference.curve.form().label(), true, |ui| {
             ui.push_id(id, |ui| {
                 ui.add_enabled_ui(may_change, |ui| {
-                    reference_panel::shape_ui(ui, editor, reference);
+                    let shown = (id, reference);
+                    reference_panel::shape_ui(ui, editor, &mut self.formulas, shown);
                 });
             });
         });

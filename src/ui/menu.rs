@@ -164,11 +164,15 @@ fn references_ui(ui: &mut Ui, commands: &mut Vec<Action>) {
     let title = (blank(), "Add reference");
     let response = ui.menu_button(title, |ui| {
         ui.set_min_width(WIDTH);
-        for kind in KINDS {
-            let button = Button::new((blank(), kind.label)).min_size(vec2(WIDTH, 0.0));
-            let response = ui.add(button).accessible_name(kind.label);
-            if response.on_hover_text(kind.help).clicked() {
-                commands.push(Command::AddReference(kind).into());
+        let kinds = KINDS.iter().copied();
+        let kinds = kinds.map(|kind| (kind.label, kind.help, Command::AddReference(kind)));
+        let help = Command::AddFormula.tooltip();
+        let formula = ("Formula", help.as_str(), Command::AddFormula);
+        for (label, help, command) in kinds.chain([formula]) {
+            let button = Button::new((blank(), label)).min_size(vec2(WIDTH, 0.0));
+            let response = ui.add(button).accessible_name(label);
+            if response.on_hover_text(help).clicked() {
+                commands.push(command.into());
                 ui.close();
             }
         }

@@ -21,6 +21,7 @@ mod feature_list;
 mod feature_marks;
 mod figures;
 mod file_dialogs;
+mod formula_fields;
 mod gizmo;
 mod grid;
 mod guides;

@@ -4,9 +4,10 @@ use eframe::egui::Ui;
 use glam::{DQuat, DVec3, EulerRot};
 
 use super::figures;
+use super::formula_fields::FormulaFields;
 use super::number_field::{FieldEvent, NumberField};
 use super::widgets;
-use crate::document::Reference;
+use crate::document::{CurveId, Reference};
 use crate::editor::{Editor, ReferenceChange, ReferenceReport, told};
 use crate::geometry::references::{AnalyticForm, ReferenceCurve, ReferenceForm};
 
@@ -16,8 +17,13 @@ const FIELD: f32 = 120.0;
 /// The width of fields that stand side by side.
 const NARROW: f32 = 64.0;
 
-/// Show what a reference is, in fields made from its kind's table of parameters.
-pub fn shape_ui(ui: &mut Ui, editor: &mut Editor, reference: &Reference) {
+/// Show what a reference is, in fields made from its kind's table of parameters, or for its formulas.
+pub fn shape_ui(
+    ui: &mut Ui,
+    editor: &mut Editor,
+    formulas: &mut FormulaFields,
+    (id, reference): (CurveId, &Reference),
+) {
     let curve = &reference.curve;
     match curve.form() {
         ReferenceForm::Analytic(form) => {
@@ -26,11 +32,9 @@ pub fn shape_ui(ui: &mut Ui, editor: &mut Editor, reference: &Reference) {
             interval_ui(ui, editor, curve);
         }
         ReferenceForm::Formula(formula) => {
-            for (name, text) in ["x", "y", "z"].into_iter().zip(formula.texts()) {
-                if let Some(text) = text {
-                    widgets::figure_row(ui, name, text);
-                }
-            }
+            let help = "Type expressions in t, such as 2 cos(t); pi and e are known.";
+            widgets::note(ui, help);
+            formulas.show(ui, editor, id, formula);
             interval_ui(ui, editor, curve);
         }
         ReferenceForm::Points(list) => {
@@ -135,7 +139,8 @@ fn angle_field(name: &str, degrees: f64) -> NumberField<'_> {
 fn changed(editor: &mut Editor, event: FieldEvent, change: impl Fn(f64) -> ReferenceChange) {
     match event {
         FieldEvent::Idle => {}
-        FieldEvent::Preview(value) => editor.preview_reference(&change(value)),
+        // What cannot be is passed over: what was shown last stays.
+        FieldEvent::Preview(value) => drop(editor.preview_reference(&change(value))),
         FieldEvent::Commit => editor.commit_preview(),
         FieldEvent::Abort => editor.abort_preview(),
         FieldEvent::Typed(value) => told(editor.change_reference(&change(value))),

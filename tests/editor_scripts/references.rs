@@ -5,7 +5,7 @@ use batten::editor::{
     Command, EndFitAction, FeatureKind, HoverScene, Key, Mark, Modifiers, NamedView, PlotKind,
     ReferenceChange, ToolKind,
 };
-use batten::geometry::references::{ReferenceCurve, find};
+use batten::geometry::references::{ReferenceCurve, ReferenceError, find};
 use batten::geometry::{Continuity, End, ParametricCurve};
 use glam::{DQuat, DVec2, DVec3};
 
@@ -260,12 +260,11 @@ fn parameters_are_changed_one_step_each_and_what_cannot_be_is_refused() {
         assert_eq!(curve(&script, id), before);
     }
     // While a field is dragged nothing is refused aloud; the last good form stays.
-    script
-        .editor
-        .preview_reference(&ReferenceChange::Value(0, 9.0));
-    script
-        .editor
-        .preview_reference(&ReferenceChange::Value(0, -9.0));
+    let mut preview = |value| {
+        let change = ReferenceChange::Value(0, value);
+        script.editor.preview_reference(&change)
+    };
+    assert!(preview(9.0).is_ok() && preview(-9.0).is_err());
     script.check();
     assert_ne!(curve(&script, id), before);
     script.editor.abort_preview();
@@ -456,6 +455,7 @@ fn commands_of_curves_do_nothing_to_a_reference() {
         let own = matches!(
             command,
             Command::AddReference(_)
+                | Command::AddFormula
                 | Command::Duplicate
                 | Command::DeleteCurve
                 | Command::ToggleVisible
@@ -472,4 +472,41 @@ fn commands_of_curves_do_nothing_to_a_reference() {
         script.check();
         assert!(script.editor.document().is_same(&before), "{command:?}");
     }
+}
+
+#[test]
+fn formulas_are_typed_and_a_mistake_leaves_the_last_good_form() {
+    let mut script = Script::example("arc");
+    script.command(Command::AddFormula);
+    let id = script.curve();
+    let before = curve(&script, id);
+    let steps = script.steps();
+    let formula = |texts: [&str; 3]| ReferenceChange::Formula(texts.map(str::to_owned));
+    let preview = |script: &mut Script, texts| {
+        let shown = script.editor.preview_reference(&formula(texts));
+        script.check();
+        shown
+    };
+    preview(&mut script, ["2*cos(t)", "sin(t)", ""]).expect("formulas");
+    let good = curve(&script, id);
+    let refused = preview(&mut script, ["2*cos(t", "sin(t)", ""]);
+    let Err(ReferenceError::InFormula {
+        coordinate,
+        mistake,
+    }) = refused
+    else {
+        panic!("{refused:?}");
+    };
+    assert_eq!(coordinate, "x");
+    assert!(mistake.column >= 7, "{mistake:?}");
+    assert_eq!(curve(&script, id), good);
+    assert!(preview(&mut script, ["2*cos(t)", "1/0*t", ""]).is_err());
+    assert_eq!(curve(&script, id), good);
+    preview(&mut script, ["2*cos(t)", "sin(t)", "t"]).expect("in space");
+    script.editor.commit_preview();
+    script.check();
+    assert_eq!(script.steps(), steps + 1);
+    assert!(!curve(&script, id).is_planar());
+    script.command(Command::Undo);
+    assert_eq!(curve(&script, id), before);
 }

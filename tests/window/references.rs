@@ -100,3 +100,29 @@ fn its_features_are_said_to_be_sampled() {
     add(&mut window, "Clothoid");
     assert!(window.query_all_by_label_contains("sampled").count() > 0);
 }
+
+#[test]
+fn a_formula_is_shown_while_it_is_typed_and_a_mistake_is_told() {
+    let mut window = open_window();
+    add(&mut window, "Formula");
+    let before = reference(&window);
+    click(&mut window, "x(t)");
+    type_over(&mut window, "3*cos(t)");
+    let shown = reference(&window);
+    assert_ne!(shown, before, "what is typed is shown at once");
+    type_over(&mut window, "3*cos(t)+");
+    assert_eq!(reference(&window), shown, "the last good form stays");
+    type_over(&mut window, "3*cosine(t)");
+    assert!(window.query_all_by_label_contains("cosine").count() > 0);
+    assert_eq!(reference(&window), shown);
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    assert_eq!(reference(&window), shown);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(reference(&window), before);
+
+    click(&mut window, "y(t)");
+    type_over(&mut window, "t^2");
+    assert_ne!(reference(&window), before);
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert_eq!(reference(&window), before, "Esc calls it off");
+}

@@ -33,6 +33,8 @@ pub enum Command {
     Operation(&'static Operation),
     /// Add a reference of a kind.
     AddReference(&'static ReferenceKind),
+    /// Add a reference by formulas.
+    AddFormula,
     /// Show or hide the active curve.
     ToggleVisible,
     /// Lock or unlock the active curve.
@@ -131,6 +133,7 @@ impl Command {
         ];
         all.extend(operations::ALL.iter().copied().map(Self::Operation));
         all.extend(KINDS.iter().copied().map(Self::AddReference));
+        all.push(Self::AddFormula);
         all.extend([Self::Fit, Self::FitAll, Self::ZoomIn, Self::ZoomOut]);
         all.extend(NamedView::ALL.map(Self::View));
         all.push(Self::ResetComb);
@@ -157,6 +160,7 @@ impl Command {
             // What asks for more before anything is done.
             Self::Operation(operation) => return format!("{}…", operation.label),
             Self::AddReference(kind) => return format!("Add reference: {}", kind.label),
+            Self::AddFormula => "Add reference: Formula",
             Self::ToggleVisible => "Visible",
             Self::ToggleLocked => "Locked",
             Self::Fit => "Fit selection",
@@ -192,6 +196,7 @@ impl Command {
             }
             Self::Operation(operation) => operation.help,
             Self::AddReference(kind) => return format!("{}: {}", kind.label, kind.help),
+            Self::AddFormula => "Add a curve by formulas x(t), y(t) and z(t) of your own",
             Self::ToggleVisible => "Show or hide the active curve",
             Self::ToggleLocked => "Protect the active curve's shape from edits, or release it",
             Self::Fit => "Show the selected vertices, or everything if fewer than two are selected",

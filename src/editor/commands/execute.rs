@@ -195,6 +195,7 @@ impl Editor {
             Command::Tool(tool) => self.use_tool(tool),
             Command::Operation(operation) => return self.try_operation(operation),
             Command::AddReference(kind) => return self.add_reference(kind),
+            Command::AddFormula => return self.add_formula(),
             _ => {
                 if let Some((id, reference)) = self.active_reference() {
                     return self.execute_on_reference(command, id, &reference);

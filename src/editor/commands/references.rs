@@ -1,5 +1,7 @@
 //! Adding references, and changing what they are and where they lie.
 
+use std::f64::consts::TAU;
+
 use glam::{DQuat, DVec2, DVec3};
 
 use crate::document::{CurveId, Edit, Reference};
@@ -8,7 +10,7 @@ use crate::editor::reply::{Note, Refusal, Reply};
 use crate::editor::view::outline::Bounds;
 use crate::geometry::ParametricCurve;
 use crate::geometry::references::{
-    AnalyticForm, Placement, ReferenceCurve, ReferenceError, ReferenceForm, ReferenceKind,
+    AnalyticForm, Formula, Placement, ReferenceCurve, ReferenceError, ReferenceForm, ReferenceKind,
 };
 use crate::io::Reading;
 
@@ -18,6 +20,9 @@ const SMALLEST: f64 = 0.1;
 /// The share of the view's smaller side that a reference gets then, about.
 const SHARE: f64 = 0.4;
 
+/// The formulas that a new curve begins with.
+const FORMULAS: [&str; 2] = ["t", "sin(t)"];
+
 /// Points by which the extent of a new reference is found.
 const SAMPLES: usize = 64;
 
@@ -26,6 +31,8 @@ const SAMPLES: usize = 64;
 pub enum ReferenceChange {
     /// Give a parameter of its kind, by its number, another value.
     Value(usize, f64),
+    /// Give it other formulas: x, y and z, which is empty in the plane.
+    Formula([String; 3]),
     /// Begin or end at another parameter t.
     Interval([f64; 2]),
     /// Put its origin elsewhere.
@@ -41,6 +48,7 @@ impl ReferenceChange {
     fn label(&self) -> &'static str {
         match self {
             Self::Value(..) => "Change reference",
+            Self::Formula(_) => "Change formula",
             Self::Interval(_) => "Change interval of reference",
             Self::Translate(_) => "Move reference",
             Self::Rotate(_) => "Rotate reference",
@@ -74,6 +82,11 @@ impl ReferenceChange {
                 };
                 ReferenceCurve::new(form, interval, now)
             }
+            Self::Formula([x, y, z]) => {
+                let z = Some(z.as_str()).filter(|z| !z.trim().is_empty());
+                let form = ReferenceForm::Formula(Formula::new(x, y, z)?);
+                ReferenceCurve::new(form, curve.interval(), now)
+            }
             Self::Interval(interval) => ReferenceCurve::new(curve.form().clone(), *interval, now),
             Self::Translate(to) => placed(rotation, scale, *to),
             Self::Rotate(to) => placed(*to, scale, translation),
@@ -89,28 +102,43 @@ impl Editor {
     /// [`Refusal`] if there is none, or it cannot be so; nothing is changed then.
     pub fn change_reference(&mut self, change: &ReferenceChange) -> Reply {
         match self.reference_edit(change) {
-            Ok(edit) => self.apply(change.label(), vec![edit]),
-            Err(refusal) => {
+            Ok(Some(edit)) => self.apply(change.label(), vec![edit]),
+            Ok(None) => Ok(Note::silent()),
+            Err(error) => {
                 self.interrupt();
-                self.tell(Err(refusal))
+                self.tell(Err(Refusal(error.to_string())))
             }
         }
     }
 
-    /// Show what a change would make of the active reference, as while its field is dragged; what
-    /// cannot be is passed over.
-    pub fn preview_reference(&mut self, change: &ReferenceChange) {
-        if let Ok(edit) = self.reference_edit(change) {
+    /// Show what a change would make of the active reference, as while its field is dragged or typed into.
+    ///
+    /// # Errors
+    /// [`ReferenceError`] if it cannot be so; what was shown last stays.
+    pub fn preview_reference(&mut self, change: &ReferenceChange) -> Result<(), ReferenceError> {
+        if let Some(edit) = self.reference_edit(change)? {
             self.preview(change.label(), vec![edit]);
         }
+        Ok(())
     }
 
-    fn reference_edit(&self, change: &ReferenceChange) -> Result<Edit, Refusal> {
-        let active = self.active_reference();
-        let (reference, found) = active.ok_or("There is no reference")?;
-        let curve = change.applied_to(&found.curve);
-        let curve = curve.map_err(|error| error.to_string())?;
-        Ok(Edit::SetReference { reference, curve })
+    /// The edit that changes the active reference, if there is one.
+    fn reference_edit(&self, change: &ReferenceChange) -> Result<Option<Edit>, ReferenceError> {
+        let Some((reference, found)) = self.active_reference() else {
+            return Ok(None);
+        };
+        let curve = change.applied_to(&found.curve)?;
+        Ok(Some(Edit::SetReference { reference, curve }))
+    }
+
+    /// Add a curve by formulas, to be changed, and make it active.
+    pub(in crate::editor) fn add_formula(&mut self) -> Reply {
+        let [x, y] = FORMULAS;
+        let curve = Formula::new(x, y, None).and_then(|formula| {
+            let form = ReferenceForm::Formula(formula);
+            ReferenceCurve::new(form, [0.0, TAU], Placement::default())
+        });
+        self.add_reference_curve("Formula", curve.map_err(|error| error.to_string())?)
     }
 
     /// Add a reference of a kind, with its defaults, where it can be seen, and make it active.

@@ -1,0 +1,125 @@
+//! Fields for the formulas of a reference: what is typed is shown as soon as it can be, and a mistake
+//! is told under the place where it is.
+
+use eframe::egui::text::CCursor;
+use eframe::egui::{Id, Key, Rect, TextEdit, Ui, vec2};
+
+use super::draft::remark_ui;
+use super::theme::{self, ROW, Tokens};
+use super::widgets;
+use crate::document::CurveId;
+use crate::editor::{Editor, ReferenceChange};
+use crate::geometry::references::{Formula, ReferenceError};
+
+/// The coordinates, as their fields are called and as mistakes name them.
+const COORDINATES: [(&str, &str); 3] = [("x(t)", "x"), ("y(t)", "y"), ("z(t)", "z")];
+
+/// What is being typed into the fields of a reference.
+#[derive(Default)]
+pub struct FormulaFields {
+    draft: Option<Draft>,
+}
+
+struct Draft {
+    /// The reference that it belongs to.
+    reference: CurveId,
+    texts: [String; 3],
+    /// Why the texts are no curve.
+    error: Option<ReferenceError>,
+}
+
+impl FormulaFields {
+    /// Show the fields of the active reference.
+    pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor, id: CurveId, formula: &Formula) {
+        let kept = self.draft.take().filter(|draft| draft.reference == id);
+        let mut draft = kept.unwrap_or_else(|| Draft::of(id, formula));
+        let mut is_typed = false;
+        for coordinate in 0..COORDINATES.len() {
+            is_typed |= draft.field_ui(ui, editor, coordinate);
+        }
+        if is_typed {
+            self.draft = Some(draft);
+        }
+    }
+}
+
+impl Draft {
+    fn of(reference: CurveId, formula: &Formula) -> Self {
+        let text = |text: Option<&str>| text.unwrap_or_default().to_owned();
+        Self {
+            reference,
+            texts: formula.texts().map(text),
+            error: None,
+        }
+    }
+
+    /// Show the field of one coordinate; tells whether it has the keyboard.
+    fn field_ui(&mut self, ui: &mut Ui, editor: &mut Editor, coordinate: usize) -> bool {
+        let (label, name) = COORDINATES[coordinate];
+        let tokens = Tokens::of(ui);
+        let mistake = self.mistake(name);
+        let row = widgets::form_row(ui, label, |ui| {
+            let hint = if name == "z" { "none: planar" } else { "" };
+            let field = TextEdit::singleline(&mut self.texts[coordinate])
+                .id_salt(label)
+                .font(theme::number_font())
+                .hint_text(hint)
+                .text_color(match mistake {
+                    Some(_) => tokens.error,
+                    None => tokens.strong_text,
+                })
+                .desired_width(f32::INFINITY)
+                .min_size(vec2(0.0, ROW));
+            field.show(ui)
+        });
+        let output = row.inner;
+        let response = output.response.response.accessible_name(label);
+        if response.changed() {
+            self.error = editor
+                .preview_reference(&ReferenceChange::Formula(self.texts.clone()))
+                .err();
+        }
+        if response.lost_focus() {
+            let called_off = ui.input(|input| input.key_pressed(Key::Escape));
+            if called_off {
+                editor.abort_preview();
+            } else {
+                editor.commit_preview();
+            }
+            return false;
+        }
+        if let Some((column, text)) = self.mistake(name)
+            && response.has_focus()
+        {
+            let at = output
+                .galley
+                .pos_from_cursor(CCursor::new(column.saturating_sub(1)));
+            let place = at.translate(output.galley_pos.to_vec2());
+            mark_ui(ui, response.id, place, &text);
+        }
+        response.has_focus()
+    }
+
+    /// The mistake in one coordinate: its column and what is wrong; of what is wrong with the whole
+    /// curve no column is known.
+    fn mistake(&self, name: &str) -> Option<(usize, String)> {
+        match self.error.as_ref()? {
+            ReferenceError::InFormula {
+                coordinate,
+                mistake,
+            } => (*coordinate == name).then(|| (mistake.column, mistake.error.to_string())),
+            error => Some((1, error.to_string())),
+        }
+    }
+}
+
+/// Mark a place in a text, and tell below it what is wrong there.
+fn mark_ui(ui: &Ui, id: Id, place: Rect, text: &str) {
+    let error = Tokens::of(ui).error;
+    let tip = place.left_bottom();
+    let caret = [tip + vec2(-3.0, 5.0), tip, tip + vec2(3.0, 5.0)];
+    let stroke = eframe::egui::Stroke::new(1.5, error);
+    ui.painter().line(caret.to_vec(), stroke);
+    let below = Rect::from_min_max(place.min, place.max + vec2(1.0, 6.0));
+    remark_ui(ui, id.with("mistake"), below, text);
+}
