@@ -11,7 +11,6 @@ use super::level_series::{LevelPlot, LevelSeries};
 use super::sampled_features::{SampledFeature, sampled_features};
 use super::vertex_chain::VertexChain;
 use crate::document::Reference;
-use crate::geometry::references::ReferenceForm;
 
 /// Hold the samples of a reference, its plots, and its features as far as samples tell them.
 #[derive(Debug)]
@@ -29,11 +28,7 @@ impl ReferenceAnalysis {
     /// Analyse a reference.
     pub fn new(reference: Arc<Reference>) -> Self {
         let mut points = VertexChain::default();
-        if let ReferenceForm::Points(list) = reference.curve.form() {
-            let placement = reference.curve.placement();
-            let placed = list.points().iter().map(|point| placement.point(*point));
-            points.update(&placed.collect::<Vec<_>>(), false);
-        }
+        points.update(&reference.points().unwrap_or_default(), false);
         Self {
             samples: CurveSamples::new(&reference.curve),
             curvature: CurvatureSeries::default(),

@@ -6,6 +6,7 @@ use std::thread;
 use std::time::Duration;
 
 use anyhow::{Context, anyhow, bail};
+use glam::DVec3;
 
 use super::ends::{Destination, Source};
 use super::output;
@@ -104,14 +105,14 @@ impl Application {
             Inputs::One => Ok(Input::new(&document, self.curves(&document, 1)?)?),
             Inputs::Two => Ok(Input::new(&document, self.curves(&document, 2)?)?),
             Inputs::Points => {
-                let mut curves = document.curves();
-                let (Some((_, table)), None) = (curves.next(), curves.next()) else {
-                    bail!(
-                        "a table of points is needed, and there are {} curves",
-                        document.len()
-                    );
+                let curves = document.curves();
+                let curves = curves.map(|(_, curve)| curve.polygon.vertices().to_vec());
+                let lists = document.references().filter_map(|(_, it)| it.points());
+                let mut tables: Vec<Vec<DVec3>> = curves.chain(lists).collect();
+                let count = tables.len();
+                let Some(points) = tables.pop().filter(|_| count == 1) else {
+                    bail!("a table of points is needed, and there are {count} curves and lists");
                 };
-                let points = table.polygon.vertices().to_vec();
                 Ok(Input::new(&Document::default(), [])?.with_points(points))
             }
         }

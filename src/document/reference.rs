@@ -1,9 +1,11 @@
 //! One reference of a document: what curves are drawn and measured against.
 
+use glam::DVec3;
+
 use super::curve::Colour;
 use super::error::EditError;
 use super::extras::Extras;
-use crate::geometry::references::ReferenceCurve;
+use crate::geometry::references::{ReferenceCurve, ReferenceForm};
 
 /// Hold a reference: its curve or its points, which no vertices edit, and what the user calls it.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,6 +36,16 @@ impl Reference {
             curve,
             extras: Extras::default(),
         }
+    }
+
+    /// The points where they are placed, if it is a list of points.
+    pub fn points(&self) -> Option<Vec<DVec3>> {
+        let ReferenceForm::Points(list) = self.curve.form() else {
+            return None;
+        };
+        let placement = self.curve.placement();
+        let points = list.points().iter();
+        Some(points.map(|point| placement.point(*point)).collect())
     }
 
     /// Refuse if the reference cannot be changed: it is hidden or locked.

@@ -109,8 +109,8 @@ pub fn write(
     references: &[&Reference],
     kind: PolygonKind,
 ) -> Result<Export, WriteError> {
-    let is_list = |reference: &&&Reference| placed_points(reference).is_some();
-    if curves.is_empty() && !references.iter().any(|reference| is_list(&reference)) {
+    let mut lists = references.iter().filter_map(|reference| reference.points());
+    if curves.is_empty() && lists.next().is_none() {
         let format = Format::Csv;
         return Err(WriteError::NoCurves { format });
     }
@@ -127,7 +127,7 @@ pub fn write(
         losses.add_if(curve.locked, curve, Loss::Locked);
     }
     for reference in references {
-        let Some(points) = placed_points(reference) else {
+        let Some(points) = reference.points() else {
             losses.add_references([*reference]);
             continue;
         };
@@ -138,16 +138,6 @@ pub fn write(
         bytes.extend(block.expect("a table of text can be written to memory"));
     }
     Ok(Export { bytes, losses })
-}
-
-/// The points of a reference that is a list of them, where they are placed.
-fn placed_points(reference: &Reference) -> Option<Vec<DVec3>> {
-    let ReferenceForm::Points(list) = reference.curve.form() else {
-        return None;
-    };
-    let placement = reference.curve.placement();
-    let points = list.points().iter();
-    Some(points.map(|point| placement.point(*point)).collect())
 }
 
 fn points_bytes(name: &str, points: &[DVec3]) -> csv::Result<Vec<u8>> {

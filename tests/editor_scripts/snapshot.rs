@@ -10,6 +10,8 @@ use glam::DVec3;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snapshot {
     curves: Vec<(CurveId, Bits)>,
+    /// References, written out, so that −0 and 0 differ.
+    references: Vec<(CurveId, String)>,
     matches: Vec<MatchBits>,
 }
 
@@ -110,7 +112,10 @@ impl Snapshot {
                 matched.reversed,
             )
         });
+        let references = document.references();
+        let references = references.map(|(id, reference)| (id, format!("{reference:?}")));
         Self {
+            references: references.collect(),
             matches: matches.collect(),
             curves: curves.map(|(id, curve)| (id, Bits::of(curve))).collect(),
         }

@@ -232,5 +232,8 @@ fn a_table_of_points_is_read() {
     let (curves, _) = apply(&POLYLINE, &files, std::slice::from_ref(&table)).expect("applied");
     assert_eq!(curves, [line("line", &points)]);
     let error = apply(&POLYLINE, &files, &[table.clone(), table]).expect_err("refused");
-    assert_eq!(error, "a table of points is needed, and there are 2 curves");
+    assert_eq!(
+        error,
+        "a table of points is needed, and there are 2 curves and lists"
+    );
 }

@@ -10,7 +10,6 @@ use crate::editor::view::grid::grid_steps;
 use crate::editor::view::hit::REACH;
 use crate::editor::view::viewport::Viewport;
 use crate::geometry::End;
-use crate::geometry::references::ReferenceForm;
 
 /// Screen points within which the grid attracts: less than vertices do.
 const GRID_REACH: f64 = 5.0;
@@ -68,18 +67,12 @@ pub fn snap_to_point(
         if carried.reference == Some(id) {
             continue;
         }
-        match reference.curve.form() {
-            ReferenceForm::Points(list) => {
-                let placement = reference.curve.placement();
-                let points = list.points().iter();
-                points.for_each(|point| consider(placement.point(*point)));
-            }
-            _ => {
-                let ends = End::BOTH.map(|end| MatchPlace::End(end).jet(&reference.curve));
-                let ends = ends.into_iter().flatten();
-                ends.for_each(|jet| consider(jet.point));
-            }
-        }
+        let ends = || {
+            let jets = End::BOTH.map(|end| MatchPlace::End(end).jet(&reference.curve));
+            jets.into_iter().flatten().map(|jet| jet.point).collect()
+        };
+        let points = reference.points().unwrap_or_else(ends);
+        points.into_iter().for_each(&mut consider);
     }
     consider(DVec3::ZERO);
     best.map(|(_, point)| point)
