@@ -32,7 +32,7 @@ pub fn shape_ui(
             interval_ui(ui, editor, curve);
         }
         ReferenceForm::Formula(formula) => {
-            let help = "Type expressions in t, such as 2 cos(t); pi and e are known.";
+            let help = "Expressions in t, such as 2*cos(pi*t).";
             widgets::note(ui, help);
             formulas.show(ui, editor, id, formula);
             interval_ui(ui, editor, curve);

@@ -28,10 +28,7 @@ impl Plots {
         let tokens = Tokens::of(ui);
         let dragging = editor.hand().is_dragging();
         let scene = editor.view().plots();
-        self.legend = match scene.discrete.is_empty() {
-            true => "",
-            false => legend(scene.flank),
-        };
+        self.legend = legend(scene.flank);
         let whole = scene.length;
         let normalised = self.normalised && whole > 0.0;
         let scaled = normalised.then(|| scene.at_length_one());

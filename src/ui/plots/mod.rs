@@ -111,6 +111,7 @@ impl Plots {
         shown: bool,
         commands: &mut Vec<Action>,
     ) {
+        let is_reference = editor.active_reference_id().is_some();
         ui.horizontal_centered(|ui| {
             ui.spacing_mut().item_spacing.x = STEP;
             let tabs = self.tabs(editor);
@@ -144,6 +145,7 @@ impl Plots {
                 }
                 match self.tab {
                     _ if !shown => {}
+                    Tab::Curvature if is_reference => self.normalised_ui(ui, ""),
                     Tab::Curvature => self.normalised_ui(ui, self.legend),
                     Tab::Levels(plot) => self.level_bar_ui(ui, plot),
                     Tab::Harmony => {}
