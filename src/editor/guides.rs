@@ -8,15 +8,18 @@ use crate::document::Curve;
 use crate::editor::worker::{Outcome, Worker};
 use crate::geometry::Progress;
 use crate::geometry::features::{Quantity, SegmentFeatures};
+use crate::geometry::mineur_farin::{Atlas, AtlasSearch, AtlasVerdicts};
 use crate::geometry::vertex_moves::{FeatureLoss, LossSearch, MoveError, RegionSearch, SafeRegion};
 
-/// Find the guides of one vertex and of one feature at a time.
+/// Find the guides of one vertex, of one feature and of one operation at a time.
 #[derive(Debug, Default)]
 pub struct Guides {
     /// The safe region of a vertex.
     pub regions: Finding<VertexOf, RegionStep>,
     /// The moves that lose a feature.
     pub losses: Finding<FeatureOf, Vec<FeatureLoss>>,
+    /// What is proved of the plane of two parameters.
+    pub atlas: Finding<Atlas, AtlasStep>,
 }
 
 /// Find what belongs to one question at a time: a newer one replaces it.
@@ -54,6 +57,14 @@ pub struct FeatureOf {
     pub u: f64,
 }
 
+/// An atlas as far as it is found.
+#[derive(Debug)]
+pub struct AtlasStep {
+    found: AtlasVerdicts,
+    /// What finds the next level.
+    search: Option<Box<AtlasSearch>>,
+}
+
 /// A safe region as far as it is found.
 #[derive(Debug)]
 pub struct RegionStep {
@@ -88,7 +99,8 @@ impl Guides {
     pub fn background(wake: impl Fn() + Clone + Send + 'static) -> Self {
         Self {
             regions: Finding::with(Worker::background("safe region", wake.clone())),
-            losses: Finding::with(Worker::background("feature losses", wake)),
+            losses: Finding::with(Worker::background("feature losses", wake.clone())),
+            atlas: Finding::with(Worker::background("atlas", wake)),
         }
     }
 }
@@ -226,6 +238,43 @@ impl Finding<FeatureOf, Vec<FeatureLoss>> {
             self.start(job);
         }
     }
+}
+
+impl Finding<Atlas, AtlasStep> {
+    /// See to it that an atlas is found, from coarse to fine, and take what is.
+    pub fn advance(&mut self, atlas: &Atlas) {
+        self.receive();
+        if self.ask(atlas) {
+            let search = Box::new(AtlasSearch::new(*atlas));
+            self.start(move |progress: &Progress| next_picture(search, progress));
+        } else if let Some(Ok(step)) = &mut self.answer
+            && let Some(search) = step.search.take()
+        {
+            // One picture a frame.
+            self.start(move |progress: &Progress| next_picture(search, progress));
+        }
+    }
+
+    /// The atlas as far as it is found.
+    pub fn found(&self) -> Option<&AtlasVerdicts> {
+        let step = self.answer.as_ref()?.as_ref().ok()?;
+        Some(&step.found)
+    }
+}
+
+/// Find the next picture of an atlas; `None` if it is cancelled.
+fn next_picture(
+    mut search: Box<AtlasSearch>,
+    progress: &Progress,
+) -> Option<Result<AtlasStep, MoveError>> {
+    let found = search.refine(progress);
+    found.then(|| {
+        let found = search.found().clone();
+        Ok(AtlasStep {
+            search: (!found.is_finest()).then_some(search),
+            found,
+        })
+    })
 }
 
 /// Find the next level of a region; `None` if it is cancelled.

@@ -37,6 +37,12 @@ impl Editor {
         self.trial().is_some_and(|trial| !trial.is_applied())
     }
 
+    /// Whether this operation is being tried out.
+    pub(in crate::editor) fn is_tried(&self, operation: &Operation) -> bool {
+        let trial = self.trial().filter(|trial| !trial.is_applied());
+        trial.is_some_and(|trial| trial.operation() == operation)
+    }
+
     /// The share of the work that is done, while the worker is busy with the operation.
     pub fn operation_progress(&self) -> Option<f64> {
         Some(self.operations.worker.progress()?.done())
@@ -103,8 +109,16 @@ impl Editor {
     /// Give the operation that is tried out, or was applied last, another value for a parameter.
     ///
     /// # Errors
-    /// [`OperationError`] if the parameter does not take it; nothing is changed then.
+    /// As [`Editor::set_values`].
     pub fn set_value(&mut self, parameter: &str, value: Value) -> Result<(), OperationError> {
+        self.set_values(&[(parameter, value)])
+    }
+
+    /// Give the operation that is tried out, or was applied last, other values for some parameters.
+    ///
+    /// # Errors
+    /// [`OperationError`] if a parameter does not take its value; nothing is changed then.
+    pub fn set_values(&mut self, given: &[(&str, Value)]) -> Result<(), OperationError> {
         if self.trial().is_none() {
             return Ok(());
         }
@@ -112,7 +126,7 @@ impl Editor {
             return Ok(());
         };
         let (operation, input) = (trial.operation, &trial.input);
-        let values = operation.values_with(input, &trial.values, parameter, value)?;
+        let values = operation.values_with(input, &trial.values, given.iter().cloned())?;
         if values != trial.values {
             trial.values = values;
             self.ask();
@@ -128,6 +142,9 @@ impl Editor {
     pub fn apply_trial(&mut self) -> Reply {
         if !self.is_trying() {
             return Ok(Note::silent());
+        }
+        if self.end_handle_drag().is_some() {
+            self.hand.gestures.reset();
         }
         let reply = self.settle_trial();
         self.tell(reply)
@@ -266,13 +283,45 @@ impl Editor {
             pending: false,
             features: None,
             question: 0,
+            dragged: None,
             applies: false,
         });
         Ok(())
     }
 
+    /// Make a curve the active one that an operation without inputs has made, compare it with the
+    /// other if there is one, and bring it into view when it is new.
+    fn activate_made(&mut self, is_new: bool) {
+        let made = self.made_curves();
+        let Some(first) = made.first() else {
+            return;
+        };
+        if self.active().is_none_or(|active| !made.contains(&active)) {
+            self.hand.selection.activate(*first);
+        }
+        // Two curves are made to be compared.
+        let other = made.iter().find(|id| Some(**id) != self.active());
+        let is_other = |id: &CurveId| made.contains(id) && Some(*id) != self.active();
+        if other.is_some() && !self.view.compared.is_some_and(|id| is_other(&id)) {
+            self.view.compared = other.copied();
+        }
+        if is_new {
+            self.bring_into_view(&made);
+        }
+    }
+
+    /// The curves that an operation without inputs has made: they are compared with each other.
+    pub fn made_curves(&self) -> Vec<CurveId> {
+        let trial = self.trial().filter(|trial| trial.curve().is_none());
+        trial.map_or_else(Vec::new, |trial| {
+            let before = trial.input.document();
+            let ids = self.document().ids();
+            ids.filter(|id| before.curve(*id).is_none()).collect()
+        })
+    }
+
     /// Ask the worker what the operation comes to, and wait a moment for the answer.
-    fn ask(&mut self) {
+    pub(in crate::editor) fn ask(&mut self) {
         let operations = &mut self.operations;
         let Some(trial) = &mut operations.trial else {
             return;
@@ -348,11 +397,15 @@ impl Editor {
         let Some(trial) = &mut self.operations.trial else {
             return;
         };
+        let is_first = trial.run.is_none();
         trial.run = Some(run);
         trial.pending = false;
         let (label, stage, applies) = (trial.operation.label, trial.stage, trial.applies);
         match stage {
-            Stage::Tried(_) => self.update(edits),
+            Stage::Tried(_) => {
+                self.update(edits);
+                self.activate_made(is_first);
+            }
             Stage::Applied { steps, .. } => {
                 self.amend(label, steps, edits);
                 self.tell_of_amendment();
@@ -409,6 +462,7 @@ impl Editor {
             trial.applies = true;
             return Ok(Note::silent());
         }
+        trial.dragged = None;
         let renumbers = match &trial.run {
             None => return Ok(Note::silent()),
             Some(Err(error)) => return Err(Refusal(error.to_string())),

@@ -1,5 +1,7 @@
 //! The figures and the table of the paper as documents.
 
+use std::f64::consts::FRAC_PI_2;
+
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 
@@ -13,8 +15,9 @@ use crate::geometry::circle_comparison::{
     PAPER_RADIUS, equal_leg_bezier, paper_sides, regular_polygon,
 };
 use crate::geometry::end_correction::EndTarget;
+use crate::geometry::mineur_farin::{Configuration, Format};
 use crate::geometry::references::{ReferenceCurve, ReferenceTextError};
-use crate::geometry::{BezierPolygon, End, FloatPolygon, PolygonError, RoundingTest};
+use crate::geometry::{End, FloatPolygon, PolygonError, RoundingTest};
 
 /// The name of the curve whose closed S-polygon loses digits.
 const SHORTENED: &str = "shortened";
@@ -233,15 +236,15 @@ fn off_its_ends() -> Result<Curve, PolygonError> {
 
 /// Figure 2: five points whose legs double at each turn by a right angle.
 fn typical() -> Result<Vec<Curve>, PolygonError> {
-    const POINTS: [(f64, f64); 5] = [
-        (0.0, 0.0),
-        (1.0, 0.0),
-        (1.0, 2.0),
-        (-3.0, 2.0),
-        (-3.0, -6.0),
-    ];
-    let bspline = FloatPolygon::planar(4, &POINTS)?;
-    let bezier = BezierPolygon::new(4, bspline.vertices().to_vec(), None)?.to_float()?;
+    let configuration = Configuration {
+        start: DVec3::ZERO,
+        first_leg: DVec3::X,
+        ratio: 2.0,
+        turn: FRAC_PI_2,
+        torsion: 0.0,
+    };
+    let bspline = configuration.curve(Format::Float { degree: 4 }, 4)?.polygon;
+    let bezier = configuration.curve(Format::Bezier, 4)?.polygon;
     Ok(vec![
         coloured("B-spline", bspline, BLUE),
         coloured("Bézier", bezier, VERMILION),

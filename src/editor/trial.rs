@@ -1,6 +1,7 @@
 //! An operation as it is tried out, and once it is applied: the operation panel's state.
 
 use crate::document::CurveId;
+use crate::editor::hand::handle_drag::HandleDrag;
 use crate::editor::hand::selection::Selection;
 use crate::editor::worker::Worker;
 use crate::editor::workspace::PreviewId;
@@ -27,6 +28,8 @@ pub struct Trial {
     pub(in crate::editor) features: Option<FeatureComparison>,
     /// The number of the question whose answers count.
     pub(in crate::editor) question: u64,
+    /// The handle that is dragged on the canvas.
+    pub(in crate::editor) dragged: Option<HandleDrag>,
     /// Whether it is applied as soon as it is known what it comes to.
     pub(in crate::editor) applies: bool,
 }

@@ -27,6 +27,7 @@ mod float_polygon;
 pub mod harmony;
 mod jet;
 mod levels;
+pub mod mineur_farin;
 mod nearest;
 mod parametric_curve;
 mod pivoted_cholesky;

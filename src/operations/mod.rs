@@ -9,11 +9,13 @@
 //! table below.
 
 mod amount;
+mod atlas;
 mod cutting;
 mod degree;
 mod editable;
 mod error;
 mod features;
+mod handle;
 mod harmony_json;
 mod input;
 mod inputs;
@@ -32,8 +34,10 @@ mod values;
 mod which_end;
 
 pub use amount::Amount;
+pub use atlas::Atlas;
 pub use error::OperationError;
 pub use features::{FeatureComparison, FeatureCounts};
+pub use handle::{Handle, Sets};
 pub use input::Input;
 pub use inputs::Inputs;
 pub use operation::Operation;
@@ -67,6 +71,7 @@ table! {
     rotate_end,
     correct_ends,
     harmonise,
+    mineur_farin,
 }
 
 /// Find an operation by its name.

@@ -74,20 +74,19 @@ impl Operation {
         Values::new(self.parameters, input, given)
     }
 
-    /// Replace one of some values that were checked for this input.
+    /// Replace some of the values that were checked for this input.
     ///
     /// # Errors
     /// As [`Operation::values`].
-    pub fn values_with(
+    pub fn values_with<'a>(
         &self,
         input: &Input,
         values: &Values,
-        name: &str,
-        value: Value,
+        given: impl IntoIterator<Item = (&'a str, Value)>,
     ) -> Result<Values, OperationError> {
         let kept = self.parameters.iter();
         let kept = kept.map(|parameter| (parameter.name, values.get(parameter).clone()));
-        self.values(input, kept.chain([(name, value)]))
+        self.values(input, kept.chain(given))
     }
 
     /// Run the operation with values that were checked for this input.

@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use super::atlas::Atlas;
+use super::handle::Handle;
 use super::locks;
 use super::parameter::Unit;
 use super::value::Value;
@@ -28,6 +30,10 @@ pub struct Outcome {
     pub remarks: Vec<String>,
     /// What to draw on the canvas.
     pub marks: Vec<Mark>,
+    /// Points on the canvas that set parameters when they are dragged.
+    pub handles: Vec<Handle>,
+    /// A plane of two parameters to choose from.
+    pub atlas: Option<Atlas>,
 }
 
 /// How far a curve moves.
@@ -161,6 +167,8 @@ impl Outcome {
             figures: Vec::new(),
             remarks: Vec::new(),
             marks: Vec::new(),
+            handles: Vec::new(),
+            atlas: None,
         }
     }
 

@@ -6,6 +6,7 @@ use lucide_icons::Icon;
 use super::action::Action;
 use super::theme;
 use crate::editor::{Command, Follow, Layer, ToolKind};
+use crate::operations::Operation;
 
 /// The icon of a tool.
 pub fn of_tool(tool: ToolKind) -> Icon {
@@ -67,7 +68,7 @@ fn of_command(command: Command) -> Option<Icon> {
         Command::Duplicate => Icon::CopyPlus,
         Command::Delete | Command::DeleteCurve => Icon::Trash2,
         Command::TogglePeriodic => Icon::RefreshCw,
-        Command::Operation(_) => Icon::Wand,
+        Command::Operation(operation) => of_operation(operation),
         Command::ToggleVisible => Icon::Eye,
         Command::ToggleLocked => Icon::Lock,
         Command::Fit | Command::FitAll => Icon::Maximize,
@@ -81,6 +82,14 @@ fn of_command(command: Command) -> Option<Icon> {
         Command::Tool(tool) => of_tool(tool),
         _ => return None,
     })
+}
+
+/// The icon of an operation: those that stand on the rail have one of their own.
+fn of_operation(operation: &Operation) -> Icon {
+    match operation.name {
+        "mineur-farin" => Icon::Shell,
+        _ => Icon::Wand,
+    }
 }
 
 /// An icon as text in the icons' own font.

@@ -3,6 +3,7 @@
 
 mod action;
 mod app;
+mod atlas;
 mod brush;
 mod canvas;
 mod cell_entry;

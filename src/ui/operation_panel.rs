@@ -8,6 +8,7 @@ use eframe::egui::{
 };
 use lucide_icons::Icon;
 
+use super::atlas::AtlasView;
 use super::number_field::{FieldEvent, NumberField};
 use super::theme::{STEP, Tokens};
 use super::widgets::IconButton;
@@ -17,7 +18,7 @@ use crate::geometry::features::Verdict;
 use crate::geometry::harmony::{Harmony, Match};
 use crate::geometry::rounded_up;
 use crate::operations::{
-    Choice, Deviation, FeatureCounts, Figure, Kind, Limits, Parameter, Report, Unit, Value,
+    Atlas, Choice, Deviation, FeatureCounts, Figure, Kind, Limits, Parameter, Report, Unit, Value,
 };
 
 /// How faint figures are that are of other values.
@@ -44,11 +45,13 @@ pub struct OperationPanel {
     typed: Option<(&'static str, String)>,
     /// Why the last value was not accepted.
     refusal: Option<String>,
+    atlas: AtlasView,
 }
 
 /// What the user asks for.
 enum Asked {
     Set(&'static Parameter, Value),
+    SetAll(Vec<(&'static str, Value)>),
     Apply,
     Leave,
 }
@@ -60,6 +63,8 @@ impl OperationPanel {
             *self = Self::default();
             return;
         };
+        let atlas = atlas_of(trial).copied();
+        let mut shows_atlas = false;
         // A click on a button also leaves a field: what was typed there counts first.
         let mut asked = Vec::from_iter(heading_ui(ui, trial));
         for parameter in trial.operation().parameters {
@@ -72,11 +77,24 @@ impl OperationPanel {
         if let Some(refusal) = &self.refusal {
             error_ui(ui, refusal);
         }
+        if let Some(atlas) = &atlas {
+            let view = &mut self.atlas;
+            let shown =
+                widgets::section(ui, "Atlas", true, |ui| view.show(ui, editor, trial, atlas));
+            shows_atlas = shown.is_some();
+            asked.extend(shown.flatten().map(Asked::SetAll));
+            ui.add_space(STEP);
+        }
         came_to_ui(ui, trial);
+        editor.view_mut().show_atlas(shows_atlas);
         for asked in asked {
             match asked {
                 Asked::Set(parameter, value) => {
                     let set = editor.set_value(parameter.name, value);
+                    self.refusal = set.err().map(|error| error.to_string());
+                }
+                Asked::SetAll(values) => {
+                    let set = editor.set_values(&values);
                     self.refusal = set.err().map(|error| error.to_string());
                 }
                 Asked::Apply => told(editor.apply_trial()),
@@ -192,6 +210,12 @@ impl OperationPanel {
             }
         }
     }
+}
+
+/// The atlas that the operation offers.
+fn atlas_of(trial: &Trial) -> Option<&Atlas> {
+    let run = trial.run()?.as_ref().ok()?;
+    run.outcome.atlas.as_ref()
 }
 
 fn heading_ui(ui: &mut Ui, trial: &Trial) -> Option<Asked> {

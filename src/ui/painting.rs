@@ -30,6 +30,9 @@ const SMALL_EVOLUTE: f32 = 4.0;
 /// The radius of the circle round a vertex where the flow is least even.
 const UNEVEN: f32 = 9.0;
 
+/// The radius of an operation's handle.
+const HANDLE: f32 = 6.5;
+
 /// How faint the curve is as it was.
 const GHOST: f32 = 0.35;
 
@@ -260,6 +263,7 @@ impl Brush<'_> {
                     );
                 }
             }
+            Mark::Handle { at, marked } => self.handle(*at, *marked),
             Mark::Label(at, text) => {
                 if let Some(at) = self.screen.point(*at) {
                     labels::tooltip(self.painter, self.rect, at, text, tokens);
@@ -291,6 +295,20 @@ impl Brush<'_> {
             self.painter
                 .circle(at, 5.5, self.tokens.background, outline);
         }
+    }
+
+    fn handle(&self, at: DVec2, marked: bool) {
+        let Some(at) = self.screen.point(at) else {
+            return;
+        };
+        let tokens = self.tokens;
+        let ring = Stroke::new(2.0, tokens.accent);
+        let fill = if marked {
+            tokens.accent
+        } else {
+            tokens.background
+        };
+        self.painter.circle(at, HANDLE, fill, ring);
     }
 
     fn ruler(&self, segment: [DVec2; 2]) {

@@ -7,6 +7,7 @@ use super::action::Action;
 use super::theme::{self, RADIUS, STEP, Tokens};
 use super::{icons, keyboard, widgets};
 use crate::editor::{Command, Editor, Follow, Layer, ToolKind};
+use crate::operations::{ALL, Inputs};
 
 /// The rail's width in points.
 pub const WIDTH: f32 = 48.0;
@@ -14,7 +15,7 @@ pub const WIDTH: f32 = 48.0;
 /// The side of a tool's button.
 const SIDE: f32 = 40.0;
 
-/// Show the tools, and below them what acts on every tool.
+/// Show the tools, then what makes curves of its own, and below what acts on every tool.
 pub fn tool_rail_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<Action>) {
     ui.spacing_mut().item_spacing = Vec2::splat(STEP);
     let area = ScrollArea::vertical().scroll_bar_visibility(ScrollBarVisibility::AlwaysHidden);
@@ -33,6 +34,13 @@ fn tools_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<Action>) {
             divider(ui);
         }
         button_ui(ui, editor, Command::Tool(tool), commands);
+    }
+    divider(ui);
+    let makers = ALL
+        .iter()
+        .filter(|operation| operation.inputs == Inputs::None);
+    for operation in makers {
+        button_ui(ui, editor, Command::Operation(operation), commands);
     }
     divider(ui);
     for command in [

@@ -88,16 +88,20 @@ fn every_operation_is_listed_has_help_and_reports_by_one_schema() {
     assert!(names.contains(&"reverse") && names.contains(&"correct-ends"));
     for name in names {
         let (help, _) = folder.done(&["apply", name, "--help"]);
-        for word in [
-            "<IN>",
-            "<OUT>",
-            "--curve <NAME>",
-            "--from-format",
-            "--to-format",
-        ] {
+        for word in ["<OUT>", "--to-format"] {
             assert!(help.contains(word), "{name}: {word} in {help}");
         }
-        let report = report(&folder, &[name, &file, "out.batten"]);
+        // Where nothing is read there is no IN.
+        let reads = name != "mineur-farin";
+        for word in ["<IN>", "--curve <NAME>", "--from-format"] {
+            assert_eq!(help.contains(word), reads, "{name}: {word} in {help}");
+        }
+        let read = if reads {
+            &[name, &file, "out.batten"][..]
+        } else {
+            &[name, "out.batten"]
+        };
+        let report = report(&folder, read);
         assert_eq!(report["operation"], name);
         assert_eq!(report["reached"], true);
         let found = keys(&report);
@@ -176,6 +180,44 @@ fn help_describes_each_parameter_with_range_and_default() {
             assert!(help.contains(words), "{words} in {help}");
         }
     }
+}
+
+/// The command line of the paper's figure 2.
+#[test]
+fn a_mineur_farin_curve_is_made_of_its_parameters_alone() {
+    let folder = Folder::new();
+    let legs = [
+        "--legs", "4", "--ratio", "2", "--angle", "90", "--degree", "4",
+    ];
+    let figure_2 = |polygon: &str, more: &[&str]| {
+        let mut arguments = vec!["mineur-farin", "out.batten", "--polygon", polygon];
+        arguments.extend(legs.iter().chain(more));
+        report(&folder, &arguments)
+    };
+    let verdicts = |report: &Value| {
+        let after = report["features_after"].as_array().unwrap();
+        let verdicts = after.iter().map(|counts| counts["monotone"].clone());
+        verdicts.collect::<Vec<Value>>()
+    };
+    let float = figure_2("float", &[]);
+    assert_eq!(verdicts(&float), ["proved"]);
+    assert_eq!(
+        (&float["reached"], &float["deviation"]),
+        (&json!(true), &json!(0.0))
+    );
+    assert_eq!(curves(&folder, "out.batten")[0]["degree"], 4);
+    let bezier = figure_2("bezier", &[]);
+    assert_eq!(verdicts(&bezier), ["disproved"]);
+    assert_eq!(bezier["bezier_monotone"], false);
+    let both = figure_2("both", &["--start", "-1,2", "--first-leg=-3,0"]);
+    assert_eq!(verdicts(&both), ["proved", "disproved"]);
+    assert_eq!(curves(&folder, "out.batten").as_array().unwrap().len(), 2);
+    let in_space = figure_2("float", &["--torsion", "-20"]);
+    assert_eq!(in_space["features_after"][0]["torsion_zeros"], 0);
+    folder.refused(
+        &["apply", "mineur-farin", "out.batten", "--legs", "3"],
+        "mineur-farin: 4 vertices are too few: an open curve of degree 5 needs at least 6",
+    );
 }
 
 #[test]

@@ -13,6 +13,7 @@ mod events;
 mod features;
 mod files;
 mod following;
+mod generating;
 mod guides;
 mod harmony;
 mod keeping;

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use batten::document::Document;
 use batten::geometry::Progress;
-use batten::operations::{ALL, Input, Kind, OperationError, Unit, Value, find};
+use batten::operations::{ALL, Input, Inputs, Kind, OperationError, Unit, Value, find};
 
 use crate::runner::{Runner, examples, operation};
 
@@ -82,22 +82,23 @@ fn defaults_are_allowed_wherever_the_operation_can_run() {
     let mut ran = HashSet::new();
     for (name, runner) in examples() {
         for operation in ALL {
-            if let Err(error) = operation.check(&runner.input) {
+            let input = runner.input_of(operation);
+            if let Err(error) = operation.check(&input) {
                 // Only what a closed curve lacks keeps an operation from an example.
                 assert!(runner.polygon().is_periodic(), "{name}: {error}");
                 assert!(error.to_string().contains("open it first"), "{error}");
                 continue;
             }
-            let values = operation.values(&runner.input, []);
+            let values = operation.values(&input, []);
             let values =
                 values.unwrap_or_else(|error| panic!("{name} {}: {error}", operation.name));
             for parameter in operation.parameters {
                 let value = values.get(parameter);
-                assert_eq!(Ok(value), parameter.default(&runner.input).as_ref());
+                assert_eq!(Ok(value), parameter.default(&input).as_ref());
                 // What is written is read as the same value.
                 assert_eq!(parameter.read(&parameter.text(value)).as_ref(), Ok(value));
             }
-            let outcome = operation.run(&runner.input, &values, &Progress::default());
+            let outcome = operation.run(&input, &values, &Progress::default());
             let outcome =
                 outcome.unwrap_or_else(|error| panic!("{name} {}: {error}", operation.name));
             assert!(outcome.reached, "{name} {}: {outcome:?}", operation.name);
@@ -191,10 +192,14 @@ fn an_operation_runs_on_nothing_but_the_inputs_it_wants() {
     let twice = Input::new(document, [runner.id(), runner.id()]).expect("it is there");
     let points = runner.input.clone().with_points(vec![glam::DVec3::ZERO]);
     for operation in ALL {
-        for input in [&none, &twice, &points] {
+        let (wrong, expected) = match operation.inputs {
+            Inputs::None => (&runner.input, "this works on no curve: choose none"),
+            _ => (&none, "choose one curve"),
+        };
+        for input in [wrong, &twice, &points] {
             let refused = operation.check(input).expect_err("refused");
             assert!(matches!(refused, OperationError::Inputs { .. }));
-            assert_eq!(refused.to_string(), "choose one curve");
+            assert_eq!(refused.to_string(), expected);
             assert!(operation.values(input, []).is_err());
         }
     }

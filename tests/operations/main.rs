@@ -9,6 +9,7 @@ mod ends;
 mod harmony;
 mod locks;
 mod matches;
+mod mineur_farin;
 mod parts;
 mod random;
 mod reports;

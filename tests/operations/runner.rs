@@ -4,7 +4,7 @@ use batten::document::{Curve, CurveId, Document, Edit};
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::{End, FloatPolygon, Progress};
 use batten::io::examples::{EXAMPLES, Example};
-use batten::operations::{self, Input, Operation, OperationError, Outcome, Report, Value};
+use batten::operations::{self, Input, Inputs, Operation, OperationError, Outcome, Report, Value};
 
 /// Rounding of points on a curve, in units of its size.
 pub const ROUNDING: f64 = 1e-13;
@@ -59,10 +59,19 @@ impl Runner {
         self.edited(Edit::SetTarget { curve, end, target })
     }
 
+    /// What an operation works on here: the curve, or none if it makes its own.
+    pub fn input_of(&self, operation: &Operation) -> Input {
+        match operation.inputs {
+            Inputs::None => Input::new(self.input.document(), []).expect("none is there"),
+            _ => self.input.clone(),
+        }
+    }
+
     pub fn run(&self, name: &str, given: &[(&str, Value)]) -> Result<Outcome, OperationError> {
         let operation = operation(name);
-        let values = operation.values(&self.input, given.iter().cloned())?;
-        operation.run(&self.input, &values, &Progress::default())
+        let input = self.input_of(operation);
+        let values = operation.values(&input, given.iter().cloned())?;
+        operation.run(&input, &values, &Progress::default())
     }
 
     /// Run an operation that reaches what is asked of it.
@@ -86,7 +95,8 @@ impl Runner {
     pub fn report(&self, name: &str, given: &[(&str, Value)]) -> Report {
         let outcome = self.run(name, given).expect("it can run");
         let progress = Progress::default();
-        let report = Report::of(operation(name), &self.input, &outcome, &progress);
+        let input = self.input_of(operation(name));
+        let report = Report::of(operation(name), &input, &outcome, &progress);
         report.expect("nobody cancels")
     }
 }

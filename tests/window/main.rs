@@ -4,6 +4,7 @@
 mod canvas;
 mod fields;
 mod files;
+mod generating;
 mod hand;
 mod harmony;
 mod locking;

@@ -107,6 +107,8 @@ fn outcome(edits: Vec<Edit>) -> Outcome {
         figures: Vec::new(),
         remarks: Vec::new(),
         marks: Vec::new(),
+        handles: Vec::new(),
+        atlas: None,
     }
 }
 

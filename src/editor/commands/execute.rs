@@ -76,6 +76,7 @@ impl Editor {
             Command::Follow(follow) => Some(self.hand.following.follow == Some(follow)),
             Command::ToggleKeeping => Some(self.hand.keeps),
             Command::Tool(tool) => Some(self.hand.tool() == tool),
+            Command::Operation(operation) => Some(self.is_tried(operation)),
             Command::View(view) => Some(self.view.viewport.orientation == view.orientation()),
             Command::ToggleVerticesLocked => Some(self.is_selection_locked()),
             Command::TogglePeriodic => Some(curve.is_some_and(|c| c.polygon.is_periodic())),

@@ -37,7 +37,9 @@ impl Editor {
         let field = self.workspace.interruption() == Some(Interruption::Commits);
         match input {
             Input::Key(Key::Escape) if field => return self.abort_preview(),
-            Input::Key(Key::Escape) if self.is_trying() => return self.leave_trial(),
+            Input::Key(Key::Escape) if self.is_trying() && !self.drags_handle() => {
+                return self.leave_trial();
+            }
             Input::Key(Key::Enter) if self.is_trying() => return told(self.apply_trial()),
             _ => {}
         }
@@ -76,6 +78,12 @@ impl Editor {
         }
         if self.hand.gestures.is_orbiting() {
             return "Drag to turn the view; F2, F3, F4 look along the axes again".into();
+        }
+        if self.drags_handle() {
+            return "Drag; Shift constrains, Esc puts the handle back".into();
+        }
+        if self.is_over_handle() {
+            return "Drag the handle to change the values in the panel".into();
         }
         if self.is_trying() && !self.hand.is_dragging() {
             return "Change the values in the panel; Enter applies, Esc cancels".into();
@@ -141,12 +149,18 @@ impl Editor {
         if self.hand.gestures.is_orbiting() {
             return Cursor::Grabbing;
         }
+        if self.drags_handle() || self.is_over_handle() {
+            return Cursor::Move;
+        }
         self.hand.tools.used().cursor(&self.context())
     }
 
     /// Hand a gesture to the tool and do what it wants. What a key that `repeats` does belongs to
     /// the step that it began.
     pub(in crate::editor) fn deliver(&mut self, gesture: Gesture, repeats: bool) {
+        if self.is_trying() && self.drag_handle(gesture) {
+            return;
+        }
         self.analyse();
         let layers = self.layers();
         let mut tools = std::mem::take(&mut self.hand.tools);

@@ -40,6 +40,7 @@ impl Editor {
         }
         scene.marks = self.hand.tools.used().marks(&self.context());
         scene.marks.extend(self.operation_marks());
+        scene.marks.extend(self.handle_marks());
         scene.marks.extend(self.flow_marks());
         self.draw_guides(&mut scene.guides);
         scene.hover = self.hover();

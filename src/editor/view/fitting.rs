@@ -29,6 +29,19 @@ impl Editor {
         self.view.viewport = self.view.viewport.fitted(&bounds);
     }
 
+    /// Fit everything into the canvas if one of some curves lies beyond what is visible.
+    pub(in crate::editor) fn bring_into_view(&mut self, curves: &[CurveId]) {
+        self.analyse();
+        let view = self.view.viewport.view_box();
+        let hidden = curves.iter().any(|id| {
+            let bounds = self.bounds_of(*id);
+            bounds.low.cmplt(view.low).any() || bounds.high.cmpgt(view.high).any()
+        });
+        if hidden {
+            self.fit_all();
+        }
+    }
+
     /// Give the comb a scale at which its longest tooth is a good part of the active curve's box,
     /// and teeth of which a long curve has no more a segment than can be told apart.
     pub(in crate::editor) fn reset_comb(&mut self) {

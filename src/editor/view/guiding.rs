@@ -15,8 +15,10 @@ use crate::editor::view::guide_scene::{GuideLabel, GuideScene, LossArrow};
 use crate::editor::view::layers::Layer;
 use crate::editor::view::outline::GAP;
 use crate::geometry::features::Quantity;
+use crate::geometry::mineur_farin::AtlasVerdicts;
 use crate::geometry::vertex_moves::{FeatureLoss, FeatureRise, RayBorder, SafeRegion};
 use crate::geometry::{FloatPolygon, significant};
+use crate::operations::Atlas;
 
 /// The most texts at the border of a safe region.
 const BORDER_LABELS: usize = 5;
@@ -74,6 +76,23 @@ impl Editor {
             Some(feature) => self.guides.losses.advance(feature),
             None => self.guides.losses.forget(),
         }
+        match self.shown_atlas().map(|atlas| atlas.plane) {
+            Some(plane) => self.guides.atlas.advance(&plane),
+            None => self.guides.atlas.forget(),
+        }
+    }
+
+    /// What is proved so far of the atlas that the operation at hand offers, while a panel shows it.
+    pub fn atlas_verdicts(&self) -> Option<&AtlasVerdicts> {
+        let atlas = self.shown_atlas()?;
+        let is_asked = self.guides.atlas.question() == Some(&atlas.plane);
+        self.guides.atlas.found().filter(|_| is_asked)
+    }
+
+    fn shown_atlas(&self) -> Option<&Atlas> {
+        let trial = self.trial().filter(|_| self.view.atlas)?;
+        let run = trial.run()?.as_ref().ok()?;
+        run.outcome.atlas.as_ref()
     }
 
     /// The vertex whose safe region is to be shown: the single one that is selected, of the active

@@ -20,6 +20,9 @@ impl Editor {
         if let Some(hover) = self.hover_from_panels() {
             return Some(hover);
         }
+        if let Some(hover) = self.handle_hover() {
+            return Some(hover);
+        }
         let place = self.hand.gestures.pointer()?;
         let context = self.context();
         if self.hand.gestures.is_dragging() {

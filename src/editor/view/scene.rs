@@ -111,6 +111,13 @@ pub enum Mark {
         /// What is uneven there, in a word or two.
         text: String,
     },
+    /// A handle that sets parameters of an operation.
+    Handle {
+        /// Where it is.
+        at: DVec2,
+        /// Whether the pointer is on it, or drags it.
+        marked: bool,
+    },
     /// A short text at a place.
     Label(DVec2, String),
 }

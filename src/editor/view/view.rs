@@ -36,6 +36,8 @@ pub struct View {
     pub(in crate::editor) plotted: Option<PlotSource>,
     /// Whether a panel shows the harmony of the active curve.
     pub(in crate::editor) harmony: bool,
+    /// Whether a panel shows the atlas of an operation.
+    pub(in crate::editor) atlas: bool,
     pub(in crate::editor) outlines: Outlines,
     pub(in crate::editor) ghost: Ghost,
 }
@@ -109,6 +111,11 @@ impl View {
     /// Say whether a panel shows the harmony of the active curve, which is measured only then.
     pub fn show_harmony(&mut self, shown: bool) {
         self.harmony = shown;
+    }
+
+    /// Say whether a panel shows the atlas of an operation, which is proved only then.
+    pub fn show_atlas(&mut self, shown: bool) {
+        self.atlas = shown;
     }
 
     /// Forget what panels marked, before they are shown anew.

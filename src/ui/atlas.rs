@@ -1,0 +1,285 @@
+//! The atlas of an operation: a plane of two parameters coloured by what is proved, with the present
+//! values as a point that can be dragged.
+
+use eframe::egui::{
+    Align2, Color32, ColorImage, Key, Painter, Pos2, Rect, Response, Role, Sense, Shape, Stroke,
+    StrokeKind, TextureHandle, TextureOptions, Ui, WidgetInfo, pos2, vec2,
+};
+
+use super::theme::{self, STEP, Tokens};
+use super::{figures, widgets};
+use crate::editor::{Editor, Trial};
+use crate::geometry::features::Verdict;
+use crate::geometry::mineur_farin::{self, ATLAS_SIZE, AtlasVerdicts};
+use crate::operations::{Atlas, Parameter, Unit, Value};
+
+/// The height of the picture.
+const HEIGHT: f32 = 200.0;
+
+/// The room for the numbers at the left, and for those below.
+const MARGINS: [f32; 2] = [36.0, 34.0];
+
+/// Where the numbers at the axes stand, as shares of the picture.
+const TICKS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
+
+/// The radius of the point.
+const POINT: f32 = 6.0;
+
+/// Show an atlas, and remember its picture.
+#[derive(Default)]
+pub struct AtlasView {
+    picture: Option<(Picture, TextureHandle)>,
+    /// The values before the drag that goes on; none once it is called off.
+    before: Option<Vec<(&'static str, Value)>>,
+    called_off: bool,
+}
+
+/// What a picture was made of.
+#[derive(PartialEq)]
+struct Picture {
+    plane: mineur_farin::Atlas,
+    stride: usize,
+    dark: bool,
+}
+
+impl AtlasView {
+    /// Show the atlas of the operation at hand; returns the values that are asked for.
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        editor: &Editor,
+        trial: &Trial,
+        atlas: &Atlas,
+    ) -> Option<Vec<(&'static str, Value)>> {
+        let size = vec2(ui.available_width(), HEIGHT + MARGINS[1]);
+        let (whole, _) = ui.allocate_exact_size(size, Sense::hover());
+        let low = whole.min + vec2(MARGINS[0], 0.5 * STEP);
+        let rect = Rect::from_min_max(low, whole.max - vec2(0.5 * STEP, MARGINS[1]));
+        let response = ui.interact(rect, ui.scope_id().with("atlas"), Sense::click_and_drag());
+        let place = atlas.place(trial.values());
+        describe(&response, trial, atlas);
+        let found = editor.atlas_verdicts();
+        if ui.is_rect_visible(whole) {
+            self.paint_picture(ui, rect, atlas, found);
+            paint_axes(ui, rect, atlas);
+            let painter = ui.painter_at(rect);
+            paint_bound(&painter, rect, atlas, Tokens::of(ui));
+            let hot = response.hovered() || response.dragged();
+            paint_point(&painter, at(rect, place), hot, Tokens::of(ui));
+        }
+        legend_ui(ui, atlas);
+        self.asked(ui, &response, rect, trial, atlas)
+    }
+
+    /// The values that a click or a drag asks for; Esc asks for those before the drag.
+    fn asked(
+        &mut self,
+        ui: &Ui,
+        response: &Response,
+        rect: Rect,
+        trial: &Trial,
+        atlas: &Atlas,
+    ) -> Option<Vec<(&'static str, Value)>> {
+        if response.drag_started() {
+            let now = [atlas.across, atlas.up].map(|it| (it.name, trial.values().get(it).clone()));
+            self.before = Some(now.to_vec());
+            self.called_off = false;
+        }
+        let asked = if ui.input(|input| input.key_pressed(Key::Escape)) {
+            // Esc also ends egui's drag.
+            self.called_off = self.before.is_some();
+            return self.before.take();
+        } else if (response.dragged() && !self.called_off) || response.clicked() {
+            let pointer = response.interact_pointer_pos()?;
+            Some(atlas.values(place_at(rect, pointer)).to_vec())
+        } else {
+            None
+        };
+        if !response.dragged() {
+            self.before = None;
+        }
+        asked
+    }
+
+    fn paint_picture(&mut self, ui: &Ui, rect: Rect, atlas: &Atlas, found: Option<&AtlasVerdicts>) {
+        let tokens = Tokens::of(ui);
+        ui.painter().rect_filled(rect, 0, tokens.inset);
+        if let Some(found) = found {
+            let picture = Picture {
+                plane: atlas.plane,
+                stride: found.stride(),
+                dark: ui.visuals().dark_mode,
+            };
+            let known = self
+                .picture
+                .as_ref()
+                .is_some_and(|(known, _)| *known == picture);
+            if !known {
+                let (image, options) = (image(found, tokens), TextureOptions::NEAREST);
+                match &mut self.picture {
+                    Some((known, texture)) => {
+                        texture.set(image, options);
+                        *known = picture;
+                    }
+                    None => {
+                        let texture = ui.ctx().load_texture("atlas", image, options);
+                        self.picture = Some((picture, texture));
+                    }
+                }
+            }
+        }
+        // Until there is another picture, the last one is shown.
+        if let Some((_, texture)) = &self.picture {
+            let all = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+            ui.painter().image(texture.id(), rect, all, Color32::WHITE);
+        }
+        let outline = Stroke::new(1.0, tokens.outline);
+        ui.painter()
+            .rect_stroke(rect, 0, outline, StrokeKind::Outside);
+    }
+}
+
+/// The colour of a verdict: monotone is bright, the rest stays near the background.
+fn colour(verdict: Verdict, tokens: &Tokens) -> Color32 {
+    let (colour, share) = match verdict {
+        Verdict::Proved => (tokens.good, 0.75),
+        Verdict::Disproved => (tokens.warning, 0.3),
+        Verdict::Undecided => (tokens.undecided, 0.6),
+    };
+    tokens.inset.lerp_to_gamma(colour, share)
+}
+
+fn image(found: &AtlasVerdicts, tokens: &Tokens) -> ColorImage {
+    let rows = (0..ATLAS_SIZE).rev();
+    let pixels = rows.flat_map(|row| {
+        (0..ATLAS_SIZE).map(move |column| colour(found.verdict(column, row), tokens))
+    });
+    ColorImage::new([ATLAS_SIZE, ATLAS_SIZE], pixels.collect())
+}
+
+/// Where a place of the atlas is on the screen.
+fn at(rect: Rect, [across, up]: [f64; 2]) -> Pos2 {
+    let size = rect.size();
+    rect.left_bottom() + vec2(across as f32 * size.x, -up as f32 * size.y)
+}
+
+/// The place of the atlas at a point of the screen.
+fn place_at(rect: Rect, point: Pos2) -> [f64; 2] {
+    let from = point - rect.left_bottom();
+    [
+        f64::from(from.x / rect.width()),
+        f64::from(-from.y / rect.height()),
+    ]
+}
+
+fn paint_axes(ui: &Ui, rect: Rect, atlas: &Atlas) {
+    let (tokens, font) = (Tokens::of(ui), theme::small_font());
+    let tick = Stroke::new(1.0, tokens.faint_text);
+    let painter = ui.painter();
+    for share in TICKS {
+        let (across, up) = atlas.plane.at([share, share]);
+        let below = at(rect, [share, 0.0]);
+        painter.line_segment([below, below + vec2(0.0, STEP)], tick);
+        let align = match share {
+            0.0 => Align2::LEFT_TOP,
+            1.0 => Align2::RIGHT_TOP,
+            _ => Align2::CENTER_TOP,
+        };
+        let text = number(atlas.across, across);
+        let place = below + vec2(0.0, 1.25 * STEP);
+        painter.text(place, align, text, font.clone(), tokens.faint_text);
+        let beside = at(rect, [0.0, share]);
+        painter.line_segment([beside, beside - vec2(STEP, 0.0)], tick);
+        let align = match share {
+            0.0 => Align2::RIGHT_BOTTOM,
+            1.0 => Align2::RIGHT_TOP,
+            _ => Align2::RIGHT_CENTER,
+        };
+        let place = beside - vec2(1.5 * STEP, 0.0);
+        painter.text(
+            place,
+            align,
+            number(atlas.up, up),
+            font.clone(),
+            tokens.faint_text,
+        );
+    }
+    let name = format!("{} across, {} up", atlas.across.label, atlas.up.label);
+    let place = pos2(rect.center().x, rect.bottom() + MARGINS[1]);
+    painter.text(place, Align2::CENTER_BOTTOM, name, font, tokens.faint_text);
+}
+
+fn paint_bound(painter: &Painter, rect: Rect, atlas: &Atlas, tokens: &Tokens) {
+    let Some(chains) = atlas.bound.and_then(|_| atlas.plane.bezier_bound()) else {
+        return;
+    };
+    let stroke = Stroke::new(1.5, tokens.strong_text);
+    for chain in chains {
+        let points: Vec<Pos2> = chain.into_iter().map(|place| at(rect, place)).collect();
+        painter.extend(Shape::dashed_line(&points, stroke, 5.0, 3.0));
+    }
+}
+
+fn paint_point(painter: &Painter, at: Pos2, hot: bool, tokens: &Tokens) {
+    let cross = Stroke::new(1.0, tokens.strong_text.gamma_multiply(0.5));
+    let rect = painter.clip_rect();
+    painter.hline(rect.x_range(), at.y, cross);
+    painter.vline(at.x, rect.y_range(), cross);
+    let fill = if hot {
+        tokens.accent
+    } else {
+        tokens.background
+    };
+    painter.circle(at, POINT, fill, Stroke::new(2.0, tokens.strong_text));
+}
+
+/// Say what the colours and the dashed line mean.
+fn legend_ui(ui: &mut Ui, atlas: &Atlas) {
+    let tokens = Tokens::of(ui);
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = STEP;
+        for (verdict, text) in [
+            (Verdict::Proved, "κ monotone"),
+            (Verdict::Disproved, "not monotone"),
+        ] {
+            let (rect, _) = ui.allocate_exact_size(vec2(3.0 * STEP, 3.0 * STEP), Sense::hover());
+            let outline = Stroke::new(1.0, tokens.outline);
+            let fill = colour(verdict, tokens);
+            ui.painter()
+                .rect(rect, 2, fill, outline, StrokeKind::Inside);
+            widgets::caption(ui, text);
+            ui.add_space(STEP);
+        }
+    });
+    if let Some(bound) = atlas.bound {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = STEP;
+            let (rect, _) = ui.allocate_exact_size(vec2(6.0 * STEP, 3.0 * STEP), Sense::hover());
+            let line = [rect.left_center(), rect.right_center()];
+            let stroke = Stroke::new(1.5, tokens.strong_text);
+            ui.painter()
+                .extend(Shape::dashed_line(&line, stroke, 5.0, 3.0));
+            widgets::caption(ui, bound);
+        });
+    }
+}
+
+/// Tell a screen reader where the point is.
+fn describe(response: &Response, trial: &Trial, atlas: &Atlas) {
+    let told = [atlas.across, atlas.up].map(|parameter| {
+        let value = trial.values().get(parameter);
+        format!("{} {}", parameter.label, parameter.text(value))
+    });
+    let told = format!("Atlas: {}, {}", told[0], told[1]);
+    response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, told.clone()));
+}
+
+/// A number at an axis.
+fn number(parameter: &Parameter, number: f64) -> String {
+    let unit = parameter.unit();
+    let text = figures::significant(unit.shown(number), 3);
+    match unit {
+        Unit::Angle => format!("{text}°"),
+        _ => text,
+    }
+}
