@@ -181,7 +181,7 @@ fn parameter_argument(parameter: &'static Parameter) -> Arg {
         Kind::Choice { .. } => default,
         _ => format!("{}; {default}", parameter.range_words()),
     };
-    let read = |text: &str| parameter.read(text);
+    let read = |text: &str| parameter.read_given(text);
     let argument = option(parameter.name)
         .value_name(value_name(parameter))
         .allow_negative_numbers(true)

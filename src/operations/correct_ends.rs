@@ -9,7 +9,7 @@ use super::editable::open;
 use super::error::OperationError;
 use super::input::Input;
 use super::inputs::Inputs;
-use super::lists::{LOCKED, given, locked, number, vector};
+use super::lists::{LOCKED, given, locked, number, vector, vector_in_space};
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
 use super::parameter::{Choice, Kind, Parameter, Unit};
@@ -101,38 +101,58 @@ struct Asked {
     normal: Parameter,
 }
 
-const AS_SET: &str = "as the target is set";
+/// Say what an end keeps where nothing is given: what its target asks for, otherwise what it has, or
+/// nothing.
+fn kept(
+    input: Option<&Input>,
+    end: End,
+    asks: fn(&EndTarget) -> bool,
+    otherwise: &'static str,
+) -> &'static str {
+    let Some(input) = input else {
+        return "as the target is set";
+    };
+    let target = input
+        .curve()
+        .ok()
+        .and_then(|(_, curve)| curve.targets.get(end));
+    match target {
+        Some(target) if asks(&target) => "as the target is set",
+        Some(_) => "free",
+        None => otherwise,
+    }
+}
 
 const START: Asked = Asked {
     point: Parameter {
         name: "start",
         label: "Start point",
         help: "Where the curve begins; without a point it begins where it does",
-        kind: vector(AS_SET),
+        kind: vector(|input| kept(input, End::Start, |_| true, "where it is")),
     },
     direction: Parameter {
         name: "start-direction",
         label: "Start direction",
         help: "The direction at the start, along the curve",
-        kind: vector(AS_SET),
+        kind: vector(|input| kept(input, End::Start, |it| it.direction.is_some(), "as it is")),
     },
     curvature: Parameter {
         name: "start-curvature",
         label: "Start curvature",
         help: "The curvature at the start; of a planar curve positive where it turns left",
-        kind: number(AS_SET),
+        kind: number(|input| kept(input, End::Start, |it| it.curvature.is_some(), "free")),
     },
     slope: Parameter {
         name: "start-slope",
         label: "Start slope",
         help: "The slope of the curvature at the start, by arc length",
-        kind: number(AS_SET),
+        kind: number(|input| kept(input, End::Start, |it| it.slope.is_some(), "free")),
     },
     normal: Parameter {
         name: "start-normal",
         label: "Start normal",
         help: "The normal of the osculating plane at the start, of a curve in space",
-        kind: vector(AS_SET),
+        kind: vector_in_space(|input| kept(input, End::Start, |it| it.normal.is_some(), "free")),
     },
 };
 
@@ -141,31 +161,31 @@ const FINISH: Asked = Asked {
         name: "end",
         label: "End point",
         help: "Where the curve ends; without a point it ends where it does",
-        kind: vector(AS_SET),
+        kind: vector(|input| kept(input, End::Finish, |_| true, "where it is")),
     },
     direction: Parameter {
         name: "end-direction",
         label: "End direction",
         help: "The direction at the end, along the curve",
-        kind: vector(AS_SET),
+        kind: vector(|input| kept(input, End::Finish, |it| it.direction.is_some(), "as it is")),
     },
     curvature: Parameter {
         name: "end-curvature",
         label: "End curvature",
         help: "The curvature at the end; of a planar curve positive where it turns left",
-        kind: number(AS_SET),
+        kind: number(|input| kept(input, End::Finish, |it| it.curvature.is_some(), "free")),
     },
     slope: Parameter {
         name: "end-slope",
         label: "End slope",
         help: "The slope of the curvature at the end, by arc length",
-        kind: number(AS_SET),
+        kind: number(|input| kept(input, End::Finish, |it| it.slope.is_some(), "free")),
     },
     normal: Parameter {
         name: "end-normal",
         label: "End normal",
         help: "The normal of the osculating plane at the end, of a curve in space",
-        kind: vector(AS_SET),
+        kind: vector_in_space(|input| kept(input, End::Finish, |it| it.normal.is_some(), "free")),
     },
 };
 

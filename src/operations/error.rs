@@ -57,12 +57,20 @@ pub enum OperationError {
         name: String,
     },
     /// A value of another kind than the parameter's.
-    #[error("{label}: {needed} is needed")]
+    #[error("{label}: {needed} {verb} needed")]
     WrongKind {
         /// The parameter, as it is shown.
         label: &'static str,
         /// What it takes.
         needed: String,
+        /// "is" or "are".
+        verb: &'static str,
+    },
+    /// A value of a parameter that a planar curve has no use for.
+    #[error("{label}: only a curve in space has this, and the curve lies in the plane z = 0")]
+    OnlyInSpace {
+        /// The parameter, as it is shown.
+        label: &'static str,
     },
     /// A value out of the parameter's range.
     #[error("{label}: {value} is out of range: {needed} is needed")]
@@ -91,6 +99,6 @@ fn who_can_have(degree: usize) -> &'static str {
 fn no_target(end: Option<End>) -> String {
     match end {
         Some(end) => format!("the {} has no target: set one first", end.name()),
-        None => "no end of the curve has a target: set one first".to_owned(),
+        None => "no end of the curve has a target: set one first, or give “Correct ends” what you want by values".to_owned(),
     }
 }

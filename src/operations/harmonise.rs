@@ -4,7 +4,7 @@ use super::editable::{check_editable, editable};
 use super::error::OperationError;
 use super::input::Input;
 use super::inputs::Inputs;
-use super::lists::{LOCKED, count, given, locked, number};
+use super::lists::{LOCKED, Meaning, count, count_in_space, given, locked, number};
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Mark, Outcome};
 use super::parameter::{Choice, Kind, Parameter, Unit};
@@ -12,7 +12,7 @@ use super::values::Values;
 use crate::geometry::fairing::harmonising::{Harmonised, Harmony, HarmonyError, Held, harmonise};
 use crate::geometry::{FloatPolygon, Progress, counted, rounded_up};
 
-const WHAT_STANDS_OUT: &str = "those that stand out";
+const WHAT_STANDS_OUT: Meaning = |_| "those that stand out";
 
 const FREE: Choice = option("free", "Free");
 const POSITION: Choice = option("position", "Position");
@@ -74,7 +74,8 @@ const STRETCH: Parameter = Parameter {
         count: 2..=2,
         whole: false,
         unit: Unit::Parameter,
-        none: "the whole curve",
+        none: |_| "the whole curve",
+        in_space: false,
     },
 };
 
@@ -96,14 +97,14 @@ const TORSION_EXTREMA: Parameter = Parameter {
     name: "torsion-extrema",
     label: "Torsion extrema",
     help: "How many extrema of the torsion of a curve in space are to be left",
-    kind: count(WHAT_STANDS_OUT),
+    kind: count_in_space(WHAT_STANDS_OUT),
 };
 
 const MAX_DEVIATION: Parameter = Parameter {
     name: "max-deviation",
     label: "Deviation up to",
     help: "How far the curve may move at most",
-    kind: number("any"),
+    kind: number(|_| "any"),
 };
 
 /// The operation: its description, and how it is checked and run.

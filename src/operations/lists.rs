@@ -1,38 +1,67 @@
 //! Kinds of lists that several operations take.
 
 use super::error::OperationError;
+use super::input::Input;
 use super::parameter::{Kind, Parameter, Unit};
 use super::values::Values;
 use crate::document::Curve;
 use crate::geometry::PolygonError;
 
+/// What it means if none is given: for an input, or whatever the input is.
+pub(super) type Meaning = fn(Option<&Input>) -> &'static str;
+
 /// One number, or none.
-pub(super) const fn number(none: &'static str) -> Kind {
+pub(super) const fn number(none: Meaning) -> Kind {
     Kind::List {
         count: 1..=1,
         whole: false,
         unit: Unit::None,
         none,
+        in_space: false,
     }
 }
 
 /// One whole number, or none.
-pub(super) const fn count(none: &'static str) -> Kind {
+pub(super) const fn count(none: Meaning) -> Kind {
     Kind::List {
         count: 1..=1,
         whole: true,
         unit: Unit::None,
         none,
+        in_space: false,
     }
 }
 
 /// A point or vector of the plane or of space, or none.
-pub(super) const fn vector(none: &'static str) -> Kind {
+pub(super) const fn vector(none: Meaning) -> Kind {
     Kind::List {
         count: 2..=3,
         whole: false,
         unit: Unit::None,
         none,
+        in_space: false,
+    }
+}
+
+/// One whole number of what only curves in space have, or none.
+pub(super) const fn count_in_space(none: Meaning) -> Kind {
+    Kind::List {
+        count: 1..=1,
+        whole: true,
+        unit: Unit::None,
+        none,
+        in_space: true,
+    }
+}
+
+/// A vector that only curves in space have, or none.
+pub(super) const fn vector_in_space(none: Meaning) -> Kind {
+    Kind::List {
+        count: 2..=3,
+        whole: false,
+        unit: Unit::None,
+        none,
+        in_space: true,
     }
 }
 
@@ -45,7 +74,8 @@ pub(super) const LOCKED: Parameter = Parameter {
         count: 1..=usize::MAX,
         whole: true,
         unit: Unit::None,
-        none: "those of the curve",
+        none: |_| "those of the curve",
+        in_space: false,
     },
 };
 

@@ -64,8 +64,10 @@ pub enum Kind {
         whole: bool,
         /// Their unit.
         unit: Unit,
-        /// What it means if none is given.
-        none: &'static str,
+        /// What it means if none is given: for an input, or whatever the input is.
+        none: fn(Option<&Input>) -> &'static str,
+        /// Whether only a curve in space has what they tell.
+        in_space: bool,
     },
 }
 
@@ -110,6 +112,17 @@ impl Parameter {
         })
     }
 
+    /// Whether there is something to give for an input: a planar curve has nothing that only curves in
+    /// space have.
+    pub fn applies(&self, input: &Input) -> bool {
+        match self.kind {
+            Kind::List { in_space: true, .. } => {
+                input.polygon().is_ok_and(|polygon| !polygon.is_planar())
+            }
+            _ => true,
+        }
+    }
+
     /// The numbers that are allowed for an input; `None` if the values are no numbers.
     ///
     /// # Errors
@@ -131,9 +144,15 @@ impl Parameter {
     /// Refuse a value that is of another kind, or not allowed for an input.
     ///
     /// # Errors
-    /// [`OperationError::WrongKind`], [`OperationError::OutOfRange`], or as [`Amount::of`].
+    /// [`OperationError::WrongKind`], [`OperationError::OnlyInSpace`], [`OperationError::OutOfRange`],
+    /// or as [`Amount::of`].
     pub fn check(&self, value: &Value, input: &Input) -> Result<(), OperationError> {
         self.check_kind(value)?;
+        let is_given = *value != Value::List(Vec::new());
+        if is_given && !self.applies(input) {
+            let label = self.label;
+            return Err(OperationError::OnlyInSpace { label });
+        }
         match self.limits(input)? {
             Some(limits) => self.check_limits(value, limits),
             None => Ok(()),
@@ -181,6 +200,17 @@ impl Parameter {
             self.check_limits(&value, (fixed(from), fixed(to)))?;
         }
         Ok(value)
+    }
+
+    /// Read a value as [`Parameter::read`] does, but no empty list: what is not wanted is not given.
+    ///
+    /// # Errors
+    /// As [`Parameter::read`].
+    pub fn read_given(&self, text: &str) -> Result<Value, OperationError> {
+        match self.read(text)? {
+            Value::List(numbers) if numbers.is_empty() => Err(self.wrong_kind()),
+            value => Ok(value),
+        }
     }
 
     /// Write a value as [`Parameter::read`] reads it.
@@ -237,7 +267,7 @@ impl Parameter {
             Kind::Whole { default, .. } | Kind::Real { default, .. } => self.amount_words(default),
             Kind::Choice { default, .. } => self.text(&Value::Choice(default)),
             Kind::Switch { default } => self.text(&Value::Switch(default)),
-            Kind::List { none, .. } => none.to_owned(),
+            Kind::List { none, .. } => none(None).to_owned(),
         }
     }
 
@@ -298,9 +328,14 @@ impl Parameter {
     }
 
     fn wrong_kind(&self) -> OperationError {
+        let several = match &self.kind {
+            Kind::List { count, .. } => *count.end() > 1,
+            _ => false,
+        };
         OperationError::WrongKind {
             label: self.label,
             needed: self.range_words(),
+            verb: if several { "are" } else { "is" },
         }
     }
 

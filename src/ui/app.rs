@@ -35,7 +35,7 @@ use crate::io::Format;
 const SETTINGS: &str = "window";
 
 /// The height, below the list of curves, from which on the layers stay in sight beside the
-/// inspector, and beside the taller end-fit panel.
+/// inspector, and beside the taller panels of the end fit and of operations.
 const PINNED: [f32; 2] = [780.0, 920.0];
 
 /// The application: the editor, and what only a window has.
@@ -231,7 +231,8 @@ impl App {
         // In a low window the layers scroll with the rest, so that nothing is squeezed out.
         let is_end_fit = self.editor.hand().tool() == ToolKind::EndFit;
         let tries = self.editor.is_trying();
-        let pinned = ui.available_height() >= PINNED[usize::from(is_end_fit)];
+        let is_tall = is_end_fit || self.editor.trial().is_some();
+        let pinned = ui.available_height() >= PINNED[usize::from(is_tall)];
         if pinned {
             let layers = Panel::bottom("layers").frame(pad).resizable(false);
             layers.show(ui, |ui| self.layers_ui(ui));
@@ -250,14 +251,15 @@ impl App {
                 .auto_shrink([false, false]);
             // Room for the bar is always kept, so that nothing moves when it appears.
             let width = ui.available_width() - ui.spacing().scroll.allocated_width();
+            let height = ui.available_height();
             area.show(ui, |ui| {
                 ui.set_max_width(width);
                 if tries {
-                    self.operation.show(ui, &mut self.editor);
+                    self.operation.show(ui, &mut self.editor, height);
                 } else if is_end_fit {
                     self.end_fit.show(ui, &mut self.editor);
                 } else {
-                    self.last_operation_ui(ui);
+                    self.last_operation_ui(ui, height);
                     self.inspector.show(ui, &mut self.editor);
                 }
                 if !pinned {
@@ -268,10 +270,10 @@ impl App {
     }
 
     /// The operation that was applied last stays at hand: its values can be changed.
-    fn last_operation_ui(&mut self, ui: &mut Ui) {
+    fn last_operation_ui(&mut self, ui: &mut Ui, height: f32) {
         let trial = self.editor.trial();
         if trial.is_some_and(|trial| !trial.operation().parameters.is_empty()) {
-            self.operation.show(ui, &mut self.editor);
+            self.operation.show(ui, &mut self.editor, height);
             ui.separator();
         }
     }

@@ -3,8 +3,8 @@
 use std::ops::{Bound, RangeInclusive};
 
 use eframe::egui::{
-    Button, ComboBox, Key, Label, ProgressBar, RichText, Role, Sense, TextEdit, Ui, Vec2,
-    WidgetInfo, vec2,
+    Button, ComboBox, Key, Label, ProgressBar, RichText, Role, ScrollArea, Sense, TextEdit, Ui,
+    Vec2, WidgetInfo, vec2,
 };
 use lucide_icons::Icon;
 
@@ -33,6 +33,12 @@ const LABEL: f32 = 112.0;
 /// The most options that stand side by side as buttons.
 const MOST_BUTTONS: usize = 4;
 
+/// The height that is kept for buttons and report.
+const REPORT: f32 = 430.0;
+
+/// The least height of the fields.
+const LEAST_FIELDS: f32 = 120.0;
+
 /// The width of a field for a number.
 const FIELD: f32 = 120.0;
 
@@ -41,11 +47,18 @@ const FIELD: f32 = 120.0;
 pub struct OperationPanel {
     /// The parameter whose field is dragged, with its value before.
     dragged: Option<(&'static str, Value)>,
-    /// The parameter whose list is typed, with what is typed so far.
-    typed: Option<(&'static str, String)>,
+    /// The list that is typed.
+    typed: Option<TypedList>,
     /// Why the last value was not accepted.
     refusal: Option<String>,
     atlas: AtlasView,
+}
+
+/// A list that is typed: it counts as far as it is one, while it is typed.
+struct TypedList {
+    parameter: &'static str,
+    text: String,
+    before: Value,
 }
 
 /// What the user asks for.
@@ -57,8 +70,9 @@ enum Asked {
 }
 
 impl OperationPanel {
-    /// Show the panel of the operation that is tried out, or was applied last.
-    pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor) {
+    /// Show the panel of the operation that is tried out, or was applied last, in so much height: of many
+    /// fields the last ones are reached by scrolling, so that the report below is in sight.
+    pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor, height: f32) {
         let Some(trial) = editor.trial() else {
             *self = Self::default();
             return;
@@ -66,11 +80,19 @@ impl OperationPanel {
         let atlas = atlas_of(trial).copied();
         let mut shows_atlas = false;
         // A click on a button also leaves a field: what was typed there counts first.
+        let top = ui.cursor().top();
         let mut asked = Vec::from_iter(heading_ui(ui, trial));
-        for parameter in trial.operation().parameters {
-            let set = self.parameter_ui(ui, trial, parameter);
-            asked.extend(set.map(|value| Asked::Set(parameter, value)));
-        }
+        let left = height - (ui.cursor().top() - top) - REPORT;
+        let fields = ScrollArea::vertical()
+            .id_salt((trial.operation().name, "fields"))
+            .max_height(left.max(LEAST_FIELDS));
+        fields.show(ui, |ui| {
+            let parameters = trial.operation().parameters.iter();
+            for parameter in parameters.filter(|it| it.applies(trial.input())) {
+                let set = self.parameter_ui(ui, trial, parameter);
+                asked.extend(set.map(|value| Asked::Set(parameter, value)));
+            }
+        });
         // The buttons keep their place, whatever the report below has to say.
         asked.extend(buttons_ui(ui, trial, editor.operation_progress()));
         ui.add_space(STEP);
@@ -115,7 +137,9 @@ impl OperationPanel {
                 (Kind::Choice { options, .. }, Value::Choice(chosen)) => {
                     choice_ui(ui, parameter.label, options, *chosen)
                 }
-                (Kind::List { none, .. }, _) => self.list_ui(ui, parameter, value, none),
+                (Kind::List { none, .. }, _) => {
+                    self.list_ui(ui, parameter, value, none(Some(trial.input())))
+                }
                 (Kind::Switch { .. }, Value::Switch(on)) => {
                     let mut on = *on;
                     let switch = ui.checkbox(&mut on, "");
@@ -128,7 +152,8 @@ impl OperationPanel {
         row.inner
     }
 
-    /// A field for numbers with commas between them, which may stay empty.
+    /// A field for numbers with commas between them, which may stay empty. What is typed counts at once,
+    /// as far as it is a list that can be given.
     fn list_ui(
         &mut self,
         ui: &mut Ui,
@@ -136,31 +161,39 @@ impl OperationPanel {
         value: &Value,
         none: &str,
     ) -> Option<Value> {
-        let typed = self.typed.as_ref();
-        let typed = typed.filter(|(name, _)| *name == parameter.name);
-        let mut text = typed.map_or_else(|| parameter.text(value), |(_, text)| text.clone());
+        let typed = self
+            .typed
+            .take_if(|typed| typed.parameter == parameter.name);
+        let (mut text, before) = match typed {
+            Some(typed) => (typed.text, typed.before),
+            None => (parameter.text(value), value.clone()),
+        };
         let field = TextEdit::singleline(&mut text)
             .id_salt(parameter.name)
             .hint_text(none)
             .desired_width(f32::INFINITY);
         let field = ui.add(field);
         field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, parameter.label));
+        let read = parameter.read(&text);
         if field.has_focus() {
-            self.typed = Some((parameter.name, text));
-            return None;
+            self.typed = Some(TypedList {
+                parameter: parameter.name,
+                text,
+                before,
+            });
+            return read.ok().filter(|read| field.changed() && read != value);
         }
         if !field.lost_focus() {
             return None;
         }
-        self.typed = None;
         if ui.input(|input| input.key_pressed(Key::Escape)) {
-            return None;
+            return Some(before).filter(|before| before != value);
         }
-        match parameter.read(&text) {
+        match read {
             Ok(read) => Some(read).filter(|read| read != value),
             Err(error) => {
                 self.refusal = Some(error.to_string());
-                None
+                Some(before).filter(|before| before != value)
             }
         }
     }

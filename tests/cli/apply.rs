@@ -436,17 +436,29 @@ fn bad_values_and_bad_usage_are_told_apart() {
             &["--list", "reverse", "a.batten", "b.batten"],
             "cannot be used with",
         ),
+        (
+            &["harmonise", "a.batten", "b.batten", "--extrema", ""],
+            "Curvature extrema: a whole number is needed",
+        ),
+        (
+            &["harmonise", "a.batten", "b.batten", "--locked", "1,x"],
+            "Also locked: whole numbers, separated by commas are needed",
+        ),
         (&[], "Usage"),
     ] {
         folder.misused(&apply(arguments), expected);
     }
+    folder.refused(
+        &["apply", "correct-ends", "hull.batten", "out.batten", "--start-normal", "0,0,1"],
+        "hull.batten: Start normal: only a curve in space has this, and the curve lies in the plane z = 0",
+    );
     folder.refused(
         &["apply", "reverse", &file, "out.txt"],
         "out.txt: “.txt” is not a format Batten knows: use one of .batten, .csv, .dxf",
     );
     folder.refused(
         &["apply", "translate-end", &file, "out.batten"],
-        "hull.batten: no end of the curve has a target: set one first",
+        "hull.batten: no end of the curve has a target: set one first, or give “Correct ends” what you want by values",
     );
     assert_eq!(fs::read_dir(folder.path(".")).unwrap().count(), 1);
 }

@@ -255,3 +255,40 @@ fn copies_are_free() {
     told(script.editor.paste_text(&text));
     assert!(locks(&script).is_empty());
 }
+
+#[test]
+fn what_moves_a_selection_says_that_locked_vertices_stay() {
+    let mut script = locked(&[2, 7]);
+    let before = script.polygon();
+    script.command(Command::SelectAll);
+    let at = script.at_vertex(4);
+    script.press(at);
+    script.move_to(at + DVec2::new(10.0, 10.0));
+    let hint = script.editor.hint();
+    assert!(hint.contains("(2 locked vertices stay)"), "{hint}");
+    script.release(at + DVec2::new(10.0, 10.0));
+    assert_eq!(script.message(), "2 locked vertices stay");
+    script.key(Key::Up);
+    assert_eq!(script.message(), "2 locked vertices stay");
+    for tool in [ToolKind::Rotate, ToolKind::Scale] {
+        script.tool(tool);
+        script.press(at);
+        script.move_to(at + DVec2::new(30.0, 10.0));
+        let hint = script.editor.hint();
+        assert!(hint.starts_with("2 locked vertices stay"), "{hint}");
+        script.release(at + DVec2::new(30.0, 10.0));
+        assert_eq!(script.message(), "2 locked vertices stay", "{tool:?}");
+    }
+    told(script.editor.transform(Transformation::Scale(1.5)));
+    assert_eq!(script.message(), "2 locked vertices stay");
+    for vertex in [2, 7] {
+        assert_eq!(script.polygon().vertex(vertex), before.vertex(vertex));
+    }
+    script.undo_all();
+    assert_eq!(script.polygon(), before);
+    // Without any of them nothing is said.
+    script.tool(ToolKind::Select);
+    script.editor.select_vertex(script.curve(), 4, false);
+    script.drag_vertex(4, DVec2::new(10.0, 10.0));
+    assert_eq!(script.message(), "");
+}

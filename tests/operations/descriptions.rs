@@ -177,6 +177,29 @@ fn what_is_typed_is_read_with_the_limits_that_are_known() {
     for text in ["1", "1,2,3,4", "1,x", "1,,2", "1,inf"] {
         assert!(point.read(text).is_err(), "{text}");
     }
+    let locked = named("locked").expect("it is there");
+    for (parameter, text, expected) in [
+        (
+            locked,
+            "1,x",
+            "Also locked: whole numbers, separated by commas are needed",
+        ),
+        (
+            point,
+            "1",
+            "Start point: 2 or 3 numbers, separated by commas are needed",
+        ),
+        (
+            named("start-slope").expect("it is there"),
+            "1,2",
+            "Start slope: a number is needed",
+        ),
+    ] {
+        let refused = parameter.read(text).expect_err("refused");
+        assert_eq!(refused.to_string(), expected);
+    }
+    assert!(point.read_given("").is_err(), "nothing is no value");
+    assert_eq!(point.read_given("1,2"), point.read("1,2"));
     assert_eq!(tolerance.unit(), Unit::Length);
     assert_eq!(tolerance.read("1e-6"), Ok(Value::Real(1e-6)));
     for text in ["0", "-1", "inf", "NaN"] {

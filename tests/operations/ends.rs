@@ -172,7 +172,7 @@ fn missing_targets_and_directions_are_refused() {
     for operation in ["translate-end", "rotate-end", "correct-ends"] {
         assert_eq!(
             runner.refused(operation, &[]),
-            "no end of the curve has a target: set one first"
+            "no end of the curve has a target: set one first, or give “Correct ends” what you want by values"
         );
     }
     let target = EndTarget {

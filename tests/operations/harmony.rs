@@ -142,6 +142,27 @@ fn a_stretch_of_a_periodic_curve_goes_over_the_seam() {
 }
 
 #[test]
+fn what_only_curves_in_space_have_is_refused_for_planar_ones() {
+    let planar = noisy();
+    let refused = planar.refused("harmonise", &[("torsion-extrema", list(&[0.0]))]);
+    assert_eq!(
+        refused,
+        "Torsion extrema: only a curve in space has this, and the curve lies in the plane z = 0"
+    );
+    let normal = ("end-normal", list(&[0.0, 0.0, 1.0]));
+    let refused = planar.refused("correct-ends", &[normal.clone()]);
+    assert!(
+        refused.starts_with("End normal: only a curve in space"),
+        "{refused}"
+    );
+    let vertices = planar.polygon().vertices().iter().enumerate();
+    let raised = vertices.map(|(index, vertex)| vertex.with_z(0.1 * (index as f64).sin()));
+    let raised = FloatPolygon::new(5, raised.collect(), None, false).expect("valid");
+    let outcome = Runner::of(raised).run("correct-ends", &[normal]);
+    assert!(outcome.expect("it can run").reached);
+}
+
+#[test]
 fn what_cannot_be_reached_offers_the_best_found() {
     let runner = noisy();
     let given = [("max-deviation", list(&[1e-6]))]

@@ -50,7 +50,7 @@ fn value(parameter: &Parameter, input: &Input, random: &mut Random) -> Value {
         Kind::List { count, whole, .. } => {
             let most = (*count.end()).min(4);
             let drawn = count.start() + random.bits() as usize % (most - count.start() + 1);
-            let given = random.bits().is_multiple_of(3);
+            let given = random.bits().is_multiple_of(3) && parameter.applies(input);
             let number = |_| {
                 let number = random.between(if *whole { 0.0 } else { -4.0 }, 6.0);
                 if *whole { number.floor() } else { number }

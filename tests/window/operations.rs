@@ -2,9 +2,10 @@
 
 use batten::document::{Curve, Document};
 use batten::editor::Editor;
-use batten::geometry::FloatPolygon;
+use batten::geometry::{Continuity, End, FloatPolygon};
 use eframe::egui::{Event, Key, Modifiers};
 use egui_kittest::kittest::Queryable;
+use glam::DVec3;
 
 use crate::hand::*;
 use crate::numbers::{enter, wave};
@@ -266,4 +267,95 @@ fn many_options_are_a_list_that_opens() {
     let trial = editor.trial().expect("it is tried out");
     let keep = trial.values().get(&trial.operation().parameters[0]);
     assert_eq!(*keep, batten::operations::Value::Choice(4));
+}
+
+/// A window of a size that many screens have, with an operation that is tried out on a noisy curve.
+fn trying_in(width: f32, height: f32, name: &str, in_space: bool) -> Window {
+    let vertices = (0..14).map(|index| {
+        let x = f64::from(index);
+        let z = if in_space { (0.3 * x).sin() } else { 0.0 };
+        DVec3::new(x, (0.4 * x).cos() + 0.05 * (5.0 * x).sin(), z)
+    });
+    let polygon = FloatPolygon::new(4, vertices.collect(), None, false).expect("a polygon");
+    let mut curve = Curve::new("curve", polygon);
+    for end in End::BOTH {
+        let mut target = Continuity::G1.target(&curve.polygon.end_jet(end), !in_space);
+        target.point.x += 0.1;
+        curve.targets.set(end, Some(target));
+    }
+    let editor = Editor::with_document(Document::from_curves([curve]));
+    let mut window = open_window_with(editor, width, height);
+    begin(&mut window, name);
+    assert!(window.state().editor().is_trying(), "{name}");
+    window
+}
+
+#[test]
+fn the_report_is_in_sight_without_scrolling() {
+    for (width, height) in [(1440.0, 900.0), (1600.0, 1000.0)] {
+        for name in [
+            "Correct ends",
+            "Harmonise",
+            "Elevate degree",
+            "Round coordinates",
+        ] {
+            for in_space in [false, true] {
+                let mut window = trying_in(width, height, name, in_space);
+                let in_sight = |window: &Window, when: &str| {
+                    for label in ["Deviation: ", "Largest move: ", "Monotone: "] {
+                        for row in window.query_all_by_label_contains(label) {
+                            let bottom = row.rect().bottom();
+                            assert!(
+                                bottom < height - 24.0,
+                                "{name} {when}, {label} at {bottom} of {height}"
+                            );
+                        }
+                    }
+                    let rows = window.query_all_by_label_contains("Monotone: ");
+                    assert_eq!(rows.count(), 1, "{name} {when}");
+                };
+                in_sight(&window, "tried");
+                enter(&mut window);
+                if is_applied(&window) {
+                    in_sight(&window, "applied");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn fields_of_curves_in_space_are_offered_for_those_alone() {
+    for (name, field) in [
+        ("Harmonise", "Torsion extrema"),
+        ("Correct ends", "Start normal"),
+    ] {
+        for in_space in [false, true] {
+            let window = trying_in(1480.0, 1300.0, name, in_space);
+            let shown = window.query_all_by_label(field).count();
+            assert_eq!(shown, usize::from(in_space), "{name}");
+        }
+    }
+}
+
+#[test]
+fn a_list_counts_while_it_is_typed() {
+    let mut window = trying_in(1480.0, 1300.0, "Correct ends", false);
+    let shown = polygon(&window);
+    click(&mut window, "Start curvature");
+    type_over(&mut window, "-");
+    assert_eq!(polygon(&window), shown, "no number yet");
+    type_over(&mut window, "-0.5");
+    let curved = |window: &Window| polygon(window).end_jet(End::Start).signed_curvature();
+    assert!((curved(&window) + 0.5).abs() < 1e-9, "{}", curved(&window));
+    // What is typed on goes on in the same field.
+    window.event(Event::Text("5".to_owned()));
+    window.run();
+    assert!((curved(&window) + 0.55).abs() < 1e-9, "{}", curved(&window));
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(window.state().editor().is_trying(), "the field's Esc");
+    assert_eq!(polygon(&window), shown);
+    give(&mut window, "Start curvature", "0.25");
+    assert!((curved(&window) - 0.25).abs() < 1e-9, "{}", curved(&window));
+    assert_eq!(steps(&window), 0);
 }

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::editor::Editor;
 use crate::editor::hand::tools::{self, Transformation, move_edits};
-use crate::editor::reply::Reply;
+use crate::editor::reply::{Note, Reply};
 use crate::geometry::counted;
 
 impl Editor {
@@ -44,6 +44,11 @@ impl Editor {
             .into_iter()
             .map(|(id, vertex)| (id, transformation.apply(pivot, vertex, context.viewport)));
         let edits = move_edits(moved);
-        self.apply(&label, edits)
+        let staying = context.staying();
+        let reply = self.apply(&label, edits);
+        match staying {
+            Some(staying) if reply.is_ok() => self.tell(Ok(Note::done(staying))),
+            _ => reply,
+        }
     }
 }

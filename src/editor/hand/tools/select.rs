@@ -100,10 +100,11 @@ impl Tool for SelectTool {
             (State::Idle, Gesture::DoubleClick(place)) => double_click(place, context),
             (State::Idle, Gesture::DragStart(place)) => self.start(place, context),
             (State::Idle, Gesture::Key(key)) => nudge(key, context),
-            (
-                State::Moving(_) | State::MovingClamped(_) | State::Reference(_),
-                Gesture::DragEnd(_),
-            ) => {
+            (State::Moving(_), Gesture::DragEnd(_)) => {
+                let staying = context.staying().map(Effect::Say);
+                [Effect::Commit].into_iter().chain(staying).collect()
+            }
+            (State::MovingClamped(_) | State::Reference(_), Gesture::DragEnd(_)) => {
                 vec![Effect::Commit]
             }
             (State::Moving(_) | State::MovingClamped(_) | State::Reference(_), Gesture::Cancel) => {
@@ -142,11 +143,15 @@ impl Tool for SelectTool {
                     "{words}: the wheel sets how many{stiffness}; Alt shows before, Esc cancels"
                 )
             }
-            State::Moving(Moving { vertices, .. }) => format!(
-                "Moving {}: Shift keeps to an axis, X, Y, Z to the model's, Ctrl turns snapping {}, Alt shows before, Esc cancels",
-                counted(vertices.len(), "vertex", "vertices"),
-                if context.snapping { "off" } else { "on" },
-            ),
+            State::Moving(Moving { vertices, .. }) => {
+                let staying = context.staying().map(|staying| format!(" ({staying})"));
+                format!(
+                    "Moving {}{}: Shift keeps to an axis, X, Y, Z to the model's, Ctrl turns snapping {}, Alt shows before, Esc cancels",
+                    counted(vertices.len(), "vertex", "vertices"),
+                    staying.unwrap_or_default(),
+                    if context.snapping { "off" } else { "on" },
+                )
+            }
             State::MovingClamped(MovingClamped { vertex, .. }) => format!(
                 "Moving vertex {} of the closed S-polygon: {}; Esc cancels",
                 vertex.1,
@@ -514,5 +519,7 @@ fn nudge(key: Key, context: &Context) -> Vec<Effect> {
         let by = context.movement(direction * step, planar.contains(&id.0));
         (*id, *at + by)
     });
-    vec![Effect::Apply(label, move_edits(places))]
+    let staying = context.staying().map(Effect::Say);
+    let nudge = Effect::Apply(label, move_edits(places));
+    [nudge].into_iter().chain(staying).collect()
 }

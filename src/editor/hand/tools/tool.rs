@@ -203,7 +203,27 @@ impl Context<'_> {
     /// The vertices that a transformation takes: the selected ones that can be moved, or all of
     /// the active curve if none is selected. What is hidden is left out.
     pub fn transformed(&self) -> Vec<(VertexId, DVec3)> {
-        let chosen: Vec<VertexId> = if self.selection.is_empty() {
+        self.places(self.chosen())
+    }
+
+    /// Say how many of the vertices that a transformation or a drag of the selection would take stay where
+    /// they are because they are locked, if any are.
+    pub fn staying(&self) -> Option<String> {
+        let is_visible = |(curve, _): &VertexId| {
+            let curve = self.before.curve(*curve);
+            curve.is_some_and(|curve| curve.visible)
+        };
+        let chosen: Vec<VertexId> = self.chosen().into_iter().filter(is_visible).collect();
+        match chosen.len() - self.places(chosen.iter().copied()).len() {
+            0 => None,
+            1 => Some("1 locked vertex stays".to_owned()),
+            count => Some(format!("{count} locked vertices stay")),
+        }
+    }
+
+    /// The vertices that are selected, or all of the active curve if none is.
+    fn chosen(&self) -> Vec<VertexId> {
+        if self.selection.is_empty() {
             let active = self
                 .selection
                 .active()
@@ -214,8 +234,7 @@ impl Context<'_> {
             all.collect()
         } else {
             self.selection.vertices().collect()
-        };
-        self.places(chosen)
+        }
     }
 
     /// Look up where vertices were when the gesture began; locked ones and those of locked and of

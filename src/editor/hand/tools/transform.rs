@@ -211,7 +211,10 @@ impl Tool for TransformTool {
                 };
                 effects
             }
-            (State::Turning { .. }, Gesture::DragEnd(_)) => vec![Effect::Commit],
+            (State::Turning { .. }, Gesture::DragEnd(_)) => {
+                let staying = context.staying().map(Effect::Say);
+                [Effect::Commit].into_iter().chain(staying).collect()
+            }
             (State::Turning { .. }, Gesture::Cancel) => vec![Effect::Abort],
             (State::MovingPivot { .. }, Gesture::DragEnd(_)) => Vec::new(),
             (state, _) => {
@@ -227,10 +230,15 @@ impl Tool for TransformTool {
             Transform::Scale => "scale",
         };
         match self.state {
-            State::Turning { .. } if self.transform == Transform::Rotate => {
-                "Shift keeps to 15°, Alt shows before, Esc cancels".into()
+            State::Turning { .. } => {
+                let steps = match self.transform {
+                    Transform::Rotate => "15°",
+                    Transform::Scale => "tenths",
+                };
+                let staying = context.staying().map(|staying| format!("{staying}; "));
+                let staying = staying.unwrap_or_default();
+                format!("{staying}Shift keeps to {steps}, Alt shows before, Esc cancels")
             }
-            State::Turning { .. } => "Shift keeps to tenths, Alt shows before, Esc cancels".into(),
             State::MovingPivot { .. } => "Release to leave the pivot here".into(),
             State::Idle if context.transformed().is_empty() => {
                 format!("Select vertices or a curve to {verb}; Esc ends")
