@@ -380,3 +380,56 @@ fn a_match_out_of_reach_costs_little_in_a_drag_after_its_first_frame() {
             .all(|it| history.document().meets(it))
     );
 }
+
+#[test]
+fn no_place_near_by_is_out_of_reach_at_g3() {
+    let first = [
+        (0.0, 0.0),
+        (1.0, 0.3),
+        (2.1, 0.9),
+        (3.0, 1.0),
+        (4.2, 0.8),
+        (5.0, 0.2),
+        (6.0, -0.5),
+    ];
+    let second = [
+        (8.0, 0.0),
+        (9.1, 1.0),
+        (10.0, 1.4),
+        (11.2, 1.3),
+        (12.0, 0.7),
+        (13.1, -0.4),
+        (14.0, -1.6),
+        (14.6, -3.0),
+    ];
+    let polygon = |degree, points| FloatPolygon::planar(degree, points).expect("a polygon");
+    let curves = [
+        Curve::new("first", polygon(4, &first[..])),
+        Curve::new("second", polygon(5, &second[..])),
+    ];
+    let document = Document::from_curves(curves);
+    let ids: Vec<CurveId> = document.ids().collect();
+    let matched = EndMatch {
+        curve: ids[1],
+        end: End::Start,
+        source: ids[0],
+        place: MatchPlace::End(End::Finish),
+        continuity: Continuity::G3,
+        reversed: false,
+    };
+    let document = document.edited([Edit::SetMatch(matched)]).expect("a match");
+    for column in -5..=-3 {
+        for row in -20..=20 {
+            let place = DVec3::new(
+                6.0 + 0.1 * f64::from(column),
+                -0.5 + 0.05 * f64::from(row),
+                0.0,
+            );
+            let curve = ids[0];
+            let moves = vec![(6, place)];
+            let edited = document.edited([Edit::MoveVertices { curve, moves }]);
+            let edited = edited.expect("an edit");
+            assert!(edited.meets(&matched), "{place}");
+        }
+    }
+}

@@ -262,7 +262,9 @@ impl Correction<'_> {
             found.steps += faired.steps;
             found.vertices = faired.vertices;
         }
-        let polygon = problem.polygon(&found.vertices)?;
+        // Steps that lead nowhere may lead out of the range of numbers.
+        let polygon = problem.polygon(&found.vertices);
+        let polygon = polygon.map_err(|_| unsolved(self.residual(self.polygon)))?;
         let residual = self.residual(&polygon);
         if !self.is_met(&polygon) {
             return Err(unsolved(residual));
@@ -308,12 +310,17 @@ impl Correction<'_> {
             let problem = self.problem(&targets, speed);
             let next = problem.meet(objective, &reached.vertices, problem::MOST_STEPS)?;
             steps += next.steps;
-            let polygon = problem.polygon(&next.vertices).ok()?;
             let correction = Correction {
                 targets: &targets,
                 ..*self
             };
-            if correction.is_met(&polygon) && points_forward(&polygon, &targets) {
+            let is_met = |polygon: &FloatPolygon| {
+                correction.is_met(polygon) && points_forward(polygon, &targets)
+            };
+            if problem
+                .polygon(&next.vertices)
+                .is_ok_and(|polygon| is_met(&polygon))
+            {
                 (done, reached) = (share, next);
                 part *= 2.0;
             } else {
