@@ -158,7 +158,10 @@ fn what_only_curves_in_space_have_is_refused_for_planar_ones() {
     let vertices = planar.polygon().vertices().iter().enumerate();
     let raised = vertices.map(|(index, vertex)| vertex.with_z(0.1 * (index as f64).sin()));
     let raised = FloatPolygon::new(5, raised.collect(), None, false).expect("valid");
-    let outcome = Runner::of(raised).run("correct-ends", &[normal]);
+    let jet = raised.end_jet(End::Finish);
+    let normal = jet.first.cross(jet.second).to_array();
+    let given = [("end-normal", list(&normal))];
+    let outcome = Runner::of(raised).run("correct-ends", &given);
     assert!(outcome.expect("it can run").reached);
 }
 
