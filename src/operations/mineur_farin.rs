@@ -108,14 +108,14 @@ const START: Parameter = Parameter {
     name: "start",
     label: "Start",
     help: "The first point",
-    kind: vector("0, 0"),
+    kind: vector(|_| "0, 0"),
 };
 
 const FIRST_LEG: Parameter = Parameter {
     name: "first-leg",
     label: "First leg",
     help: "The vector from the first point to the second",
-    kind: vector("1, 0"),
+    kind: vector(|_| "1, 0"),
 };
 
 /// The operation: its description, and how it is checked and run.
