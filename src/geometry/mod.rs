@@ -7,6 +7,7 @@ mod arc_length;
 mod banded;
 pub mod basis;
 mod bezier_polygon;
+pub mod between;
 mod blend;
 pub mod circle_comparison;
 mod clamped_polygon;

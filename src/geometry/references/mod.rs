@@ -27,7 +27,7 @@ pub use point_list::PointList;
 /// Declare the modules of kinds, and list what they export in this order.
 macro_rules! table {
     ($($module:ident,)*) => {
-        $(mod $module;)*
+        $(pub(super) mod $module;)*
 
         /// Every kind, in the order in which they are offered.
         pub static KINDS: &[&ReferenceKind] = &[$(&$module::KIND,)*];

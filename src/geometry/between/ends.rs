@@ -1,0 +1,135 @@
+//! What is given of a segment: its two ends.
+
+use glam::{DQuat, DVec2};
+
+use super::error::BetweenError;
+use crate::geometry::references::{Placement, ReferenceError};
+
+/// Hold the two ends that a segment runs between, in the plane z = 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ends {
+    /// Where it starts and where it ends.
+    pub points: [DVec2; 2],
+    /// Its directions there, along the segment; of any length but 0.
+    pub directions: [DVec2; 2],
+    /// The signed curvatures there, positive where it turns left; `None` leaves them free.
+    pub curvatures: [Option<f64>; 2],
+}
+
+/// Hold what is left of two ends once place, size and side are taken away: the chord runs from (0, 0)
+/// to (1, 0).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Task {
+    /// The angle from the direction at the start to the chord, and from the chord to the direction
+    /// at the end, in radians, −π to π. Their sum, the angle that the segment turns by, is not
+    /// negative.
+    pub(super) angles: [f64; 2],
+    /// The curvatures times the chord.
+    pub(super) curvatures: [Option<f64>; 2],
+    /// The ends that it was made of.
+    ends: Ends,
+    /// Whether left was made right.
+    mirrored: bool,
+}
+
+impl Ends {
+    /// Take away place, size and side.
+    ///
+    /// # Errors
+    /// [`BetweenError::NoChord`], [`BetweenError::NoDirection`].
+    pub(super) fn task(&self) -> Result<Task, BetweenError> {
+        let [from, to] = self.points;
+        let chord = to - from;
+        let size = from.abs().max_element().max(to.abs().max_element());
+        let directed = |vector: DVec2| vector.try_normalize().is_some();
+        if !(chord.length() > f64::EPSILON * size) || !directed(chord) {
+            return Err(BetweenError::NoChord);
+        }
+        if !self.directions.into_iter().all(directed) {
+            return Err(BetweenError::NoDirection);
+        }
+        let [first, last] = self.directions;
+        let angles = [first.angle_to(chord), chord.angle_to(last)];
+        let mirrored = angles[0] + angles[1] < 0.0;
+        let side = if mirrored { -1.0 } else { 1.0 };
+        let curvatures = self.curvatures;
+        Ok(Task {
+            angles: angles.map(|angle| side * angle),
+            curvatures: curvatures.map(|it| it.map(|it| side * it * chord.length())),
+            ends: *self,
+            mirrored,
+        })
+    }
+}
+
+impl Task {
+    /// The angle that the segment turns by, not negative.
+    pub(super) fn turning(&self) -> f64 {
+        self.angles[0] + self.angles[1]
+    }
+
+    /// By how much the chord leans from the direction half way towards that at the end: 0 for a
+    /// circular arc, positive where the curvature falls.
+    pub(super) fn lean(&self) -> f64 {
+        0.5 * (self.angles[0] - self.angles[1])
+    }
+
+    /// Whether the ends can be joined without an inflection: both directions turn the same way from
+    /// the chord, and so do the curvatures that are given.
+    pub(super) fn is_convex(&self) -> bool {
+        let given = self.curvatures.into_iter().flatten();
+        self.angles.into_iter().chain(given).all(|it| it > 0.0)
+    }
+
+    /// Whether both directions follow the chord, and no curvature is asked for.
+    pub(super) fn is_straight(&self) -> bool {
+        let bends = self.curvatures.into_iter().flatten();
+        self.angles.into_iter().chain(bends).all(|it| it == 0.0)
+    }
+
+    /// The length of the chord.
+    pub(super) fn chord(&self) -> f64 {
+        let [from, to] = self.ends.points;
+        from.distance(to)
+    }
+
+    /// The curvature at an end, of a curve that has it where the chord is 1.
+    pub(super) fn curvature(&self, curvature: f64) -> f64 {
+        let side = if self.mirrored { -1.0 } else { 1.0 };
+        side * curvature / self.chord()
+    }
+
+    /// The point of the plane that a point stands for.
+    fn point(&self, point: DVec2) -> DVec2 {
+        let [from, to] = self.ends.points;
+        let side = if self.mirrored { -1.0 } else { 1.0 };
+        from + (to - from).rotate(DVec2::new(point.x, side * point.y))
+    }
+
+    /// The placement that brings a curve from one pair of points to another: `own` are points of the
+    /// curve where its formula puts it, and `wanted` points on the chord from (0, 0) to (1, 0) at which
+    /// they come to lie; `over` turns the curve over first.
+    ///
+    /// # Errors
+    /// [`ReferenceError::BadPlacement`] if the points leave the range of sizes.
+    pub(super) fn placement(
+        &self,
+        own: [DVec2; 2],
+        wanted: [DVec2; 2],
+        over: bool,
+    ) -> Result<Placement, ReferenceError> {
+        let wanted = wanted.map(|point| self.point(point));
+        let [before, after] = [own, wanted].map(|[from, to]| to - from);
+        let scale = after.length() / before.length();
+        // Turning over about an axis in the plane takes an angle to twice the axis's less that angle.
+        let rotation = if over ^ self.mirrored {
+            let axis = DVec2::from_angle(0.5 * (after.to_angle() + before.to_angle()));
+            DQuat::from_xyzw(axis.x, axis.y, 0.0, 0.0)
+        } else {
+            let half = DVec2::from_angle(0.5 * before.angle_to(after));
+            DQuat::from_xyzw(0.0, 0.0, half.y, half.x)
+        };
+        let turned = scale * (rotation * own[0].extend(0.0));
+        Placement::new(rotation, scale, wanted[0].extend(0.0) - turned)
+    }
+}

@@ -1,0 +1,110 @@
+//! Why there is no segment between two ends.
+
+use thiserror::Error;
+
+use crate::geometry::approximation::ApproximationError;
+use crate::geometry::error::PolygonError;
+use crate::geometry::fairing::harmonising::HarmonyError;
+use crate::geometry::fairing::joint_correction::CorrectionError;
+use crate::geometry::references::ReferenceError;
+use crate::geometry::wording::significant;
+
+/// Why there is no segment between two ends.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum BetweenError {
+    /// Both ends are at one point.
+    #[error("both ends are at the same point: move one of them")]
+    NoChord,
+    /// A direction is no direction.
+    #[error("an end has a direction of length 0: give it a direction")]
+    NoDirection,
+    /// The segment would have an inflection, which curves of this kind do not have.
+    #[error(
+        "the ends ask for an inflection, which {kind} does not have: use a clothoid (α = −1) or any monotone curve"
+    )]
+    Inflection {
+        /// The kind.
+        kind: String,
+    },
+    /// The radius of curvature of a superspiral need not be monotone.
+    #[error("the superspiral {}, {}, {} need not have monotone curvature: a > 0 and c > b > 0 are needed", .values[0], .values[1], .values[2])]
+    NotMonotone {
+        /// The numbers a, b and c.
+        values: [f64; 3],
+    },
+    /// The chord does not fit the directions.
+    #[error("there is no segment of {kind} here: turning by {}°, it has its chord {}° to {}° from the direction at the start, and here it is {}°", degrees(*.turning), degrees(.reach[0]), degrees(.reach[1]), degrees(*.angle))]
+    OutOfReach {
+        /// The kind.
+        kind: String,
+        /// The angle that it turns by, in radians.
+        turning: f64,
+        /// The angles between the direction at the start and the chord that there are.
+        reach: [f64; 2],
+        /// The angle that is asked for.
+        angle: f64,
+    },
+    /// There is a segment, and it has another curvature.
+    #[error("the curvature at the {end} would be {}, and {} is asked for: leave α or the curvature free, or give both ends a curvature", significant(*.found, 6), significant(*.asked, 6))]
+    OtherCurvature {
+        /// The end.
+        end: &'static str,
+        /// What the segment has.
+        found: f64,
+        /// What is asked for.
+        asked: f64,
+    },
+    /// No α gives the curvature.
+    #[error("no log-aesthetic segment between these ends has the curvature {} at the {end}: for α from −10 to 10 it is {} to {}", significant(*.asked, 6), significant(.range[0], 6), significant(.range[1], 6))]
+    CurvatureOutOfReach {
+        /// The end.
+        end: &'static str,
+        /// What is asked for.
+        asked: f64,
+        /// What there is.
+        range: [f64; 2],
+    },
+    /// No curve with monotone curvature has these curvatures at its ends.
+    #[error("no curve with monotone curvature has these ends: the circles of curvature at the ends would have to lie {} (Kneser), and their centres are {} apart, with radii {} and {}", if *.turns { "one inside the other" } else { "beside each other" }, significant(*.distance, 4), significant(.radii[0], 4), significant(.radii[1], 4))]
+    NotNested {
+        /// Whether the curvatures have one sign.
+        turns: bool,
+        /// The distance of the centres of curvature.
+        distance: f64,
+        /// The radii of curvature.
+        radii: [f64; 2],
+    },
+    /// No segments that meet were found.
+    #[error(
+        "there are no log-aesthetic segments with {alpha} between these ends that have these curvatures: try another α, or any monotone curve"
+    )]
+    NoPair {
+        /// The α that were tried, in words.
+        alpha: String,
+    },
+    /// No clothoid was found.
+    #[error("no clothoid without a loop joins these ends: turn a direction towards the other end")]
+    NoClothoid,
+    /// The computation was ended early.
+    #[error("cancelled")]
+    Cancelled,
+    /// A curve of this kind cannot be made.
+    #[error(transparent)]
+    Reference(#[from] ReferenceError),
+    /// The segment cannot be approximated.
+    #[error(transparent)]
+    Approximation(#[from] ApproximationError),
+    /// A vertex would leave the range of numbers.
+    #[error(transparent)]
+    Polygon(#[from] PolygonError),
+    /// The ends cannot be made exact.
+    #[error(transparent)]
+    Correction(#[from] CorrectionError),
+    /// The polygon cannot be harmonised.
+    #[error(transparent)]
+    Harmony(#[from] HarmonyError),
+}
+
+fn degrees(radians: f64) -> String {
+    significant(radians.to_degrees(), 4)
+}

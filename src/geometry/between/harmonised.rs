@@ -1,0 +1,113 @@
+//! Any segment with monotone curvature: a simple polygon with exact ends, harmonised.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+
+use super::ends::{Ends, Task};
+use super::error::BetweenError;
+use super::polygon::{Fit, exact_ends, quasi};
+use crate::geometry::differentiable::Differentiable;
+use crate::geometry::fairing::harmonising::{Harmonised, Harmony, HarmonyError, Held, harmonise};
+use crate::geometry::features::Features;
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::progress::Progress;
+
+/// The length that derivatives at the ends have at most, in chords.
+const LONGEST: f64 = 3.0;
+
+/// The numbers of segments that are tried.
+const COUNTS: [usize; 3] = [16, 24, 40];
+
+/// Find a polygon with exact ends and monotone curvature, without an inflection unless the ends ask
+/// for one; without one, that which comes closest.
+pub(super) fn monotone(
+    task: &Task,
+    ends: &Ends,
+    degree: usize,
+    progress: &Progress,
+) -> Result<Fit, BetweenError> {
+    let mut best: Option<Fit> = None;
+    for count in COUNTS {
+        let begun = quasi(&Cubic::between(task, ends), 1.0, degree, count)?;
+        let (begun, residual) = exact_ends(&begun, ends)?;
+        let found = harmonised(&begun, task, ends, progress)?;
+        let monotone = Features::new(&found.polygon).monotone;
+        let fit = Fit {
+            polygon: found.polygon,
+            residual,
+            deviation: 0.0,
+            monotone,
+        };
+        if found.reached {
+            return Ok(fit);
+        }
+        best.get_or_insert(fit);
+    }
+    best.ok_or(BetweenError::Cancelled)
+}
+
+/// Harmonise a polygon so that no extrema of the curvature are left, and an inflection only where
+/// the ends ask for one; the ends keep what is asked of them.
+fn harmonised(
+    polygon: &FloatPolygon,
+    task: &Task,
+    ends: &Ends,
+    progress: &Progress,
+) -> Result<Harmonised, BetweenError> {
+    let held = ends.curvatures.map(|it| match it {
+        Some(_) => Held::Curvature,
+        None => Held::Direction,
+    });
+    let harmony = Harmony {
+        stretch: None,
+        ends: held,
+        locked: &[],
+        extrema: Some(0),
+        inflections: Some(usize::from(!task.is_convex())),
+        torsion_extrema: None,
+        largest_deviation: None,
+    };
+    harmonise(polygon, &harmony, progress).map_err(|error| match error {
+        HarmonyError::Cancelled => BetweenError::Cancelled,
+        error => error.into(),
+    })
+}
+
+/// A cubic that has the points and directions of two ends: its coefficients by the powers of t.
+struct Cubic([DVec3; 4]);
+
+impl Cubic {
+    /// Where the directions make a triangle with the chord it is the parabola in it, unless its sides
+    /// are long.
+    fn between(task: &Task, ends: &Ends) -> Self {
+        let [from, to] = ends.points;
+        let chord = to - from;
+        let sides = task.angles.map(|angle| angle.sin() / task.turning().sin());
+        let [before, behind] = if task.is_convex() && task.turning() < PI {
+            [sides[1], sides[0]].map(|side| (2.0 * side).min(LONGEST))
+        } else {
+            [1.0; 2]
+        };
+        let along = |index: usize, length: f64| {
+            length * chord.length() * ends.directions[index].normalize_or_zero()
+        };
+        let (first, last) = (along(0, before), along(1, behind));
+        let (square, cube) = (3.0 * chord - 2.0 * first - last, first + last - 2.0 * chord);
+        Self([from, first, square, cube].map(|it| it.extend(0.0)))
+    }
+}
+
+impl Differentiable for Cubic {
+    fn derivatives(&self, t: f64, order: usize) -> Vec<DVec3> {
+        let Self([point, first, square, cube]) = *self;
+        let mut values = vec![
+            point + t * (first + t * (square + t * cube)),
+            first + t * (2.0 * square + 3.0 * t * cube),
+            2.0 * square + 6.0 * t * cube,
+            6.0 * cube,
+        ];
+        values.resize(order + 1, DVec3::ZERO);
+        values
+    }
+}

@@ -1,0 +1,229 @@
+//! Several segments that meet with one curvature, for two ends with curvatures.
+//!
+//! Of two log-aesthetic segments the first takes the curvature from that of the start to one between
+//! the two, and the second from there to that of the end: the curvature of both together is monotone.
+//! With one α for both, that curvature and the share of the turning that the first does are two
+//! unknowns for the two coordinates of the chord. Without a given α the two have −1 + e and −1 − e: then
+//! the curvature may fall fast, slowly and fast again, or the other way round, which one α does not
+//! allow, and e takes the place of the curvature as an unknown.
+//!
+//! Where the curvature changes its sign, or no pair does, three clothoids of which the first and the last are equally
+//! long take it from one end to the other, with the length of all and the change of curvature along
+//! the middle one as unknowns.
+
+use glam::{DMat2, DVec2};
+
+use super::clothoid::Clothoid;
+use super::ends::Task;
+use super::log_aesthetic::LogAesthetic;
+
+/// Steps of Newton's method from one beginning.
+const STEPS: usize = 60;
+
+/// How often a step is halved.
+const HALVINGS: usize = 20;
+
+/// What is left of a chord of 1 that counts as met: what rounding leaves, with room.
+const MET: f64 = 1e-13;
+
+/// The step of differences.
+const DIFFERENCE: f64 = 1e-7;
+
+/// Shares at which searches begin.
+const SHARES: [f64; 5] = [0.5, 0.35, 0.65, 0.2, 0.8];
+
+/// The least share of a segment: along less the curvature would all but jump.
+const LEAST_SHARE: f64 = 0.1;
+
+/// The shares of the growth of ln ρ that the first of two segments with different α is tried with.
+const GROWN: [f64; 7] = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8];
+
+/// The largest e, over the growth of ln ρ: beyond, the curvature all but jumps.
+const MOST_SPREAD: f64 = 2.0;
+
+/// The e at which searches begin, over the growth of ln ρ.
+const SPREADS: [f64; 3] = [0.0, 1.0, -1.0];
+
+/// How much longer than an arc three clothoids are where searches begin.
+const LONGER: [f64; 4] = [1.0, 1.1, 1.3, 1.7];
+
+/// The shares that the first and the last of three clothoids have of the length.
+const OUTER: [f64; 5] = [0.3, 0.2, 0.4, 0.15, 0.1];
+
+/// Hold segments that follow each other on the chord from (0, 0) to (1, 0).
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Chain<S> {
+    /// The segments.
+    pub(super) segments: Vec<S>,
+    /// Where they begin and end: one point more than there are segments.
+    pub(super) points: Vec<DVec2>,
+}
+
+/// Find two log-aesthetic segments, with a given α or without, for two positive curvatures. `None` if
+/// none are found.
+pub(super) fn log_aesthetic_pair(
+    task: &Task,
+    alpha: Option<f64>,
+    curvatures: [f64; 2],
+) -> Option<Chain<LogAesthetic>> {
+    let pair = Pair { task, curvatures };
+    let share = |share: f64| (LEAST_SHARE..=1.0 - LEAST_SHARE).contains(&share);
+    if let Some(alpha) = alpha {
+        let of = |[done, grown]: [f64; 2]| pair.chain([alpha; 2], done, grown);
+        let fits = |[done, grown]: [f64; 2]| share(done) && share(grown);
+        return solved(of, fits, &pairs(SHARES, SHARES));
+    }
+    let spread = |chain: &Chain<LogAesthetic>| {
+        let first = chain.segments.first();
+        first.map_or(f64::INFINITY, |first| (first.alpha + 1.0).abs())
+    };
+    // What bends the graph of ln κ is e times its growth.
+    let unit = (curvatures[0] / curvatures[1]).ln().abs().recip();
+    let found = GROWN.into_iter().filter_map(|grown| {
+        let of = |[done, spread]: [f64; 2]| {
+            let spread = unit * spread;
+            pair.chain([-1.0 + spread, -1.0 - spread], done, grown)
+        };
+        let fits = |[done, spread]: [f64; 2]| share(done) && spread.abs() <= MOST_SPREAD;
+        solved(of, fits, &pairs(SHARES, SPREADS))
+    });
+    found.min_by(|a, b| spread(a).total_cmp(&spread(b)))
+}
+
+/// Find three clothoids for two curvatures. `None` if none with monotone curvature are found.
+pub(super) fn clothoids(task: &Task, curvatures: [f64; 2]) -> Option<Chain<Clothoid>> {
+    let [first, last] = curvatures;
+    let half = 0.5 * task.turning();
+    let arc = if half == 0.0 {
+        1.0
+    } else {
+        half / half.sin().abs()
+    };
+    OUTER.into_iter().find_map(|outer| {
+        let bends = |[length, change]: [f64; 2]| {
+            let mean = (task.turning() / length - 0.5 * outer * (first + last)) / (1.0 - outer);
+            [first, mean - 0.5 * change, mean + 0.5 * change, last]
+        };
+        let of = |unknowns: [f64; 2]| {
+            let [length, _] = unknowns;
+            let bends = bends(unknowns);
+            let lengths = [outer, 1.0 - 2.0 * outer, outer].map(|share| share * length);
+            let segments = bends.windows(2).zip(lengths).map(|(bends, length)| {
+                let curvatures = [bends[0] * length, bends[1] * length];
+                (Clothoid { curvatures }, length)
+            });
+            chain(task, segments.collect(), Clothoid::chord, Clothoid::turning)
+        };
+        let fits = |[length, _]: [f64; 2]| length > 0.0;
+        let changes = SHARES.map(|share| share * (last - first));
+        let found = newton(
+            |unknowns| missing(&of(unknowns)),
+            fits,
+            &pairs(LONGER.map(|longer| longer * arc), changes),
+        )?;
+        let bends = bends(found);
+        let steps = bends.windows(2).map(|pair| pair[1] - pair[0]);
+        let monotone = steps.into_iter().all(|step| step * (last - first) >= 0.0);
+        monotone.then(|| of(found))
+    })
+}
+
+struct Pair<'a> {
+    task: &'a Task,
+    curvatures: [f64; 2],
+}
+
+impl Pair<'_> {
+    /// The pair of which the first does some share of the turning, and of the growth of ln ρ.
+    fn chain(&self, alphas: [f64; 2], done: f64, grown: f64) -> Chain<LogAesthetic> {
+        let [first, last] = self.curvatures;
+        let growth = (first / last).ln();
+        let [one, other] = alphas;
+        let segment = |alpha, share_of_growth: f64, share_of_turning: f64| LogAesthetic {
+            alpha,
+            growth: share_of_growth * growth,
+            turning: share_of_turning * self.task.turning(),
+        };
+        let one = segment(one, grown, done);
+        let other = segment(other, 1.0 - grown, 1.0 - done);
+        let radius = first.recip();
+        let segments = vec![(one, radius), (other, radius * one.growth.exp())];
+        chain(self.task, segments, LogAesthetic::chord, |it| it.turning)
+    }
+}
+
+/// Put segments, each with the scale that it has, one after the other.
+fn chain<S: Copy>(
+    task: &Task,
+    segments: Vec<(S, f64)>,
+    chord: impl Fn(&S) -> DVec2,
+    turning: impl Fn(&S) -> f64,
+) -> Chain<S> {
+    let mut points = vec![DVec2::ZERO];
+    let (mut point, mut direction) = (DVec2::ZERO, -task.angles[0]);
+    for (segment, scale) in &segments {
+        point += *scale * DVec2::from_angle(direction).rotate(chord(segment));
+        direction += turning(segment);
+        points.push(point);
+    }
+    Chain {
+        segments: segments.into_iter().map(|(segment, _)| segment).collect(),
+        points,
+    }
+}
+
+/// By how much segments miss the end of the chord.
+fn missing<S>(chain: &Chain<S>) -> DVec2 {
+    chain
+        .points
+        .last()
+        .map_or(DVec2::NAN, |end| *end - DVec2::X)
+}
+
+fn pairs<const ONE: usize, const OTHER: usize>(
+    ones: [f64; ONE],
+    others: [f64; OTHER],
+) -> Vec<[f64; 2]> {
+    let pairs = others.into_iter();
+    let pairs = pairs.flat_map(|other| ones.map(|one| [one, other]));
+    pairs.collect()
+}
+
+fn solved(
+    of: impl Fn([f64; 2]) -> Chain<LogAesthetic>,
+    fits: impl Fn([f64; 2]) -> bool,
+    beginnings: &[[f64; 2]],
+) -> Option<Chain<LogAesthetic>> {
+    let unknowns = newton(|unknowns| missing(&of(unknowns)), fits, beginnings)?;
+    Some(of(unknowns))
+}
+
+/// Find unknowns that fit at which a function is 0, by Newton's method with halved steps.
+fn newton(
+    function: impl Fn([f64; 2]) -> DVec2,
+    fits: impl Fn([f64; 2]) -> bool,
+    beginnings: &[[f64; 2]],
+) -> Option<[f64; 2]> {
+    beginnings.iter().find_map(|begin| {
+        let mut at = DVec2::from(*begin);
+        let mut value = function(at.to_array());
+        for _ in 0..STEPS {
+            let slope = |axis: DVec2| {
+                let [ahead, behind] =
+                    [1.0, -1.0].map(|side| function((at + side * DIFFERENCE * axis).to_array()));
+                (ahead - behind) / (2.0 * DIFFERENCE)
+            };
+            let step = DMat2::from_cols(slope(DVec2::X), slope(DVec2::Y)).inverse() * value;
+            let shorter = (0..HALVINGS).map(|halvings| at - step * 0.5_f64.powi(halvings as i32));
+            let better = shorter
+                .filter(|at| fits(at.to_array()))
+                .map(|at| (at, function(at.to_array())))
+                .find(|(_, next)| next.length() < value.length());
+            match better {
+                Some(next) => (at, value) = next,
+                None => break,
+            }
+        }
+        (value.length() <= MET).then_some(at.to_array())
+    })
+}

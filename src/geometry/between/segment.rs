@@ -1,0 +1,135 @@
+//! Segments between two ends, as float polygons.
+
+use super::ends::Ends;
+use super::error::BetweenError;
+use super::harmonised::monotone;
+use super::parts::Part;
+use super::polygon::{Fit, exact_ends, fit};
+use super::solving::{log_aesthetic_parts, superspiral_parts};
+use crate::geometry::features::{Features, Verdict};
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::progress::Progress;
+
+/// The tolerance that is offered, in units of the length.
+const SHARE_OF_LENGTH: f64 = 1e-6;
+
+/// How exactly lengths are measured.
+const LENGTH: f64 = 1e-12;
+
+/// The number of segments of a straight one.
+const STRAIGHT: usize = 8;
+
+/// What segment is wanted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SegmentKind {
+    /// A log-aesthetic segment, with α or with the one that gives an end its curvature, and the
+    /// clothoid's if no curvature is given; with both curvatures two of them where one does not do.
+    LogAesthetic {
+        /// The slope α of the logarithmic curvature graph.
+        alpha: Option<f64>,
+    },
+    /// A segment of the superspiral with ρ(ψ) = ₂F₁(a, b; c; −ψ), a > 0, c > b > 0.
+    Superspiral {
+        /// The numbers a, b and c.
+        values: [f64; 3],
+    },
+    /// Any segment with monotone curvature.
+    AnyMonotone,
+}
+
+/// Hold a segment between two ends.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Segment {
+    /// The float polygon. Its ends are exact but for rounding.
+    pub polygon: FloatPolygon,
+    /// The true segment, in one part or two that meet with one curvature; none for any monotone curve,
+    /// which is its own.
+    pub parts: Vec<Part>,
+    /// What is left of points, directions and curvatures asked for, as a length.
+    pub residual: f64,
+    /// The largest distance from the true segment, 0 where there is none.
+    pub deviation: f64,
+    /// The tolerance of that distance.
+    pub tolerance: f64,
+    /// The length of the polygon's curve.
+    pub length: f64,
+    /// Whether the curvature is proved to be monotone.
+    pub monotone: Verdict,
+}
+
+impl Segment {
+    /// Whether it stays within the tolerance and is proved to have monotone curvature.
+    pub fn is_reached(&self) -> bool {
+        self.deviation <= self.tolerance && self.monotone == Verdict::Proved
+    }
+}
+
+/// Find a segment of a kind between two ends, as a float polygon of a degree from 3 on: with the fewest
+/// segments, of a fixed series of numbers, with which it stays within `tolerance` of the true segment
+/// (1e-6 of its length if none is given) and has monotone curvature, proved.
+///
+/// The vertices quasi-interpolate the true segment at equal steps of arc length, superspirals of
+/// the direction angle; then both ends are made exact by the least disturbance.
+///
+/// # Errors
+/// [`BetweenError`]: where there is no such segment it tells what there is.
+pub fn between(
+    ends: &Ends,
+    kind: SegmentKind,
+    degree: usize,
+    tolerance: Option<f64>,
+    progress: &Progress,
+) -> Result<Segment, BetweenError> {
+    let task = ends.task()?;
+    if task.is_straight() {
+        return straight(ends, degree, tolerance);
+    }
+    let parts = match kind {
+        SegmentKind::LogAesthetic { alpha } => Some(log_aesthetic_parts(&task, alpha)?),
+        SegmentKind::Superspiral { values } => Some(superspiral_parts(&task, values)?),
+        SegmentKind::AnyMonotone => None,
+    };
+    let allowed = |length: f64| tolerance.unwrap_or(SHARE_OF_LENGTH * length);
+    let Fit {
+        polygon,
+        residual,
+        deviation,
+        monotone,
+    } = match &parts {
+        // The chord is no longer than the segment.
+        Some(parts) => fit(parts, ends, degree, allowed(task.chord()), progress)?,
+        None => monotone(&task, ends, degree, progress)?,
+    };
+    let length = polygon.arc_length(LENGTH);
+    Ok(Segment {
+        parts: parts.map_or_else(Vec::new, |parts| parts.into_parts()),
+        residual,
+        deviation,
+        tolerance: allowed(length),
+        length,
+        monotone,
+        polygon,
+    })
+}
+
+/// A straight segment, which all kinds have where both directions follow the chord.
+fn straight(ends: &Ends, degree: usize, tolerance: Option<f64>) -> Result<Segment, BetweenError> {
+    let [from, to] = ends.points.map(|point| point.extend(0.0));
+    let place = |index: usize| {
+        let middle = index as f64 - 0.5 * (degree as f64 - 1.0);
+        from.lerp(to, middle / STRAIGHT as f64)
+    };
+    let vertices = (0..STRAIGHT + degree).map(place).collect();
+    let polygon = FloatPolygon::new(degree, vertices, None, false)?;
+    let (polygon, residual) = exact_ends(&polygon, ends)?;
+    let length = from.distance(to);
+    Ok(Segment {
+        monotone: Features::new(&polygon).monotone,
+        polygon,
+        parts: Vec::new(),
+        residual,
+        deviation: 0.0,
+        tolerance: tolerance.unwrap_or(SHARE_OF_LENGTH * length),
+        length,
+    })
+}

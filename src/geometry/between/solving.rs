@@ -1,0 +1,313 @@
+//! The true segment of a kind between two ends.
+
+use glam::DVec2;
+
+use super::clothoid::Clothoid;
+use super::ends::Task;
+use super::error::BetweenError;
+use super::log_aesthetic::LogAesthetic;
+use super::pair::{Chain, clothoids, log_aesthetic_pair};
+use super::parts::{Part, Parts};
+use super::superspiral::{NoSuperspiral, Superspiral};
+use crate::geometry::differentiable::Differentiable;
+use crate::geometry::references::{
+    AnalyticForm, Placement, ReferenceCurve, ReferenceForm, clothoid, log_aesthetic,
+};
+
+/// How far a curvature may be off the one asked for, relative to it, and be met: correcting the ends
+/// does the rest.
+const SAME: f64 = 1e-9;
+
+/// Clothoids whose curvature changes by more than this factor, or its sign, are drawn from their
+/// inflection.
+const NEAR_INFLECTION: f64 = 1e-3;
+
+/// The clothoid's α.
+const CLOTHOID: f64 = -1.0;
+
+/// The logarithmic spiral's α, with which there is a segment between ends as unlike as can be.
+const LOGARITHMIC: f64 = 1.0;
+
+/// The names of the ends.
+const ENDS: [&str; 2] = ["start", "end"];
+
+/// The ends of the chord.
+const CHORD: [DVec2; 2] = [DVec2::ZERO, DVec2::X];
+
+/// Find the log-aesthetic segment, or the pair of them.
+pub(super) fn log_aesthetic_parts(task: &Task, alpha: Option<f64>) -> Result<Parts, BetweenError> {
+    let convex = task.is_convex();
+    if !convex && alpha.is_some_and(|alpha| alpha != CLOTHOID) {
+        let alpha = alpha.unwrap_or(CLOTHOID);
+        let kind = name(alpha);
+        return Err(BetweenError::Inflection { kind });
+    }
+    let single = match (alpha, task.curvatures) {
+        (None, [Some(curvature), _]) if convex => with_curvature(task, 0, curvature),
+        (None, [None, Some(curvature)]) if convex => with_curvature(task, 1, curvature),
+        (alpha, _) => single(task, alpha.unwrap_or(CLOTHOID)),
+    };
+    let single = single.and_then(|it| it.check(task).map(|()| it));
+    match (single, task.curvatures) {
+        (Ok(segment), _) => segment.parts(task),
+        (Err(_), [Some(first), Some(last)]) => pair(task, alpha, [first, last]),
+        (Err(error), _) => Err(error),
+    }
+}
+
+/// Find the superspiral segment.
+pub(super) fn superspiral_parts(task: &Task, values: [f64; 3]) -> Result<Parts, BetweenError> {
+    let [a, b, c] = values;
+    if !(a > 0.0 && b > 0.0 && c > b) {
+        return Err(BetweenError::NotMonotone { values });
+    }
+    let kind = || format!("the superspiral {a}, {b}, {c}");
+    if !task.is_convex() {
+        return Err(BetweenError::Inflection { kind: kind() });
+    }
+    // Its curvature rises, so its chord leans towards the start; the other way round it falls.
+    let reversed = task.lean() > 0.0;
+    let found = Superspiral::leaning(values, task.turning(), task.lean().abs());
+    let Superspiral { form, interval } = found.map_err(|error| match error {
+        NoSuperspiral::Spiral(error) => error.into(),
+        NoSuperspiral::Leans(leans) => {
+            let side = if reversed { 1.0 } else { -1.0 };
+            let mut reach = leans.map(|lean| 0.5 * task.turning() + side * lean);
+            reach.sort_by(f64::total_cmp);
+            out_of_reach(task, kind(), reach)
+        }
+    })?;
+    let over = false;
+    let part = placed(task, form, interval, CHORD, Turned { over, reversed })?;
+    let parts = Parts::new(vec![part]);
+    check_curvatures(task, [0.0, parts.end()].map(|t| parts.curvature(t)))?;
+    Ok(parts)
+}
+
+/// One segment.
+enum Single {
+    LogAesthetic(LogAesthetic),
+    Clothoid(Clothoid),
+}
+
+impl Single {
+    /// Refuse if it does not have the curvatures that are asked for.
+    fn check(&self, task: &Task) -> Result<(), BetweenError> {
+        let found = match self {
+            Self::LogAesthetic(segment) => segment.curvatures(),
+            Self::Clothoid(clothoid) => {
+                let chord = clothoid.chord().length();
+                clothoid.curvatures.map(|it| it * chord)
+            }
+        };
+        check_curvatures(task, found.map(|it| task.curvature(it)))
+    }
+
+    fn parts(self, task: &Task) -> Result<Parts, BetweenError> {
+        let part = match self {
+            Self::LogAesthetic(segment) => log_aesthetic_part(task, segment, CHORD),
+            Self::Clothoid(clothoid) => clothoid_part(task, clothoid, CHORD),
+        };
+        Ok(Parts::new(vec![part?]))
+    }
+}
+
+/// Find the segment of an α.
+fn single(task: &Task, alpha: f64) -> Result<Single, BetweenError> {
+    if alpha == CLOTHOID {
+        let clothoid = Clothoid::between(task.angles).ok_or(BetweenError::NoClothoid)?;
+        return Ok(Single::Clothoid(clothoid));
+    }
+    let found = LogAesthetic::leaning(alpha, task.turning(), task.lean());
+    found.map(Single::LogAesthetic).map_err(|most| {
+        let half = 0.5 * task.turning();
+        out_of_reach(task, name(alpha), [half - most, half + most])
+    })
+}
+
+/// Find the segment of any α with a curvature at one end.
+fn with_curvature(task: &Task, end: usize, curvature: f64) -> Result<Single, BetweenError> {
+    match LogAesthetic::with_curvature(task.turning(), task.lean(), end, curvature) {
+        Ok(segment) => Ok(Single::LogAesthetic(segment)),
+        Err(Some(range)) => {
+            let mut range = range.map(|it| task.curvature(it));
+            range.sort_by(f64::total_cmp);
+            Err(BetweenError::CurvatureOutOfReach {
+                end: ENDS[end],
+                asked: task.curvature(curvature),
+                range,
+            })
+        }
+        Err(None) => single(task, LOGARITHMIC),
+    }
+}
+
+/// Find two segments for two curvatures.
+fn pair(task: &Task, alpha: Option<f64>, curvatures: [f64; 2]) -> Result<Parts, BetweenError> {
+    check_nested(task, curvatures)?;
+    if task.is_convex()
+        && let Some(Chain { segments, points }) = log_aesthetic_pair(task, alpha, curvatures)
+    {
+        return chained(task, segments, &points, log_aesthetic_part);
+    }
+    if alpha.is_none_or(|alpha| alpha == CLOTHOID)
+        && let Some(Chain { segments, points }) = clothoids(task, curvatures)
+    {
+        return chained(task, segments, &points, clothoid_part);
+    }
+    let alpha = match alpha {
+        Some(alpha) => format!("α = {alpha}"),
+        None => "any α".to_owned(),
+    };
+    Err(BetweenError::NoPair { alpha })
+}
+
+/// Place segments that follow each other.
+fn chained<S>(
+    task: &Task,
+    segments: Vec<S>,
+    points: &[DVec2],
+    part: impl Fn(&Task, S, [DVec2; 2]) -> Result<Part, BetweenError>,
+) -> Result<Parts, BetweenError> {
+    let spans = points.windows(2).map(|span| [span[0], span[1]]);
+    let parts = segments.into_iter().zip(spans);
+    let parts: Result<_, _> = parts
+        .map(|(segment, span)| part(task, segment, span))
+        .collect();
+    Ok(Parts::new(parts?))
+}
+
+/// Refuse curvatures whose circles do not lie as those of a curve with monotone curvature do, by
+/// Kneser's theorem: one inside the other, and where the curvature changes its sign beside each other.
+fn check_nested(task: &Task, [first, last]: [f64; 2]) -> Result<(), BetweenError> {
+    if first == 0.0 || last == 0.0 {
+        return Ok(());
+    }
+    let radii = [first.recip(), last.recip()];
+    let [start, end] = [-task.angles[0], task.angles[1]].map(DVec2::from_angle);
+    let centres = [radii[0] * start.perp(), DVec2::X + radii[1] * end.perp()];
+    let distance = centres[0].distance(centres[1]);
+    let turns = first * last > 0.0;
+    // With signed radii both are one comparison.
+    let apart = (radii[0] - radii[1]).abs();
+    if if turns {
+        distance < apart
+    } else {
+        distance > apart
+    } {
+        return Ok(());
+    }
+    let size = task.chord();
+    Err(BetweenError::NotNested {
+        turns,
+        distance: size * distance,
+        radii: radii.map(|radius| size * radius.abs()),
+    })
+}
+
+fn out_of_reach(task: &Task, kind: String, reach: [f64; 2]) -> BetweenError {
+    BetweenError::OutOfReach {
+        kind,
+        turning: task.turning(),
+        reach,
+        angle: task.angles[0],
+    }
+}
+
+fn name(alpha: f64) -> String {
+    format!("a log-aesthetic curve with α = {alpha}")
+}
+
+/// Refuse if curvatures differ from those that are asked for.
+fn check_curvatures(task: &Task, found: [f64; 2]) -> Result<(), BetweenError> {
+    let asked = task.curvatures.map(|it| it.map(|it| task.curvature(it)));
+    for ((end, found), asked) in ENDS.into_iter().zip(found).zip(asked) {
+        if let Some(asked) = asked.filter(|asked| !((found - asked).abs() <= SAME * asked.abs())) {
+            return Err(BetweenError::OtherCurvature { end, found, asked });
+        }
+    }
+    Ok(())
+}
+
+fn log_aesthetic_part(
+    task: &Task,
+    segment: LogAesthetic,
+    wanted: [DVec2; 2],
+) -> Result<Part, BetweenError> {
+    let form = AnalyticForm::new(&log_aesthetic::KIND, vec![segment.alpha, segment.lambda()])?;
+    placed(
+        task,
+        form,
+        [0.0, segment.length()],
+        wanted,
+        Turned::default(),
+    )
+}
+
+/// Place a clothoid: far from its inflection as a log-aesthetic curve, whose numbers stay moderate
+/// where it is all but an arc; elsewhere from its inflection.
+fn clothoid_part(
+    task: &Task,
+    clothoid: Clothoid,
+    wanted: [DVec2; 2],
+) -> Result<Part, BetweenError> {
+    let [first, last] = clothoid.curvatures;
+    if first > 0.0 && last > NEAR_INFLECTION * first && first > NEAR_INFLECTION * last {
+        let segment = LogAesthetic {
+            alpha: CLOTHOID,
+            growth: (first / last).ln(),
+            turning: clothoid.turning(),
+        };
+        return log_aesthetic_part(task, segment, wanted);
+    }
+    // Its curvature rises; turned over it falls.
+    let over = last < first;
+    let side = if over { -1.0 } else { 1.0 };
+    let squared = (last - first).abs().recip();
+    let form = AnalyticForm::new(&clothoid::KIND, vec![squared.sqrt()])?;
+    let interval = [first, last].map(|curvature| side * curvature * squared);
+    placed(
+        task,
+        form,
+        interval,
+        wanted,
+        Turned {
+            over,
+            reversed: false,
+        },
+    )
+}
+
+/// In which way a curve is turned to be a segment.
+#[derive(Clone, Copy, Default)]
+struct Turned {
+    /// Its left is the segment's right.
+    over: bool,
+    /// It is passed through from its end to its start, and turned over, so that it bends as before.
+    reversed: bool,
+}
+
+/// Place an interval of a curve between two points on the chord from (0, 0) to (1, 0).
+fn placed(
+    task: &Task,
+    form: AnalyticForm,
+    interval: [f64; 2],
+    wanted: [DVec2; 2],
+    turned: Turned,
+) -> Result<Part, BetweenError> {
+    let Turned { over, reversed } = turned;
+    let plain = ReferenceCurve::new(
+        ReferenceForm::Analytic(form),
+        interval,
+        Placement::default(),
+    )?;
+    let mut own = interval.map(|t| plain.derivatives(t, 0)[0].truncate());
+    if reversed {
+        own.reverse();
+    }
+    let placement = task.placement(own, wanted, over ^ reversed)?;
+    Ok(Part {
+        curve: plain.placed(placement),
+        reversed,
+    })
+}
