@@ -101,7 +101,7 @@ impl Application {
     fn chosen(&self, reading: Reading) -> anyhow::Result<Input> {
         let document = reading.into_document()?;
         match self.operation.inputs {
-            Inputs::None => Ok(Input::new(&document, [])?),
+            Inputs::None | Inputs::UpToTwo => Ok(Input::new(&document, [])?),
             Inputs::One => Ok(Input::new(&document, self.curves(&document, 1)?)?),
             Inputs::Two => Ok(Input::new(&document, self.curves(&document, 2)?)?),
             Inputs::Points => {

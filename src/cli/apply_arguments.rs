@@ -2,12 +2,15 @@
 
 use std::path::PathBuf;
 
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser, ValueParser};
+use clap::builder::ValueParser;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches, value_parser};
 
+use super::choice_parser::{Assignments, ChoiceParser};
 use super::parsers::format_parser;
 use crate::io::Format;
-use crate::operations::{ALL, Inputs, Kind, Operation, Parameter, Unit, Value, find};
+use crate::operations::{
+    ALL, Inputs, Kind, Operation, OperationError, Parameter, Unit, Value, find,
+};
 
 const LIST: &str = "list";
 const IN: &str = "IN";
@@ -92,9 +95,9 @@ impl Given {
         let format = |name| matches.try_get_one::<Format>(name).ok().flatten().copied();
         let name = |name| matches.try_get_one::<String>(name).ok().flatten().cloned();
         let parameters = operation.parameters.iter();
-        let values = parameters.filter_map(|parameter| {
-            let value = matches.get_one::<Value>(parameter.name)?;
-            Some((parameter.name, value.clone()))
+        let values = parameters.flat_map(|parameter| {
+            let given = matches.get_one::<Assignments>(parameter.name);
+            given.cloned().unwrap_or_default()
         });
         Self {
             operation,
@@ -112,7 +115,8 @@ impl Given {
 /// Describe an operation as a command.
 pub(super) fn command_of(operation: &'static Operation) -> Command {
     let (input, has_curves, has_other) = match operation.inputs {
-        Inputs::None => (None, false, false),
+        // What curves would offer is given by parameters.
+        Inputs::None | Inputs::UpToTwo => (None, false, false),
         Inputs::One => (Some(CURVES), true, false),
         Inputs::Two => (Some(CURVES), true, true),
         Inputs::Points => (Some(POINTS), false, false),
@@ -146,7 +150,8 @@ pub(super) fn command_of(operation: &'static Operation) -> Command {
         );
         command = command.arg(other.requires(CURVE));
     }
-    command = command.args(operation.parameters.iter().map(parameter_argument));
+    let parameters = operation.parameters.iter();
+    command = command.args(parameters.map(|it| parameter_argument(it, operation.parameters)));
     let best = Arg::new(BEST).long(BEST).action(ArgAction::SetTrue);
     command.arg(best.help("Write the best found also where what was asked for is not reached; the exit code is 1 then"))
 }
@@ -174,26 +179,28 @@ fn name_argument(name: &'static str, help: &'static str) -> Arg {
     option(name).value_name("NAME").help(help)
 }
 
-fn parameter_argument(parameter: &'static Parameter) -> Arg {
+fn parameter_argument(parameter: &'static Parameter, all: &'static [Parameter]) -> Arg {
     let default = format!("default: {}", parameter.default_words());
     let about = match parameter.kind {
         // Their values are listed by themselves.
         Kind::Choice { .. } => default,
         _ => format!("{}; {default}", parameter.range_words()),
     };
-    let read = |text: &str| parameter.read_given(text);
+    let read = |text: &str| {
+        let value = parameter.read_given(text)?;
+        Ok::<_, OperationError>(vec![(parameter.name, value)])
+    };
     let argument = option(parameter.name)
         .value_name(value_name(parameter))
         .allow_negative_numbers(true)
         .allow_hyphen_values(matches!(parameter.kind, Kind::List { .. }))
         .help(format!("{} [{about}]", parameter.help));
     match parameter.kind {
-        Kind::Choice { options, .. } => {
-            let names = options.iter();
-            let names = names.map(|option| PossibleValue::new(option.name).help(option.label));
-            let parser = PossibleValuesParser::new(names);
-            argument.value_parser(parser.try_map(move |name| parameter.read(&name)))
-        }
+        Kind::Choice { options, .. } => argument.value_parser(ChoiceParser {
+            parameter,
+            options,
+            all,
+        }),
         Kind::Switch { .. } => argument
             .value_parser(read)
             .num_args(0..=1)
@@ -214,6 +221,7 @@ fn value_name(parameter: &Parameter) -> &'static str {
             (1, true, _) => "COUNT",
             (1, ..) => "X",
             (2, _, Unit::Parameter) => "U,U",
+            (2, ..) => "X,Y",
             (3, ..) => "X,Y[,Z]",
             _ => "I,J,…",
         },

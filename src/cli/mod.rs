@@ -4,6 +4,7 @@
 mod apply;
 mod apply_arguments;
 mod arguments;
+mod choice_parser;
 mod convert;
 mod ends;
 mod feature_lists;

@@ -239,7 +239,7 @@ impl Editor {
             Inputs::None | Inputs::Points => Vec::new(),
             Inputs::One => active.into_iter().collect(),
             // The active curve comes first.
-            Inputs::Two => {
+            Inputs::Two | Inputs::UpToTwo => {
                 let others = self.document().ids().filter(|id| Some(*id) != active);
                 let others = others.filter(|id| selection.of_curve(*id).next().is_some());
                 active.into_iter().chain(others).collect()

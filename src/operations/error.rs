@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use super::inputs::Inputs;
 use crate::document::EditError;
+use crate::geometry::between::BetweenError;
 use crate::geometry::fairing::harmonising::HarmonyError;
 use crate::geometry::fairing::joint_correction::CorrectionError;
 use crate::geometry::{End, MAX_DEGREE, PolygonError};
@@ -26,6 +27,9 @@ pub enum OperationError {
     /// The ends cannot be corrected at once.
     #[error(transparent)]
     Correction(#[from] CorrectionError),
+    /// There is no segment between the ends.
+    #[error(transparent)]
+    Between(#[from] BetweenError),
     /// The curve cannot be harmonised.
     #[error(transparent)]
     Harmony(#[from] HarmonyError),

@@ -62,8 +62,9 @@ impl Input {
     pub(super) fn is(&self, inputs: Inputs) -> bool {
         let (curves, points) = (&self.curves[..], self.points.len());
         match (inputs, curves) {
-            (Inputs::None, []) | (Inputs::One, [_]) => points == 0,
-            (Inputs::Two, [(first, _), (second, _)]) => first != second && points == 0,
+            (Inputs::None | Inputs::UpToTwo, []) => points == 0,
+            (Inputs::One | Inputs::UpToTwo, [_]) => points == 0,
+            (Inputs::Two | Inputs::UpToTwo, [(first, _), (second, _)]) => first != second && points == 0,
             (Inputs::Points, []) => points > 0,
             _ => false,
         }

@@ -9,6 +9,8 @@ pub enum Inputs {
     One,
     /// Two curves, in an order.
     Two,
+    /// Up to two curves, in an order; the parameters tell what is not taken from them.
+    UpToTwo,
     /// A table of points.
     Points,
 }
@@ -20,6 +22,7 @@ impl Inputs {
             Self::None => "this works on no curve: choose none",
             Self::One => "choose one curve",
             Self::Two => "choose two different curves",
+            Self::UpToTwo => "choose no more than two different curves",
             Self::Points => "a table of points is needed",
         }
     }

@@ -72,6 +72,7 @@ table! {
     correct_ends,
     harmonise,
     mineur_farin,
+    between,
 }
 
 /// Find an operation by its name.

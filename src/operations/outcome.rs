@@ -43,6 +43,8 @@ pub enum Deviation {
     Exact,
     /// Its points move by no more than this length: a proved bound.
     AtMost(f64),
+    /// Its points are off by this length, measured closely.
+    Measured(f64),
     /// It is another curve; the distance is not measured.
     Unmeasured,
 }
@@ -62,6 +64,8 @@ impl Deviation {
         match (self, other) {
             (Self::Unmeasured, _) | (_, Self::Unmeasured) => Self::Unmeasured,
             (Self::AtMost(a), Self::AtMost(b)) => Self::AtMost(a.max(b)),
+            (Self::Measured(a), Self::AtMost(b) | Self::Measured(b))
+            | (Self::AtMost(a), Self::Measured(b)) => Self::Measured(a.max(b)),
             (Self::Exact, other) => other,
             (this, Self::Exact) => this,
         }

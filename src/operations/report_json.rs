@@ -20,7 +20,7 @@ impl Serialize for Report {
         map.serialize_entry("residual", &self.residual)?;
         let deviation = match self.deviation {
             Deviation::Exact => Some(0.0),
-            Deviation::AtMost(bound) => Some(bound),
+            Deviation::AtMost(length) | Deviation::Measured(length) => Some(length),
             Deviation::Unmeasured => None,
         };
         map.serialize_entry("deviation", &deviation)?;

@@ -23,6 +23,9 @@ impl Report {
                 Deviation::AtMost(bound) => {
                     parts.push(format!("off the curve by at most {}", rounded_up(bound)));
                 }
+                Deviation::Measured(length) => {
+                    parts.push(format!("off the true curve by {}", significant(length, 3)));
+                }
                 Deviation::Unmeasured => {}
             }
         }

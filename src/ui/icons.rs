@@ -88,6 +88,7 @@ fn of_command(command: Command) -> Option<Icon> {
 fn of_operation(operation: &Operation) -> Icon {
     match operation.name {
         "mineur-farin" => Icon::Shell,
+        "between" => Icon::Tangent,
         _ => Icon::Wand,
     }
 }

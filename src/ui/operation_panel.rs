@@ -143,6 +143,9 @@ impl OperationPanel {
                 (Kind::Switch { .. }, Value::Switch(on)) => {
                     let mut on = *on;
                     let switch = ui.checkbox(&mut on, "");
+                    switch.widget_info(|| {
+                        WidgetInfo::selected(Role::CheckBox, true, on, parameter.label)
+                    });
                     switch.clicked().then_some(Value::Switch(on))
                 }
                 _ => self.number_ui(ui, trial, parameter, value),
@@ -373,6 +376,7 @@ fn report_ui(ui: &mut Ui, trial: &Trial, report: &Report) {
             Deviation::Exact => Some("none, exact".to_owned()),
             Deviation::AtMost(0.0) => Some("none".to_owned()),
             Deviation::AtMost(bound) => Some(format!("at most {}", rounded_up(bound))),
+            Deviation::Measured(measured) => Some(length(measured)),
             Deviation::Unmeasured => Some("another curve, not measured".to_owned()),
         };
         if let Some(deviation) = deviation {

@@ -38,7 +38,7 @@ fn tools_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<Action>) {
     divider(ui);
     let makers = ALL
         .iter()
-        .filter(|operation| operation.inputs == Inputs::None);
+        .filter(|operation| matches!(operation.inputs, Inputs::None | Inputs::UpToTwo));
     for operation in makers {
         button_ui(ui, editor, Command::Operation(operation), commands);
     }

@@ -1,6 +1,7 @@
 //! The real program from a shell.
 
 mod apply;
+mod between;
 mod folder;
 mod inspect;
 mod streams;

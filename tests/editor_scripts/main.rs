@@ -4,6 +4,7 @@
 mod common;
 
 mod background;
+mod between;
 mod commands;
 mod deleting;
 mod documents;

@@ -168,7 +168,8 @@ fn what_is_hidden_is_not_edited() {
         script.click(DVec2::new(500.0, 120.0));
     }
     let operations = operations::ALL.iter().copied();
-    let on_curves = operations.filter(|operation| operation.inputs != Inputs::None);
+    let needs = |inputs: Inputs| !matches!(inputs, Inputs::None | Inputs::UpToTwo);
+    let on_curves = operations.filter(|operation| needs(operation.inputs));
     let operations = on_curves.map(Command::Operation);
     for command in operations.chain([Command::TogglePeriodic]) {
         assert!(!script.editor.is_enabled(command), "{command:?}");

@@ -8,7 +8,7 @@ use batten::editor::{Command, Editor, EndFitAction, Input, Key, Note, ToolKind, 
 use batten::geometry::features::Features;
 use batten::geometry::{End, FloatPolygon};
 use batten::io::disk;
-use batten::operations::{ALL, Inputs, Value};
+use batten::operations::{ALL, Inputs, Operation, Value};
 use glam::{DVec2, DVec3};
 
 use super::script::{Script, operation};
@@ -355,6 +355,11 @@ fn values_that_make_no_curve_together_are_told_and_not_applied() {
     assert_eq!(script.steps(), 1);
 }
 
+/// Whether an operation makes a curve of its own, and needs none.
+fn is_maker(operation: &Operation) -> bool {
+    matches!(operation.inputs, Inputs::None | Inputs::UpToTwo)
+}
+
 #[test]
 fn operations_are_offered_where_they_can_run() {
     let offered = |script: &Script| -> Vec<&str> {
@@ -377,9 +382,7 @@ fn operations_are_offered_where_they_can_run() {
         .collect();
     assert_eq!(offered(&script), without_targets);
     // What makes a curve of its own needs none.
-    let makers = ALL
-        .iter()
-        .filter(|operation| operation.inputs == Inputs::None);
+    let makers = ALL.iter().filter(|operation| is_maker(operation));
     let makers: Vec<&str> = makers.map(|operation| operation.name).collect();
     let curve = script.curve();
     script.editor.set_locked(curve, true).expect("a curve");
@@ -411,10 +414,7 @@ fn operations_are_offered_where_they_can_run() {
 
 #[test]
 fn what_cannot_run_is_not_begun() {
-    for operation in ALL
-        .iter()
-        .filter(|operation| operation.inputs != Inputs::None)
-    {
+    for operation in ALL.iter().filter(|operation| !is_maker(operation)) {
         let (mut script, _) = s_curve();
         let curve = script.curve();
         script.editor.set_locked(curve, true).expect("a curve");

@@ -101,7 +101,14 @@ fn defaults_are_allowed_wherever_the_operation_can_run() {
             let outcome = operation.run(&input, &values, &Progress::default());
             let outcome =
                 outcome.unwrap_or_else(|error| panic!("{name} {}: {error}", operation.name));
-            assert!(outcome.reached, "{name} {}: {outcome:?}", operation.name);
+            // Arcs are closed by arcs, whose curvature is not monotone.
+            let is_arc = outcome.remarks.iter().any(|it| it.contains("circular arc"));
+            assert!(
+                outcome.reached || (operation.name == "between" && is_arc),
+                "{name} {}: {:?}",
+                operation.name,
+                outcome.remarks
+            );
             ran.insert(operation.name);
         }
     }
@@ -217,6 +224,7 @@ fn an_operation_runs_on_nothing_but_the_inputs_it_wants() {
     for operation in ALL {
         let (wrong, expected) = match operation.inputs {
             Inputs::None => (&runner.input, "this works on no curve: choose none"),
+            Inputs::UpToTwo => (&twice, "choose no more than two different curves"),
             _ => (&none, "choose one curve"),
         };
         for input in [wrong, &twice, &points] {

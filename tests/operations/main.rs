@@ -1,8 +1,8 @@
 //! Operations: their descriptions, what they do to curves, what they report and refuse.
 
+mod between;
 #[path = "../common/mod.rs"]
 mod common;
-
 mod degrees;
 mod descriptions;
 mod ends;

@@ -1,0 +1,434 @@
+//! Segments between two ends.
+
+use std::ops::Bound;
+
+use glam::{DVec2, DVec3};
+
+use super::amount::Amount;
+use super::error::OperationError;
+use super::handle::{Handle, Sets};
+use super::input::Input;
+use super::inputs::Inputs;
+use super::lists::{Meaning, given, number};
+use super::operation::Operation;
+use super::outcome::{Deviation, Figure, Mark, Outcome};
+use super::parameter::{Choice, Kind, Parameter, Unit};
+use super::value::Value;
+use super::values::Values;
+use crate::document::{Curve, Edit};
+use crate::geometry::between::{BetweenError, Ends, Segment, SegmentKind, between};
+use crate::geometry::features::Verdict;
+use crate::geometry::references::ReferenceForm;
+use crate::geometry::{End, FloatPolygon, MAX_DEGREE, Progress, significant};
+
+/// The length of the arrows for directions that curves give, in chords.
+const ARROW: f64 = 0.25;
+
+/// The ends if nothing is chosen.
+const ENDS: Ends = Ends {
+    points: [DVec2::ZERO, DVec2::new(10.0, 0.0)],
+    directions: [DVec2::new(2.0, 2.0), DVec2::new(3.0, -1.5)],
+    curvatures: [None; 2],
+};
+
+const KIND: Parameter = Parameter {
+    name: "kind",
+    label: "Kind",
+    help: "What the segment is: log-aesthetic, with a clothoid for α = −1, superspiral, or any curve with monotone curvature",
+    kind: Kind::Choice {
+        options: &[
+            Choice {
+                name: "log-aesthetic",
+                label: "Log-aesthetic",
+            },
+            Choice {
+                name: "superspiral",
+                label: "Superspiral",
+            },
+            Choice {
+                name: "any",
+                label: "Any monotone",
+            },
+        ],
+        default: 0,
+    },
+};
+
+const ALPHA: Parameter = Parameter {
+    name: "alpha",
+    label: "Slope α",
+    help: "The slope α of the logarithmic curvature graph: −1 clothoid, 0 Nielsen's spiral, 1 logarithmic spiral, 2 circle involute",
+    kind: number(|_| "−1, or what the curvatures ask for"),
+};
+
+const A: Parameter = spiral("a", "Superspiral a", 0.5);
+const B: Parameter = spiral("b", "Superspiral b", 1.0);
+const C: Parameter = spiral("c", "Superspiral c", 1.5);
+
+/// A number of a superspiral.
+const fn spiral(name: &'static str, label: &'static str, default: f64) -> Parameter {
+    Parameter {
+        name,
+        label,
+        help: "Of a superspiral, whose radius of curvature is ₂F₁(a, b; c; −ψ) at direction angle ψ, a > 0 and c > b > 0",
+        kind: Kind::Real {
+            from: Bound::Excluded(Amount::Number(0.0)),
+            to: Bound::Included(Amount::Number(20.0)),
+            default: Amount::Number(default),
+            unit: Unit::None,
+        },
+    }
+}
+
+const FROM: Parameter = Parameter {
+    name: "from",
+    label: "From",
+    help: "Where the segment starts",
+    kind: pair(|_| "the end of the chosen curve, or 0, 0"),
+};
+
+const FROM_DIRECTION: Parameter = Parameter {
+    name: "from-direction",
+    label: "From direction",
+    help: "The direction in which it starts",
+    kind: pair(|_| "that of the curve, or 2, 2"),
+};
+
+const FROM_CURVATURE: Parameter = Parameter {
+    name: "from-curvature",
+    label: "From curvature",
+    help: "The curvature with which it starts, positive where it turns left",
+    kind: number(|_| "free"),
+};
+
+const TO: Parameter = Parameter {
+    name: "to",
+    label: "To",
+    help: "Where the segment ends",
+    kind: pair(|_| "the end of the other chosen curve, or 10, 0"),
+};
+
+const TO_DIRECTION: Parameter = Parameter {
+    name: "to-direction",
+    label: "To direction",
+    help: "The direction in which it ends",
+    kind: pair(|_| "that of the curve, or 3, -1.5"),
+};
+
+const TO_CURVATURE: Parameter = Parameter {
+    name: "to-curvature",
+    label: "To curvature",
+    help: "The curvature with which it ends, positive where it turns left",
+    kind: number(|_| "free"),
+};
+
+const CURVATURES: Parameter = Parameter {
+    name: "curvatures",
+    label: "Meet curvatures",
+    help: "Whether the curvatures of the chosen curves are met too, where none is given",
+    kind: Kind::Switch { default: false },
+};
+
+const DEGREE: Parameter = Parameter {
+    name: "degree",
+    label: "Degree",
+    help: "The degree of the float polygon",
+    kind: Kind::Whole {
+        from: Amount::Number(3.0),
+        to: Amount::Number(MAX_DEGREE as f64),
+        default: Amount::Number(5.0),
+    },
+};
+
+const TOLERANCE: Parameter = Parameter {
+    name: "tolerance",
+    label: "Tolerance",
+    help: "How far the curve may be from the true segment",
+    kind: number(|_| "1e-6 of its length"),
+};
+
+/// A point or vector of the plane, or none.
+const fn pair(none: Meaning) -> Kind {
+    Kind::List {
+        count: 2..=2,
+        whole: false,
+        unit: Unit::None,
+        none,
+        in_space: false,
+    }
+}
+
+/// The operation: its description, and how it is checked and run.
+pub static OPERATION: Operation = Operation {
+    name: "between",
+    label: "Segment between two ends",
+    help: "Make a segment with monotone curvature between two points with directions: those that are given, or the nearest ends of two chosen open curves in the plane, or both ends of one",
+    inputs: Inputs::UpToTwo,
+    parameters: &[
+        KIND,
+        ALPHA,
+        A,
+        B,
+        C,
+        FROM,
+        FROM_DIRECTION,
+        FROM_CURVATURE,
+        TO,
+        TO_DIRECTION,
+        TO_CURVATURE,
+        CURVATURES,
+        DEGREE,
+        TOLERANCE,
+    ],
+    check: |_| Ok(()),
+    run,
+};
+
+fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
+    let ends = ends(input, values);
+    let degree = values.whole(&DEGREE);
+    let tolerance = given(values, &TOLERANCE);
+    if let Some(value) = tolerance.filter(|tolerance| *tolerance <= 0.0) {
+        return Err(OperationError::OutOfRange {
+            label: TOLERANCE.label,
+            value: value.to_string(),
+            needed: "a length of more than 0".to_owned(),
+        });
+    }
+    let alpha = given(values, &ALPHA);
+    let kinds = [
+        SegmentKind::LogAesthetic { alpha },
+        SegmentKind::Superspiral {
+            values: [A, B, C].map(|parameter| values.real(&parameter)),
+        },
+        SegmentKind::AnyMonotone,
+    ];
+    let kind = values.choice(&KIND, &kinds);
+    let mut outcome = match between(&ends, kind, degree, tolerance, progress) {
+        Ok(segment) => made(input, &segment),
+        Err(BetweenError::Cancelled) => return Err(OperationError::Cancelled),
+        Err(error @ (BetweenError::NoChord | BetweenError::NoDirection)) => {
+            return Err(error.into());
+        }
+        Err(error) => {
+            let mut outcome = Outcome::unchanged(Deviation::Unmeasured);
+            outcome.reached = false;
+            outcome.remarks = vec![capitalised(&error.to_string())];
+            outcome
+        }
+    };
+    outcome.marks = marks(&ends);
+    outcome.handles = handles(&ends);
+    Ok(outcome)
+}
+
+/// Add the segment's curve, and tell its figures.
+fn made(input: &Input, segment: &Segment) -> Outcome {
+    // Any monotone curve is its own true segment.
+    let mut outcome = Outcome::unchanged(match segment.parts[..] {
+        [] => Deviation::Exact,
+        _ => Deviation::Measured(segment.deviation),
+    });
+    outcome.reached = segment.is_reached();
+    outcome.residual = Some(segment.residual);
+    let name = input.document().free_name("segment 1");
+    let curve = Curve::new(name, segment.polygon.clone());
+    outcome.edits = vec![Edit::Add(Box::new(curve))];
+    outcome.figures = figures(segment);
+    outcome.remarks = remarks(segment);
+    outcome
+}
+
+fn figures(segment: &Segment) -> Vec<Figure> {
+    let list = |name, label, numbers: Vec<f64>| Figure {
+        name,
+        label,
+        value: Value::List(numbers),
+        unit: Unit::None,
+    };
+    let mut figures = vec![
+        Figure::length("length", "Length", segment.length),
+        Figure::count("segments", "Segments", segment.polygon.segments()),
+        list(
+            "curvatures",
+            "Curvatures at the ends",
+            End::BOTH.map(|end| curvature(&segment.polygon, end)).into(),
+        ),
+    ];
+    for (parameter, name, label) in [("alpha", "alpha", "α"), ("lambda", "lambda", "Λ")] {
+        let found = segment
+            .parts
+            .iter()
+            .map(|part| shape(part.curve.form(), parameter));
+        let found: Option<Vec<f64>> = found.collect();
+        let found = found.filter(|found| !found.is_empty());
+        figures.extend(found.map(|found| list(name, label, found)));
+    }
+    figures
+}
+
+/// A number of the standard form of a part; `None` if it has no such number.
+fn shape(form: &ReferenceForm, name: &str) -> Option<f64> {
+    let ReferenceForm::Analytic(form) = form else {
+        return None;
+    };
+    let parameters = form.kind().parameters.iter();
+    let mut values = parameters.zip(form.values());
+    let (_, value) = values.find(|(parameter, _)| parameter.name == name)?;
+    Some(*value)
+}
+
+fn remarks(segment: &Segment) -> Vec<String> {
+    let mut remarks: Vec<String> = Vec::new();
+    match &segment.parts[..] {
+        [] => {}
+        [part] => remarks.push(format!("The true segment is {}", part.curve)),
+        parts => {
+            let texts: Vec<String> = parts.iter().map(|part| part.curve.to_string()).collect();
+            remarks.push(format!(
+                "{} segments that meet with one curvature: {}",
+                parts.len(),
+                texts.join(" and ")
+            ));
+        }
+    }
+    if segment.deviation > segment.tolerance {
+        remarks.push(format!(
+            "The curve is {} off the true segment, and {} is allowed: allow more, or choose a higher degree",
+            significant(segment.deviation, 3),
+            significant(segment.tolerance, 3)
+        ));
+    }
+    if segment.monotone != Verdict::Proved {
+        remarks.push(match curvatures_agree(segment) {
+            true => "The ends ask for a circular arc: its curvature is constant, and that of a polynomial curve rises and falls".to_owned(),
+            false => "The curvature is not monotone: choose a higher degree, or ask for curvatures that differ more".to_owned(),
+        });
+    }
+    remarks
+}
+
+/// Whether both ends have almost the same curvature, as those of an arc have.
+fn curvatures_agree(segment: &Segment) -> bool {
+    /// The relative difference below which the curvature of an approximation may well wobble.
+    const ALMOST: f64 = 1e-3;
+    let [first, last] = End::BOTH.map(|end| curvature(&segment.polygon, end));
+    (first - last).abs() <= ALMOST * first.abs()
+}
+
+fn curvature(polygon: &FloatPolygon, end: End) -> f64 {
+    polygon.end_jet(end).signed_curvature()
+}
+
+/// The ends that are given; those that are not are the chosen curves'.
+fn ends(input: &Input, values: &Values) -> Ends {
+    let offered = offered(input);
+    let pair = |parameter, offered: DVec2| match *values.list(parameter) {
+        [x, y] => DVec2::new(x, y),
+        _ => offered,
+    };
+    let curvature = |parameter, offered: Option<f64>| {
+        let offered = offered.filter(|_| *values.get(&CURVATURES) == Value::Switch(true));
+        given(values, parameter).or(offered)
+    };
+    Ends {
+        points: [pair(&FROM, offered.points[0]), pair(&TO, offered.points[1])],
+        directions: [
+            pair(&FROM_DIRECTION, offered.directions[0]),
+            pair(&TO_DIRECTION, offered.directions[1]),
+        ],
+        curvatures: [
+            curvature(&FROM_CURVATURE, offered.curvatures[0]),
+            curvature(&TO_CURVATURE, offered.curvatures[1]),
+        ],
+    }
+}
+
+/// The ends that the chosen curves offer, open ones in the plane: of two those that are nearest to each
+/// other, of one its own, so that the segment closes it.
+fn offered(input: &Input) -> Ends {
+    let polygons = input.curves().iter().map(|(_, curve)| &curve.polygon);
+    let polygons = polygons.filter(|polygon| !polygon.is_periodic() && polygon.is_planar());
+    let polygons: Vec<&FloatPolygon> = polygons.collect();
+    match polygons[..] {
+        [] => ENDS,
+        [own] => joining(own, End::Finish, own, End::Start),
+        [first, second, ..] => {
+            let pairs = End::BOTH
+                .into_iter()
+                .flat_map(|a| End::BOTH.map(|b| (a, b)));
+            let pairs = pairs.map(|(a, b)| joining(first, a, second, b));
+            let distance = |ends: &Ends| ends.points[0].distance(ends.points[1]);
+            let nearest = pairs.min_by(|a, b| distance(a).total_cmp(&distance(b)));
+            nearest.unwrap_or(ENDS)
+        }
+    }
+}
+
+/// The ends of a segment that goes on from an end of one curve, and goes over into an end of another.
+fn joining(first: &FloatPolygon, leaves: End, second: &FloatPolygon, arrives: End) -> Ends {
+    let (from, to) = (first.end_jet(leaves), second.end_jet(arrives));
+    // Passed through the other way, a curve's direction and signed curvature change their signs.
+    let sides = [
+        if leaves == End::Finish { 1.0 } else { -1.0 },
+        if arrives == End::Start { 1.0 } else { -1.0 },
+    ];
+    let jets = [from, to];
+    let points = jets.map(|jet| jet.point.truncate());
+    let length = ARROW * points[0].distance(points[1]);
+    let at = |index: usize| {
+        let tangent = jets[index].tangent().unwrap_or(DVec3::X);
+        sides[index] * length * tangent.truncate()
+    };
+    let curvature = |index: usize| sides[index] * jets[index].signed_curvature();
+    Ends {
+        points,
+        directions: [at(0), at(1)],
+        curvatures: [0, 1].map(|index| Some(curvature(index)).filter(|it| it.is_finite())),
+    }
+}
+
+/// An arrow at each end.
+fn marks(ends: &Ends) -> Vec<Mark> {
+    let pairs = ends.points.into_iter().zip(ends.directions);
+    let arrows = pairs.map(|(point, direction)| Mark::Arrow {
+        from: point.extend(0.0),
+        to: (point + direction).extend(0.0),
+    });
+    arrows.collect()
+}
+
+/// The points, and the tips of the arrows.
+fn handles(ends: &Ends) -> Vec<Handle> {
+    let parameters = [(&FROM, &FROM_DIRECTION), (&TO, &TO_DIRECTION)];
+    let ends = ends.points.into_iter().zip(ends.directions);
+    let pairs = ends
+        .zip(parameters)
+        .map(|((point, direction), (at, towards))| {
+            let from = point.extend(0.0);
+            [
+                Handle {
+                    at: from,
+                    label: at.label,
+                    sets: Sets::Point(at.name),
+                },
+                Handle {
+                    at: from + direction.extend(0.0),
+                    label: towards.label,
+                    sets: Sets::Vector {
+                        parameter: towards.name,
+                        from,
+                    },
+                },
+            ]
+        });
+    pairs.flatten().collect()
+}
+
+fn capitalised(text: &str) -> String {
+    let mut characters = text.chars();
+    let first = characters
+        .next()
+        .map(|first| first.to_uppercase().to_string());
+    first.unwrap_or_default() + characters.as_str()
+}

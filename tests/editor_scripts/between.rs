@@ -1,0 +1,124 @@
+//! A segment between two ends: preview, handles for points and directions, ends of chosen curves.
+
+use batten::editor::{Command, Mark};
+use batten::geometry::End;
+use batten::geometry::features::{Features, Verdict};
+use batten::operations::{Handle, Value};
+use glam::{DVec2, DVec3};
+
+use super::script::*;
+
+const NAME: &str = "between";
+
+/// A segment tried out in an empty document.
+fn alone() -> Script {
+    let mut script = Script::example("arc");
+    script.editor.begin_empty();
+    script.try_out(NAME).expect("it can run");
+    script.command(Command::FitAll);
+    script
+}
+
+fn handles(script: &Script) -> Vec<Handle> {
+    let run = script.editor.trial().and_then(|trial| trial.run());
+    let run = run.expect("a run").as_ref().expect("an answer");
+    run.outcome.handles.clone()
+}
+
+fn at_handle(script: &Script, index: usize) -> DVec2 {
+    let viewport = script.editor.view().viewport();
+    viewport.to_screen(viewport.flatten(handles(script)[index].at))
+}
+
+/// Drag a handle, without a release; tell where the pointer is.
+fn drag(script: &mut Script, index: usize, by: DVec2) -> DVec2 {
+    let from = at_handle(script, index);
+    script.move_to(from);
+    script.press(from);
+    script.move_to(from + 0.5 * by);
+    script.move_to(from + by);
+    from + by
+}
+
+/// The point and direction of an end of the last curve.
+fn end(script: &Script, end: End) -> (DVec3, DVec3) {
+    let curves = script.editor.document().curves();
+    let (_, curve) = curves.last().expect("a curve");
+    let jet = curve.polygon.end_jet(end);
+    (jet.point, jet.first)
+}
+
+fn verdict(script: &Script) -> Verdict {
+    let curves = script.editor.document().curves();
+    let (_, curve) = curves.last().expect("a curve");
+    Features::new(&curve.polygon).monotone
+}
+
+#[test]
+fn points_and_directions_are_dragged_and_the_segment_follows() {
+    let mut script = alone();
+    assert_eq!(handles(&script).len(), 4);
+    assert_eq!(verdict(&script), Verdict::Proved);
+    let arrows = script.scene().marks.iter();
+    assert!(arrows.filter(|mark| matches!(mark, Mark::Ruler(_))).count() >= 2);
+    // The point of the start takes its direction along.
+    let before = handles(&script);
+    let at = drag(&mut script, 0, DVec2::new(-30.0, 12.0));
+    let after = handles(&script);
+    let moved = after[0].at - before[0].at;
+    assert!(moved.length() > 0.0);
+    assert!((after[1].at - before[1].at).distance(moved) <= 1e-12);
+    assert_eq!(after[2..], before[2..]);
+    script.release(at);
+    let (point, _) = end(&script, End::Start);
+    assert!(point.distance(after[0].at) <= 1e-12);
+    // The direction of the end turns.
+    let at = drag(&mut script, 3, DVec2::new(-8.0, 30.0));
+    script.release(at);
+    let shown = handles(&script);
+    let (_, direction) = end(&script, End::Finish);
+    let wanted = shown[3].at - shown[2].at;
+    assert!(direction.cross(wanted).length() <= 1e-12 * direction.length() * wanted.length());
+    assert!(direction.dot(wanted) > 0.0);
+    assert_eq!(verdict(&script), Verdict::Proved);
+    // All of it is one step.
+    script.key(batten::editor::Key::Enter);
+    assert_eq!((script.steps(), script.editor.document().len()), (1, 1));
+    script.command(Command::Undo);
+    assert!(script.editor.document().is_empty());
+}
+
+#[test]
+fn where_there_is_none_the_handles_stay_and_lead_back() {
+    let mut script = alone();
+    script
+        .set("alpha", Value::List(vec![2.0]))
+        .expect("a number");
+    script
+        .set("from-direction", Value::List(vec![0.1, 3.0]))
+        .expect("a vector");
+    assert!(!script.trial_report().reached);
+    assert!(script.editor.document().is_empty());
+    let refused = script.editor.apply_trial().expect_err("nothing to keep");
+    assert!(refused.0.contains("There is no segment"), "{}", refused.0);
+    script
+        .set("from-direction", Value::List(vec![2.0, 1.2]))
+        .expect("a vector");
+    assert!(script.trial_report().reached);
+    assert_eq!(script.editor.document().len(), 1);
+}
+
+#[test]
+fn an_open_curve_is_closed_and_escape_restores_it() {
+    let mut script = Script::example("arc");
+    let before = script.editor.document().clone();
+    let polygon = script.polygon().clone();
+    script.try_out(NAME).expect("it can run");
+    script.set("kind", Value::Choice(2)).expect("a kind");
+    let shown = handles(&script);
+    assert_eq!(shown[0].at, polygon.end_jet(End::Finish).point);
+    assert_eq!(shown[2].at, polygon.end_jet(End::Start).point);
+    script.key(batten::editor::Key::Escape);
+    assert!(script.editor.document().is_same(&before));
+    assert_eq!(script.steps(), 0);
+}
