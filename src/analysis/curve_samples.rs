@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::revision::Revision;
 use super::sample::{PieceSampler, Sample};
+use crate::geometry::references::Placement;
 use crate::geometry::{ParametricCurve, Range as Span};
 
 /// Pieces in one block.
@@ -86,6 +87,25 @@ impl CurveSamples {
         for block in pieces.start / BLOCK..pieces.end.div_ceil(BLOCK) {
             self.blocks[block] = self.summary(block, revision);
         }
+    }
+
+    /// Place the samples of a curve that is not placed. `planar` is whether it lies in the plane z = 0
+    /// then, which only a planar curve does.
+    pub(super) fn placed(&self, placement: &Placement, planar: bool) -> Self {
+        let samples = self.samples.iter();
+        let samples = samples.map(|sample| sample.placed(placement, planar));
+        let mut placed = Self {
+            planar,
+            pieces: self.pieces,
+            samples: samples.collect(),
+            sampler: PieceSampler::new(self.steps()),
+            blocks: self.blocks.clone(),
+        };
+        let revision = Revision::new();
+        for block in 0..placed.blocks.len() {
+            placed.blocks[block] = placed.summary(block, revision);
+        }
+        placed
     }
 
     /// Whether the curve is planar, and its curvature therefore signed.

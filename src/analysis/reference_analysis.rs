@@ -11,11 +11,15 @@ use super::level_series::{LevelPlot, LevelSeries};
 use super::sampled_features::{SampledFeature, sampled_features};
 use super::vertex_chain::VertexChain;
 use crate::document::Reference;
+use crate::geometry::ParametricCurve;
+use crate::geometry::references::Placement;
 
 /// Hold the samples of a reference, its plots, and its features as far as samples tell them.
 #[derive(Debug)]
 pub struct ReferenceAnalysis {
     reference: Arc<Reference>,
+    /// The samples of the curve where its formula puts it.
+    unplaced: Arc<CurveSamples>,
     samples: CurveSamples,
     curvature: CurvatureSeries,
     levels: LevelSeries,
@@ -27,10 +31,17 @@ pub struct ReferenceAnalysis {
 impl ReferenceAnalysis {
     /// Analyse a reference.
     pub fn new(reference: Arc<Reference>) -> Self {
+        let unplaced = reference.curve.clone().placed(Placement::default());
+        Self::of_samples(reference, Arc::new(CurveSamples::new(&unplaced)))
+    }
+
+    /// Analyse a reference whose curve is sampled already.
+    fn of_samples(reference: Arc<Reference>, unplaced: Arc<CurveSamples>) -> Self {
         let mut points = VertexChain::default();
         points.update(&reference.points().unwrap_or_default(), false);
         Self {
-            samples: CurveSamples::new(&reference.curve),
+            samples: unplaced.placed(reference.curve.placement(), reference.curve.is_planar()),
+            unplaced,
             curvature: CurvatureSeries::default(),
             levels: LevelSeries::default(),
             features: OnceCell::new(),
@@ -39,11 +50,14 @@ impl ReferenceAnalysis {
         }
     }
 
-    /// Bring the analysis up to date with the reference; it is sampled again only if its curve
-    /// changed.
+    /// Bring the analysis up to date with the reference; it is sampled again only if its form or its
+    /// interval changed.
     pub fn update(&mut self, reference: &Arc<Reference>) {
-        if self.reference.curve == reference.curve {
+        let (old, new) = (&self.reference.curve, &reference.curve);
+        if old == new {
             self.reference = reference.clone();
+        } else if (old.form(), old.interval()) == (new.form(), new.interval()) {
+            *self = Self::of_samples(reference.clone(), self.unplaced.clone());
         } else {
             *self = Self::new(reference.clone());
         }
@@ -93,5 +107,64 @@ impl ReferenceAnalysis {
             false => Vec::new(),
         };
         self.features.get_or_init(find)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use glam::{DQuat, DVec3};
+
+    use super::*;
+    use crate::geometry::references::ReferenceCurve;
+
+    /// Roundings of a placement, in units of what is placed.
+    const ROUNDING: f64 = 1e-13;
+
+    #[test]
+    fn what_is_placed_anew_has_the_samples_of_the_placed_curve() {
+        let tilted = DQuat::from_xyzw(0.1, -0.4, 0.2, 0.7).normalize();
+        let turned_over = DQuat::from_rotation_x(PI);
+        let exactly_over = DQuat::from_xyzw(1.0, 0.0, 0.0, 0.0);
+        for text in [
+            "clothoid:from=-2,to=1.5",
+            "conical-spiral",
+            "circle:radius=3",
+        ] {
+            let curve = ReferenceCurve::from_text(text).unwrap();
+            let mut analysis = ReferenceAnalysis::new(Arc::new(Reference::new("a", curve.clone())));
+            for rotation in [
+                DQuat::from_rotation_z(0.7),
+                tilted,
+                turned_over,
+                exactly_over,
+                DQuat::IDENTITY,
+            ] {
+                let placement = Placement::new(rotation, 2.5, DVec3::new(3.0, -1.0, 0.0)).unwrap();
+                let placed = curve.clone().placed(placement);
+                analysis.update(&Arc::new(Reference::new("a", placed.clone())));
+                let expected = CurveSamples::new(&placed);
+                let found = analysis.sampled().samples;
+                assert_eq!(found.is_planar(), expected.is_planar(), "{text} {rotation}");
+                let length = expected.length();
+                assert!((found.length() - length).abs() <= ROUNDING * length);
+                for (a, b) in found.all().iter().zip(expected.all()) {
+                    assert!(
+                        a.point.distance(b.point) <= ROUNDING * length,
+                        "{text}: {a:?} {b:?}"
+                    );
+                    let largest = b.curvature.abs().max(1.0 / length);
+                    assert!(
+                        (a.curvature - b.curvature).abs() <= 1e-9 * largest,
+                        "{text}: {a:?} {b:?}"
+                    );
+                    // Where the curvature is 0 a curve in space has no normal.
+                    if b.curvature.abs() * length > 1e-6 {
+                        assert!(a.normal.distance(b.normal) <= 1e-6, "{text}: {a:?} {b:?}");
+                    }
+                }
+            }
+        }
     }
 }

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::geometry::references::Placement;
 use crate::geometry::{EvenBatch, Jet, ParametricCurve};
 
 /// Hold what is drawn at one parameter of the curve.
@@ -39,6 +40,25 @@ impl Sample {
                 f64::NAN
             },
             arc_length: 0.0,
+        }
+    }
+
+    /// Place the sample of a curve that is not placed: as of a planar curve if `planar`, where the
+    /// curvature changes its sign with the side that is up, otherwise as of a curve in space.
+    pub(super) fn placed(&self, placement: &Placement, planar: bool) -> Self {
+        let normal = placement.rotation() * self.normal;
+        let curvature = self.curvature / placement.scale();
+        let turned_over = (placement.rotation() * DVec3::Z).z < 0.0;
+        let is_turned = if planar { turned_over } else { curvature < 0.0 };
+        let (normal, curvature) = match is_turned {
+            true => (-normal, -curvature),
+            false => (normal, curvature),
+        };
+        Self {
+            point: placement.point(self.point),
+            normal,
+            curvature,
+            arc_length: placement.scale() * self.arc_length,
         }
     }
 
