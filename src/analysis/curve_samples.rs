@@ -53,8 +53,13 @@ pub struct Block {
 impl CurveSamples {
     /// Sample a whole curve.
     pub fn new(curve: &dyn ParametricCurve) -> Self {
+        Self::with_about(SAMPLES, curve)
+    }
+
+    /// Sample a whole curve with about so many samples, as far as its pieces allow.
+    pub(super) fn with_about(count: usize, curve: &dyn ParametricCurve) -> Self {
         let pieces = curve.pieces();
-        let share = (SAMPLES / pieces).next_power_of_two();
+        let share = (count / pieces).next_power_of_two();
         let steps = share.clamp(SAMPLES_PER_PIECE.start, SAMPLES_PER_PIECE.end);
         let blank = Sample::of(&Default::default(), true);
         let empty = Block {

@@ -14,6 +14,9 @@ use crate::document::Reference;
 use crate::geometry::ParametricCurve;
 use crate::geometry::references::Placement;
 
+/// Samples that a reference is given in all, about: fewer than a curve, for each may take an integral.
+const SAMPLES: usize = 1024;
+
 /// Hold the samples of a reference, its plots, and its features as far as samples tell them.
 #[derive(Debug)]
 pub struct ReferenceAnalysis {
@@ -32,7 +35,10 @@ impl ReferenceAnalysis {
     /// Analyse a reference.
     pub fn new(reference: Arc<Reference>) -> Self {
         let unplaced = reference.curve.clone().placed(Placement::default());
-        Self::of_samples(reference, Arc::new(CurveSamples::new(&unplaced)))
+        Self::of_samples(
+            reference,
+            Arc::new(CurveSamples::with_about(SAMPLES, &unplaced)),
+        )
     }
 
     /// Analyse a reference whose curve is sampled already.
@@ -144,7 +150,7 @@ mod tests {
                 let placement = Placement::new(rotation, 2.5, DVec3::new(3.0, -1.0, 0.0)).unwrap();
                 let placed = curve.clone().placed(placement);
                 analysis.update(&Arc::new(Reference::new("a", placed.clone())));
-                let expected = CurveSamples::new(&placed);
+                let expected = CurveSamples::with_about(SAMPLES, &placed);
                 let found = analysis.sampled().samples;
                 assert_eq!(found.is_planar(), expected.is_planar(), "{text} {rotation}");
                 let length = expected.length();

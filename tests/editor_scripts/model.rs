@@ -253,7 +253,7 @@ fn event() -> impl Strategy<Value = Event> {
 
 /// Every command there is; the tools more often, for most of the others leave them.
 fn every_command() -> Vec<Command> {
-    let all = Command::all();
+    let all = super::window::every_command();
     let is_tool = |command: &Command| matches!(command, Command::Tool(_));
     let tools: Vec<Command> = all.iter().copied().filter(is_tool).collect();
     let mut commands = all;
