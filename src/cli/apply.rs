@@ -11,7 +11,7 @@ use glam::DVec3;
 use super::ends::{Destination, Source};
 use super::output;
 use super::progress::Progress as Line;
-use crate::document::{CurveId, Document, quoted};
+use crate::document::{Curve, CurveId, Document, Edit, quoted};
 use crate::geometry::Progress;
 use crate::io::{Reading, json_layout};
 use crate::operations::{ALL, Input, Inputs, Operation, OperationError, Outcome, Report, Value};
@@ -25,10 +25,12 @@ pub(super) struct Application {
     pub(super) operation: &'static Operation,
     /// What is read; `None` if the operation works on nothing.
     pub(super) source: Option<Source>,
+    /// What the second of two curves is read from, if not from the same.
+    pub(super) second: Option<Source>,
     /// What is written.
     pub(super) destination: Destination,
-    /// The names of the curves that were chosen.
-    pub(super) curves: Vec<String>,
+    /// The name of the curve that was chosen, and of the second of two.
+    pub(super) curves: [Option<String>; 2],
     /// The values of the parameters that are given.
     pub(super) values: Vec<(&'static str, Value)>,
     /// Whether the best found is written where what was asked for is not reached.
@@ -94,16 +96,24 @@ impl Application {
             Some(source) => source.read()?,
             None => Reading::default(),
         };
-        self.chosen(reading).with_context(|| self.place())
+        let second = self.second.as_ref().map(|source| {
+            let document = source.read()?.into_document()?;
+            self.second_curve(&document).with_context(|| source.name())
+        });
+        let second = second.transpose()?;
+        self.chosen(reading, second).with_context(|| self.place())
     }
 
     /// Choose what the operation works on of what was read.
-    fn chosen(&self, reading: Reading) -> anyhow::Result<Input> {
+    fn chosen(&self, reading: Reading, second: Option<Curve>) -> anyhow::Result<Input> {
         let document = reading.into_document()?;
         match self.operation.inputs {
             Inputs::None | Inputs::UpToTwo => Ok(Input::new(&document, [])?),
-            Inputs::One => Ok(Input::new(&document, self.curves(&document, 1)?)?),
-            Inputs::Two => Ok(Input::new(&document, self.curves(&document, 2)?)?),
+            Inputs::One => Ok(Input::new(&document, [self.curve(&document, 0)?])?),
+            Inputs::Two => match second {
+                None => Ok(Input::new(&document, self.two_curves(&document)?)?),
+                Some(second) => self.with_second(document, second),
+            },
             Inputs::Points => {
                 let curves = document.curves();
                 let curves = curves.map(|(_, curve)| curve.polygon.vertices().to_vec());
@@ -118,24 +128,51 @@ impl Application {
         }
     }
 
-    /// Find the curves that were named; without names, all if there are just so many.
-    fn curves(&self, document: &Document, count: usize) -> anyhow::Result<Vec<CurveId>> {
+    /// Find the curve that was named as the first or second; without a name, the only one.
+    fn curve(&self, document: &Document, place: usize) -> anyhow::Result<CurveId> {
         if document.curves().len() == 0 {
             bail!("there is no curve");
         }
-        if !self.curves.is_empty() {
-            let named = self.curves.iter();
-            return named.map(|name| curve_named(document, name)).collect();
+        let mut ids = document.ids();
+        match (&self.curves[place], ids.next(), ids.next()) {
+            (Some(name), ..) => curve_named(document, name),
+            (None, Some(only), None) => Ok(only),
+            _ => {
+                let option = ["--curve", "--with"][place];
+                bail!("choose one with {option}: {}", there_are(document))
+            }
         }
-        if document.len() == count {
-            return Ok(document.ids().collect());
+    }
+
+    /// Find the two curves that were named; without names, both if there are just two.
+    fn two_curves(&self, document: &Document) -> anyhow::Result<Vec<CurveId>> {
+        match &self.curves {
+            [Some(first), Some(second)] => [first, second]
+                .into_iter()
+                .map(|name| curve_named(document, name))
+                .collect(),
+            [None, None] if document.curves().len() == 2 => Ok(document.ids().collect()),
+            _ if document.curves().len() == 0 => bail!("there is no curve"),
+            _ => bail!(
+                "choose two with --curve and --with: {}",
+                there_are(document)
+            ),
         }
-        let options = if count == 1 {
-            "one with --curve"
-        } else {
-            "two with --curve and --with"
-        };
-        bail!("choose {options}: {}", there_are(document))
+    }
+
+    /// Find the second curve in a file of its own.
+    fn second_curve(&self, document: &Document) -> anyhow::Result<Curve> {
+        let curve = document.curve(self.curve(document, 1)?);
+        Ok(Curve::clone(curve.context("there is no curve")?))
+    }
+
+    /// Add the second curve to the document that has the first one.
+    fn with_second(&self, mut document: Document, mut second: Curve) -> anyhow::Result<Input> {
+        let first = self.curve(&document, 0)?;
+        second.name = document.free_name(&second.name);
+        let id = document.next_id();
+        document.apply(Edit::Add(Box::new(second)))?;
+        Ok(Input::new(&document, [first, id])?)
     }
 
     /// Run the operation on another thread, and tell how far it has come while it takes long.

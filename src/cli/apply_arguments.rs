@@ -14,6 +14,7 @@ use crate::operations::{
 
 const LIST: &str = "list";
 const IN: &str = "IN";
+const SECOND: &str = "SECOND";
 const OUT: &str = "OUT";
 const CURVE: &str = "curve";
 const WITH: &str = "with";
@@ -43,8 +44,10 @@ pub(super) struct Given {
     pub(super) out: PathBuf,
     /// The format to write, if it is told.
     pub(super) to_format: Option<Format>,
-    /// The names of the curves that were chosen.
-    pub(super) curves: Vec<String>,
+    /// The file that the second of two curves comes from; `None` if from the same.
+    pub(super) second: Option<PathBuf>,
+    /// The name of the curve that was chosen, and of the second of two.
+    pub(super) curves: [Option<String>; 2],
     /// The values of the parameters that are given.
     pub(super) values: Vec<(&'static str, Value)>,
     /// Whether the best found is written where what was asked for is not reached.
@@ -102,10 +105,11 @@ impl Given {
         Self {
             operation,
             input: path(IN),
+            second: path(SECOND),
             from_format: format(FROM_FORMAT),
             out: path(OUT).unwrap_or_default(),
             to_format: format(TO_FORMAT),
-            curves: [CURVE, WITH].into_iter().filter_map(name).collect(),
+            curves: [CURVE, WITH].map(name),
             values: values.collect(),
             best: matches.get_flag(BEST),
         }
@@ -129,6 +133,11 @@ pub(super) fn command_of(operation: &'static Operation) -> Command {
             format_parser(Format::readable()),
         ));
     }
+    if has_other {
+        command = command
+            .allow_missing_positional(true)
+            .arg(path_argument(SECOND, SECOND_FILE).required(false));
+    }
     command = command.arg(path_argument(OUT, "The file to write, or - for the standard output, the report going to stderr then; its extension tells the format"));
     command = command.arg(format_argument(
         TO_FORMAT,
@@ -136,19 +145,13 @@ pub(super) fn command_of(operation: &'static Operation) -> Command {
         format_parser(Format::writable()),
     ));
     if has_curves {
-        let curve = name_argument(CURVE, "The curve; needed where the file has several");
-        command = command.arg(if has_other {
-            curve.requires(WITH)
-        } else {
-            curve
-        });
+        let curve = "The curve; needed where the file has several";
+        command = command.arg(name_argument(CURVE, curve));
     }
     if has_other {
-        let other = name_argument(
-            WITH,
-            "The other curve; needed where the file has not just two",
-        );
-        command = command.arg(other.requires(CURVE));
+        let other =
+            "The second curve; needed where one file has not just two, or the second file several";
+        command = command.arg(name_argument(WITH, other));
     }
     let parameters = operation.parameters.iter();
     command = command.args(parameters.map(|it| parameter_argument(it, operation.parameters)));
@@ -158,6 +161,8 @@ pub(super) fn command_of(operation: &'static Operation) -> Command {
 
 const CURVES: &str =
     "The file to read, or - for the standard input; its extension tells the format";
+const SECOND_FILE: &str =
+    "The file that the second curve comes from; if left out, both come from one file";
 const POINTS: &str = "The table of points to read, or - for the standard input: the vertices of a file with one curve, such as a .csv file that begins with the line “# degree=1”";
 
 fn path_argument(name: &'static str, help: &'static str) -> Arg {

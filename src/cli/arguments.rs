@@ -188,6 +188,10 @@ impl Arguments {
                     .input
                     .map(|input| source("apply", input, given.from_format))
                     .transpose()?,
+                second: given
+                    .second
+                    .map(|second| source("apply", second, given.from_format))
+                    .transpose()?,
                 destination: destination("apply", given.out, given.to_format)?,
                 curves: given.curves,
                 values: given.values,

@@ -241,8 +241,17 @@ impl Editor {
             // The active curve comes first.
             Inputs::Two | Inputs::UpToTwo => {
                 let others = self.document().ids().filter(|id| Some(*id) != active);
-                let others = others.filter(|id| selection.of_curve(*id).next().is_some());
-                active.into_iter().chain(others).collect()
+                let others: Vec<CurveId> = others.collect();
+                let is_selected = |id: &&CurveId| selection.of_curve(**id).next().is_some();
+                let selected: Vec<CurveId> = others.iter().filter(is_selected).copied().collect();
+                // Where two are needed and there are two, there is no choice.
+                let needed = operation.inputs == Inputs::Two;
+                let chosen = if needed && selected.is_empty() && others.len() == 1 {
+                    others
+                } else {
+                    selected
+                };
+                active.into_iter().chain(chosen).collect()
             }
         };
         let input = Input::new(self.workspace.settled(), curves)?;

@@ -18,7 +18,7 @@ pub struct Example {
 
 /// Every example, in the order in which they are offered. The first is what an editor without
 /// a file opens.
-pub const EXAMPLES: [Example; 7] = [
+pub const EXAMPLES: [Example; 8] = [
     Example {
         name: "arc",
         title: "Ninth-degree arc",
@@ -60,6 +60,12 @@ pub const EXAMPLES: [Example; 7] = [
         title: "Waterline",
         description: "Half the waterline of a hull 8.4 m long, in millimetres: fine entry, full midbody and a transom, with one curvature extremum.",
         text: include_str!("../../assets/examples/hull.batten"),
+    },
+    Example {
+        name: "composite",
+        title: "Composite log-aesthetic curve",
+        description: "A clothoid and a logarithmic spiral, with their vertices on them, joined by a bridge of five vertices: one curve of degree 5, smooth up to the fourth derivative, whose curvature rises all along.",
+        text: include_str!("../../assets/examples/composite.batten"),
     },
 ];
 
@@ -129,6 +135,7 @@ mod tests {
         check("periodic", (0, 4));
         check("bottle", (1, 4));
         check("hull", (0, 1));
+        check("composite", (0, 0));
     }
 
     #[test]
@@ -137,7 +144,14 @@ mod tests {
         assert_eq!(
             names,
             [
-                "arc", "figure2", "hexagon", "s-curve", "periodic", "bottle", "hull"
+                "arc",
+                "figure2",
+                "hexagon",
+                "s-curve",
+                "periodic",
+                "bottle",
+                "hull",
+                "composite"
             ]
         );
         assert_eq!(Example::find("Arc"), None);

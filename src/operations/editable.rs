@@ -18,11 +18,21 @@ pub(super) fn check_editable(input: &Input) -> Result<(), OperationError> {
 /// # Errors
 /// As [`check_editable`], and [`PolygonError::PeriodicCurve`].
 pub(super) fn open<'a>(input: &'a Input, done: &'static str) -> Result<&'a Curve, OperationError> {
-    let curve = editable(input)?;
+    let (_, curve) = input.curve()?;
+    open_of(curve, done)?;
+    Ok(curve)
+}
+
+/// Refuse a curve that is locked, hidden or periodic, so that it cannot be `done`.
+///
+/// # Errors
+/// [`OperationError::Edit`] or [`PolygonError::PeriodicCurve`].
+pub(super) fn open_of(curve: &Curve, done: &'static str) -> Result<(), OperationError> {
+    curve.check_editable()?;
     if curve.polygon.is_periodic() {
         return Err(PolygonError::PeriodicCurve { done }.into());
     }
-    Ok(curve)
+    Ok(())
 }
 
 /// The curve, if it is neither locked nor hidden.

@@ -5,6 +5,7 @@ use thiserror::Error;
 use super::inputs::Inputs;
 use crate::document::EditError;
 use crate::geometry::between::BetweenError;
+use crate::geometry::fairing::bridging::BridgeError;
 use crate::geometry::fairing::harmonising::HarmonyError;
 use crate::geometry::fairing::joint_correction::CorrectionError;
 use crate::geometry::{End, MAX_DEGREE, PolygonError};
@@ -33,6 +34,9 @@ pub enum OperationError {
     /// The curve cannot be harmonised.
     #[error(transparent)]
     Harmony(#[from] HarmonyError),
+    /// There is no bridge between two ends.
+    #[error(transparent)]
+    Bridge(#[from] BridgeError),
     /// There is no lower degree.
     #[error("the degree is 1 already, the lowest that there is")]
     LowestDegree,

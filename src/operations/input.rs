@@ -64,7 +64,9 @@ impl Input {
         match (inputs, curves) {
             (Inputs::None | Inputs::UpToTwo, []) => points == 0,
             (Inputs::One | Inputs::UpToTwo, [_]) => points == 0,
-            (Inputs::Two | Inputs::UpToTwo, [(first, _), (second, _)]) => first != second && points == 0,
+            (Inputs::Two | Inputs::UpToTwo, [(first, _), (second, _)]) => {
+                first != second && points == 0
+            }
             (Inputs::Points, []) => points > 0,
             _ => false,
         }

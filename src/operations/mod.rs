@@ -10,6 +10,7 @@
 
 mod amount;
 mod atlas;
+mod bridge;
 mod cutting;
 mod degree;
 mod editable;
@@ -64,6 +65,8 @@ table! {
     reduce_degree,
     subdivide,
     extend,
+    join,
+    close,
     split,
     trim,
     round,

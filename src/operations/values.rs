@@ -71,6 +71,17 @@ impl Values {
         }
     }
 
+    /// Whether a parameter that is on or off is on.
+    ///
+    /// # Panics
+    /// As [`Values::whole`].
+    pub(super) fn switch(&self, parameter: &Parameter) -> bool {
+        match self.get(parameter) {
+            Value::Switch(on) => *on,
+            other => panic!("“{}” is {other:?}, neither on nor off", parameter.name),
+        }
+    }
+
     /// What the chosen option of a parameter means; `meanings` are in the order of its options.
     ///
     /// # Panics

@@ -527,10 +527,15 @@ fn joined(counts: &[FeatureCounts], text: impl Fn(&FeatureCounts) -> String) -> 
 /// One row of figures in two columns: what was, and what is.
 fn before_after_ui(ui: &mut Ui, name: &str, before: &str, after: &str) {
     let told = format!("{name}: {before} before, {after} after");
-    let size = vec2(ui.available_width(), 5.0 * STEP);
+    let line = 5.0 * STEP;
+    // The figures of several curves take a line of their own.
+    let lines = if before.contains(", ") { 2.0 } else { 1.0 };
+    let size = vec2(ui.available_width(), lines * line);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     let tokens = Tokens::of(ui);
-    widgets::label_in(ui, rect, name, tokens.faint_text);
+    let top = rect.with_max_y(rect.top() + line);
+    widgets::label_in(ui, top, name, tokens.faint_text);
+    let rect = rect.with_min_y(rect.bottom() - line);
     let left = rect.with_max_x(rect.right() - COLUMN);
     widgets::number_in(ui, left, before, tokens.text);
     widgets::number_in(ui, rect, after, tokens.text);

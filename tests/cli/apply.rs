@@ -96,10 +96,10 @@ fn every_operation_is_listed_has_help_and_reports_by_one_schema() {
         for word in ["<IN>", "--curve <NAME>", "--from-format"] {
             assert_eq!(help.contains(word), reads, "{name}: {word} in {help}");
         }
-        let read = if reads {
-            &[name, &file, "out.batten"][..]
-        } else {
-            &[name, "out.batten"]
+        let read = match name {
+            "mineur-farin" | "between" => &[name, "out.batten"][..],
+            "join" => &[name, &file, &file, "out.batten"],
+            _ => &[name, &file, "out.batten"],
         };
         let report = report(&folder, read);
         assert_eq!(report["operation"], name);
@@ -333,6 +333,65 @@ fn the_curve_must_be_told_where_there_are_several() {
         "--curve",
         "hull",
     ]);
+}
+
+#[test]
+fn two_curves_are_joined_from_one_file_or_two() {
+    let line = |name: &str, x: f64| {
+        let vertices = [0.0, 1.0, 2.0, 3.0, 4.0].map(|along| [x + along, 0.0]);
+        json!({"name": name, "degree": 3, "vertices": vertices})
+    };
+    let folder = Folder::new()
+        .with(
+            "both.batten",
+            project(json!([line("a", 0.0), line("b", 9.0)])),
+        )
+        .with("a.batten", project(json!([line("a", 0.0)])))
+        .with(
+            "b.batten",
+            project(json!([line("a", 9.0), line("other", 50.0)])),
+        );
+    let vertices = |file: &str| -> Vec<Vec<f64>> {
+        let text = fs::read_to_string(folder.path(file)).expect("a file");
+        let project: Value = serde_json::from_str(&text).expect("a project");
+        let curves = project["curves"].as_array().expect("curves");
+        assert_eq!(curves.len(), 1);
+        assert_eq!(curves[0]["name"], "a");
+        let vertices = curves[0]["vertices"].as_array().expect("vertices");
+        vertices.iter().map(numbers).collect()
+    };
+    let (out, _) = folder.done(&["apply", "join", "both.batten", "one.batten"]);
+    let report: Value = serde_json::from_str(&out).expect("a report");
+    assert_eq!(
+        (&report["bridge"], &report["reached"]),
+        (&json!(4), &json!(true))
+    );
+    let two = [
+        "apply",
+        "join",
+        "a.batten",
+        "b.batten",
+        "two.batten",
+        "--with",
+        "a",
+    ];
+    folder.done(&[&two[..], &["--bridge", "4"]].concat());
+    for file in ["one.batten", "two.batten"] {
+        for (index, vertex) in vertices(file).iter().enumerate() {
+            assert!((vertex[0] - index as f64).abs() < 1e-9, "{vertex:?}");
+        }
+    }
+    folder.done(&[&two[..], &["--bridge=0", "--move-second"]].concat());
+    assert!((vertices("two.batten")[9][0] - 9.0).abs() < 1e-9);
+    folder.refused(
+        &["apply", "join", "a.batten", "b.batten", "none.batten"],
+        "b.batten: choose one with --with: there are “a”, “other”",
+    );
+    folder.refused(
+        &["apply", "join", "a.batten", "none.batten"],
+        "a.batten: choose two with --curve and --with: there is “a”",
+    );
+    assert!(!folder.path("none.batten").exists());
 }
 
 #[test]

@@ -25,7 +25,14 @@ fn examples_are_listed_and_written() {
     assert_eq!(
         names,
         [
-            "arc", "figure2", "hexagon", "s-curve", "periodic", "bottle", "hull"
+            "arc",
+            "figure2",
+            "hexagon",
+            "s-curve",
+            "periodic",
+            "bottle",
+            "hull",
+            "composite"
         ]
     );
     for name in names {

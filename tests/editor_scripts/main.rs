@@ -17,6 +17,7 @@ mod following;
 mod generating;
 mod guides;
 mod harmony;
+mod joining;
 mod keeping;
 mod laws;
 mod locking;

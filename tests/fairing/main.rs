@@ -1,5 +1,6 @@
 //! Corrections of ends, and harmonising.
 
+mod bridging;
 #[path = "../common/mod.rs"]
 mod common;
 mod corrections;

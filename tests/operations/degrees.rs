@@ -178,8 +178,9 @@ fn locked_and_hidden_curves_are_refused_beforehand_by_every_operation() {
     ] {
         let runner = runner().edited(edit);
         let on_curves = batten::operations::ALL.iter();
-        for operation in on_curves.filter(|operation| operation.inputs == Inputs::One) {
-            let refused = operation.check(&runner.input).expect_err("refused");
+        for operation in on_curves.filter(|operation| operation.inputs != Inputs::None) {
+            let input = runner.input_of(operation);
+            let refused = operation.check(&input).expect_err("refused");
             assert_eq!(refused.to_string(), expected, "{}", operation.name);
         }
     }

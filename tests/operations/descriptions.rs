@@ -225,6 +225,7 @@ fn an_operation_runs_on_nothing_but_the_inputs_it_wants() {
         let (wrong, expected) = match operation.inputs {
             Inputs::None => (&runner.input, "this works on no curve: choose none"),
             Inputs::UpToTwo => (&twice, "choose no more than two different curves"),
+            Inputs::Two => (&none, "choose two different curves"),
             _ => (&none, "choose one curve"),
         };
         for input in [wrong, &twice, &points] {

@@ -111,7 +111,8 @@ fn no_operation_moves_a_locked_vertex() {
             let Ok(outcome) = runner.run(operation.name, &[]) else {
                 continue;
             };
-            let after = outcome.applied_to(runner.input.document());
+            let input = runner.input_of(operation);
+            let after = outcome.applied_to(input.document());
             let after = after.expect("edits that can be made");
             for (_, curve) in after.curves() {
                 for vertex in locks(curve) {

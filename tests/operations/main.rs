@@ -7,6 +7,7 @@ mod degrees;
 mod descriptions;
 mod ends;
 mod harmony;
+mod joining;
 mod locks;
 mod matches;
 mod mineur_farin;

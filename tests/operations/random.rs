@@ -87,6 +87,7 @@ fn random_values_neither_panic_nor_make_edits_that_are_refused() {
                         | OperationError::Edit(EditError::BadTarget)
                         | OperationError::Harmony(_)
                         | OperationError::OutOfRange { .. }
+                        | OperationError::Bridge(_)
                         | OperationError::Correction(_)),
                     ) => {
                         assert!(!error.to_string().is_empty());

@@ -1,6 +1,6 @@
 //! Running operations on the built-in examples.
 
-use batten::document::{Curve, CurveId, Document, Edit};
+use batten::document::{Curve, CurveId, Document, Edit, LockedVertices};
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::{End, FloatPolygon, Progress};
 use batten::io::examples::{EXAMPLES, Example};
@@ -63,8 +63,31 @@ impl Runner {
     pub fn input_of(&self, operation: &Operation) -> Input {
         match operation.inputs {
             Inputs::None => Input::new(self.input.document(), []).expect("none is there"),
+            Inputs::Two => self.with_copy(),
             _ => self.input.clone(),
         }
+    }
+
+    /// Choose the curve and a copy of it that begins beyond its end.
+    fn with_copy(&self) -> Input {
+        let mut copy = self.curve().clone();
+        copy.locked_vertices = LockedVertices::default();
+        let polygon = &copy.polygon;
+        let by = 1.5 * (polygon.vertex(polygon.vertices().len() - 1) - polygon.vertex(0));
+        let moved = polygon.vertices().iter().map(|vertex| *vertex + by);
+        let weights = polygon.weights().map(<[f64]>::to_vec);
+        let moved = FloatPolygon::new(
+            polygon.degree(),
+            moved.collect(),
+            weights,
+            polygon.is_periodic(),
+        );
+        copy.polygon = moved.expect("a polygon");
+        let mut document = self.input.document().clone();
+        let id = document.next_id();
+        let added = document.apply(Edit::Add(Box::new(copy)));
+        added.expect("a curve that can be added");
+        Input::new(&document, [self.id(), id]).expect("both are there")
     }
 
     pub fn run(&self, name: &str, given: &[(&str, Value)]) -> Result<Outcome, OperationError> {

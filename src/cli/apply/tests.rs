@@ -131,16 +131,18 @@ fn apply(
     let application = Application {
         operation,
         source: given.input.and_then(|path| Source::new(path, None)),
+        second: None,
         destination: destination.expect("a file"),
         curves: given.curves,
         values: given.values,
         best: false,
     };
     let curves = curves.to_vec();
-    let input = application.chosen(Reading {
+    let reading = Reading {
         curves,
         ..Reading::default()
-    });
+    };
+    let input = application.chosen(reading, None);
     let input = input.map_err(|error| error.to_string())?;
     let done = application.applied(&input);
     let (outcome, report) = done.map_err(|error| error.to_string())?;
@@ -222,8 +224,11 @@ fn two_curves_are_taken_by_their_names_or_as_they_stand() {
         assert_eq!(lengths(&arguments, &curves), Err(expected.to_owned()));
     }
     let alone = [&files[..], &["--curve", "a"]].concat();
-    let error = lengths(&alone, &curves).expect_err("not understood");
-    assert!(error.contains("--with <NAME>"), "{error}");
+    let error = lengths(&alone, &curves).expect_err("one is missing");
+    assert!(
+        error.starts_with("choose two with --curve and --with"),
+        "{error}"
+    );
 }
 
 #[test]

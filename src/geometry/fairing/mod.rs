@@ -6,6 +6,7 @@
 //! conditions, a few at each end, are eliminated: with H = JᵀJ, the gradient g and the rows A of the
 //! linearised conditions c, a step is d = −H⁻¹(g + Aᵀλ) with A d = −c.
 
+pub mod bridging;
 mod condition;
 mod counts;
 mod dual;
@@ -19,3 +20,4 @@ pub mod near_end;
 mod objective;
 mod problem;
 mod unknowns;
+mod walk;

@@ -1,0 +1,525 @@
+//! Bridges: vertices between two parts that make one harmonious float polygon of them.
+
+use std::ops::Range;
+
+use glam::{DVec3, DVec4};
+use thiserror::Error;
+
+use super::counts::{ShapeCounts, counted, domain, seen};
+use super::objective::Measure;
+use super::problem::Problem;
+use super::walk::walk;
+use crate::geometry::basis::uniform_basis_derivative;
+use crate::geometry::error::PolygonError;
+use crate::geometry::features::Features;
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::harmony::VertexFlow;
+use crate::geometry::progress::Progress;
+
+/// The most vertices that a bridge may have.
+pub const MAX_BRIDGE: usize = 2000;
+
+/// How many numbers of vertices are tried at most, where the number is not given.
+const MOST_TRIALS: usize = 24;
+
+/// The orders of the differences of curvature that are tried.
+const ORDERS: [usize; 2] = [2, 3];
+
+/// The weight ε of the moves from the first guess: it only keeps the equations regular.
+const CLOSENESS: f64 = 1e-9;
+
+/// The most Gauss–Newton steps of one descent.
+const MOST_STEPS: usize = 60;
+
+/// How many pieces the length of a first guess is measured by.
+const PIECES: usize = 64;
+
+/// What a bridge is to be.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Bridge {
+    /// How many vertices it has; `None` for as many as it takes.
+    pub vertices: Option<usize>,
+    /// Whether the second part may move rigidly into its best place.
+    pub second_moves: bool,
+}
+
+/// A polygon with its bridge.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bridged {
+    /// The vertices of the first part, those of the bridge and those of the second part.
+    pub polygon: FloatPolygon,
+    /// The numbers of the bridge's vertices.
+    pub bridge: Range<usize>,
+    /// The proved features of what depends on the bridge.
+    pub counts: ShapeCounts,
+    /// How many places there are undecided, cusps among them.
+    pub undecided: usize,
+    /// How many Gauss–Newton steps were made in all.
+    pub iterations: usize,
+}
+
+/// Why there is no bridge.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum BridgeError {
+    /// The parts have different degrees.
+    #[error("the curves have the degrees {first} and {second}: bring them to one degree first")]
+    Degrees {
+        /// The degree of the first part.
+        first: usize,
+        /// The degree of the second part.
+        second: usize,
+    },
+    /// A bridge of legs like those of the parts has too many vertices.
+    #[error(
+        "a bridge of legs like those beside the gap takes about {needed} vertices, {MAX_BRIDGE} are the most: give their number, or bring the ends closer"
+    )]
+    TooFar {
+        /// How many it would have.
+        needed: usize,
+    },
+    /// The computation was ended early.
+    #[error("joining was cancelled")]
+    Cancelled,
+    /// The vertices make no polygon.
+    #[error(transparent)]
+    Polygon(#[from] PolygonError),
+}
+
+/// Join the end of an open curve with the start of another of the same degree n by a bridge: the
+/// composite is one float polygon, hence C^{n−1}, and where only vertices of one part act it is that
+/// part to the bit.
+///
+/// The bridge minimises the functional of [`harmonise`](super::harmonising::harmonise) with second
+/// or third differences. The first guess is the cubic with the last legs' directions at its ends.
+/// Where the second part moves, legs, curvatures and torsion angles of the bridge are free of each
+/// other, and each sequence is the discrete spline between those of the parts.
+///
+/// Where the number of vertices is not given, parts that share their n vertices there, as after a
+/// cut, need none. Else numbers about as large as that of the legs that fit into the gap are tried:
+/// the most even bridge wins: with the smallest sum of the largest second differences of legs, turning
+/// and torsion angles, times 1 + the features that it shows; where the second part moves, the one with
+/// the fewest features, then the fewest vertices. The logarithms of weights go on as a cubic.
+///
+/// # Errors
+/// [`BridgeError`]; a part that is periodic is [`PolygonError::PeriodicCurve`].
+pub fn join(
+    first: &FloatPolygon,
+    second: &FloatPolygon,
+    bridge: &Bridge,
+    progress: &Progress,
+) -> Result<Bridged, BridgeError> {
+    if first.degree() != second.degree() {
+        let (first, second) = (first.degree(), second.degree());
+        return Err(BridgeError::Degrees { first, second });
+    }
+    let parts = Parts {
+        first,
+        second,
+        closes: false,
+    };
+    parts.check_open("joined")?;
+    parts.bridged(bridge, progress)
+}
+
+/// Join the end of an open curve with its own start, so that it is periodic, as [`join`] does.
+///
+/// # Errors
+/// [`BridgeError`]; a curve that is periodic is [`PolygonError::PeriodicCurve`].
+pub fn close(
+    polygon: &FloatPolygon,
+    vertices: Option<usize>,
+    progress: &Progress,
+) -> Result<Bridged, BridgeError> {
+    let parts = Parts {
+        first: polygon,
+        second: polygon,
+        closes: true,
+    };
+    parts.check_open("closed")?;
+    let bridge = Bridge {
+        vertices,
+        second_moves: false,
+    };
+    parts.bridged(&bridge, progress)
+}
+
+/// Measure the largest jump of the value and the derivatives up to order n − 1 by u at the knots of
+/// what depends on some vertices, each relative to the sum of the magnitudes that it is a sum of; of
+/// a rational curve those of its homogeneous form. In exact numbers it is 0.
+pub fn largest_jump(polygon: &FloatPolygon, vertices: &Range<usize>) -> f64 {
+    let (degree, segments) = (polygon.degree(), polygon.segments());
+    let from = vertices.start + usize::from(polygon.is_periodic()) * segments;
+    let knots = from.saturating_sub(degree)..=from + vertices.len();
+    let inside = |knot: &usize| polygon.is_periodic() || (*knot > 0 && *knot < segments);
+    let mut largest = 0.0_f64;
+    for knot in knots.filter(inside) {
+        for order in 0..degree {
+            let mut jump = DVec4::ZERO;
+            let mut sum = 0.0;
+            for (side, before, t) in [(1.0, 0, 0.0), (-1.0, 1, 1.0)] {
+                let first = knot - before;
+                for (index, basis) in uniform_basis_derivative::<f64>(degree, order, t)
+                    .iter()
+                    .enumerate()
+                {
+                    let term: DVec4 = *basis * polygon.homogeneous(first + index);
+                    jump += side * term;
+                    sum += term.length();
+                }
+            }
+            if sum > 0.0 {
+                largest = largest.max(jump.length() / sum);
+            }
+        }
+    }
+    largest
+}
+
+impl Bridged {
+    /// The same curve, run through the other way.
+    pub fn reversed(self) -> Self {
+        let count = self.polygon.vertices().len();
+        Self {
+            polygon: self.polygon.reversed(),
+            bridge: count - self.bridge.end..count - self.bridge.start,
+            ..self
+        }
+    }
+}
+
+/// What is joined.
+struct Parts<'a> {
+    first: &'a FloatPolygon,
+    second: &'a FloatPolygon,
+    /// Whether the two are the same, and the bridge closes it.
+    closes: bool,
+}
+
+/// A polygon that was tried.
+struct Trial {
+    polygon: FloatPolygon,
+    bridge: Range<usize>,
+    /// What is to be small, then what decides between equals.
+    rank: (f64, usize),
+}
+
+impl Parts<'_> {
+    fn check_open(&self, done: &'static str) -> Result<(), PolygonError> {
+        if self.first.is_periodic() || self.second.is_periodic() {
+            return Err(PolygonError::PeriodicCurve { done });
+        }
+        Ok(())
+    }
+
+    fn is_planar(&self) -> bool {
+        self.first.is_planar() && self.second.is_planar()
+    }
+
+    /// The composite where the parts go on from each other as they are: the last n vertices of the
+    /// first are the first ones of the second, as after a cut.
+    fn seamless(&self) -> Option<Trial> {
+        let (degree, count) = (self.first.degree(), self.first.vertices().len());
+        let begin = count - degree;
+        let shared = (0..degree).all(|index| {
+            let [a, b] = [(self.first, begin + index), (self.second, index)]
+                .map(|(polygon, index)| (polygon.vertex(index), polygon.weight(index)));
+            a == b
+        });
+        let polygon = |first: &FloatPolygon, second: &FloatPolygon| {
+            let rational = first.weights().is_some() || second.weights().is_some();
+            let rest = if self.closes {
+                0..0
+            } else {
+                0..second.vertices().len()
+            };
+            let all = (0..begin).map(|index| (first, index));
+            let all = all.chain(rest.map(|index| (second, index)));
+            let (vertices, weights) = all
+                .map(|(polygon, index)| (polygon.vertex(index), polygon.weight(index)))
+                .unzip();
+            let weights: Option<Vec<f64>> = Some(weights).filter(|_| rational);
+            FloatPolygon::new(degree, vertices, weights, self.closes)
+        };
+        // A curve that closes may have too few vertices without those.
+        let polygon = polygon(self.first, self.second).ok().filter(|_| shared)?;
+        Some(Trial {
+            polygon,
+            bridge: begin..begin,
+            rank: (0.0, 0),
+        })
+    }
+
+    fn bridged(&self, bridge: &Bridge, progress: &Progress) -> Result<Bridged, BridgeError> {
+        let mut search = Search {
+            parts: self,
+            second_moves: bridge.second_moves,
+            progress,
+            best: self.seamless().filter(|_| bridge.vertices.is_none()),
+            iterations: 0,
+        };
+        match bridge.vertices {
+            Some(count) => search.try_out([count])?,
+            None if search.best.is_some() => {}
+            None if bridge.second_moves => search.try_out(1..=2 * self.first.degree() + 8)?,
+            None => search.narrow(self.numbers()?)?,
+        }
+        let iterations = search.iterations;
+        // Each number of vertices gives a polygon or an error, and one at least was tried.
+        let best = search.best.ok_or(BridgeError::Cancelled)?;
+        let (around, stretch) = around(&best.polygon, &best.bridge)?;
+        let features = Features::proved(&around, |_| !progress.is_cancelled());
+        let features = features.ok_or(BridgeError::Cancelled)?;
+        let proved = counted(&features, around.is_planar(), stretch);
+        Ok(Bridged {
+            polygon: best.polygon,
+            bridge: best.bridge,
+            counts: proved.counts,
+            undecided: proved.undecided,
+            iterations,
+        })
+    }
+
+    /// The vertices of the last leg of the first part and of the first leg of the second, with the
+    /// logarithms of their weights.
+    fn legs(&self) -> [[(DVec3, f64); 2]; 2] {
+        let vertex =
+            |polygon: &FloatPolygon, index| (polygon.vertex(index), polygon.weight(index).ln());
+        let last = self.first.vertices().len() - 1;
+        [
+            [vertex(self.first, last - 1), vertex(self.first, last)],
+            [vertex(self.second, 0), vertex(self.second, 1)],
+        ]
+    }
+
+    /// The range of numbers of vertices that are tried: about as many as legs fit into the gap.
+    ///
+    /// # Errors
+    /// [`BridgeError::TooFar`].
+    fn numbers(&self) -> Result<[usize; 2], BridgeError> {
+        let points = self.guess(PIECES);
+        let [[_, from], [to, _]] = self.legs();
+        let mut way = vec![from.0];
+        way.extend(points.iter().map(|(point, _)| *point));
+        way.push(to.0);
+        let length: f64 = way.windows(2).map(|leg| leg[0].distance(leg[1])).sum();
+        let [before, after] = self.legs().map(|[a, b]| a.0.distance(b.0));
+        let leg = (before * after).sqrt();
+        let fitting = if leg > 0.0 { length / leg } else { 0.0 };
+        let degree = self.first.degree();
+        let most = 2.0 * fitting + degree as f64;
+        if most > MAX_BRIDGE as f64 {
+            let needed = fitting.round() as usize;
+            return Err(BridgeError::TooFar { needed });
+        }
+        Ok([((0.5 * fitting) as usize).max(1), (most as usize).max(1)])
+    }
+
+    /// The first guess of a bridge: the cubic that leaves the last vertex of the first part and
+    /// arrives at the first one of the second along their legs.
+    fn guess(&self, count: usize) -> Vec<(DVec3, f64)> {
+        let [[before, from], [to, after]] = self.legs();
+        let chord = to.0 - from.0;
+        let along = |leg: DVec3| leg.try_normalize().unwrap_or(chord.normalize_or_zero());
+        let steps = (count + 1) as f64;
+        let slopes = [
+            (
+                chord.length() * along(from.0 - before.0),
+                steps * (from.1 - before.1),
+            ),
+            (
+                chord.length() * along(after.0 - to.0),
+                steps * (after.1 - to.1),
+            ),
+        ];
+        let point = |index: usize| {
+            let t = (index + 1) as f64 / steps;
+            let s = 1.0 - t;
+            let weights = [
+                s * s * (1.0 + 2.0 * t),
+                s * s * t,
+                -t * t * s,
+                t * t * (1.0 + 2.0 * s),
+            ];
+            let points = [from.0, slopes[0].0, slopes[1].0, to.0];
+            let logarithms = [from.1, slopes[0].1, slopes[1].1, to.1];
+            let terms = weights.iter().zip(points);
+            let point = terms.map(|(weight, point)| *weight * point).sum();
+            let terms = weights.iter().zip(logarithms);
+            (point, terms.map(|(weight, number)| weight * number).sum())
+        };
+        (0..count).map(point).collect()
+    }
+
+    /// Put the composite together, the second part with these vertices.
+    fn composite(
+        &self,
+        bridge: &[(DVec3, f64)],
+        second: &[DVec3],
+    ) -> Result<FloatPolygon, PolygonError> {
+        let mut vertices = self.first.vertices().to_vec();
+        vertices.extend(bridge.iter().map(|(point, _)| *point));
+        let is_rational = self.first.weights().is_some() || self.second.weights().is_some();
+        let mut weights: Vec<f64> = (0..self.first.vertices().len())
+            .map(|index| self.first.weight(index))
+            .collect();
+        weights.extend(bridge.iter().map(|(_, logarithm)| logarithm.exp()));
+        if !self.closes {
+            vertices.extend_from_slice(second);
+            weights.extend((0..second.len()).map(|index| self.second.weight(index)));
+        }
+        let weights = is_rational.then_some(weights);
+        FloatPolygon::new(self.first.degree(), vertices, weights, self.closes)
+    }
+
+    /// The best bridges of so many vertices with both parts in their places.
+    fn fixed(
+        &self,
+        count: usize,
+        order: usize,
+        iterations: &mut usize,
+    ) -> Result<Vec<Trial>, BridgeError> {
+        let guess = self.composite(&self.guess(count), self.second.vertices())?;
+        let first = self.first.vertices().len();
+        let bridge = first..first + count;
+        let problem = Problem::new(&guess, self.is_planar(), |vertex| bridge.contains(&vertex));
+        let mut vertices = guess.vertices().to_vec();
+        let mut trials = Vec::new();
+        // In space the curvature vector leads to where torsion angles mean something.
+        let in_space = (!self.is_planar()).then_some(Measure::CurvatureVector);
+        for measure in in_space.into_iter().chain([problem.measure()]) {
+            let harmony = problem.harmony(measure, order, CLOSENESS);
+            let found = problem.descend(harmony, &vertices, MOST_STEPS);
+            *iterations += found.steps;
+            vertices = found.vertices;
+            let polygon = problem.polygon(&vertices)?;
+            trials.push(Trial {
+                rank: (unevenness(&polygon, &bridge)?, count),
+                polygon,
+                bridge: bridge.clone(),
+            });
+        }
+        Ok(trials)
+    }
+
+    /// The best bridge of so many vertices with the second part where it fits best.
+    fn moving(&self, count: usize, order: usize) -> Result<Trial, BridgeError> {
+        let weights = self.guess(count).into_iter().map(|(_, weight)| weight);
+        let parts = [self.first.vertices(), self.second.vertices()];
+        let (points, second) = walk(parts, count, order, self.is_planar());
+        let bridge: Vec<(DVec3, f64)> = points.into_iter().zip(weights).collect();
+        let polygon = self.composite(&bridge, &second)?;
+        let first = self.first.vertices().len();
+        let bridge = first..first + count;
+        Ok(Trial {
+            rank: (features(&polygon, &bridge)? as f64, count),
+            polygon,
+            bridge,
+        })
+    }
+}
+
+/// The search for the best number of vertices.
+struct Search<'a> {
+    parts: &'a Parts<'a>,
+    second_moves: bool,
+    progress: &'a Progress,
+    best: Option<Trial>,
+    iterations: usize,
+}
+
+impl Search<'_> {
+    /// Try a few numbers of a range, then those between the neighbours of the best one.
+    fn narrow(&mut self, [least, most]: [usize; 2]) -> Result<(), BridgeError> {
+        let mut step = (most - least).div_ceil(MOST_TRIALS).max(1);
+        self.try_out((least..=most).step_by(step))?;
+        while step > 1 {
+            step = step.div_ceil(2);
+            let best = self.best.as_ref().map_or(least, |best| best.bridge.len());
+            self.try_out([best.saturating_sub(step).max(1), best + step])?;
+        }
+        Ok(())
+    }
+
+    /// Try numbers of vertices, and keep the best composite.
+    fn try_out(&mut self, numbers: impl IntoIterator<Item = usize>) -> Result<(), BridgeError> {
+        let numbers: Vec<usize> = numbers.into_iter().collect();
+        let all = numbers.len() as f64;
+        for (index, count) in numbers.into_iter().enumerate() {
+            self.progress.set_done(index as f64 / all);
+            for order in ORDERS {
+                if self.progress.is_cancelled() {
+                    return Err(BridgeError::Cancelled);
+                }
+                let found = if self.second_moves {
+                    vec![self.parts.moving(count, order)?]
+                } else {
+                    self.parts.fixed(count, order, &mut self.iterations)?
+                };
+                for trial in found {
+                    if self.best.as_ref().is_none_or(|best| trial.rank < best.rank) {
+                        self.best = Some(trial);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// How uneven a bridge is: the largest second differences of the logarithms of its legs, of its
+/// turning angles and, in space, of its torsion angles, and those of the legs beside it, times 1 + the
+/// features that it shows.
+fn unevenness(polygon: &FloatPolygon, bridge: &Range<usize>) -> Result<f64, PolygonError> {
+    let (beside, _) = around(polygon, bridge)?;
+    let flow = VertexFlow::of(&beside);
+    let legs = flow.legs.map(f64::ln);
+    let sequences = [Some(&legs), Some(&flow.turns), flow.torsion_angles.as_ref()];
+    let largest = sequences.into_iter().flatten().map(|sequence| {
+        let differences = sequence.second_differences();
+        differences.fold(0.0_f64, |most, (_, difference)| most.max(difference.abs()))
+    });
+    let features = features(polygon, bridge)?;
+    Ok((1 + features) as f64 * largest.sum::<f64>())
+}
+
+/// How many features are seen in what depends on a bridge.
+fn features(polygon: &FloatPolygon, bridge: &Range<usize>) -> Result<usize, PolygonError> {
+    let (around, stretch) = around(polygon, bridge)?;
+    let counts = seen(&around, stretch);
+    Ok(counts.extrema + counts.inflections + counts.torsion_extrema)
+}
+
+/// The part of a curve around a bridge, with the stretch of it that depends on the bridge: where a
+/// neighbouring segment is there, it shows whether there is an extremum at the knot between.
+fn around(
+    polygon: &FloatPolygon,
+    bridge: &Range<usize>,
+) -> Result<(FloatPolygon, [f64; 2]), PolygonError> {
+    let (degree, count) = (polygon.degree(), polygon.vertices().len());
+    let whole = polygon.unrolled();
+    let beside = degree + 1;
+    let (first, last) = if polygon.is_periodic() {
+        if bridge.len() + 2 * beside > count {
+            let stretch = domain(&whole);
+            return Ok((whole, stretch));
+        }
+        (bridge.start + count - beside, bridge.end + count + beside)
+    } else {
+        let last = (bridge.end + beside).min(count);
+        (bridge.start.saturating_sub(beside), last)
+    };
+    let vertices = (first..last).map(|index| polygon.vertex(index));
+    let weights = (first..last).map(|index| polygon.weight(index)).collect();
+    let weights = polygon.weights().is_some().then_some(weights);
+    let part = FloatPolygon::new(degree, vertices.collect(), weights, false)?;
+    let bridge_first = if polygon.is_periodic() {
+        beside
+    } else {
+        bridge.start - first
+    };
+    let stretch = [
+        bridge_first.saturating_sub(degree) as f64,
+        (bridge_first + bridge.len()).min(part.segments()) as f64,
+    ];
+    Ok((part, stretch))
+}

@@ -1,0 +1,88 @@
+//! What joining two curves and closing one share.
+
+use super::error::OperationError;
+use super::lists::{count, given};
+use super::outcome::{Figure, Mark};
+use super::parameter::{Parameter, Unit};
+use super::value::Value;
+use super::values::Values;
+use crate::geometry::fairing::bridging::{BridgeError, Bridged, MAX_BRIDGE, largest_jump};
+
+/// How many vertices a bridge has.
+pub(super) const BRIDGE: Parameter = Parameter {
+    name: "bridge",
+    label: "Bridge vertices",
+    help: "How many vertices the bridge has; as many as it takes is the number with which its legs and turning angles are the most even, with few curvature extrema and inflections",
+    kind: count(|_| "as many as it takes"),
+};
+
+/// The number of vertices that was given, if one was.
+///
+/// # Errors
+/// [`OperationError::OutOfRange`].
+pub(super) fn vertices(values: &Values) -> Result<Option<usize>, OperationError> {
+    let number = given(values, &BRIDGE);
+    if let Some(value) = number.filter(|number| *number > MAX_BRIDGE as f64) {
+        return Err(OperationError::OutOfRange {
+            label: BRIDGE.label,
+            value: value.to_string(),
+            needed: format!("a number from 0 to {MAX_BRIDGE}"),
+        });
+    }
+    Ok(number.map(|number| number as usize))
+}
+
+/// Refuse what was cancelled as every operation does.
+///
+/// # Errors
+/// [`OperationError`].
+pub(super) fn found(result: Result<Bridged, BridgeError>) -> Result<Bridged, OperationError> {
+    result.map_err(|error| match error {
+        BridgeError::Cancelled => OperationError::Cancelled,
+        error => error.into(),
+    })
+}
+
+/// Tell how many vertices a bridge has, how smooth the curve is over it, and what features it has.
+pub(super) fn figures(found: &Bridged) -> Vec<Figure> {
+    let jump = largest_jump(&found.polygon, &found.bridge);
+    vec![
+        Figure::count("bridge", "Bridge vertices", found.bridge.len()),
+        Figure {
+            name: "largest_jump",
+            label: "Largest jump of a derivative (relative)",
+            value: Value::Real(jump),
+            unit: Unit::None,
+        },
+        Figure::count(
+            "bridge_extrema",
+            "Curvature extrema on the bridge",
+            found.counts.extrema,
+        ),
+        Figure::count(
+            "bridge_inflections",
+            "Inflections on the bridge",
+            found.counts.inflections,
+        ),
+        Figure::count("iterations", "Iterations", found.iterations),
+    ]
+}
+
+/// Say what could not be proved.
+pub(super) fn remarks(found: &Bridged) -> Vec<String> {
+    let undecided = (found.undecided > 0).then(|| {
+        format!(
+            "Features of the bridge that could not be decided: {}",
+            found.undecided
+        )
+    });
+    undecided.into_iter().collect()
+}
+
+/// Mark the vertices of a bridge.
+pub(super) fn marks(found: &Bridged) -> Vec<Mark> {
+    let vertices = found.bridge.clone();
+    vertices
+        .map(|vertex| Mark::Point(found.polygon.vertex(vertex)))
+        .collect()
+}

@@ -1,0 +1,58 @@
+//! A curve whose ends are joined, so that it is periodic.
+
+use super::bridge::{BRIDGE, figures, found, marks, remarks, vertices};
+use super::editable::open;
+use super::error::OperationError;
+use super::input::Input;
+use super::inputs::Inputs;
+use super::matches::{Moved, followers, without_match};
+use super::operation::Operation;
+use super::outcome::{Deviation, Outcome};
+use super::values::Values;
+use crate::document::{Edit, MatchPlace};
+use crate::geometry::fairing::bridging::close;
+use crate::geometry::{End, Progress};
+
+/// The operation: its description, and how it is checked and run.
+pub static OPERATION: Operation = Operation {
+    name: "close",
+    label: "Close curve",
+    help: "Join the two ends of a curve by a harmonious bridge, so that it is periodic; the curve itself stays",
+    inputs: Inputs::One,
+    parameters: &[BRIDGE],
+    check: |input| open(input, "closed").map(drop),
+    run,
+};
+
+fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
+    let (id, curve) = input.curve()?;
+    let found = found(close(&curve.polygon, vertices(values)?, progress))?;
+    let document = input.document();
+    let segments = curve.polygon.segments() as f64;
+    let mut edits: Vec<Edit> = Vec::new();
+    for end in End::BOTH {
+        edits.extend(without_match(document, id, end));
+        let target = curve.targets.get(end).map(|_| Edit::SetTarget {
+            curve: id,
+            end,
+            target: None,
+        });
+        edits.extend(target);
+    }
+    let mut outcome = Outcome::renumbered(id, curve, found.polygon.clone(), Deviation::Exact);
+    edits.append(&mut outcome.edits);
+    edits.extend(followers(document, id, |place| {
+        let place = match place {
+            MatchPlace::End(End::Start) => MatchPlace::Parameter(0.0),
+            MatchPlace::End(End::Finish) => MatchPlace::Parameter(segments),
+            place => place,
+        };
+        Moved::To(id, place, false)
+    }));
+    outcome.edits = edits;
+    outcome.renumbered = false;
+    outcome.figures = figures(&found);
+    outcome.remarks.extend(remarks(&found));
+    outcome.marks = marks(&found);
+    Ok(outcome)
+}

@@ -1,0 +1,291 @@
+//! Two curves made one by a bridge between them.
+
+use super::bridge::{self, BRIDGE, figures, marks};
+use super::editable::open_of;
+use super::error::OperationError;
+use super::input::Input;
+use super::inputs::Inputs;
+use super::locks;
+use super::matches::{Moved, followers, without_match};
+use super::operation::Operation;
+use super::outcome::{Deviation, Figure, Outcome};
+use super::parameter::{Choice, Kind, Parameter};
+use super::values::Values;
+use crate::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace};
+use crate::geometry::fairing::bridging::{Bridge, join};
+use crate::geometry::{End, FloatPolygon, Progress};
+
+const ENDS: Kind = Kind::Choice {
+    options: &[
+        Choice {
+            name: "nearest",
+            label: "Nearest",
+        },
+        Choice {
+            name: "start",
+            label: "Start",
+        },
+        Choice {
+            name: "end",
+            label: "End",
+        },
+    ],
+    default: 0,
+};
+
+/// The meanings of the options of [`ENDS`].
+const MEANINGS: [Option<End>; 3] = [None, Some(End::Start), Some(End::Finish)];
+
+const FIRST_END: Parameter = Parameter {
+    name: "first-end",
+    label: "End of the first",
+    help: "The end of the first curve that is joined; the nearest is that of the two ends that lie closest to each other",
+    kind: ENDS,
+};
+
+const SECOND_END: Parameter = Parameter {
+    name: "second-end",
+    label: "End of the second",
+    help: "The end of the second curve that is joined",
+    kind: ENDS,
+};
+
+const MOVE_SECOND: Parameter = Parameter {
+    name: "move-second",
+    label: "Move the second",
+    help: "Let the second curve turn and move as a whole into the place where the bridge is most harmonious",
+    kind: Kind::Switch { default: false },
+};
+
+/// The operation: its description, and how it is checked and run.
+pub static OPERATION: Operation = Operation {
+    name: "join",
+    label: "Join curves",
+    help: "Make one curve of two open ones by a harmonious bridge between their ends; both stay as they are",
+    inputs: Inputs::Two,
+    parameters: &[BRIDGE, FIRST_END, SECOND_END, MOVE_SECOND],
+    check: |input| two(input).map(drop),
+    run,
+};
+
+/// A curve with its identity.
+type Part<'a> = (CurveId, &'a Curve);
+
+/// The two curves, if both are open and neither is locked or hidden.
+fn two(input: &Input) -> Result<[Part<'_>; 2], OperationError> {
+    let needed = Inputs::Two;
+    let [first, second] = input.curves() else {
+        return Err(OperationError::Inputs { needed });
+    };
+    for (_, curve) in [first, second] {
+        open_of(curve, "joined")?;
+    }
+    Ok([(first.0, &first.1), (second.0, &second.1)])
+}
+
+fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
+    let [(id, first), (other, second)] = two(input)?;
+    let moves = values.switch(&MOVE_SECOND);
+    if moves {
+        second.check_vertices_unlocked(second.locked_vertices.iter())?;
+    }
+    let given = [&FIRST_END, &SECOND_END].map(|end| values.choice(end, &MEANINGS));
+    let ends = nearest([&first.polygon, &second.polygon], given);
+    let changed = second.polygon.with_degree(first.polygon.degree())?;
+    let deviation = Deviation::of(&changed);
+    let layout = Layout {
+        follows: ends[0] == End::Finish,
+        turned: ends[0] == ends[1],
+    };
+    let part = if layout.turned {
+        changed.polygon.reversed()
+    } else {
+        changed.polygon.clone()
+    };
+    let wanted = Bridge {
+        vertices: bridge::vertices(values)?,
+        second_moves: moves,
+    };
+    // The first curve keeps its direction; joined at its start it comes after the second, and the
+    // bridge leaves it backwards, so that it is the one that stays.
+    let found = if layout.follows {
+        bridge::found(join(&first.polygon, &part, &wanted, progress))?
+    } else {
+        let [first, part] = [&first.polygon, &part].map(FloatPolygon::reversed);
+        bridge::found(join(&first, &part, &wanted, progress))?.reversed()
+    };
+    let composite = Composite {
+        document: input.document(),
+        parts: [(id, first), (other, second)],
+        ends,
+        layout,
+        polygon: &found.polygon,
+        second: &part,
+    };
+    let mut outcome = Outcome::unchanged(deviation);
+    outcome.edits = composite.edits();
+    outcome.renumbered = true;
+    outcome.figures = figures(&found);
+    if moves {
+        let farthest = composite.farthest_move();
+        let figure = Figure::length("second_move", "Largest move of the second", farthest);
+        outcome.figures.push(figure);
+    }
+    outcome.remarks = bridge::remarks(&found);
+    outcome.remarks.extend(locks::lost(second, &[&part]));
+    outcome.marks = marks(&found);
+    Ok(outcome)
+}
+
+/// The ends that are joined: those that are given, and of the others those that lie closest.
+fn nearest(polygons: [&FloatPolygon; 2], given: [Option<End>; 2]) -> [End; 2] {
+    let options = given.map(|end| end.map_or(End::BOTH.to_vec(), |end| vec![end]));
+    let pairs = options[0]
+        .iter()
+        .rev()
+        .flat_map(|first| options[1].iter().map(move |second| [*first, *second]));
+    let distance = |ends: &[End; 2]| {
+        let [a, b] = [0, 1].map(|part: usize| polygons[part].end_jet(ends[part]).point);
+        a.distance(b)
+    };
+    let closest = pairs.min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    closest.unwrap_or([End::Finish, End::Start])
+}
+
+/// How the second curve lies in the composite.
+#[derive(Clone, Copy)]
+struct Layout {
+    /// Whether it comes after the first.
+    follows: bool,
+    /// Whether it runs the other way.
+    turned: bool,
+}
+
+/// The composite, with what it was made of.
+struct Composite<'a> {
+    document: &'a Document,
+    parts: [Part<'a>; 2],
+    ends: [End; 2],
+    layout: Layout,
+    polygon: &'a FloatPolygon,
+    /// The second part in its direction and degree, where it was.
+    second: &'a FloatPolygon,
+}
+
+impl Composite<'_> {
+    /// The numbers of the first vertices of both parts, which are the parameters of their starts.
+    fn offsets(&self) -> [usize; 2] {
+        let count = self.polygon.vertices().len();
+        if self.layout.follows {
+            [0, count - self.second.vertices().len()]
+        } else {
+            [count - self.parts[0].1.polygon.vertices().len(), 0]
+        }
+    }
+
+    fn farthest_move(&self) -> f64 {
+        let [_, offset] = self.offsets();
+        let after = self.polygon.vertices().iter().skip(offset);
+        let pairs = self.second.vertices().iter().zip(after);
+        pairs.fold(0.0, |most, (a, b)| most.max(a.distance(*b)))
+    }
+
+    /// The first curve becomes the composite. Locks, targets and matches stay with their vertices,
+    /// ends and places.
+    fn edits(&self) -> Vec<Edit> {
+        let [(id, first), (other, second)] = self.parts;
+        let [first_offset, second_offset] = self.offsets();
+        let joined = self.ends[0];
+        let own = |end| self.document.match_of(other, end);
+        let mut edits: Vec<Edit> = Vec::new();
+        edits.extend(without_match(self.document, id, joined));
+        for end in End::BOTH {
+            edits.extend(without_match(self.document, other, end));
+        }
+        let locked = &first.locked_vertices;
+        edits.push(Edit::Renumber {
+            curve: id,
+            polygon: self.polygon.clone(),
+            locked_vertices: locked.renumbered(|vertex| Some(first_offset + vertex)),
+        });
+        let kept = second.locked_vertices.carried(&second.polygon, self.second);
+        let kept: Vec<usize> = kept.iter().map(|vertex| second_offset + vertex).collect();
+        if !kept.is_empty() {
+            edits.push(Edit::SetVerticesLocked {
+                curve: id,
+                vertices: kept,
+                locked: true,
+            });
+        }
+        // The free end of the second curve takes the place of the first one's joined end.
+        let free = self.ends[1].other();
+        let planar = second.polygon.is_planar();
+        let target = second.targets.get(free);
+        let target = target.map(|target| {
+            if self.layout.turned {
+                target.turned(planar)
+            } else {
+                target
+            }
+        });
+        if target != first.targets.get(joined) {
+            edits.push(Edit::SetTarget {
+                curve: id,
+                end: joined,
+                target,
+            });
+        }
+        let own = own(free).filter(|matched| matched.source != id);
+        edits.extend(own.map(|matched| {
+            Edit::SetMatch(EndMatch {
+                curve: id,
+                end: joined,
+                reversed: matched.reversed != self.layout.turned,
+                ..*matched
+            })
+        }));
+        edits.extend(self.followers());
+        edits.push(Edit::Remove(other));
+        edits
+    }
+
+    /// Those that follow one of the two curves follow the same places of the composite.
+    fn followers(&self) -> Vec<Edit> {
+        let [(id, first), (other, second)] = self.parts;
+        let [first_offset, second_offset] = self.offsets();
+        let joined = self.ends[0];
+        let length = first.polygon.segments() as f64;
+        let of_first = followers(self.document, id, |place| {
+            let place = match place {
+                MatchPlace::End(end) if end != joined => place,
+                MatchPlace::End(End::Start) => MatchPlace::Parameter(first_offset as f64),
+                MatchPlace::End(End::Finish) => MatchPlace::Parameter(first_offset as f64 + length),
+                MatchPlace::Parameter(u) => MatchPlace::Parameter(first_offset as f64 + u),
+            };
+            Moved::To(id, place, false)
+        });
+        let length = second.polygon.segments() as f64;
+        let within = |u: f64| {
+            let u = if self.layout.turned { length - u } else { u };
+            MatchPlace::Parameter(second_offset as f64 + u)
+        };
+        let of_second = followers(self.document, other, |place| {
+            let place = match place {
+                MatchPlace::End(end) if end != self.ends[1] => MatchPlace::End(joined),
+                MatchPlace::End(End::Start) => within(0.0),
+                MatchPlace::End(End::Finish) => within(length),
+                MatchPlace::Parameter(u) => within(u),
+            };
+            Moved::To(id, place, self.layout.turned)
+        });
+        // What one of the two followed of the other is part of the same curve now.
+        let both = [id, other];
+        let apart =
+            |edit: &Edit| !matches!(edit, Edit::SetMatch(matched) if both.contains(&matched.curve));
+        of_first
+            .into_iter()
+            .chain(of_second)
+            .filter(apart)
+            .collect()
+    }
+}

@@ -1,0 +1,87 @@
+//! Two curves that are joined: chosen, tried out, applied and undone.
+
+use batten::document::{Curve, Edit};
+use batten::editor::{Command, Note};
+use batten::geometry::FloatPolygon;
+use batten::operations::Value;
+
+use super::script::{Script, operation};
+use super::several::two;
+
+fn add(script: &mut Script, name: &str, at: f64) {
+    let points: Vec<_> = (0..6).map(|i| (f64::from(i) * 3.0 + at, at)).collect();
+    let polygon = FloatPolygon::planar(3, &points).expect("a polygon");
+    let added = Edit::Add(Box::new(Curve::new(name, polygon)));
+    script.editor.apply("add", vec![added]).expect("an edit");
+}
+
+#[test]
+fn two_curves_are_joined_as_one_step_and_undone_to_the_bit() {
+    let (mut script, [arc, other]) = two();
+    let before = script.editor.document().clone();
+    let steps = script.editor.workspace().history().undo_steps();
+    let begun = script.try_out("join").expect("an operation");
+    assert_eq!(begun, Note::silent());
+    // The preview has the composite, which plots and strips show.
+    assert!(script.editor.document().curve(other).is_none());
+    let shown = script.editor.document().curve(arc).expect("the first");
+    let count = shown.polygon.vertices().len();
+    script
+        .editor
+        .set_value("bridge", Value::List(vec![7.0]))
+        .expect("a value");
+    let shown = script.editor.document().curve(arc).expect("the first");
+    // Six segments, of the degree of the first.
+    assert_eq!(shown.polygon.vertices().len(), 10 + 7 + (6 + 9));
+    assert_ne!(count, 0);
+    let shown = shown.clone();
+    script.editor.apply_trial().expect("a step");
+    script.check();
+    assert_eq!(script.editor.workspace().history().undo_steps(), steps + 1);
+    assert_eq!(script.editor.document().curve(arc), Some(&shown));
+    script.command(Command::Undo);
+    assert!(script.editor.document().is_same(&before));
+    script.command(Command::Redo);
+    assert_eq!(script.editor.document().curve(arc), Some(&shown));
+    script.command(Command::Undo);
+    // Another curve stays as it is after the operation was left.
+    script.try_out("join").expect("an operation");
+    script.editor.leave_trial();
+    assert!(script.editor.document().is_same(&before));
+}
+
+#[test]
+fn of_more_curves_those_with_selected_vertices_are_joined() {
+    let (mut script, [arc, other]) = two();
+    add(&mut script, "third", 40.0);
+    script.editor.activate(arc);
+    let refused = script.try_out("join").expect_err("which one?");
+    assert!(refused.0.contains("two"), "{refused:?}");
+    script.editor.select_vertex(arc, 2, false);
+    script.editor.select_vertex(other, 2, true);
+    let active = script.curve();
+    script.try_out("join").expect("an operation");
+    script.editor.apply_trial().expect("a step");
+    script.check();
+    let document = script.editor.document();
+    assert_eq!(document.curves().len(), 2);
+    assert!(document.curve(active).is_some());
+    // A hidden or a locked curve is refused.
+    script.command(Command::Undo);
+    for edit in [
+        Edit::SetLocked {
+            curve: other,
+            locked: true,
+        },
+        Edit::SetVisible {
+            curve: other,
+            visible: false,
+        },
+    ] {
+        script.editor.apply("edit", vec![edit]).expect("an edit");
+        script.editor.activate(arc);
+        let refused = script.editor.check_operation(operation("join"));
+        assert!(refused.is_err());
+        script.command(Command::Undo);
+    }
+}

@@ -1,0 +1,240 @@
+//! Curves that are joined, and curves that are closed.
+
+use batten::document::{Curve, Document, Edit, EndMatch, LockedVertices, MatchPlace};
+use batten::geometry::end_correction::EndTarget;
+use batten::geometry::{Continuity, End, FloatPolygon, Progress};
+use batten::operations::{Input, Outcome, Report, Value};
+use glam::DVec3;
+use serde_json::Value as Json;
+
+use crate::runner::{Runner, operation};
+
+/// An arc of a circle of radius 10 from one angle to another, both in degrees.
+fn arc(name: &str, degree: usize, from: f64, to: f64) -> Curve {
+    let count = 12;
+    let vertices = (0..count).map(|index| {
+        let share = f64::from(index) / f64::from(count - 1);
+        let angle = (from + share * (to - from)).to_radians();
+        10.0 * DVec3::new(angle.cos(), angle.sin(), 0.0)
+    });
+    let polygon = FloatPolygon::new(degree, vertices.collect(), None, false);
+    Curve::new(name, polygon.expect("a polygon"))
+}
+
+/// Join the first two curves of a document.
+fn join(document: &Document, given: &[(&str, Value)]) -> (Outcome, Document, Report) {
+    let input = Input::new(document, document.ids().take(2)).expect("two curves");
+    let join = operation("join");
+    let values = join.values(&input, given.iter().cloned()).expect("values");
+    let progress = Progress::default();
+    let outcome = join.run(&input, &values, &progress).expect("it can run");
+    let report = Report::of(join, &input, &outcome, &progress).expect("nobody cancels");
+    let after = outcome.applied_to(document).expect("edits");
+    (outcome, after, report)
+}
+
+fn only(document: &Document) -> &Curve {
+    let mut curves = document.curves();
+    let (_, curve) = curves.next().expect("a curve");
+    assert_eq!(curves.len(), 0);
+    curve
+}
+
+/// Whether some vertices of a polygon are those of another, from a number on, to the bit.
+fn has_at(polygon: &FloatPolygon, offset: usize, part: &FloatPolygon) -> bool {
+    let found = &polygon.vertices()[offset..][..part.vertices().len()];
+    found == part.vertices()
+}
+
+#[test]
+fn the_first_curve_keeps_its_name_its_direction_and_its_vertices() {
+    // The second arc begins where the first one ends, or the other way round, and may run against it.
+    let first = arc("first", 4, 0.0, 60.0);
+    for (second, ends) in [
+        (arc("second", 4, 100.0, 160.0), [End::Finish, End::Start]),
+        (arc("second", 4, 160.0, 100.0), [End::Finish, End::Finish]),
+        (arc("second", 4, -100.0, -40.0), [End::Start, End::Finish]),
+        (arc("second", 4, -40.0, -100.0), [End::Start, End::Start]),
+    ] {
+        let document = Document::from_curves([first.clone(), second.clone()]);
+        let (outcome, after, report) = join(&document, &[]);
+        let composite = only(&after);
+        assert_eq!(composite.name, "first");
+        let polygon = &composite.polygon;
+        let second = if ends[0] == ends[1] {
+            second.polygon.reversed()
+        } else {
+            second.polygon.clone()
+        };
+        let Some(Value::Whole(bridge)) = report.figure("bridge") else {
+            panic!("{report:?}");
+        };
+        let count = 12;
+        assert_eq!(polygon.vertices().len(), 2 * count + bridge);
+        let offsets = if ends[0] == End::Finish {
+            [0, count + bridge]
+        } else {
+            [count + bridge, 0]
+        };
+        assert!(has_at(polygon, offsets[0], &first.polygon), "{ends:?}");
+        assert!(has_at(polygon, offsets[1], &second), "{ends:?}");
+        // The gap of 40 degrees takes seven legs of 60/11 degrees.
+        assert_eq!(bridge, 6);
+        for vertex in polygon.vertices() {
+            assert!((vertex.length() - 10.0).abs() < 1e-3, "{vertex}");
+        }
+        assert_eq!(outcome.marks.len(), bridge);
+        // The same ends, given.
+        let choice = |end| Value::Choice(1 + usize::from(end == End::Finish));
+        let given = [
+            ("first-end", choice(ends[0])),
+            ("second-end", choice(ends[1])),
+        ];
+        let (_, given, _) = join(&document, &given);
+        assert_eq!(only(&given).polygon, *polygon);
+    }
+}
+
+#[test]
+fn the_report_tells_the_bridge_and_that_nothing_else_moved() {
+    let document =
+        Document::from_curves([arc("first", 5, 0.0, 60.0), arc("second", 5, 100.0, 160.0)]);
+    let (_, _, report) = join(&document, &[("bridge", Value::List(vec![8.0]))]);
+    let json: Json = serde_json::to_value(&report).expect("a report");
+    assert_eq!(json["operation"], "join");
+    assert_eq!(json["reached"], true);
+    assert_eq!(json["deviation"], 0.0);
+    assert_eq!(json["bridge"], 8);
+    assert!(json["largest_jump"].as_f64().expect("a number") < 1e-14);
+    assert!(json["bridge_extrema"].is_u64() && json["bridge_inflections"] == 0);
+    let names = |key: &str| -> Vec<String> {
+        let counts = json[key].as_array().expect("a list").iter();
+        counts.map(|curve| curve["name"].to_string()).collect()
+    };
+    assert_eq!(names("features_before"), ["\"first\"", "\"second\""]);
+    assert_eq!(names("features_after"), ["\"first\""]);
+}
+
+#[test]
+fn the_second_curve_takes_the_degree_of_the_first() {
+    let document =
+        Document::from_curves([arc("first", 5, 0.0, 60.0), arc("second", 3, 100.0, 160.0)]);
+    let (_, after, report) = join(&document, &[]);
+    let json: Json = serde_json::to_value(&report).expect("a report");
+    let deviation = json["deviation"].as_f64().expect("a number");
+    assert!(deviation > 0.0 && deviation < 1e-3, "{deviation}");
+    assert_eq!(only(&after).polygon.degree(), 5);
+}
+
+#[test]
+fn the_second_curve_moves_only_if_it_may() {
+    let mut second = arc("second", 4, 100.0, 160.0);
+    let away = second.polygon.vertices().iter();
+    let away = away.map(|vertex| *vertex + DVec3::new(40.0, 3.0, 0.0));
+    second.polygon = FloatPolygon::new(4, away.collect(), None, false).expect("a polygon");
+    let document = Document::from_curves([arc("first", 4, 0.0, 60.0), second]);
+    let ends = [
+        ("first-end", Value::Choice(2)),
+        ("second-end", Value::Choice(1)),
+    ];
+    let moving = [&ends[..], &[("move-second", Value::Switch(true))]].concat();
+    let (_, after, report) = join(&document, &moving);
+    // The arcs are of one circle, and so is the composite.
+    for vertex in only(&after).polygon.vertices() {
+        assert!((vertex.length() - 10.0).abs() < 1e-6, "{vertex}");
+    }
+    assert!(matches!(report.figure("second_move"), Some(Value::Real(far)) if far > 10.0));
+    let (_, fixed, report) = join(&document, &ends);
+    assert_eq!(report.figure("second_move"), None);
+    let after = &only(&fixed).polygon;
+    let (_, second) = document.curves().nth(1).expect("the second");
+    assert!(has_at(after, after.vertices().len() - 12, &second.polygon));
+    // Locked vertices do not move.
+    let mut locked = document.clone();
+    let curve = locked.ids().nth(1).expect("the second");
+    let vertices = vec![3];
+    let edit = Edit::SetVerticesLocked {
+        curve,
+        vertices,
+        locked: true,
+    };
+    locked.apply(edit).expect("a lock");
+    let input = Input::new(&locked, locked.ids()).expect("two curves");
+    let join = operation("join");
+    let values = join.values(&input, moving).expect("values");
+    let refused = join.run(&input, &values, &Progress::default());
+    assert!(refused.expect_err("refused").to_string().contains("locked"));
+}
+
+#[test]
+fn locks_targets_and_matches_stay_with_their_vertices_and_places() {
+    let mut first = arc("first", 4, 0.0, 60.0);
+    let mut second = arc("second", 4, 160.0, 100.0);
+    first.locked_vertices = [1, 4].into_iter().collect();
+    second.locked_vertices = [0, 2].into_iter().collect();
+    let target = EndTarget {
+        point: DVec3::new(-10.0, 3.0, 0.0),
+        ..EndTarget::default()
+    };
+    second.targets.set(End::Start, Some(target));
+    first.targets.set(End::Finish, Some(target));
+    let followers = ["a", "b", "c"].map(|name| arc(name, 3, 200.0, 260.0));
+    let curves = [first.clone(), second.clone()].into_iter().chain(followers);
+    let mut document = Document::from_curves(curves);
+    let ids: Vec<_> = document.ids().collect();
+    let places = [
+        (ids[2], ids[0], MatchPlace::End(End::Finish)),
+        (ids[3], ids[1], MatchPlace::Parameter(2.5)),
+        (ids[4], ids[1], MatchPlace::End(End::Start)),
+    ];
+    for (curve, source, place) in places {
+        let matched = EndMatch {
+            curve,
+            end: End::Start,
+            source,
+            place,
+            continuity: Continuity::G0,
+            reversed: false,
+        };
+        document.apply(Edit::SetMatch(matched)).expect("a match");
+    }
+    let before = places.map(|(_, source, place)| {
+        let source = document.curve(source).expect("the source");
+        place.jet(&source.polygon).expect("a place").point
+    });
+    let (_, after, _) = join(&document, &[]);
+    let composite = after.curve(ids[0]).expect("the composite");
+    assert!(after.curve(ids[1]).is_none());
+    let count = composite.polygon.vertices().len();
+    let expected: LockedVertices = [1, 4, count - 1, count - 3].into_iter().collect();
+    assert_eq!(composite.locked_vertices, expected);
+    assert_eq!(composite.targets.get(End::Start), None);
+    assert_eq!(composite.targets.get(End::Finish), Some(target));
+    for ((curve, ..), before) in places.into_iter().zip(before) {
+        let matched = after.match_of(curve, End::Start).expect("a match");
+        assert_eq!(matched.source, ids[0]);
+        let point = matched
+            .place
+            .jet(&composite.polygon)
+            .expect("a place")
+            .point;
+        assert!(point.distance(before) < 1e-12, "{matched:?}");
+    }
+}
+
+#[test]
+fn a_curve_that_is_closed_keeps_its_vertices_and_has_no_ends() {
+    let open = arc("arc", 5, 0.0, 250.0);
+    let runner = Runner::curves(vec![open.clone()]).with_target(End::Start, EndTarget::default());
+    let (outcome, curves) = runner.done("close", &[]);
+    let closed = &curves[0];
+    assert!(closed.polygon.is_periodic() && has_at(&closed.polygon, 0, &open.polygon));
+    assert!(closed.targets.list().is_empty());
+    assert!(!outcome.renumbered);
+    let (_, curves) = runner.done("close", &[("bridge", Value::List(vec![3.0]))]);
+    assert_eq!(curves[0].polygon.vertices().len(), 15);
+    let refused = runner.refused("close", &[("bridge", Value::List(vec![1e9]))]);
+    assert!(refused.starts_with("Bridge vertices: 1000000000 is out of range"));
+    let periodic = Runner::example("periodic").refused("close", &[]);
+    assert!(periodic.contains("periodic"), "{periodic}");
+}
