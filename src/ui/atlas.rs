@@ -241,6 +241,7 @@ fn legend_ui(ui: &mut Ui, atlas: &Atlas) {
         for (verdict, text) in [
             (Verdict::Proved, "κ monotone"),
             (Verdict::Disproved, "not monotone"),
+            (Verdict::Undecided, "undecided"),
         ] {
             let (rect, _) = ui.allocate_exact_size(vec2(3.0 * STEP, 3.0 * STEP), Sense::hover());
             let outline = Stroke::new(1.0, tokens.outline);
@@ -278,8 +279,13 @@ fn describe(response: &Response, trial: &Trial, atlas: &Atlas) {
 fn number(parameter: &Parameter, number: f64) -> String {
     let unit = parameter.unit();
     let text = figures::significant(unit.shown(number), 3);
+    let text = if text.contains('.') && !text.contains('e') {
+        text.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        &text
+    };
     match unit {
         Unit::Angle => format!("{text}°"),
-        _ => text,
+        _ => text.to_owned(),
     }
 }
