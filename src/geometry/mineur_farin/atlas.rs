@@ -97,7 +97,8 @@ impl Atlas {
     ///
     /// As κ(u + 1) = κ(u) / s on a float polygon, one segment tells of all: from degree 3 on κ is
     /// continuous at the knots. At degree 2 it jumps there, and there are two segments to prove if
-    /// the curve has several.
+    /// the curve has several. Of planar Bézier curves the closed form is the proof:
+    /// [`Configuration::bezier_extremum`].
     pub fn verdict(&self, turn: f64, ratio: f64, prover: &mut SegmentProver) -> Verdict {
         let configuration = Configuration {
             start: DVec3::ZERO,
@@ -106,17 +107,22 @@ impl Atlas {
             turn,
             torsion: self.torsion,
         };
-        let polygon = match self.format {
-            Format::Bezier => configuration.bezier_as_float(self.legs),
-            format @ Format::Float { degree } => {
+        let legs = match self.format {
+            Format::Bezier if self.torsion == 0.0 => {
+                // A single leg is straight.
+                let extremum = configuration.bezier_extremum().filter(|_| self.legs > 1);
+                return extremum.map_or(Verdict::Proved, |_| Verdict::Disproved);
+            }
+            Format::Bezier => self.legs,
+            Format::Float { degree } => {
                 let segments = if degree == 2 { 2 } else { 1 };
-                let legs = self.legs.min(degree + segments - 1);
-                configuration.curve(format, legs).map(|curve| curve.polygon)
+                self.legs.min(degree + segments - 1)
             }
         };
-        let Ok(polygon) = polygon else {
+        let Ok(curve) = configuration.curve(self.format, legs) else {
             return Verdict::Undecided;
         };
+        let polygon = curve.polygon;
         let segments = 0..polygon.segments();
         let proved: Vec<_> = segments
             .map(|segment| prover.segment(&polygon, segment))

@@ -84,30 +84,6 @@ impl Configuration {
         }
     }
 
-    /// The float polygon of the Bézier curve on the points in closed form, up to a translation: quick,
-    /// where the general conversion keeps more digits.
-    ///
-    /// As C′(t) = n (I + (sM − I) t)ⁿ⁻¹ a, leg i of the float polygon is n ∏ (I + (sM − I) j) a over
-    /// j = i − n + 2 … i: the blossom of C′ at the knots that the leg's two vertices share.
-    ///
-    /// # Errors
-    /// [`PolygonError`] if the degree is out of range, or points lie beyond the range of coordinates.
-    pub(super) fn bezier_as_float(&self, degree: usize) -> Result<FloatPolygon, PolygonError> {
-        let (frame, growth) = (self.frame(), self.step() - DMat3::IDENTITY);
-        let mut point = DVec3::ZERO;
-        let mut vertices = vec![point];
-        for leg in 0..degree {
-            let knots = (leg + 2)..(leg + 1 + degree);
-            let blossom = knots.fold(DVec3::X * degree as f64, |vector, knot| {
-                let knot = knot as f64 - degree as f64;
-                vector + knot * (growth * vector)
-            });
-            point += frame * blossom;
-            vertices.push(point);
-        }
-        FloatPolygon::new(degree, vertices, None, false)
-    }
-
     /// Find where the curvature of the planar Bézier curve on the points has its only extremum, if
     /// that lies inside the curve: at t* = (1 − s cos θ) / (1 − 2 s cos θ + s²), as
     /// κ(t) is a multiple of 1 / |1 + (λ − 1) t|ⁿ⁺¹. So the curvature is monotone if s cos θ ≥ 1 or
@@ -147,34 +123,5 @@ impl Configuration {
     fn frame(&self) -> DMat3 {
         let (leg, binormal) = (self.first_leg, self.binormal());
         DMat3::from_cols(leg, binormal.cross(leg), binormal * leg.length())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_closed_form_of_a_bezier_curves_float_polygon_is_its_conversion() {
-        for (torsion, degree) in [(0.0, 2), (0.0, 5), (0.3, 5), (0.3, 7)] {
-            let configuration = Configuration {
-                start: DVec3::ZERO,
-                first_leg: DVec3::new(1.0, 2.0, 0.5),
-                ratio: 1.3,
-                turn: -0.7,
-                torsion,
-            };
-            let converted = configuration
-                .curve(Format::Bezier, degree)
-                .expect("a curve");
-            let found = configuration.bezier_as_float(degree).expect("a polygon");
-            let (converted, found) = (converted.polygon.vertices(), found.vertices());
-            let size = converted.iter().map(|vertex| vertex.length());
-            let size = size.fold(0.0, f64::max);
-            for (a, b) in converted.iter().zip(found) {
-                let off = (*a - converted[0]).distance(*b);
-                assert!(off <= 1e-9 * size, "degree {degree}: {off:e} of {size:e}");
-            }
-        }
     }
 }
