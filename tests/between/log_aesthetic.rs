@@ -34,7 +34,11 @@ fn sweep(seed: u64, cases: usize) -> Worst {
     let mut random = Random(seed);
     let mut worst = Worst::default();
     for case in 0..cases {
-        let side = if random.bits() % 2 == 0 { 1.0 } else { -1.0 };
+        let side = if random.bits().is_multiple_of(2) {
+            1.0
+        } else {
+            -1.0
+        };
         let segment = TrueSegment {
             alpha: random.between(-2.0, 2.0),
             growth: side * random.between(1.05_f64.ln(), 10.0_f64.ln()),

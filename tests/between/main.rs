@@ -40,7 +40,11 @@ impl Placing {
         Self {
             origin: size * far,
             axis: size * turned,
-            side: if random.bits() % 2 == 0 { 1.0 } else { -1.0 },
+            side: if random.bits().is_multiple_of(2) {
+                1.0
+            } else {
+                -1.0
+            },
         }
     }
 

@@ -22,7 +22,11 @@ fn with_curvatures(segment: &TrueSegment, placing: &Placing) -> Ends {
 }
 
 fn random_segment(random: &mut Random) -> TrueSegment {
-    let side = if random.bits() % 2 == 0 { 1.0 } else { -1.0 };
+    let side = if random.bits().is_multiple_of(2) {
+        1.0
+    } else {
+        -1.0
+    };
     TrueSegment {
         alpha: random.between(-2.0, 2.0),
         growth: side * random.between(1.4_f64.ln(), 4.0_f64.ln()),
