@@ -2,14 +2,17 @@
 //! S-polygon, the curve, the evolute, the comb, both plots and the panels' figures. The time must
 //! hardly grow with the number of vertices.
 //!
-//! Last, a curve whose features take a second and more for each step of the drag: they are proved
+//! Then a curve whose features take a second and more for each step of the drag: they are proved
 //! beside the frame, which waits no longer than it is told to.
+//!
+//! Last, drags with the safe region of the vertex on screen and with features kept: the largest of
+//! many frames is printed, and no frame may take more than 8 ms.
 #![allow(missing_docs)]
 
 mod wavy;
 
 use std::hint::black_box;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use batten::document::{Curve, Document};
 use batten::editor::{Button, Command, Editor, Input, Layer, PlotKind};
@@ -133,5 +136,50 @@ fn drag_beside_proofs(criterion: &mut Criterion) {
     );
 }
 
-criterion_group!(benches, drag, drag_beside_proofs);
+/// How many frames are looked at for the largest.
+const FRAMES: usize = 600;
+
+fn drag_in_a_safe_region(criterion: &mut Criterion) {
+    for (name, keeps) in [
+        ("region shown", false),
+        ("region shown, features kept", true),
+    ] {
+        let (mut editor, at) = dragging(winding(60), false);
+        editor
+            .execute(Command::ToggleLayer(Layer::SafeRegion))
+            .expect("a command");
+        editor.run_in_background(PATIENCE, || {});
+        editor.input(Input::KeepingHeld(keeps));
+        // Round the vertex, wider and wider, into its region and far out of it.
+        let place = |step: usize| {
+            let reach = 4.0 + 0.1 * (step % FRAMES) as f64;
+            at + reach * DVec2::from_angle(0.37 * step as f64)
+        };
+        let mut frames: Vec<Duration> = (0..FRAMES)
+            .map(|step| {
+                let begin = Instant::now();
+                frame(&mut editor, place(step));
+                begin.elapsed()
+            })
+            .collect();
+        frames.sort_unstable();
+        let [median, high, largest] = [FRAMES / 2, FRAMES * 99 / 100, FRAMES - 1];
+        println!(
+            "drag, {name}: median {:?}, 99 of 100 under {:?}, largest of {FRAMES} {:?}",
+            frames[median], frames[high], frames[largest]
+        );
+        let mut step = 0;
+        criterion.bench_function(
+            &format!("drag a vertex of 60, degree 9, {name}"),
+            |bencher| {
+                bencher.iter(|| {
+                    step += 1;
+                    frame(&mut editor, place(step));
+                });
+            },
+        );
+    }
+}
+
+criterion_group!(benches, drag, drag_beside_proofs, drag_in_a_safe_region);
 criterion_main!(benches);
