@@ -1,10 +1,12 @@
 //! What the scene is painted with: lines and arrows between points of the model.
 
+use std::cell::RefCell;
+
 use eframe::egui::{Painter, Rect, Shape, Stroke};
 use glam::DVec2;
 
 use super::chains::Screen;
-use super::theme::Tokens;
+use super::theme::{STEP, Tokens};
 
 /// What the parts of the scene are painted with.
 pub struct Brush<'a> {
@@ -16,9 +18,22 @@ pub struct Brush<'a> {
     pub rect: Rect,
     /// The colours.
     pub tokens: &'a Tokens,
+    /// Where there are texts that no other may lie over.
+    pub texts: RefCell<Vec<Rect>>,
 }
 
 impl Brush<'_> {
+    /// Keep a box for a text, if it is on the canvas and clear of those that are kept already.
+    pub fn keep_text(&self, rect: Rect) -> bool {
+        let mut texts = self.texts.borrow_mut();
+        let is_clear = |other: &Rect| !other.expand(STEP).intersects(rect);
+        let fits = self.rect.contains_rect(rect) && texts.iter().all(is_clear);
+        if fits {
+            texts.push(rect);
+        }
+        fits
+    }
+
     /// Paint a chain as a line, one for each of its pieces.
     pub fn chain(&self, chain: &[DVec2], stroke: Stroke) {
         for line in self.screen.lines(chain) {

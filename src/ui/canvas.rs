@@ -1,5 +1,7 @@
 //! The canvas: one response for all of it, and every event of the hand in order.
 
+use std::cell::RefCell;
+
 use eframe::egui::{
     self, Context, CursorIcon, Event, EventFilter, Id, MouseWheelSource, MouseWheelUnit,
     PointerButton, Pos2, Rect, Role, Sense, Ui, WidgetInfo,
@@ -348,6 +350,7 @@ impl Canvas {
             screen: Screen::new(&viewport, rect),
             rect,
             tokens,
+            texts: RefCell::default(),
         };
         // Panels may have changed what is shown.
         editor.refresh();

@@ -37,9 +37,8 @@ pub fn paint(brush: &Brush<'_>, guides: &GuideScene) {
     for arrow in guides.arrows.iter().rev() {
         brush.loss(arrow);
     }
-    let mut taken: Vec<Rect> = Vec::new();
     for label in &guides.labels {
-        brush.guide_label(label, &mut taken);
+        brush.guide_label(label);
     }
 }
 
@@ -81,7 +80,7 @@ impl Brush<'_> {
     }
 
     /// Write a text outside of its place and within the canvas, unless an earlier one is there.
-    fn guide_label(&self, label: &GuideLabel, taken: &mut Vec<Rect>) {
+    fn guide_label(&self, label: &GuideLabel) {
         let place = self.screen.point(label.at);
         let Some(at) = place.filter(|at| self.rect.contains(*at)) else {
             return;
@@ -90,13 +89,9 @@ impl Brush<'_> {
         let size = labels::size(self.painter, &label.text, font.clone());
         let outwards = vec2(label.outwards.x as f32, -label.outwards.y as f32);
         let rect = beside(self.rect, at, outwards, size);
-        if taken
-            .iter()
-            .any(|other| other.expand(STEP).intersects(rect))
-        {
+        if !self.keep_text(rect) {
             return;
         }
-        taken.push(rect);
         let (colour, tokens) = (self.tokens.strong_text, self.tokens);
         let (at, align) = (rect.left_top(), Align2::LEFT_TOP);
         labels::paint(self.painter, at, align, &label.text, font, colour, tokens);

@@ -215,6 +215,30 @@ impl Brush<'_> {
         }
     }
 
+    /// Mark a vertex, and say what is uneven there on a side of it that is free, if one is.
+    fn uneven(&self, at: DVec2, text: &str) {
+        let Some(at) = self.screen.point(at) else {
+            return;
+        };
+        let tokens = self.tokens;
+        let colour = tokens.warning;
+        self.painter
+            .circle_stroke(at, UNEVEN, Stroke::new(1.5, colour));
+        let font = theme::small_font();
+        let size = labels::size(self.painter, text, font.clone());
+        let sides = [
+            (Align2::LEFT_BOTTOM, vec2(UNEVEN, -UNEVEN)),
+            (Align2::RIGHT_BOTTOM, vec2(-UNEVEN, -UNEVEN)),
+            (Align2::LEFT_TOP, vec2(UNEVEN, UNEVEN)),
+            (Align2::RIGHT_TOP, vec2(-UNEVEN, UNEVEN)),
+        ];
+        let boxes = sides.map(|(align, by)| align.anchor_size(at + by, size));
+        if let Some(free) = boxes.into_iter().find(|rect| self.keep_text(*rect)) {
+            let (place, align) = (free.left_top(), Align2::LEFT_TOP);
+            labels::paint(self.painter, place, align, text, font, colour, tokens);
+        }
+    }
+
     fn mark(&self, mark: &Mark) {
         let tokens = self.tokens;
         let accent = Stroke::new(1.5, tokens.accent);
@@ -246,23 +270,7 @@ impl Brush<'_> {
                         .rect_stroke(rect, 0, accent, StrokeKind::Middle);
                 }
             }
-            Mark::Uneven { at, text } => {
-                if let Some(at) = self.screen.point(*at) {
-                    let stroke = Stroke::new(1.5, tokens.warning);
-                    self.painter.circle_stroke(at, UNEVEN, stroke);
-                    let place = at + vec2(UNEVEN, -UNEVEN);
-                    let (align, font) = (Align2::LEFT_BOTTOM, theme::small_font());
-                    labels::paint(
-                        self.painter,
-                        place,
-                        align,
-                        text,
-                        font,
-                        tokens.warning,
-                        tokens,
-                    );
-                }
-            }
+            Mark::Uneven { at, text } => self.uneven(*at, text),
             Mark::Handle { at, marked } => self.handle(*at, *marked),
             Mark::Label(at, text) => {
                 if let Some(at) = self.screen.point(*at) {

@@ -46,6 +46,7 @@ fn tools_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<Action>) {
     for command in [
         Command::ToggleSnapping,
         Command::Follow(Follow::InHarmony),
+        Command::Follow(Follow::Softly),
         Command::ToggleKeeping,
         Command::ToggleLayer(Layer::SafeRegion),
         Command::Fit,

@@ -1,8 +1,9 @@
 //! What the canvas, its badge and its messages do with clicks and keys.
 
-use batten::editor::{Layer, Orientation};
+use batten::editor::{Command, Follow, Layer, Orientation};
+use eframe::egui::accesskit::Toggled;
 use eframe::egui::{Event, Key, Modifiers, PointerButton, vec2};
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 
 use crate::hand::*;
 
@@ -89,4 +90,27 @@ fn an_arrow_key_that_is_held_makes_one_step() {
     );
     press(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(curve(&window), before);
+}
+
+#[test]
+fn ways_of_following_are_switches_that_show_whether_they_are_on() {
+    let mut window = open_window();
+    for (label, follow) in [
+        ("Live harmony", Follow::InHarmony),
+        ("Soft drag", Follow::Softly),
+    ] {
+        let is_on = |window: &Window| {
+            let node = window.get_by_label(label).accesskit_node();
+            let shown = node.toggled() == Some(Toggled::True);
+            let editor = window.state().editor();
+            let checked = editor.is_checked(Command::Follow(follow));
+            assert_eq!(checked, Some(shown), "{label}");
+            shown
+        };
+        assert!(!is_on(&window), "{label}");
+        click(&mut window, label);
+        assert!(is_on(&window), "{label}");
+        click(&mut window, label);
+        assert!(!is_on(&window), "{label}");
+    }
 }

@@ -20,6 +20,9 @@ const AXIS: f32 = 38.0;
 /// The room at the left of a strip for its name.
 const NAME: f32 = 112.0;
 
+/// The height of a number beside a strip.
+const NUMBER: f32 = 14.0;
+
 /// The least height of a strip.
 const LOWEST: f32 = 24.0;
 
@@ -132,11 +135,23 @@ impl Strip<'_> {
     fn show(&self, ui: &mut Ui, size: Vec2, with_axis: bool) -> Option<f64> {
         let (flow, tokens) = (self.flow, self.tokens);
         let across = if with_axis { "vertex" } else { "" };
+        // Numbers at its edges would stand over those of the strips beside it.
+        let inner = size.y - if with_axis { AXIS } else { 0.0 };
+        let edge = 0.5 * f64::from(NUMBER / inner.max(NUMBER));
+        let resolution = 1e-3 * self.bounds.height().abs();
         let plot = plot(name(flow), across, "", self.bounds, tokens)
             .width(size.x)
             .height(size.y)
             .show_axes([with_axis, true])
             .x_axis_formatter(vertex_number)
+            .y_axis_formatter(move |mark, range| {
+                let room = edge * (range.end() - range.start());
+                if mark.value < range.start() + room || mark.value > range.end() - room {
+                    String::new()
+                } else {
+                    axis_figure(mark.value, mark.step_size.max(resolution))
+                }
+            })
             .y_grid_spacer(uniform_grid_spacer(|input| steps(input, 2.5)))
             .label_formatter(move |hover| label(flow, hover));
         let shown = plot.show(ui, |plot| {
