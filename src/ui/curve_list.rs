@@ -33,7 +33,7 @@ enum Asked {
     Lock(CurveId, bool),
     Show(CurveId, bool),
     Renamed(CurveId, String),
-    Edit(&'static str, Edit),
+    Reorder(CurveId, usize),
 }
 
 impl CurveList {
@@ -65,9 +65,7 @@ impl CurveList {
             Some(Asked::Lock(curve, locked)) => told(editor.set_locked(curve, locked)),
             Some(Asked::Show(curve, visible)) => told(editor.set_visible(curve, visible)),
             Some(Asked::Renamed(curve, name)) => told(editor.rename(curve, name)),
-            Some(Asked::Edit(label, edit)) => {
-                told(editor.apply(label, vec![edit]));
-            }
+            Some(Asked::Reorder(curve, place)) => reorder(editor, curve, place),
             None => {}
         }
     }
@@ -145,6 +143,10 @@ impl CurveList {
     }
 }
 
+fn reorder(editor: &mut Editor, curve: CurveId, place: usize) {
+    told(editor.apply("Reorder curves", vec![Edit::Reorder { curve, place }]));
+}
+
 fn heading_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
     ui.horizontal(|ui| {
         ui.strong("Curves");
@@ -174,7 +176,7 @@ fn heading_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
             ] {
                 let response = IconButton::new(icon, name).enabled(to.is_some()).show(ui);
                 if let (true, Some((curve, place))) = (response.clicked(), to) {
-                    told(editor.apply("Reorder curves", vec![Edit::Reorder { curve, place }]));
+                    reorder(editor, curve, place);
                 }
             }
         });
@@ -300,11 +302,7 @@ impl Row {
             );
         }
         let curve = *response.dnd_release_payload::<CurveId>()?;
-        let edit = Edit::Reorder {
-            curve,
-            place: self.place,
-        };
-        (curve != self.id).then_some(Asked::Edit("Reorder curves", edit))
+        (curve != self.id).then_some(Asked::Reorder(curve, self.place))
     }
 
     fn switches_ui(&self, ui: &mut Ui, row: Rect) -> Option<Asked> {
