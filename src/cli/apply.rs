@@ -109,7 +109,10 @@ impl Application {
         let document = reading.into_document()?;
         match self.operation.inputs {
             Inputs::None | Inputs::UpToTwo => Ok(Input::new(&document, [])?),
-            Inputs::One => Ok(Input::new(&document, [self.curve(&document, 0)?])?),
+            Inputs::OneOrNone if self.source.is_none() => Ok(Input::new(&document, [])?),
+            Inputs::One | Inputs::OneOrNone => {
+                Ok(Input::new(&document, [self.curve(&document, 0)?])?)
+            }
             Inputs::Two => match second {
                 None => Ok(Input::new(&document, self.two_curves(&document)?)?),
                 Some(second) => self.with_second(document, second),

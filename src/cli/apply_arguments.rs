@@ -7,6 +7,7 @@ use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches, val
 
 use super::choice_parser::{Assignments, ChoiceParser};
 use super::parsers::format_parser;
+use crate::geometry::references::{ReferenceCurve, ReferenceTextError};
 use crate::io::Format;
 use crate::operations::{
     ALL, Inputs, Kind, Operation, OperationError, Parameter, Unit, Value, find,
@@ -102,15 +103,27 @@ impl Given {
             let given = matches.get_one::<Assignments>(parameter.name);
             given.cloned().unwrap_or_default()
         });
+        let mut values: Vec<(&'static str, Value)> = values.collect();
+        let mut input = path(IN);
+        match matches.try_get_one::<Origin>(IN).ok().flatten() {
+            Some(Origin::File(path)) => input = Some(path.clone()),
+            Some(Origin::Reference(reference)) => {
+                let parameters = operation.parameters.iter();
+                let takes = |it: &&Parameter| matches!(it.kind, Kind::Reference { .. });
+                let value = Value::Reference(Some(Box::new(reference.clone())));
+                values.extend(parameters.filter(takes).map(|it| (it.name, value.clone())));
+            }
+            None => {}
+        }
         Self {
             operation,
-            input: path(IN),
+            input,
             second: path(SECOND),
             from_format: format(FROM_FORMAT),
             out: path(OUT).unwrap_or_default(),
             to_format: format(TO_FORMAT),
             curves: [CURVE, WITH].map(name),
-            values: values.collect(),
+            values,
             best: matches.get_flag(BEST),
         }
     }
@@ -121,13 +134,20 @@ pub(super) fn command_of(operation: &'static Operation) -> Command {
     let (input, has_curves, has_other) = match operation.inputs {
         // What curves would offer is given by parameters.
         Inputs::None | Inputs::UpToTwo => (None, false, false),
+        Inputs::OneOrNone => (Some(REFERENCE_OR_CURVES), true, false),
         Inputs::One => (Some(CURVES), true, false),
         Inputs::Two => (Some(CURVES), true, true),
         Inputs::Points => (Some(POINTS), false, false),
     };
     let mut command = Command::new(operation.name).about(operation.help);
     if let Some(help) = input {
-        command = command.arg(path_argument(IN, help)).arg(format_argument(
+        let argument = match operation.inputs {
+            Inputs::OneOrNone => path_argument(IN, help)
+                .value_name("REFERENCE|IN")
+                .value_parser(|text: &str| Origin::read(text)),
+            _ => path_argument(IN, help),
+        };
+        command = command.arg(argument).arg(format_argument(
             FROM_FORMAT,
             "The format to read, whatever the file's extension; needed for the standard input",
             format_parser(Format::readable()),
@@ -159,11 +179,30 @@ pub(super) fn command_of(operation: &'static Operation) -> Command {
     command.arg(best.help("Write the best found also where what was asked for is not reached; the exit code is 1 then"))
 }
 
+/// What an operation on a curve or a reference is given.
+#[derive(Clone, Debug)]
+enum Origin {
+    File(PathBuf),
+    Reference(ReferenceCurve),
+}
+
+impl Origin {
+    /// Read a reference if the text begins with the name of a kind; else it is a path.
+    fn read(text: &str) -> Result<Self, ReferenceTextError> {
+        if ReferenceCurve::is_text(text) {
+            ReferenceCurve::from_text(text).map(Self::Reference)
+        } else {
+            Ok(Self::File(PathBuf::from(text)))
+        }
+    }
+}
+
+const REFERENCE_OR_CURVES: &str = "A reference, such as conical-spiral, circle:radius=10 or formula:x=t;y=sin(t), or the file to read, or - for the standard input; its extension tells the format";
 const CURVES: &str =
     "The file to read, or - for the standard input; its extension tells the format";
 const SECOND_FILE: &str =
     "The file that the second curve comes from; if left out, both come from one file";
-const POINTS: &str = "The table of points to read, or - for the standard input: the vertices of a file with one curve, such as a .csv file that begins with the line “# degree=1”";
+const POINTS: &str = "The table of points to read, or - for the standard input: a .csv file with the columns x,y or x,y,z, or the vertices of a file with one curve";
 
 fn path_argument(name: &'static str, help: &'static str) -> Arg {
     let parser = value_parser!(PathBuf);
@@ -211,7 +250,9 @@ fn parameter_argument(parameter: &'static Parameter, all: &'static [Parameter]) 
             .num_args(0..=1)
             .require_equals(true)
             .default_missing_value("on"),
-        Kind::Whole { .. } | Kind::Real { .. } | Kind::List { .. } => argument.value_parser(read),
+        Kind::Whole { .. } | Kind::Real { .. } | Kind::List { .. } | Kind::Reference { .. } => {
+            argument.value_parser(read)
+        }
     }
 }
 
@@ -231,6 +272,7 @@ fn value_name(parameter: &Parameter) -> &'static str {
             _ => "I,J,…",
         },
         (Kind::Choice { .. }, _) => "WORD",
+        (Kind::Reference { .. }, _) => "REFERENCE",
         (Kind::Switch { .. }, _) => "on|off",
         (_, Unit::Length) => "LENGTH",
         (_, Unit::Angle) => "DEGREES",

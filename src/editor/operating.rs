@@ -237,7 +237,7 @@ impl Editor {
         let active = active.filter(|id| self.document().curve(*id).is_some());
         let curves: Vec<CurveId> = match operation.inputs {
             Inputs::None | Inputs::Points => Vec::new(),
-            Inputs::One => active.into_iter().collect(),
+            Inputs::One | Inputs::OneOrNone => active.into_iter().collect(),
             // The active curve comes first.
             Inputs::Two | Inputs::UpToTwo => {
                 let others = self.document().ids().filter(|id| Some(*id) != active);
@@ -254,7 +254,10 @@ impl Editor {
                 active.into_iter().chain(chosen).collect()
             }
         };
-        let input = Input::new(self.workspace.settled(), curves)?;
+        let settled = self.workspace.settled();
+        let reference = selection.active().and_then(|id| settled.reference(id));
+        let reference = reference.map(|reference| reference.curve.clone());
+        let input = Input::new(settled, curves)?.with_reference(reference);
         let points = self
             .active_points()
             .filter(|_| operation.inputs == Inputs::Points);

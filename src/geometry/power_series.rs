@@ -3,6 +3,8 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use glam::DVec3;
+
 use super::levels::taylor_series::{power_sum, product_coefficient};
 
 /// Hold the first coefficients of the power series of a function about a parameter t:
@@ -44,6 +46,27 @@ impl PowerSeries {
             coefficients.push(coefficient);
         }
         Self(coefficients)
+    }
+
+    /// Write the value and the derivatives of a function as a series.
+    pub(in crate::geometry) fn of_derivatives(values: impl Iterator<Item = f64>) -> Self {
+        let mut factorial = 1.0;
+        let coefficient = |(order, value): (usize, f64)| {
+            factorial *= order.max(1) as f64;
+            value / factorial
+        };
+        Self(values.enumerate().map(coefficient).collect())
+    }
+
+    /// Write the series of three coordinates as a point and its derivatives.
+    pub(in crate::geometry) fn derivatives([x, y, z]: [&Self; 3]) -> Vec<DVec3> {
+        let coordinates = x.0.iter().zip(&y.0).zip(&z.0);
+        let mut factorial = 1.0;
+        let derivative = |(order, ((x, y), z)): (usize, ((&f64, &f64), &f64))| {
+            factorial *= order.max(1) as f64;
+            DVec3::new(*x, *y, *z) * factorial
+        };
+        coordinates.enumerate().map(derivative).collect()
     }
 
     /// The coefficients, of which there is at least one.
@@ -90,6 +113,16 @@ impl PowerSeries {
     /// than this one's.
     pub(in crate::geometry) fn antiderivative(&self, value: f64, order: usize) -> Self {
         Self::by_recurrence(value, order, |_, k| self.0[k] / (k + 1) as f64)
+    }
+
+    /// Insert another series s for h: f(t + s − s₀), where s₀ is the other's value, by Horner's
+    /// rule.
+    pub(in crate::geometry) fn composed(&self, inner: &Self) -> Self {
+        let step = inner.clone().plus(-inner.value());
+        let order = inner.order();
+        let mut terms = self.0[..=order].iter().rev();
+        let last = Self::constant(terms.next().copied().unwrap_or_default(), order);
+        terms.fold(last, |sum, c| (&sum * &step).plus(*c))
     }
 
     /// Compute eᶠ: g′ = f′ g.

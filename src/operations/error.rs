@@ -4,10 +4,12 @@ use thiserror::Error;
 
 use super::inputs::Inputs;
 use crate::document::EditError;
+use crate::geometry::approximation::{ApproximationError, FitError};
 use crate::geometry::between::BetweenError;
 use crate::geometry::fairing::bridging::BridgeError;
 use crate::geometry::fairing::harmonising::HarmonyError;
 use crate::geometry::fairing::joint_correction::CorrectionError;
+use crate::geometry::references::ReferenceTextError;
 use crate::geometry::{End, MAX_DEGREE, PolygonError};
 
 /// Why an operation cannot run on an input, or with some values.
@@ -37,6 +39,26 @@ pub enum OperationError {
     /// There is no bridge between two ends.
     #[error(transparent)]
     Bridge(#[from] BridgeError),
+    /// The curve has no approximation.
+    #[error(transparent)]
+    Approximation(#[from] ApproximationError),
+    /// The points have no fit.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+    /// A reference cannot be read.
+    #[error(transparent)]
+    ReferenceText(#[from] ReferenceTextError),
+    /// Points were given to what needs a smooth curve.
+    #[error("points have no derivatives, so they cannot be approximated: fit a curve to them")]
+    PointsOnly,
+    /// Two parameters exclude each other.
+    #[error("{first} and {second} cannot both be given")]
+    Exclude {
+        /// The one, as it is shown.
+        first: &'static str,
+        /// The other, as it is shown.
+        second: &'static str,
+    },
     /// There is no lower degree.
     #[error("the degree is 1 already, the lowest that there is")]
     LowestDegree,

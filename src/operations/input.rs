@@ -8,6 +8,7 @@ use super::error::OperationError;
 use super::inputs::Inputs;
 use crate::document::{Curve, CurveId, Document, EditError};
 use crate::geometry::FloatPolygon;
+use crate::geometry::references::ReferenceCurve;
 
 /// Hold a snapshot of a document with what was chosen in it: curves, or a table of points.
 #[derive(Clone, Debug)]
@@ -15,6 +16,7 @@ pub struct Input {
     document: Document,
     curves: Vec<(CurveId, Arc<Curve>)>,
     points: Vec<DVec3>,
+    reference: Option<ReferenceCurve>,
 }
 
 impl Input {
@@ -35,12 +37,23 @@ impl Input {
             document: document.clone(),
             curves: curves?,
             points: Vec::new(),
+            reference: None,
         })
     }
 
     /// Add a table of points with finite coordinates.
     pub fn with_points(self, points: Vec<DVec3>) -> Self {
         Self { points, ..self }
+    }
+
+    /// Offer a reference, for operations that take one.
+    pub fn with_reference(self, reference: Option<ReferenceCurve>) -> Self {
+        Self { reference, ..self }
+    }
+
+    /// The reference that is offered.
+    pub fn reference(&self) -> Option<&ReferenceCurve> {
+        self.reference.as_ref()
     }
 
     /// The document as it is before the operation.
@@ -62,8 +75,8 @@ impl Input {
     pub(super) fn is(&self, inputs: Inputs) -> bool {
         let (curves, points) = (&self.curves[..], self.points.len());
         match (inputs, curves) {
-            (Inputs::None | Inputs::UpToTwo, []) => points == 0,
-            (Inputs::One | Inputs::UpToTwo, [_]) => points == 0,
+            (Inputs::None | Inputs::OneOrNone | Inputs::UpToTwo, []) => points == 0,
+            (Inputs::One | Inputs::OneOrNone | Inputs::UpToTwo, [_]) => points == 0,
             (Inputs::Two | Inputs::UpToTwo, [(first, _), (second, _)]) => {
                 first != second && points == 0
             }

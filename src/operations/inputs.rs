@@ -7,6 +7,8 @@ pub enum Inputs {
     None,
     /// A curve.
     One,
+    /// A curve, or nothing where the parameters tell what to work on.
+    OneOrNone,
     /// Two curves, in an order.
     Two,
     /// Up to two curves, in an order; the parameters tell what is not taken from them.
@@ -20,6 +22,7 @@ impl Inputs {
     pub(super) fn request(self) -> &'static str {
         match self {
             Self::None => "this works on no curve: choose none",
+            Self::OneOrNone => "choose a curve, or give a reference",
             Self::One => "choose one curve",
             Self::Two => "choose two different curves",
             Self::UpToTwo => "choose no more than two different curves",

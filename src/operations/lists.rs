@@ -100,3 +100,21 @@ pub(super) fn locked(curve: &Curve, values: &Values) -> Result<Vec<usize>, Opera
 pub(super) fn given(values: &Values, parameter: &Parameter) -> Option<f64> {
     values.list(parameter).first().copied()
 }
+
+/// The number of a list of one, if it is given.
+///
+/// # Errors
+/// [`OperationError::OutOfRange`] if it is not positive.
+pub(super) fn positive(
+    values: &Values,
+    parameter: &Parameter,
+) -> Result<Option<f64>, OperationError> {
+    match given(values, parameter) {
+        Some(number) if number <= 0.0 => Err(OperationError::OutOfRange {
+            label: parameter.label,
+            value: number.to_string(),
+            needed: "more than 0".to_owned(),
+        }),
+        number => Ok(number),
+    }
+}

@@ -33,6 +33,7 @@ mod targets;
 mod value;
 mod values;
 mod which_end;
+mod whole;
 
 pub use amount::Amount;
 pub use atlas::Atlas;
@@ -75,6 +76,8 @@ table! {
     correct_ends,
     harmonise,
     mineur_farin,
+    approximate,
+    fit,
     between,
 }
 

@@ -8,6 +8,7 @@ use super::locks;
 use super::parameter::Unit;
 use super::value::Value;
 use crate::document::{Curve, CurveId, Document, Edit, EditError};
+use crate::geometry::approximation::LevelComparison;
 use crate::geometry::{Approximation, FloatPolygon};
 
 /// Hold what an operation comes to.
@@ -26,6 +27,8 @@ pub struct Outcome {
     pub renumbered: bool,
     /// The operation's own figures.
     pub figures: Vec<Figure>,
+    /// Where the curve stands for another one: the levels of both.
+    pub equivalence: Option<Vec<LevelComparison>>,
     /// What else is to say: sentences without a full stop at the end.
     pub remarks: Vec<String>,
     /// What to draw on the canvas.
@@ -43,7 +46,7 @@ pub enum Deviation {
     Exact,
     /// Its points move by no more than this length: a proved bound.
     AtMost(f64),
-    /// Its points are off by this length, measured closely.
+    /// Its largest distance from what it stands for is this: measured, to 1e-3 of itself.
     Measured(f64),
     /// It is another curve; the distance is not measured.
     Unmeasured,
@@ -103,6 +106,27 @@ impl Figure {
             label,
             value: Value::Real(length),
             unit: Unit::Length,
+        }
+    }
+
+    /// Tell a mere number.
+    pub(super) fn number(name: &'static str, label: &'static str, number: f64) -> Self {
+        Self {
+            name,
+            label,
+            value: Value::Real(number),
+            unit: Unit::None,
+        }
+    }
+
+    /// Tell the numbers of some things, counted from 0.
+    pub(super) fn indices(name: &'static str, label: &'static str, indices: &[usize]) -> Self {
+        let numbers = indices.iter().map(|index| *index as f64);
+        Self {
+            name,
+            label,
+            value: Value::List(numbers.collect()),
+            unit: Unit::None,
         }
     }
 
@@ -169,6 +193,7 @@ impl Outcome {
             deviation,
             renumbered: false,
             figures: Vec::new(),
+            equivalence: None,
             remarks: Vec::new(),
             marks: Vec::new(),
             handles: Vec::new(),

@@ -7,6 +7,7 @@ use super::amount::Amount;
 use super::error::OperationError;
 use super::input::Input;
 use super::value::Value;
+use crate::geometry::references::ReferenceCurve;
 
 /// Describe a parameter.
 #[derive(Clone, Debug)]
@@ -55,6 +56,11 @@ pub enum Kind {
     Switch {
         /// What it is if it is not given.
         default: bool,
+    },
+    /// A reference, as [`ReferenceCurve::from_text`] reads it, or none.
+    Reference {
+        /// What it means if none is given.
+        none: &'static str,
     },
     /// Some finite numbers, such as the coordinates of a point, or none.
     List {
@@ -109,6 +115,7 @@ impl Parameter {
             Kind::Choice { default, .. } => Value::Choice(default),
             Kind::Switch { default } => Value::Switch(default),
             Kind::List { .. } => Value::List(Vec::new()),
+            Kind::Reference { .. } => Value::Reference(input.reference().cloned().map(Box::new)),
         })
     }
 
@@ -167,6 +174,11 @@ impl Parameter {
     pub fn read(&self, text: &str) -> Result<Value, OperationError> {
         let text = text.trim();
         let value = match self.kind {
+            Kind::Reference { .. } if text.is_empty() => Some(Value::Reference(None)),
+            Kind::Reference { .. } => {
+                let curve = ReferenceCurve::from_text(text)?;
+                Some(Value::Reference(Some(Box::new(curve))))
+            }
             Kind::Whole { .. } => text.parse().ok().map(Value::Whole),
             Kind::Real { unit, .. } => {
                 let number = text.parse().ok();
@@ -224,6 +236,10 @@ impl Parameter {
             (_, Value::Real(number)) => shown(number),
             (_, Value::Choice(index)) => index.to_string(),
             (_, Value::Switch(on)) => if *on { "on" } else { "off" }.to_owned(),
+            (_, Value::Reference(reference)) => {
+                let text = reference.as_ref().map(|reference| reference.to_string());
+                text.unwrap_or_default()
+            }
             (_, Value::List(numbers)) => {
                 let numbers: Vec<String> = numbers.iter().map(shown).collect();
                 numbers.join(", ")
@@ -235,7 +251,10 @@ impl Parameter {
     pub fn unit(&self) -> Unit {
         match self.kind {
             Kind::Real { unit, .. } | Kind::List { unit, .. } => unit,
-            Kind::Whole { .. } | Kind::Choice { .. } | Kind::Switch { .. } => Unit::None,
+            Kind::Whole { .. }
+            | Kind::Choice { .. }
+            | Kind::Switch { .. }
+            | Kind::Reference { .. } => Unit::None,
         }
     }
 
@@ -250,6 +269,9 @@ impl Parameter {
             }
             Kind::Switch { .. } => return "on or off".to_owned(),
             Kind::List { .. } => return self.list_words(),
+            Kind::Reference { .. } => {
+                return "a reference, such as circle:radius=10 or formula:x=…;y=…".to_owned();
+            }
         };
         let words = self.range().map(|(from, to)| {
             let words = |amount: Amount| self.amount_words(amount);
@@ -268,6 +290,7 @@ impl Parameter {
             Kind::Choice { default, .. } => self.text(&Value::Choice(default)),
             Kind::Switch { default } => self.text(&Value::Switch(default)),
             Kind::List { none, .. } => none(None).to_owned(),
+            Kind::Reference { none } => none.to_owned(),
         }
     }
 
@@ -305,13 +328,18 @@ impl Parameter {
         match self.kind {
             Kind::Whole { from, to, .. } => Some((Bound::Included(from), Bound::Included(to))),
             Kind::Real { from, to, .. } => Some((from, to)),
-            Kind::Choice { .. } | Kind::Switch { .. } | Kind::List { .. } => None,
+            Kind::Choice { .. }
+            | Kind::Switch { .. }
+            | Kind::List { .. }
+            | Kind::Reference { .. } => None,
         }
     }
 
     fn check_kind(&self, value: &Value) -> Result<(), OperationError> {
         let fits = match (&self.kind, value) {
-            (Kind::Whole { .. }, Value::Whole(_)) | (Kind::Switch { .. }, Value::Switch(_)) => true,
+            (Kind::Whole { .. }, Value::Whole(_))
+            | (Kind::Switch { .. }, Value::Switch(_))
+            | (Kind::Reference { .. }, Value::Reference(_)) => true,
             (Kind::Real { .. }, Value::Real(number)) => number.is_finite(),
             (Kind::Choice { options, .. }, Value::Choice(index)) => *index < options.len(),
             (Kind::List { count, whole, .. }, Value::List(numbers)) => {
@@ -344,7 +372,9 @@ impl Parameter {
         let number = match value {
             Value::Whole(number) => *number as f64,
             Value::Real(number) => *number,
-            Value::Choice(_) | Value::Switch(_) | Value::List(_) => return Ok(()),
+            Value::Choice(_) | Value::Switch(_) | Value::List(_) | Value::Reference(_) => {
+                return Ok(());
+            }
         };
         if limits.contains(&number) {
             return Ok(());

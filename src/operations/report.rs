@@ -13,6 +13,7 @@ use super::outcome::{Deviation, Figure, Outcome};
 use super::value::Value;
 use crate::document::Document;
 use crate::geometry::Progress;
+use crate::geometry::approximation::LevelComparison;
 
 /// Hold what an operation did: one schema for all of them.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +34,8 @@ pub struct Report {
     pub largest_move: Option<LargestMove>,
     /// The operation's own figures.
     pub figures: Vec<Figure>,
+    /// Where the curve stands for another one: the levels of both.
+    pub equivalence: Option<Vec<LevelComparison>>,
     /// What else is to say: sentences without a full stop at the end.
     pub remarks: Vec<String>,
     /// Proved features and harmony before and afterwards; `None` until they are proved.
@@ -66,6 +69,7 @@ impl Report {
             deviation: outcome.deviation,
             largest_move: largest_move(input, outcome),
             figures: outcome.figures.clone(),
+            equivalence: outcome.equivalence.clone(),
             remarks: outcome.remarks.clone(),
             features: None,
         }

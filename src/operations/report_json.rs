@@ -6,13 +6,15 @@ use serde_json::json;
 use super::outcome::Deviation;
 use super::report::Report;
 use super::value::Value;
+use crate::geometry::approximation::LevelComparison;
 
 impl Serialize for Report {
     /// Write the keys `operation`, `reached`, `residual`, `deviation` (0 where the curve is the
     /// same, null where it is another and the distance is not measured), `largest_move`,
     /// `features_before`, `features_after` (counts and `harmony` of each curve; null where they are not
     /// proved), `remarks`, and the
-    /// operation's own figures under their names, angles in degrees.
+    /// operation's own figures under their names, angles in degrees; of approximations `equivalence`, a
+    /// list of the levels of curvature and torsion with whether they are equal.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("operation", self.name)?;
@@ -36,10 +38,33 @@ impl Serialize for Report {
                 Value::Real(number) => json!(figure.unit.shown(*number)),
                 Value::Switch(on) => json!(on),
                 Value::List(numbers) => json!(numbers),
+                Value::Reference(reference) => {
+                    json!(reference.as_ref().map(|reference| reference.to_string()))
+                }
             };
             map.serialize_entry(figure.name, &value)?;
+        }
+        if let Some(levels) = &self.equivalence {
+            let levels: Vec<_> = levels.iter().map(level).collect();
+            map.serialize_entry("equivalence", &levels)?;
         }
         map.serialize_entry("remarks", &self.remarks)?;
         map.end()
     }
+}
+
+/// Write how a level of two curves compares: the features of both in their order, and which of them, counted
+/// from 0, is the first that differs.
+fn level(level: &LevelComparison) -> serde_json::Value {
+    let there = level.there.iter().map(|feature| feature.name());
+    let here = level.here.iter();
+    let here = here.map(|(u, feature)| json!({ "u": u, "feature": feature.name() }));
+    json!({
+        "of": if level.torsion { "torsion" } else { "curvature" },
+        "level": level.level,
+        "equal": level.is_equal(),
+        "reference": there.collect::<Vec<_>>(),
+        "curve": here.collect::<Vec<_>>(),
+        "first_difference": level.first_difference(),
+    })
 }

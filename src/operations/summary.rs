@@ -29,6 +29,10 @@ impl Report {
                 Deviation::Unmeasured => {}
             }
         }
+        let mut differing = self.equivalence.iter().flatten();
+        if let Some(level) = differing.find(|level| !level.is_equal()) {
+            parts.push(format!("another shape: {} differs", level.name()));
+        }
         if let Some(residual) = self.residual {
             parts.push(format!("{} is left", significant(residual, 4)));
         }

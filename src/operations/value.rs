@@ -1,5 +1,7 @@
 //! A value of a parameter, or a figure.
 
+use crate::geometry::references::ReferenceCurve;
+
 /// A value of a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
@@ -13,4 +15,6 @@ pub enum Value {
     Switch(bool),
     /// Some finite numbers; none where nothing is given.
     List(Vec<f64>),
+    /// A reference, or none.
+    Reference(Option<Box<ReferenceCurve>>),
 }

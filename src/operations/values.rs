@@ -4,6 +4,7 @@ use super::error::OperationError;
 use super::input::Input;
 use super::parameter::Parameter;
 use super::value::Value;
+use crate::geometry::references::ReferenceCurve;
 
 /// Hold a value for every parameter of an operation, each in range for the input that they were
 /// checked for.
@@ -90,6 +91,17 @@ impl Values {
         match self.get(parameter) {
             Value::Choice(index) => meanings[*index],
             other => panic!("“{}” is {other:?}, no option", parameter.name),
+        }
+    }
+
+    /// The reference of a parameter that takes one.
+    ///
+    /// # Panics
+    /// As [`Values::whole`].
+    pub(super) fn reference(&self, parameter: &Parameter) -> Option<&ReferenceCurve> {
+        match self.get(parameter) {
+            Value::Reference(reference) => reference.as_deref(),
+            other => panic!("“{}” is {other:?}, no reference", parameter.name),
         }
     }
 

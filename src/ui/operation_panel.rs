@@ -14,9 +14,10 @@ use super::theme::{STEP, Tokens};
 use super::widgets::IconButton;
 use super::{figures, widgets};
 use crate::editor::{Editor, Trial, told};
+use crate::geometry::approximation::LevelComparison;
 use crate::geometry::features::Verdict;
 use crate::geometry::harmony::{Harmony, Match};
-use crate::geometry::rounded_up;
+use crate::geometry::{counted, rounded_up};
 use crate::operations::{
     Atlas, Choice, Deviation, FeatureCounts, Figure, Kind, Limits, Parameter, Report, Unit, Value,
 };
@@ -140,6 +141,7 @@ impl OperationPanel {
                 (Kind::List { none, .. }, _) => {
                     self.list_ui(ui, parameter, value, none(Some(trial.input())))
                 }
+                (Kind::Reference { none }, _) => self.list_ui(ui, parameter, value, none),
                 (Kind::Switch { .. }, Value::Switch(on)) => {
                     let mut on = *on;
                     let switch = ui.checkbox(&mut on, "");
@@ -308,7 +310,7 @@ fn shown_number(value: &Value, unit: Unit) -> f64 {
     match value {
         Value::Whole(number) => *number as f64,
         Value::Real(number) => unit.shown(*number),
-        Value::Choice(_) | Value::Switch(_) | Value::List(_) => 0.0,
+        Value::Choice(_) | Value::Switch(_) | Value::List(_) | Value::Reference(_) => 0.0,
     }
 }
 
@@ -395,6 +397,9 @@ fn report_ui(ui: &mut Ui, trial: &Trial, report: &Report) {
         for figure in &report.figures {
             widgets::figure_row(ui, figure.label, &figure_text(figure));
         }
+        for level in report.equivalence.iter().flatten() {
+            equivalence_ui(ui, level);
+        }
         if report.useful {
             features_ui(ui, trial);
         }
@@ -402,6 +407,40 @@ fn report_ui(ui: &mut Ui, trial: &Trial, report: &Report) {
     for remark in &report.remarks {
         widgets::note(ui, remark);
     }
+}
+
+/// Whether a level has the features of what the curve stands for; both are listed as one points at it.
+fn equivalence_ui(ui: &mut Ui, level: &LevelComparison) {
+    let name = level.name();
+    let there: Vec<&str> = level.there.iter().map(|feature| feature.name()).collect();
+    let here = level.here.iter();
+    let here: Vec<String> = here
+        .map(|(u, feature)| format!("{} at u = {}", feature.name(), figures::significant(*u, 4)))
+        .collect();
+    let text = match level.first_difference() {
+        None => format!("the same {}", counted(there.len(), "feature", "features")),
+        Some(index) => format!("differs from feature {} on", index + 1),
+    };
+    let listed = |features: String| {
+        if features.is_empty() {
+            "none".to_owned()
+        } else {
+            features
+        }
+    };
+    let hover = format!(
+        "Reference: {}\nCurve: {}",
+        listed(there.join(", ")),
+        listed(here.join(", "))
+    );
+    let row = ui.scope(|ui| {
+        if !level.is_equal() {
+            let error = Tokens::of(ui).error;
+            ui.visuals_mut().override_text_color = Some(error);
+        }
+        widgets::figure_row(ui, &name, &text);
+    });
+    row.response.on_hover_text(hover);
 }
 
 fn figure_text(figure: &Figure) -> String {
@@ -415,6 +454,10 @@ fn figure_text(figure: &Figure) -> String {
                 .iter()
                 .map(|number| figures::significant(*number, 4));
             numbers.collect::<Vec<_>>().join(", ")
+        }
+        Value::Reference(reference) => {
+            let text = reference.as_ref().map(|reference| reference.to_string());
+            text.unwrap_or_default()
         }
         Value::Switch(on) => if *on { "yes" } else { "no" }.to_owned(),
     }

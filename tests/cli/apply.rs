@@ -93,9 +93,15 @@ fn every_operation_is_listed_has_help_and_reports_by_one_schema() {
         }
         // Where nothing is read there is no IN.
         let reads = !["mineur-farin", "between"].contains(&name);
-        for word in ["<IN>", "--curve <NAME>", "--from-format"] {
+        let source = match name {
+            "approximate" => "<REFERENCE|IN>",
+            _ => "<IN>",
+        };
+        for word in [source, "--from-format"] {
             assert_eq!(help.contains(word), reads, "{name}: {word} in {help}");
         }
+        let chooses = reads && name != "fit";
+        assert_eq!(help.contains("--curve <NAME>"), chooses, "{name}: {help}");
         let read = match name {
             "mineur-farin" | "between" => &[name, "out.batten"][..],
             "join" => &[name, &file, &file, "out.batten"],
@@ -664,4 +670,54 @@ fn exports_name_the_matches_and_locks_that_they_lose() {
     }
     let (_, told) = folder.done(&["convert", "in.batten", "out.batten"]);
     assert!(!told.contains("matched"), "{told}");
+}
+
+#[test]
+fn a_reference_is_approximated_in_place_of_a_file() {
+    let folder = Folder::new();
+    let arguments = [
+        "approximate",
+        "conical-spiral",
+        "spiral.batten",
+        "--degree",
+        "8",
+    ];
+    let by_steps = [
+        "--method", "on-curve", "--from", "0", "--step", "1", "--count", "20",
+    ];
+    let found = report(&folder, &[&arguments[..], &by_steps].concat());
+    assert_eq!(found["reached"], true);
+    let off = found["deviation"].as_f64().unwrap();
+    assert!((4.9..4.91).contains(&off), "{off}");
+    assert_eq!(found["equivalence"][0]["equal"], true);
+    assert_eq!(curves(&folder, "spiral.batten")[0]["degree"], 8);
+    let to_tolerance = [
+        "--from",
+        "1",
+        "--to",
+        "6",
+        "--tolerance",
+        "1e-6",
+        "--fit-ends",
+    ];
+    // It may take long enough to tell of its progress.
+    let asked = [&["apply"], &arguments[..], &to_tolerance].concat();
+    let (out, _) = folder.done(&asked);
+    let found: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(found["reached"], true);
+    assert!(found["deviation"].as_f64().unwrap() <= 1e-6);
+    assert!(found["end_error"].as_f64().unwrap() <= 1e-12);
+    let again = [
+        "approximate",
+        "spiral.batten",
+        "again.batten",
+        "--degree",
+        "5",
+        "--count",
+        "40",
+    ];
+    let found = report(&folder, &again);
+    assert!(found["deviation"].as_f64().unwrap() < 0.01);
+    let arguments = ["apply", "approximate", "circle:radius=x", "out.batten"];
+    folder.misused(&arguments, "column 15: “x” means nothing here");
 }

@@ -510,6 +510,7 @@ fn read(parameter: &Parameter, number: f64) -> Value {
         Kind::Whole { .. } => Value::Whole(whole),
         Kind::Real { .. } => Value::Real(number),
         Kind::Choice { .. } => Value::Choice(whole % 3),
+        Kind::Reference { .. } => Value::Reference(None),
         Kind::Switch { .. } => Value::Switch(whole % 2 == 1),
         Kind::List { count, .. } => {
             let numbers = (0..*count.start()).map(|more| (whole + more) as f64);

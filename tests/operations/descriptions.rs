@@ -226,6 +226,8 @@ fn an_operation_runs_on_nothing_but_the_inputs_it_wants() {
             Inputs::None => (&runner.input, "this works on no curve: choose none"),
             Inputs::UpToTwo => (&twice, "choose no more than two different curves"),
             Inputs::Two => (&none, "choose two different curves"),
+            Inputs::OneOrNone => (&twice, "choose a curve, or give a reference"),
+            Inputs::Points => (&none, "a table of points is needed"),
             _ => (&none, "choose one curve"),
         };
         for input in [wrong, &twice, &points] {

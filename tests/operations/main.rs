@@ -1,8 +1,10 @@
 //! Operations: their descriptions, what they do to curves, what they report and refuse.
 
-mod between;
 #[path = "../common/mod.rs"]
 mod common;
+
+mod approximations;
+mod between;
 mod degrees;
 mod descriptions;
 mod ends;

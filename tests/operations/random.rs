@@ -46,6 +46,16 @@ fn value(parameter: &Parameter, input: &Input, random: &mut Random) -> Value {
         Kind::Choice { options, .. } => {
             Value::Choice((random.bits() % options.len() as u64) as usize)
         }
+        Kind::Reference { .. } => {
+            let texts = [
+                "",
+                "circle:radius=3",
+                "conical-spiral",
+                "clothoid:from=-1,to=2",
+            ];
+            let text = texts[random.bits() as usize % texts.len()];
+            parameter.read(text).expect("a reference or none")
+        }
         Kind::Switch { .. } => Value::Switch(random.bits().is_multiple_of(2)),
         Kind::List { count, whole, .. } => {
             let most = (*count.end()).min(4);
@@ -88,6 +98,9 @@ fn random_values_neither_panic_nor_make_edits_that_are_refused() {
                         | OperationError::Harmony(_)
                         | OperationError::OutOfRange { .. }
                         | OperationError::Bridge(_)
+                        | OperationError::Approximation(_)
+                        | OperationError::Fit(_)
+                        | OperationError::Exclude { .. }
                         | OperationError::Correction(_)),
                     ) => {
                         assert!(!error.to_string().is_empty());
@@ -106,7 +119,8 @@ fn random_values_neither_panic_nor_make_edits_that_are_refused() {
                 let json = serde_json::to_value(&report).expect("JSON");
                 // No figure of its own has the name of one that all have.
                 let keys = json.as_object().map(serde_json::Map::len);
-                assert_eq!(keys, Some(8 + report.figures.len()), "{place}");
+                let own = report.figures.len() + usize::from(report.equivalence.is_some());
+                assert_eq!(keys, Some(8 + own), "{place}");
                 let largest = report.largest_move.map_or(0.0, |largest| largest.distance);
                 assert!(largest.is_finite(), "{place}");
                 reached += usize::from(outcome.reached);

@@ -59,11 +59,15 @@ impl Runner {
         self.edited(Edit::SetTarget { curve, end, target })
     }
 
-    /// What an operation works on here: the curve, or none if it makes its own.
+    /// What an operation works on here: the curve, none if it makes its own, or its vertices as points.
     pub fn input_of(&self, operation: &Operation) -> Input {
         match operation.inputs {
             Inputs::None => Input::new(self.input.document(), []).expect("none is there"),
             Inputs::Two => self.with_copy(),
+            Inputs::Points => {
+                let none = Input::new(self.input.document(), []).expect("none is there");
+                none.with_points(self.polygon().vertices().to_vec())
+            }
             _ => self.input.clone(),
         }
     }

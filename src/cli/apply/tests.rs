@@ -105,6 +105,7 @@ fn outcome(edits: Vec<Edit>) -> Outcome {
         deviation: Deviation::Unmeasured,
         renumbered: true,
         figures: Vec::new(),
+        equivalence: None,
         remarks: Vec::new(),
         marks: Vec::new(),
         handles: Vec::new(),

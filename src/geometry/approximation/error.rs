@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::geometry::error::PolygonError;
+use crate::geometry::fairing::joint_correction::CorrectionError;
 
 /// A reason why a curve has no float polygon near it.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -31,6 +32,17 @@ pub enum ApproximationError {
         /// Where.
         parameter: f64,
     },
+    /// The curve stops somewhere, so no length or turning grows there.
+    #[error(
+        "the curve has no direction near parameter {parameter}: space the vertices by its own parameter, or choose a part without this place"
+    )]
+    NoDirection {
+        /// Near where.
+        parameter: f64,
+    },
+    /// The ends cannot be brought to the curve's.
+    #[error(transparent)]
+    Ends(#[from] CorrectionError),
     /// The vertices make no polygon.
     #[error(transparent)]
     Polygon(#[from] PolygonError),

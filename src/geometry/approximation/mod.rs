@@ -1,11 +1,22 @@
 //! Float polygons near curves that are no float polygons, or of another degree.
 
+mod approximating;
 mod deviation;
+mod equivalence;
 mod error;
+mod fitting;
 mod knots;
 mod placing;
+mod spacing;
 
+pub use approximating::{
+    Approximated, Asked, MOST_SEGMENTS, approximate_between, approximate_by_steps,
+    approximate_to_tolerance,
+};
 pub use deviation::MeasuredDeviation;
+pub use equivalence::{LevelComparison, LevelFeature, compare_levels};
 pub use error::ApproximationError;
+pub use fitting::{FitAsked, FitError, Fitted, fit_points};
 pub use knots::UniformKnots;
 pub use placing::{Placing, float_polygon};
+pub use spacing::{Respaced, Spacing};

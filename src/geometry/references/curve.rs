@@ -3,11 +3,12 @@
 use glam::DVec3;
 
 use super::error::ReferenceError;
-use super::form::{ReferenceForm, from_series};
+use super::form::ReferenceForm;
 use super::placement::Placement;
 use crate::geometry::control_polygon::MAX_MAGNITUDE;
 use crate::geometry::differentiable::Differentiable;
 use crate::geometry::parametric_curve::ParametricCurve;
+use crate::geometry::power_series::PowerSeries;
 use crate::geometry::vector;
 
 /// Samples by which the turning of a curve is estimated.
@@ -152,7 +153,9 @@ impl Differentiable for ReferenceCurve {
     fn derivatives(&self, t: f64, order: usize) -> Vec<DVec3> {
         self.placed_values(match &self.form {
             ReferenceForm::Analytic(form) => form.derivatives(t, order),
-            ReferenceForm::Formula(formula) => from_series(&formula.series(t, order)),
+            ReferenceForm::Formula(formula) => {
+                PowerSeries::derivatives(formula.series(t, order).each_ref())
+            }
             ReferenceForm::Points(points) => points.derivatives(t, order),
         })
     }

@@ -59,23 +59,8 @@ impl AnalyticForm {
 
     /// The point at t and its derivatives by t.
     pub(super) fn derivatives(&self, t: f64, order: usize) -> Vec<DVec3> {
-        from_series(&(self.kind.series)(&self.values, t, order))
+        PowerSeries::derivatives((self.kind.series)(&self.values, t, order).each_ref())
     }
-}
-
-/// Write the series of three coordinates as a point and its derivatives.
-pub(super) fn from_series([x, y, z]: &[PowerSeries; 3]) -> Vec<DVec3> {
-    let coordinates = x
-        .coefficients()
-        .iter()
-        .zip(y.coefficients())
-        .zip(z.coefficients());
-    let mut factorial = 1.0;
-    let derivative = |(order, ((x, y), z)): (usize, ((&f64, &f64), &f64))| {
-        factorial *= order.max(1) as f64;
-        DVec3::new(*x, *y, *z) * factorial
-    };
-    coordinates.enumerate().map(derivative).collect()
 }
 
 impl ReferenceForm {

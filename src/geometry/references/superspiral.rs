@@ -21,7 +21,11 @@ use crate::geometry::power_series::PowerSeries;
 /// The numbers a and b that sums converge for without losing digits.
 const MODERATE: (Bound<f64>, Bound<f64>) = (Bound::Included(-20.0), Bound::Included(20.0));
 
-/// Up to here the series is summed; beyond, the differential equation is solved.
+/// From here on the differential equation is solved for the pieces that are integrated, which is quick.
+const SOLVED: f64 = 0.5;
+
+/// Up to here the series is summed for the derivatives at a place: near 0, where its other solution is
+/// singular, the equation would multiply rounding at each order.
 const SUMMED: f64 = 4.0;
 
 /// The order of the expansions of which the curve is put together. With pieces that reach at most a quarter
@@ -84,7 +88,7 @@ fn series(values: &[f64], psi: f64, order: usize) -> [PowerSeries; 3] {
         let reach = HALF_STEP.min(REACH * (1.0_f64 + place));
         let half = (0.5 * (psi - place)).clamp(-reach, reach);
         let next = if half.abs() < reach { psi } else { place + 2.0 * half };
-        let expansion = radius.expansion(place + half, ORDER, last.as_ref());
+        let expansion = radius.expansion(place + half, ORDER, SOLVED, last.as_ref());
         let directed = expansion.directed();
         for (coordinate, velocity) in point.iter_mut().zip(directed) {
             let integral = velocity.antiderivative(0.0, ORDER + 1);
@@ -93,7 +97,7 @@ fn series(values: &[f64], psi: f64, order: usize) -> [PowerSeries; 3] {
         last = Some(expansion);
         place = next;
     }
-    let [run, rise] = radius.expansion(psi, order, last.as_ref()).directed();
+    let [run, rise] = radius.expansion(psi, order, SUMMED, last.as_ref()).directed();
     [
         run.antiderivative(point[0], order),
         rise.antiderivative(point[1], order),
@@ -124,10 +128,16 @@ struct Radius {
 }
 
 impl Radius {
-    /// Expand ρ about ψ; `last` is an expansion near there.
-    fn expansion(&self, psi: f64, order: usize, last: Option<&Expansion>) -> Expansion {
+    /// Expand ρ about ψ; beyond `summed` it is continued from `last`, an expansion near there.
+    fn expansion(
+        &self,
+        psi: f64,
+        order: usize,
+        summed: f64,
+        last: Option<&Expansion>,
+    ) -> Expansion {
         let series = match last {
-            Some(last) if psi > SUMMED => self.continued(psi, order, last),
+            Some(last) if psi > summed => self.continued(psi, order, last),
             _ => self.summed(psi, order),
         };
         Expansion { psi, series }

@@ -21,6 +21,12 @@ const COORDINATES: [&str; 3] = ["x", "y", "z"];
 const INTERVAL: [&str; 2] = ["from", "to"];
 
 impl ReferenceCurve {
+    /// Whether a text begins as a reference does, with the name of a kind or `formula`.
+    pub fn is_text(text: &str) -> bool {
+        let name = Part::whole(text).split_once(':').0.trimmed().text;
+        name == FORMULA || find(name).is_some()
+    }
+
     /// Read a reference: a kind's name and, after a colon, values of its parameters, separated by
     /// commas; or `formula:x=…;y=…;z=…` with expressions in t, without z in the plane. `from` and `to`
     /// give the interval of t. Numbers can be expressions without t. What is not given has its default.

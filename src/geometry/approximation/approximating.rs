@@ -1,0 +1,381 @@
+//! Approximations with what is known of them: how far they are from the curve, and whether they have its
+//! shape.
+
+use glam::DVec3;
+
+use super::deviation::MeasuredDeviation;
+use super::equivalence::{LevelComparison, compare_levels};
+use super::error::ApproximationError;
+use super::knots::UniformKnots;
+use super::placing::{Placing, float_polygon};
+use super::spacing::{Respaced, Spacing};
+use crate::geometry::differentiable::Differentiable;
+use crate::geometry::end::End;
+use crate::geometry::end_correction::EndTarget;
+use crate::geometry::fairing::joint_correction::{Disturbance, correct_jointly};
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::progress::Progress;
+
+/// The most segments that are tried for a tolerance.
+pub const MOST_SEGMENTS: usize = 4096;
+
+/// Once the deviation is small enough, up to so many times as many segments are tried for the shape.
+const FOR_SHAPE: usize = 16;
+
+/// The spacings that are tried for a tolerance, the simplest first.
+const SPACINGS: [Spacing; 3] = [Spacing::Parameter, Spacing::ArcLength, Spacing::Curvature];
+
+/// What an approximation is to be like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Asked {
+    /// The degree.
+    pub degree: usize,
+    /// How the vertices are placed.
+    pub placing: Placing,
+    /// How many levels of curvature and torsion are compared.
+    pub levels: usize,
+    /// Whether the ends are brought to the curve's points and directions, which moves all vertices as
+    /// evenly as possible.
+    pub fit_ends: bool,
+}
+
+/// An approximation, and what is known of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Approximated {
+    /// The float polygon.
+    pub polygon: FloatPolygon,
+    /// The part of the curve, by its own parameter, that the approximation runs along.
+    pub interval: [f64; 2],
+    /// How far it is from the curve.
+    pub deviation: MeasuredDeviation,
+    /// How far its ends are from those of the part.
+    pub end_errors: [f64; 2],
+    /// The levels of both.
+    pub levels: Vec<LevelComparison>,
+    /// How the vertices are spaced.
+    pub spacing: Spacing,
+}
+
+impl Approximated {
+    /// Whether all levels that were compared have the same features.
+    pub fn is_equivalent(&self) -> bool {
+        self.levels.iter().all(LevelComparison::is_equal)
+    }
+
+    /// Whether it is as near as a tolerance asks for, and has the shape.
+    pub fn meets(&self, tolerance: f64) -> bool {
+        self.deviation.largest <= tolerance && self.is_equivalent()
+    }
+}
+
+/// Approximate a curve by vertices that belong to its parameters first, first + step …
+///
+/// # Errors
+/// [`ApproximationError`].
+pub fn approximate_by_steps(
+    curve: &dyn Differentiable,
+    [first, step]: [f64; 2],
+    count: usize,
+    asked: &Asked,
+) -> Result<Approximated, ApproximationError> {
+    let knots = UniformKnots::of_vertices(asked.degree, first, step, count)?;
+    Placed::uniform(curve, &knots, asked)?
+        .measured()?
+        .compared()
+}
+
+/// Approximate the part of a curve between two of its parameters by so many vertices.
+///
+/// # Errors
+/// [`ApproximationError`].
+pub fn approximate_between(
+    curve: &dyn Differentiable,
+    interval: [f64; 2],
+    count: usize,
+    spacing: Spacing,
+    asked: &Asked,
+) -> Result<Approximated, ApproximationError> {
+    match spacing {
+        Spacing::Parameter => {
+            let knots = UniformKnots::between(asked.degree, interval, count)?;
+            Placed::uniform(curve, &knots, asked)?
+                .measured()?
+                .compared()
+        }
+        _ => {
+            let respaced = Respaced::new(curve, interval, spacing)?;
+            Placed::respaced(curve, &respaced, spacing, count, asked)?
+                .measured()?
+                .compared()
+        }
+    }
+}
+
+/// Approximate the part of a curve between two of its parameters so that the deviation is at most a
+/// tolerance and all levels compared have the curve's features, by as few vertices as it takes, of the
+/// `spacing` given or of the best one. Where nothing reaches both the nearest that was found comes back.
+///
+/// # Errors
+/// [`ApproximationError`] if no number of vertices makes an approximation.
+pub fn approximate_to_tolerance(
+    curve: &dyn Differentiable,
+    interval: [f64; 2],
+    tolerance: f64,
+    spacing: Option<Spacing>,
+    asked: &Asked,
+    progress: &Progress,
+) -> Result<Approximated, ApproximationError> {
+    // The simplest knots say at once what cannot be made at all.
+    UniformKnots::between(asked.degree, interval, asked.degree + 1)?;
+    let spacings = spacing.map_or(SPACINGS.to_vec(), |spacing| vec![spacing]);
+    let respaced = spacings.into_iter().map(|spacing| {
+        let respaced = match spacing {
+            Spacing::Parameter => None,
+            _ => Some(Respaced::new(curve, interval, spacing)?),
+        };
+        Ok((spacing, respaced))
+    });
+    let search = Search {
+        curve,
+        interval,
+        tolerance,
+        asked,
+        spacings: respaced.collect(),
+    };
+    let found = search.run(progress)?;
+    if found.meets(tolerance) {
+        return Ok(found);
+    }
+    // What is too far away was not compared yet.
+    let count = found.polygon.vertices().len();
+    approximate_between(curve, interval, count, found.spacing, asked)
+}
+
+/// The search for the least number of vertices.
+struct Search<'a> {
+    curve: &'a dyn Differentiable,
+    interval: [f64; 2],
+    tolerance: f64,
+    asked: &'a Asked,
+    /// A curve that stops somewhere has no arc length to go by; its own parameter is left then.
+    spacings: Vec<Result<(Spacing, Option<Respaced<'a>>), ApproximationError>>,
+}
+
+impl Search<'_> {
+    fn run(&self, progress: &Progress) -> Result<Approximated, ApproximationError> {
+        let (mut too_few, mut segments, mut most) = (0, 1, MOST_SEGMENTS);
+        let mut nearest: Result<Approximated, ApproximationError> = self.best_of(segments);
+        let mut found = None;
+        while found.is_none() && !progress.is_cancelled() {
+            progress.set_done(0.5 * segments as f64 / most as f64);
+            let tried = self.best_of(segments);
+            if tried
+                .as_ref()
+                .is_ok_and(|tried| tried.meets(self.tolerance))
+            {
+                found = tried.ok();
+                continue;
+            }
+            if let Ok(tried) = tried {
+                if tried.deviation.largest <= self.tolerance {
+                    most = most.min((FOR_SHAPE * segments).min(MOST_SEGMENTS));
+                }
+                nearest = match nearest {
+                    Ok(nearest) if !nearer(&tried, &nearest) => Ok(nearest),
+                    _ => Ok(tried),
+                };
+            }
+            if segments == most {
+                return nearest;
+            }
+            too_few = segments;
+            segments = (segments + segments.div_ceil(2)).min(most);
+        }
+        let Some(mut found) = found else {
+            return nearest;
+        };
+        while segments - too_few > 1 && !progress.is_cancelled() {
+            let middle = too_few + (segments - too_few) / 2;
+            match self.best_of(middle) {
+                Ok(tried) if tried.meets(self.tolerance) => (found, segments) = (tried, middle),
+                _ => too_few = middle,
+            }
+            progress.set_done(1.0 - 0.5 / (segments - too_few) as f64);
+        }
+        Ok(found)
+    }
+
+    /// The first spacing that reaches what is asked for with so many segments, or the nearest.
+    fn best_of(&self, segments: usize) -> Result<Approximated, ApproximationError> {
+        let count = segments + self.asked.degree;
+        let mut nearest: Option<Result<Approximated, ApproximationError>> = None;
+        for spacing in &self.spacings {
+            let tried = match spacing {
+                Ok((spacing, respaced)) => self.tried(*spacing, respaced.as_ref(), count),
+                Err(error) => Err(error.clone()),
+            };
+            if tried
+                .as_ref()
+                .is_ok_and(|tried| tried.meets(self.tolerance))
+            {
+                return tried;
+            }
+            nearest = match (nearest, tried) {
+                (None, tried) => Some(tried),
+                (Some(Err(_)), Ok(tried)) => Some(Ok(tried)),
+                (Some(Ok(known)), Ok(tried)) if nearer(&tried, &known) => Some(Ok(tried)),
+                (known, _) => known,
+            };
+        }
+        nearest.unwrap_or_else(|| {
+            let parameter = self.interval[0];
+            Err(ApproximationError::NoPoint { parameter })
+        })
+    }
+
+    fn tried(
+        &self,
+        spacing: Spacing,
+        respaced: Option<&Respaced<'_>>,
+        count: usize,
+    ) -> Result<Approximated, ApproximationError> {
+        let placed = match respaced {
+            None => {
+                let knots = UniformKnots::between(self.asked.degree, self.interval, count)?;
+                Placed::uniform(self.curve, &knots, self.asked)?
+            }
+            Some(respaced) => Placed::respaced(self.curve, respaced, spacing, count, self.asked)?,
+        };
+        let measured = placed.measured()?;
+        // Levels take time, and are asked for only where the place is right.
+        if measured.found.deviation.largest <= self.tolerance {
+            measured.compared()
+        } else {
+            Ok(measured.found)
+        }
+    }
+}
+
+fn nearer(tried: &Approximated, known: &Approximated) -> bool {
+    tried.deviation.largest < known.deviation.largest
+}
+
+/// A polygon, placed but not measured.
+struct Placed<'a> {
+    curve: &'a dyn Differentiable,
+    asked: &'a Asked,
+    polygon: FloatPolygon,
+    spacing: Spacing,
+    interval: [f64; 2],
+    reach: [f64; 2],
+    /// A parameter t near a given u.
+    parameter: Box<dyn Fn(f64) -> f64 + 'a>,
+}
+
+/// A polygon that is measured, but whose levels are not compared.
+struct Measured<'a> {
+    placed: Placed<'a>,
+    found: Approximated,
+}
+
+impl<'a> Placed<'a> {
+    fn uniform(
+        curve: &'a dyn Differentiable,
+        knots: &UniformKnots,
+        asked: &'a Asked,
+    ) -> Result<Self, ApproximationError> {
+        let knots = *knots;
+        let polygon = float_polygon(curve, &knots, asked.placing)?;
+        let placed = Self {
+            curve,
+            asked,
+            polygon,
+            spacing: Spacing::Parameter,
+            interval: knots.interval(),
+            reach: knots.reach(),
+            parameter: Box::new(move |u| knots.curve_parameter(u)),
+        };
+        placed.with_ends()
+    }
+
+    fn respaced(
+        curve: &'a dyn Differentiable,
+        respaced: &'a Respaced<'a>,
+        spacing: Spacing,
+        count: usize,
+        asked: &'a Asked,
+    ) -> Result<Self, ApproximationError> {
+        let knots = UniformKnots::between(asked.degree, [0.0, 1.0], count)?;
+        let polygon = float_polygon(respaced, &knots, asked.placing)?;
+        let placed = Self {
+            curve,
+            asked,
+            polygon,
+            spacing,
+            interval: respaced.interval(),
+            reach: knots.reach().map(|v| respaced.parameter(v)),
+            parameter: Box::new(move |u| respaced.near(knots.curve_parameter(u))),
+        };
+        placed.with_ends()
+    }
+
+    /// Bring the ends to the curve's points and directions, if that is asked for.
+    fn with_ends(mut self) -> Result<Self, ApproximationError> {
+        if self.asked.fit_ends {
+            let ends = [End::Start, End::Finish].into_iter().zip(self.interval);
+            let targets = ends.map(|(end, t)| {
+                let values = self.curve.derivatives(t, 1);
+                let target = EndTarget {
+                    point: values[0],
+                    direction: Some(values[1]).filter(|it| *it != DVec3::ZERO),
+                    ..EndTarget::default()
+                };
+                (end, target)
+            });
+            let targets: Vec<(End, EndTarget)> = targets.collect();
+            let corrected =
+                correct_jointly(&self.polygon, &targets, Disturbance::Differences(3), &[])?;
+            self.polygon = corrected.polygon;
+        }
+        Ok(self)
+    }
+
+    fn measured(self) -> Result<Measured<'a>, ApproximationError> {
+        let polygon = &self.polygon;
+        let deviation =
+            MeasuredDeviation::measure(polygon, self.curve, &*self.parameter, self.reach)?;
+        let ends = [0.0, polygon.segments() as f64].map(|u| polygon.point(u));
+        let error = |index: usize| {
+            let point = self.curve.derivatives(self.interval[index], 0)[0];
+            ends[index].distance(point)
+        };
+        let found = Approximated {
+            polygon: polygon.clone(),
+            interval: self.interval,
+            deviation,
+            end_errors: [error(0), error(1)],
+            levels: Vec::new(),
+            spacing: self.spacing,
+        };
+        Ok(Measured {
+            placed: self,
+            found,
+        })
+    }
+}
+
+impl Measured<'_> {
+    fn compared(self) -> Result<Approximated, ApproximationError> {
+        let Placed {
+            curve,
+            asked,
+            polygon,
+            parameter,
+            ..
+        } = self.placed;
+        Ok(Approximated {
+            levels: compare_levels(&polygon, curve, &*parameter, asked.levels),
+            ..self.found
+        })
+    }
+}

@@ -1,0 +1,266 @@
+//! Shape equivalence (paper, section 5): whether two curves have the same inflections, maxima and minima,
+//! in number and order, in each level of curvature and torsion.
+
+use crate::geometry::differentiable::Differentiable;
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::levels::{CurvatureLevels, LEVEL_ORDER, LEVELS, SegmentExpansion};
+
+/// Samples a segment at which levels are compared.
+const SAMPLES: usize = 32;
+
+/// What rises and falls by less than this share of a level's largest value is rounding.
+const SHARE: f64 = 1e-8;
+
+/// A level above the first that stays below this share of what the first would bend by if it changed within
+/// the length of the curve is a straight line: those of a clothoid are.
+const STRAIGHT: f64 = 1e-5;
+
+/// What a level has at a place of a curve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LevelFeature {
+    /// It changes its sign.
+    Inflection,
+    /// It has a maximum.
+    Maximum,
+    /// It has a minimum.
+    Minimum,
+}
+
+impl LevelFeature {
+    /// What it is called.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Inflection => "inflection",
+            Self::Maximum => "maximum",
+            Self::Minimum => "minimum",
+        }
+    }
+}
+
+/// Compare one level of two curves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LevelComparison {
+    /// Whether it is a level of the torsion, not of the curvature.
+    pub torsion: bool,
+    /// Which level, counted from 1.
+    pub level: usize,
+    /// The features of the curve that is approximated, sampled, in their order along it.
+    pub there: Vec<LevelFeature>,
+    /// The features of the approximation, with their parameters u.
+    pub here: Vec<(f64, LevelFeature)>,
+}
+
+impl LevelComparison {
+    /// What the level is called: "curvature level 2".
+    pub fn name(&self) -> String {
+        let quantity = if self.torsion { "torsion" } else { "curvature" };
+        format!("{quantity} level {}", self.level)
+    }
+
+    /// Whether both have the same features in the same order.
+    pub fn is_equal(&self) -> bool {
+        self.first_difference().is_none()
+    }
+
+    /// The number of the first feature, counted from 0, that only one of them has or that differs.
+    pub fn first_difference(&self) -> Option<usize> {
+        let most = self.there.len().max(self.here.len());
+        let here = |index: usize| self.here.get(index).map(|(_, feature)| feature);
+        (0..most).find(|index| self.there.get(*index) != here(*index))
+    }
+}
+
+/// Compare the first levels of curvature, and in space of torsion, of an approximation with those of
+/// the curve beside it; `parameter` tells which t belongs to a given u. Levels that are not continuous at
+/// the polygon's degree are left out: level m takes 2m derivatives, of the torsion one more.
+///
+/// Both are sampled 32 times a segment. What rises and falls by no more than rounding is no feature.
+pub fn compare_levels(
+    polygon: &FloatPolygon,
+    curve: &dyn Differentiable,
+    parameter: &dyn Fn(f64) -> f64,
+    levels: usize,
+) -> Vec<LevelComparison> {
+    let planar = polygon.is_planar();
+    let samples = Samples::new(polygon, curve, parameter, planar);
+    let continuous = polygon.degree() - 1;
+    let mut compared = Vec::new();
+    for torsion in [false, true] {
+        if torsion && planar {
+            continue;
+        }
+        for level in 1..=levels.min(LEVELS) {
+            let order = 2 * level + usize::from(torsion);
+            if order <= continuous {
+                compared.push(samples.compared(polygon, torsion, level));
+            }
+        }
+    }
+    compared
+}
+
+/// The levels of both curves at the same places.
+struct Samples {
+    u: Vec<f64>,
+    here: Vec<CurvatureLevels>,
+    there: Vec<CurvatureLevels>,
+}
+
+impl Samples {
+    fn new(
+        polygon: &FloatPolygon,
+        curve: &dyn Differentiable,
+        parameter: &dyn Fn(f64) -> f64,
+        planar: bool,
+    ) -> Self {
+        let (mut u, mut here, mut there) = (Vec::new(), Vec::new(), Vec::new());
+        for segment in 0..polygon.segments() {
+            let expansion = SegmentExpansion::new(polygon, segment, planar);
+            let last = segment + 1 == polygon.segments();
+            for index in 0..SAMPLES + usize::from(last) {
+                let t = index as f64 / SAMPLES as f64;
+                let place = segment as f64 + t;
+                let values = curve.derivatives(parameter(place), LEVEL_ORDER);
+                if let Some(values) = values.first_chunk() {
+                    u.push(place);
+                    here.push(expansion.curvature_levels(t, 1.0));
+                    there.push(CurvatureLevels::of_derivatives(values, 1.0, planar));
+                }
+            }
+        }
+        Self { u, here, there }
+    }
+
+    fn compared(&self, polygon: &FloatPolygon, torsion: bool, level: usize) -> LevelComparison {
+        let here = values(&self.here, torsion, level);
+        let there = values(&self.there, torsion, level);
+        let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, it| most.max(it.abs()));
+        let first = largest(&values(&self.there, torsion, 1));
+        let length = polygon.arc_length(1e-3);
+        let natural = match level {
+            1 => 0.0,
+            _ => STRAIGHT * first / length.powi(2 * level as i32 - 2),
+        };
+        let noise = rounding(
+            polygon,
+            torsion,
+            level,
+            length,
+            largest(&values(&self.there, false, 1)),
+        );
+        let least = (SHARE * largest(&there)).max(natural).max(noise);
+        LevelComparison {
+            torsion,
+            level,
+            there: features(&there, least).into_iter().map(|it| it.1).collect(),
+            here: features(&here, least)
+                .into_iter()
+                .map(|(index, feature)| (self.u[index], feature))
+                .collect(),
+        }
+    }
+}
+
+/// What rounding the vertices to doubles may move a level by: each difference of neighbours doubles it.
+fn rounding(
+    polygon: &FloatPolygon,
+    torsion: bool,
+    level: usize,
+    length: f64,
+    curvature: f64,
+) -> f64 {
+    let reach = polygon.vertices().iter();
+    let reach = reach.fold(0.0_f64, |most, vertex| most.max(vertex.abs().max_element()));
+    let speed = length / polygon.segments() as f64;
+    let order = 2 * level + usize::from(torsion);
+    let moved = f64::EPSILON * reach * (2.0 / speed).powi(order as i32);
+    // The torsion is divided by the curvature once more.
+    if torsion { moved / curvature } else { moved }
+}
+
+fn values(levels: &[CurvatureLevels], torsion: bool, level: usize) -> Vec<f64> {
+    let value = |it: &CurvatureLevels| match (torsion, it.torsion) {
+        (true, Some(torsion)) => torsion[level - 1],
+        _ => it.curvature[level - 1],
+    };
+    levels.iter().map(value).collect()
+}
+
+/// List the changes of sign and the turning points of sampled values, with the number of the sample. What
+/// does not rise or fall by more than `least` does not count.
+fn features(values: &[f64], least: f64) -> Vec<(usize, LevelFeature)> {
+    let mut found = Vec::new();
+    let numbered = values
+        .iter()
+        .copied()
+        .enumerate()
+        .filter(|(_, it)| it.is_finite());
+    let (mut sign, mut rising): (Option<bool>, Option<bool>) = (None, None);
+    let (mut low, mut high): (Option<(usize, f64)>, Option<(usize, f64)>) = (None, None);
+    for (index, value) in numbered {
+        if value.abs() > least {
+            let positive = value > 0.0;
+            if sign.is_some_and(|sign| sign != positive) {
+                found.push((index, LevelFeature::Inflection));
+            }
+            sign = Some(positive);
+        }
+        if low.is_none_or(|(_, low)| value < low) {
+            low = Some((index, value));
+        }
+        if high.is_none_or(|(_, high)| value > high) {
+            high = Some((index, value));
+        }
+        if let Some((place, lowest)) = low
+            && value > lowest + least
+            && rising != Some(true)
+        {
+            if rising == Some(false) {
+                found.push((place, LevelFeature::Minimum));
+            }
+            (rising, high) = (Some(true), Some((index, value)));
+        }
+        if let Some((place, highest)) = high
+            && value < highest - least
+            && rising != Some(false)
+        {
+            if rising == Some(true) {
+                found.push((place, LevelFeature::Maximum));
+            }
+            (rising, low) = (Some(false), Some((index, value)));
+        }
+    }
+    found.sort_by_key(|(index, _)| *index);
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn turning_points_and_changes_of_sign_are_listed_in_their_order() {
+        let values: Vec<f64> = (0..=100)
+            .map(|index| (0.1 * f64::from(index)).sin())
+            .collect();
+        let kinds: Vec<LevelFeature> = features(&values, 1e-9).into_iter().map(|it| it.1).collect();
+        use LevelFeature::{Inflection, Maximum, Minimum};
+        assert_eq!(
+            kinds,
+            [
+                Maximum, Inflection, Minimum, Inflection, Maximum, Inflection
+            ]
+        );
+    }
+
+    #[test]
+    fn what_is_only_rounding_is_no_feature() {
+        let ripple = |index: i32| 1.0 + 1e-12 * f64::from(index % 3);
+        let values: Vec<f64> = (0..50).map(ripple).collect();
+        assert_eq!(features(&values, 1e-9), []);
+        let rising: Vec<f64> = (0..50)
+            .map(|index| f64::from(index) * 0.1 + ripple(index))
+            .collect();
+        assert_eq!(features(&rising, 1e-9), []);
+    }
+}

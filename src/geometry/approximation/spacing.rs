@@ -1,0 +1,167 @@
+//! Other parameters for a curve, so that even steps are finer where it bends.
+
+use glam::DVec3;
+
+use super::error::ApproximationError;
+use crate::geometry::differentiable::Differentiable;
+use crate::geometry::error::MAX_DEGREE;
+use crate::geometry::power_series::PowerSeries;
+use crate::geometry::quadrature::quadrature;
+
+/// Steps of the table by which parameters are found.
+const STEPS: usize = 128;
+
+/// Newton's steps from there: far more than quadratic convergence takes.
+const NEWTON_STEPS: usize = 20;
+
+/// How even steps of the new parameter run along the curve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spacing {
+    /// By the curve's own parameter.
+    Parameter,
+    /// By arc length.
+    ArcLength,
+    /// By ∫ √(1 + (rκ)²) ds: finer where the curve bends. r is the length of the curve over its turning, so
+    /// that length and turning count alike.
+    Curvature,
+}
+
+/// A curve by a parameter v in \[0, 1\] that grows evenly with arc length, or with arc length and turning.
+pub struct Respaced<'a> {
+    curve: &'a dyn Differentiable,
+    /// The length r; 0 where arc length alone counts.
+    radius: f64,
+    /// The parameters t at even steps, and the measure up to there.
+    table: Vec<(f64, f64)>,
+}
+
+impl<'a> Respaced<'a> {
+    /// Measure a curve between two of its parameters.
+    ///
+    /// # Errors
+    /// [`ApproximationError::NoDirection`] where the curve stops, which leaves it no smooth parameter.
+    pub fn new(
+        curve: &'a dyn Differentiable,
+        [from, to]: [f64; 2],
+        spacing: Spacing,
+    ) -> Result<Self, ApproximationError> {
+        let mut respaced = Self {
+            curve,
+            radius: 0.0,
+            table: Vec::new(),
+        };
+        let place = |step: usize| {
+            let share = step as f64 / STEPS as f64;
+            from * (1.0 - share) + to * share
+        };
+        if spacing == Spacing::Curvature {
+            let spans = (0..STEPS).map(|step| [place(step), place(step + 1)]);
+            let totals = spans.fold([0.0; 2], |sums, [from, to]| {
+                let values = quadrature(from, to, &|t| {
+                    let (speed, turning) = respaced.rates(t, 0);
+                    [speed.value(), turning.value().max(0.0).sqrt()]
+                });
+                [sums[0] + values[0], sums[1] + values[1]]
+            });
+            // A straight line has no turning to count.
+            let radius = totals[0] / totals[1];
+            respaced.radius = if radius.is_finite() { radius } else { 0.0 };
+        }
+        let mut measure = 0.0;
+        respaced.table.push((from, 0.0));
+        for step in 0..STEPS {
+            let [more] = quadrature(place(step), place(step + 1), &|t| {
+                [respaced.weight(t, 0).value()]
+            });
+            if !(more > 0.0 && more.is_finite()) {
+                let parameter = place(step);
+                return Err(ApproximationError::NoDirection { parameter });
+            }
+            measure += more;
+            respaced.table.push((place(step + 1), measure));
+        }
+        Ok(respaced)
+    }
+
+    /// The parameter t that belongs to v; beyond \[0, 1\] the curve is continued.
+    pub fn parameter(&self, v: f64) -> f64 {
+        let (_, total) = self.table[STEPS];
+        let wanted = v * total;
+        let above = self.table.partition_point(|(_, measure)| *measure < wanted);
+        let (start, below) = self.table[above.saturating_sub(1)];
+        let mut t = self.near(v);
+        for _ in 0..NEWTON_STEPS {
+            let [more] = quadrature(start, t, &|t| [self.weight(t, 0).value()]);
+            let step = (wanted - below - more) / self.weight(t, 0).value();
+            t += step;
+            if !(step.abs() > 2.0 * f64::EPSILON * t.abs()) {
+                break;
+            }
+        }
+        t
+    }
+
+    /// The parameters t between which the curve is measured.
+    pub fn interval(&self) -> [f64; 2] {
+        [self.table[0].0, self.table[STEPS].0]
+    }
+
+    /// A parameter near that of v in \[0, 1\], without computing it: between even steps of a table.
+    pub fn near(&self, v: f64) -> f64 {
+        let (_, total) = self.table[STEPS];
+        let wanted = v.clamp(0.0, 1.0) * total;
+        let above = self.table.partition_point(|(_, measure)| *measure < wanted);
+        let above = above.clamp(1, STEPS);
+        let ((from, low), (to, high)) = (self.table[above - 1], self.table[above]);
+        let share = (wanted - low) / (high - low);
+        from * (1.0 - share) + to * share
+    }
+
+    /// The series of |C′| and of its square times the square of the turning: |C′ × C″|²/|C′|⁴.
+    fn rates(&self, t: f64, order: usize) -> (PowerSeries, PowerSeries) {
+        let values = self.curve.derivatives(t, order + 2);
+        let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| {
+            let series = PowerSeries::of_derivatives(values.iter().map(|value| value.dot(axis)));
+            series.derivative()
+        });
+        let bends = [&x, &y, &z].map(PowerSeries::derivative);
+        let squares = &(&(&x * &x) + &(&y * &y)) + &(&z * &z);
+        let crossed = |a: &PowerSeries, b: &PowerSeries, c: usize, d: usize| {
+            let product = &(a * &bends[d]) - &(b * &bends[c]);
+            &product * &product
+        };
+        let bend = &(&crossed(&y, &z, 1, 2) + &crossed(&z, &x, 2, 0)) + &crossed(&x, &y, 0, 1);
+        let speed = squares.power(0.5).truncated(order);
+        (speed, &bend / &(&squares * &squares))
+    }
+
+    /// The series of √(|C′|² + r² |C′ × C″|²/|C′|⁴), the measure by t.
+    fn weight(&self, t: f64, order: usize) -> PowerSeries {
+        let (speed, turning) = self.rates(t, order);
+        if self.radius == 0.0 {
+            return speed;
+        }
+        (&(&speed * &speed) + &turning.times(self.radius * self.radius)).power(0.5)
+    }
+}
+
+impl Differentiable for Respaced<'_> {
+    /// With t(v): t′ = M / w(t), M the whole measure; the curve is a composition of series.
+    fn derivatives(&self, v: f64, order: usize) -> Vec<DVec3> {
+        let t = self.parameter(v);
+        let (_, total) = self.table[STEPS];
+        let order = order.min(MAX_DEGREE);
+        let rate = &PowerSeries::constant(total, order) / &self.weight(t, order);
+        let mut inner = PowerSeries::constant(t, 0);
+        for known in 0..order {
+            let slope = rate.truncated(known).composed(&inner);
+            inner = slope.antiderivative(t, known + 1);
+        }
+        let values = self.curve.derivatives(t, order);
+        let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| {
+            let series = PowerSeries::of_derivatives(values.iter().map(|value| value.dot(axis)));
+            series.composed(&inner)
+        });
+        PowerSeries::derivatives([&x, &y, &z])
+    }
+}

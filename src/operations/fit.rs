@@ -1,0 +1,104 @@
+//! A curve through the middle of points.
+
+use super::amount::Amount;
+use super::error::OperationError;
+use super::input::Input;
+use super::inputs::Inputs;
+use super::lists::{count, given, number, positive};
+use super::operation::Operation;
+use super::outcome::{Deviation, Figure, Mark, Outcome};
+use super::parameter::{Kind, Parameter};
+use super::values::Values;
+use crate::document::{Curve, Edit};
+use crate::geometry::approximation::{FitAsked, FitError, Fitted, fit_points};
+use crate::geometry::{MAX_DEGREE, Progress, counted};
+
+const DEGREE: Parameter = Parameter {
+    name: "degree",
+    label: "Degree",
+    help: "The degree of the float polygon",
+    kind: Kind::Whole {
+        from: Amount::Number(1.0),
+        to: Amount::Number(MAX_DEGREE as f64),
+        default: Amount::Of {
+            words: "5, or less where there are few points",
+            value: |input| Ok(input.points().len().saturating_sub(1).clamp(1, 5) as f64),
+        },
+    },
+};
+
+const COUNT: Parameter = Parameter {
+    name: "count",
+    label: "Vertices",
+    help: "The number of vertices",
+    kind: count(|_| "as many as the points or the tolerance call for"),
+};
+
+const EXTREMA: Parameter = Parameter {
+    name: "extrema",
+    label: "Curvature extrema",
+    help: "How many extrema of the curvature the curve shall have, proved",
+    kind: count(|_| "any number"),
+};
+
+const TOLERANCE: Parameter = Parameter {
+    name: "tolerance",
+    label: "Tolerance",
+    help: "How far points may be from the curve, outliers aside; the curve is as fair as this allows",
+    kind: number(|_| "none"),
+};
+
+/// The operation: its description, and how it is run.
+pub static OPERATION: Operation = Operation {
+    name: "fit",
+    label: "Fit points",
+    help: "Draw a fair curve through the middle of points by least squares; points far off do not count",
+    inputs: Inputs::Points,
+    parameters: &[DEGREE, COUNT, EXTREMA, TOLERANCE],
+    check: |_| Ok(()),
+    run,
+};
+
+fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
+    let asked = FitAsked {
+        degree: values.whole(&DEGREE),
+        count: given(values, &COUNT).map(|count| count as usize),
+        extrema: given(values, &EXTREMA).map(|count| count as usize),
+        tolerance: positive(values, &TOLERANCE)?,
+    };
+    let found = match fit_points(input.points(), &asked, progress) {
+        Ok(found) => found,
+        Err(FitError::Cancelled) => return Err(OperationError::Cancelled),
+        Err(error) => return Err(error.into()),
+    };
+    let name = input.document().free_name("fit");
+    let marks = found.outliers.iter();
+    let marks = marks.filter_map(|index| input.points().get(*index));
+    Ok(Outcome {
+        reached: found.reached,
+        edits: vec![Edit::Add(Box::new(Curve::new(name, found.polygon.clone())))],
+        figures: figures(&found),
+        remarks: remark(&asked, &found).into_iter().collect(),
+        marks: marks.map(|point| Mark::Point(*point)).collect(),
+        ..Outcome::unchanged(Deviation::Measured(found.largest))
+    })
+}
+
+fn figures(found: &Fitted) -> Vec<Figure> {
+    vec![
+        Figure::count("vertices", "Vertices", found.polygon.vertices().len()),
+        Figure::count("extrema", "Curvature extrema", found.extrema),
+        Figure::length("rms", "Off on average (RMS)", found.rms),
+        Figure::count("outliers", "Outliers", found.outliers.len()),
+        Figure::indices("outlying_points", "Outlying points", &found.outliers),
+        Figure::number("fairness", "Fairness weight", found.fairness),
+    ]
+}
+
+fn remark(asked: &FitAsked, found: &Fitted) -> Option<String> {
+    let extrema = asked.extrema.filter(|extrema| *extrema != found.extrema)?;
+    let has = counted(found.extrema, "curvature extremum", "curvature extrema");
+    Some(format!(
+        "The curve has {has}, {extrema} asked for: give it more vertices, or ask for another number"
+    ))
+}

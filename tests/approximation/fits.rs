@@ -1,0 +1,166 @@
+//! Curves through the middle of points that are off known curves.
+
+use batten::geometry::approximation::{FitAsked, FitError, fit_points};
+use batten::geometry::features::Features;
+use batten::geometry::references::ReferenceCurve;
+use batten::geometry::{Differentiable, Progress};
+use glam::DVec3;
+
+use crate::common::Random;
+
+/// How much larger than the noise the errors of a fit may be.
+const BY_NOISE: f64 = 1.2;
+
+/// Points of a reference over its interval, off by normal noise in both directions, and the root of the
+/// mean square of what they are off across the curve.
+fn noisy(text: &str, count: usize, noise: f64, random: &mut Random) -> (Vec<DVec3>, f64) {
+    let curve = ReferenceCurve::from_text(text).expect("a reference");
+    let [from, to] = curve.interval();
+    let mut sum = 0.0;
+    let points = (0..count).map(|index| {
+        let t = from + (to - from) * index as f64 / (count - 1) as f64;
+        let values = curve.derivatives(t, 1);
+        // The sum of twelve even numbers is nearly normal.
+        let mut normal = || (0..12).map(|_| random.between(-0.5, 0.5)).sum::<f64>() * noise;
+        let off = DVec3::new(normal(), normal(), 0.0);
+        let direction = values[1].normalize();
+        sum += off.reject_from(direction).length_squared();
+        values[0] + off
+    });
+    let points: Vec<DVec3> = points.collect();
+    (points, (sum / count as f64).sqrt())
+}
+
+const ASKED: FitAsked = FitAsked {
+    degree: 5,
+    count: None,
+    extrema: None,
+    tolerance: None,
+};
+
+/// References with the number of extrema of their curvature.
+const SHAPES: [(&str, usize); 5] = [
+    ("clothoid:from=0,to=2", 0),
+    ("log-aesthetic:alpha=0.5,lambda=0.5,from=0,to=5", 0),
+    ("logarithmic-spiral:a=1,b=0.3,from=0,to=4", 0),
+    ("parabola:focus=0.5,from=-1.5,to=2", 1),
+    ("ellipse:a=3,b=1.5,from=0.7,to=4", 2),
+];
+
+#[test]
+fn extrema_are_as_asked_for_proved_and_errors_are_the_noise_s() {
+    let mut random = Random(0xf17);
+    let mut missed = Vec::new();
+    for (text, extrema) in SHAPES {
+        for noise in [0.002, 0.01] {
+            let (points, off) = noisy(text, 120, noise, &mut random);
+            let asked = FitAsked {
+                extrema: Some(extrema),
+                ..ASKED
+            };
+            let found = fit_points(&points, &asked, &Progress::default()).expect("a curve");
+            let proved = Features::new(&found.polygon).curvature_extrema.len();
+            let count = found.polygon.vertices().len();
+            if !found.reached || proved != extrema || found.rms > BY_NOISE * off {
+                missed.push(format!(
+                    "{text}, noise {noise}: {proved} of {extrema} extrema, {count} vertices, {:.3} of the noise",
+                    found.rms / off
+                ));
+            }
+        }
+    }
+    assert!(missed.is_empty(), "{missed:#?}");
+}
+
+#[test]
+fn exact_points_are_met_to_the_tolerance() {
+    let mut random = Random(1);
+    let (points, _) = noisy("clothoid:from=0,to=2", 80, 0.0, &mut random);
+    let asked = FitAsked {
+        tolerance: Some(1e-6),
+        ..ASKED
+    };
+    let found = fit_points(&points, &asked, &Progress::default()).expect("a curve");
+    assert!(found.reached && found.largest <= 1e-6, "{found:?}");
+    assert!(found.outliers.is_empty());
+    let out_of_reach = FitAsked {
+        count: Some(6),
+        tolerance: Some(1e-9),
+        ..ASKED
+    };
+    let found = fit_points(&points, &out_of_reach, &Progress::default()).expect("a curve");
+    assert!(!found.reached && found.largest > 1e-9);
+}
+
+#[test]
+fn outliers_are_found_and_do_not_count() {
+    let mut random = Random(7);
+    let (mut points, off) = noisy("parabola:focus=0.5,from=-1.5,to=2", 100, 0.003, &mut random);
+    for index in [20, 51, 77] {
+        points[index] += DVec3::new(0.05, 0.3, 0.0);
+    }
+    let asked = FitAsked {
+        extrema: Some(1),
+        ..ASKED
+    };
+    let found = fit_points(&points, &asked, &Progress::default()).expect("a curve");
+    assert!(
+        [20, 51, 77]
+            .iter()
+            .all(|index| found.outliers.contains(index)),
+        "{:?}",
+        found.outliers
+    );
+    assert!(found.outliers.len() <= 6, "{:?}", found.outliers);
+    assert!(
+        found.reached && found.rms <= BY_NOISE * off,
+        "{} {off}",
+        found.rms
+    );
+}
+
+#[test]
+fn points_in_space_are_fitted() {
+    let mut random = Random(3);
+    let (points, _) = noisy("helix:radius=2,pitch=3,from=0,to=6", 150, 0.0, &mut random);
+    let asked = FitAsked {
+        degree: 6,
+        count: Some(20),
+        ..ASKED
+    };
+    let found = fit_points(&points, &asked, &Progress::default()).expect("a curve");
+    assert_eq!(found.polygon.vertices().len(), 20);
+    assert!(found.rms < 1e-4, "{}", found.rms);
+}
+
+#[test]
+fn points_that_make_no_curve_are_refused() {
+    let fit = |points: &[DVec3], asked: FitAsked| fit_points(points, &asked, &Progress::default());
+    let same = fit(&[DVec3::ONE; 20], ASKED);
+    assert_eq!(
+        same,
+        Err(FitError::TooFewPoints {
+            found: 1,
+            needed: 6
+        })
+    );
+    assert!(matches!(
+        fit(&[], ASKED),
+        Err(FitError::TooFewPoints { .. })
+    ));
+    let line: Vec<DVec3> = (0..10).map(|x| DVec3::X * f64::from(x)).collect();
+    let many = FitAsked {
+        count: Some(11),
+        ..ASKED
+    };
+    let refused = fit(&line, many);
+    assert_eq!(
+        refused,
+        Err(FitError::TooManyVertices {
+            count: 11,
+            points: 10
+        })
+    );
+    let straight = fit(&line, ASKED).expect("a straight line");
+    assert!(straight.largest < 1e-9, "{straight:?}");
+}
