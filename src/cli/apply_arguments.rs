@@ -110,7 +110,7 @@ impl Given {
             Some(Origin::Reference(reference)) => {
                 let parameters = operation.parameters.iter();
                 let takes = |it: &&Parameter| matches!(it.kind, Kind::Reference { .. });
-                let value = Value::Reference(Some(Box::new(reference.clone())));
+                let value = Value::Reference(Some(reference.clone()));
                 values.extend(parameters.filter(takes).map(|it| (it.name, value.clone())));
             }
             None => {}
@@ -183,14 +183,14 @@ pub(super) fn command_of(operation: &'static Operation) -> Command {
 #[derive(Clone, Debug)]
 enum Origin {
     File(PathBuf),
-    Reference(ReferenceCurve),
+    Reference(Box<ReferenceCurve>),
 }
 
 impl Origin {
     /// Read a reference if the text begins with the name of a kind; else it is a path.
     fn read(text: &str) -> Result<Self, ReferenceTextError> {
         if ReferenceCurve::is_text(text) {
-            ReferenceCurve::from_text(text).map(Self::Reference)
+            ReferenceCurve::from_text(text).map(|curve| Self::Reference(Box::new(curve)))
         } else {
             Ok(Self::File(PathBuf::from(text)))
         }

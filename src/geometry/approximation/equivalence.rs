@@ -196,7 +196,8 @@ fn features(values: &[f64], least: f64) -> Vec<(usize, LevelFeature)> {
         .enumerate()
         .filter(|(_, it)| it.is_finite());
     let (mut sign, mut rising): (Option<bool>, Option<bool>) = (None, None);
-    let (mut low, mut high): (Option<(usize, f64)>, Option<(usize, f64)>) = (None, None);
+    let mut low: Option<(usize, f64)> = None;
+    let mut high: Option<(usize, f64)> = None;
     for (index, value) in numbered {
         if value.abs() > least {
             let positive = value > 0.0;
