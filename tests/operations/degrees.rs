@@ -178,7 +178,9 @@ fn locked_and_hidden_curves_are_refused_beforehand_by_every_operation() {
     ] {
         let runner = runner().edited(edit);
         let on_curves = batten::operations::ALL.iter();
-        for operation in on_curves.filter(|operation| operation.inputs != Inputs::None) {
+        for operation in
+            on_curves.filter(|operation| matches!(operation.inputs, Inputs::One | Inputs::Two))
+        {
             let input = runner.input_of(operation);
             let refused = operation.check(&input).expect_err("refused");
             assert_eq!(refused.to_string(), expected, "{}", operation.name);
