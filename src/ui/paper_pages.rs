@@ -264,12 +264,12 @@ impl PaperPages {
         figure(
             ui,
             "Vertices on the spiral",
-            &scientific(far.map(|far| far[0])),
+            &far.map_or("–".to_owned(), |far| short(far[0])),
         );
         figure(
             ui,
             "Quasi-interpolation",
-            &scientific(far.map(|far| far[1])),
+            &far.map_or("–".to_owned(), |far| short(far[1])),
         );
         text(
             ui,
