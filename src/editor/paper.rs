@@ -15,9 +15,10 @@ use crate::geometry::circle_comparison::{
     PAPER_RADIUS, equal_leg_bezier, paper_sides, regular_polygon,
 };
 use crate::geometry::end_correction::EndTarget;
+use crate::geometry::fairing::bridging::{Bridge, BridgeError, join};
 use crate::geometry::mineur_farin::{Configuration, Format};
 use crate::geometry::references::{ReferenceCurve, ReferenceTextError};
-use crate::geometry::{End, FloatPolygon, PolygonError, RoundingTest};
+use crate::geometry::{End, FloatPolygon, PolygonError, Progress, RoundingTest};
 
 /// The name of the curve whose closed S-polygon loses digits.
 const SHORTENED: &str = "shortened";
@@ -35,9 +36,12 @@ pub enum PaperError {
     /// The spiral cannot be approximated.
     #[error(transparent)]
     Approximation(#[from] ApproximationError),
-    /// The spiral cannot be read.
+    /// A reference cannot be read.
     #[error(transparent)]
     Reference(#[from] ReferenceTextError),
+    /// Two parts cannot be joined.
+    #[error(transparent)]
+    Bridge(#[from] BridgeError),
 }
 
 /// A page about the paper, with the document that it explains.
@@ -61,17 +65,20 @@ pub enum PaperPage {
         /// The number of vertices: 20 in the paper, one a unit of the parameter.
         vertices: usize,
     },
+    /// Section 6: two log-aesthetic parts, and the curve that a bridge makes of them.
+    Composite,
 }
 
 impl PaperPage {
     /// Every page, in the order of the paper.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Arc,
         Self::Rounding,
         Self::Circles { degree: 9 },
         Self::Steps,
         Self::Typical,
         Self::Spiral { vertices: 20 },
+        Self::Composite,
     ];
 
     /// What the page is called.
@@ -83,6 +90,7 @@ impl PaperPage {
             Self::Steps => "Seven steps to exact ends",
             Self::Typical => "Figure 2: Mineur–Farin polygon",
             Self::Spiral { .. } => "Figure 3: conical spiral",
+            Self::Composite => "Section 6: composite curves",
         }
     }
 
@@ -103,6 +111,7 @@ impl PaperPage {
             Self::Steps => vec![off_its_ends()?],
             Self::Typical => typical()?,
             Self::Spiral { vertices } => return spiral(vertices),
+            Self::Composite => composite()?,
         };
         Ok(Document::from_curves(curves))
     }
@@ -297,4 +306,37 @@ pub fn spiral_deviations(vertices: usize) -> Result<[f64; 2], PaperError> {
         Ok::<_, PaperError>(measured.largest)
     };
     Ok([far(Placing::OnCurve)?, far(Placing::Quasi)?])
+}
+
+/// The degree of the composite curve.
+const COMPOSITE_DEGREE: usize = 5;
+
+/// The vertices of the bridge between its parts.
+const BRIDGE: usize = 5;
+
+/// A clothoid and a logarithmic spiral by vertices on them, the spiral where a bridge of five vertices is
+/// most harmonious, and the curve that the bridge makes of both.
+fn composite() -> Result<Vec<Curve>, PaperError> {
+    const PARTS: [(&str, [f64; 2], usize); 2] = [
+        ("log-aesthetic:alpha=-1,lambda=0.2", [0.0, 2.5], 15),
+        ("log-aesthetic:alpha=1,lambda=0.5", [4.25, 9.25], 23),
+    ];
+    let part = |(text, interval, vertices): (&str, [f64; 2], usize)| {
+        let curve = ReferenceCurve::from_text(text)?;
+        let knots = UniformKnots::between(COMPOSITE_DEGREE, interval, vertices)?;
+        Ok::<_, PaperError>(float_polygon(&curve, &knots, Placing::OnCurve)?)
+    };
+    let [first, second] = [part(PARTS[0])?, part(PARTS[1])?];
+    let bridge = Bridge {
+        vertices: Some(BRIDGE),
+        second_moves: true,
+    };
+    let joined = join(&first, &second, &bridge, &Progress::default())?;
+    let moved = joined.polygon.vertices()[joined.bridge.end..].to_vec();
+    let second = FloatPolygon::new(COMPOSITE_DEGREE, moved, None, false)?;
+    Ok(vec![
+        Curve::new("composite", joined.polygon),
+        coloured("clothoid", first, BLUE),
+        coloured("logarithmic spiral", second, VERMILION),
+    ])
 }

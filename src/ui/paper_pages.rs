@@ -75,6 +75,7 @@ impl PaperPages {
             PaperPage::Steps => steps_ui(ui),
             PaperPage::Typical => typical_ui(ui),
             PaperPage::Spiral { vertices } => return self.spiral_ui(ui, vertices),
+            PaperPage::Composite => composite_ui(ui),
         }
         None
     }
@@ -352,6 +353,32 @@ fn typical_ui(ui: &mut Ui) {
         ui,
         "The paper speaks of five points and the fifth degree. Five points make degree 4, and six points \
          of degree 5 show the same.",
+    );
+}
+
+fn composite_ui(ui: &mut Ui) {
+    text(
+        ui,
+        "CAD systems join curves up to G⁴ at most. Float S-polygons of one degree are joined by additional \
+         vertices that continue the polygon: the result is a single B-spline of degree n, so all its \
+         derivatives up to order n − 1 are continuous over the joint.",
+    );
+    text(
+        ui,
+        "Here a clothoid and a logarithmic spiral, both log-aesthetic and of degree 5, are joined by five \
+         vertices. The spiral was moved, as a rigid body, to where the polygon is most harmonious; the \
+         rest of both parts stays as it was, to the bit.",
+    );
+    text(
+        ui,
+        "Hide the composite curve to see the two parts. Look at the curvature plot: it falls all along, \
+         which is proved, and you cannot tell where the joints are. The Harmony plot shows the legs, \
+         angles and discrete curvature of all vertices, those of the bridge included.",
+    );
+    note(
+        ui,
+        "To join curves of your own, make one active, select a vertex of the other with Shift, and choose \
+         Join curves in the Curve menu. Close curve joins the two ends of one curve.",
     );
 }
 

@@ -122,6 +122,17 @@ fn figure_2_has_a_monotone_curve_and_one_that_is_not() {
 }
 
 #[test]
+fn the_composite_is_both_of_its_parts_and_monotone() {
+    let script = opened(PaperPage::Composite);
+    let [composite, first, second] = polygons(&script.editor).try_into().expect("three curves");
+    let vertices = composite.vertices();
+    let (before, after) = (first.vertices(), second.vertices());
+    assert_eq!(vertices.len(), before.len() + 5 + after.len());
+    assert!(vertices.starts_with(before) && vertices.ends_with(after));
+    assert_eq!(extrema(&composite), 0);
+}
+
+#[test]
 fn figure_3_keeps_its_place_by_quasi_interpolation() {
     for (vertices, quasi) in [(20, 0.0012), (32, 1.7e-6)] {
         let [on_curve, placed] = spiral_deviations(vertices).expect("a spiral");
