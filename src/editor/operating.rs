@@ -302,7 +302,8 @@ impl Editor {
     }
 
     /// Make a curve the active one that an operation without inputs has made, compare it with the
-    /// other if there is one, and bring it into view when it is new.
+    /// other if there is one, else with the reference that was active, and bring it into view when
+    /// it is new.
     fn activate_made(&mut self, is_new: bool) {
         let made = self.made_curves();
         let Some(first) = made.first() else {
@@ -318,6 +319,9 @@ impl Editor {
             self.view.compared = other.copied();
         }
         if is_new {
+            let before = self.trial().and_then(|trial| trial.selection.active());
+            let reference = before.filter(|id| self.document().reference(*id).is_some());
+            self.view.compared = reference.or(self.view.compared);
             self.bring_into_view(&made);
         }
     }

@@ -280,8 +280,8 @@ impl PaperPages {
         note(
             ui,
             "The paper says that curvature and torsion agree up to the second level. With steps of 1 the \
-             curvature does; level 2 of the torsion has one more maximum and minimum near the start, in \
-             both ways. With steps of ½ all of level 2 agrees. The paper gives no distance.",
+             curvature does; level 2 of the torsion has one more maximum and minimum, in both \
+             ways. With steps of ½ all of level 2 agrees. The paper gives no distance.",
         );
         asked
     }

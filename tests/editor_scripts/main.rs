@@ -3,6 +3,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod approximating;
 mod background;
 mod between;
 mod commands;

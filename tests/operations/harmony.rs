@@ -150,7 +150,7 @@ fn what_only_curves_in_space_have_is_refused_for_planar_ones() {
         "Torsion extrema: only a curve in space has this, and the curve lies in the plane z = 0"
     );
     let normal = ("end-normal", list(&[0.0, 0.0, 1.0]));
-    let refused = planar.refused("correct-ends", &[normal.clone()]);
+    let refused = planar.refused("correct-ends", std::slice::from_ref(&normal));
     assert!(
         refused.starts_with("End normal: only a curve in space"),
         "{refused}"

@@ -14,7 +14,7 @@ use crate::geometry::float_polygon::FloatPolygon;
 impl Features {
     /// Prove the features of a whole curve.
     ///
-    /// To follow a drag, keep the segments' features ([`SegmentProver::segment`]), redo those of
+    /// To follow a drag, keep the segments' features ([`SegmentProver::segment`](super::SegmentProver::segment)), redo those of
     /// the n + 1 segments that a vertex touches and put them together again with
     /// [`Features::assemble`].
     pub fn new(polygon: &FloatPolygon) -> Self {
