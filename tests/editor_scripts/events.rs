@@ -4,6 +4,7 @@ use std::path::Path;
 
 use batten::document::Document;
 use batten::editor::{Button, Command, Input, Key, Modifiers, Shortcut};
+use batten::operations::Inputs;
 use glam::DVec2;
 
 use super::laws::check_written;
@@ -241,6 +242,7 @@ impl Player {
             Command::Redo => Done::Redo,
             Command::Delete => Done::Delete,
             Command::DeleteCurve => Done::DeleteCurve,
+            Command::Operation(operation) if operation.inputs == Inputs::Two => Done::Join,
             _ => Done::Other,
         };
         self.watch.check(&self.window, done)

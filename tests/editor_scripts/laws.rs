@@ -98,7 +98,7 @@ pub fn check_view(window: &Window) -> Result<(), String> {
 }
 
 /// Hidden and locked curves and locked vertices keep their shape and locked curves stay; only deleting
-/// a curve deletes one.
+/// or joining curves takes one away.
 pub fn check_protected(before: &Snapshot, after: &Snapshot, done: Done) -> Result<(), String> {
     for (id, old) in before.curves() {
         let named = &old.named.0;
@@ -113,7 +113,7 @@ pub fn check_protected(before: &Snapshot, after: &Snapshot, done: Done) -> Resul
     }
     let gone = before.curves().iter();
     let gone = gone.filter(|(id, _)| after.curve(*id).is_none()).count();
-    if gone > usize::from(done == Done::DeleteCurve) {
+    if gone > usize::from(matches!(done, Done::DeleteCurve | Done::Join)) {
         return Err(format!("{gone} curves are gone after {done:?}"));
     }
     Ok(())

@@ -26,6 +26,8 @@ pub enum Done {
     Delete,
     /// The active curve was deleted as a whole.
     DeleteCurve,
+    /// An operation on two curves was begun, which may make one of them.
+    Join,
     /// Another document may have been opened.
     Replace,
     /// The operation that was applied last got another value.
