@@ -20,6 +20,9 @@ use crate::geometry::approximation::{
 use crate::geometry::references::ReferenceCurve;
 use crate::geometry::{Differentiable, FloatPolygon, Progress};
 
+/// The most vertices that can be asked for.
+const MOST: usize = 10_000;
+
 /// The number of vertices if none is given, if the degree allows it.
 const COUNT_OFFERED: usize = 20;
 
@@ -243,6 +246,13 @@ fn approximated(
     let from = given(values, &FROM).unwrap_or(start);
     let offered = COUNT_OFFERED.max(degree + 1);
     let count = given(values, &COUNT).map(|count| count as usize);
+    if let Some(count) = count.filter(|count| *count > MOST) {
+        return Err(OperationError::OutOfRange {
+            label: COUNT.label,
+            value: count.to_string(),
+            needed: format!("at most {MOST}"),
+        });
+    }
     if let Some(step) = given(values, &STEP) {
         for other in [&TO, &TOLERANCE] {
             if given(values, other).is_some() {

@@ -19,7 +19,7 @@ use super::value::Value;
 use super::values::Values;
 use crate::document::{Curve, Edit, free_name};
 use crate::geometry::mineur_farin::{self, Configuration, Format};
-use crate::geometry::{MAX_DEGREE, Progress};
+use crate::geometry::{MAX_DEGREE, Progress, rounded_up};
 
 /// The most legs.
 const MOST_LEGS: f64 = 1000.0;
@@ -118,6 +118,9 @@ const FIRST_LEG: Parameter = Parameter {
     kind: vector(|_| "1, 0"),
 };
 
+/// A Bézier curve that is off by a larger share of its size is not the one that was asked for.
+const SEEN: f64 = 1e-9;
+
 /// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
     name: "mineur-farin",
@@ -144,6 +147,10 @@ fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, Operatio
     for format in chosen.iter().map(|index| all[*index]) {
         let made = configuration.curve(format, legs)?;
         outcome.deviation = outcome.deviation.or(Deviation::of(&made));
+        if made.deviation > SEEN * extent(&configuration, legs) {
+            let off = rounded_up(made.deviation);
+            outcome.remarks.push(format!("At degree {legs} doubles cannot hold the float S-polygon of the Bézier curve: the curve is off by up to {off}"));
+        }
         let is_taken = |name: &str| {
             let mut curves = input.document().curves();
             taken.iter().any(|taken| taken == name) || curves.any(|(_, curve)| curve.name == name)
@@ -194,6 +201,13 @@ fn configuration(values: &Values) -> Result<Configuration, OperationError> {
         turn: values.real(&ANGLE),
         torsion: values.real(&TORSION),
     })
+}
+
+/// How far the points reach from the first.
+fn extent(configuration: &Configuration, legs: usize) -> f64 {
+    let points = configuration.points(legs);
+    let far = points.iter().map(|it| it.distance(configuration.start));
+    far.fold(0.0, f64::max)
 }
 
 /// What the curve of a format is called.

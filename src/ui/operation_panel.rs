@@ -80,6 +80,7 @@ impl OperationPanel {
         };
         let atlas = atlas_of(trial).copied();
         let mut shows_atlas = false;
+        let told_before = self.refusal.clone();
         // A click on a button also leaves a field: what was typed there counts first.
         let top = ui.cursor().top();
         let mut asked = Vec::from_iter(heading_ui(ui, trial));
@@ -114,7 +115,11 @@ impl OperationPanel {
             match asked {
                 Asked::Set(parameter, value) => {
                     let set = editor.set_value(parameter.name, value);
-                    self.refusal = set.err().map(|error| error.to_string());
+                    let refused = set.err().map(|error| error.to_string());
+                    // A text that was refused just now gave back the value before it.
+                    if refused.is_some() || self.refusal == told_before {
+                        self.refusal = refused;
+                    }
                 }
                 Asked::SetAll(values) => {
                     let set = editor.set_values(&values);
@@ -179,7 +184,11 @@ impl OperationPanel {
             .desired_width(f32::INFINITY);
         let field = ui.add(field);
         field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, parameter.label));
-        let read = parameter.read(&text);
+        // A text as it was means the same, with what no text tells, such as where a reference lies.
+        let read = match text == parameter.text(&before) {
+            true => Ok(before.clone()),
+            false => parameter.read(&text),
+        };
         if field.has_focus() {
             self.typed = Some(TypedList {
                 parameter: parameter.name,
@@ -572,14 +581,16 @@ fn before_after_ui(ui: &mut Ui, name: &str, before: &str, after: &str) {
     let told = format!("{name}: {before} before, {after} after");
     let line = 5.0 * STEP;
     // The figures of several curves take a line of their own.
-    let lines = if before.contains(", ") { 2.0 } else { 1.0 };
+    let wide = before.contains(", ") || after.contains(", ");
+    let lines = if wide { 2.0 } else { 1.0 };
     let size = vec2(ui.available_width(), lines * line);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     let tokens = Tokens::of(ui);
     let top = rect.with_max_y(rect.top() + line);
     widgets::label_in(ui, top, name, tokens.faint_text);
     let rect = rect.with_min_y(rect.bottom() - line);
-    let left = rect.with_max_x(rect.right() - COLUMN);
+    let column = if wide { 0.5 * rect.width() } else { COLUMN };
+    let left = rect.with_max_x(rect.right() - column);
     widgets::number_in(ui, left, before, tokens.text);
     widgets::number_in(ui, rect, after, tokens.text);
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, told.clone()));

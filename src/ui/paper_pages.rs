@@ -99,7 +99,11 @@ impl PaperPages {
         let exact = self.circle(9).map(|row| row.bspline);
         figure(ui, "Printed in the paper", "5.92221e-8");
         figure(ui, "Exact", &scientific(exact));
-        figure(ui, "The active curve now", &scientific(reach(editor)));
+        figure(
+            ui,
+            "The active curve now",
+            &reach(editor).map_or("–".to_owned(), distance),
+        );
         note(
             ui,
             "The printed figure is 2e-10 too large, as much as coordinates rounded on the way leave. \
@@ -127,7 +131,8 @@ impl PaperPages {
         let test = self.rounding(self.digits);
         if let Some(test) = &test {
             let [x, y, _] = test.after.to_array();
-            figure(ui, "Vertex", &format!("{x}, {y}"));
+            figure(ui, "Vertex x", &x.to_string());
+            figure(ui, "Vertex y", &y.to_string());
             figure(ui, "Float vertices move", &short(test.moved));
             figure(
                 ui,
@@ -136,9 +141,9 @@ impl PaperPages {
             );
         }
         let (digits, printed) = PRINTED_ROUNDING;
-        if self.digits == digits && self.shortening == Shortening::CutOff {
-            figure(ui, "Printed in the paper", printed);
-        }
+        let is_printed = self.digits == digits && self.shortening == Shortening::CutOff;
+        let printed = if is_printed { printed } else { "–" };
+        figure(ui, "Printed in the paper", printed);
         text(
             ui,
             "Going from the float to the closed S-polygon only interpolates. The way back \
@@ -391,6 +396,15 @@ fn reach(editor: &Editor) -> Option<f64> {
 /// A number as the paper prints them.
 fn scientific(value: Option<f64>) -> String {
     value.map_or("–".to_owned(), |value| format!("{value:.5e}"))
+}
+
+/// A distance as the paper prints them where it is small, plainly otherwise.
+fn distance(value: f64) -> String {
+    if value < 0.1 {
+        scientific(Some(value))
+    } else {
+        short(value)
+    }
 }
 
 fn short(value: f64) -> String {

@@ -457,6 +457,7 @@ fn commands_of_curves_do_nothing_to_a_reference() {
             Command::AddReference(_)
                 | Command::AddFormula
                 | Command::Duplicate
+                | Command::Delete
                 | Command::DeleteCurve
                 | Command::ToggleVisible
                 | Command::ToggleLocked
@@ -472,6 +473,21 @@ fn commands_of_curves_do_nothing_to_a_reference() {
         script.check();
         assert!(script.editor.document().is_same(&before), "{command:?}");
     }
+}
+
+#[test]
+fn delete_removes_a_reference_that_is_active_unless_it_is_locked() {
+    let (mut script, id) = with("circle");
+    let before = script.editor.document().clone();
+    script.command(Command::ToggleLocked);
+    script.command(Command::Delete);
+    assert!(script.editor.document().reference(id).is_some());
+    script.command(Command::ToggleLocked);
+    script.command(Command::Delete);
+    assert!(script.editor.document().reference(id).is_none());
+    assert_eq!(script.editor.document().len(), before.len());
+    script.command(Command::Undo);
+    assert!(script.editor.document().is_same(&before));
 }
 
 #[test]

@@ -41,13 +41,13 @@ fn the_slider_takes_digits_from_the_closed_polygon() {
     for _ in 0..12 {
         press(&mut window, Modifiers::NONE, Key::ArrowLeft);
     }
-    window.get_by_label_contains("Vertex: -1.807, 8.748");
+    window.get_by_label_contains("Vertex x: -1.807");
     window.get_by_label_contains("Evolute from centre: 3.06354e-1");
     window.get_by_label_contains("Printed in the paper: 3.06354e-1");
     let test = RoundingTest::new(3, Shortening::CutOff).expect("a test");
     assert_eq!(curve(&window).polygon, test.polygon);
     click(&mut window, "Round");
-    window.get_by_label_contains("Vertex: -1.807, 8.749");
+    window.get_by_label_contains("Vertex y: 8.749");
     let test = RoundingTest::new(3, Shortening::Rounded).expect("a test");
     assert_eq!(curve(&window).polygon, test.polygon);
 }

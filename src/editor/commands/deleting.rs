@@ -9,8 +9,15 @@ use crate::editor::reply::{Note, Reply};
 use crate::geometry::counted;
 
 impl Editor {
-    /// Remove the selected vertices.
+    /// Remove the selected vertices, or the active reference, which has none.
     pub(in crate::editor) fn delete(&mut self, verb: &str, done: &str) -> Reply {
+        let active = self.active().filter(|_| self.hand.selection.is_empty());
+        let reference = active.and_then(|id| Some((id, self.document().reference(id)?)));
+        if let Some((id, reference)) = reference {
+            reference.check_unlocked()?;
+            let name = reference.name.clone();
+            return self.delete_whole(id, &name);
+        }
         let edits = self.deletion()?;
         let count = counted(self.hand.selection.vertices().len(), "vertex", "vertices");
         self.apply(&format!("{verb} {count}"), edits)?;

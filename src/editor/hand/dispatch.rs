@@ -61,7 +61,10 @@ impl Editor {
                 Gesture::Orbit(by) => self.orbit(by),
                 Gesture::Zoom(at, factor) if self.hand.turns_following() => {
                     let stiffer = self.hand.modifiers.shift;
-                    self.hand.following.turn(factor, stiffer);
+                    let active = self.active().and_then(|id| self.document().curve(id));
+                    let vertices = active.map_or(0, |curve| curve.polygon.vertices().len());
+                    let most = vertices.saturating_sub(1);
+                    self.hand.following.turn(factor, stiffer, most);
                     self.deliver(Gesture::Drag(at), repeats);
                 }
                 Gesture::Zoom(at, factor) => self.view.viewport.zoom(at, factor),

@@ -91,13 +91,14 @@ impl Following {
         self.follow = Some(follow).filter(|_| self.follow != Some(follow));
     }
 
-    /// Let more or fewer neighbours follow, by a factor as of a zoom; or make them stiffer.
-    pub fn turn(&mut self, factor: f64, stiffer: bool) {
+    /// Let more or fewer neighbours follow, by a factor as of a zoom, up to `most`; or make them
+    /// stiffer.
+    pub fn turn(&mut self, factor: f64, stiffer: bool, most: usize) {
         if stiffer {
             let turned = self.stiffness * factor.powi(STIFFNESS_TURN);
             self.stiffness = turned.clamp(STIFFNESS[0], STIFFNESS[1]);
         } else {
-            self.span = (self.span * factor).clamp(1.0, MOST);
+            self.span = (self.span * factor).min(most as f64).clamp(1.0, MOST);
         }
     }
 

@@ -126,7 +126,7 @@ pub enum ReferenceError {
     },
     /// The curve has no point somewhere.
     #[error(
-        "the curve has no point, or no direction, at t = {t}: choose an interval without this place"
+        "the curve has no point, or no direction, at t = {t}: give an interval without this place with the reference, such as from=1 and to=2"
     )]
     NotFinite {
         /// Where.

@@ -22,7 +22,7 @@ use crate::geometry::power_series::PowerSeries;
 const MODERATE: (Bound<f64>, Bound<f64>) = (Bound::Included(-20.0), Bound::Included(20.0));
 
 /// From here on the differential equation is solved for the pieces that are integrated, which is quick.
-const SOLVED: f64 = 0.5;
+const SOLVED: f64 = 2.0;
 
 /// Up to here the series is summed for the derivatives at a place: near 0, where its other solution is
 /// singular, the equation would multiply rounding at each order.
