@@ -10,6 +10,7 @@ use super::outcome::{Deviation, Figure, Mark, Outcome};
 use super::parameter::{Choice, Kind, Parameter, Unit};
 use super::values::Values;
 use crate::geometry::fairing::harmonising::{Harmonised, Harmony, HarmonyError, Held, harmonise};
+use crate::geometry::features::Features;
 use crate::geometry::{FloatPolygon, Progress, counted, rounded_up};
 
 const WHAT_STANDS_OUT: Meaning = |_| "those that stand out";
@@ -178,18 +179,31 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
     if !found.reached {
         outcome.remarks = vec![why_not(&found, &harmony)];
     }
+    if let Some(stretch) = stretch {
+        let polygons = [&curve.polygon, &found.polygon];
+        outcome.remarks.extend(added_outside(polygons, stretch));
+    }
+    // Where no number is given, fewer will do.
+    let words = |given: Option<usize>, exact, most| if given.is_some() { exact } else { most };
+    let extrema = words(harmony.extrema, "Extrema asked for", "Extrema, at most");
+    let inflections = words(
+        harmony.inflections,
+        "Inflections asked for",
+        "Inflections, at most",
+    );
     outcome.figures = vec![
         Figure::count("iterations", "Iterations", found.iterations),
-        Figure::count("asked_extrema", "Extrema asked for", found.asked.extrema),
-        Figure::count(
-            "asked_inflections",
-            "Inflections asked for",
-            found.asked.inflections,
-        ),
+        Figure::count("asked_extrema", extrema, found.asked.extrema),
+        Figure::count("asked_inflections", inflections, found.asked.inflections),
     ];
     if !curve.polygon.is_planar() {
         let asked = found.asked.torsion_extrema;
-        let figure = Figure::count("asked_torsion_extrema", "Torsion extrema asked for", asked);
+        let label = words(
+            harmony.torsion_extrema,
+            "Torsion extrema asked for",
+            "Torsion extrema, at most",
+        );
+        let figure = Figure::count("asked_torsion_extrema", label, asked);
         outcome.figures.push(figure);
     }
     outcome.marks = stretch_marks(&curve.polygon, stretch);
@@ -248,6 +262,40 @@ fn why_not(found: &Harmonised, harmony: &Harmony) -> String {
         "{}: free the ends or vertices, or ask for other numbers",
         parts.join("; ")
     )
+}
+
+/// Say which features the rest of the curve has gained, before and afterwards: the vertices that move
+/// reach beyond a stretch, and only its own features are asked for.
+fn added_outside([before, after]: [&FloatPolygon; 2], [from, to]: [f64; 2]) -> Option<String> {
+    let length = before.segments() as f64;
+    let outside = |u: [f64; 2]| (u[0] - from).rem_euclid(length) > (to - from).rem_euclid(length);
+    let counts = [before, after].map(|polygon| {
+        let features = Features::new(polygon);
+        let extrema = features.curvature_extrema.iter();
+        let extrema = extrema.filter(|it| outside(it.u)).map(|it| it.count);
+        let inflections = features.inflections.iter();
+        let inflections = inflections.filter(|it| outside(it.u)).map(|it| it.count);
+        [extrema.sum::<usize>(), inflections.sum::<usize>()]
+    });
+    let [extrema, inflections] = [0, 1].map(|kind| counts[1][kind].saturating_sub(counts[0][kind]));
+    let parts = [
+        (
+            extrema,
+            counted(extrema, "curvature extremum", "curvature extrema"),
+        ),
+        (
+            inflections,
+            counted(inflections, "inflection", "inflections"),
+        ),
+    ];
+    let gained = parts.into_iter().filter(|(count, _)| *count > 0);
+    let gained: Vec<String> = gained.map(|(_, words)| words).collect();
+    (!gained.is_empty()).then(|| {
+        format!(
+            "The rest of the curve gains {}: keep all derivatives at the ends of the stretch, or ask for the whole curve",
+            gained.join(" and ")
+        )
+    })
 }
 
 /// Mark the ends of a stretch.

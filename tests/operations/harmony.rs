@@ -142,6 +142,39 @@ fn a_stretch_of_a_periodic_curve_goes_over_the_seam() {
 }
 
 #[test]
+fn what_the_rest_of_the_curve_gains_is_told() {
+    let mut told = 0;
+    for keep in 1..=5 {
+        let runner = noisy();
+        let given = [
+            ("stretch", list(&[5.0, 20.0])),
+            ("keep", Value::Choice(keep)),
+            ("extrema", list(&[0.0])),
+            ("inflections", list(&[0.0])),
+        ];
+        let outcome = runner.run("harmonise", &given).expect("it can run");
+        let after = outcome.applied_to(runner.input.document()).expect("edits");
+        let (_, after) = after.curves().next().expect("a curve");
+        let outside = |u: [f64; 2]| u[0] < 5.0 || u[0] > 20.0;
+        let counts = [runner.polygon(), &after.polygon].map(|polygon| {
+            let features = Features::new(polygon);
+            let extrema = features.curvature_extrema.iter().map(|it| it.u);
+            let inflections = features.inflections.iter().map(|it| it.u);
+            [
+                extrema.filter(|u| outside(*u)).count(),
+                inflections.filter(|u| outside(*u)).count(),
+            ]
+        });
+        let gains = counts[1][0] > counts[0][0] || counts[1][1] > counts[0][1];
+        let mut remarks = outcome.remarks.iter();
+        let says = remarks.any(|remark| remark.starts_with("The rest of the curve gains"));
+        assert_eq!(says, gains, "keep {keep}: {counts:?}");
+        told += usize::from(says);
+    }
+    assert!(told > 0, "the ends reach beyond the stretch");
+}
+
+#[test]
 fn what_only_curves_in_space_have_is_refused_for_planar_ones() {
     let planar = noisy();
     let refused = planar.refused("harmonise", &[("torsion-extrema", list(&[0.0]))]);
