@@ -62,7 +62,7 @@ pub static OPERATION: Operation = Operation {
 fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
     let asked = FitAsked {
         degree: values.whole(&DEGREE),
-        count: given(values, &COUNT).map(|count| count as usize),
+        count: vertices(input, values)?,
         extrema: given(values, &EXTREMA).map(|count| count as usize),
         tolerance: positive(values, &TOLERANCE)?,
     };
@@ -82,6 +82,19 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
         marks: marks.map(|point| Mark::Point(*point)).collect(),
         ..Outcome::unchanged(Deviation::Measured(found.largest))
     })
+}
+
+/// The number of vertices asked for, at most as many as there are points.
+fn vertices(input: &Input, values: &Values) -> Result<Option<usize>, OperationError> {
+    let most = input.points().len();
+    match given(values, &COUNT) {
+        Some(count) if count > most as f64 => Err(OperationError::OutOfRange {
+            label: COUNT.label,
+            value: count.to_string(),
+            needed: format!("at most {most}, the number of points,"),
+        }),
+        count => Ok(count.map(|count| count as usize)),
+    }
 }
 
 fn figures(found: &Fitted) -> Vec<Figure> {

@@ -121,11 +121,10 @@ impl Figure {
 
     /// Tell the numbers of some things, counted from 0.
     pub(super) fn indices(name: &'static str, label: &'static str, indices: &[usize]) -> Self {
-        let numbers = indices.iter().map(|index| *index as f64);
         Self {
             name,
             label,
-            value: Value::List(numbers.collect()),
+            value: Value::Indices(indices.to_vec()),
             unit: Unit::None,
         }
     }

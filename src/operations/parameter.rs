@@ -240,10 +240,8 @@ impl Parameter {
                 let text = reference.as_ref().map(|reference| reference.to_string());
                 text.unwrap_or_default()
             }
-            (_, Value::List(numbers)) => {
-                let numbers: Vec<String> = numbers.iter().map(shown).collect();
-                numbers.join(", ")
-            }
+            (_, Value::List(numbers)) => joined(numbers.iter().map(shown)),
+            (_, Value::Indices(indices)) => joined(indices.iter().map(usize::to_string)),
         }
     }
 
@@ -372,9 +370,11 @@ impl Parameter {
         let number = match value {
             Value::Whole(number) => *number as f64,
             Value::Real(number) => *number,
-            Value::Choice(_) | Value::Switch(_) | Value::List(_) | Value::Reference(_) => {
-                return Ok(());
-            }
+            Value::Choice(_)
+            | Value::Switch(_)
+            | Value::List(_)
+            | Value::Indices(_)
+            | Value::Reference(_) => return Ok(()),
         };
         if limits.contains(&number) {
             return Ok(());
@@ -430,4 +430,8 @@ fn bounds_words(from: Bound<impl Display>, to: Bound<impl Display>) -> Option<St
         (Unbounded, Excluded(to)) => format!("less than {to}"),
         (Unbounded, Unbounded) => return None,
     })
+}
+
+fn joined(numbers: impl Iterator<Item = String>) -> String {
+    numbers.collect::<Vec<_>>().join(", ")
 }

@@ -38,6 +38,7 @@ impl Serialize for Report {
                 Value::Real(number) => json!(figure.unit.shown(*number)),
                 Value::Switch(on) => json!(on),
                 Value::List(numbers) => json!(numbers),
+                Value::Indices(indices) => json!(indices),
                 Value::Reference(reference) => {
                     json!(reference.as_ref().map(|reference| reference.to_string()))
                 }

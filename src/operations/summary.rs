@@ -62,8 +62,11 @@ impl Report {
 /// Say how many inflections there are now, if they are not as many as before.
 fn changed_inflections(before: &[FeatureCounts], after: &[FeatureCounts]) -> Option<String> {
     let count = |counts: &[FeatureCounts]| counts.iter().map(|c| c.inflections).sum::<usize>();
-    let (before, after) = (count(before), count(after));
-    (before != after).then(|| format!("inflections: {before} before, {after} now"))
+    let (was, now) = (count(before), count(after));
+    (was != now).then(|| match before {
+        [] => format!("inflections: {now}"),
+        _ => format!("inflections: {was} before, {now} now"),
+    })
 }
 
 /// Say what becomes of the harmony of one curve, if that changes.

@@ -15,6 +15,8 @@ pub enum Value {
     Switch(bool),
     /// Some finite numbers; none where nothing is given.
     List(Vec<f64>),
+    /// The numbers of some things, counted from 0; only figures have them.
+    Indices(Vec<usize>),
     /// A reference, or none.
     Reference(Option<Box<ReferenceCurve>>),
 }

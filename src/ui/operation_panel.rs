@@ -319,7 +319,11 @@ fn shown_number(value: &Value, unit: Unit) -> f64 {
     match value {
         Value::Whole(number) => *number as f64,
         Value::Real(number) => unit.shown(*number),
-        Value::Choice(_) | Value::Switch(_) | Value::List(_) | Value::Reference(_) => 0.0,
+        Value::Choice(_)
+        | Value::Switch(_)
+        | Value::List(_)
+        | Value::Indices(_)
+        | Value::Reference(_) => 0.0,
     }
 }
 
@@ -463,6 +467,10 @@ fn figure_text(figure: &Figure) -> String {
                 .iter()
                 .map(|number| figures::significant(*number, 4));
             numbers.collect::<Vec<_>>().join(", ")
+        }
+        Value::Indices(indices) => {
+            let indices = indices.iter().map(usize::to_string);
+            indices.collect::<Vec<_>>().join(", ")
         }
         Value::Reference(reference) => {
             let text = reference.as_ref().map(|reference| reference.to_string());

@@ -138,7 +138,7 @@ pub enum ReferenceError {
     )]
     BadPlacement,
     /// There are too few points for a line.
-    #[error("{found} points make no line: at least 2 are needed")]
+    #[error("{} no line: at least 2 are needed", if *found == 1 { "1 point makes".to_owned() } else { format!("{found} points make") })]
     TooFewPoints {
         /// The number of points.
         found: usize,

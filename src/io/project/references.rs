@@ -162,7 +162,7 @@ fn references_that_cannot_be_are_refused_with_their_place() {
         ),
         (
             r#"{"points":[[0,0]]}"#,
-            "reference 1 “reference 1”: 1 points make no line: at least 2 are needed",
+            "reference 1 “reference 1”: 1 point makes no line: at least 2 are needed",
         ),
     ] {
         let error = read(with_reference(reference).as_bytes()).unwrap_err();

@@ -130,7 +130,7 @@ fn what_is_wrong_is_named_with_its_place() {
     check("\n\nx,y,weight\n0,0,1\n", &format!("line 3: {hint}"));
     check(
         "\n\nx,y\n0,0\n",
-        "line 3, reference 1 “points 1”: 1 points make no line: at least 2 are needed",
+        "line 3, reference 1 “points 1”: 1 point makes no line: at least 2 are needed",
     );
     check(
         "# degree=2 name=hull",
