@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::builder::ValueParser;
+use clap::error::ErrorKind;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches, value_parser};
 
 use super::choice_parser::{Assignments, ChoiceParser};
@@ -81,7 +82,17 @@ impl FromArgMatches for ApplyArguments {
         let chosen = matches.subcommand();
         let chosen = chosen.and_then(|(name, matches)| Some((find(name)?, matches)));
         Ok(match chosen {
-            Some((operation, matches)) => Self::Run(Given::new(operation, matches)),
+            Some((operation, matches)) => {
+                let given = Given::new(operation, matches);
+                let twice = given.twice().map(|name| {
+                    let message = format!("“{name}” is given twice: leave one of them out\n");
+                    Error::raw(ErrorKind::ArgumentConflict, message)
+                });
+                match twice {
+                    Some(error) => return Err(error),
+                    None => Self::Run(given),
+                }
+            }
             None => Self::List,
         })
     }
@@ -126,6 +137,17 @@ impl Given {
             values,
             best: matches.get_flag(BEST),
         }
+    }
+
+    /// The first parameter that has two values, by an argument of its own and with a choice.
+    fn twice(&self) -> Option<&'static str> {
+        let names = self.values.iter().map(|(name, _)| *name);
+        let mut names = names.enumerate();
+        let found = names.find(|(index, name)| {
+            let before = self.values.iter().take(*index);
+            before.map(|(name, _)| *name).any(|known| known == *name)
+        });
+        found.map(|(_, name)| name)
     }
 }
 

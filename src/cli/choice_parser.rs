@@ -59,6 +59,12 @@ impl TypedValueParser for ChoiceParser {
             let parameter = self.all.iter().find(named);
             let parameter =
                 parameter.ok_or_else(|| refused(format!("there is no parameter “{name}”")))?;
+            if assignments
+                .iter()
+                .any(|(known, _)| *known == parameter.name)
+            {
+                return Err(refused(format!("“{}” is given twice", parameter.name)));
+            }
             assignments.push(read(parameter, value)?);
         }
         Ok(assignments)

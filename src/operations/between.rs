@@ -31,10 +31,13 @@ const ENDS: Ends = Ends {
     curvatures: [None; 2],
 };
 
+/// The clothoid's slope α.
+const CLOTHOID: f64 = -1.0;
+
 const KIND: Parameter = Parameter {
     name: "kind",
     label: "Kind",
-    help: "What the segment is: log-aesthetic, with a clothoid for α = −1, superspiral, or any curve with monotone curvature",
+    help: "What the segment is: log-aesthetic, superspiral, any curve with monotone curvature, or a clothoid, which is log-aesthetic with α = −1",
     kind: Kind::Choice {
         options: &[
             Choice {
@@ -48,6 +51,10 @@ const KIND: Parameter = Parameter {
             Choice {
                 name: "any",
                 label: "Any monotone",
+            },
+            Choice {
+                name: "clothoid",
+                label: "Clothoid",
             },
         ],
         default: 0,
@@ -202,12 +209,19 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
             values: [A, B, C].map(|parameter| values.real(&parameter)),
         },
         SegmentKind::AnyMonotone,
+        SegmentKind::LogAesthetic {
+            alpha: Some(CLOTHOID),
+        },
     ];
     let kind = values.choice(&KIND, &kinds);
     let mut outcome = match between(&ends, kind, degree, tolerance, progress) {
         Ok(segment) => made(input, &segment),
         Err(BetweenError::Cancelled) => return Err(OperationError::Cancelled),
-        Err(error @ (BetweenError::NoChord | BetweenError::NoDirection)) => {
+        Err(
+            error @ (BetweenError::NoChord
+            | BetweenError::NoDirection
+            | BetweenError::ChordOutOfRange { .. }),
+        ) => {
             return Err(error.into());
         }
         Err(error) => {
@@ -279,6 +293,12 @@ fn shape(form: &ReferenceForm, name: &str) -> Option<f64> {
 }
 
 fn remarks(segment: &Segment) -> Vec<String> {
+    if segment.straight {
+        return vec![
+            "The ends lie on a straight line, and so does the segment: its curvature is 0 but for rounding"
+                .to_owned(),
+        ];
+    }
     let mut remarks: Vec<String> = Vec::new();
     match &segment.parts[..] {
         [] => {}
@@ -294,7 +314,7 @@ fn remarks(segment: &Segment) -> Vec<String> {
     }
     if segment.deviation > segment.tolerance {
         remarks.push(format!(
-            "The curve is {} off the true segment, and {} is allowed: allow more, or choose a higher degree",
+            "The curve is {} off the true segment, and {} is allowed: allow more, or change the ends or the slope so that the curvature changes less",
             significant(segment.deviation, 3),
             significant(segment.tolerance, 3)
         ));
@@ -302,7 +322,10 @@ fn remarks(segment: &Segment) -> Vec<String> {
     if segment.monotone != Verdict::Proved {
         remarks.push(match curvatures_agree(segment) {
             true => "The ends ask for a circular arc: its curvature is constant, and that of a polynomial curve rises and falls".to_owned(),
-            false => "The curvature is not monotone: choose a higher degree, or ask for curvatures that differ more".to_owned(),
+            false if segment.monotone == Verdict::Disproved => {
+                "The curvature is not monotone: try another degree".to_owned()
+            }
+            false => "The curvature is not proved to be monotone: try another degree".to_owned(),
         });
     }
     remarks

@@ -152,6 +152,22 @@ fn ends_that_are_none_are_refused() {
         directions: [DVec2::ZERO, DVec2::X],
         ..on_chord(10.0, 20.0)
     };
+    let far = Ends {
+        points: [DVec2::new(1e300, 0.0), DVec2::ZERO],
+        ..on_chord(10.0, 20.0)
+    };
+    let error = found(&far, CLOTHOID, 5).expect_err("too far");
+    assert!(
+        matches!(error, BetweenError::ChordOutOfRange { .. }),
+        "{error}"
+    );
+    // A short direction is one.
+    let plain = on_chord(10.0, 20.0);
+    let short = Ends {
+        directions: plain.directions.map(|direction| 1e-300 * direction),
+        ..plain
+    };
+    check(&found(&short, CLOTHOID, 5).expect("a clothoid"), &plain, 0);
     let errors = [nowhere, aimless].map(|ends| found(&ends, CLOTHOID, 5).err());
     let expected = [BetweenError::NoChord, BetweenError::NoDirection];
     assert_eq!(errors, expected.map(Some));

@@ -1,7 +1,9 @@
 //! Log-aesthetic segments of chosen α: they are found again from their ends.
 
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
 use batten::geometry::Progress;
-use batten::geometry::between::{SegmentKind, between};
+use batten::geometry::between::{BetweenError, Ends, SegmentKind, between};
 use glam::DVec2;
 
 use crate::common::{Random, list, number, points, reference};
@@ -83,6 +85,47 @@ fn every_admissible_case_is_found_again_exact_at_its_ends_and_proved_monotone() 
 #[ignore = "takes minutes"]
 fn a_thousand_admissible_cases_are_found_again() {
     println!("{:?}", sweep(2, 1000));
+}
+
+#[test]
+fn ends_that_bend_sharply_are_reached_at_all_degrees() {
+    // Radii 22.5 times apart: by arc length the involute ends at 1/505 of the length beyond.
+    for degree in 4..=9 {
+        let segment = TrueSegment {
+            alpha: 2.0,
+            growth: -(22.5_f64.ln()),
+            turning: FRAC_PI_2,
+        };
+        let points = segment.points();
+        for side in [1.0, -1.0] {
+            let placing = Placing {
+                origin: DVec2::ZERO,
+                axis: DVec2::X,
+                side,
+            };
+            let ends = placing.ends(points[points.len() - 1], segment.turning);
+            let kind = SegmentKind::LogAesthetic { alpha: Some(2.0) };
+            check(&found(&ends, kind, degree).expect("a segment"), &ends, 0);
+        }
+    }
+}
+
+#[test]
+fn an_alpha_far_from_all_that_is_used_has_limits_that_are_numbers() {
+    for alpha in [-1e9, -100.0, 100.0, 1e9] {
+        let ends = Ends {
+            points: [DVec2::ZERO, DVec2::new(5.0, 3.0)],
+            directions: [DVec2::X, DVec2::Y],
+            curvatures: [None; 2],
+        };
+        let kind = SegmentKind::LogAesthetic { alpha: Some(alpha) };
+        let error = found(&ends, kind, 5).expect_err("nearly an arc");
+        let BetweenError::OutOfReach { reach, .. } = error else {
+            panic!("{error}");
+        };
+        let middle = 0.5 * (reach[0] + reach[1]);
+        assert!((middle - FRAC_PI_4).abs() <= 1e-12, "{reach:?}");
+    }
 }
 
 #[test]

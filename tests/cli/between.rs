@@ -52,6 +52,9 @@ fn a_segment_is_made_of_what_is_given() {
         &["--kind", "log-aesthetic", "--alpha", "0.5", "--degree", "6"],
     );
     assert_eq!(same, found);
+    // A clothoid by its name.
+    let clothoid = report(&folder, &["--kind", "clothoid"]);
+    assert_eq!(clothoid["alpha"], json!([-1.0]));
     // Negative numbers, and a tolerance.
     let found = report(
         &folder,
@@ -95,7 +98,8 @@ fn where_there_is_none_the_exit_code_and_the_report_say_so() {
 fn a_kind_with_values_that_are_none_is_refused() {
     let folder = Folder::new();
     for (kind, words) in [
-        ("clothoid", "[possible values: log-aesthetic, "),
+        ("spiral", "[possible values: log-aesthetic, "),
+        ("log-aesthetic:alpha=-1,alpha=1", "“alpha” is given twice"),
         ("log-aesthetic:beta=1", "there is no parameter “beta”"),
         (
             "log-aesthetic:alpha",
@@ -105,4 +109,6 @@ fn a_kind_with_values_that_are_none_is_refused() {
     ] {
         folder.misused(&arguments(&["--kind", kind]), words);
     }
+    let twice = ["--kind", "log-aesthetic:alpha=1", "--alpha", "2"];
+    folder.misused(&arguments(&twice), "“alpha” is given twice");
 }

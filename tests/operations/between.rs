@@ -180,6 +180,23 @@ fn ends_that_are_none_are_refused() {
 }
 
 #[test]
+fn remarks_name_what_is_missed_and_straight_ends() {
+    let mut given = ends([0.0, 0.0, 1.0, 1.0], [10.0, 0.0, 2.0, -1.0]);
+    given.push(("tolerance", Value::List(vec![1e-30])));
+    let outcome = run(&nothing(), &given).expect("an answer");
+    assert!(!outcome.reached);
+    let remarks = outcome.remarks.join("\n");
+    assert!(remarks.contains("off the true segment"), "{remarks}");
+    assert!(!remarks.contains("not monotone"), "{remarks}");
+    let straight = ends([0.0, 0.0, 5.0, 3.0], [5.0, 3.0, 5.0, 3.0]);
+    let outcome = run(&nothing(), &straight).expect("a line");
+    let [remark] = &outcome.remarks[..] else {
+        panic!("{:?}", outcome.remarks);
+    };
+    assert!(remark.starts_with("The ends lie on a straight line"));
+}
+
+#[test]
 fn handles_give_points_and_directions_back() {
     let given = ends([1.0, 2.0, 0.0, 3.0], [11.0, 7.0, 2.0, -0.5]);
     let outcome = run(&nothing(), &given).expect("a segment");

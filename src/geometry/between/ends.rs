@@ -1,9 +1,17 @@
 //! What is given of a segment: its two ends.
 
+use std::ops::RangeInclusive;
+
 use glam::{DQuat, DVec2};
 
 use super::error::BetweenError;
 use crate::geometry::references::{Placement, ReferenceError};
+
+/// The distances of ends that can be computed with: their cubes are in the range of numbers.
+const CHORDS: RangeInclusive<f64> = 1e-100..=1e100;
+
+/// Angles, in radians, that rounding leaves between directions that are the same.
+const ROUNDING: f64 = 1e-14;
 
 /// Hold the two ends that a segment runs between, in the plane z = 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +41,15 @@ pub(super) struct Task {
 }
 
 impl Ends {
+    /// Give directions moderate lengths, so that squares of them are in the range of numbers.
+    pub(super) fn with_moderate_directions(&self) -> Self {
+        let moderate = |direction: DVec2| direction / direction.abs().max_element();
+        Self {
+            directions: self.directions.map(moderate),
+            ..*self
+        }
+    }
+
     /// Take away place, size and side.
     ///
     /// # Errors
@@ -41,10 +58,14 @@ impl Ends {
         let [from, to] = self.points;
         let chord = to - from;
         let size = from.abs().max_element().max(to.abs().max_element());
-        let directed = |vector: DVec2| vector.try_normalize().is_some();
-        if !(chord.length() > f64::EPSILON * size) || !directed(chord) {
+        let distance = chord.abs().max_element();
+        if !(distance > f64::EPSILON * size) {
             return Err(BetweenError::NoChord);
         }
+        if !CHORDS.contains(&distance) {
+            return Err(BetweenError::ChordOutOfRange { distance });
+        }
+        let directed = |vector: DVec2| vector.try_normalize().is_some();
         if !self.directions.into_iter().all(directed) {
             return Err(BetweenError::NoDirection);
         }
@@ -81,10 +102,11 @@ impl Task {
         self.angles.into_iter().chain(given).all(|it| it > 0.0)
     }
 
-    /// Whether both directions follow the chord, and no curvature is asked for.
+    /// Whether both directions follow the chord but for rounding, and no curvature is asked for.
     pub(super) fn is_straight(&self) -> bool {
         let bends = self.curvatures.into_iter().flatten();
-        self.angles.into_iter().chain(bends).all(|it| it == 0.0)
+        let follow = self.angles.into_iter().all(|it| it.abs() <= ROUNDING);
+        follow && bends.into_iter().all(|it| it == 0.0)
     }
 
     /// The length of the chord.

@@ -15,6 +15,12 @@ pub enum BetweenError {
     /// Both ends are at one point.
     #[error("both ends are at the same point: move one of them")]
     NoChord,
+    /// The ends are too far from each other, or too near to each other, for numbers of double precision.
+    #[error("the ends are {distance:e} apart: distances from 1e-100 to 1e100 are needed")]
+    ChordOutOfRange {
+        /// The larger coordinate of the chord.
+        distance: f64,
+    },
     /// A direction is no direction.
     #[error("an end has a direction of length 0: give it a direction")]
     NoDirection,
@@ -33,7 +39,7 @@ pub enum BetweenError {
         values: [f64; 3],
     },
     /// The chord does not fit the directions.
-    #[error("there is no segment of {kind} here: turning by {}°, it has its chord {}° to {}° from the direction at the start, and here it is {}°", degrees(*.turning), degrees(.reach[0]), degrees(.reach[1]), degrees(*.angle))]
+    #[error("there is no segment of {kind} here: turning by {}°, it has its chord {} from the direction at the start, and here it is {}°", degrees(*.turning), chord_angles(*.reach), degrees(*.angle))]
     OutOfReach {
         /// The kind.
         kind: String,
@@ -103,6 +109,16 @@ pub enum BetweenError {
     /// The polygon cannot be harmonised.
     #[error(transparent)]
     Harmony(#[from] HarmonyError),
+}
+
+/// Angles from one to another, or the one that all are but for what is not shown.
+fn chord_angles(angles: [f64; 2]) -> String {
+    let [low, high] = angles.map(degrees);
+    if low == high {
+        format!("almost exactly {low}°, as a circular arc has,")
+    } else {
+        format!("{low}° to {high}°")
+    }
 }
 
 fn degrees(radians: f64) -> String {

@@ -19,6 +19,10 @@ use crate::geometry::quadrature::{quadrature, settled_quadrature};
 /// How far ln ρ may grow: radii a million times apart.
 const MOST_GROWTH: f64 = 13.8;
 
+/// How far ln ρ^α and ln ρ^{α−1} may change: their exponential stays in the range of numbers, and the lean is at its
+/// limit but for rounding long before.
+const MOST_STRETCH: f64 = 600.0;
+
 /// How exactly chords are integrated, relative to the length.
 const EXACT: f64 = 4.0 * f64::EPSILON;
 
@@ -51,12 +55,13 @@ impl LogAesthetic {
             turning,
         };
         let wanted = lean.abs();
-        let most = of(MOST_GROWTH).lean();
+        let largest = MOST_GROWTH.min(MOST_STRETCH / alpha.abs().max((alpha - 1.0).abs()));
+        let most = of(largest).lean();
         if !(wanted <= most) {
             return Err(most);
         }
         let missing = |growth| of(growth).lean() - wanted;
-        let growth = root([0.0, MOST_GROWTH], f64::EPSILON, missing);
+        let growth = root([0.0, largest], f64::EPSILON, missing);
         Ok(of(growth.copysign(lean)))
     }
 

@@ -3,10 +3,14 @@
 use glam::DVec3;
 
 use crate::geometry::differentiable::Differentiable;
+use crate::geometry::quadrature::{quadrature, settled_quadrature};
 use crate::geometry::references::ReferenceCurve;
 
 /// What rounding may make of a curvature, relative to it.
 const ROUNDING: f64 = 1e-9;
+
+/// How exactly lengths are integrated, relative to them.
+const EXACT: f64 = 1e-12;
 
 /// A reference curve, or a piece of one, and which way it is passed through.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,6 +60,27 @@ impl Parts {
     pub(super) fn is_arc(&self) -> bool {
         let [first, last] = [0.0, self.end].map(|t| self.curvature(t));
         (first - last).abs() <= ROUNDING * first.abs()
+    }
+
+    /// The length of all together, along the true segment.
+    pub(super) fn length(&self) -> f64 {
+        let speed = |t: f64| [self.derivatives(t, 1)[1].length()];
+        let spans = self
+            .begins
+            .iter()
+            .zip(self.begins.iter().skip(1).chain([&self.end]));
+        let lengths = spans.map(|(from, to)| {
+            let first = quadrature(*from, *to, &speed);
+            let allowed = first.map(|length| EXACT * length);
+            let [length] = settled_quadrature([*from, *to], first, allowed, &speed).values;
+            length
+        });
+        lengths.sum()
+    }
+
+    /// The parts, in order.
+    pub(super) fn parts(&self) -> &[Part] {
+        &self.parts
     }
 
     /// Take the parts out.

@@ -1,7 +1,10 @@
 //! The float polygon of a segment.
 
+use std::cmp::Ordering;
+
 use super::ends::Ends;
 use super::error::BetweenError;
+use super::growth::ByGrowth;
 use super::parts::Parts;
 use crate::geometry::approximation::{
     ApproximationError, MeasuredDeviation, Placing, UniformKnots, float_polygon,
@@ -35,6 +38,9 @@ pub(super) struct Fit {
 
 /// Find the polygon with the fewest segments that stays within a tolerance of the true segment and
 /// has monotone curvature; without one, that which comes closest.
+///
+/// Vertices belong to even steps of the parts' own parameter. Where no number of them does and the
+/// segment is log-aesthetic, they belong to even steps of ln ρ, which are fine where it bends sharply.
 pub(super) fn fit(
     parts: &Parts,
     ends: &Ends,
@@ -42,53 +48,121 @@ pub(super) fn fit(
     tolerance: f64,
     progress: &Progress,
 ) -> Result<Fit, BetweenError> {
-    let mut best: Option<Fit> = None;
-    let mut failed = None;
-    for (index, count) in COUNTS.into_iter().enumerate() {
-        if progress.is_cancelled() {
-            return Err(BetweenError::Cancelled);
-        }
-        progress.set_done(index as f64 / COUNTS.len() as f64);
-        // Few segments near a singularity of the true one make no curve.
-        let found = quasi(parts, parts.end(), degree, count);
-        let found = found.and_then(|polygon| Ok(exact_ends(&polygon, ends)?));
-        let (polygon, residual) = match found {
-            Ok(found) => found,
-            Err(error) => {
-                failed = Some(error);
-                continue;
+    let search = Search {
+        parts,
+        ends,
+        degree,
+        tolerance,
+        progress,
+    };
+    let own = search.closest(parts, parts.end(), &|t| t);
+    let reached = |fit: &Fit| fit.deviation <= tolerance && fit.monotone == Verdict::Proved;
+    let found = match own {
+        Err(BetweenError::Cancelled) => return own,
+        Ok(fit) if reached(&fit) || parts.is_arc() => return Ok(fit),
+        own => match ByGrowth::of(parts) {
+            None => own,
+            Some(grown) => {
+                let other = search.closest(&grown, 1.0, &|v| grown.arc_length(v));
+                match (own, other) {
+                    (_, Err(BetweenError::Cancelled)) => return Err(BetweenError::Cancelled),
+                    (Ok(own), Ok(other)) if other.is_better(&own, tolerance) => Ok(other),
+                    (Err(_), other) => other,
+                    (own, _) => own,
+                }
             }
+        },
+    };
+    let mut found = found?;
+    if found.deviation > tolerance {
+        found.monotone = Features::new(&found.polygon).monotone;
+    }
+    Ok(found)
+}
+
+impl Fit {
+    /// Whether it is to be preferred to another one: near enough and monotone first, then near enough, then
+    /// nearer.
+    fn is_better(&self, other: &Self, tolerance: f64) -> bool {
+        let rank = |fit: &Self| {
+            let close = fit.deviation <= tolerance;
+            (close, close && fit.monotone == Verdict::Proved)
         };
-        let deviation = deviation(parts, &polygon)?;
-        let close = deviation <= tolerance;
-        let monotone = match close {
-            true => Features::new(&polygon).monotone,
-            false => Verdict::Undecided,
-        };
-        let found = Fit {
-            polygon,
-            residual,
-            deviation,
-            monotone,
-        };
-        if monotone == Verdict::Proved {
-            return Ok(found);
-        }
-        // Of those that are close enough the one with the fewest segments is kept.
-        let better = best
-            .as_ref()
-            .is_none_or(|best| best.deviation > tolerance && deviation < best.deviation);
-        if better {
-            best = Some(found);
-        }
-        // More segments make no arc monotone.
-        if close && parts.is_arc() {
-            break;
+        match rank(self).cmp(&rank(other)) {
+            Ordering::Equal => !rank(self).0 && self.deviation < other.deviation,
+            order => order == Ordering::Greater,
         }
     }
-    match (best, failed) {
-        (Some(best), _) => Ok(best),
-        (None, failed) => Err(failed.unwrap_or(BetweenError::Cancelled)),
+}
+
+/// What a polygon is looked for by.
+struct Search<'a> {
+    parts: &'a Parts,
+    ends: &'a Ends,
+    degree: usize,
+    tolerance: f64,
+    progress: &'a Progress,
+}
+
+impl Search<'_> {
+    /// Find the polygon with the fewest segments that does, or that comes closest, with vertices at even
+    /// steps of the parameter of a curve that is the true segment from 0 to `end`; `own` tells the parts'
+    /// parameter that belongs to it.
+    fn closest(
+        &self,
+        curve: &dyn Differentiable,
+        end: f64,
+        own: &dyn Fn(f64) -> f64,
+    ) -> Result<Fit, BetweenError> {
+        let mut best: Option<Fit> = None;
+        let mut failed = None;
+        for (index, count) in COUNTS.into_iter().enumerate() {
+            if self.progress.is_cancelled() {
+                return Err(BetweenError::Cancelled);
+            }
+            self.progress.set_done(index as f64 / COUNTS.len() as f64);
+            // Few segments near a singularity of the true one make no curve.
+            let found = quasi(curve, end, self.degree, count);
+            let found = found.and_then(|polygon| Ok(exact_ends(&polygon, self.ends)?));
+            let (polygon, residual) = match found {
+                Ok(found) => found,
+                Err(error) => {
+                    failed = Some(error);
+                    continue;
+                }
+            };
+            let rate = end / count as f64;
+            let deviation = deviation(self.parts, &polygon, &|u| own(u * rate))?;
+            let close = deviation <= self.tolerance;
+            let monotone = match close {
+                true => Features::new(&polygon).monotone,
+                false => Verdict::Undecided,
+            };
+            let found = Fit {
+                polygon,
+                residual,
+                deviation,
+                monotone,
+            };
+            if monotone == Verdict::Proved {
+                return Ok(found);
+            }
+            // Of those that are close enough the one with the fewest segments is kept.
+            if best
+                .as_ref()
+                .is_none_or(|best| found.is_better(best, self.tolerance))
+            {
+                best = Some(found);
+            }
+            // More segments make no arc monotone.
+            if close && self.parts.is_arc() {
+                break;
+            }
+        }
+        match (best, failed) {
+            (Some(best), _) => Ok(best),
+            (None, failed) => Err(failed.unwrap_or(BetweenError::Cancelled)),
+        }
     }
 }
 
@@ -119,10 +193,14 @@ pub(super) fn exact_ends(
     Ok((corrected.polygon, corrected.residual))
 }
 
-/// Measure the largest distance between a polygon's curve and the true segment.
-fn deviation(parts: &Parts, polygon: &FloatPolygon) -> Result<f64, ApproximationError> {
-    let rate = parts.end() / polygon.segments() as f64;
+/// Measure the largest distance between a polygon's curve and the true segment; `parameter` tells which
+/// of its parameters is near a given u.
+fn deviation(
+    parts: &Parts,
+    polygon: &FloatPolygon,
+    parameter: &dyn Fn(f64) -> f64,
+) -> Result<f64, ApproximationError> {
     let interval = [0.0, parts.end()];
-    let measured = MeasuredDeviation::measure(polygon, parts, &|u| u * rate, interval)?;
+    let measured = MeasuredDeviation::measure(polygon, parts, parameter, interval)?;
     Ok(measured.largest)
 }

@@ -3,9 +3,10 @@
 use super::ends::Ends;
 use super::error::BetweenError;
 use super::harmonised::monotone;
-use super::parts::Part;
-use super::polygon::{Fit, exact_ends, fit};
+use super::parts::{Part, Parts};
+use super::polygon::{Fit, fit};
 use super::solving::{log_aesthetic_parts, superspiral_parts};
+use crate::geometry::end::End;
 use crate::geometry::features::{Features, Verdict};
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
@@ -55,6 +56,8 @@ pub struct Segment {
     pub length: f64,
     /// Whether the curvature is proved to be monotone.
     pub monotone: Verdict,
+    /// Whether both directions follow the chord, so that it is straight but for rounding.
+    pub straight: bool,
 }
 
 impl Segment {
@@ -66,10 +69,10 @@ impl Segment {
 
 /// Find a segment of a kind between two ends, as a float polygon of a degree from 3 on: with the fewest
 /// segments, of a fixed series of numbers, with which it stays within `tolerance` of the true segment
-/// (1e-6 of its length if none is given) and has monotone curvature, proved.
+/// (1e-6 of that segment's length if none is given) and has monotone curvature, proved.
 ///
 /// The vertices quasi-interpolate the true segment at equal steps of arc length, superspirals of
-/// the direction angle; then both ends are made exact by the least disturbance.
+/// the direction angle, and log-aesthetic segments that bend too sharply for that of ln ρ; then both ends are made exact by the least disturbance.
 ///
 /// # Errors
 /// [`BetweenError`]: where there is no such segment it tells what there is.
@@ -80,6 +83,7 @@ pub fn between(
     tolerance: Option<f64>,
     progress: &Progress,
 ) -> Result<Segment, BetweenError> {
+    let ends = &ends.with_moderate_directions();
     let task = ends.task()?;
     if task.is_straight() {
         return straight(ends, degree, tolerance);
@@ -96,18 +100,19 @@ pub fn between(
         deviation,
         monotone,
     } = match &parts {
-        // The chord is no longer than the segment.
-        Some(parts) => fit(parts, ends, degree, allowed(task.chord()), progress)?,
+        Some(parts) => fit(parts, ends, degree, allowed(parts.length()), progress)?,
         None => monotone(&task, ends, degree, progress)?,
     };
     let length = polygon.arc_length(LENGTH);
+    let tolerance = allowed(parts.as_ref().map_or(length, Parts::length));
     Ok(Segment {
         parts: parts.map_or_else(Vec::new, |parts| parts.into_parts()),
         residual,
         deviation,
-        tolerance: allowed(length),
+        tolerance,
         length,
         monotone,
+        straight: false,
         polygon,
     })
 }
@@ -120,8 +125,10 @@ fn straight(ends: &Ends, degree: usize, tolerance: Option<f64>) -> Result<Segmen
         from.lerp(to, middle / STRAIGHT as f64)
     };
     let vertices = (0..STRAIGHT + degree).map(place).collect();
+    // Correcting the ends would bend it by rounding.
     let polygon = FloatPolygon::new(degree, vertices, None, false)?;
-    let (polygon, residual) = exact_ends(&polygon, ends)?;
+    let points = End::BOTH.map(|end| polygon.end_jet(end).point);
+    let residual = points[0].distance(from).max(points[1].distance(to));
     let length = from.distance(to);
     Ok(Segment {
         monotone: Features::new(&polygon).monotone,
@@ -131,5 +138,6 @@ fn straight(ends: &Ends, degree: usize, tolerance: Option<f64>) -> Result<Segmen
         deviation: 0.0,
         tolerance: tolerance.unwrap_or(SHARE_OF_LENGTH * length),
         length,
+        straight: true,
     })
 }
