@@ -7,8 +7,8 @@ use glam::{DQuat, DVec2};
 use super::error::BetweenError;
 use crate::geometry::references::{Placement, ReferenceError};
 
-/// The distances of ends that can be computed with: their cubes are in the range of numbers.
-const CHORDS: RangeInclusive<f64> = 1e-100..=1e100;
+/// The lengths that can be computed with: their cubes are in the range of numbers.
+const LENGTHS: RangeInclusive<f64> = 1e-100..=1e100;
 
 /// Angles, in radians, that rounding leaves between directions that are the same.
 const ROUNDING: f64 = 1e-14;
@@ -41,9 +41,16 @@ pub(super) struct Task {
 }
 
 impl Ends {
-    /// Give directions moderate lengths, so that squares of them are in the range of numbers.
+    /// Give directions of extreme lengths moderate ones, so that squares of them are in the range of numbers.
     pub(super) fn with_moderate_directions(&self) -> Self {
-        let moderate = |direction: DVec2| direction / direction.abs().max_element();
+        let moderate = |direction: DVec2| {
+            let size = direction.abs().max_element();
+            if LENGTHS.contains(&size) {
+                direction
+            } else {
+                direction / size
+            }
+        };
         Self {
             directions: self.directions.map(moderate),
             ..*self
@@ -62,7 +69,7 @@ impl Ends {
         if !(distance > f64::EPSILON * size) {
             return Err(BetweenError::NoChord);
         }
-        if !CHORDS.contains(&distance) {
+        if !LENGTHS.contains(&distance) {
             return Err(BetweenError::ChordOutOfRange { distance });
         }
         let directed = |vector: DVec2| vector.try_normalize().is_some();
