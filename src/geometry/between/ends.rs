@@ -77,7 +77,7 @@ impl Ends {
             return Err(BetweenError::NoDirection);
         }
         let [first, last] = self.directions;
-        let angles = [first.angle_to(chord), chord.angle_to(last)];
+        let angles = [angle(first, chord), angle(chord, last)];
         let mirrored = angles[0] + angles[1] < 0.0;
         let side = if mirrored { -1.0 } else { 1.0 };
         let curvatures = self.curvatures;
@@ -155,10 +155,16 @@ impl Task {
             let axis = DVec2::from_angle(0.5 * (after.to_angle() + before.to_angle()));
             DQuat::from_xyzw(axis.x, axis.y, 0.0, 0.0)
         } else {
-            let half = DVec2::from_angle(0.5 * before.angle_to(after));
+            let half = DVec2::from_angle(0.5 * angle(before, after));
             DQuat::from_xyzw(0.0, 0.0, half.y, half.x)
         };
         let turned = scale * (rotation * own[0].extend(0.0));
         Placement::new(rotation, scale, wanted[0].extend(0.0) - turned)
     }
+}
+
+/// The angle from one vector to another, by a tangent: a cosine would lose half of the digits of small
+/// angles.
+fn angle(from: DVec2, to: DVec2) -> f64 {
+    from.perp_dot(to).atan2(from.dot(to))
 }
