@@ -88,7 +88,8 @@ impl<T: Send + 'static> Worker<T> {
     }
 
     /// Hand a job over, wait until it is done, but no longer than `at_most`, and take the outcomes that
-    /// are ready then. An older job is cancelled; one that has not begun is dropped.
+    /// are ready then. Without a wait the frame is always woken, even where the outcome is taken here: what
+    /// goes on from it is begun by the next frame. An older job is cancelled; one that has not begun is dropped.
     pub fn start(
         &mut self,
         job: impl FnOnce(&Progress) -> T + Send + 'static,
@@ -106,7 +107,7 @@ impl<T: Send + 'static> Worker<T> {
                     progress: self.progress.clone(),
                     run: Box::new(job),
                 });
-                tray.awaited = true;
+                tray.awaited = !at_most.is_zero();
                 drop(tray);
                 desk.asked.notify_one();
             }
@@ -137,7 +138,9 @@ impl<T: Send + 'static> Worker<T> {
     }
 
     fn wait(&mut self, at_most: Duration) -> VecDeque<Outcome<T>> {
-        if let Place::Thread(desk) = &self.place {
+        if let Place::Thread(desk) = &self.place
+            && !at_most.is_zero()
+        {
             let mut tray = desk.tray();
             tray.awaited = true;
             let newest = self.newest;

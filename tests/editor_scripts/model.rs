@@ -180,9 +180,7 @@ fn is_too_much(event: &Event, player: &Player) -> bool {
     match event {
         Event::Command(Command::Operation(operation))
         | Event::Panel(Panel::Operate(operation, _)) => {
-            // Between extreme ends a segment takes minutes: scripts of its own try it.
-            let is_slow = operation.name == "between";
-            is_slow || is_large || is_high && operation.name.ends_with("degree")
+            is_large || is_high && operation.name.ends_with("degree")
         }
         Event::Command(Command::Duplicate) => is_large,
         Event::Panel(Panel::SetValue(..) | Panel::Paste(_) | Panel::CopyAndPaste) => is_large,

@@ -178,3 +178,27 @@ fn a_log_aesthetic_curve_has_its_radius_of_curvature() {
         }
     }
 }
+
+/// A spiral is put together of pieces that are kept: the order in which its points are asked for, and
+/// what other spirals are evaluated between them, changes nothing.
+#[test]
+fn superspirals_do_not_depend_on_what_was_evaluated_before() {
+    let curve = |text| ReferenceCurve::from_text(text).expect("a reference");
+    let spiral = curve("superspiral:a=0.5,b=1,c=1.5");
+    let other = curve("superspiral:a=1,b=1,c=2");
+    let places = [40.0, -0.8, 0.0, 3.0, -0.1, 39.5, 0.5, 12.0];
+    let alone: Vec<Vec<DVec3>> = places
+        .iter()
+        .map(|t| {
+            other.derivatives(*t, 3);
+            spiral.derivatives(*t, 3)
+        })
+        .collect();
+    for (t, expected) in places.iter().zip(&alone) {
+        assert_eq!(&spiral.derivatives(*t, 3), expected, "t = {t}");
+    }
+    for beyond in [-1.0, -28.0, 1e9, f64::NAN] {
+        let found = spiral.derivatives(beyond, 1);
+        assert!(found.iter().all(|value| value.is_nan()), "t = {beyond}");
+    }
+}

@@ -11,6 +11,7 @@
 //!
 //!   ψ(1 + ψ) ρ″ + (c + (a + b + 1)ψ) ρ′ + ab ρ = 0.
 
+use std::cell::RefCell;
 use std::f64::consts::TAU;
 use std::ops::Bound;
 
@@ -40,6 +41,9 @@ const HALF_STEP: f64 = 0.5;
 
 /// Terms of a series: far more than it takes where ψ ≥ −0.99.
 const MOST_TERMS: usize = 20_000;
+
+/// Where ψ can be: nearer to the singularity at −1 there are ever more pieces.
+const DOMAIN: [f64; 2] = [-0.99, MOST_TURNING];
 
 /// The superspiral by its direction angle.
 pub static KIND: ReferenceKind = ReferenceKind {
@@ -71,38 +75,105 @@ pub static KIND: ReferenceKind = ReferenceKind {
     ],
     planar: true,
     interval: |_| [0.0, TAU],
-    domain: |_| [-0.99, MOST_TURNING],
+    domain: |_| DOMAIN,
     series,
 };
 
+thread_local! {
+    /// The spiral that this thread evaluated last: its points are asked for one after the other, and each
+    /// is an integral from 0.
+    static LAST: RefCell<Option<Spiral>> = const { RefCell::new(None) };
+}
+
+/// Expand the spiral; outside of [`DOMAIN`] nothing is a number.
 fn series(values: &[f64], psi: f64, order: usize) -> [PowerSeries; 3] {
+    if !(DOMAIN[0] <= psi && psi <= DOMAIN[1]) {
+        return [f64::NAN; 3].map(|nowhere| PowerSeries::by_recurrence(nowhere, order, |_, _| nowhere));
+    }
     let radius = Radius {
         a: values[0],
         b: values[1],
         c: values[2],
     };
-    let (mut place, mut point) = (0.0, [0.0; 2]);
-    let mut last: Option<Expansion> = None;
-    while place != psi {
-        // Half the way to the next place.
-        let reach = HALF_STEP.min(REACH * (1.0_f64 + place));
-        let half = (0.5 * (psi - place)).clamp(-reach, reach);
-        let next = if half.abs() < reach { psi } else { place + 2.0 * half };
-        let expansion = radius.expansion(place + half, ORDER, SOLVED, last.as_ref());
-        let directed = expansion.directed();
-        for (coordinate, velocity) in point.iter_mut().zip(directed) {
-            let integral = velocity.antiderivative(0.0, ORDER + 1);
-            *coordinate += value_at(&integral, half) - value_at(&integral, -half);
+    LAST.with_borrow_mut(|last| {
+        let kept = last.take().filter(|spiral| spiral.radius == radius);
+        let spiral = last.insert(kept.unwrap_or_else(|| Spiral::new(radius)));
+        spiral.series(psi, order)
+    })
+}
+
+/// A superspiral as far as it was evaluated: pieces from 0 on in either direction.
+struct Spiral {
+    radius: Radius,
+    ahead: Vec<Piece>,
+    behind: Vec<Piece>,
+}
+
+/// A piece of a superspiral.
+struct Piece {
+    /// Where it begins, nearer to 0, and where it ends.
+    span: [f64; 2],
+    /// The point where it ends.
+    end: [f64; 2],
+    /// The series about its middle.
+    expansion: Expansion,
+    /// The antiderivatives of ρ cos ψ and ρ sin ψ about its middle, but for the point where it begins.
+    integrals: [PowerSeries; 2],
+    begin: [f64; 2],
+}
+
+impl Spiral {
+    fn new(radius: Radius) -> Self {
+        Self {
+            radius,
+            ahead: Vec::new(),
+            behind: Vec::new(),
         }
-        last = Some(expansion);
-        place = next;
     }
-    let [run, rise] = radius.expansion(psi, order, SUMMED, last.as_ref()).directed();
-    [
-        run.antiderivative(point[0], order),
-        rise.antiderivative(point[1], order),
-        PowerSeries::constant(0.0, order),
-    ]
+
+    fn series(&mut self, psi: f64, order: usize) -> [PowerSeries; 3] {
+        let radius = self.radius;
+        let (point, last) = match self.piece(psi) {
+            Some(piece) => (piece.point(psi), Some(&piece.expansion)),
+            None => ([0.0; 2], None),
+        };
+        let expansion = radius.expansion(psi, order, SUMMED, last);
+        let [run, rise] = expansion.directed();
+        [
+            run.antiderivative(point[0], order),
+            rise.antiderivative(point[1], order),
+            PowerSeries::constant(0.0, order),
+        ]
+    }
+
+    /// The piece that holds ψ, after those before it are known; `None` at 0.
+    fn piece(&mut self, psi: f64) -> Option<&Piece> {
+        let sign = psi.signum();
+        let pieces = if psi < 0.0 {
+            &mut self.behind
+        } else {
+            &mut self.ahead
+        };
+        while psi.abs() > 0.0 && pieces.last().is_none_or(|last| sign * (psi - last.span[1]) > 0.0) {
+            let piece = self.radius.piece(sign, pieces.last());
+            pieces.push(piece);
+        }
+        let before = pieces.partition_point(|piece| sign * (psi - piece.span[1]) > 0.0);
+        pieces.get(before)
+    }
+}
+
+impl Piece {
+    /// The point of the spiral at ψ.
+    fn point(&self, psi: f64) -> [f64; 2] {
+        let middle = self.expansion.psi;
+        let along = |axis: usize| {
+            let integral = &self.integrals[axis];
+            let from = value_at(integral, self.span[0] - middle);
+            self.begin[axis] + value_at(integral, psi - middle) - from
+        };
+        [along(0), along(1)]
+    }
 }
 
 /// The series of ρ about one ψ.
@@ -121,6 +192,7 @@ impl Expansion {
 }
 
 /// The parameters of ρ.
+#[derive(Clone, Copy, PartialEq)]
 struct Radius {
     a: f64,
     b: f64,
@@ -128,6 +200,27 @@ struct Radius {
 }
 
 impl Radius {
+    /// Make the piece after the last, or the first one from 0, in a direction.
+    fn piece(&self, sign: f64, last: Option<&Piece>) -> Piece {
+        let (from, begin) = last.map_or((0.0, [0.0; 2]), |last| (last.span[1], last.end));
+        // Half the way to the next place.
+        let half = sign * HALF_STEP.min(REACH * (1.0 + from));
+        let expansion = last.map(|last| &last.expansion);
+        let expansion = self.expansion(from + half, ORDER, SOLVED, expansion);
+        let integrals = expansion
+            .directed()
+            .map(|velocity| velocity.antiderivative(0.0, ORDER + 1));
+        let mut piece = Piece {
+            span: [from, from + 2.0 * half],
+            end: begin,
+            expansion,
+            integrals,
+            begin,
+        };
+        piece.end = piece.point(piece.span[1]);
+        piece
+    }
+
     /// Expand ρ about ψ; beyond `summed` it is continued from `last`, an expansion near there.
     fn expansion(
         &self,
