@@ -87,7 +87,7 @@ thread_local! {
 
 /// Expand the spiral; outside of [`DOMAIN`] nothing is a number.
 fn series(values: &[f64], psi: f64, order: usize) -> [PowerSeries; 3] {
-    if !(DOMAIN[0] <= psi && psi <= DOMAIN[1]) {
+    if !(DOMAIN[0]..=DOMAIN[1]).contains(&psi) {
         return [f64::NAN; 3].map(|nowhere| PowerSeries::by_recurrence(nowhere, order, |_, _| nowhere));
     }
     let radius = Radius {
