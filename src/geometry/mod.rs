@@ -22,6 +22,7 @@ mod error;
 mod error_free;
 mod evaluation;
 mod expansion;
+pub mod expressions;
 pub mod fairing;
 pub mod features;
 mod float_polygon;

@@ -180,6 +180,18 @@ impl PowerSeries {
         self.integrated(self.value().atan(), |f| (&f * &f).plus(1.0))
     }
 
+    /// Compute the angle of the direction (x, f), with the signs of both: g′ = (x f′ − f x′) / (x² + f²).
+    pub(in crate::geometry) fn direction(&self, x: &Self) -> Self {
+        let value = self.value().atan2(x.value());
+        if self.order() == 0 {
+            return Self(vec![value]);
+        }
+        let [y_before, x_before] = [self, x].map(|it| it.truncated(self.order() - 1));
+        let turning = &(&x_before * &self.derivative()) - &(&y_before * &x.derivative());
+        let squared = &(&x_before * &x_before) + &(&y_before * &y_before);
+        (&turning / &squared).antiderivative(value, self.order())
+    }
+
     /// Compute |f|, which is smooth but where f is 0: there, derivatives are not numbers.
     pub(in crate::geometry) fn abs(&self) -> Self {
         if self.value() > 0.0 {

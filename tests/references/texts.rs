@@ -69,7 +69,7 @@ fn mistakes_name_their_columns() {
     assert_refused(
         "circle:radius= 2x",
         17,
-        "“x” stands where an operator or the end",
+        "“x” is no unit here: write deg or rad, or * to multiply",
     );
     assert_refused("circle:radius=inf", 15, "“inf” is no number");
     assert_refused("circle:radius=1/0", 15, "“1/0” is no number");
@@ -95,10 +95,13 @@ fn mistakes_in_formulas_name_their_columns() {
         16,
         "“)” stands where an operator or the end",
     );
-    assert_refused("formula:x=t;y=2 t", 17, "“t” stands where an operator");
+    assert_refused("formula:x=t;y=2 t", 17, "“t” is no unit here");
+    assert_refused("formula:x=t;y=2mm", 16, "“mm” is no unit here");
+    assert_refused("formula:x=t;y=2 sin(t)", 17, "“s” stands where an operator");
+    assert_refused("formula:x=t;y=min(t)", 15, "min needs two arguments");
     assert_refused("formula:x=t;y=3+sinn(t)", 17, "“sinn” means nothing here");
     assert_refused("formula:x=t;y=3·u", 17, "“u” means nothing here");
-    assert_refused("formula:x=t;y=sin t", 19, "“t” stands where an operator");
+    assert_refused("formula:x=t;y=sin t", 15, "followed by a parenthesis, sin");
     assert_refused("formula:x=t;y=1e999", 15, "“1e999” is no number");
     assert_refused(
         "formula:x=t;y=ln(t);from=-1;to=1",
@@ -124,6 +127,9 @@ fn expressions_bind_as_in_mathematics() {
         ("abs(-3)·sqrt(16) − .5e1", 7.0),
         ("cos(pi)+ln(e)+tan(π/4)", 1.0),
         ("+7", 7.0),
+        ("sin(30deg) + 1/2deg/pi*180*2", 1.5),
+        ("max(1, 2) + min(hypot(3, 4), 7)", 7.0),
+        ("atan2(-1, -1) / (1deg)", -135.0),
     ] {
         let curve = read(&format!("conical-spiral:rise={expression}"));
         let found = values(&curve)[0];

@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::geometry::expressions::{ExpressionError, ExpressionMistake};
+
 /// A reason why a form, an interval or a placement makes no curve.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ReferenceError {
@@ -35,35 +37,9 @@ pub enum ReferenceError {
         /// The part.
         text: String,
     },
-    /// A value is no number.
-    #[error("“{text}” is no number")]
-    NotANumber {
-        /// The value given.
-        text: String,
-    },
-    /// An expression does not go on as one does.
-    #[error("{} stands where {expected} is needed", found.as_ref().map_or("the end".to_owned(), |found| format!("“{found}”")))]
-    Syntax {
-        /// The character found; none at the end.
-        found: Option<String>,
-        /// What could stand there.
-        expected: &'static str,
-    },
-    /// A name in an expression that means nothing.
-    #[error(
-        "“{name}” means nothing here: there are t, pi, e and, followed by a parenthesis, {functions}"
-    )]
-    UnknownName {
-        /// The name given.
-        name: String,
-        /// The functions that there are.
-        functions: String,
-    },
-    /// An expression is too long to read.
-    #[error(
-        "the expression is too long: at most 1000 characters, and 50 parentheses within each other, can be read"
-    )]
-    TooLong,
+    /// An expression means nothing.
+    #[error(transparent)]
+    Expression(#[from] ExpressionError),
     /// A number depends on t.
     #[error("“{text}” depends on t: a number is needed")]
     NotConstant {
@@ -159,4 +135,13 @@ pub struct ReferenceTextError {
     pub column: usize,
     /// What is wrong.
     pub error: ReferenceError,
+}
+
+impl From<ExpressionMistake> for ReferenceTextError {
+    fn from(mistake: ExpressionMistake) -> Self {
+        Self {
+            column: mistake.column,
+            error: mistake.error.into(),
+        }
+    }
 }

@@ -1,7 +1,7 @@
 //! Curves by formulas of one's own.
 
 use super::error::{ReferenceError, ReferenceTextError};
-use super::expression::Expression;
+use crate::geometry::expressions::Expression;
 use crate::geometry::power_series::PowerSeries;
 
 /// Hold formulas x(t), y(t) and, of a curve in space, z(t).

@@ -7,7 +7,6 @@
 
 mod curve;
 mod error;
-mod expression;
 mod form;
 mod formula;
 mod integral;

@@ -4,12 +4,12 @@ use std::fmt;
 
 use super::curve::ReferenceCurve;
 use super::error::{ReferenceError, ReferenceTextError};
-use super::expression::Expression;
 use super::form::{AnalyticForm, ReferenceForm};
 use super::formula::{Coordinate, Formula};
 use super::kind::ReferenceKind;
 use super::placement::Placement;
 use super::{KINDS, find};
+use crate::geometry::expressions::{self, Expression, ExpressionError};
 
 /// What stands before formulas.
 const FORMULA: &str = "formula";
@@ -202,9 +202,11 @@ impl<'a> Part<'a> {
 
     fn assignments(&self, separator: char) -> Result<Vec<Assignment<'a>>, ReferenceTextError> {
         let mut assignments: Vec<Assignment<'a>> = Vec::new();
-        let mut rest = Some(*self);
-        while let Some(text) = rest {
-            let (part, next) = text.split_once(separator);
+        for (before, text) in expressions::parts(self.text, separator) {
+            let part = Self {
+                text,
+                before: self.before + before,
+            };
             let part = part.trimmed();
             let (name, value) = part.split_once('=');
             let name = name.trimmed();
@@ -218,7 +220,6 @@ impl<'a> Part<'a> {
             }
             let value = value.trimmed();
             assignments.push(Assignment { name, value });
-            rest = next;
         }
         Ok(assignments)
     }
@@ -237,14 +238,14 @@ impl<'a> Part<'a> {
             Ok(number) => number,
             Err(_) => {
                 let read = Expression::read(self.text);
-                let expression = read.map_err(|mistake| self.shifted(mistake))?;
+                let expression = read.map_err(|mistake| self.shifted(mistake.into()))?;
                 if expression.depends_on_parameter() {
                     return Err(self.error(ReferenceError::NotConstant { text: text() }));
                 }
                 expression.value()
             }
         };
-        let refused = || self.error(ReferenceError::NotANumber { text: text() });
+        let refused = || self.error(ExpressionError::NotANumber { text: text() }.into());
         Some(number)
             .filter(|it: &f64| it.is_finite())
             .ok_or_else(refused)

@@ -1,0 +1,110 @@
+//! What can be wrong with an expression, and where.
+
+use thiserror::Error;
+
+/// A reason why an expression means nothing.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum ExpressionError {
+    /// It does not go on as an expression does.
+    #[error("{} stands where {expected} is needed", found.as_ref().map_or("the end".to_owned(), |found| format!("“{found}”")))]
+    Syntax {
+        /// The character found; none at the end.
+        found: Option<String>,
+        /// What could stand there.
+        expected: &'static str,
+    },
+    /// A name that means nothing.
+    #[error(
+        "“{name}” means nothing here: there are {known} and, followed by a parenthesis, {functions}"
+    )]
+    UnknownName {
+        /// The name given.
+        name: String,
+        /// The names that there are.
+        known: &'static str,
+        /// The functions that there are.
+        functions: String,
+    },
+    /// What stands after a number is no unit.
+    #[error("“{name}” is no unit here: write {units}, or * to multiply")]
+    UnknownUnit {
+        /// What is given.
+        name: String,
+        /// The units that there are.
+        units: &'static str,
+    },
+    /// A unit of length in a document that has none.
+    #[error("the document has no unit to convert “{unit}” to: set one in Edit > Document unit")]
+    NoDocumentUnit {
+        /// The unit given.
+        unit: &'static str,
+    },
+    /// A function has another number of arguments.
+    #[error("{name} needs {needed}, not {found}")]
+    ArgumentCount {
+        /// The function.
+        name: &'static str,
+        /// What it needs.
+        needed: &'static str,
+        /// How many are given.
+        found: usize,
+    },
+    /// Something is not what is needed, such as an angle instead of a length.
+    #[error("{found} is given where {needed} is needed")]
+    WrongQuantity {
+        /// What is given.
+        found: &'static str,
+        /// What is needed.
+        needed: &'static str,
+    },
+    /// Quantities that cannot be added, subtracted or compared.
+    #[error("{} and {} do not go together: give both the same kind of unit", .0[0], .0[1])]
+    Mixed([&'static str; 2]),
+    /// A number is none, or too large to be one.
+    #[error("“{text}” is no number")]
+    NotANumber {
+        /// What is given.
+        text: String,
+    },
+    /// There is no value before that could be changed.
+    #[error("there is no value to change: leave “{operator}” out")]
+    NothingBefore {
+        /// How the text begins.
+        operator: &'static str,
+    },
+    /// It is too long to read.
+    #[error(
+        "the expression is too long: at most 1000 characters, and 50 parentheses within each other, can be read"
+    )]
+    TooLong,
+}
+
+/// A mistake in an expression.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error("column {column}: {error}")]
+pub struct ExpressionMistake {
+    /// Where the mistake begins: the number of its first character, counted from 1.
+    pub column: usize,
+    /// What is wrong.
+    pub error: ExpressionError,
+}
+
+impl ExpressionMistake {
+    /// A mistake at a byte of a text.
+    pub(super) fn at(text: &str, byte: usize, error: ExpressionError) -> Self {
+        let before = text.get(..byte).unwrap_or(text);
+        Self {
+            column: before.chars().count() + 1,
+            error,
+        }
+    }
+
+    /// The same mistake in a text with so many characters more at its beginning.
+    #[must_use]
+    pub fn shifted(self, characters: usize) -> Self {
+        Self {
+            column: self.column + characters,
+            ..self
+        }
+    }
+}

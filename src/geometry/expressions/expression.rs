@@ -1,0 +1,101 @@
+//! Expressions as trees, and their power series.
+
+use super::function::Function;
+use super::unit::Unit;
+use crate::geometry::power_series::PowerSeries;
+
+/// An expression in t. Where something can be wrong with a part, it has the column of it.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::geometry) struct Expression(pub(super) Node);
+
+/// A part of an expression.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Node {
+    /// A number.
+    Number(f64),
+    /// The parameter t.
+    Parameter,
+    /// −a.
+    Negative(Box<Self>),
+    /// Two parts, combined, and the column of the operator.
+    Combined(Operator, usize, Box<[Self; 2]>),
+    /// A function of its arguments, and its column.
+    Call(Function, usize, Vec<Self>),
+    /// A part in a unit, and the unit's column.
+    InUnit(Unit, usize, Box<Self>),
+}
+
+/// What combines two expressions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Operator {
+    Plus,
+    Minus,
+    Times,
+    Over,
+    Power,
+}
+
+impl Expression {
+    /// Whether t occurs in it.
+    pub(in crate::geometry) fn depends_on_parameter(&self) -> bool {
+        self.0.depends_on_parameter()
+    }
+
+    /// Expand it about t: angles are in radians.
+    pub(in crate::geometry) fn series(&self, t: f64, order: usize) -> PowerSeries {
+        self.0.series(t, order)
+    }
+
+    /// The value of an expression without t.
+    pub(in crate::geometry) fn value(&self) -> f64 {
+        self.0.value()
+    }
+}
+
+impl Node {
+    fn depends_on_parameter(&self) -> bool {
+        match self {
+            Self::Number(_) => false,
+            Self::Parameter => true,
+            Self::Negative(inner) | Self::InUnit(_, _, inner) => inner.depends_on_parameter(),
+            Self::Call(_, _, arguments) => arguments.iter().any(Self::depends_on_parameter),
+            Self::Combined(_, _, operands) => operands.iter().any(Self::depends_on_parameter),
+        }
+    }
+
+    fn series(&self, t: f64, order: usize) -> PowerSeries {
+        match self {
+            Self::Number(number) => PowerSeries::constant(*number, order),
+            Self::Parameter => PowerSeries::parameter(t, order),
+            Self::Negative(inner) => -&inner.series(t, order),
+            // Formulas are read without units of length; radians are what series have.
+            Self::InUnit(Unit::Degree, _, inner) => {
+                inner.series(t, order).times(1_f64.to_radians())
+            }
+            Self::InUnit(Unit::Radian | Unit::Length(_), _, inner) => inner.series(t, order),
+            Self::Call(function, _, arguments) => {
+                let arguments = arguments.iter().map(|argument| argument.series(t, order));
+                function.of(&arguments.collect::<Vec<_>>())
+            }
+            Self::Combined(operator, _, operands) => {
+                let [left, right] = &**operands;
+                let base = left.series(t, order);
+                if *operator == Operator::Power && !right.depends_on_parameter() {
+                    return base.power(right.value());
+                }
+                let other = right.series(t, order);
+                match operator {
+                    Operator::Plus => &base + &other,
+                    Operator::Minus => &base - &other,
+                    Operator::Times => &base * &other,
+                    Operator::Over => &base / &other,
+                    Operator::Power => (&other * &base.ln()).exp(),
+                }
+            }
+        }
+    }
+
+    fn value(&self) -> f64 {
+        self.series(0.0, 0).value()
+    }
+}
