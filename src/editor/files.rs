@@ -141,7 +141,7 @@ impl Editor {
             Format::Batten => {}
             other => {
                 return Err(Refusal(format!(
-                    "{shown}: a {other} does not hold all of a document: save as .batten, or export"
+                    "{shown}: a {other} cannot store a whole document: save as .batten, or export"
                 )));
             }
         }
@@ -171,7 +171,7 @@ impl Editor {
         let references: Vec<Reference> = references.collect();
         if visible.is_empty() && references.is_empty() {
             return Err(Refusal::from(
-                "Everything is hidden: show what you want to export",
+                "Everything is hidden: show the curves to export",
             ));
         }
         let count = counted(visible.len(), "curve", "curves");
@@ -183,8 +183,8 @@ impl Editor {
         let mut text = format!("{count} exported to {shown}");
         if !hidden.is_empty() {
             text += &format!(
-                "; {} not, being hidden",
-                counted(hidden.len(), "curve", "curves")
+                "; {} skipped",
+                counted(hidden.len(), "hidden curve", "hidden curves")
             );
         }
         Ok(Note::told(with_lines(text, &saved)))

@@ -233,7 +233,7 @@ pub enum Problem {
     #[error(transparent)]
     Reference(#[from] ReferenceError),
     /// Ends cannot be matched as the project says.
-    #[error("the project's matches cannot be: {0}")]
+    #[error("the project's matches are impossible: {0}")]
     Match(EditError),
     /// A table does not begin with a line that says what its vertices are.
     #[error(

@@ -147,7 +147,7 @@ impl LossReport {
 impl fmt::Display for LossReport {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let format = self.format;
-        let lost = |what: &str| format!("the {format} does not hold {what}");
+        let lost = |what: &str| format!("{what} stored in the {format}");
         let of_curves = self.losses.iter().map(|(name, loss)| {
             let text = match loss {
                 Loss::Name { written } => {
@@ -167,29 +167,29 @@ impl fmt::Display for LossReport {
                     format!("the {kind} polygon written cannot be converted back to a float polygon")
                 }
                 Loss::Periodic => {
-                    "written as an open curve that ends where it begins, not as a periodic one"
+                    "written as an open curve that ends where it begins"
                         .to_owned()
                 }
                 Loss::PolygonWeights { kind } => {
                     format!("the {kind} polygon is drawn without its weights")
                 }
-                Loss::Reference => lost("references: this one is not exported"),
-                Loss::Colour => lost("its colour"),
-                Loss::Hidden => lost("that it is hidden"),
-                Loss::Locked => lost("that it is locked"),
-                Loss::LockedVertices => lost("which of its vertices are locked"),
-                Loss::Targets => lost("the targets of its ends"),
+                Loss::Reference => lost("references aren't"),
+                Loss::Colour => lost("the colour isn't"),
+                Loss::Hidden => lost("visibility isn't"),
+                Loss::Locked => lost("the lock isn't"),
+                Loss::LockedVertices => lost("vertex locks aren't"),
+                Loss::Targets => lost("end targets aren't"),
                 Loss::Match { end, source } => {
                     let (end, source) = (end.name(), quoted(source));
-                    lost(&format!("that its {end} is matched to {source}"))
+                    lost(&format!("the match of its {end} to {source} isn't"))
                 }
-                Loss::UnknownKeys => lost("its unknown keys"),
+                Loss::UnknownKeys => lost("unknown keys aren't"),
             };
             format!("{}: {text}", quoted(name))
         });
         let of_project = self
             .project_keys
-            .then(|| lost("the project's unknown keys"));
+            .then(|| lost("the project's unknown keys aren't"));
         let lines: Vec<String> = of_curves.chain(of_project).collect();
         formatter.write_str(&lines.join("\n"))
     }

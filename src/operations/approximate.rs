@@ -88,7 +88,7 @@ const COUNT: Parameter = Parameter {
     name: "count",
     label: "Vertices",
     help: "The number of vertices",
-    kind: count(|_| "as many as the tolerance takes, or 20 without one"),
+    kind: count(|_| "from the tolerance, or 20 without one"),
 };
 
 const TOLERANCE: Parameter = Parameter {

@@ -65,7 +65,7 @@ const ALPHA: Parameter = Parameter {
     name: "alpha",
     label: "Slope α",
     help: "The slope α of the logarithmic curvature graph: −1 clothoid, 0 Nielsen's spiral, 1 logarithmic spiral, 2 circle involute",
-    kind: number(|_| "−1, or what the curvatures ask for"),
+    kind: number(|_| "−1, or from the curvatures"),
 };
 
 const A: Parameter = spiral("a", "Superspiral a", 0.5);

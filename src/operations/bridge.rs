@@ -12,8 +12,8 @@ use crate::geometry::fairing::bridging::{BridgeError, Bridged, MAX_BRIDGE, large
 pub(super) const BRIDGE: Parameter = Parameter {
     name: "bridge",
     label: "Bridge vertices",
-    help: "How many vertices the bridge has; as many as it takes is the number with which its legs and turning angles are the most even, with few curvature extrema and inflections",
-    kind: count(|_| "as many as it takes"),
+    help: "How many vertices the bridge has; automatic takes the number that makes legs and turning angles most even, with few curvature extrema and inflections",
+    kind: count(|_| "automatic"),
 };
 
 /// The number of vertices that was given, if one was.

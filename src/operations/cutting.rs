@@ -9,8 +9,8 @@ use crate::geometry::{End, MAX_SUBDIVISIONS};
 /// How often segments may be halved to bring a knot to where the curve is cut.
 pub(super) const SUBDIVISIONS: Parameter = Parameter {
     name: "subdivisions",
-    label: "Subdivisions",
-    help: "How often segments may be halved so that a knot lies at the cut and the part is exact; without a knot there it comes near",
+    label: "Maximum subdivisions",
+    help: "How often segments may be halved to put a knot at the cut, which makes the part exact; without a knot there it is approximate",
     kind: Kind::Whole {
         from: Amount::Number(0.0),
         to: Amount::Number(MAX_SUBDIVISIONS as f64),

@@ -24,7 +24,7 @@ const DEGREE: Parameter = degree(
 /// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
     name: "elevate-degree",
-    label: "Raise degree, keep curve",
+    label: "Elevate degree",
     help: "Raise the degree; exact for a curve of one segment, otherwise a uniform curve near it",
     inputs: Inputs::One,
     parameters: &[DEGREE],
@@ -44,7 +44,7 @@ fn check(input: &Input) -> Result<(), OperationError> {
 fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
     let mut outcome = with_degree(input, values.whole(&DEGREE))?;
     if outcome.deviation != Deviation::Exact {
-        let why = "With more than one segment, raising the degree would double the knots: a uniform curve can only come near";
+        let why = "With more than one segment, raising the degree would double the knots: a uniform curve can only approximate it";
         outcome.remarks.push(why.to_owned());
     }
     Ok(outcome)

@@ -31,13 +31,13 @@ const COUNT: Parameter = Parameter {
     name: "count",
     label: "Vertices",
     help: "The number of vertices",
-    kind: count(|_| "as many as the points or the tolerance call for"),
+    kind: count(|_| "from the points or the tolerance"),
 };
 
 const EXTREMA: Parameter = Parameter {
     name: "extrema",
     label: "Curvature extrema",
-    help: "How many extrema of the curvature the curve shall have, proved",
+    help: "How many extrema of the curvature the curve has, proved",
     kind: count(|_| "any number"),
 };
 

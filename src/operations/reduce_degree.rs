@@ -17,7 +17,7 @@ const DEGREE: Parameter = degree(Amount::Number(1.0), Amount::Degree(-1), Amount
 /// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
     name: "reduce-degree",
-    label: "Lower degree, keep curve",
+    label: "Reduce degree",
     help: "Lower the degree; the result is a curve near this one",
     inputs: Inputs::One,
     parameters: &[DEGREE],

@@ -30,7 +30,7 @@ const DEGREE: Parameter = degree(
 /// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
     name: "reinterpret-degree",
-    label: "Change degree, keep polygon",
+    label: "Reinterpret degree",
     help: "Give the polygon another degree: higher ones make a smoother curve, lower ones follow the polygon closer",
     inputs: Inputs::One,
     parameters: &[DEGREE],

@@ -15,7 +15,7 @@ use crate::geometry::{End, Progress};
 pub static OPERATION: Operation = Operation {
     name: "reverse",
     label: "Reverse direction",
-    help: "Let the curve run the other way; its shape stays",
+    help: "Reverse the direction of the curve; its shape stays",
     inputs: Inputs::One,
     parameters: &[],
     check: check_editable,

@@ -48,7 +48,7 @@ const DIGITS: Parameter = Parameter {
 pub static OPERATION: Operation = Operation {
     name: "round",
     label: "Round coordinates",
-    help: "Round the coordinates of the float or the closed S-polygon, and tell what that does to the curve",
+    help: "Round the coordinates of the float or the closed S-polygon, and report what that does to the curve",
     inputs: Inputs::One,
     parameters: &[POLYGON, DIGITS],
     check: check_editable,

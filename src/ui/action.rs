@@ -132,7 +132,7 @@ impl Action {
         let tooltip = match self {
             Self::Command(command) => return command.tooltip(),
             Self::New => "Begin an empty document",
-            Self::Open => "Open a .batten project or a CSV table in place of this document",
+            Self::Open => "Open a .batten project or a CSV table",
             Self::OpenExample(index) => EXAMPLES
                 .get(index)
                 .map_or("", |example| example.description),
@@ -143,18 +143,18 @@ impl Action {
                 "Write curves and polygons as DXF: clamped splines, and both S-polygons on layers of their own"
             }
             Self::ExportCsv(_) => "Write a table of vertices, with degree and kind in its header",
-            Self::Quit => "Leave Batten",
-            Self::Cut => "Copy the selected vertices and remove them",
+            Self::Quit => "Quit Batten",
+            Self::Cut => "Copy the selected vertices and delete them",
             Self::Copy => "Copy the active curve, or only its selected vertices",
             Self::Paste => "Add what was copied as a curve of its own",
             Self::ToggleTheme => "Switch between the dark and the light theme",
             Self::TogglePlots => "Show or hide the plots under the canvas",
             Self::Palette => "Find a command by typing a part of its name",
             Self::Paper => {
-                "Open the figures and the table of the paper that Batten starts from, with explanations"
+                "Open the figures and tables of the paper behind Batten as documents, with explanations"
             }
-            Self::Keys => "List what keys and mouse do",
-            Self::About => "Tell version and licence",
+            Self::Keys => "List all keys and mouse actions",
+            Self::About => "Show version and licence",
         };
         tooltip.to_owned()
     }
@@ -198,7 +198,7 @@ impl Action {
             Self::Command(Command::Operation(operation)) => {
                 match editor.check_operation(operation) {
                     Ok(()) => tooltip,
-                    Err(reason) => format!("{tooltip}\n\nNot now: {reason}"),
+                    Err(reason) => format!("{tooltip}\n\nUnavailable: {reason}"),
                 }
             }
             _ => tooltip,

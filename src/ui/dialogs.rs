@@ -50,20 +50,12 @@ pub fn dialog_ui(context: &Context, dialog: &mut Dialog, editor: &Editor) -> Opt
 
 fn unsaved_ui(ui: &mut Ui, after: &AfterDiscard, editor: &Editor) -> Option<Decision> {
     ui.set_width(400.0);
-    ui.strong("Save the changes?");
+    ui.strong("Save changes?");
     let name = editor.workspace().path().and_then(|path| path.file_name());
     let name = name.map_or("the document".to_owned(), |name| {
         quoted(&name.to_string_lossy())
     });
-    let what = match after {
-        AfterDiscard::Quit => "Batten is closed",
-        AfterDiscard::New => "an empty document takes its place",
-        _ => "another document takes its place",
-    };
-    widgets::note(
-        ui,
-        &format!("The changes to {name} are lost if they are not saved before {what}."),
-    );
+    widgets::note(ui, &format!("Unsaved changes to {name} will be lost."));
     let mut decision = None;
     ui.horizontal(|ui| {
         widgets::at_right(ui, |ui| {
@@ -86,31 +78,28 @@ fn unsaved_ui(ui: &mut Ui, after: &AfterDiscard, editor: &Editor) -> Option<Deci
 const MOUSE: [(&str, &str); 21] = [
     ("Wheel, pinch", "Zoom to the pointer"),
     ("Middle button, Space and drag", "Pan"),
-    ("Right button and drag", "Turn the view"),
+    ("Right button and drag", "Orbit"),
     ("Double-click on empty canvas", "Fit all"),
     ("Click, Shift and click", "Select, add to the selection"),
     ("Drag on empty canvas", "Select by a box"),
     ("Drag a vertex", "Move the selection"),
     (
         "Shift while dragging",
-        "Keep to an axis, or to steps of 15°",
+        "Lock to an axis, or to steps of 15°",
     ),
-    ("X, Y, Z while dragging", "Keep to an axis of the model"),
-    ("Ctrl while dragging", "Snapping the other way"),
-    ("K while dragging", "Keeping features the other way"),
-    ("Alt", "Show the state before the drag"),
-    ("Arrows, Shift and arrows", "Nudge, ten times as far"),
-    ("Tab", "Next of what lies at the pointer"),
-    ("F6", "Move the keyboard on to the panels"),
-    (
-        "Enter, Shift and Enter",
-        "Table: down, up; takes the number",
-    ),
-    ("Tab, Shift and Tab", "Table: on, back; takes the number"),
-    ("Arrows, Page Up, Page Down", "Table: to another number"),
-    ("Digit, sign, point", "Table: type another number"),
-    ("Space, double-click", "Table: edit the number as it is"),
-    ("Esc", "Table: call the edit off; leave"),
+    ("X, Y, Z while dragging", "Lock to X, Y, Z"),
+    ("Ctrl while dragging", "Toggle snapping"),
+    ("K while dragging", "Toggle keeping features"),
+    ("Alt", "Hold to compare with the state before"),
+    ("Arrows, Shift and arrows", "Nudge, nudge ×10"),
+    ("Tab", "Cycle overlapping"),
+    ("F6", "Focus panels"),
+    ("Enter, Shift and Enter", "Table: confirm and go down, up"),
+    ("Tab, Shift and Tab", "Table: confirm and go right, left"),
+    ("Arrows, Page Up, Page Down", "Table: go to another cell"),
+    ("Digit, sign, point", "Table: replace the number"),
+    ("Space, double-click", "Table: edit the number"),
+    ("Esc", "Table: cancel the edit; leave"),
 ];
 
 fn keys_ui(ui: &mut Ui) -> Option<Decision> {
@@ -177,7 +166,7 @@ fn about_ui(ui: &mut Ui) -> Option<Decision> {
     );
     widgets::note(
         ui,
-        "Licensed under MIT or Apache-2.0, as you like. Icons: Lucide (ISC).",
+        "Licensed under MIT or Apache-2.0, at your option. Icons: Lucide (ISC).",
     );
     close_ui(ui)
 }

@@ -19,7 +19,7 @@ pub fn curvature_ui(ui: &mut Ui, report: &EndFitReport) -> Option<Asked> {
     let target = report.target?;
     let curvature = Row {
         name: "Curvature",
-        about: "Whether the end is to have a curvature κ, positive where it turns left",
+        about: "Give the end a curvature κ, positive where it turns left",
         value: target.curvature,
         actual: report.curvature,
     };
@@ -29,7 +29,7 @@ pub fn curvature_ui(ui: &mut Ui, report: &EndFitReport) -> Option<Asked> {
     }
     let slope = Row {
         name: "Slope",
-        about: "Whether the curvature is to have a slope dκ/ds by arc length",
+        about: "Give the curvature a slope dκ/ds by arc length",
         value: target.slope,
         actual: report.slope,
     };
@@ -114,7 +114,7 @@ fn plane_ui(ui: &mut Ui, normal: Option<DVec3>, actual: Option<DVec3>) -> Option
         if normal.is_none() {
             widgets::caption(ui, "free");
         }
-        let about = "Whether the end is to have an osculating plane, given by its normal";
+        let about = "Give the end an osculating plane by its normal";
         let can_fix = normal.or(actual).is_some();
         if let Some(fixed) = fixed_ui(ui, ("Plane", about), normal.is_some(), can_fix) {
             let normal = actual.filter(|_| fixed);
@@ -127,8 +127,8 @@ fn plane_ui(ui: &mut Ui, normal: Option<DVec3>, actual: Option<DVec3>) -> Option
 /// The switch between free and fixed; tells what it is set to.
 fn fixed_ui(ui: &mut Ui, (name, about): (&str, &str), fixed: bool, enabled: bool) -> Option<bool> {
     let mut now = fixed;
-    let response = ui.add_enabled(enabled, Checkbox::new(&mut now, "Fixed"));
-    let response = response.accessible_name(format!("{name} fixed"));
+    let response = ui.add_enabled(enabled, Checkbox::new(&mut now, "Lock"));
+    let response = response.accessible_name(format!("Lock {}", name.to_lowercase()));
     let clicked = response.on_hover_text(about).clicked();
     clicked.then_some(now)
 }

@@ -37,7 +37,7 @@ pub fn match_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
         if !matched.met {
             let why = match &report.refusal {
                 Some(_) => "Not met: the curve follows once it is unlocked.",
-                None => "Not met: match less, unlock vertices, or give the curve more of them.",
+                None => "Not met: match a lower level, unlock vertices, or add more.",
             };
             let error = Tokens::of(ui).error;
             remark_ui(ui, Icon::TriangleAlert, why, error);
@@ -92,7 +92,7 @@ fn matched_ui(ui: &mut Ui, report: &MatchReport) -> Option<EndFitAction> {
             if IconButton::new(Icon::X, "Remove match").show(ui).clicked() {
                 asked = Some(EndFitAction::KeepMatched(false));
             }
-            let turn = IconButton::new(Icon::ArrowLeftRight, "Turn match round");
+            let turn = IconButton::new(Icon::ArrowLeftRight, "Flip match");
             if turn.show(ui).clicked() {
                 asked = Some(EndFitAction::TurnRound);
             }

@@ -94,7 +94,7 @@ impl Panel<'_> {
         self.shape_ui(ui);
         self.closed_ui(ui);
         self.difference_ui(ui);
-        self.float_ui(ui);
+        step_ui(ui, 4, "Back to the float S-polygon", false, |_| {});
         self.translate_ui(ui);
         self.rotate_ui(ui);
         self.repeat_ui(ui);
@@ -135,15 +135,15 @@ impl Panel<'_> {
         } else {
             widgets::note(
                 ui,
-                "No target yet: click the place on the canvas, or take one here.",
+                "No target yet: click the place on the canvas, or set one here.",
             );
         }
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing.x = STEP;
             let free = report.matched.is_none();
-            let actual = ui.add_enabled(free, Button::new("Take actual end"));
+            let actual = ui.add_enabled(free, Button::new("Use current end"));
             if actual
-                .on_hover_text("Put the target where the end is now")
+                .on_hover_text("Set the target to where the end is now")
                 .clicked()
             {
                 self.ask(TARGET, EndFitAction::TargetActual);
@@ -171,13 +171,13 @@ impl Panel<'_> {
         };
         let digits = if axes == 2 { 0.01 } else { 0.1 };
         let point = written(report.point, digits * self.pixel);
-        widgets::figure_row(ui, "Actual end point", &point);
+        widgets::figure_row(ui, "Current end point", &point);
         let tangent = match (report.tangent, report.tangent_angle) {
             (_, Some(angle)) => figures::degrees(angle, 3),
             (Some(tangent), None) => written(tangent, 1e-4),
             (None, None) => "none: a cusp".to_owned(),
         };
-        widgets::figure_row(ui, "Actual tangent", &tangent);
+        widgets::figure_row(ui, "Current tangent", &tangent);
     }
 
     fn point_ui(&mut self, ui: &mut Ui, point: DVec3) {
@@ -225,7 +225,7 @@ impl Panel<'_> {
     }
 
     fn turn_round_ui(&mut self, ui: &mut Ui) {
-        let button = IconButton::new(Icon::ArrowLeftRight, "Turn target direction round");
+        let button = IconButton::new(Icon::ArrowLeftRight, "Flip direction");
         let enabled = self.report.target_direction.is_some();
         if button.enabled(enabled).show(ui).clicked() {
             self.ask(TARGET, EndFitAction::TurnRound);
@@ -234,8 +234,8 @@ impl Panel<'_> {
 
     fn fixed_ui(&mut self, ui: &mut Ui) {
         let mut fixed = self.report.target_direction.is_some();
-        let free = ui.add(Checkbox::new(&mut fixed, "Fixed"));
-        let tooltip = "Whether the tangent is to have a direction";
+        let free = ui.add(Checkbox::new(&mut fixed, "Lock direction"));
+        let tooltip = "Give the tangent a direction";
         if free.on_hover_text(tooltip).clicked() {
             let actual = self.report.tangent.unwrap_or(DVec3::X);
             self.ask(TARGET, EndFitAction::SetDirection(fixed.then_some(actual)));
@@ -283,7 +283,7 @@ impl Panel<'_> {
         step_ui(ui, 1, "Shape the float S-polygon", false, |_| {});
         indented(ui, |ui| {
             let plain = |value: f64| figures::significant(value, 6);
-            widgets::figure_row(ui, "Legs", &range(report.legs, plain));
+            widgets::figure_row(ui, "Polygon legs", &range(report.legs, plain));
             let angle = |value: f64| figures::degrees(value, 3);
             widgets::figure_row(ui, "Turning angles", &range(report.turns, angle));
         });
@@ -292,9 +292,14 @@ impl Panel<'_> {
     fn closed_ui(&mut self, ui: &mut Ui) {
         let closed = self.closed;
         step_ui(ui, 2, "Closed S-polygon", false, |ui| {
-            let response = step_button(ui, "Show", true, Some(closed));
-            if response.accessible_name("Show closed S-polygon").clicked() {
-                self.ask(2, EndFitAction::ShowClosed(true));
+            ui.spacing_mut().item_spacing.x = 0.0;
+            for (name, wanted) in [("Closed", true), ("Float", false)] {
+                let response = ui.add(Button::selectable(closed == wanted, name));
+                let response =
+                    response.accessible_name(format!("Show {} S-polygon", name.to_lowercase()));
+                if response.clicked() && closed != wanted {
+                    self.ask(2, EndFitAction::ShowClosed(wanted));
+                }
             }
         });
     }
@@ -328,16 +333,6 @@ impl Panel<'_> {
         });
     }
 
-    fn float_ui(&mut self, ui: &mut Ui) {
-        let closed = self.closed;
-        step_ui(ui, 4, "Back to the float S-polygon", false, |ui| {
-            let response = step_button(ui, "Show", true, Some(!closed));
-            if response.accessible_name("Show float S-polygon").clicked() {
-                self.ask(4, EndFitAction::ShowClosed(false));
-            }
-        });
-    }
-
     fn is_in_place(&self) -> bool {
         let report = self.report;
         report.target_point.is_some() && report.difference.length() <= report.tolerance
@@ -352,7 +347,7 @@ impl Panel<'_> {
         let has_target = report.target_point.is_some() && report.can_move();
         let title = format!("Move {}", counted(report.terminal, "vertex", "vertices"));
         step_ui(ui, 5, &title, self.is_in_place(), |ui| {
-            let response = step_button(ui, "Translate", has_target, None)
+            let response = step_button(ui, "Translate", has_target)
                 .accessible_name("Translate terminal vertices");
             let tooltip = "Translate the terminal vertices, as one body, by the difference vector";
             if response.on_hover_text(tooltip).clicked() {
@@ -367,7 +362,7 @@ impl Panel<'_> {
         let has_target = report.target_direction.is_some() && report.tangent.is_some();
         let title = format!("Turn {}", counted(report.terminal, "vertex", "vertices"));
         step_ui(ui, 6, &title, has_target && self.is_aligned(), |ui| {
-            let response = step_button(ui, "Rotate", has_target && report.can_move(), None)
+            let response = step_button(ui, "Rotate", has_target && report.can_move())
                 .accessible_name("Rotate terminal vertices");
             let tooltip = "Rotate them about the end point by the difference angle";
             if response.on_hover_text(tooltip).clicked() {
@@ -379,8 +374,8 @@ impl Panel<'_> {
 
     fn repeat_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
-        step_ui(ui, 7, "Edit on, and repeat", report.within, |ui| {
-            let response = step_button(ui, "Repeat", report.targets > 0 && report.can_move(), None);
+        step_ui(ui, 7, "Refine and repeat", report.within, |ui| {
+            let response = step_button(ui, "Repeat", report.targets > 0 && report.can_move());
             let tooltip = "Repeat steps 2 to 6 on both ends until within the tolerance";
             if response.on_hover_text(tooltip).clicked() {
                 self.ask(7, EndFitAction::Repeat);
@@ -388,14 +383,17 @@ impl Panel<'_> {
         });
         indented(ui, |ui| {
             self.both_ui(ui);
-            let left = match report.targets {
-                0 => "–".to_owned(),
-                _ => figures::significant(report.residual, 4),
+            let (distance, angle) = match report.targets {
+                0 => ("–".to_owned(), "–".to_owned()),
+                _ => (
+                    figures::significant(report.remaining_distance, 4),
+                    angle_text(report.remaining_angle),
+                ),
             };
             let passes = report.passes.to_string();
-            let tooltip = "The larger of the position difference and of the arc that the polygon's \
-                           size sweeps through the difference angle";
-            widgets::figure_row(ui, "Left over, both ends", &left).on_hover_text(tooltip);
+            let tooltip = "Of the end that is farther from its target";
+            widgets::figure_row(ui, "Remaining error, distance", &distance).on_hover_text(tooltip);
+            widgets::figure_row(ui, "Remaining error, angle", &angle).on_hover_text(tooltip);
             widgets::figure_row(ui, "Passes", &passes);
             self.tolerance_ui(ui);
         });

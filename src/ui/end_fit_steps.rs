@@ -29,11 +29,8 @@ pub fn remark_ui(ui: &mut Ui, icon: Icon, text: &str, colour: Color32) {
 }
 
 /// The button at the right end of a step's row.
-pub fn step_button(ui: &mut Ui, name: &str, enabled: bool, on: Option<bool>) -> Response {
-    let button = Button::new(name)
-        .min_size(vec2(BUTTON, ROW))
-        .selected(on == Some(true));
-    ui.add_enabled(enabled, button)
+pub fn step_button(ui: &mut Ui, name: &str, enabled: bool) -> Response {
+    ui.add_enabled(enabled, Button::new(name).min_size(vec2(BUTTON, ROW)))
 }
 
 /// Figures in two columns.

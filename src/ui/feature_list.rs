@@ -186,8 +186,9 @@ fn row_ui(ui: &mut Ui, row: &FeatureRow, sampled: bool, is_chosen: bool) -> Resp
     }
     let at = pos2(rect.left() + 3.0 * STEP, rect.center().y);
     glyph(ui.painter(), at, row.kind, tokens);
+    let bend = row.bend().map_or(String::new(), |bend| format!(", {bend}"));
     let name = match (row.remark, row.count) {
-        ("", 1) => short_name(row.kind).to_owned(),
+        ("", 1) => short_name(row.kind).to_owned() + &bend,
         ("", count) => format!("{} ×{count}", short_name(row.kind)),
         (remark, _) => remark.to_owned(),
     };
@@ -220,12 +221,15 @@ fn row_ui(ui: &mut Ui, row: &FeatureRow, sampled: bool, is_chosen: bool) -> Resp
     widgets::number_in(ui, inner, &value, tokens.text);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{name} at {u}")));
     if sampled {
-        let tooltip = format!("{}, sampled\nt {low}. Click to go there.", row.kind.label());
+        let tooltip = format!(
+            "{}{bend}, sampled\nt {low}. Click to go there.",
+            row.kind.label()
+        );
         return response.on_hover_text(tooltip);
     }
     let width = figures::significant(high - low, 2);
     response.on_hover_text(format!(
-        "{}\nu from {low}\nto {high}\n{width} wide. Click to go there and to see the shortest moves found that lose it.",
+        "{}{bend}\nu from {low}\nto {high}\n{width} wide. Click to go there and to see the shortest moves found that lose it.",
         row.kind.label()
     ))
 }

@@ -38,7 +38,7 @@ pub fn gizmo_ui(ui: &mut Ui, canvas: Rect, editor: &mut Editor, commands: &mut V
         return;
     };
     let response = ui.interact(rect, Id::unique("gizmo"), Sense::click_and_drag());
-    let label = "Axes: drag to turn the view, click a tip to look along an axis";
+    let label = "Axes: drag to orbit, click a tip to look along an axis";
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, label));
     let view = editor.view().viewport().orientation;
     paint(ui, rect, &view, &response);

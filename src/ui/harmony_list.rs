@@ -64,7 +64,7 @@ impl Pointed {
 pub fn harmony_list_ui(ui: &mut Ui, editor: &mut Editor) {
     editor.view_mut().show_harmony(true);
     let Some(harmony) = editor.harmony() else {
-        widgets::caption(ui, "Measuring …");
+        widgets::caption(ui, "Measuring…");
         ui.ctx().request_repaint_after(PROGRESS);
         return;
     };
@@ -328,7 +328,7 @@ fn pieces_ui(ui: &mut Ui, pieces: &[LogarithmicPiece]) -> Option<Pointed> {
     let mut pointed = None;
     ui.scope_builder(UiBuilder::new().max_rect(list), |ui| {
         if pieces.is_empty() {
-            widgets::caption(ui, "The curvature does not change");
+            widgets::caption(ui, "The curvature is constant");
             return;
         }
         let area = ScrollArea::vertical()

@@ -45,7 +45,7 @@ impl Inspector {
             ui.strong("Inspector");
             widgets::note(
                 ui,
-                "Select a curve to see its degree, figures and coordinates.",
+                "Select a curve to see its degree, properties and coordinates.",
             );
             return;
         };
@@ -53,7 +53,7 @@ impl Inspector {
             // Fields of their own for each curve: what is typed into one is for no other.
             ui.push_id(id, |ui| self.curve_ui(ui, editor, id, &curve));
         });
-        widgets::section(ui, "Figures", true, |ui| {
+        widgets::section(ui, "Properties", true, |ui| {
             if let Some(report) = editor.report() {
                 figures_ui(ui, &curve, &report);
             }
@@ -106,7 +106,7 @@ impl Inspector {
                 });
             });
         });
-        widgets::section(ui, "Figures", true, |ui| {
+        widgets::section(ui, "Properties", true, |ui| {
             if let Some(report) = editor.reference_report() {
                 reference_panel::figures_ui(ui, reference, &report);
             }
@@ -152,8 +152,9 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor, curve: &Curve) {
     let degree = curve.polygon.degree();
     let most = MAX_DEGREE.min(curve.polygon.vertices().len() - 1);
     ui.spacing_mut().item_spacing.x = STEP;
-    let lower = IconButton::new(Icon::Minus, "Lower degree")
-        .tooltip("Lower the degree by one; the polygon stays, the curve follows it closer")
+    let lower = format!("Reinterpret as degree {}", degree.saturating_sub(1));
+    let lower = IconButton::new(Icon::Minus, &lower)
+        .tooltip("The polygon stays, the curve follows it more closely")
         .enabled(degree > 1);
     if lower.show(ui).clicked() {
         set_degree(editor, degree - 1);
@@ -165,8 +166,11 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor, curve: &Curve) {
     if let FieldEvent::Typed(value) = field.show(ui).1 {
         set_degree(editor, value.round() as usize);
     }
-    let raise = IconButton::new(Icon::Plus, "Raise degree")
-        .tooltip("Raise the degree by one; the polygon stays, the curve becomes smoother")
+    let raise = format!("Reinterpret as degree {}", degree + 1);
+    let raise = IconButton::new(Icon::Plus, &raise)
+        .tooltip(
+            "The polygon stays, the curve becomes smoother; Curve > Elevate degree keeps the curve",
+        )
         .enabled(degree < MAX_DEGREE);
     if raise.show(ui).clicked() {
         set_degree(editor, degree + 1);
@@ -210,11 +214,7 @@ fn colour_ui(
     (own, default): (Option<Colour>, Color32),
 ) {
     let shown = own.map_or(default, theme::of_document);
-    let name = if own.is_some() {
-        "Its own"
-    } else {
-        "Of the theme"
-    };
+    let name = if own.is_some() { "Custom" } else { "Default" };
     let swatch = RichText::new("      ").background_color(shown);
     let button = ui.menu_button((swatch, name), |ui| {
         let mut chosen = None;
@@ -226,7 +226,7 @@ fn colour_ui(
                 }
             }
         });
-        if ui.button("Take the theme's colour").clicked() {
+        if ui.button("Reset to default").clicked() {
             chosen = Some(None);
         }
         if let Some(colour) = chosen {
@@ -267,7 +267,7 @@ fn figures_ui(ui: &mut Ui, curve: &Curve, report: &CurveReport) {
     widgets::figure_row(ui, "Length", &figures::significant(report.length, 8));
     let plain = |value: f64| figures::significant(value, 6);
     widgets::figure_row(ui, "Curvature", &figures::range(report.curvature, plain));
-    widgets::figure_row(ui, "Legs", &figures::range(report.legs, plain));
+    widgets::figure_row(ui, "Polygon legs", &figures::range(report.legs, plain));
     let angle = |value: f64| figures::degrees(value, 3);
     widgets::figure_row(ui, "Turning angles", &figures::range(report.turns, angle));
     let text = format!(
@@ -279,5 +279,5 @@ fn figures_ui(ui: &mut Ui, curve: &Curve, report: &CurveReport) {
          errors in all of them together by up to {}",
         figures::significant(report.amplification.norm, 4)
     );
-    widgets::figure_row(ui, "Closed to float", &text).on_hover_text(tooltip);
+    widgets::figure_row(ui, "Error gain", &text).on_hover_text(tooltip);
 }

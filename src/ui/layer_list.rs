@@ -140,6 +140,6 @@ fn comb_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
             editor.view_mut().set_comb(comb);
         }
         let noun = noun(comb.density, "tooth", "teeth");
-        widgets::caption(ui, &format!("{noun} a segment"));
+        widgets::caption(ui, &format!("{noun} per segment"));
     });
 }

@@ -32,7 +32,7 @@ fn report_ui(ui: &mut Ui, trial: &Trial, report: &Report) {
                 ui,
                 match report.useful {
                     true => "Not reached: this is the best found",
-                    false => "Not reached: nothing would be changed",
+                    false => "Not reached: nothing will change",
                 },
             );
         }

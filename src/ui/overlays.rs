@@ -25,7 +25,7 @@ pub fn empty_ui(context: &Context, canvas: Rect) {
             for line in [
                 "D draws a float S-polygon, click by click",
                 "Ctrl+O opens a file; files can also be dropped here",
-                "File, Examples has curves to begin with",
+                "File > Examples has curves to start from",
             ] {
                 ui.label(RichText::new(line).color(tokens.faint_text));
             }
@@ -49,7 +49,7 @@ pub fn orbited_ui(context: &Context, canvas: Rect, commands: &mut Vec<Action>) {
         let badge = badge.stroke(Stroke::new(1.0, tokens.accent));
         let response = ui.add(badge);
         response
-            .on_hover_text("The drawing is planar and seen at an angle: look at it from above")
+            .on_hover_text("The drawing is planar and seen at an angle: view it from above")
             .clicked()
     });
     if clicked.inner {

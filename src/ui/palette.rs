@@ -102,7 +102,7 @@ impl Palette {
         follow: bool,
     ) -> Option<Action> {
         if found.is_empty() {
-            widgets::note(ui, "No command is called that. Try another word.");
+            widgets::note(ui, "No matching command. Try another word.");
         }
         let mut clicked = None;
         // A list in a window of its own would otherwise grow by a little each frame.

@@ -61,7 +61,7 @@ fn cells(readout: &Readout, width: f32) -> Vec<(&'static str, String, f32)> {
             .degree
             .map_or_else(blank, |degree| degree.to_string());
         cells.push(("degree", degree, 60.0));
-        cells.push(("1 unit", zoom(readout.scale), 136.0));
+        cells.push(("scale", zoom(readout.scale), 136.0));
     }
     cells
 }
@@ -72,7 +72,7 @@ fn blank() -> String {
 
 /// The zoom: how many points a unit of the model spans.
 fn zoom(scale: f64) -> String {
-    format!("{} px", figures::significant(scale, 4))
+    format!("{} px/unit", figures::significant(scale, 3))
 }
 
 fn cell_ui(ui: &mut Ui, name: &str, text: &str, width: f32) -> Response {

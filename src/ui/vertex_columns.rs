@@ -124,7 +124,7 @@ impl MoreColumns {
         widgets::form_row(ui, "Columns", |ui| {
             let z = (
                 "z",
-                "Show heights: typing one that is not 0 takes a planar curve into space",
+                "Show heights: a height other than 0 turns a planar curve into a space curve",
                 "This curve is in space",
             );
             switch_ui(ui, &mut self.z, !polygon.is_planar(), z);

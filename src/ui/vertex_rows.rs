@@ -108,7 +108,7 @@ impl Rows<'_> {
         let response = response.on_hover_text(if self.is_locked(vertex) {
             "Unlock the vertex"
         } else {
-            "Lock the vertex: nothing moves it then"
+            "Lock the vertex so that nothing moves it"
         });
         let tokens = Tokens::of(ui);
         let shown = match (self.is_locked(vertex), response.hovered()) {

@@ -661,8 +661,8 @@ fn exports_name_the_matches_and_locks_that_they_lose() {
     for (file, format) in [("out.csv", "CSV table"), ("out.dxf", "DXF")] {
         let (_, told) = folder.done(&["convert", "in.batten", file]);
         let expected = [
-            format!("“first”: the {format} does not hold which of its vertices are locked"),
-            format!("“second”: the {format} does not hold that its start is matched to “first”"),
+            format!("“first”: vertex locks aren't stored in the {format}"),
+            format!("“second”: the match of its start to “first” isn't stored in the {format}"),
         ];
         for line in expected {
             assert!(told.contains(&line), "{line}: {told}");

@@ -164,15 +164,15 @@ fn convert_lists_what_is_lost() {
     check(&["b.batten"], "");
     check(
         &["b.csv"],
-        "batten: “a/b”: the CSV table does not hold its colour\n",
+        "batten: “a/b”: the colour isn't stored in the CSV table\n",
     );
     check(
         &["b.dxf", "--polygon", "float"],
-        "batten: “a/b”: the name is written as “a_b”, which DXF allows\nbatten: “a/b”: the DXF does not hold its colour\nbatten: “a/b”: written as an open curve that ends where it begins, not as a periodic one\n",
+        "batten: “a/b”: the name is written as “a_b”, which DXF allows\nbatten: “a/b”: the colour isn't stored in the DXF\nbatten: “a/b”: written as an open curve that ends where it begins\n",
     );
     check(
         &["c.batten", "--polygon", "bezier"],
-        "batten: “a/b”: written as an open curve that ends where it begins, not as a periodic one\n",
+        "batten: “a/b”: written as an open curve that ends where it begins\n",
     );
 }
 

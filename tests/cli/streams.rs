@@ -83,8 +83,8 @@ fn what_is_told_does_not_mix_with_what_is_written() {
     assert_eq!(
         err,
         "batten: standard input: curve 1 “a”: the key “weigths” is not known and has no effect\n\
-         batten: “a”: the CSV table does not hold its colour\n\
-         batten: “a”: the CSV table does not hold its unknown keys\n"
+         batten: “a”: the colour isn't stored in the CSV table\n\
+         batten: “a”: unknown keys aren't stored in the CSV table\n"
     );
 }
 

@@ -82,9 +82,8 @@ fn the_loop_stops_on_the_papers_arc_and_both_ends_at_once_correct_it() {
     let report = script.end_fit().expect("figures");
     assert!(report.within, "{report:?}");
     assert!(
-        report.residual <= 1e-12 * before.size(),
-        "{}",
-        report.residual
+        report.remaining_distance <= 1e-12 * before.size() && report.remaining_angle <= 1e-12,
+        "{report:?}"
     );
     assert!(
         report
@@ -168,7 +167,9 @@ fn steps_by_hand_count_as_passes_and_meet_the_target() {
     let report = script.end_fit().expect("figures");
     assert_eq!(report.passes, 1);
     assert!(
-        report.within && report.residual <= 1e-12 * size,
+        report.within
+            && report.remaining_distance <= 1e-12 * size
+            && report.remaining_angle <= 1e-12,
         "{report:?}"
     );
     let corrected = script.polygon().end_jet(End::Finish);

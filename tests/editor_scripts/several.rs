@@ -252,7 +252,7 @@ fn exports_keep_to_their_format_and_tell_what_is_hidden() {
     assert!(script.editor.export(&drawing, &export).is_ok());
     assert!(drawing.exists());
     assert!(
-        script.message().contains("1 curve not, being hidden"),
+        script.message().contains("1 hidden curve skipped"),
         "{}",
         script.message()
     );

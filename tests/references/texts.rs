@@ -93,11 +93,20 @@ fn mistakes_in_formulas_name_their_columns() {
     assert_refused(
         "formula:x=t;y=t)",
         16,
-        "“)” stands where an operator or the end",
+        "expected an operator or the end, found “)”",
+    );
+    assert_refused(
+        "formula:x=t;y=2 t",
+        17,
+        "expected an operator or the end, found “t”",
     );
     assert_refused("formula:x=t;y=2 t", 17, "“t” is no unit here");
     assert_refused("formula:x=t;y=2mm", 16, "“mm” is no unit here");
-    assert_refused("formula:x=t;y=2 sin(t)", 17, "“s” stands where an operator");
+    assert_refused(
+        "formula:x=t;y=2 sin(t)",
+        17,
+        "expected an operator or the end, found “s”",
+    );
     assert_refused("formula:x=t;y=min(t)", 15, "min needs two arguments");
     assert_refused("formula:x=t;y=3+sinn(t)", 17, "“sinn” means nothing here");
     assert_refused("formula:x=t;y=3·u", 17, "“u” means nothing here");

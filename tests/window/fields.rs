@@ -73,7 +73,7 @@ fn keys_typed_into_any_field_are_no_shortcuts() {
     ] {
         press(&mut window, Modifiers::NONE, tool);
         if tool == Key::E {
-            click(&mut window, "Take actual end");
+            click(&mut window, "Use current end");
         }
         for label in labels {
             check_field(&mut window, label);
@@ -82,8 +82,11 @@ fn keys_typed_into_any_field_are_no_shortcuts() {
     }
     press(&mut window, Modifiers::NONE, Key::V);
     for (operation, labels) in [
-        ("Split curve", ["At u", "Subdivisions"].as_slice()),
-        ("Trim curve", ["From u", "To u", "Subdivisions"].as_slice()),
+        ("Split curve", ["At u", "Maximum subdivisions"].as_slice()),
+        (
+            "Trim curve",
+            ["From u", "To u", "Maximum subdivisions"].as_slice(),
+        ),
         ("Round coordinates", ["Digits"].as_slice()),
     ] {
         for label in labels {

@@ -43,7 +43,7 @@ fn unsaved_changes_are_asked_about() {
 
 /// Whether the question about unsaved changes is shown.
 fn is_asked(window: &Window) -> bool {
-    window.query_by_label("Save the changes?").is_some()
+    window.query_by_label("Save changes?").is_some()
 }
 
 /// How far the drags go.

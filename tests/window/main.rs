@@ -103,7 +103,7 @@ fn an_end_is_corrected_by_the_panels_buttons() {
         "one pass is exact on the waterline"
     );
     click(&mut window, "End fit");
-    click(&mut window, "Take actual end");
+    click(&mut window, "Use current end");
     let target = original.polygon.end_jet(End::Finish).point;
     click(&mut window, "target y");
     type_over(&mut window, &format!("{}", target.y + 3.0));
@@ -143,9 +143,9 @@ fn the_arc_is_corrected_at_both_ends_at_once() {
     let original = curve(&window);
     press(&mut window, Modifiers::NONE, Key::E);
     click(&mut window, "Start");
-    click(&mut window, "Take actual end");
+    click(&mut window, "Use current end");
     click(&mut window, "End");
-    click(&mut window, "Take actual end");
+    click(&mut window, "Use current end");
     click(&mut window, "target x");
     let target = original.polygon.end_jet(End::Finish).point;
     type_over(&mut window, &format!("{}", target.x + 0.5));
@@ -221,7 +221,7 @@ fn degree_name_and_ends_are_changed_in_the_inspector() {
     let mut window = open_window();
     let polygon = curve(&window).polygon;
     window
-        .get_all_by_label("Lower degree")
+        .get_all_by_label("Reinterpret as degree 8")
         .next()
         .expect("the button")
         .click();
@@ -359,7 +359,7 @@ fn every_panel_and_dialog_has_names_in_both_themes_and_when_it_is_small() {
                 press(&mut window, Modifiers::NONE, letter.expect("a letter"));
                 assert_eq!(window.state().editor().hand().tool(), tool);
             }
-            click(&mut window, "Take actual end");
+            click(&mut window, "Use current end");
             press(&mut window, Modifiers::NONE, Key::V);
             for tab in ["Harmony strips", "κ level 2", "Log graph", "Curvature"] {
                 click(&mut window, tab);

@@ -38,10 +38,10 @@ fn document(window: &Window) -> Document {
 #[test]
 fn curvature_and_slope_are_fixed_typed_and_freed() {
     let mut window = window();
-    click(&mut window, "Take actual end");
+    click(&mut window, "Use current end");
     let target = |window: &Window| curve(window).targets.start.expect("a target");
     assert_eq!(target(&window).curvature, None);
-    click(&mut window, "Curvature fixed");
+    click(&mut window, "Lock curvature");
     let actual = curve(&window)
         .polygon
         .end_jet(End::Start)
@@ -52,13 +52,13 @@ fn curvature_and_slope_are_fixed_typed_and_freed() {
     strike(&mut window, "0.25");
     enter(&mut window);
     assert_eq!(target(&window).curvature, Some(0.25));
-    click(&mut window, "Slope fixed");
+    click(&mut window, "Lock slope");
     window.get_by_label("target slope").click();
     window.run();
     strike(&mut window, "-0.5");
     enter(&mut window);
     assert_eq!(target(&window).slope, Some(-0.5));
-    click(&mut window, "Curvature fixed");
+    click(&mut window, "Lock curvature");
     assert_eq!(
         (target(&window).curvature, target(&window).slope),
         (None, None)

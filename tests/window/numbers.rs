@@ -251,7 +251,7 @@ fn a_number_reaches_the_curve_it_was_typed_for_though_a_click_makes_another_acti
 
     // A target's field, too, is of one curve and end.
     click(&mut window, "End fit");
-    click(&mut window, "Take actual end");
+    click(&mut window, "Use current end");
     click(&mut window, "target x");
     strike(&mut window, "8");
     press(&mut window, Modifiers::COMMAND, Key::D);

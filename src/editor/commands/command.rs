@@ -153,7 +153,7 @@ impl Command {
             Self::Delete => "Delete vertices",
             Self::DeleteCurve => "Delete curve",
             Self::SelectAll => "Select all",
-            Self::SelectNone => "Select nothing",
+            Self::SelectNone => "Deselect all",
             Self::ToggleVerticesLocked => "Vertices locked",
             Self::TogglePeriodic => "Periodic",
             Self::Operation(operation) if operation.parameters.is_empty() => operation.label,
@@ -181,13 +181,13 @@ impl Command {
     /// One sentence that says what the command does.
     pub fn tooltip(self) -> String {
         let tooltip = match self {
-            Self::Undo => "Take back the last step",
-            Self::Redo => "Make the last undone step again",
+            Self::Undo => "Undo the last step",
+            Self::Redo => "Redo the last undone step",
             Self::Duplicate => "Add a copy of the active curve",
-            Self::Delete => "Remove the selected vertices",
-            Self::DeleteCurve => "Remove the active curve as a whole",
+            Self::Delete => "Delete the selected vertices",
+            Self::DeleteCurve => "Delete the active curve",
             Self::SelectAll => "Select all vertices of the active curve; again, of all curves",
-            Self::SelectNone => "Select nothing",
+            Self::SelectNone => "Deselect all",
             Self::ToggleVerticesLocked => {
                 "Lock the selected vertices so that nothing moves them, or unlock them"
             }
@@ -201,10 +201,10 @@ impl Command {
             Self::ToggleLocked => "Protect the active curve's shape from edits, or release it",
             Self::Fit => "Show the selected vertices, or everything if fewer than two are selected",
             Self::FitAll => "Show everything",
-            Self::ZoomIn => "Show less, larger",
-            Self::ZoomOut => "Show more, smaller",
+            Self::ZoomIn => "Enlarge the view",
+            Self::ZoomOut => "Show more of the model",
             Self::View(_) => "See the model from this side; drag with the right button to orbit",
-            Self::ResetComb => "Give the curvature comb a legible scale",
+            Self::ResetComb => "Scale the curvature comb to a readable size",
             Self::ToggleLayer(Layer::SafeRegion) => {
                 "Show or hide where the selected vertex may go without adding a curvature extremum or an inflection"
             }

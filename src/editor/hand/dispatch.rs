@@ -77,10 +77,10 @@ impl Editor {
     /// Say what the mouse will do now.
     pub fn hint(&self) -> String {
         if self.hand.gestures.is_panning() {
-            return "Drag to push the view".into();
+            return "Drag to pan".into();
         }
         if self.hand.gestures.is_orbiting() {
-            return "Drag to turn the view; F2, F3, F4 look along the axes again".into();
+            return "Drag to orbit; F2, F3, F4 look along the axes".into();
         }
         if self.drags_handle() {
             return "Drag; Shift constrains, Esc puts the handle back".into();

@@ -53,9 +53,10 @@ pub struct EndFitReport {
     pub difference: DVec3,
     /// Step 3: the difference angle, in radians.
     pub angle: f64,
-    /// The larger of the position difference and the difference angle's arc, over both ends
-    /// that have targets.
-    pub residual: f64,
+    /// The larger distance from the target of the ends that have one.
+    pub remaining_distance: f64,
+    /// The larger angle from the target direction of these ends, in radians.
+    pub remaining_angle: f64,
     /// The size of the polygon.
     pub size: f64,
     /// The tolerance that the loop works to, as a length.
@@ -236,10 +237,13 @@ impl EndFitSettings {
         let size = polygon.size();
         let tolerance = self.tolerance_for(&curve);
         let targets = curve.targets.list();
-        let residuals = targets
+        let remaining: Vec<EndDifference> = targets
             .iter()
-            .map(|(end, target)| EndDifference::between(polygon, *end, target).residual(size));
-        let residual = residuals.fold(0.0, f64::max);
+            .map(|(end, target)| EndDifference::between(polygon, *end, target))
+            .collect();
+        let largest =
+            |of: &dyn Fn(&EndDifference) -> f64| remaining.iter().map(of).fold(0.0, f64::max);
+        let residual = largest(&|left| left.residual(size));
         EndFitReport {
             end: self.end,
             planar: analysis.is_planar(),
@@ -269,7 +273,8 @@ impl EndFitSettings {
             followers: followers(document, id),
             continuity: self.continuity,
             live: self.live,
-            residual,
+            remaining_distance: largest(&|left| left.vector.length()),
+            remaining_angle: largest(&|left| left.angle.abs()),
             size,
             tolerance,
             within: !targets.is_empty() && residual <= tolerance,

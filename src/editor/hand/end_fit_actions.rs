@@ -153,7 +153,7 @@ impl Editor {
                     ..matched
                 });
                 let edits = turned.into_iter().map(Edit::SetMatch).collect();
-                return self.make("Turn match round", edits, false);
+                return self.make("Flip match", edits, false);
             }
             _ => {}
         }
@@ -262,7 +262,7 @@ impl EndFitAction {
                 let labels = ["Free target slope", "Set target slope"];
                 (set(slope.is_some(), labels), Some(sloped))
             }
-            Self::TurnRound => ("Turn target round", before.map(|it| it.turned(planar))),
+            Self::TurnRound => ("Flip direction", before.map(|it| it.turned(planar))),
             _ => ("Clear target", None),
         }
     }

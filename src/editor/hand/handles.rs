@@ -142,7 +142,7 @@ impl Editor {
         trial.dragged.as_ref()
     }
 
-    /// The values that a drag to a place on the canvas sets. Shift keeps to an axis of the view, and to
+    /// The values that a drag to a place on the canvas sets. Shift locks to an axis of the view, and to
     /// whole multiples of 15°.
     fn dragged_values(&self, drag: &HandleDrag, at: DVec2) -> Vec<(&'static str, Value)> {
         let context = self.context();

@@ -70,6 +70,24 @@ pub struct FeatureRow {
     pub point: DVec3,
 }
 
+impl FeatureRow {
+    /// Say of an extremum of the curvature whether the curve bends most or least there: a maximum of negative
+    /// curvature is flattest. `None` of other features, and where the sign is in doubt.
+    pub fn bend(&self) -> Option<&'static str> {
+        let is_maximum = match self.kind {
+            FeatureKind::CurvatureMaximum => true,
+            FeatureKind::CurvatureMinimum => false,
+            _ => return None,
+        };
+        let [low, high] = self.value?;
+        match (low >= 0.0, high <= 0.0) {
+            (false, false) | (true, true) => None,
+            (is_positive, _) if is_positive == is_maximum => Some("tightest"),
+            _ => Some("flattest"),
+        }
+    }
+}
+
 /// The features of the active curve or reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FeatureReport {

@@ -9,7 +9,7 @@ use crate::document::CurveId;
 use crate::editor::Editor;
 use crate::editor::hand::tools::ToolKind;
 use crate::editor::view::scene::HoverScene;
-use crate::geometry::{Jet, figure};
+use crate::geometry::{Jet, figure, significant};
 
 /// Chords in half of the osculating circle.
 const CIRCLE_STEPS: i32 = 64;
@@ -116,7 +116,7 @@ impl Editor {
         }
         let polygon = &analysis.curve().polygon;
         if let Some(times) = polygon.clamped_vertex_amplification(index) {
-            text += &format!("\nfloat × {}", figure(times));
+            text += &format!("\nfloat × {}", significant(times, 3));
         }
         Some(HoverScene::Handle {
             at: self.view.viewport.flatten(vertex),

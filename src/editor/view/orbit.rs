@@ -41,7 +41,7 @@ impl NamedView {
             Self::Xy => "View XY, from above",
             Self::Xz => "View XZ, from the front",
             Self::Yz => "View YZ, from the side",
-            Self::Isometric => "View from a corner",
+            Self::Isometric => "Isometric",
         }
     }
 }

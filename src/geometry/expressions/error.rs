@@ -6,7 +6,7 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ExpressionError {
     /// It does not go on as an expression does.
-    #[error("{} stands where {expected} is needed", found.as_ref().map_or("the end".to_owned(), |found| format!("“{found}”")))]
+    #[error("expected {expected}, found {}", found.as_ref().map_or("the end".to_owned(), |found| format!("“{found}”")))]
     Syntax {
         /// The character found; none at the end.
         found: Option<String>,

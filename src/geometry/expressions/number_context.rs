@@ -268,7 +268,7 @@ mod tests {
     #[test]
     fn mistakes_name_their_columns() {
         use Quantity::{Angle, Curvature, Length, Number};
-        assert_refused(Number, "", 1, "the end stands where a number");
+        assert_refused(Number, "", 1, "expected a number");
         assert_refused(Number, "one", 1, "“one” means nothing here");
         assert_refused(Number, "2*t", 3, "“t” means nothing here");
         assert_refused(Number, "1 + foo(2)", 5, "“foo” means nothing here");
@@ -297,14 +297,19 @@ mod tests {
             Number,
             "1,5,5",
             4,
-            "“.” stands where an operator or the end",
+            "expected an operator or the end, found “.”",
         );
         assert_refused(Number, "cos(3,5)", 1, "cos needs one argument, not 2");
         assert_refused(Number, "1+max(3)", 3, "max needs two arguments");
         assert_refused(Number, "1/0", 1, "“1/0” is no number");
         assert_refused(Number, "sqrt(-1)", 1, "is no number");
         assert_refused(Number, "(1+2", 5, "a closing parenthesis");
-        assert_refused(Number, "1 2", 3, "“2” stands where an operator");
+        assert_refused(
+            Number,
+            "1 2",
+            3,
+            "expected an operator or the end, found “2”",
+        );
         let unitless = NumberContext::default();
         let mistake = NumberContext {
             quantity: Length,

@@ -215,8 +215,7 @@ fn other_formats_tell_that_references_are_not_exported() {
     for (format, name) in [(Format::Csv, "CSV table"), (Format::Dxf, "DXF")] {
         let export = format.write_document(&document, None).unwrap();
         let told = export.losses.to_string();
-        let expected =
-            format!("“round”: the {name} does not hold references: this one is not exported");
+        let expected = format!("“round”: references aren't stored in the {name}");
         assert!(told.contains(&expected), "{told}");
     }
 }

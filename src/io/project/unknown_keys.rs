@@ -58,9 +58,9 @@ fn unknown_keys_are_written_again_to_the_letter() {
         let written = format.write(&reading.curves, &reading.extras, None);
         let losses = written.unwrap().losses.to_string();
         let expected = format!(
-            "“arc”: the {expected} does not hold its unknown keys\n\
-             “keel”: the {expected} does not hold its unknown keys\n\
-             the {expected} does not hold the project's unknown keys"
+            "“arc”: unknown keys aren't stored in the {expected}\n\
+             “keel”: unknown keys aren't stored in the {expected}\n\
+             the project's unknown keys aren't stored in the {expected}"
         );
         assert_eq!(losses, expected);
     }

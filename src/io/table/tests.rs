@@ -363,7 +363,7 @@ fn curves_and_points_stand_in_one_file() {
     let export = write(&[&planar()], &references, PolygonKind::Float).unwrap();
     assert_eq!(
         export.losses.to_string(),
-        "“round”: the CSV table does not hold references: this one is not exported"
+        "“round”: references aren't stored in the CSV table"
     );
     let reading = read(&export.bytes).unwrap();
     assert_eq!(reading.curves, [planar()]);

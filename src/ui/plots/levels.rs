@@ -33,7 +33,7 @@ impl Plots {
     pub(super) fn normalised_ui(&mut self, ui: &mut Ui, remark: &str) {
         ui.spacing_mut().item_spacing.x = 2.0 * STEP;
         let tooltip = "Show the levels of the curve scaled to length 1, over shares of its length";
-        let name = "By curve length";
+        let name = "Normalise length";
         let text = if ui.available_width() < NARROW {
             "1/L"
         } else {
@@ -57,8 +57,8 @@ impl Plots {
             self.remark.clear();
             let text = match which {
                 LevelPlot::Torsion(_) if scene.planar => "A planar curve has no torsion.",
-                LevelPlot::Logarithmic => "The curvature does not change: there is no graph.",
-                _ => "This level is nowhere a number.",
+                LevelPlot::Logarithmic => "The curvature is constant: there is no graph.",
+                _ => "This level is undefined everywhere.",
             };
             widgets::note(ui, text);
             ui.take_available_space();

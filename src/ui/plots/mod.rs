@@ -133,9 +133,9 @@ impl Plots {
             }
             widgets::at_right(ui, |ui| {
                 let (icon, name) = if shown {
-                    (Icon::ChevronDown, "Fold the plots")
+                    (Icon::ChevronDown, "Collapse plots")
                 } else {
-                    (Icon::ChevronUp, "Unfold the plots")
+                    (Icon::ChevronUp, "Expand plots")
                 };
                 if IconButton::new(icon, name).show(ui).clicked() {
                     commands.push(Action::TogglePlots);

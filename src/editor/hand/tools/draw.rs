@@ -144,7 +144,7 @@ impl Tool for DrawTool {
     fn hint(&self, _context: &Context) -> String {
         match self.points.len() {
             0 => "Click to set the first vertex; Esc ends".into(),
-            1 | 2 => "Click on; Shift keeps to 15°, Backspace takes a vertex back, Esc begins anew"
+            1 | 2 => "Click the next vertex; Shift snaps to 15°, Backspace removes the last one, Esc starts over"
                 .into(),
             count => format!(
                 "{}: Enter or right click ends; click the first vertex to make it periodic",

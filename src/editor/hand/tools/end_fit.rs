@@ -97,8 +97,8 @@ impl Tool for EndFitTool {
             );
         }
         match &self.state {
-            State::Target { .. } => "Drag the target point; Shift keeps to an axis".into(),
-            State::Direction => "Drag the target direction; Shift keeps to 15°".into(),
+            State::Target { .. } => "Drag the target point; Shift locks to an axis".into(),
+            State::Direction => "Drag the target direction; Shift snaps to 15°".into(),
             State::Circle => format!("Drag the osculating circle: {}", subject.curvature()),
             State::Body { .. } => format!(
                 "Step 5: drag the {} terminal vertices as one body; the {name} snaps to the target, Ctrl frees it",

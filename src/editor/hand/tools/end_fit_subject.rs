@@ -43,7 +43,7 @@ impl<'a> Subject<'a> {
             .active()
             .and_then(|id| Some((id, document.curve(id)?)));
         let Some((id, curve)) = found else {
-            return Err("Choose the curve whose ends shall be corrected".into());
+            return Err("Select the curve whose ends to correct".into());
         };
         if curve.polygon.is_periodic() {
             return Err(format!(

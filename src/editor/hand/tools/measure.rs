@@ -116,7 +116,7 @@ impl Tool for MeasureTool {
     fn hint(&self, context: &Context) -> String {
         match (self.state, self.line(context)) {
             (State::From { .. }, Some((from, to))) => {
-                format!("{}   Shift keeps to an axis", figures(from, to))
+                format!("{}   Shift locks to an axis", figures(from, to))
             }
             (State::Between(..), Some((from, to))) => figures(from, to),
             _ => "Click two points, or drag, to measure between them; Esc ends".into(),

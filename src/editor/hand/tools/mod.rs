@@ -178,7 +178,7 @@ impl ToolKind {
     pub fn tooltip(self) -> &'static str {
         match self {
             Self::Select => "Select vertices and drag them",
-            Self::AddVertex => "Add a vertex before the first or behind the last",
+            Self::AddVertex => "Add a vertex before the first or after the last",
             Self::Insert => "Insert a vertex into a leg of the float S-polygon",
             Self::Delete => "Delete the vertices that are clicked",
             Self::Draw => "Draw a new float S-polygon, click by click",

@@ -164,12 +164,12 @@ impl ReferenceDrag {
     pub fn hint(&self, snapping: bool) -> String {
         match self.kind {
             Kind::Move { .. } => format!(
-                "Moving the reference: Shift keeps to an axis, X, Y, Z to the model's, Ctrl turns snapping {}; Esc cancels",
+                "Moving the reference: Shift locks to an axis, X, Y, Z to a model axis, Ctrl turns snapping {}; Esc cancels",
                 if snapping { "off" } else { "on" }
             ),
-            Kind::Rotate { .. } => "Rotating the reference: Shift keeps to 15°, Esc cancels".into(),
+            Kind::Rotate { .. } => "Rotating the reference: Shift snaps to 15°, Esc cancels".into(),
             Kind::Scale { .. } => {
-                "Scaling the reference: Shift keeps to tenths, Esc cancels".into()
+                "Scaling the reference: Shift snaps to tenths, Esc cancels".into()
             }
         }
     }

@@ -15,7 +15,7 @@ use crate::editor::hand::snapping::Carried;
 use crate::editor::view::grid::grid_steps;
 use crate::editor::view::hit::{LegHit, REACH};
 use crate::editor::view::scene::Mark;
-use crate::geometry::{counted, figure};
+use crate::geometry::{counted, significant};
 
 /// How near to a leg the pointer must be to take it, in screen points: less than to a vertex.
 const LEG_REACH: f64 = 0.5 * REACH;
@@ -140,13 +140,13 @@ impl Tool for SelectTool {
                     _ => "",
                 };
                 format!(
-                    "{words}: the wheel sets how many{stiffness}; Alt shows before, Esc cancels"
+                    "{words}: the wheel sets how many{stiffness}; hold Alt to compare, Esc cancels"
                 )
             }
             State::Moving(Moving { vertices, .. }) => {
                 let staying = context.staying().map(|staying| format!(" ({staying})"));
                 format!(
-                    "Moving {}{}: Shift keeps to an axis, X, Y, Z to the model's, Ctrl turns snapping {}, Alt shows before, Esc cancels",
+                    "Moving {}{}: Shift locks to an axis, X, Y, Z to a model axis, Ctrl turns snapping {}, hold Alt to compare, Esc cancels",
                     counted(vertices.len(), "vertex", "vertices"),
                     staying.unwrap_or_default(),
                     if context.snapping { "off" } else { "on" },
@@ -419,8 +419,8 @@ fn amplified((id, index): VertexId, context: &Context) -> String {
     let times = curve.and_then(|curve| curve.polygon.clamped_vertex_amplification(index));
     times.map_or(String::new(), |times| {
         format!(
-            "the float S-polygon moves up to {} times as far",
-            figure(times)
+            "the float S-polygon moves up to {}× as far",
+            significant(times, 3)
         )
     })
 }

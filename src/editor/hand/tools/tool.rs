@@ -148,7 +148,7 @@ impl Context<'_> {
     }
 
     /// How far what is dragged moves, in the view plane, when the pointer that began at `origin` is at a
-    /// place on the canvas, and the place that the held point snaps to. Shift keeps to an axis.
+    /// place on the canvas, and the place that the held point snaps to. Shift locks to an axis.
     pub fn movement_to(
         &self,
         origin: DVec2,

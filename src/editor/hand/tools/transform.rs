@@ -237,7 +237,7 @@ impl Tool for TransformTool {
                 };
                 let staying = context.staying().map(|staying| format!("{staying}; "));
                 let staying = staying.unwrap_or_default();
-                format!("{staying}Shift keeps to {steps}, Alt shows before, Esc cancels")
+                format!("{staying}Shift snaps to {steps}, hold Alt to compare, Esc cancels")
             }
             State::MovingPivot { .. } => "Release to leave the pivot here".into(),
             State::Idle if context.transformed().is_empty() => {
