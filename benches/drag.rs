@@ -10,6 +10,7 @@
 #![allow(missing_docs)]
 
 mod wavy;
+mod winding;
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -20,24 +21,12 @@ use batten::geometry::FloatPolygon;
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use glam::DVec2;
 use wavy::wavy;
+use winding::winding;
 
 const CANVAS: DVec2 = DVec2::new(1200.0, 700.0);
 
 /// How long the frame waits for features: as long as in the window.
 const PATIENCE: Duration = Duration::from_millis(4);
-
-/// A slowly winding curve with as many turns whatever its number of vertices.
-fn winding(count: usize) -> Document {
-    let points: Vec<(f64, f64)> = (0..count)
-        .map(|index| {
-            let angle = 12.0 * index as f64 / count as f64;
-            let radius = 100.0 + 60.0 * angle;
-            (radius * angle.cos(), radius * angle.sin())
-        })
-        .collect();
-    let polygon = FloatPolygon::planar(9, &points).expect("a polygon");
-    Document::from_curves([Curve::new("winding", polygon)])
-}
 
 /// An editor in the middle of a drag of the vertex in the middle of a curve.
 fn dragging(document: Document, close: bool) -> (Editor, DVec2) {
