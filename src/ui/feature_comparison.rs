@@ -21,7 +21,7 @@ type Count = fn(&FeatureCounts) -> usize;
 /// The proved features, before and afterwards, of each kind that there is.
 pub fn features_ui(ui: &mut Ui, trial: &Trial) {
     let Some((features, current)) = trial.features() else {
-        widgets::figure_row(ui, "Features", "being proved …");
+        widgets::figure_row(ui, "Features", "proving…");
         return;
     };
     if !current && !trial.is_pending() {
