@@ -2,27 +2,22 @@
 
 use std::path::{Path, PathBuf};
 
-use eframe::egui::{
-    self, CentralPanel, Context, Frame, Margin, Panel, ScrollArea, Ui, ViewportCommand,
-};
+use eframe::egui::{self, CentralPanel, Context, Frame, Margin, Panel, Ui, ViewportCommand};
 
 use super::action::Action;
 use super::canvas::Canvas;
-use super::curve_list::CurveList;
 use super::dialogs::{self, Decision, Dialog};
-use super::end_fit_panel::EndFitPanel;
 use super::file_dialogs::{AfterDiscard, Chosen, FileDialogs, Purpose};
 use super::gizmo::gizmo_ui;
-use super::inspector::Inspector;
 use super::keyboard::{self, Asked, Keyboard, Typing};
-use super::layer_list::layer_list_ui;
+use super::layer_strip::layer_strip_ui;
 use super::menu::menu_ui;
 use super::message::message_ui;
-use super::operation_panel::OperationPanel;
 use super::palette::Palette;
 use super::paper_panel::PaperPanel;
 use super::plots::{self, Plots, Tab};
 use super::shell::Shell;
+use super::side::Side;
 use super::status_bar::{self, status_bar_ui};
 use super::theme::{self, Tokens};
 use super::tool_rail::{self, tool_rail_ui};
@@ -34,20 +29,13 @@ use crate::io::Format;
 /// Under which name the settings are kept.
 const SETTINGS: &str = "window";
 
-/// The height, below the list of curves, from which on the layers stay in sight beside the
-/// inspector, and beside the taller panels of the end fit and of operations.
-const PINNED: [f32; 2] = [780.0, 920.0];
-
 /// The application: the editor, and what only a window has.
 pub struct App {
     editor: Editor,
     shell: Shell,
     canvas: Canvas,
     keyboard: Keyboard,
-    curves: CurveList,
-    inspector: Inspector,
-    end_fit: EndFitPanel,
-    operation: OperationPanel,
+    side: Side,
     plots: Plots,
     palette: Palette,
     paper: PaperPanel,
@@ -90,10 +78,7 @@ impl App {
             shell,
             canvas: Canvas::default(),
             keyboard: Keyboard::default(),
-            curves: CurveList::default(),
-            inspector: Inspector::default(),
-            end_fit: EndFitPanel::default(),
-            operation: OperationPanel::default(),
+            side: Side::default(),
             plots,
             palette: Palette::default(),
             paper: PaperPanel::default(),
@@ -207,7 +192,11 @@ impl App {
         let side = Panel::right("side").frame(Frame::NONE.fill(tokens.panel));
         side.default_size(320.0)
             .size_range(280.0..=520.0)
-            .show(ui, |ui| self.side_ui(ui));
+            .show(ui, |ui| {
+                widgets::filling(ui, |ui| {
+                    self.side.show(ui, &mut self.editor, &mut self.actions);
+                });
+            });
         self.plots_ui(ui);
         CentralPanel::default()
             .frame(Frame::NONE.fill(tokens.background))
@@ -217,71 +206,6 @@ impl App {
                     gizmo_ui(ui, rect, &mut self.editor, &mut self.actions);
                 }
             });
-    }
-
-    fn side_ui(&mut self, ui: &mut Ui) {
-        let pad = Frame::NONE.inner_margin(Margin::symmetric(12, 8));
-        let curves = Panel::top("curves").frame(pad).resizable(true);
-        curves
-            .default_size(116.0)
-            .size_range(72.0..=400.0)
-            .show(ui, |ui| {
-                self.curves.show(ui, &mut self.editor, &mut self.actions);
-            });
-        // In a low window the layers scroll with the rest, so that nothing is squeezed out.
-        let is_end_fit = self.editor.hand().tool() == ToolKind::EndFit;
-        let tries = self.editor.is_trying();
-        let is_tall = is_end_fit || self.editor.trial().is_some();
-        let pinned = ui.available_height() >= PINNED[usize::from(is_tall)];
-        if pinned {
-            let layers = Panel::bottom("layers").frame(pad).resizable(false);
-            layers.show(ui, |ui| self.layers_ui(ui));
-        }
-        CentralPanel::default().frame(pad).show(ui, |ui| {
-            // Each has its own place in its own scroll area.
-            let name = if tries {
-                "operation"
-            } else if is_end_fit {
-                "end fit"
-            } else {
-                "inspector"
-            };
-            let area = ScrollArea::vertical()
-                .id_salt(name)
-                .auto_shrink([false, false]);
-            // Room for the bar is always kept, so that nothing moves when it appears.
-            let width = ui.available_width() - ui.spacing().scroll.allocated_width();
-            let height = ui.available_height();
-            area.show(ui, |ui| {
-                ui.set_max_width(width);
-                if tries {
-                    self.operation.show(ui, &mut self.editor, height);
-                } else if is_end_fit {
-                    self.end_fit.show(ui, &mut self.editor);
-                } else {
-                    self.last_operation_ui(ui, height);
-                    self.inspector.show(ui, &mut self.editor);
-                }
-                if !pinned {
-                    self.layers_ui(ui);
-                }
-            });
-        });
-    }
-
-    /// The operation that was applied last stays at hand: its values can be changed.
-    fn last_operation_ui(&mut self, ui: &mut Ui, height: f32) {
-        let trial = self.editor.trial();
-        if trial.is_some_and(|trial| !trial.operation().parameters.is_empty()) {
-            self.operation.show(ui, &mut self.editor, height);
-            ui.separator();
-        }
-    }
-
-    fn layers_ui(&mut self, ui: &mut Ui) {
-        widgets::section(ui, "Layers", true, |ui| {
-            layer_list_ui(ui, &mut self.editor, &mut self.actions);
-        });
     }
 
     fn plots_ui(&mut self, ui: &mut Ui) {
@@ -303,16 +227,19 @@ impl App {
             .default_size(232.0)
             .size_range(168.0..=640.0)
             .show(ui, |ui| {
-                ui.allocate_ui(egui::vec2(ui.available_width(), plots::BAR), |ui| {
-                    self.plots
-                        .bar_ui(ui, &mut self.editor, true, &mut self.actions);
+                widgets::filling(ui, |ui| {
+                    ui.allocate_ui(egui::vec2(ui.available_width(), plots::BAR), |ui| {
+                        self.plots
+                            .bar_ui(ui, &mut self.editor, true, &mut self.actions);
+                    });
+                    self.plots.show(ui, &mut self.editor);
                 });
-                self.plots.show(ui, &mut self.editor);
             });
     }
 
     fn overlays_ui(&mut self, context: &Context) {
         if let Some(rect) = self.canvas.rect() {
+            layer_strip_ui(context, rect, &mut self.editor, &mut self.actions);
             message_ui(context, rect, &mut self.editor, &mut self.actions);
             if self.editor.is_orbited() {
                 overlays::orbited_ui(context, rect, &mut self.actions);

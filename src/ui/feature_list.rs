@@ -23,27 +23,18 @@ const DIGITS: usize = 4;
 /// How often the progress of a proof is shown anew.
 const PROGRESS: Duration = Duration::from_millis(100);
 
-/// The rows that there is room for, however many features there are: nothing below the list moves
-/// when a drag or a typed number makes some or takes some away.
-const ROWS: usize = 3;
-
-/// Show the verdict and the features of the active curve; choosing one goes to it.
+/// Show the verdict and the features of the active curve in all the room that there is, however many
+/// they are; choosing one goes to it.
 pub fn feature_list_ui(ui: &mut Ui, editor: &mut Editor) {
     let report = editor.features();
-    let width = ui.available_width();
     ui.spacing_mut().item_spacing.y = 0.0;
-    let room = |ui: &mut Ui, rows: usize| ui.allocate_space(vec2(width, rows as f32 * ROW)).1;
-    let heading = room(ui, 1);
-    let list = room(ui, ROWS);
-    let in_place = |rect| UiBuilder::new().max_rect(rect);
-    ui.scope_builder(in_place(heading), |ui| match report {
+    let (_, heading) = ui.allocate_space(vec2(ui.available_width(), ROW));
+    ui.scope_builder(UiBuilder::new().max_rect(heading), |ui| match report {
         Some(report) => verdict_ui(ui, report),
         None => proving_ui(ui, editor),
     });
-    let chosen = ui.scope_builder(in_place(list), |ui| {
-        report.and_then(|report| rows_ui(ui, report, editor.chosen_feature()))
-    });
-    if let Some(u) = chosen.inner {
+    let chosen = report.and_then(|report| rows_ui(ui, report, editor.chosen_feature()));
+    if let Some(u) = chosen {
         editor.choose_feature(u);
         editor.go_to(u);
     }

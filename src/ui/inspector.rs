@@ -6,15 +6,12 @@ use eframe::egui::{
 use lucide_icons::Icon;
 
 use super::curve_list::swatch_in;
-use super::feature_list::feature_list_ui;
 use super::figures;
 use super::formula_fields::FormulaFields;
 use super::harmony_list::harmony_list_ui;
 use super::number_field::{FieldEvent, NumberField};
 use super::reference_panel;
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
-use super::transform_panel::TransformPanel;
-use super::vertex_table::VertexTable;
 use super::widgets::{self, IconButton};
 use crate::document::{Colour, Curve, CurveId, Reference};
 use crate::editor::{CurveReport, Editor, told};
@@ -27,14 +24,11 @@ pub struct Inspector {
     /// The name that is being typed, for the curve that it belongs to.
     name: Option<(CurveId, String)>,
     formulas: FormulaFields,
-    table: VertexTable,
-    transform: TransformPanel,
 }
 
 impl Inspector {
     /// Show the inspector of the active curve.
     pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor) {
-        self.transform.show(ui, editor);
         let active = editor.active();
         let reference = active.and_then(|id| Some((id, editor.document().reference(id)?.clone())));
         if let Some((id, reference)) = reference {
@@ -42,31 +36,20 @@ impl Inspector {
         }
         let found = active.and_then(|id| Some((id, editor.document().curve(id)?.clone())));
         let Some((id, curve)) = found else {
-            ui.strong("Inspector");
             widgets::note(
                 ui,
-                "Select a curve to see its degree, properties and coordinates.",
+                "Select a curve to see its degree, properties and features.",
             );
             return;
         };
-        widgets::section(ui, "Inspector", true, |ui| {
-            // Fields of their own for each curve: what is typed into one is for no other.
-            ui.push_id(id, |ui| self.curve_ui(ui, editor, id, &curve));
-        });
+        // Fields of their own for each curve: what is typed into one is for no other.
+        ui.push_id(id, |ui| self.curve_ui(ui, editor, id, &curve));
         widgets::section(ui, "Properties", true, |ui| {
             if let Some(report) = editor.report() {
                 figures_ui(ui, &curve, &report);
             }
         });
-        widgets::section(ui, "Features", true, |ui| feature_list_ui(ui, editor));
         widgets::section(ui, "Harmony", false, |ui| harmony_list_ui(ui, editor));
-        let title = format!("Vertices ({})", curve.polygon.vertices().len());
-        let open = widgets::section_with_id(ui, "vertices", &title, true, |ui| {
-            self.table.show(ui, editor, id, &curve);
-        });
-        if open.is_none() {
-            ui.add_space(STEP);
-        }
     }
 
     fn reference_sections_ui(
@@ -77,18 +60,16 @@ impl Inspector {
         reference: &Reference,
     ) {
         let may_change = reference.check_editable().is_ok();
-        widgets::section(ui, "Inspector", true, |ui| {
-            ui.push_id(id, |ui| {
-                widgets::form_row(ui, "Name", |ui| {
-                    self.name_ui(ui, editor, id, &reference.name)
-                });
-                let default = Tokens::of(ui).reference;
-                widgets::form_row(ui, "Colour", |ui| {
-                    colour_ui(ui, editor, id, (reference.colour, default));
-                });
-                widgets::form_row(ui, "State", |ui| {
-                    state_ui(ui, editor, id, [reference.visible, reference.locked]);
-                });
+        ui.push_id(id, |ui| {
+            widgets::form_row(ui, "Name", |ui| {
+                self.name_ui(ui, editor, id, &reference.name)
+            });
+            let default = Tokens::of(ui).reference;
+            widgets::form_row(ui, "Colour", |ui| {
+                colour_ui(ui, editor, id, (reference.colour, default));
+            });
+            widgets::form_row(ui, "State", |ui| {
+                state_ui(ui, editor, id, [reference.visible, reference.locked]);
             });
         });
         widgets::section(ui, reference.curve.form().label(), true, |ui| {
@@ -111,7 +92,6 @@ impl Inspector {
                 reference_panel::figures_ui(ui, reference, &report);
             }
         });
-        widgets::section(ui, "Features", true, |ui| feature_list_ui(ui, editor));
     }
 
     fn curve_ui(&mut self, ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {

@@ -1,6 +1,6 @@
 //! The operation panel: the parameters of the operation that is tried out, and what it does.
 
-use eframe::egui::{ProgressBar, ScrollArea, Ui};
+use eframe::egui::{Frame, Panel, ProgressBar, ScrollArea, Ui};
 use lucide_icons::Icon;
 
 use super::atlas::AtlasView;
@@ -11,11 +11,11 @@ use super::widgets::{self, IconButton};
 use crate::editor::{Editor, Trial, told};
 use crate::operations::{Atlas, Parameter, Value};
 
-/// The height that is kept for buttons and report.
-const REPORT: f32 = 430.0;
+/// The most of the panel's height that fields take.
+const FIELDS: f32 = 0.5;
 
-/// The least height of the fields.
-const LEAST_FIELDS: f32 = 120.0;
+/// The height of the buttons' place.
+const BUTTONS: f32 = 40.0;
 
 /// The panel's own state.
 #[derive(Default)]
@@ -33,45 +33,37 @@ enum Asked {
 }
 
 impl OperationPanel {
-    /// Show the panel of the operation that is tried out, or was applied last, in so much height: of many
-    /// fields the last ones are reached by scrolling, so that the report below is in sight.
-    pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor, height: f32) {
+    /// Show the panel of the operation that is tried out, or was applied last: fields that scroll if there
+    /// are many, below them what it came to, and the buttons in a place of their own.
+    pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor) {
         let Some(trial) = editor.trial() else {
             *self = Self::default();
             return;
         };
         let atlas = atlas_of(trial).copied();
-        let mut shows_atlas = false;
         let told_before = self.fields.refusal.clone();
-        // A click on a button also leaves a field: what was typed there counts first.
-        let top = ui.cursor().top();
         let mut asked = Vec::from_iter(heading_ui(ui, trial));
-        let left = height - (ui.cursor().top() - top) - REPORT;
-        let fields = ScrollArea::vertical()
-            .id_salt((trial.operation().name, "fields"))
-            .max_height(left.max(LEAST_FIELDS));
-        fields.show(ui, |ui| {
-            let parameters = trial.operation().parameters.iter();
-            for parameter in parameters.filter(|it| it.applies(trial.input())) {
-                let set = self.fields.show(ui, trial, parameter);
-                asked.extend(set.map(|value| Asked::Set(parameter, value)));
-            }
-        });
-        // The buttons keep their place, whatever the report below has to say.
-        asked.extend(buttons_ui(ui, trial, editor.operation_progress()));
+        let buttons = buttons_panel_ui(ui, trial, editor.operation_progress());
         ui.add_space(STEP);
-        if let Some(refusal) = &self.fields.refusal {
-            error_ui(ui, refusal);
-        }
-        if let Some(atlas) = &atlas {
-            let view = &mut self.atlas;
-            let shown =
-                widgets::section(ui, "Atlas", true, |ui| view.show(ui, editor, trial, atlas));
-            shows_atlas = shown.is_some();
-            asked.extend(shown.flatten().map(Asked::SetAll));
-            ui.add_space(STEP);
-        }
-        came_to_ui(ui, trial);
+        asked.extend(self.fields_ui(ui, trial));
+        // A click on a button also leaves a field: what was typed there counts first.
+        asked.extend(buttons);
+        ui.separator();
+        let mut shows_atlas = false;
+        widgets::scrolling(ui, trial.operation().name, |ui| {
+            if let Some(refusal) = &self.fields.refusal {
+                error_ui(ui, refusal);
+            }
+            if let Some(atlas) = &atlas {
+                let view = &mut self.atlas;
+                let shown =
+                    widgets::section(ui, "Atlas", true, |ui| view.show(ui, editor, trial, atlas));
+                shows_atlas = shown.is_some();
+                asked.extend(shown.flatten().map(Asked::SetAll));
+                ui.add_space(STEP);
+            }
+            came_to_ui(ui, trial);
+        });
         editor.view_mut().show_atlas(shows_atlas);
         for asked in asked {
             match asked {
@@ -92,6 +84,35 @@ impl OperationPanel {
             }
         }
     }
+
+    fn fields_ui(&mut self, ui: &mut Ui, trial: &Trial) -> Vec<Asked> {
+        let area = ScrollArea::vertical()
+            .id_salt((trial.operation().name, "fields"))
+            .max_height(FIELDS * ui.available_height())
+            .auto_shrink([false, true]);
+        let width = ui.available_width() - ui.spacing().scroll.allocated_width();
+        let shown = area.show(ui, |ui| {
+            ui.set_max_width(width);
+            let parameters = trial.operation().parameters.iter();
+            let parameters = parameters.filter(|it| it.applies(trial.input()));
+            let asked = parameters.filter_map(|parameter| {
+                let set = self.fields.show(ui, trial, parameter);
+                set.map(|value| Asked::Set(parameter, value))
+            });
+            asked.collect()
+        });
+        shown.inner
+    }
+}
+
+/// The buttons at the lower edge, whatever stands above them.
+fn buttons_panel_ui(ui: &mut Ui, trial: &Trial, progress: Option<f64>) -> Option<Asked> {
+    if trial.is_applied() {
+        return None;
+    }
+    let panel = Panel::bottom("operation buttons").resizable(false);
+    let panel = panel.frame(Frame::NONE).exact_size(BUTTONS);
+    panel.show(ui, |ui| buttons_ui(ui, trial, progress)).inner
 }
 
 /// The atlas that the operation offers.
@@ -118,16 +139,12 @@ fn heading_ui(ui: &mut Ui, trial: &Trial) -> Option<Asked> {
 
 /// Apply and Cancel; their keys are the canvas's, which has the keyboard unless a field has it.
 fn buttons_ui(ui: &mut Ui, trial: &Trial, progress: Option<f64>) -> Option<Asked> {
-    if trial.is_applied() {
-        return None;
-    }
     let mut asked = None;
     let fails = |run: &Result<crate::editor::Run, _>| {
         run.as_ref().map_or(true, |run| !run.outcome.is_useful())
     };
     let enabled = !trial.run().is_some_and(fails);
-    ui.add_space(STEP);
-    ui.horizontal(|ui| {
+    ui.horizontal_centered(|ui| {
         let apply = ui.add_enabled_ui(enabled, |ui| widgets::primary_button(ui, "Apply"));
         if apply.inner.on_hover_text("Enter").clicked() {
             asked = Some(Asked::Apply);

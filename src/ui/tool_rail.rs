@@ -6,7 +6,7 @@ use eframe::egui::{Align2, Role, ScrollArea, Sense, Ui, Vec2, WidgetInfo};
 use super::action::Action;
 use super::theme::{self, RADIUS, STEP, Tokens};
 use super::{icons, keyboard, widgets};
-use crate::editor::{Command, Editor, Follow, Layer, ToolKind};
+use crate::editor::{Command, Editor, Follow, ToolKind};
 use crate::operations::{ALL, Inputs};
 
 /// The rail's width in points.
@@ -48,7 +48,6 @@ fn tools_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<Action>) {
         Command::Follow(Follow::InHarmony),
         Command::Follow(Follow::Softly),
         Command::ToggleKeeping,
-        Command::ToggleLayer(Layer::SafeRegion),
         Command::Fit,
     ] {
         button_ui(ui, editor, command, commands);

@@ -19,9 +19,6 @@ use super::vertex_rows::{Asked, HEAD, Rows, heading_ui, id, name};
 use crate::document::{Curve, CurveId};
 use crate::editor::{Editor, told};
 
-/// The height of the table at least and at most.
-const HEIGHTS: (f32, f32) = (6.0 * ROW, 24.0 * ROW);
-
 /// The keys that egui leaves to the table.
 const KEYS: EventFilter = EventFilter {
     tab: true,
@@ -65,7 +62,7 @@ impl Default for VertexTable {
 }
 
 impl VertexTable {
-    /// Show the table.
+    /// Show the table in all the room that there is.
     pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
         self.more.show(ui, curve);
         let columns = self.more.of(&curve.polygon);
@@ -78,9 +75,6 @@ impl VertexTable {
             .selection()
             .of_curve(id)
             .collect::<Vec<usize>>();
-        let height = (count as f32 * ROW).clamp(0.0, HEIGHTS.1);
-        let free = ui.available_height() - ROW - 2.0 * STEP;
-        let height = height.min(free.max(HEIGHTS.0));
         let width = ui.available_width() - 3.0 * STEP;
         let rows = Rows {
             curve,
@@ -93,7 +87,7 @@ impl VertexTable {
         };
         heading_ui(ui, &columns, rows.width);
         let has_keyboard = has_keyboard(ui);
-        let (hovered, asked, place) = self.rows_ui(ui, &rows, height);
+        let (hovered, asked, place) = self.rows_ui(ui, &rows);
         self.selected = selected;
         if let Some(hovered) = hovered.or(has_keyboard.then_some(self.cell.vertex)) {
             editor.view_mut().hover_vertex(hovered);
@@ -283,18 +277,12 @@ impl VertexTable {
 
     /// Show the rows in sight; tells which one is hovered, what is asked for, and where the cell
     /// is that keys are for.
-    fn rows_ui(
-        &mut self,
-        ui: &mut Ui,
-        rows: &Rows<'_>,
-        height: f32,
-    ) -> (Option<usize>, Option<Asked>, Rect) {
+    fn rows_ui(&mut self, ui: &mut Ui, rows: &Rows<'_>) -> (Option<usize>, Option<Asked>, Rect) {
         let follow = std::mem::take(&mut self.follow);
+        let height = ui.available_height();
         let mut area = ScrollArea::vertical()
             .id_salt("vertex table")
-            .max_height(height)
-            .min_scrolled_height(height)
-            .auto_shrink([false, true]);
+            .auto_shrink([false, false]);
         if let Some(offset) = self.offset_to_show(rows.selected, height, follow) {
             area = area.vertical_scroll_offset(offset);
         }

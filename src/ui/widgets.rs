@@ -1,8 +1,8 @@
 //! Small pieces that the panels share.
 
 use eframe::egui::{
-    self, Align, Align2, Color32, InnerResponse, Layout, Rect, Response, RichText, Role, Sense,
-    Stroke, StrokeKind, Ui, Vec2, WidgetInfo,
+    self, Align, Align2, Color32, InnerResponse, Layout, Rect, Response, RichText, Role,
+    ScrollArea, Sense, Stroke, StrokeKind, Ui, UiBuilder, Vec2, WidgetInfo,
 };
 use lucide_icons::Icon;
 
@@ -124,6 +124,36 @@ pub fn note(ui: &mut Ui, text: &str) -> Response {
     ui.add(egui::Label::new(RichText::new(text).color(tokens.faint_text)).wrap())
 }
 
+/// Show contents in all the room that there is: they neither widen nor narrow the panel around them.
+pub fn filling<R>(ui: &mut Ui, contents: impl FnOnce(&mut Ui) -> R) -> R {
+    let (_, rect) = ui.allocate_space(ui.available_size());
+    let mut inside = ui.new_child(UiBuilder::new().max_rect(rect));
+    inside.shrink_clip_rect(rect);
+    contents(&mut inside)
+}
+
+/// Show contents that scroll where they do not fit. Room for the bar is always kept, and what is shown
+/// gets no shorter while the pointer is pressed: nothing moves under it.
+pub fn scrolling<R>(ui: &mut Ui, name: &str, contents: impl FnOnce(&mut Ui) -> R) -> R {
+    let area = ScrollArea::vertical()
+        .id_salt(name)
+        .auto_shrink([false, false]);
+    let width = ui.available_width() - ui.spacing().scroll.allocated_width();
+    let shown = area.show(ui, |ui| {
+        ui.set_max_width(width);
+        let id = ui.make_persistent_id("height");
+        if ui.input(|input| input.pointer.any_down()) {
+            let before = ui.data(|data| data.get_temp::<f32>(id));
+            ui.set_min_height(before.unwrap_or_default());
+        }
+        let inner = contents(ui);
+        let height = ui.min_rect().height();
+        ui.data_mut(|data| data.insert_temp(id, height));
+        inner
+    });
+    shown.inner
+}
+
 /// A section that folds; whether it is open is remembered.
 pub fn section<R>(
     ui: &mut Ui,
@@ -131,21 +161,8 @@ pub fn section<R>(
     open: bool,
     contents: impl FnOnce(&mut Ui) -> R,
 ) -> Option<R> {
-    section_with_id(ui, title, title, open, contents)
-}
-
-/// A section whose title may change while it stays the same.
-pub fn section_with_id<R>(
-    ui: &mut Ui,
-    id: &str,
-    title: &str,
-    open: bool,
-    contents: impl FnOnce(&mut Ui) -> R,
-) -> Option<R> {
     let strong = Tokens::of(ui).strong_text;
-    let header = egui::CollapsingHeader::new(RichText::new(title).color(strong))
-        .id_salt(id)
-        .default_open(open);
+    let header = egui::CollapsingHeader::new(RichText::new(title).color(strong)).default_open(open);
     header.show_unindented(ui, contents).body_returned
 }
 

@@ -119,7 +119,8 @@ fn a_drag_is_taken_back_before_changes_are_asked_about() {
 
 #[test]
 fn a_fields_value_counts_before_changes_are_asked_about() {
-    let mut window = open_window_of(1480.0, 1120.0);
+    let mut window = open_window();
+    show_vertices(&mut window);
     let original = curve(&window);
     let field = window.get_by_label("vertex 3 y").rect().center();
     begin_drag(&mut window, field);

@@ -35,6 +35,17 @@ pub fn click(window: &mut Window, label: &str) {
     window.run();
 }
 
+/// Put the table of vertices in front in the side panel.
+pub fn show_vertices(window: &mut Window) {
+    window.get_by_label_contains("Vertices (").click();
+    window.run();
+}
+
+/// Put the inspector in front in the side panel.
+pub fn show_inspector(window: &mut Window) {
+    click(window, "Inspector");
+}
+
 pub fn press(window: &mut Window, modifiers: Modifiers, key: Key) {
     window.key_press_modifiers(modifiers, key);
     window.run();

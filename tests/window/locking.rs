@@ -9,6 +9,7 @@ use crate::numbers::{wave, window_of};
 #[test]
 fn a_vertex_is_locked_in_its_row_and_its_numbers_can_only_be_read() {
     let mut window = window_of(vec![wave(6, 3)]);
+    show_vertices(&mut window);
     let is_locked = |window: &Window| curve(window).locked_vertices.contains(2);
     click(&mut window, "vertex 2 locked");
     assert!(is_locked(&window));
@@ -39,6 +40,7 @@ fn a_vertex_is_locked_in_its_row_and_its_numbers_can_only_be_read() {
 #[test]
 fn the_menu_locks_what_is_selected() {
     let mut window = window_of(vec![wave(6, 3)]);
+    show_vertices(&mut window);
     click(&mut window, "vertex 1");
     choose(&mut window, &["Edit", "Vertices locked"]);
     let locked: Vec<usize> = curve(&window).locked_vertices.iter().collect();

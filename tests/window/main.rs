@@ -25,7 +25,7 @@ use crate::hand::*;
 
 #[test]
 fn everything_is_in_its_place() {
-    let window = open_window();
+    let mut window = open_window();
     for label in [
         "File",
         "Edit",
@@ -35,12 +35,11 @@ fn everything_is_in_its_place() {
         "Canvas",
         "Curves",
         "Inspector",
-        "Layers",
         "Name",
         "Degree",
-        "vertex 0",
-        "vertex 0 x",
-        "vertex 0 y",
+        "Features",
+        "Comb scale",
+        "Comb density",
         "Harmony strips",
     ] {
         window.get_by_label(label);
@@ -53,6 +52,10 @@ fn everything_is_in_its_place() {
             window.query_all_by_label(layer.label()).count() > 0,
             "{layer:?}"
         );
+    }
+    show_vertices(&mut window);
+    for label in ["vertex 0", "vertex 0 x", "vertex 0 y"] {
+        window.get_by_label(label);
     }
 }
 
@@ -166,8 +169,9 @@ fn the_arc_is_corrected_at_both_ends_at_once() {
 }
 
 #[test]
-fn coordinates_are_typed_and_dragged_in_the_inspector() {
-    let mut window = open_window_of(1480.0, 1120.0);
+fn coordinates_are_typed_and_dragged_in_the_table() {
+    let mut window = open_window();
+    show_vertices(&mut window);
     let original = curve(&window);
     click(&mut window, "vertex 3 x");
     type_over(&mut window, "1.25");
@@ -197,7 +201,8 @@ fn coordinates_are_typed_and_dragged_in_the_inspector() {
 
 #[test]
 fn escape_calls_a_dragged_field_off() {
-    let mut window = open_window_of(1480.0, 1120.0);
+    let mut window = open_window();
+    show_vertices(&mut window);
     let original = curve(&window);
     let field = window.get_by_label("vertex 3 y").rect().center();
     window.hover_at(field);

@@ -1,0 +1,168 @@
+//! The layers' switches over the canvas, each in its layer's colour, and the comb's scale and density.
+
+use eframe::egui::{
+    Area, Color32, Context, Frame, Id, Margin, Order, Rect, Response, Role, Sense, Stroke, Ui,
+    Vec2, WidgetInfo, vec2,
+};
+use lucide_icons::Icon;
+
+use super::action::Action;
+use super::number_field::{FieldEvent, NumberField};
+use super::theme::{RADIUS, ROW, STEP, Tokens};
+use super::widgets::{self, IconButton};
+use super::{figures, gizmo, icons, keyboard};
+use crate::editor::{CombSettings, Command, Editor, Layer};
+
+/// The side of a layer's switch.
+const SIDE: f32 = 28.0;
+
+/// The width that the comb's controls take.
+const COMB: f32 = 240.0;
+
+/// Show the strip in the upper left corner of the canvas; where it is narrow, the comb's controls stand
+/// below the layers.
+pub fn layer_strip_ui(
+    context: &Context,
+    canvas: Rect,
+    editor: &mut Editor,
+    commands: &mut Vec<Action>,
+) {
+    let area = Area::new(Id::unique("layers"))
+        .order(Order::Middle)
+        .fixed_pos(canvas.min + Vec2::splat(2.0 * STEP))
+        .constrain(false);
+    let right = gizmo::place(canvas).map_or(canvas.right(), |gizmo| gizmo.left());
+    let width = right - canvas.left() - 4.0 * STEP;
+    let is_narrow = width < Layer::ALL.len() as f32 * SIDE + COMB;
+    area.show(context, |ui| {
+        let tokens = Tokens::of(ui);
+        let frame = Frame::NONE
+            .fill(tokens.panel)
+            .stroke(Stroke::new(1.0, tokens.outline))
+            .corner_radius(RADIUS)
+            .inner_margin(Margin::symmetric(4, 2));
+        frame.show(ui, |ui| {
+            ui.spacing_mut().item_spacing.y = 0.0;
+            ui.horizontal(|ui| {
+                ui.spacing_mut().item_spacing.x = 0.0;
+                for layer in Layer::ALL {
+                    switch_ui(ui, editor, layer, commands);
+                }
+                if !is_narrow {
+                    divider_ui(ui);
+                    comb_ui(ui, editor, commands);
+                }
+            });
+            if is_narrow {
+                ui.horizontal(|ui| comb_ui(ui, editor, commands));
+            }
+        });
+    });
+}
+
+/// The colour of a layer.
+fn colour(tokens: &Tokens, layer: Layer) -> Color32 {
+    match layer {
+        Layer::Float => tokens.float,
+        Layer::Clamped => tokens.clamped,
+        Layer::Curve => tokens.curve,
+        Layer::Evolute => tokens.evolute,
+        Layer::Comb => tokens.comb,
+        Layer::Targets => tokens.target,
+        Layer::Grid => tokens.joints,
+        Layer::Features => tokens.rising,
+        Layer::SafeRegion => tokens.good,
+    }
+}
+
+fn switch_ui(ui: &mut Ui, editor: &Editor, layer: Layer, commands: &mut Vec<Action>) {
+    let command = Command::ToggleLayer(layer);
+    let shown = editor.layers().shows(layer);
+    let (rect, response) = ui.allocate_exact_size(Vec2::splat(SIDE), Sense::click());
+    let tokens = Tokens::of(ui);
+    if response.hovered() {
+        ui.painter().rect_filled(rect, RADIUS, tokens.button[1]);
+    }
+    if response.has_focus() {
+        widgets::focus_ring(ui, rect);
+    }
+    let own = colour(tokens, layer);
+    let icon = if shown { own } else { tokens.faint_text };
+    widgets::icon(ui, rect, icons::of_layer(layer), icon);
+    if shown {
+        // A bar below the icon of a layer that is shown: hue is not the only cue.
+        let edge = rect.shrink2(vec2(2.0 * STEP, 1.0));
+        let edge = [edge.left_bottom(), edge.right_bottom()];
+        ui.painter().line_segment(edge, Stroke::new(2.0, own));
+    }
+    response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, shown, layer.label()));
+    let key = command.shortcut().map(keyboard::shortcut_text);
+    let name = match key {
+        Some(key) => format!("{} ({key})", layer.label()),
+        None => layer.label().to_owned(),
+    };
+    let tooltip = format!("{name}\n{}", command.tooltip());
+    if response.on_hover_text(tooltip).clicked() {
+        commands.push(command.into());
+    }
+}
+
+fn divider_ui(ui: &mut Ui) {
+    let (rect, _) = ui.allocate_exact_size(vec2(3.0 * STEP, SIDE), Sense::hover());
+    let stroke = Stroke::new(1.0, Tokens::of(ui).outline);
+    ui.painter()
+        .vline(rect.center().x, rect.y_range().shrink(STEP), stroke);
+}
+
+/// The comb's scale and density; they keep their place while no comb is shown.
+fn comb_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
+    let shown = editor.layers().shows(Layer::Comb);
+    ui.spacing_mut().item_spacing.x = STEP;
+    ui.add_enabled_ui(shown, |ui| {
+        caption_ui(ui, "Comb", 34.0);
+        scale_ui(ui, editor).on_hover_text("Scale of the curvature comb");
+        let reset = IconButton::new(Icon::RotateCcw, "Reset comb scale");
+        let reset = reset.tooltip(Command::ResetComb.tooltip());
+        if reset.show(ui).clicked() {
+            commands.push(Command::ResetComb.into());
+        }
+        caption_ui(ui, "Teeth", 32.0);
+        density_ui(ui, editor).on_hover_text("Teeth of the comb per segment");
+    });
+}
+
+fn caption_ui(ui: &mut Ui, text: &str, width: f32) {
+    let (rect, _) = ui.allocate_exact_size(vec2(width, ROW), Sense::hover());
+    widgets::label_in(ui, rect, text, Tokens::of(ui).faint_text);
+}
+
+fn scale_ui(ui: &mut Ui, editor: &mut Editor) -> Response {
+    let mut comb = editor.view().comb();
+    let shown = figures::significant(comb.scale, 4);
+    let field = NumberField::new("Comb scale", comb.scale, shown)
+        .range(1e-12..=1e15)
+        .speed(0.02 * comb.scale.max(1e-12))
+        .width(76.0);
+    let (response, event) = field.show(ui);
+    if let FieldEvent::Typed(value) | FieldEvent::Preview(value) = event {
+        comb.scale = value;
+        editor.view_mut().set_comb(comb);
+    }
+    response
+}
+
+fn density_ui(ui: &mut Ui, editor: &mut Editor) -> Response {
+    let mut comb = editor.view().comb();
+    let shown = comb.density.to_string();
+    let (least, most) = CombSettings::DENSITY.into_inner();
+    let field = NumberField::new("Comb density", comb.density as f64, shown)
+        .range(least as f64..=most as f64)
+        .speed(0.25)
+        .width(44.0);
+    let (response, event) = field.show(ui);
+    if let FieldEvent::Typed(value) | FieldEvent::Preview(value) = event {
+        comb.density = value.round().max(0.0) as usize;
+        editor.view_mut().set_comb(comb);
+    }
+    response
+}
