@@ -136,6 +136,7 @@ impl App {
         if context.input(|input| input.key_pressed(egui::Key::F6)) {
             move_keyboard(context);
         }
+        self.side.take_keys(context, &self.editor);
         let typing = keyboard::typing(context) == Typing::Text;
         let asked = self.keyboard.asked(context, &self.editor);
         if typing && !asked.is_empty() {

@@ -1,12 +1,15 @@
 //! The list of curves, and of references below them.
 
+use eframe::egui::text::{CCursor, CCursorRange};
+use eframe::egui::text_edit::TextEditState;
 use eframe::egui::{
-    Align2, Color32, CursorIcon, Key, Rect, Response, Role, ScrollArea, Sense, Stroke, StrokeKind,
-    TextEdit, Ui, UiBuilder, Vec2, WidgetInfo, vec2,
+    Align2, Color32, Context, CursorIcon, Id, Key, Modifiers, Rect, Response, Role, ScrollArea,
+    Sense, Stroke, StrokeKind, TextEdit, Ui, UiBuilder, Vec2, WidgetInfo, vec2,
 };
 use lucide_icons::Icon;
 
 use super::action::Action;
+use super::keyboard::{self, Typing};
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
 use crate::document::{Colour, Curve, CurveId, Edit, Reference};
@@ -18,12 +21,19 @@ pub struct CurveList {
     renaming: Option<Renaming>,
     /// The active curve or reference whose row was brought into sight.
     in_sight: Option<CurveId>,
+    /// Where the list was in the last frame.
+    rect: Option<Rect>,
 }
 
 struct Renaming {
     curve: CurveId,
     text: String,
-    fresh: bool,
+    is_new: bool,
+}
+
+/// The field of the name that is being typed.
+fn field_id() -> Id {
+    Id::unique("name of a curve")
 }
 
 /// What a row asks for.
@@ -37,6 +47,23 @@ enum Asked {
 }
 
 impl CurveList {
+    /// Take the key that is the list's while the pointer is on it: F2 renames the active curve.
+    pub fn take_keys(&mut self, context: &Context, editor: &Editor) {
+        let pointer = context.pointer_hover_pos();
+        let is_here = self
+            .rect
+            .zip(pointer)
+            .is_some_and(|(rect, at)| rect.contains(at));
+        let is_free = keyboard::typing(context) == Typing::Nothing;
+        if !is_here || !is_free || keyboard::is_covered(context) {
+            return;
+        }
+        let is_asked = context.input_mut(|input| input.consume_key(Modifiers::NONE, Key::F2));
+        if let Some(active) = editor.active().filter(|_| is_asked) {
+            self.begin_renaming(context, editor, active);
+        }
+    }
+
     /// Show the list with its heading.
     pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
         heading_ui(ui, editor, commands);
@@ -48,6 +75,7 @@ impl CurveList {
             return;
         }
         let mut asked = None;
+        self.rect = Some(ui.available_rect_before_wrap());
         ScrollArea::vertical()
             .auto_shrink([false, false])
             .show(ui, |ui| {
@@ -61,7 +89,7 @@ impl CurveList {
             });
         match asked {
             Some(Asked::Activate(curve)) => editor.activate(curve),
-            Some(Asked::Rename(curve)) => self.begin_renaming(editor, curve),
+            Some(Asked::Rename(curve)) => self.begin_renaming(ui.ctx(), editor, curve),
             Some(Asked::Lock(curve, locked)) => told(editor.set_locked(curve, locked)),
             Some(Asked::Show(curve, visible)) => told(editor.set_visible(curve, visible)),
             Some(Asked::Renamed(curve, name)) => told(editor.rename(curve, name)),
@@ -70,13 +98,16 @@ impl CurveList {
         }
     }
 
-    fn begin_renaming(&mut self, editor: &mut Editor, curve: CurveId) {
+    /// Open the field for a name; from now on keys are the field's.
+    fn begin_renaming(&mut self, context: &Context, editor: &Editor, curve: CurveId) {
         let text = editor.document().name(curve).map(str::to_owned);
         self.renaming = text.map(|text| Renaming {
             curve,
             text,
-            fresh: true,
+            is_new: true,
         });
+        keyboard::claim(context, field_id(), Typing::Text, Rect::NOTHING);
+        context.memory_mut(|memory| memory.request_focus(field_id()));
     }
 
     fn row_ui(&mut self, ui: &mut Ui, row: &Row) -> Option<Asked> {
@@ -112,13 +143,7 @@ impl CurveList {
         if is_renamed {
             asked = self.renaming_ui(ui, name).or(asked);
         } else {
-            let tokens = Tokens::of(ui);
-            let colour = match (row.active, row.visible) {
-                (true, _) => tokens.strong_text,
-                (false, true) => tokens.text,
-                (false, false) => tokens.faint_text,
-            };
-            widgets::label_in(ui, name, &row.name, colour);
+            row.name_ui(ui, name, response);
         }
         asked
     }
@@ -126,12 +151,14 @@ impl CurveList {
     fn renaming_ui(&mut self, ui: &mut Ui, rect: Rect) -> Option<Asked> {
         let renaming = self.renaming.as_mut()?;
         let field = TextEdit::singleline(&mut renaming.text)
+            .id(field_id())
             .align(Align2::LEFT_CENTER)
             .min_size(rect.size())
             .desired_width(rect.width());
         let response = ui.put(rect, field).accessible_name("Curve name");
-        if std::mem::take(&mut renaming.fresh) {
-            response.request_focus();
+        keyboard::claim(ui.ctx(), field_id(), Typing::Text, rect);
+        if std::mem::take(&mut renaming.is_new) {
+            select_all(ui, &renaming.text);
             return None;
         }
         if !response.lost_focus() {
@@ -141,6 +168,16 @@ impl CurveList {
         let called_off = ui.input(|input| input.key_pressed(Key::Escape));
         (!called_off).then_some(Asked::Renamed(curve, text))
     }
+}
+
+/// Select the whole name: what is typed takes its place.
+fn select_all(ui: &Ui, text: &str) {
+    let Some(mut state) = TextEditState::load(ui.ctx(), field_id()) else {
+        return;
+    };
+    let all = CCursorRange::two(CCursor::new(0), CCursor::new(text.chars().count()));
+    state.cursor.set_char_range(Some(all));
+    state.store(ui.ctx(), field_id());
 }
 
 fn reorder(editor: &mut Editor, curve: CurveId, place: usize) {
@@ -280,6 +317,19 @@ impl Row {
         let label = format!("{} {}", self.noun(), self.name);
         response
             .widget_info(|| WidgetInfo::selected(Role::ListItem, true, self.active, label.clone()));
+    }
+
+    /// The name; of one that does not fit, all of it is told on hovering.
+    fn name_ui(&self, ui: &Ui, rect: Rect, response: Response) {
+        let tokens = Tokens::of(ui);
+        let colour = match (self.active, self.visible) {
+            (true, _) => tokens.strong_text,
+            (false, true) => tokens.text,
+            (false, false) => tokens.faint_text,
+        };
+        if widgets::label_in(ui, rect, &self.name, colour) {
+            response.on_hover_text(&self.name);
+        }
     }
 
     /// A row can be dragged to another place.

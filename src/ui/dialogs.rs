@@ -1,10 +1,10 @@
 //! The few things that stop everything else: unsaved changes, the list of keys, about.
 
-use eframe::egui::{Context, Grid, Id, Key, Modal, RichText, ScrollArea, Ui, vec2};
+use eframe::egui::{Context, Id, Key, Label, Modal, RichText, ScrollArea, Ui, vec2};
 
 use super::action::Action;
 use super::file_dialogs::AfterDiscard;
-use super::theme::{self, STEP, Tokens};
+use super::theme::{STEP, Tokens};
 use super::{keyboard, widgets};
 use crate::document::quoted;
 use crate::editor::Editor;
@@ -102,57 +102,55 @@ const MOUSE: [(&str, &str); 21] = [
     ("Esc", "Table: cancel the edit; leave"),
 ];
 
+/// The width of a column of keys, and of the keys in it.
+const COLUMN: [f32; 2] = [340.0, 132.0];
+
 fn keys_ui(ui: &mut Ui) -> Option<Decision> {
     let window = ui.ctx().content_rect().size();
-    ui.set_width((window.x - 80.0).clamp(200.0, 1080.0));
+    let columns = ((window.x - 120.0) / COLUMN[0]).floor().clamp(1.0, 3.0);
+    ui.set_width(columns * COLUMN[0]);
     ui.strong("Keys and mouse");
-    let height = (window.y - 200.0).clamp(120.0, 560.0);
+    let height = (window.y - 180.0).clamp(120.0, 640.0);
     // Without a least height the list would grow by a little each frame.
-    let area = ScrollArea::both()
+    let area = ScrollArea::vertical()
         .auto_shrink([false, true])
         .max_height(height)
         .min_scrolled_height(height);
     area.show(ui, |ui| {
-        let keys: Vec<(String, String)> = Action::all()
-            .into_iter()
-            .filter_map(|command| {
-                Some((
-                    keyboard::shortcut_text(command.shortcut()?),
-                    command.label(),
-                ))
-            })
-            .collect();
-        let mouse: Vec<(String, String)> = MOUSE
-            .map(|(keys, what)| (keys.to_owned(), what.to_owned()))
-            .into();
-        let half = keys.len().div_ceil(2);
+        let commands = Action::all().into_iter().filter_map(|command| {
+            let keys = keyboard::shortcut_text(command.shortcut()?);
+            Some((keys, command.label()))
+        });
+        let mouse = MOUSE.map(|(keys, what)| (keys.to_owned(), what.to_owned()));
+        let rows: Vec<(String, String)> = mouse.into_iter().chain(commands).collect();
+        let long = rows.len().div_ceil(columns as usize);
         ui.horizontal_top(|ui| {
-            ui.spacing_mut().item_spacing.x = 8.0 * STEP;
-            list_ui(ui, "keys", &keys[..half]);
-            list_ui(ui, "more keys", &keys[half..]);
-            list_ui(ui, "mouse", &mouse);
+            ui.spacing_mut().item_spacing.x = 0.0;
+            for column in rows.chunks(long) {
+                ui.vertical(|ui| column_ui(ui, column));
+            }
         });
     });
     close_ui(ui)
 }
 
-fn list_ui(ui: &mut Ui, id: &str, rows: &[(String, String)]) {
+fn column_ui(ui: &mut Ui, rows: &[(String, String)]) {
+    let [width, left] = COLUMN;
+    let right = width - left - 6.0 * STEP;
+    ui.set_width(width);
     let tokens = Tokens::of(ui);
-    Grid::new(id)
-        .num_columns(2)
-        .min_row_height(5.0 * STEP)
-        .spacing(vec2(4.0 * STEP, 0.0))
-        .show(ui, |ui| {
-            for (keys, what) in rows {
-                ui.label(
-                    RichText::new(keys)
-                        .font(theme::number_font())
-                        .color(tokens.strong_text),
-                );
-                ui.label(what);
-                ui.end_row();
+    for (keys, what) in rows {
+        ui.horizontal_top(|ui| {
+            ui.spacing_mut().item_spacing.x = 2.0 * STEP;
+            let keys = RichText::new(keys).color(tokens.strong_text);
+            for (text, width) in [(keys, left), (RichText::new(what), right)] {
+                ui.allocate_ui(vec2(width, 0.0), |ui| {
+                    ui.set_width(width);
+                    ui.add(Label::new(text).wrap());
+                });
             }
         });
+    }
 }
 
 fn about_ui(ui: &mut Ui) -> Option<Decision> {

@@ -3,9 +3,7 @@
 use std::time::Duration;
 
 use eframe::egui::text::LayoutJob;
-use eframe::egui::{
-    Response, Role, ScrollArea, Sense, TextStyle, Ui, UiBuilder, WidgetInfo, pos2, vec2,
-};
+use eframe::egui::{Response, Role, Sense, TextStyle, Ui, WidgetInfo, pos2, vec2};
 use lucide_icons::Icon;
 
 use super::theme::{RADIUS, ROW, STEP, Tokens};
@@ -18,9 +16,6 @@ use crate::geometry::harmony::{
     Event, EventCounts, Harmony, HarmonyFigures, IrregularityKind, Isogeometry, LogarithmicPiece,
     Match, Mismatch, Regularity, VertexFigure,
 };
-
-/// The rows that there is room for, however many monotone pieces there are.
-const PIECES: usize = 3;
 
 /// How often it is asked whether the harmony is known.
 const PROGRESS: Duration = Duration::from_millis(100);
@@ -323,25 +318,15 @@ fn pieces_ui(ui: &mut Ui, pieces: &[LogarithmicPiece]) -> Option<Pointed> {
     let tooltip = "The slope of the logarithmic curvature graph on each piece of monotone \
                    curvature, and how straight it is: a log-aesthetic curve has R² = 1";
     widgets::fact_row(ui, "Logarithmic graph", "slope α and R²");
-    let size = vec2(ui.available_width(), PIECES as f32 * ROW);
-    let (_, list) = ui.allocate_space(size);
     let mut pointed = None;
-    ui.scope_builder(UiBuilder::new().max_rect(list), |ui| {
-        if pieces.is_empty() {
-            widgets::caption(ui, "The curvature is constant");
-            return;
-        }
-        let area = ScrollArea::vertical()
-            .id_salt("slopes")
-            .auto_shrink([false, false]);
-        area.show_rows(ui, ROW, pieces.len(), |ui, range| {
-            for piece in pieces.get(range).unwrap_or_default() {
-                let row = piece_ui(ui, piece).on_hover_text(tooltip);
-                let middle = 0.5 * (piece.u[0] + piece.u[1]);
-                pointed = Pointed::at(Some(Place::Parameter(middle)), &row).or(pointed);
-            }
-        });
-    });
+    if pieces.is_empty() {
+        widgets::caption(ui, "The curvature is constant");
+    }
+    for piece in pieces {
+        let row = piece_ui(ui, piece).on_hover_text(tooltip);
+        let middle = 0.5 * (piece.u[0] + piece.u[1]);
+        pointed = Pointed::at(Some(Place::Parameter(middle)), &row).or(pointed);
+    }
     pointed
 }
 

@@ -9,6 +9,7 @@ use super::curve_list::swatch_in;
 use super::figures;
 use super::formula_fields::FormulaFields;
 use super::harmony_list::harmony_list_ui;
+use super::keyboard::{self, Typing};
 use super::number_field::{FieldEvent, NumberField};
 use super::reference_panel;
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
@@ -117,6 +118,7 @@ impl Inspector {
             .align(Align2::LEFT_CENTER)
             .min_size(vec2(0.0, ROW));
         let response = ui.add(field).accessible_name("Name");
+        keyboard::claim(ui.ctx(), response.id, Typing::Text, response.rect);
         if response.lost_focus() {
             let called_off = ui.input(|input| input.key_pressed(Key::Escape));
             if !called_off && text.trim() != name {

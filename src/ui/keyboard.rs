@@ -78,6 +78,12 @@ pub fn shortcut_text(shortcut: Shortcut) -> String {
     parts.join("+")
 }
 
+/// A name with the key that stands for it.
+pub fn with_key(name: &str, shortcut: Option<Shortcut>) -> String {
+    let key = shortcut.map(|shortcut| format!(" ({})", shortcut_text(shortcut)));
+    format!("{name}{}", key.unwrap_or_default())
+}
+
 /// What keys that are typed go into.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Typing {

@@ -96,11 +96,7 @@ fn switch_ui(ui: &mut Ui, editor: &Editor, layer: Layer, commands: &mut Vec<Acti
         ui.painter().line_segment(edge, Stroke::new(2.0, own));
     }
     response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, shown, layer.label()));
-    let key = command.shortcut().map(keyboard::shortcut_text);
-    let name = match key {
-        Some(key) => format!("{} ({key})", layer.label()),
-        None => layer.label().to_owned(),
-    };
+    let name = keyboard::with_key(layer.label(), command.shortcut());
     let tooltip = format!("{name}\n{}", command.tooltip());
     if response.on_hover_text(tooltip).clicked() {
         commands.push(command.into());

@@ -10,16 +10,22 @@ use crate::editor::{Editor, Readout};
 /// The bar's height in points.
 pub const HEIGHT: f32 = 28.0;
 
-/// The width from which on there is room for degree and zoom beside a long hint.
-const WIDE: f32 = 1212.0;
+/// The width that is kept for the hint.
+const HINT: f32 = 280.0;
+
+/// The space between cells.
+const GAP: f32 = 4.0 * STEP;
+
+/// The cells that give way where there is too little room, the first one first.
+const GIVING_WAY: [&str; 2] = ["u", "κ"];
 
 /// Show the bar.
 pub fn status_bar_ui(ui: &mut Ui, editor: &Editor) {
     let readout = editor.readout();
     let width = ui.available_width();
     widgets::at_right(ui, |ui| {
-        ui.spacing_mut().item_spacing.x = 4.0 * STEP;
-        for (name, text, width) in cells(&readout, width).into_iter().rev() {
+        ui.spacing_mut().item_spacing.x = GAP;
+        for (name, text, width) in fitting(cells(&readout), width).into_iter().rev() {
             cell_ui(ui, name, &text, width);
         }
         ui.with_layout(
@@ -32,9 +38,23 @@ pub fn status_bar_ui(ui: &mut Ui, editor: &Editor) {
     });
 }
 
-/// The cells from left to right: name, text and width. Widths are fixed, so that no number
+/// A cell: its name, its text and its width.
+type Cell = (&'static str, String, f32);
+
+/// The cells that there is room for beside the hint.
+fn fitting(mut cells: Vec<Cell>, width: f32) -> Vec<Cell> {
+    for name in GIVING_WAY {
+        let taken: f32 = cells.iter().map(|(_, _, width)| width + GAP).sum();
+        if taken + HINT > width {
+            cells.retain(|(other, ..)| *other != name);
+        }
+    }
+    cells
+}
+
+/// The cells from left to right. Widths are fixed, so that no number
 /// moves its neighbours.
-fn cells(readout: &Readout, width: f32) -> Vec<(&'static str, String, f32)> {
+fn cells(readout: &Readout) -> Vec<Cell> {
     let pixel = 1.0 / readout.scale.max(f64::MIN_POSITIVE);
     let coordinate = |value: Option<f64>| {
         value.map_or_else(blank, |value| figures::to_resolution(value, 0.5 * pixel))
@@ -56,13 +76,11 @@ fn cells(readout: &Readout, width: f32) -> Vec<(&'static str, String, f32)> {
             88.0,
         ),
     ];
-    if width >= WIDE {
-        let degree = readout
-            .degree
-            .map_or_else(blank, |degree| degree.to_string());
-        cells.push(("degree", degree, 60.0));
-        cells.push(("scale", zoom(readout.scale), 136.0));
-    }
+    let degree = readout
+        .degree
+        .map_or_else(blank, |degree| degree.to_string());
+    cells.push(("degree", degree, 60.0));
+    cells.push(("scale", zoom(readout.scale), 136.0));
     cells
 }
 

@@ -1,8 +1,9 @@
 //! Small pieces that the panels share.
 
 use eframe::egui::{
-    self, Align, Align2, Color32, InnerResponse, Layout, Rect, Response, RichText, Role,
-    ScrollArea, Sense, Stroke, StrokeKind, Ui, UiBuilder, Vec2, WidgetInfo,
+    self, Align, Align2, Color32, InnerResponse, Layout, Rect, RectAlign, Response, RichText, Role,
+    ScrollArea, Sense, Stroke, StrokeKind, Tooltip, Ui, UiBuilder, Vec2, WidgetInfo,
+    text::LayoutJob,
 };
 use lucide_icons::Icon;
 
@@ -215,11 +216,29 @@ pub fn fact_row(ui: &mut Ui, name: &str, fact: &str) {
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{name}: {fact}")));
 }
 
-/// Write a text at the left of a box.
-pub fn label_in(ui: &Ui, rect: Rect, text: &str, colour: Color32) {
+/// Write a text at the left of a box. Where there is too little room it ends with an ellipsis; tells
+/// whether it does.
+pub fn label_in(ui: &Ui, rect: Rect, text: &str, colour: Color32) -> bool {
     let font = egui::TextStyle::Body.resolve(ui.style());
-    ui.painter_at(rect)
-        .text(rect.left_center(), Align2::LEFT_CENTER, text, font, colour);
+    let mut job = LayoutJob::simple_singleline(text.to_owned(), font, colour);
+    job.wrap.max_width = rect.width();
+    job.wrap.max_rows = 1;
+    job.wrap.break_anywhere = true;
+    let galley = ui.painter().layout_job(job);
+    let is_cut = galley.elided;
+    let at = rect.left_center() - Vec2::new(0.0, 0.5 * galley.size().y);
+    ui.painter_at(rect).galley(at, galley, colour);
+    is_cut
+}
+
+/// Show a tooltip at the right of what is hovered, whether it is enabled or not.
+pub fn tooltip_at_right(response: &Response, text: &str) {
+    let mut tooltip = match response.enabled() {
+        true => Tooltip::for_enabled(response),
+        false => Tooltip::for_disabled(response),
+    };
+    tooltip.popup = tooltip.popup.align(RectAlign::RIGHT_START);
+    tooltip.show(|ui| ui.label(text));
 }
 
 /// Write a number at the right of a box.

@@ -1,0 +1,215 @@
+//! The side panel: the list of curves, and below it, one at a time, the inspector, the vertices and what
+//! the operation or the tool at hand asks for.
+
+use eframe::egui::{Button, CentralPanel, Context, Frame, Margin, Panel, Ui, vec2};
+
+use super::action::Action;
+use super::curve_list::CurveList;
+use super::end_fit_panel::EndFitPanel;
+use super::feature_list::feature_list_ui;
+use super::inspector::Inspector;
+use super::operation_panel::OperationPanel;
+use super::theme::{ROW, STEP};
+use super::transform_panel::TransformPanel;
+use super::vertex_table::VertexTable;
+use super::widgets;
+use crate::editor::{Editor, ToolKind};
+
+/// The share of the height that curves and features take at first, and the most that they take.
+const SHARES: [f32; 2] = [0.22, 0.6];
+
+/// The least height of the lists of curves and of features.
+const LEAST: f32 = 5.0 * ROW;
+
+/// The height of the bar of tabs, and the width of a tab.
+const TABS: [f32; 2] = [ROW + 3.0 * STEP, 92.0];
+
+/// What a tab shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Tab {
+    #[default]
+    Inspector,
+    Vertices,
+}
+
+/// What asks for values of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Task {
+    /// An operation that is tried out.
+    Trial(&'static str),
+    /// An operation that was applied last: its values can still be changed.
+    Applied(&'static str),
+    /// A tool with fields.
+    Tool(ToolKind),
+}
+
+/// The side panel's own state.
+#[derive(Default)]
+pub struct Side {
+    curves: CurveList,
+    inspector: Inspector,
+    table: VertexTable,
+    operation: OperationPanel,
+    end_fit: EndFitPanel,
+    transform: TransformPanel,
+    tab: Tab,
+    /// The task of the last frame: a new one comes to the front.
+    task: Option<Task>,
+    /// Whether the task is in front of the tabs.
+    is_task_in_front: bool,
+}
+
+impl Side {
+    /// Show the panel in all the room that there is.
+    pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
+        let height = ui.available_height();
+        let curves = list_panel(Panel::top("curves"), height);
+        curves.show(ui, |ui| {
+            widgets::filling(ui, |ui| self.curves.show(ui, editor, commands));
+        });
+        self.notice_task(editor);
+        let bar = Panel::top("side tabs").resizable(false).exact_size(TABS[0]);
+        let bar = bar.frame(Frame::NONE.inner_margin(Margin::symmetric(12, 0)));
+        bar.show(ui, |ui| self.tabs_ui(ui, editor));
+        let body = CentralPanel::default().frame(Frame::NONE);
+        body.show(ui, |ui| {
+            widgets::filling(ui, |ui| self.body_ui(ui, editor));
+        });
+    }
+
+    /// Take the keys that are the panel's own.
+    pub fn take_keys(&mut self, context: &Context, editor: &Editor) {
+        self.curves.take_keys(context, editor);
+    }
+
+    /// A task that begins comes to the front. An operation that was applied stays where it was tried out.
+    fn notice_task(&mut self, editor: &Editor) {
+        let task = task(editor);
+        if task == self.task {
+            return;
+        }
+        self.is_task_in_front = match (self.task, task) {
+            (Some(Task::Trial(before)), Some(Task::Applied(now))) if before == now => {
+                self.is_task_in_front
+            }
+            (_, Some(Task::Applied(_)) | None) => false,
+            (_, Some(Task::Trial(_) | Task::Tool(_))) => true,
+        };
+        self.task = task;
+    }
+
+    fn tabs_ui(&mut self, ui: &mut Ui, editor: &Editor) {
+        let active = editor.active().and_then(|id| editor.document().curve(id));
+        let count = active.map(|curve| curve.polygon.vertices().len());
+        let vertices = count.map_or("Vertices".to_owned(), |count| format!("Vertices ({count})"));
+        let in_front = self.task.filter(|_| self.is_task_in_front);
+        ui.horizontal_centered(|ui| {
+            ui.spacing_mut().item_spacing.x = STEP;
+            let tab = |ui: &mut Ui, name: &str, is_on: bool| {
+                let button = Button::selectable(is_on, name).min_size(vec2(TABS[1], ROW));
+                ui.add(button).clicked()
+            };
+            for (own, name) in [
+                (Tab::Inspector, "Inspector"),
+                (Tab::Vertices, vertices.as_str()),
+            ] {
+                if tab(ui, name, in_front.is_none() && self.tab == own) {
+                    self.tab = own;
+                    self.is_task_in_front = false;
+                }
+            }
+            if let Some(task) = self.task
+                && tab(ui, task.label(), in_front.is_some())
+            {
+                self.is_task_in_front = true;
+            }
+        });
+    }
+
+    fn body_ui(&mut self, ui: &mut Ui, editor: &mut Editor) {
+        let pad = Frame::NONE.inner_margin(Margin {
+            top: 4,
+            ..Margin::symmetric(12, 8)
+        });
+        let task = self.task.filter(|_| self.is_task_in_front);
+        if task.is_none() && self.tab == Tab::Inspector {
+            let height = ui.available_height();
+            let features = list_panel(Panel::bottom("features"), height);
+            features.show(ui, |ui| {
+                widgets::filling(ui, |ui| {
+                    ui.strong("Features");
+                    feature_list_ui(ui, editor);
+                });
+            });
+        }
+        let body = CentralPanel::default().frame(pad);
+        body.show(ui, |ui| {
+            widgets::filling(ui, |ui| match (task, self.tab) {
+                (Some(task), _) => self.task_ui(ui, editor, task),
+                (None, Tab::Inspector) => {
+                    widgets::scrolling(ui, "inspector", |ui| self.inspector.show(ui, editor));
+                }
+                (None, Tab::Vertices) => self.vertices_ui(ui, editor),
+            });
+        });
+    }
+
+    fn task_ui(&mut self, ui: &mut Ui, editor: &mut Editor, task: Task) {
+        match task {
+            Task::Trial(_) | Task::Applied(_) => self.operation.show(ui, editor),
+            Task::Tool(ToolKind::EndFit) => {
+                widgets::scrolling(ui, "end fit", |ui| self.end_fit.show(ui, editor));
+            }
+            Task::Tool(_) => {
+                widgets::scrolling(ui, "tool", |ui| self.transform.show(ui, editor));
+            }
+        }
+    }
+
+    fn vertices_ui(&mut self, ui: &mut Ui, editor: &mut Editor) {
+        let active = editor.active();
+        let curve = active.and_then(|id| Some((id, editor.document().curve(id)?.clone())));
+        match curve {
+            Some((id, curve)) => self.table.show(ui, editor, id, &curve),
+            None if active.is_some() => {
+                widgets::note(ui, "A reference has no vertices.");
+            }
+            None => {
+                widgets::note(ui, "Select a curve to see its vertices.");
+            }
+        }
+    }
+}
+
+impl Task {
+    fn label(self) -> &'static str {
+        match self {
+            Self::Trial(_) | Self::Applied(_) => "Operation",
+            Self::Tool(_) => "Tool",
+        }
+    }
+}
+
+/// The task at hand: an operation that is tried out, then the tool, then the operation applied last.
+fn task(editor: &Editor) -> Option<Task> {
+    let trial = editor.trial();
+    if let Some(trial) = trial.filter(|_| editor.is_trying()) {
+        return Some(Task::Trial(trial.operation().name));
+    }
+    let tool = editor.hand().tool();
+    if matches!(tool, ToolKind::EndFit | ToolKind::Rotate | ToolKind::Scale) {
+        return Some(Task::Tool(tool));
+    }
+    let trial = trial.filter(|trial| !trial.operation().parameters.is_empty())?;
+    Some(Task::Applied(trial.operation().name))
+}
+
+/// A list with a height of its own that the user can change, and nothing else does.
+fn list_panel(panel: Panel, height: f32) -> Panel {
+    let [first, most] = SHARES;
+    panel
+        .frame(Frame::NONE.inner_margin(Margin::symmetric(12, 8)))
+        .resizable(true)
+        .default_size((first * height).max(LEAST))
+        .size_range(LEAST..=(most * height).max(LEAST))
+}
