@@ -6,6 +6,7 @@ mod common;
 mod corrections;
 mod following;
 mod harmonising;
+mod through_ends;
 
 use batten::geometry::end_correction::{EndDifference, EndTarget};
 use batten::geometry::{End, FloatPolygon};

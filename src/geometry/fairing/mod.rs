@@ -19,5 +19,6 @@ mod least_squares;
 pub mod near_end;
 mod objective;
 mod problem;
+mod through_ends;
 mod unknowns;
 mod walk;

@@ -1,0 +1,213 @@
+//! Float polygons whose curves begin and end at given points.
+//!
+//! A float polygon runs beyond its curve. Between the points given first and last, q₀ and q_m, the
+//! others are vertices as they are; in place of q₀ and of q_m come ⌊n/2⌋ + 1 vertices each. Those
+//! make Σ|Δᵏ Pᵢ|² over the whole polygon as small as possible while
+//!
+//!   Σ_{i<n} bᵢ Pᵢ = q₀,   Σ_{i<n} bᵢ P_{N−n+i} = q_m,   bᵢ the basis of degree n at the end knot,
+//!
+//! with k = 3, or 2 where only two points are given: then the polygon is straight and evenly
+//! divided.
+
+use glam::DVec3;
+
+use crate::geometry::banded::{BandedQr, BandedRow, difference_stencil};
+use crate::geometry::basis::uniform_basis_derivative;
+use crate::geometry::error::{MAX_DEGREE, PolygonError};
+use crate::geometry::float_polygon::FloatPolygon;
+
+/// The order k of the differences, if there are points enough.
+const ORDER: usize = 3;
+
+/// How often what rounding leaves of the conditions is taken off.
+const REFINEMENTS: usize = 3;
+
+impl FloatPolygon {
+    /// Find the float polygon of a degree n whose curve begins at the first and ends at the last of
+    /// some points, and that has the points between them as vertices: see the formula above. Of m + 1
+    /// points, at least two, it has m − 1 + 2 (⌊n/2⌋ + 1) vertices, so any degree can be had of any
+    /// number of points. Of degree 1 it is the polygon of the points themselves.
+    ///
+    /// The curve's ends are off by rounding only. Points of the plane z = 0 give a planar polygon.
+    ///
+    /// # Errors
+    /// [`PolygonError::TooFewVertices`] of fewer than two points; otherwise as
+    /// [`FloatPolygon::new`].
+    pub fn through_ends(degree: usize, points: &[DVec3]) -> Result<Self, PolygonError> {
+        let (first, last, between) = match points {
+            [first, between @ .., last] if (1..=MAX_DEGREE).contains(&degree) => {
+                (*first, *last, between)
+            }
+            _ => return Self::new(degree, points.to_vec(), None, false),
+        };
+        let layout = Layout::new(degree, between.len());
+        let mut vertices = vec![first; layout.added];
+        vertices.extend_from_slice(between);
+        vertices.resize(layout.count(), last);
+        layout.place(&mut vertices, [first, last]);
+        Self::new(degree, vertices, None, false)
+    }
+}
+
+/// Which vertices are added, and what holds for them.
+struct Layout {
+    degree: usize,
+    /// How many vertices are added at each end.
+    added: usize,
+    /// How many there are between them.
+    between: usize,
+    /// The basis of degree n at an end knot: n numbers, the same from both sides.
+    basis: Vec<f64>,
+}
+
+impl Layout {
+    fn new(degree: usize, between: usize) -> Self {
+        let mut basis: Vec<f64> = uniform_basis_derivative(degree, 0, 0.0);
+        basis.truncate(degree);
+        Self {
+            degree,
+            added: degree / 2 + 1,
+            between,
+            basis,
+        }
+    }
+
+    fn count(&self) -> usize {
+        self.between + 2 * self.added
+    }
+
+    /// The number of an added vertex among the added ones.
+    fn column(&self, vertex: usize) -> Option<usize> {
+        if vertex < self.added {
+            return Some(vertex);
+        }
+        let column = vertex.checked_sub(self.between)?;
+        (column >= self.added).then_some(column)
+    }
+
+    /// Put the added vertices in their places.
+    fn place(&self, vertices: &mut [DVec3], ends: [DVec3; 2]) {
+        let conditions = self.conditions();
+        let Some(factors) = self.factors(&conditions) else {
+            return;
+        };
+        let columns = 2 * self.added;
+        let held = conditions
+            .each_ref()
+            .map(|condition| factors.solve(&self.entries(condition, columns)));
+        // The smallest differences without regard to the ends, then the least that meets them.
+        let downhill = self.gradient(vertices, &conditions, ends);
+        self.move_added(vertices, |axis| {
+            let gradient: Vec<f64> = downhill.iter().map(|slope| slope[axis]).collect();
+            factors.solve(&gradient)
+        });
+        for _ in 0..REFINEMENTS {
+            let missing = [0, 1].map(|end| ends[end] - combined(&conditions[end], vertices));
+            let product = |row: usize, column: usize| -> f64 {
+                let row = self.entries(&conditions[row], columns);
+                row.iter().zip(&held[column]).map(|(a, b)| a * b).sum()
+            };
+            let [a, b, c, d] = [product(0, 0), product(0, 1), product(1, 0), product(1, 1)];
+            let determinant = a * d - b * c;
+            let factor = [
+                (d * missing[0] - b * missing[1]) / determinant,
+                (a * missing[1] - c * missing[0]) / determinant,
+            ];
+            self.move_added(vertices, |axis| {
+                let pairs = held[0].iter().zip(&held[1]);
+                pairs
+                    .map(|(start, finish)| factor[0][axis] * start + factor[1][axis] * finish)
+                    .collect()
+            });
+        }
+    }
+
+    fn move_added(&self, vertices: &mut [DVec3], by: impl Fn(usize) -> Vec<f64>) {
+        for axis in 0..3 {
+            let moves = by(axis);
+            for (vertex, place) in vertices.iter_mut().enumerate() {
+                let column = self.column(vertex);
+                if let Some(by) = column.and_then(|column| moves.get(column)) {
+                    place[axis] += by;
+                }
+            }
+        }
+    }
+
+    /// The weights of the vertices in the two end points.
+    fn conditions(&self) -> [Vec<(usize, f64)>; 2] {
+        let last = self.count() - self.degree;
+        [0, last].map(|first| {
+            let weights = self.basis.iter().enumerate();
+            weights.map(|(index, b)| (first + index, *b)).collect()
+        })
+    }
+
+    /// The differences in which an added vertex occurs.
+    fn differences(&self) -> Vec<Vec<(usize, f64)>> {
+        let order = ORDER.min(self.between + 2);
+        let stencil = difference_stencil(order);
+        let places = 0..self.count().saturating_sub(order);
+        let touches =
+            |first: &usize| (*first..=first + order).any(|vertex| self.column(vertex).is_some());
+        let row = |first: usize| {
+            let entries = stencil.iter().enumerate();
+            entries
+                .map(|(index, share)| (first + index, *share))
+                .collect()
+        };
+        places.filter(touches).map(row).collect()
+    }
+
+    /// What a combination of vertices has of the added ones, by their columns.
+    fn entries(&self, row: &[(usize, f64)], columns: usize) -> Vec<f64> {
+        let mut entries = vec![0.0; columns];
+        for (vertex, share) in row {
+            if let Some(entry) = self.column(*vertex).and_then(|it| entries.get_mut(it)) {
+                *entry += share;
+            }
+        }
+        entries
+    }
+
+    /// The factors of all rows. The conditions are among them: that changes nothing where they are
+    /// met, and leaves nothing undetermined.
+    fn factors(&self, conditions: &[Vec<(usize, f64)>; 2]) -> Option<BandedQr> {
+        let columns = 2 * self.added;
+        let rows = self.differences().into_iter().chain(conditions.clone());
+        let rows = rows.map(|row| BandedRow {
+            first: 0,
+            entries: self.entries(&row, columns),
+            right: 0.0,
+        });
+        BandedQr::new(rows.collect(), columns)
+    }
+
+    /// The direction in which the sum of squares falls, by the added vertices.
+    fn gradient(
+        &self,
+        vertices: &[DVec3],
+        conditions: &[Vec<(usize, f64)>; 2],
+        ends: [DVec3; 2],
+    ) -> Vec<DVec3> {
+        let mut gradient = vec![DVec3::ZERO; 2 * self.added];
+        let differences = self.differences().into_iter().map(|row| (row, DVec3::ZERO));
+        let conditions = conditions.iter().cloned().zip(ends);
+        for (row, value) in differences.chain(conditions) {
+            let missing = value - combined(&row, vertices);
+            for (vertex, share) in &row {
+                if let Some(slope) = self.column(*vertex).and_then(|it| gradient.get_mut(it)) {
+                    *slope += *share * missing;
+                }
+            }
+        }
+        gradient
+    }
+}
+
+fn combined(row: &[(usize, f64)], vertices: &[DVec3]) -> DVec3 {
+    let terms = row.iter();
+    terms
+        .filter_map(|(vertex, share)| Some(*share * *vertices.get(*vertex)?))
+        .sum()
+}

@@ -1,0 +1,177 @@
+//! Float polygons whose curves begin and end at given points.
+
+use batten::geometry::{End, FloatPolygon, MAX_DEGREE, PolygonError};
+use glam::DVec3;
+
+use crate::common::Random;
+
+/// How far an end may be from its point, in units of the curve's size.
+const MET: f64 = 1e-12;
+
+/// How far the smallest sum of squares may be from another that is larger, in units of it.
+const LEAST: f64 = 1e-9;
+
+/// Points as a hand sets them: a walk with turns and unequal legs.
+fn walk(random: &mut Random, count: usize, planar: bool) -> Vec<DVec3> {
+    let (mut at, mut heading) = (DVec3::ZERO, 0.0_f64);
+    let mut points = Vec::new();
+    for _ in 0..count {
+        points.push(at);
+        heading += random.between(-0.8, 0.8);
+        let leg = random.between(0.5, 2.0);
+        let rise = if planar {
+            0.0
+        } else {
+            random.between(-0.5, 0.5)
+        };
+        at += leg * DVec3::new(heading.cos(), heading.sin(), rise);
+    }
+    points
+}
+
+fn check(degree: usize, points: &[DVec3]) -> FloatPolygon {
+    let polygon = FloatPolygon::through_ends(degree, points).expect("a polygon");
+    let added = degree / 2 + 1;
+    let last = points.len() - 1;
+    assert_eq!(polygon.degree(), degree);
+    assert_eq!(polygon.vertices().len(), last - 1 + 2 * added);
+    for (end, point) in [(End::Start, points[0]), (End::Finish, points[last])] {
+        let off = polygon.end_jet(end).point.distance(point);
+        assert!(
+            off <= MET * polygon.size(),
+            "degree {degree}, {} points: the {} is off by {off:e} of {}",
+            points.len(),
+            end.name(),
+            polygon.size()
+        );
+    }
+    // The points between are vertices to the bit.
+    let kept = &polygon.vertices()[added..polygon.vertices().len() - added];
+    assert_eq!(kept, &points[1..last]);
+    polygon
+}
+
+#[test]
+fn curves_begin_and_end_where_was_asked_of_every_degree_in_plane_and_space() {
+    let mut random = Random(5);
+    for degree in 1..=MAX_DEGREE {
+        for count in (2..=12).chain([40]) {
+            for planar in [true, false] {
+                let points = walk(&mut random, count, planar);
+                assert_eq!(check(degree, &points).is_planar(), planar || count < 2);
+            }
+        }
+    }
+}
+
+#[test]
+fn two_points_give_an_evenly_divided_straight_line() {
+    let points = [DVec3::new(1.0, 2.0, 0.0), DVec3::new(7.0, -1.0, 0.0)];
+    for degree in 1..=MAX_DEGREE {
+        let polygon = check(degree, &points);
+        let legs: Vec<DVec3> = polygon
+            .vertices()
+            .windows(2)
+            .map(|it| it[1] - it[0])
+            .collect();
+        for leg in &legs {
+            let off = leg.distance(legs[0]);
+            assert!(off <= 1e-9 * legs[0].length(), "degree {degree}: {off:e}");
+        }
+    }
+}
+
+#[test]
+fn degree_one_is_the_polygon_itself() {
+    let points = walk(&mut Random(6), 7, false);
+    assert_eq!(check(1, &points).vertices(), points);
+}
+
+/// The sum of the squares of the third differences.
+fn roughness(vertices: &[DVec3]) -> f64 {
+    let third = |p: &[DVec3]| (p[3] - 3.0 * p[2] + 3.0 * p[1] - p[0]).length_squared();
+    vertices.windows(4).map(third).sum()
+}
+
+/// Moves of the added vertices that leave the ends where they are only make the polygon rougher.
+#[test]
+fn differences_are_the_least_that_meet_the_ends() {
+    let mut random = Random(7);
+    for degree in 2..=9 {
+        for count in [3, 4, 9] {
+            let points = walk(&mut random, count, false);
+            let polygon = check(degree, &points);
+            let (vertices, added) = (polygon.vertices(), degree / 2 + 1);
+            let least = roughness(vertices);
+            for _ in 0..50 {
+                let mut moved = vertices.to_vec();
+                let numbers = (0..added).chain(vertices.len() - added..vertices.len());
+                for number in numbers {
+                    moved[number] += random.vector(1e-3, true);
+                }
+                // Put the ends back by the added vertices alone: the weights of both are needed, as
+                // an end's point may depend on vertices that the other end added.
+                let met = with_ends(degree, moved, added, [points[0], points[count - 1]]);
+                assert!(
+                    roughness(&met) >= least * (1.0 - LEAST),
+                    "degree {degree}, {count} points: {} below {least}",
+                    roughness(&met)
+                );
+            }
+        }
+    }
+}
+
+/// Move the outer added vertices so that the curve's ends are where they should be.
+fn with_ends(
+    degree: usize,
+    mut vertices: Vec<DVec3>,
+    added: usize,
+    ends: [DVec3; 2],
+) -> Vec<DVec3> {
+    for _ in 0..200 {
+        for (end, point) in End::BOTH.into_iter().zip(ends) {
+            let polygon = FloatPolygon::new(degree, vertices.clone(), None, false);
+            let missing = point - polygon.expect("a polygon").end_jet(end).point;
+            let last = vertices.len() - 1;
+            for step in 0..added {
+                let number = if end == End::Start { step } else { last - step };
+                vertices[number] += missing;
+            }
+        }
+    }
+    vertices
+}
+
+#[test]
+fn an_arc_of_evenly_spaced_points_bends_up_to_its_ends() {
+    for degree in 2..=7 {
+        let points = (0..=8).map(|step| {
+            let angle = 0.25 * f64::from(step);
+            10.0 * DVec3::new(angle.cos(), angle.sin(), 0.0)
+        });
+        let polygon = check(degree, &points.collect::<Vec<_>>());
+        let middle = polygon
+            .jet(0.5 * polygon.segments() as f64)
+            .curvature_of(true);
+        for end in End::BOTH {
+            let curvature = polygon.end_jet(end).curvature_of(true);
+            // Of odd degrees the ends lie on vertices. Of even ones they lie between two of them, so the
+            // legs there are shorter, and the bend sharper.
+            let bend = if degree % 2 == 1 { 0.65..1.0 } else { 1.0..4.5 };
+            let ratio = curvature / middle;
+            assert!(bend.contains(&ratio), "degree {degree}: {ratio}");
+        }
+    }
+}
+
+#[test]
+fn one_point_is_refused() {
+    let refused = FloatPolygon::through_ends(3, &[DVec3::ONE]);
+    assert!(matches!(
+        refused,
+        Err(PolygonError::TooFewVertices { found: 1, .. })
+    ));
+    assert!(FloatPolygon::through_ends(0, &[DVec3::ONE, DVec3::ZERO]).is_err());
+    assert!(FloatPolygon::through_ends(MAX_DEGREE + 1, &[DVec3::ONE, DVec3::ZERO]).is_err());
+}
