@@ -24,8 +24,9 @@ use glam::DVec2;
 pub use commands::{Command, ReferenceChange, Shortcut};
 pub use files::with_extension;
 pub use hand::{
-    Button, Cursor, EndFitAction, EndFitReport, Follow, Following, Hand, Input, Key, MatchReport,
-    Modifiers, Selection, ToolKind, Transformation, VertexId,
+    Button, Cursor, DrawSettings, EndFitAction, EndFitReport, Entry, EntryError, Follow, Following,
+    Hand, Input, Key, Leg, LegLocks, MatchReport, Modifiers, Selection, ToolKind, Transformation,
+    VertexId,
 };
 pub use paper::{PaperError, PaperPage, spiral_deviations};
 pub use reply::{Message, Note, Refusal, Reply, told};
@@ -34,8 +35,8 @@ pub use trial::{Run, Trial};
 pub use view::{
     Bounds, ChainOutlines, CombSettings, CurveOutlines, CurveScene, EndFitMarks, FeatureKind,
     FeatureMark, FeatureReport, FeatureRow, GAP, GuideLabel, GuideScene, HoverScene, Layer, Layers,
-    LossArrow, Mark, NamedView, Orientation, PieceTrend, PlotKind, PlotScene, REACH, Scene,
-    VertexMark, View, ViewBox, Viewport, grid_steps,
+    LossArrow, Mark, NamedView, Orientation, PieceTrend, PlotKind, PlotScene, ProposalScene, REACH,
+    Scene, VertexMark, View, ViewBox, Viewport, grid_steps,
 };
 pub use worker::{Outcome, Worker};
 pub use workspace::{Interruption, PreviewId, Workspace};
@@ -157,6 +158,7 @@ impl Editor {
     fn use_tool(&mut self, tool: ToolKind) {
         self.interrupt();
         self.hand.tools.choose(tool);
+        self.hand.typed = None;
     }
 
     /// The message to the user, if there is one.

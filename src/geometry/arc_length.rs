@@ -1,12 +1,34 @@
 //! Arc length.
 
 use super::float_polygon::FloatPolygon;
+use super::parametric_curve::ParametricCurve;
 use super::polygon_figures::Range;
 use super::quadrature::{quadrature, settled_quadrature};
 use super::vector;
 
 /// Roundings that a quadrature may differ by from that of its halves.
 const ROUNDINGS: f64 = 16.0 * f64::EPSILON;
+
+/// Measure the arc length of a curve from one parameter to another that is not less, both in \[0, m\],
+/// to the relative `tolerance` of each piece.
+///
+/// Each piece is integrated as [`FloatPolygon::arc_length`] does. 0 if the parameters are not in order.
+pub fn arc_length_between(curve: &dyn ParametricCurve, from: f64, to: f64, tolerance: f64) -> f64 {
+    let pieces = curve.pieces();
+    let first = (from.max(0.0) as usize).min(pieces - 1);
+    let parts = (first..pieces).map_while(|piece| {
+        let start = (from - piece as f64).max(0.0);
+        let end = (to - piece as f64).min(1.0);
+        (start < end).then_some((piece, start, end))
+    });
+    let lengths = parts.map(|(piece, start, end)| {
+        let speed = |t: f64| [vector::length(curve.piece_jet(piece, t).first)];
+        let whole = quadrature(start, end, &speed);
+        let allowed = [tolerance.max(ROUNDINGS) * whole[0]];
+        settled_quadrature([start, end], whole, allowed, &speed).values[0]
+    });
+    lengths.sum()
+}
 
 impl FloatPolygon {
     /// Measure the arc length of the whole curve to the relative `tolerance`.

@@ -47,6 +47,7 @@ mod vector;
 pub mod vertex_moves;
 mod wording;
 
+pub use arc_length::arc_length_between;
 pub use bezier_polygon::{BezierPolygon, segment_bezier};
 pub use clamped_polygon::ClampedPolygon;
 pub use continuity::Continuity;

@@ -6,6 +6,7 @@ use eframe::egui::{self, CentralPanel, Context, Frame, Margin, Panel, Ui, Viewpo
 
 use super::action::Action;
 use super::canvas::Canvas;
+use super::canvas_entry::CanvasEntry;
 use super::dialogs::{self, Decision, Dialog};
 use super::file_dialogs::{AfterDiscard, Chosen, FileDialogs, Purpose};
 use super::gizmo::gizmo_ui;
@@ -34,6 +35,7 @@ pub struct App {
     editor: Editor,
     shell: Shell,
     canvas: Canvas,
+    entry: CanvasEntry,
     keyboard: Keyboard,
     side: Side,
     plots: Plots,
@@ -77,6 +79,7 @@ impl App {
             editor,
             shell,
             canvas: Canvas::default(),
+            entry: CanvasEntry::default(),
             keyboard: Keyboard::default(),
             side: Side::default(),
             plots,
@@ -137,6 +140,7 @@ impl App {
             move_keyboard(context);
         }
         self.side.take_keys(context, &self.editor);
+        self.entry.take_keys(context, &self.editor, &self.canvas);
         let typing = keyboard::typing(context) == Typing::Text;
         let asked = self.keyboard.asked(context, &self.editor);
         if typing && !asked.is_empty() {
@@ -241,7 +245,10 @@ impl App {
     fn overlays_ui(&mut self, context: &Context) {
         if let Some(rect) = self.canvas.rect() {
             layer_strip_ui(context, rect, &mut self.editor, &mut self.actions);
-            message_ui(context, rect, &mut self.editor, &mut self.actions);
+            let entry = self.entry.show(context, rect, &mut self.editor);
+            // The message stands above what is typed.
+            let above = entry.map_or(rect, |entry| rect.with_max_y(entry.top()));
+            message_ui(context, above, &mut self.editor, &mut self.actions);
             if self.editor.is_orbited() {
                 overlays::orbited_ui(context, rect, &mut self.actions);
             }

@@ -263,7 +263,7 @@ impl Canvas {
     /// Whether keys are the canvas's: it had the keyboard before this frame's events. What has it
     /// now is no guide, for Esc has already taken it from the field that Esc was meant for, and has
     /// ended the field's drag.
-    fn has_keyboard(&self, context: &Context) -> bool {
+    pub fn has_keyboard(&self, context: &Context) -> bool {
         let dragged = context.dragged_id().or(context.drag_stopped_id());
         context.memory(|memory| memory.had_focus_last_frame(id()))
             && dragged.is_none_or(|dragged| dragged == id())

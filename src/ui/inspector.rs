@@ -160,7 +160,7 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor, curve: &Curve) {
 }
 
 /// Give the active curve another degree; the polygon stays.
-fn set_degree(editor: &mut Editor, degree: usize) {
+pub fn set_degree(editor: &mut Editor, degree: usize) {
     let values = [("degree", Value::Whole(degree))];
     told(editor.apply_operation(&reinterpret_degree::OPERATION, &values));
 }

@@ -3,7 +3,7 @@
 use eframe::egui::{Context, Event, Key, Plugin, RawInput, Rect, Ui};
 
 use super::canvas;
-use super::keyboard;
+use super::keyboard::{self, Typing};
 
 /// Let whatever follows an event that moves the keyboard's focus wait for another pass of the same
 /// frame, when the focus is there: a digit typed right after a click on a field is the field's.
@@ -32,7 +32,8 @@ impl Plugin for KeyOrder {
             }
             end = press;
         }
-        end = end_of_pass(events.get(..end).unwrap_or_default());
+        let is_free = keyboard::typing(context) == Typing::Nothing;
+        end = end_of_pass(events.get(..end).unwrap_or_default(), is_free);
         self.waiting = events.split_off(end);
         drop_repeats(&events, &mut self.waiting);
         input.events = events;
@@ -51,14 +52,34 @@ fn presses_beside(event: &Event, field: Rect) -> bool {
     matches!(event, Event::PointerButton { pos, pressed: true, .. } if !field.contains(*pos))
 }
 
-/// How many of the events belong to this pass.
-fn end_of_pass(events: &[Event]) -> usize {
-    let moved = events.iter().position(moves_keyboard);
+/// How many of the events belong to this pass. Where nothing is typed into, letters are commands:
+/// one may take a tool to which the digits after it belong.
+fn end_of_pass(events: &[Event], is_free: bool) -> usize {
+    let takes_tool = |event: &Event| is_free && is_letter(event);
+    let moved = events
+        .iter()
+        .position(|it| moves_keyboard(it) || takes_tool(it));
     let next = moved.and_then(|moved| {
+        // A letter's own text comes right after it.
+        let is_next = |event: &Event| match event {
+            Event::Text(_) => !events.get(moved).is_some_and(takes_tool),
+            event => is_key(event),
+        };
         let mut later = events.iter().enumerate().skip(moved + 1);
-        later.find(|(_, event)| is_key(event))
+        later.find(|(_, event)| is_next(event))
     });
     next.map_or(events.len(), |(place, _)| place)
+}
+
+fn is_letter(event: &Event) -> bool {
+    let Event::Key {
+        key, pressed: true, ..
+    } = event
+    else {
+        return false;
+    };
+    let name = key.name();
+    name.len() == 1 && name.chars().all(|letter| letter.is_ascii_alphabetic())
 }
 
 /// Whether an event may give the keyboard to another widget, or to another cell of a table.
@@ -130,9 +151,23 @@ mod tests {
             text("2"),
             key(Key::Enter, true),
         ];
-        assert_eq!(end_of_pass(&events), 3);
-        assert_eq!(end_of_pass(&events[..3]), 3);
-        assert_eq!(end_of_pass(&events[3..]), 2);
+        assert_eq!(end_of_pass(&events, false), 3);
+        assert_eq!(end_of_pass(&events[..3], false), 3);
+        assert_eq!(end_of_pass(&events[3..], false), 2);
+    }
+
+    #[test]
+    fn digits_wait_for_the_tool_that_a_letter_takes() {
+        let text = |text: &str| Event::Text(text.to_owned());
+        let events = [
+            key(Key::D, true),
+            text("d"),
+            key(Key::D, false),
+            key(Key::Num5, true),
+            text("5"),
+        ];
+        assert_eq!(end_of_pass(&events, true), 3);
+        assert_eq!(end_of_pass(&events, false), 5);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use eframe::egui::{self, Context, Event, Id, Rect};
 
 use super::action::Action;
-use crate::editor::{Command, Editor, Key, Modifiers, Shortcut, ToolKind};
+use crate::editor::{Command, Editor, Key, Modifiers, Shortcut};
 
 /// Translate modifier keys.
 pub fn modifiers(modifiers: egui::Modifiers) -> Modifiers {
@@ -159,16 +159,16 @@ impl Keyboard {
         }
         let typing = typing(context);
         let holding = editor.hand().is_holding();
-        // What is typed while drawing may be meant as coordinates.
+        // What is typed while a tool takes numbers is meant for it.
         let is_number = |shortcut: &Shortcut| {
             shortcut.modifiers == Modifiers::NONE
                 && matches!(shortcut.key, Key::Character('0'..='9' | '+' | '-'))
         };
-        let draws = editor.hand().tool() == ToolKind::Draw;
+        let takes_numbers = editor.entry().is_some();
         let table: Vec<(Shortcut, Action)> = Action::all()
             .into_iter()
             .filter_map(|command| Some((command.shortcut()?, command)))
-            .filter(|(shortcut, _)| !(draws && is_number(shortcut)))
+            .filter(|(shortcut, _)| !(takes_numbers && is_number(shortcut)))
             .collect();
         let mut asked = Vec::new();
         context.input_mut(|input| {

@@ -9,7 +9,7 @@ use glam::DVec2;
 
 use super::brush::Brush;
 use super::theme;
-use super::{end_marks, feature_marks, guides, labels};
+use super::{end_marks, feature_marks, guides, labels, proposal, transform_marks};
 use crate::editor::{CurveScene, HoverScene, Mark, Scene, VertexMark};
 
 /// Half the length of the tick across a joint, in points.
@@ -60,6 +60,7 @@ pub fn paint(brush: &Brush<'_>, scene: &Scene) {
 
 /// Paint what belongs to the hand: marks of the tool and what is hovered.
 pub fn paint_hand(brush: &Brush<'_>, scene: &Scene) {
+    proposal::paint(brush, &scene.proposal);
     for mark in &scene.marks {
         brush.mark(mark);
     }
@@ -262,6 +263,12 @@ impl Brush<'_> {
                     self.painter.circle(at, 6.0, tokens.background, accent);
                 }
             }
+            Mark::Ring {
+                centre,
+                handle,
+                swept,
+            } => transform_marks::ring(self, *centre, *handle, *swept),
+            Mark::Corners(corners) => transform_marks::corners(self, corners),
             Mark::Frame { corners, arm } => self.frame(corners, *arm),
             Mark::Snap(at) => {
                 if let Some(at) = self.screen.point(*at) {

@@ -47,7 +47,7 @@ pub fn deletion(id: CurveId, curve: &Curve, indices: &[usize]) -> Result<Edit, E
 ///
 /// # Errors
 /// [`PolygonError`] if the vertex cannot be used.
-fn inserted(
+pub fn inserted(
     polygon: &FloatPolygon,
     index: usize,
     vertex: DVec3,

@@ -40,6 +40,13 @@ impl Editor {
             Input::Key(Key::Escape) if self.is_trying() && !self.drags_handle() => {
                 return self.leave_trial();
             }
+            Input::Key(Key::Escape)
+                if self.hand.tool() == ToolKind::Select
+                    && !self.hand.is_holding()
+                    && self.hand.tools.dismiss_measurement() =>
+            {
+                return;
+            }
             Input::Key(Key::Enter) if self.is_trying() => return told(self.apply_trial()),
             _ => {}
         }
@@ -181,6 +188,11 @@ impl Editor {
                 .gesture(gesture, &self.context_with(layers));
         }
         self.hand.tools = tools;
+        self.take_effects(effects, repeats);
+    }
+
+    /// Do what a tool wants.
+    pub(in crate::editor) fn take_effects(&mut self, effects: Vec<Effect>, repeats: bool) {
         let mut step = Step::None;
         for effect in effects {
             self.take_effect(effect, repeats, &mut step);
@@ -220,6 +232,7 @@ impl Editor {
                 .gestures
                 .pointer()
                 .map(|at| self.view.viewport.to_model(at)),
+            typed: self.hand.typed,
         }
     }
 

@@ -7,6 +7,7 @@ use crate::editor::hand::input::Modifiers;
 use crate::editor::hand::keeping::Keeping;
 use crate::editor::hand::selection::Selection;
 use crate::editor::hand::tools::{ToolKind, Tools};
+use crate::editor::hand::typed_point::TypedPoint;
 
 /// Hold the tool, its gesture, the selection, and which keys are held.
 #[derive(Debug, Default)]
@@ -25,6 +26,8 @@ pub struct Hand {
     /// Whether the key is held that turns that round.
     pub(in crate::editor) keeping_held: bool,
     pub(in crate::editor) keeping: Keeping,
+    /// The point that is being typed, as far as the text is one.
+    pub(in crate::editor) typed: Option<TypedPoint>,
 }
 
 impl Hand {

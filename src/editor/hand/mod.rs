@@ -2,8 +2,10 @@
 
 mod cycle;
 mod dispatch;
+mod drawing_plane;
 pub mod end_fit;
 mod end_fit_actions;
+mod entering;
 pub(in crate::editor) mod following;
 pub(in crate::editor) mod gesture;
 #[allow(clippy::module_inception)]
@@ -17,10 +19,14 @@ pub(in crate::editor) mod selection;
 pub(in crate::editor) mod snapping;
 pub(in crate::editor) mod tools;
 mod transforming;
+mod typed_point;
 
+pub use drawing_plane::{Leg, LegLocks};
 pub use end_fit::{EndFitAction, EndFitReport, MatchReport};
+pub use entering::Entry;
 pub use following::{Follow, Following};
 pub use hand::Hand;
 pub use input::{Button, Input, Key, Modifiers};
 pub use selection::{Selection, VertexId};
-pub use tools::{Cursor, ToolKind, Transformation};
+pub use tools::{Cursor, DrawSettings, ToolKind, Transformation};
+pub use typed_point::EntryError;

@@ -15,7 +15,7 @@ use crate::editor::view::feature_report::{FeatureMark, append_marks};
 use crate::editor::view::layers::{Layer, Layers};
 use crate::editor::view::orientation::Orientation;
 use crate::editor::view::outline::{GAP, ViewBox};
-use crate::editor::view::scene::{CurveScene, Scene, VertexMark};
+use crate::editor::view::scene::{CurveScene, ProposalScene, Scene, VertexMark};
 use crate::geometry::End;
 
 /// Screen points around the canvas that are drawn too, so that strokes run off it.
@@ -34,11 +34,15 @@ impl Editor {
         view.high += border;
         self.draw_curves(&view, &mut scene.curves);
         self.draw_ghost(&view, &mut scene);
+        self.draw_proposal(&view, &mut scene);
         scene.ends.clear();
         if self.layers().shows(Layer::Targets) || self.hand.tool() == ToolKind::EndFit {
             self.draw_ends(&mut scene);
         }
         scene.marks = self.hand.tools.used().marks(&self.context());
+        if let Some(measurement) = self.hand.tools.measurement() {
+            scene.marks.extend(measurement.marks(&self.context()));
+        }
         scene.marks.extend(self.operation_marks());
         scene.marks.extend(self.handle_marks());
         scene.marks.extend(self.flow_marks());
@@ -201,6 +205,16 @@ impl Editor {
         self.view.ghost.append(&before, orientation, view, chains);
         if !shows_float {
             scene.ghost_polygon.clear();
+        }
+    }
+
+    /// The curve that a click would make now.
+    fn draw_proposal(&mut self, view: &ViewBox, scene: &mut Scene) {
+        scene.proposal = ProposalScene::default();
+        if let Some(polygon) = self.proposal() {
+            let (orientation, layers) = (self.view.viewport.orientation, self.layers());
+            let (proposed, scene) = (&mut self.view.proposed, &mut scene.proposal);
+            proposed.draw(polygon, orientation, layers, view, scene);
         }
     }
 

@@ -17,6 +17,8 @@ pub struct Scene {
     pub ghost: Vec<DVec2>,
     /// Its float S-polygon as it was.
     pub ghost_polygon: Vec<DVec2>,
+    /// The curve that a click would make.
+    pub proposal: ProposalScene,
     /// What the tool in the hand draws.
     pub marks: Vec<Mark>,
     /// The end-fit tool's marks, and the targets of all curves.
@@ -25,6 +27,17 @@ pub struct Scene {
     pub guides: GuideScene,
     /// What is under the pointer.
     pub hover: Option<HoverScene>,
+}
+
+/// The curve that a click would make, with its polygons; empty if it would make none.
+#[derive(Clone, Debug, Default)]
+pub struct ProposalScene {
+    /// The closed S-polygon's legs.
+    pub clamped: Vec<DVec2>,
+    /// The float S-polygon's legs.
+    pub float: Vec<DVec2>,
+    /// The curve.
+    pub curve: Vec<DVec2>,
 }
 
 /// The layers of one curve or reference; those that are not shown are empty.
@@ -95,6 +108,17 @@ pub enum Mark {
     Pivot(DVec2),
     /// The handle that rotates or scales, on its arm from the pivot.
     Arm([DVec2; 2]),
+    /// The ring that rotates about a pivot.
+    Ring {
+        /// The pivot.
+        centre: DVec2,
+        /// The handle, on the ring.
+        handle: DVec2,
+        /// By how much it has turned to come there, in radians.
+        swept: f64,
+    },
+    /// The box that scales, by its corners, which are handles.
+    Corners([DVec2; 4]),
     /// The frame of a reference.
     Frame {
         /// Its corners, handles that scale.

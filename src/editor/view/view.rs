@@ -8,6 +8,7 @@ use crate::editor::view::ghost::Ghost;
 use crate::editor::view::layers::Layers;
 use crate::editor::view::outlines::Outlines;
 use crate::editor::view::plot_scene::{PlotKind, PlotScene, PlotSource};
+use crate::editor::view::proposed::ProposedCurve;
 use crate::editor::view::scene::Scene;
 use crate::editor::view::shown::Shown;
 use crate::editor::view::viewport::Viewport;
@@ -40,6 +41,7 @@ pub struct View {
     pub(in crate::editor) atlas: bool,
     pub(in crate::editor) outlines: Outlines,
     pub(in crate::editor) ghost: Ghost,
+    pub(in crate::editor) proposed: ProposedCurve,
 }
 
 /// What panels say is hovered there, to be marked on the canvas.

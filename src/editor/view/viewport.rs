@@ -58,7 +58,7 @@ impl Viewport {
     /// turned against the model keeps z instead, so that planar curves stay planar.
     pub fn movement(&self, by: DVec2, keeps_plane: bool) -> DVec3 {
         let view = &self.orientation;
-        if !keeps_plane || view.axes().is_some() || view.towards().z.abs() < EDGE_ON {
+        if !keeps_plane || view.axes().is_some() || self.is_edge_on() {
             return view.lift(by);
         }
         let (right, up) = (view.right().truncate(), view.up().truncate());
@@ -66,6 +66,11 @@ impl Viewport {
         let x = (by.x * up.y - by.y * right.y) / determinant;
         let y = (by.y * right.x - by.x * up.x) / determinant;
         DVec3::new(x, y, 0.0)
+    }
+
+    /// Whether the plane z = 0 is seen as hardly more than a line.
+    pub fn is_edge_on(&self) -> bool {
+        self.orientation.towards().z.abs() < EDGE_ON
     }
 
     /// The movement along one axis of the model (0 x, 1 y, 2 z) that a push shows; none along an

@@ -2,17 +2,30 @@
 
 use glam::{DVec2, DVec3};
 
+use super::drawing::DrawingTool;
 use super::tool::{Context, Effect, Tool};
 use crate::document::{Curve, Edit};
+use crate::editor::hand::drawing_plane::LegLocks;
 use crate::editor::hand::gesture::{Gesture, is_hasty_click};
 use crate::editor::hand::input::Key;
 use crate::editor::hand::snapping::{Carried, along_axis, by_fifteen_degrees};
+use crate::editor::hand::typed_point::{EntryError, TypedPoint};
 use crate::editor::view::hit::REACH;
 use crate::editor::view::scene::Mark;
-use crate::geometry::{FloatPolygon, counted};
+use crate::geometry::{FloatPolygon, MAX_DEGREE, MAX_MAGNITUDE, PolygonError, counted};
 
 /// The degree that a drawn curve gets if there is no active curve to take it from.
 const DEGREE: usize = 5;
+
+/// How the draw tool makes a curve of vertices: it is kept from one curve to the next.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct DrawSettings {
+    /// The degree; `None` for that of the active curve.
+    pub degree: Option<usize>,
+    /// Whether the curve begins and ends where the first and the last click are, by vertices that
+    /// are added to the polygon.
+    pub through_ends: bool,
+}
 
 /// The draw tool's state: the vertices so far.
 #[derive(Debug, Default)]
@@ -20,9 +33,71 @@ pub struct DrawTool {
     points: Vec<DVec3>,
     /// Where the drag that goes on began.
     pressed: Option<DVec2>,
+    locks: LegLocks,
+    settings: DrawSettings,
 }
 
 impl DrawTool {
+    /// Begin anew with some settings.
+    pub fn with(settings: DrawSettings) -> Self {
+        Self {
+            settings,
+            ..Self::default()
+        }
+    }
+
+    /// How curves are made of vertices.
+    pub fn settings(&self) -> DrawSettings {
+        self.settings
+    }
+
+    /// Make curves of vertices otherwise. The degree is kept within what there is.
+    pub fn set_settings(&mut self, settings: DrawSettings) {
+        let degree = settings.degree.map(|degree| degree.clamp(1, MAX_DEGREE));
+        self.settings = DrawSettings { degree, ..settings };
+    }
+
+    /// The degree that is wanted.
+    pub fn degree(&self, context: &Context) -> usize {
+        let active = || context.document.curve(context.selection.active()?);
+        let degree = self.settings.degree;
+        degree.unwrap_or_else(|| active().map_or(DEGREE, |curve| curve.polygon.degree()))
+    }
+
+    /// The polygon of some vertices: of the degree that is wanted, or the highest that they have.
+    fn polygon(
+        &self,
+        points: Vec<DVec3>,
+        periodic: bool,
+        context: &Context,
+    ) -> Result<FloatPolygon, PolygonError> {
+        let wanted = self.degree(context);
+        if self.settings.through_ends && !periodic {
+            return FloatPolygon::through_ends(wanted, &points);
+        }
+        let degree = wanted.min(points.len().saturating_sub(1)).max(1);
+        FloatPolygon::new(degree, points, None, periodic)
+    }
+
+    /// The vertex that a click at a place of the view plane sets.
+    fn vertex_at(&self, at: DVec2, context: &Context) -> DVec3 {
+        let free = context.viewport.grounded(self.next(at, context));
+        match self.points.last() {
+            Some(last) => self
+                .locks
+                .constrained(*last, free, &context.drawing_plane()),
+            None => free,
+        }
+    }
+
+    /// Set a vertex, unless it is the last one: the second press of a double click sets none of its own.
+    fn set(&mut self, vertex: DVec3, apart: f64) {
+        let last = self.points.last();
+        if last.is_none_or(|last| last.distance(vertex) > apart) {
+            self.points.push(vertex);
+        }
+    }
+
     /// Where a click would put the next vertex: Shift keeps to multiples of 15°.
     fn next(&self, at: DVec2, context: &Context) -> DVec2 {
         let last = self.points.last().filter(|_| context.modifiers.shift);
@@ -55,16 +130,12 @@ impl DrawTool {
 
     fn finish(&mut self, periodic: bool, context: &Context) -> Vec<Effect> {
         let points = std::mem::take(&mut self.points);
-        let wanted = context
-            .selection
-            .active()
-            .and_then(|id| context.document.curve(id))
-            .map_or(DEGREE, |curve| curve.polygon.degree());
-        let degree = wanted.min(points.len().saturating_sub(1)).max(1);
-        match FloatPolygon::new(degree, points.clone(), None, periodic) {
+        let wanted = self.degree(context);
+        match self.polygon(points.clone(), periodic, context) {
             Ok(polygon) => {
                 let id = context.document.next_id();
                 let name = context.document.free_name("curve 1");
+                let (count, degree) = (polygon.vertices().len(), polygon.degree());
                 let curve = Curve::new(name, polygon);
                 vec![
                     Effect::Apply("Draw polygon".into(), vec![Edit::Add(Box::new(curve))]),
@@ -72,7 +143,7 @@ impl DrawTool {
                     Effect::Activate(id),
                     Effect::Say(format!(
                         "{}, degree {degree}{}",
-                        counted(points.len(), "vertex", "vertices"),
+                        counted(count, "vertex", "vertices"),
                         if degree < wanted {
                             ": add vertices to raise it"
                         } else {
@@ -91,6 +162,62 @@ impl DrawTool {
     }
 }
 
+impl DrawingTool for DrawTool {
+    fn leg(&self, context: &Context) -> (Option<DVec3>, Option<DVec3>) {
+        let last = self.points.last().copied();
+        let vertex = match context.typed {
+            Some(typed) => typed.point(last, &context.drawing_plane()).ok(),
+            None => context.pointer.map(|at| self.vertex_at(at, context)),
+        };
+        (last, vertex)
+    }
+
+    fn locks(&self) -> LegLocks {
+        self.locks
+    }
+
+    fn set_locks(&mut self, locks: LegLocks) {
+        self.locks = locks;
+    }
+
+    fn enter(&mut self, typed: TypedPoint, context: &Context) -> Result<Vec<Effect>, EntryError> {
+        let last = self.points.last().copied();
+        let vertex = typed.point(last, &context.drawing_plane())?;
+        if !(vertex.abs().max_element() <= MAX_MAGNITUDE) {
+            let most = format!("coordinates go up to {MAX_MAGNITUDE:e}");
+            return Err(EntryError::Refused(most));
+        }
+        if last == Some(vertex) {
+            return Err(EntryError::Refused(
+                "the last vertex is there already".into(),
+            ));
+        }
+        self.pressed = None;
+        self.points.push(vertex);
+        Ok(Vec::new())
+    }
+
+    fn proposal(&self, context: &Context) -> Option<FloatPolygon> {
+        let mut points = self.points.clone();
+        let closes = context.typed.is_none()
+            && context
+                .pointer
+                .is_some_and(|at| self.closes(context.viewport.to_screen(at), context));
+        if closes {
+            return self.polygon(points, true, context).ok();
+        }
+        if let (_, Some(vertex)) = self.leg(context)
+            && points.last() != Some(&vertex)
+        {
+            points.push(vertex);
+        }
+        if points.len() < 2 {
+            return None;
+        }
+        self.polygon(points, false, context).ok()
+    }
+}
+
 impl Tool for DrawTool {
     fn gesture(&mut self, gesture: Gesture, context: &Context) -> Vec<Effect> {
         match gesture {
@@ -104,17 +231,8 @@ impl Tool for DrawTool {
             }
             // A hasty click is a short drag: the vertex goes where the button is released.
             Gesture::Click(place) | Gesture::DragEnd(place) => {
-                let place = self.next(context.model(place), context);
-                let point = context.viewport.grounded(place);
-                // The second press of a double click sets no vertex of its own.
-                let apart = 2.0 * context.viewport.pixel();
-                if self
-                    .points
-                    .last()
-                    .is_none_or(|last| last.distance(point) > apart)
-                {
-                    self.points.push(point);
-                }
+                let vertex = self.vertex_at(context.model(place), context);
+                self.set(vertex, 2.0 * context.viewport.pixel());
                 Vec::new()
             }
             Gesture::DoubleClick(_) | Gesture::SecondaryClick(_) | Gesture::Key(Key::Enter) => {
@@ -143,8 +261,8 @@ impl Tool for DrawTool {
 
     fn hint(&self, _context: &Context) -> String {
         match self.points.len() {
-            0 => "Click to set the first vertex; Esc ends".into(),
-            1 | 2 => "Click the next vertex; Shift snaps to 15°, Backspace removes the last one, Esc starts over"
+            0 => "Click to set the first vertex, or type x,y; Esc ends".into(),
+            1 | 2 => "Click the next vertex, or type @dx,dy or @length<angle; Shift snaps to 15°, Backspace removes the last one, Esc starts over"
                 .into(),
             count => format!(
                 "{}: Enter or right click ends; click the first vertex to make it periodic",
@@ -154,20 +272,12 @@ impl Tool for DrawTool {
     }
 
     fn marks(&self, context: &Context) -> Vec<Mark> {
-        let mut marks: Vec<Mark> = Vec::new();
-        let view = context.viewport;
-        let points: Vec<DVec2> = self
-            .points
-            .iter()
-            .map(|point| view.flatten(*point))
-            .collect();
-        marks.extend(points.windows(2).map(|leg| Mark::Guide([leg[0], leg[1]])));
-        if let Some(pointer) = context.pointer {
-            let next = self.next(pointer, context);
-            marks.extend(points.last().map(|last| Mark::Guide([*last, next])));
-            marks.push(Mark::NewVertex(next));
-        }
-        marks.extend(points.into_iter().map(Mark::NewVertex));
-        marks
+        let flat = |point: DVec3| context.viewport.flatten(point);
+        let (last, vertex) = self.leg(context);
+        let leg = last.zip(vertex);
+        let leg = leg.map(|(last, vertex)| Mark::Guide([flat(last), flat(vertex)]));
+        let vertices = self.points.iter().copied().chain(vertex);
+        let vertices = vertices.map(|point| Mark::NewVertex(flat(point)));
+        leg.into_iter().chain(vertices).collect()
     }
 }

@@ -1,12 +1,22 @@
-//! Measure a distance and its direction.
+//! Measure a distance, its direction and, between two points of a curve, the arc length.
+
+use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
 use super::tool::{Context, Effect, Tool};
+use crate::document::{Curve, CurveId, Document, MatchPlace, Reference};
 use crate::editor::hand::gesture::{Gesture, is_hasty_click};
 use crate::editor::hand::input::Key;
-use crate::editor::hand::snapping::{Carried, along_axis};
+use crate::editor::hand::snapping::{Carried, along_axis, snap_to_grid, snap_to_point};
 use crate::editor::view::scene::Mark;
+use crate::geometry::{End, arc_length_between};
+
+/// To what part of itself an arc length is found.
+const TOLERANCE: f64 = 1e-12;
+
+/// How far a point may be from a curve that it lies on, in units of its coordinates or 1.
+const ON_CURVE: f64 = 1e-9;
 
 /// The measure tool's state. Points are those of the model, so that the figures stay true when it
 /// is looked at from another side.
@@ -15,77 +25,262 @@ pub struct MeasureTool {
     state: State,
 }
 
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 enum State {
     #[default]
     Idle,
     /// The first point is set, the second follows the pointer. A drag began where `dragged` says.
-    From { from: DVec3, dragged: Option<DVec2> },
-    /// Both are set and stay until the next click.
-    Between(DVec3, DVec3),
+    From { from: Place, dragged: Option<DVec2> },
+    /// Both are set and stay until the next measurement, or Esc.
+    Between(Measured),
+}
+
+/// A point that is measured from or to, with the curves and references on which it lies and its
+/// parameters there.
+#[derive(Clone, Debug)]
+struct Place {
+    point: DVec3,
+    on: Vec<(CurveId, f64)>,
+}
+
+/// Two points, and the arc between them if they lie on one curve.
+#[derive(Clone, Debug)]
+struct Measured {
+    from: DVec3,
+    to: DVec3,
+    arc: Option<MeasuredArc>,
+}
+
+/// The arc between two points of a curve.
+#[derive(Clone, Debug)]
+struct MeasuredArc {
+    id: CurveId,
+    /// The curve or the reference as it was measured.
+    shape: Shape,
+    parameters: [f64; 2],
+    /// Its length; of a periodic curve that of the other way round too.
+    lengths: Vec<f64>,
+}
+
+#[derive(Clone, Debug)]
+enum Shape {
+    Curve(Arc<Curve>),
+    Reference(Arc<Reference>),
+}
+
+impl Shape {
+    fn of(id: CurveId, document: &Document) -> Option<Self> {
+        let curve = || document.curve(id).cloned().map(Self::Curve);
+        let reference = || document.reference(id).cloned().map(Self::Reference);
+        curve().or_else(reference)
+    }
+
+    fn is_in(&self, id: CurveId, document: &Document) -> bool {
+        match (self, Self::of(id, document)) {
+            (Self::Curve(was), Some(Self::Curve(now))) => Arc::ptr_eq(was, &now),
+            (Self::Reference(was), Some(Self::Reference(now))) => Arc::ptr_eq(was, &now),
+            _ => false,
+        }
+    }
+}
+
+impl MeasuredArc {
+    fn between(from: &Place, to: &Place, document: &Document) -> Option<Self> {
+        let (id, parameters) = common(from, to)?;
+        let curve = document.shape(id)?;
+        let [u, v] = parameters;
+        let mut lengths = vec![arc_length_between(curve, u.min(v), u.max(v), TOLERANCE)];
+        if curve.is_periodic() {
+            let whole = arc_length_between(curve, 0.0, curve.pieces() as f64, TOLERANCE);
+            lengths.extend(lengths.first().map(|length| whole - length));
+            lengths.sort_by(f64::total_cmp);
+        }
+        Some(Self {
+            id,
+            shape: Shape::of(id, document)?,
+            parameters,
+            lengths,
+        })
+    }
+}
+
+/// The first curve that both lie on.
+fn common(from: &Place, to: &Place) -> Option<(CurveId, [f64; 2])> {
+    from.on.iter().find_map(|(id, u)| {
+        let (_, v) = to.on.iter().find(|(other, _)| other == id)?;
+        Some((*id, [*u, *v]))
+    })
+}
+
+impl Place {
+    /// A point, with all curves on which it lies.
+    fn new(point: DVec3, context: &Context) -> Self {
+        let reach = ON_CURVE * point.abs().max_element().max(1.0);
+        let curves = context.hits.shown().filter_map(|(id, curve)| {
+            let nearest = curve.polygon.nearest(point);
+            (nearest.distance <= reach).then_some((id, nearest.u))
+        });
+        let references = context.document.references();
+        let references = references.filter(|(_, it)| it.visible);
+        let ends = references.flat_map(|(id, reference)| {
+            let ends = [(End::Start, 0.0), (End::Finish, f64::INFINITY)];
+            ends.into_iter().filter_map(move |(end, u)| {
+                let jet = MatchPlace::End(end).jet(&reference.curve)?;
+                let pieces = context.document.shape(id)?.pieces() as f64;
+                (jet.point == point).then_some((id, f64::min(u, pieces)))
+            })
+        });
+        let on = curves.chain(ends).collect();
+        Self { point, on }
+    }
 }
 
 impl MeasureTool {
-    /// The point of the model that is meant by a place of the view plane: one that snaps, or one
-    /// of a curve, otherwise the one on the ground.
-    fn point(&self, at: DVec2, context: &Context) -> DVec3 {
-        let view = context.viewport;
-        if let (State::From { from, .. }, true) = (self.state, context.modifiers.shift) {
-            let by = along_axis(at - view.flatten(from));
-            return from + view.movement(by, true);
-        }
-        let on_curve = || {
-            // The curve attracts where nothing more definite does.
-            let snaps = context.snapping != context.modifiers.ctrl;
-            let hit = context.hits.curve(view.to_screen(at)).filter(|_| snaps)?;
-            let curve = context.document.shape(hit.curve)?;
-            Some(curve.jet(hit.u).point)
+    /// What stays of it when another tool is used: a measurement until it is dismissed.
+    pub fn kept(&mut self) -> Self {
+        let state = match std::mem::take(&mut self.state) {
+            State::Between(measured) => State::Between(measured),
+            _ => State::Idle,
         };
-        context
-            .snapped_point(at, &Carried::default())
-            .or_else(on_curve)
-            .unwrap_or_else(|| view.grounded(at))
+        Self { state }
     }
 
-    fn line(&self, context: &Context) -> Option<(DVec3, DVec3)> {
-        match self.state {
+    /// Whether both points are set.
+    pub fn has_measured(&self) -> bool {
+        matches!(self.state, State::Between(_))
+    }
+
+    /// Take a measurement away that stays. Returns whether there was one.
+    pub fn dismiss(&mut self) -> bool {
+        let measured = self.has_measured();
+        if measured {
+            self.state = State::Idle;
+        }
+        measured
+    }
+
+    /// What is meant by a place of the view plane: a vertex or an end, otherwise a point of a curve,
+    /// otherwise the grid, otherwise the point on the ground.
+    fn place(&self, at: DVec2, context: &Context) -> Place {
+        let view = context.viewport;
+        if let (State::From { from, .. }, true) = (&self.state, context.modifiers.shift) {
+            let by = along_axis(at - view.flatten(from.point));
+            return Place::new(from.point + view.movement(by, true), context);
+        }
+        let free = |point| Place {
+            point,
+            on: Vec::new(),
+        };
+        if context.snapping == context.modifiers.ctrl {
+            return free(view.grounded(at));
+        }
+        if let Some(point) = snap_to_point(at, context.before, &Carried::default(), view) {
+            return Place::new(point, context);
+        }
+        let hit = context.hits.curve(view.to_screen(at));
+        let curve = hit.and_then(|hit| Some((hit, context.document.shape(hit.curve)?)));
+        if let Some((hit, curve)) = curve {
+            return Place {
+                point: curve.jet(hit.u).point,
+                on: vec![(hit.curve, hit.u)],
+            };
+        }
+        free(snap_to_grid(at, view).unwrap_or_else(|| view.grounded(at)))
+    }
+
+    /// What is measured now, in lines of figures, with the two points.
+    fn line(&self, context: &Context) -> Option<(DVec3, DVec3, Vec<String>)> {
+        match &self.state {
             State::Idle => None,
-            State::From { from, .. } => context.pointer.map(|at| (from, self.point(at, context))),
-            State::Between(from, to) => Some((from, to)),
+            State::From { from, .. } => {
+                let to = self.place(context.pointer?, context);
+                let mut lines = figures(from.point, to.point);
+                let arc = common(from, &to);
+                let arc = arc.and_then(|(id, parameters)| about(id, parameters, context));
+                lines.extend(arc);
+                Some((from.point, to.point, lines))
+            }
+            State::Between(measured) => {
+                let mut lines = figures(measured.from, measured.to);
+                lines.extend(measured.arc_line(context));
+                Some((measured.from, measured.to, lines))
+            }
         }
     }
 
     /// Set the first point, by a click or where a drag begins.
     fn begin(&mut self, place: DVec2, dragged: Option<DVec2>, context: &Context) {
         self.state = State::Idle;
-        let from = self.point(context.model(place), context);
+        let from = self.place(context.model(place), context);
         self.state = State::From { from, dragged };
+    }
+
+    /// Set the second point.
+    fn end(&mut self, from: &Place, place: DVec2, context: &Context) {
+        let to = self.place(context.model(place), context);
+        self.state = State::Between(Measured {
+            from: from.point,
+            to: to.point,
+            arc: MeasuredArc::between(from, &to, context.document),
+        });
     }
 }
 
-/// Say a distance in space and its parts and, within a plane of two axes, its direction.
-fn figures(from: DVec3, to: DVec3) -> String {
+impl Measured {
+    /// The arc length; to plotting accuracy once the curve has changed, as long as both points lie on it.
+    fn arc_line(&self, context: &Context) -> Option<String> {
+        let arc = self.arc.as_ref()?;
+        if arc.shape.is_in(arc.id, context.document) {
+            let lengths = arc.lengths.iter().map(|length| format!("{length:.6}"));
+            let lengths: Vec<String> = lengths.collect();
+            return Some(format!("arc {}", lengths.join(" or ")));
+        }
+        let curve = context.document.shape(arc.id)?;
+        let ends = arc.parameters.into_iter().zip([self.from, self.to]);
+        let mut ends = ends.map(|(u, point)| (curve.jet(u).point.distance(point), point));
+        let lies =
+            |(off, point): (f64, DVec3)| off <= ON_CURVE * point.abs().max_element().max(1.0);
+        if !ends.all(lies) {
+            return None;
+        }
+        about(arc.id, arc.parameters, context)
+    }
+}
+
+/// The arc length to plotting accuracy.
+fn about(id: CurveId, [u, v]: [f64; 2], context: &Context) -> Option<String> {
+    let sampled = context.hits.analyses.sampled(id)?;
+    let one_way = (sampled.length_at(u) - sampled.length_at(v)).abs();
+    if !sampled.curve.is_periodic() {
+        return Some(format!("arc ≈ {one_way:.4}"));
+    }
+    let other_way = sampled.samples.length() - one_way;
+    let (short, long) = (one_way.min(other_way), one_way.max(other_way));
+    Some(format!("arc ≈ {short:.4} or {long:.4}"))
+}
+
+/// Say a distance in space and its parts and, within a plane of two axes, its direction, a line each.
+fn figures(from: DVec3, to: DVec3) -> Vec<String> {
     const NAMES: [&str; 3] = ["x", "y", "z"];
     let span = to - from;
-    let part = |axis: usize| format!("   d{} {:.6}", NAMES[axis], span[axis]);
-    let mut text = format!("{:.6}", span.length());
+    let part = |axis: usize| format!("d{} {:.6}", NAMES[axis], span[axis]);
+    let mut lines = vec![format!("{:.6}", span.length())];
     // The plane z = 0 first: it is where planar curves are.
     match [2, 1, 0].into_iter().find(|normal| span[*normal] == 0.0) {
         Some(normal) => {
             let [across, along] = [[1, 2], [0, 2], [0, 1]][normal];
             let angle = DVec2::new(span[across], span[along]).to_angle();
-            text += &part(across);
-            text += &part(along);
-            text += &format!("   {:.3}°", angle.to_degrees());
+            lines.extend([part(across), part(along)]);
+            lines.push(format!("{:.3}°", angle.to_degrees()));
         }
-        None => (0..3).for_each(|axis| text += &part(axis)),
+        None => lines.extend([0, 1, 2].map(part)),
     }
-    text
+    lines
 }
 
 impl Tool for MeasureTool {
     fn gesture(&mut self, gesture: Gesture, context: &Context) -> Vec<Effect> {
-        match (self.state, gesture) {
+        match (self.state.clone(), gesture) {
             // A hasty click is a short drag: it sets one point, as a click does.
             (
                 State::From {
@@ -100,7 +295,7 @@ impl Tool for MeasureTool {
                 };
             }
             (State::From { from, .. }, Gesture::Click(place) | Gesture::DragEnd(place)) => {
-                self.state = State::Between(from, self.point(context.model(place), context));
+                self.end(&from, place, context);
             }
             // The second point is where the drag ends.
             (State::From { .. }, Gesture::DragStart(_)) => {}
@@ -114,11 +309,13 @@ impl Tool for MeasureTool {
     }
 
     fn hint(&self, context: &Context) -> String {
-        match (self.state, self.line(context)) {
-            (State::From { .. }, Some((from, to))) => {
-                format!("{}   Shift locks to an axis", figures(from, to))
+        match (&self.state, self.line(context)) {
+            (State::From { .. }, Some((_, _, lines))) => {
+                format!("{}   Shift locks to an axis", lines.join("   "))
             }
-            (State::Between(..), Some((from, to))) => figures(from, to),
+            (State::Between(_), Some((_, _, lines))) => {
+                format!("{}   Esc removes it", lines.join("   "))
+            }
             _ => "Click two points, or drag, to measure between them; Esc ends".into(),
         }
     }
@@ -133,17 +330,20 @@ impl Tool for MeasureTool {
 
     fn marks(&self, context: &Context) -> Vec<Mark> {
         let view = context.viewport;
-        let Some((from, to)) = self.line(context) else {
-            let at = context.pointer;
-            let snapped = at.and_then(|at| context.snapped_point(at, &Carried::default()));
-            let mark = snapped.map(|point| Mark::Snap(view.flatten(point)));
-            return mark.into_iter().collect();
+        let snapped = || {
+            let at = context.pointer?;
+            let place = view.flatten(self.place(at, context).point);
+            (place != at).then_some(Mark::Snap(place))
         };
-        let text = format!("{:.4}", from.distance(to));
+        let Some((from, to, lines)) = self.line(context) else {
+            return snapped().into_iter().collect();
+        };
         let [from, to] = [from, to].map(|point| view.flatten(point));
-        vec![
+        let ruler = [
             Mark::Ruler([from, to]),
-            Mark::Label(0.5 * (from + to), text),
-        ]
+            Mark::Label(0.5 * (from + to), lines.join("\n")),
+        ];
+        let snap = snapped().filter(|_| !self.has_measured());
+        ruler.into_iter().chain(snap).collect()
     }
 }

@@ -2,6 +2,7 @@
 //! effects.
 
 mod draw;
+mod drawing;
 mod end_fit;
 mod end_fit_drags;
 mod end_fit_subject;
@@ -12,6 +13,8 @@ mod tool;
 mod transform;
 mod vertices;
 
+pub use draw::DrawSettings;
+pub use drawing::DrawingTool;
 pub use tool::{Context, Cursor, Effect, Look, Tool, move_edits};
 pub use transform::{Action as Transformation, NOTHING_TO_TRANSFORM};
 
@@ -68,6 +71,8 @@ impl Tools {
         *self = Self {
             used: kind,
             end_fit,
+            draw: DrawTool::with(self.draw.settings()),
+            measure: self.measure.kept(),
             ..Self::default()
         };
     }
@@ -100,6 +105,47 @@ impl Tools {
             ToolKind::Measure => &mut self.measure,
             ToolKind::EndFit => &mut self.end_fit,
         }
+    }
+
+    /// What is measured, while another tool is used.
+    pub fn measurement(&self) -> Option<&dyn Tool> {
+        let stays = self.used != ToolKind::Measure && self.measure.has_measured();
+        stays.then_some(&self.measure)
+    }
+
+    /// Take a measurement away that stays. Returns whether there was one.
+    pub fn dismiss_measurement(&mut self) -> bool {
+        self.measure.dismiss()
+    }
+
+    /// The tool in use, if it sets vertices.
+    pub fn drawing(&self) -> Option<&dyn DrawingTool> {
+        match self.used {
+            ToolKind::AddVertex => Some(&self.add_vertex),
+            ToolKind::Insert => Some(&self.insert),
+            ToolKind::Draw => Some(&self.draw),
+            _ => None,
+        }
+    }
+
+    /// The tool in use, if it sets vertices, to be worked with.
+    pub fn drawing_mut(&mut self) -> Option<&mut dyn DrawingTool> {
+        match self.used {
+            ToolKind::AddVertex => Some(&mut self.add_vertex),
+            ToolKind::Insert => Some(&mut self.insert),
+            ToolKind::Draw => Some(&mut self.draw),
+            _ => None,
+        }
+    }
+
+    /// The draw tool, if it is in use.
+    pub fn draw(&self) -> Option<&DrawTool> {
+        (self.used == ToolKind::Draw).then_some(&self.draw)
+    }
+
+    /// The draw tool, if it is in use, to be set up.
+    pub fn draw_mut(&mut self) -> Option<&mut DrawTool> {
+        (self.used == ToolKind::Draw).then_some(&mut self.draw)
     }
 
     /// The rotate or the scale tool, if one of them is in use.

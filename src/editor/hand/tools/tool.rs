@@ -5,11 +5,13 @@ use std::collections::BTreeSet;
 use glam::{DVec2, DVec3};
 
 use crate::document::{CurveId, Document, Edit};
+use crate::editor::hand::drawing_plane::DrawingPlane;
 use crate::editor::hand::following::Following;
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Modifiers;
 use crate::editor::hand::selection::{Selection, VertexId};
 use crate::editor::hand::snapping::{self, Carried};
+use crate::editor::hand::typed_point::TypedPoint;
 use crate::editor::view::comb::CombSettings;
 use crate::editor::view::hit::HitTest;
 use crate::editor::view::scene::Mark;
@@ -40,6 +42,8 @@ pub struct Context<'a> {
     pub following: Following,
     /// Where the pointer is, in the view plane.
     pub pointer: Option<DVec2>,
+    /// The point that is being typed, as far as the text is one.
+    pub typed: Option<TypedPoint>,
 }
 
 /// What a tool wants done.
@@ -167,6 +171,11 @@ impl Context<'_> {
         let snapped = self.snapped(wanted, carried);
         let snap = (snapped != wanted).then_some(snapped);
         (snap.map_or(free, |snap| snap - held), snap)
+    }
+
+    /// The plane in which clicks set points.
+    pub fn drawing_plane(&self) -> DrawingPlane {
+        DrawingPlane::of(self.viewport)
     }
 
     /// Map a place on the canvas to the view plane.

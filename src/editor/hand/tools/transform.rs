@@ -17,6 +17,12 @@ use crate::geometry::counted;
 pub const NOTHING_TO_TRANSFORM: &str =
     "Nothing to transform: select vertices or a curve; what is locked or hidden stays";
 
+/// The radius of the ring that rotates, in screen points.
+const RING: f64 = 88.0;
+
+/// Half the side of the box that scales, in screen points.
+const HALF_BOX: f64 = 64.0;
+
 /// What a drag does to the vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Transform {
@@ -252,21 +258,50 @@ impl Tool for TransformTool {
     }
 
     fn marks(&self, context: &Context) -> Vec<Mark> {
-        if let State::Turning {
+        let State::Turning {
             pivot,
             origin,
             now,
             label,
             ..
         } = &self.state
-        {
-            return vec![
-                Mark::Guide([*pivot, *origin]),
-                Mark::Arm([*pivot, *now]),
-                Mark::Pivot(*pivot),
-                Mark::Label(*now, label.clone()),
-            ];
+        else {
+            let pivot = self.pivot(context);
+            let still = match self.transform {
+                Transform::Rotate => Action::Rotate(0.0),
+                Transform::Scale => Action::Scale(1.0),
+            };
+            let marks = pivot.map(|pivot| [gizmo(pivot, 0.0, still, context), Mark::Pivot(pivot)]);
+            return marks.into_iter().flatten().collect();
+        };
+        let (action, _) = self.action(*pivot, *origin, *now, context);
+        vec![
+            gizmo(*pivot, (*origin - *pivot).to_angle(), action, context),
+            Mark::Guide([*pivot, *origin]),
+            Mark::Arm([*pivot, *now]),
+            Mark::Pivot(*pivot),
+            Mark::Label(*now, label.clone()),
+        ]
+    }
+}
+
+/// The ring of a rotation that began at an angle, or the box of a scaling.
+fn gizmo(pivot: DVec2, from: f64, action: Action, context: &Context) -> Mark {
+    let pixel = context.viewport.pixel();
+    match action {
+        Action::Rotate(swept) => Mark::Ring {
+            centre: pivot,
+            handle: pivot + RING * pixel * DVec2::from_angle(from + swept),
+            swept,
+        },
+        Action::Scale(factor) => {
+            let corner = |x, y| pivot + HALF_BOX * pixel * factor * DVec2::new(x, y);
+            Mark::Corners([
+                corner(1.0, 1.0),
+                corner(-1.0, 1.0),
+                corner(-1.0, -1.0),
+                corner(1.0, -1.0),
+            ])
         }
-        self.pivot(context).map(Mark::Pivot).into_iter().collect()
     }
 }

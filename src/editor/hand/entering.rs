@@ -1,0 +1,140 @@
+//! What can be typed on the canvas while a tool is used, and the leg that is drawn.
+
+use crate::editor::Editor;
+use crate::editor::hand::drawing_plane::{DrawingPlane, Leg, LegLocks};
+use crate::editor::hand::tools::{DrawSettings, ToolKind, Transformation};
+use crate::editor::hand::typed_point::{EntryError, TypedPoint, read_number};
+use crate::editor::reply::Refusal;
+use crate::geometry::FloatPolygon;
+use crate::geometry::expressions::Quantity;
+
+/// What the tool in the hand takes that is typed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Entry {
+    /// A point, by the names of the two axes that it is drawn along.
+    Point([&'static str; 2]),
+    /// An angle in degrees.
+    Angle,
+    /// A factor.
+    Factor,
+}
+
+impl Editor {
+    /// What can be typed on the canvas now.
+    pub fn entry(&self) -> Option<Entry> {
+        match self.hand.tool() {
+            ToolKind::Draw | ToolKind::AddVertex | ToolKind::Insert => {
+                let plane = DrawingPlane::of(&self.view.viewport);
+                Some(Entry::Point(plane.names()))
+            }
+            ToolKind::Rotate => Some(Entry::Angle),
+            ToolKind::Scale => Some(Entry::Factor),
+            _ => None,
+        }
+    }
+
+    /// Show what a text would do as far as it is one, or nothing of what was typed.
+    pub fn type_entry(&mut self, text: &str) {
+        let is_point = matches!(self.entry(), Some(Entry::Point(_)));
+        self.hand.typed = TypedPoint::read(text).ok().filter(|_| is_point);
+    }
+
+    /// Do what was typed: set a vertex, rotate or scale. It ends a drag that goes on.
+    ///
+    /// # Errors
+    /// [`EntryError`] if the text means nothing, or nothing can be done; nothing is changed then.
+    pub fn enter(&mut self, text: &str) -> Result<(), EntryError> {
+        match self.entry() {
+            Some(Entry::Point(_)) => self.enter_point(TypedPoint::read(text)?),
+            Some(Entry::Angle) => {
+                let angle = read_number(text, Quantity::Angle)?.to_radians();
+                self.enter_transformation(Transformation::Rotate(angle))
+            }
+            Some(Entry::Factor) => {
+                let factor = read_number(text, Quantity::Number)?;
+                self.enter_transformation(Transformation::Scale(factor))
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn enter_transformation(&mut self, transformation: Transformation) -> Result<(), EntryError> {
+        let done = self.transform(transformation);
+        done.map(drop)
+            .map_err(|Refusal(reason)| EntryError::Refused(reason))
+    }
+
+    fn enter_point(&mut self, typed: TypedPoint) -> Result<(), EntryError> {
+        if self.is_trying() {
+            self.interrupt_trial();
+        }
+        self.analyse();
+        let mut tools = std::mem::take(&mut self.hand.tools);
+        let entered = tools
+            .drawing_mut()
+            .map(|tool| tool.enter(typed, &self.context()));
+        self.hand.tools = tools;
+        let effects = entered.transpose()?.unwrap_or_default();
+        self.hand.typed = None;
+        self.message = None;
+        self.take_effects(effects, false);
+        self.hand.gestures.reset();
+        Ok(())
+    }
+
+    /// The leg that is drawn, to what is typed or to the pointer, if there is one.
+    pub fn leg(&self) -> Option<Leg> {
+        let context = self.context();
+        let (from, to) = self.hand.tools.drawing()?.leg(&context);
+        Some(Leg::between(from?, to?, &context.drawing_plane()))
+    }
+
+    /// What is locked of the leg that is drawn, while a tool sets vertices.
+    pub fn leg_locks(&self) -> Option<LegLocks> {
+        Some(self.hand.tools.drawing()?.locks())
+    }
+
+    /// Lock the length of the leg that is drawn, a positive number, its angle, or none.
+    pub fn lock_leg(&mut self, locks: LegLocks) {
+        let is_usable = |length: &f64| *length > 0.0 && length.is_finite();
+        let locks = LegLocks {
+            length: locks.length.filter(is_usable),
+            degrees: locks.degrees.filter(|degrees| degrees.is_finite()),
+        };
+        if let Some(tool) = self.hand.tools.drawing_mut() {
+            tool.set_locks(locks);
+        }
+    }
+
+    /// How the draw tool makes curves, while it is in the hand.
+    pub fn draw_settings(&self) -> Option<DrawSettings> {
+        Some(self.hand.tools.draw()?.settings())
+    }
+
+    /// Let the draw tool make curves otherwise.
+    pub fn set_draw_settings(&mut self, settings: DrawSettings) {
+        if let Some(tool) = self.hand.tools.draw_mut() {
+            tool.set_settings(settings);
+        }
+    }
+
+    /// The degree of the curve that is drawn, or that vertices are added to.
+    pub fn drawn_degree(&self) -> Option<usize> {
+        let context = self.context();
+        if let Some(tool) = self.hand.tools.draw() {
+            return Some(tool.degree(&context));
+        }
+        let proposed = self.proposal().map(|polygon| polygon.degree());
+        let active = || Some(self.active_curve()?.1.polygon.degree());
+        self.hand.tools.drawing()?;
+        proposed.or_else(active)
+    }
+
+    /// The polygon that there would be if the vertex was set now that is drawn.
+    pub(in crate::editor) fn proposal(&self) -> Option<FloatPolygon> {
+        if self.is_trying() || self.hand.gestures.is_panning() || self.hand.gestures.is_orbiting() {
+            return None;
+        }
+        self.hand.tools.drawing()?.proposal(&self.context())
+    }
+}

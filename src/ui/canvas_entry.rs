@@ -1,0 +1,272 @@
+//! What is typed on the canvas: a point, an angle or a factor for the tool in the hand, and the
+//! figures of the leg that is drawn.
+
+use eframe::egui::{
+    Align2, Area, Context, Event, Frame, Id, Key, Order, Rect, Stroke, TextEdit, Ui, vec2,
+};
+use lucide_icons::Icon;
+
+use super::canvas::{self, Canvas};
+use super::draft::remark_ui;
+use super::keyboard::{self, Typing};
+use super::number_field::{FieldEvent, NumberField};
+use super::theme::{self, ROW, STEP, Tokens};
+use super::widgets::{self, IconButton};
+use super::{figures, inspector};
+use crate::editor::{Editor, Entry, EntryError, LegLocks};
+use crate::geometry::MAX_DEGREE;
+
+/// What texts begin with that are numbers or points.
+const BEGINNINGS: [char; 5] = ['-', '−', '.', '@', '('];
+
+/// The widths of the field, of captions and of figures.
+const FIELD: f32 = 208.0;
+const CAPTION: f32 = 48.0;
+const FIGURE: f32 = 76.0;
+
+/// The field for what is typed, which the canvas's digits go to.
+#[derive(Debug, Default)]
+pub struct CanvasEntry {
+    text: String,
+    error: Option<EntryError>,
+    /// Whether it had the keyboard in the last frame.
+    is_typed: bool,
+    rect: Option<Rect>,
+}
+
+/// The identity of the field.
+fn id() -> Id {
+    Id::unique("canvas entry")
+}
+
+impl CanvasEntry {
+    /// Give the keyboard to the field when something is typed on the canvas that the tool takes.
+    /// Called before keys are looked at as commands.
+    pub fn take_keys(&mut self, context: &Context, editor: &Editor, canvas: &Canvas) {
+        if editor.entry().is_none() || !canvas.has_keyboard(context) {
+            return;
+        }
+        let begins = |event: &Event| matches!(event, Event::Text(text) if begins(text));
+        if context.input(|input| input.events.iter().any(begins)) {
+            self.text.clear();
+            self.error = None;
+            let rect = self.rect.unwrap_or(Rect::NOTHING);
+            keyboard::claim(context, id(), Typing::Text, rect);
+            context.memory_mut(|memory| memory.request_focus(id()));
+        }
+    }
+
+    /// Show the field, with the figures of the leg that is drawn, at the canvas's lower edge. Returns
+    /// where.
+    pub fn show(&mut self, context: &Context, canvas: Rect, editor: &mut Editor) -> Option<Rect> {
+        let Some(entry) = editor.entry() else {
+            *self = Self::default();
+            return None;
+        };
+        let area = Area::new(Id::unique("drawing"))
+            .order(Order::Middle)
+            .pivot(Align2::CENTER_BOTTOM)
+            .fixed_pos(canvas.center_bottom() - vec2(0.0, 6.0 * STEP))
+            .constrain(false);
+        let shown = area.show(context, |ui| {
+            let outline = Stroke::new(1.0, Tokens::of(ui).outline);
+            let frame = Frame::popup(ui.style()).stroke(outline);
+            frame.inner_margin(2.0 * STEP).show(ui, |ui| {
+                ui.spacing_mut().item_spacing = vec2(STEP, STEP);
+                if matches!(entry, Entry::Point(_)) {
+                    ui.horizontal(|ui| leg_ui(ui, editor));
+                }
+                ui.horizontal(|ui| {
+                    self.entry_ui(ui, editor, entry);
+                    through_ends_ui(ui, editor);
+                });
+            });
+        });
+        Some(shown.response.rect)
+    }
+
+    fn entry_ui(&mut self, ui: &mut Ui, editor: &mut Editor, entry: Entry) {
+        let (caption, name, hint) = words(entry);
+        caption_ui(ui, caption);
+        let (_, rect) = ui.allocate_space(vec2(FIELD, ROW));
+        self.rect = Some(rect);
+        keyboard::claim(ui.ctx(), id(), Typing::Text, rect);
+        let tokens = Tokens::of(ui);
+        let is_wrong = self.error.is_some();
+        let edit = TextEdit::singleline(&mut self.text)
+            .id(id())
+            .font(theme::number_font())
+            .hint_text(hint)
+            .text_color(if is_wrong {
+                tokens.error
+            } else {
+                tokens.strong_text
+            })
+            .return_key(None)
+            .min_size(rect.size())
+            .desired_width(rect.width());
+        let response = ui.put(rect, edit);
+        ui.ctx()
+            .accesskit_node_builder(id(), |node| node.set_label(name));
+        if response.changed() {
+            self.error = None;
+        }
+        if let Some(error) = &self.error {
+            remark_ui(ui, id(), rect, &error.to_string());
+        }
+        self.follow_keyboard(ui, editor, response.has_focus());
+    }
+
+    /// Show what is typed while it is, do it on Enter, and give the canvas back after that and on Esc.
+    fn follow_keyboard(&mut self, ui: &Ui, editor: &mut Editor, has_keyboard: bool) {
+        let was_typed = std::mem::replace(&mut self.is_typed, has_keyboard);
+        if !has_keyboard {
+            if was_typed {
+                editor.type_entry("");
+                ui.ctx().request_repaint();
+            }
+            if was_typed && ui.input(|input| input.key_pressed(Key::Escape)) {
+                self.text.clear();
+                self.error = None;
+            }
+            return;
+        }
+        if ui.input(|input| input.key_pressed(Key::Enter)) {
+            self.enter(ui, editor);
+        } else {
+            editor.type_entry(&self.text);
+            // What is typed moves the leg that is drawn, which this frame has shown already.
+            ui.ctx().request_repaint();
+        }
+    }
+
+    fn enter(&mut self, ui: &Ui, editor: &mut Editor) {
+        let is_empty = self.text.trim().is_empty();
+        let entered = if is_empty {
+            Ok(())
+        } else {
+            editor.enter(&self.text)
+        };
+        match entered {
+            Ok(()) => {
+                *self = Self {
+                    rect: self.rect,
+                    ..Self::default()
+                };
+                editor.type_entry("");
+                ui.memory_mut(|memory| memory.request_focus(canvas::id()));
+            }
+            Err(error) => self.error = Some(error),
+        }
+        ui.ctx().request_repaint();
+    }
+}
+
+fn begins(text: &str) -> bool {
+    let first = text.chars().next();
+    first.is_some_and(|first| first.is_ascii_digit() || BEGINNINGS.contains(&first))
+}
+
+/// The caption of the field, its name and what can be typed there.
+fn words(entry: Entry) -> (&'static str, &'static str, String) {
+    match entry {
+        Entry::Point([x, y]) => {
+            let hint = format!("{x},{y}  @d{x},d{y}  @length<angle");
+            ("Point", "typed point", hint)
+        }
+        Entry::Angle => ("Angle", "typed angle", "degrees".to_owned()),
+        Entry::Factor => ("Factor", "typed factor", "such as 1.5".to_owned()),
+    }
+}
+
+fn caption_ui(ui: &mut Ui, caption: &str) {
+    let (_, rect) = ui.allocate_space(vec2(CAPTION, ROW));
+    widgets::label_in(ui, rect, caption, Tokens::of(ui).faint_text);
+}
+
+/// Degree, length and angle of what is drawn.
+fn leg_ui(ui: &mut Ui, editor: &mut Editor) {
+    degree_ui(ui, editor);
+    let Some(locks) = editor.leg_locks() else {
+        return;
+    };
+    let leg = editor.leg();
+    let pixel = editor.view().viewport().pixel();
+    let length = leg.map(|leg| leg.length);
+    let shown = |value| figures::to_resolution(value, 0.1 * pixel);
+    let length = figure_ui(ui, ("Length", "leg length"), (locks.length, length), shown);
+    let degrees = leg.and_then(|leg| leg.degrees);
+    let shown = |value| format!("{}°", figures::to_resolution(value, 0.01));
+    let degrees = figure_ui(ui, ("Angle", "leg angle"), (locks.degrees, degrees), shown);
+    let new = LegLocks { length, degrees };
+    if new != locks {
+        editor.lock_leg(new);
+    }
+}
+
+fn degree_ui(ui: &mut Ui, editor: &mut Editor) {
+    let Some(degree) = editor.drawn_degree() else {
+        return;
+    };
+    caption_ui(ui, "Degree");
+    let field = NumberField::new("drawn degree", degree as f64, degree.to_string())
+        .width(40.0)
+        .range(1.0..=MAX_DEGREE as f64)
+        .typed_only();
+    if let FieldEvent::Typed(value) = field.show(ui).1 {
+        let degree = value.round() as usize;
+        match editor.draw_settings() {
+            Some(mut settings) => {
+                settings.degree = Some(degree);
+                editor.set_draw_settings(settings);
+            }
+            None => inspector::set_degree(editor, degree),
+        }
+    }
+}
+
+/// A figure of the leg, and whether it is locked: typing it locks it. Returns the locked value.
+fn figure_ui(
+    ui: &mut Ui,
+    (caption, name): (&str, &str),
+    (locked, drawn): (Option<f64>, Option<f64>),
+    shown: impl Fn(f64) -> String,
+) -> Option<f64> {
+    caption_ui(ui, caption);
+    let value = locked.or(drawn);
+    let text = value.map_or_else(|| "–".to_owned(), shown);
+    let field = NumberField::new(name, value.unwrap_or(0.0), text)
+        .width(FIGURE)
+        .typed_only();
+    let typed = match field.show(ui).1 {
+        FieldEvent::Typed(value) => Some(value),
+        _ => None,
+    };
+    let (icon, verb) = match locked {
+        Some(_) => (Icon::Lock, "Unlock"),
+        None => (Icon::LockOpen, "Lock"),
+    };
+    let label = format!("{verb} {name}");
+    let lock = IconButton::new(icon, &label).enabled(value.is_some());
+    let lock = match locked {
+        Some(_) => lock.colour(Tokens::of(ui).accent),
+        None => lock,
+    };
+    if lock.show(ui).clicked() {
+        return if locked.is_some() { None } else { drawn };
+    }
+    typed.or(locked)
+}
+
+/// Whether the curve that is drawn begins and ends at clicks.
+fn through_ends_ui(ui: &mut Ui, editor: &mut Editor) {
+    let Some(mut settings) = editor.draw_settings() else {
+        return;
+    };
+    let tooltip =
+        "Vertices are added so that the curve begins at the first click and ends at the last";
+    let response = ui.checkbox(&mut settings.through_ends, "Through ends");
+    if response.on_hover_text(tooltip).changed() {
+        editor.set_draw_settings(settings);
+    }
+}

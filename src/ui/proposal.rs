@@ -1,0 +1,18 @@
+//! The curve that a click would make: fainter than what is there.
+
+use eframe::egui::Stroke;
+
+use super::brush::Brush;
+use crate::editor::ProposalScene;
+
+/// How faint its polygons are.
+const FAINT: f32 = 0.55;
+
+/// Paint the curve that a click would make, and its polygons.
+pub fn paint(brush: &Brush<'_>, proposal: &ProposalScene) {
+    let tokens = brush.tokens;
+    let faint = |colour: eframe::egui::Color32| Stroke::new(1.0, colour.gamma_multiply(FAINT));
+    brush.dashed_chain(&proposal.clamped, faint(tokens.clamped));
+    brush.chain(&proposal.float, faint(tokens.float));
+    brush.chain(&proposal.curve, Stroke::new(1.5, tokens.curve));
+}

@@ -1,0 +1,78 @@
+//! The ring that rotates, and the box that scales.
+
+use eframe::egui::{Color32, Mesh, Rect, Shape, Stroke, StrokeKind, Vec2};
+use glam::DVec2;
+
+use super::brush::Brush;
+
+/// The side of square handles.
+const SQUARE: f32 = 9.0;
+
+/// The radius of round handles.
+const DISC: f32 = 6.0;
+
+/// How faint lines and what is swept are.
+const LINE: f32 = 0.6;
+const SWEPT: f32 = 0.16;
+
+/// The angle between two points of the border of what is swept, at most.
+const STEP: f64 = 0.05;
+
+/// Paint the ring about a centre, with its handle, and what the handle has swept to come there.
+pub fn ring(brush: &Brush<'_>, centre: DVec2, handle: DVec2, swept: f64) {
+    let (Some(at), Some(end)) = (brush.screen.point(centre), brush.screen.point(handle)) else {
+        return;
+    };
+    let accent = brush.tokens.accent;
+    let arm = handle - centre;
+    let steps = (swept.abs() / STEP).ceil().clamp(1.0, 512.0) as u32;
+    let place = |step: u32| {
+        let back = swept * (1.0 - f64::from(step) / f64::from(steps));
+        brush
+            .screen
+            .point(centre + DVec2::from_angle(-back).rotate(arm))
+    };
+    let mut mesh = Mesh::default();
+    let fill = accent.gamma_multiply(SWEPT);
+    mesh.colored_vertex(at, fill);
+    for step in 0..=steps {
+        let Some(border) = place(step) else {
+            return;
+        };
+        mesh.colored_vertex(border, fill);
+        if step > 0 {
+            mesh.add_triangle(0, step, step + 1);
+        }
+    }
+    if swept != 0.0 {
+        brush.painter.add(Shape::mesh(mesh));
+    }
+    let line = Stroke::new(1.0, accent.gamma_multiply(LINE));
+    brush.painter.circle_stroke(at, at.distance(end), line);
+    let (fill, outline) = handle_colours(brush);
+    brush.painter.circle(end, DISC, fill, outline);
+}
+
+/// Paint a box with its corners, which are handles.
+pub fn corners(brush: &Brush<'_>, corners: &[DVec2; 4]) {
+    let line = Stroke::new(1.0, brush.tokens.accent.gamma_multiply(LINE));
+    let sides = corners.iter().zip(corners.iter().cycle().skip(1));
+    for side in sides.filter_map(|(from, to)| brush.screen.segment([*from, *to])) {
+        brush.painter.line_segment(side, line);
+    }
+    let (fill, outline) = handle_colours(brush);
+    for at in corners
+        .iter()
+        .filter_map(|corner| brush.screen.point(*corner))
+    {
+        let square = Rect::from_center_size(at, Vec2::splat(SQUARE));
+        brush
+            .painter
+            .rect(square, 1, fill, outline, StrokeKind::Middle);
+    }
+}
+
+fn handle_colours(brush: &Brush<'_>) -> (Color32, Stroke) {
+    let tokens = brush.tokens;
+    (tokens.background, Stroke::new(1.5, tokens.accent))
+}
