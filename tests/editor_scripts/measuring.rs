@@ -75,8 +75,6 @@ fn between_both_ends_the_arc_is_the_whole_curve() {
 #[test]
 fn between_two_points_of_a_periodic_curve_there_are_two_arcs() {
     let mut script = Script::example("periodic");
-    script.command(Command::ToggleSnapping);
-    script.command(Command::ToggleSnapping);
     let polygon = script.polygon();
     let [u, v] = [1.25, 4.5].map(|u| polygon.jet(u).point);
     let (from, to) = (seen(&script, u), seen(&script, v));

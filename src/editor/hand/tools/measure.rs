@@ -160,7 +160,7 @@ impl MeasureTool {
     }
 
     /// What is meant by a place of the view plane: a vertex or an end, otherwise a point of a curve,
-    /// otherwise the grid, otherwise the point on the ground.
+    /// otherwise the grid if snapping is on, otherwise the point on the ground. Ctrl lets nothing attract.
     fn place(&self, at: DVec2, context: &Context) -> Place {
         let view = context.viewport;
         if let (State::From { from, .. }, true) = (&self.state, context.modifiers.shift) {
@@ -171,7 +171,7 @@ impl MeasureTool {
             point,
             on: Vec::new(),
         };
-        if context.snapping == context.modifiers.ctrl {
+        if context.modifiers.ctrl {
             return free(view.grounded(at));
         }
         if let Some(point) = snap_to_point(at, context.before, &Carried::default(), view) {
@@ -185,7 +185,8 @@ impl MeasureTool {
                 on: vec![(hit.curve, hit.u)],
             };
         }
-        free(snap_to_grid(at, view).unwrap_or_else(|| view.grounded(at)))
+        let grid = snap_to_grid(at, view).filter(|_| context.snapping);
+        free(grid.unwrap_or_else(|| view.grounded(at)))
     }
 
     /// What is measured now, in lines of figures, with the two points.
