@@ -120,23 +120,18 @@ impl CanvasEntry {
     /// Show what is typed while it is, do it on Enter, and give the canvas back after that and on Esc.
     fn follow_keyboard(&mut self, ui: &Ui, editor: &mut Editor, has_keyboard: bool) {
         let was_typed = std::mem::replace(&mut self.is_typed, has_keyboard);
-        if !has_keyboard {
-            if was_typed {
-                editor.type_entry("");
-                ui.ctx().request_repaint();
-            }
-            if was_typed && ui.input(|input| input.key_pressed(Key::Escape)) {
-                self.text.clear();
-                self.error = None;
-            }
-            return;
+        if has_keyboard && ui.input(|input| input.key_pressed(Key::Enter)) {
+            return self.enter(ui, editor);
         }
-        if ui.input(|input| input.key_pressed(Key::Enter)) {
-            self.enter(ui, editor);
-        } else {
-            editor.type_entry(&self.text);
+        let text = if has_keyboard { self.text.as_str() } else { "" };
+        if editor.type_entry(text) {
             // What is typed moves the leg that is drawn, which this frame has shown already.
             ui.ctx().request_repaint();
+        }
+        let called_off = || ui.input(|input| input.key_pressed(Key::Escape));
+        if was_typed && !has_keyboard && called_off() {
+            self.text.clear();
+            self.error = None;
         }
     }
 

@@ -2,7 +2,6 @@
 #![cfg(feature = "gui")]
 
 mod canvas;
-mod drawing;
 mod fields;
 mod files;
 mod generating;

@@ -33,10 +33,13 @@ impl Editor {
         }
     }
 
-    /// Show what a text would do as far as it is one, or nothing of what was typed.
-    pub fn type_entry(&mut self, text: &str) {
+    /// Show the vertex that a text would set as far as it is a point, otherwise the one at the pointer.
+    /// Returns whether that is another one than before.
+    pub fn type_entry(&mut self, text: &str) -> bool {
         let is_point = matches!(self.entry(), Some(Entry::Point(_)));
-        self.hand.typed = TypedPoint::read(text).ok().filter(|_| is_point);
+        let typed = TypedPoint::read(text).ok().filter(|_| is_point);
+        let before = std::mem::replace(&mut self.hand.typed, typed);
+        before != typed
     }
 
     /// Do what was typed: set a vertex, rotate or scale. It ends a drag that goes on.
@@ -59,9 +62,13 @@ impl Editor {
     }
 
     fn enter_transformation(&mut self, transformation: Transformation) -> Result<(), EntryError> {
-        let done = self.transform(transformation);
-        done.map(drop)
-            .map_err(|Refusal(reason)| EntryError::Refused(reason))
+        let refused = self.transform(transformation).err();
+        let Some(Refusal(reason)) = refused else {
+            return Ok(());
+        };
+        // It is told beside the field.
+        self.message = None;
+        Err(EntryError::Refused(reason))
     }
 
     fn enter_point(&mut self, typed: TypedPoint) -> Result<(), EntryError> {
