@@ -17,6 +17,8 @@ use super::error::EditError;
 pub struct History {
     document: Document,
     saved: Document,
+    /// Whether what was saved last is not known.
+    unsaved: bool,
     undo: Vec<Step>,
     redo: Vec<Step>,
     preview: Option<Preview>,
@@ -243,11 +245,27 @@ impl History {
 
     /// Whether the document differs from the one last saved or opened.
     pub fn is_modified(&self) -> bool {
-        !self.document.is_same(&self.saved)
+        self.is_unsaved(&self.document)
+    }
+
+    /// Whether the document without what a running preview shows differs from the one last saved or
+    /// opened.
+    pub fn is_settled_modified(&self) -> bool {
+        self.is_unsaved(self.settled())
     }
 
     /// Count the document as saved, without what a running preview shows.
     pub fn mark_saved(&mut self) {
         self.saved = self.settled().clone();
+        self.unsaved = false;
+    }
+
+    /// Count the document as modified, whatever is undone, until it is saved.
+    pub fn mark_unsaved(&mut self) {
+        self.unsaved = true;
+    }
+
+    fn is_unsaved(&self, document: &Document) -> bool {
+        self.unsaved || !document.is_same(&self.saved)
     }
 }

@@ -3,12 +3,12 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use crate::document::{Curve, CurveId, Document, Edit, EndMatch, Reference};
-use crate::editor::reply::{Note, Refusal, Reply};
+use crate::document::{Curve, CurveId, Document, Edit, EndMatch, Reference, quoted};
+use crate::editor::reply::{Message, Note, Refusal, Reply};
 use crate::editor::{Editor, Export};
 use crate::geometry::counted;
 use crate::io::examples::EXAMPLES;
-use crate::io::{FileError, Format, Reading, disk, shown_path};
+use crate::io::{FileError, Fingerprint, Format, Reading, disk, shown_path};
 
 impl Editor {
     /// Begin an empty document.
@@ -95,9 +95,51 @@ impl Editor {
         Ok(added)
     }
 
+    /// Whether the document's file holds something else than when it was last read or written. A
+    /// file that is not there, or cannot be read, holds nothing that could be lost.
+    pub fn is_file_changed(&self) -> bool {
+        let path = self.workspace.path();
+        self.is_other(path.and_then(disk::fingerprint))
+    }
+
+    /// Look whether another program has changed the document's file, as when the window gets the
+    /// keyboard again. A change is told once, by a later frame.
+    pub fn look_at_file(&mut self) {
+        if let Some(path) = self.workspace.path() {
+            self.file_watch.look_at(path.to_owned());
+        }
+    }
+
+    /// Tell of a change of the document's file that was seen since the last frame.
+    pub(in crate::editor) fn tell_file_change(&mut self) {
+        let Some(seen) = self.file_watch.take() else {
+            return;
+        };
+        let is_own = self.workspace.path() == Some(&seen.path);
+        let name = seen.path.file_name().unwrap_or_default().to_string_lossy();
+        let text = format!("Another program has changed {}", quoted(&name));
+        if is_own && self.is_other(seen.fingerprint) && self.file_watch.note(seen) {
+            self.message = Some(Message::file_changed(text));
+        }
+    }
+
+    /// Say that another window has the document's file open; empty if none has.
+    pub(in crate::editor) fn open_elsewhere(&self) -> String {
+        let path = self.workspace.path();
+        match path.filter(|path| self.autosaving.is_open_elsewhere(path)) {
+            Some(_) => "Another window has this file open: what is saved last counts".to_owned(),
+            None => String::new(),
+        }
+    }
+
+    fn is_other(&self, found: Option<Fingerprint>) -> bool {
+        let known = self.workspace.fingerprint();
+        found.is_some_and(|found| known.is_some_and(|known| known != found))
+    }
+
     fn replace_by_files(&mut self, paths: &[PathBuf]) -> Reply {
         if let [path] = paths {
-            return self.replace_by_file(disk::read_file(path)?, path);
+            return self.replace_by_file(path);
         }
         let (reading, remarks) = read_together(paths)?;
         let text = format!("{} read from {} files", reading.counted(), paths.len());
@@ -105,17 +147,21 @@ impl Editor {
         Ok(Note::told(with_lines(text, &remarks)))
     }
 
-    fn replace_by_file(&mut self, mut reading: Reading, path: &Path) -> Reply {
+    fn replace_by_file(&mut self, path: &Path) -> Reply {
+        let (mut reading, fingerprint) = disk::read_with_fingerprint(path)?;
         let text = format!("{} read from {}", reading.counted(), shown_path(path));
         let remarks = std::mem::take(&mut reading.remarks);
         let document = reading.into_document()?;
         let keeps = document.has_extras();
-        self.replace(document, own_path(path));
+        let own = own_path(path);
+        let known = own.as_ref().map(|_| fingerprint);
+        self.replace(document, own);
+        self.workspace.set_fingerprint(known);
         let mut text = with_lines(text, &remarks);
         if keeps {
             text += "\nUnknown keys are kept when you save.";
         }
-        Ok(Note::told(text))
+        Ok(Note::told(with_lines(text, &self.open_elsewhere())))
     }
 
     fn replace_by_example(&mut self, index: usize) -> Reply {
@@ -147,8 +193,13 @@ impl Editor {
         }
         let document = self.workspace.settled();
         let saved = disk::write_document(&path, document, None)?;
-        self.workspace.mark_saved(path);
-        Ok(Note::told(with_lines(format!("Saved to {shown}"), &saved)))
+        let is_new = self.workspace.path() != Some(&path);
+        self.workspace.mark_saved(path, saved.fingerprint);
+        let text = with_lines(format!("Saved to {shown}"), &saved);
+        Ok(Note::told(match is_new {
+            true => with_lines(text, &self.open_elsewhere()),
+            false => text,
+        }))
     }
 
     fn write_export(&self, path: &Path, export: &Export) -> Reply {

@@ -1,7 +1,9 @@
 //! The application without a window, in three parts: the workspace (what is worked on), the view
 //! (how it is seen) and the hand (what works on it). Nothing in here knows of egui.
 
+mod autosaving;
 mod commands;
+mod file_watch;
 mod files;
 mod guides;
 mod hand;
@@ -10,6 +12,8 @@ mod operating;
 mod paper;
 mod patience;
 mod proving;
+mod recoverable;
+mod recovering;
 mod reply;
 mod report;
 mod trial;
@@ -21,6 +25,7 @@ use std::time::Duration;
 
 use glam::DVec2;
 
+pub use autosaving::Autosaver;
 pub use commands::{Command, ReferenceChange, Shortcut};
 pub use files::with_extension;
 pub use hand::{
@@ -29,6 +34,7 @@ pub use hand::{
     VertexId,
 };
 pub use paper::{PaperError, PaperPage, spiral_deviations};
+pub use recoverable::{Recoverable, RecoverableDocument};
 pub use reply::{Message, Note, Refusal, Reply, told};
 pub use report::{CurveReport, Export, Readout, ReferenceReport};
 pub use trial::{Run, Trial};
@@ -43,6 +49,8 @@ pub use workspace::{Interruption, PreviewId, Workspace};
 
 use crate::analysis::AnalysisCache;
 use crate::document::{CurveId, Document, Edit, quoted};
+use autosaving::Autosaving;
+use file_watch::FileWatch;
 use guides::Guides;
 use hand::gesture::Gesture;
 use hand::tools::Tools;
@@ -63,6 +71,9 @@ pub struct Editor {
     proving: Proving,
     measuring: Measuring,
     guides: Guides,
+    autosaving: Autosaving,
+    recoverable: Vec<Recoverable>,
+    file_watch: FileWatch,
     message: Option<Message>,
 }
 
@@ -93,6 +104,8 @@ impl Editor {
         self.proving = Proving::background(wake.clone());
         self.measuring = Measuring::background(wake.clone());
         self.guides = Guides::background(wake.clone());
+        self.autosaving.run_in_background(wake.clone());
+        self.file_watch = FileWatch::background(wake.clone());
         self.operations = Operations::background(wake);
     }
 
@@ -100,6 +113,7 @@ impl Editor {
     pub fn begin_frame(&mut self) {
         self.patience.renew();
         self.receive_operations();
+        self.tell_file_change();
     }
 
     /// What is worked on: the document, its history and its file.

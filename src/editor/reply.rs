@@ -81,6 +81,8 @@ pub struct Message {
     pub is_error: bool,
     /// Whether it tells of a step that can be undone on the spot.
     pub offers_undo: bool,
+    /// Whether it tells that the document's file has changed and can be read again.
+    pub offers_reload: bool,
     /// Whether it tells of an update of the preview: the next one that succeeds takes it away.
     pub(in crate::editor) of_update: bool,
 }
@@ -96,7 +98,19 @@ impl Message {
             text,
             is_error,
             offers_undo,
+            offers_reload: false,
             of_update: false,
         })
+    }
+
+    /// The message that the document's file has changed and can be read again.
+    pub(in crate::editor) fn file_changed(text: String) -> Self {
+        Self {
+            text,
+            is_error: false,
+            offers_undo: false,
+            offers_reload: true,
+            of_update: false,
+        }
     }
 }

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::document::{Document, Edit, EditError, History};
+use crate::io::Fingerprint;
 
 /// Hold the document with its history and its file, and what is being tried out on it.
 ///
@@ -12,6 +13,8 @@ use crate::document::{Document, Edit, EditError, History};
 pub struct Workspace {
     history: History,
     path: Option<PathBuf>,
+    /// What the file held when it was last read or written.
+    fingerprint: Option<Fingerprint>,
     preview: Option<Preview>,
     /// How many previews there have been.
     previews: u64,
@@ -87,10 +90,31 @@ impl Workspace {
         self.revision
     }
 
+    /// Whether there is something to save besides what is being tried out.
+    pub fn is_settled_modified(&self) -> bool {
+        self.history.is_settled_modified()
+    }
+
     /// Take the document without what is being tried out as saved under a path.
-    pub fn mark_saved(&mut self, path: PathBuf) {
+    pub fn mark_saved(&mut self, path: PathBuf, fingerprint: Fingerprint) {
         self.path = Some(path);
+        self.fingerprint = Some(fingerprint);
         self.history.mark_saved();
+    }
+
+    /// Take the document as one that was not saved.
+    pub fn mark_unsaved(&mut self) {
+        self.history.mark_unsaved();
+    }
+
+    /// What the document's file held when it was last read or written.
+    pub fn fingerprint(&self) -> Option<Fingerprint> {
+        self.fingerprint
+    }
+
+    /// Tell what the document's file held when it was last read or written.
+    pub fn set_fingerprint(&mut self, fingerprint: Option<Fingerprint>) {
+        self.fingerprint = fingerprint;
     }
 
     /// The preview that runs.
@@ -268,8 +292,8 @@ mod tests {
         let mut workspace = trying(Interruption::Aborts);
         assert_eq!(name(workspace.document()), "tried");
         assert_eq!(name(workspace.settled()), "arc");
-        workspace.mark_saved(PathBuf::from("arc.batten"));
-        assert!(workspace.is_modified());
+        workspace.mark_saved(PathBuf::from("arc.batten"), Fingerprint::of(b"arc"));
+        assert!(workspace.is_modified() && !workspace.is_settled_modified());
         assert!(workspace.preview().is_some(), "saving ends nothing");
         workspace.abort();
         assert!(!workspace.is_modified());

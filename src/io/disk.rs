@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
 use super::error::{FileError, FileProblem};
+use super::fingerprint::Fingerprint;
 use super::format::Format;
 use super::loss::{Export, LossReport};
 use super::reading::Reading;
@@ -35,8 +36,25 @@ const SUFFIX: &str = "0";
 /// # Errors
 /// [`FileError`], naming the file and the place in it.
 pub fn read_file(path: &Path) -> Result<Reading, FileError> {
+    let (reading, _) = read_with_fingerprint(path)?;
+    Ok(reading)
+}
+
+/// Read the curves of a file as [`read_file`] does, with the fingerprint of its bytes.
+///
+/// # Errors
+/// As [`read_file`].
+pub fn read_with_fingerprint(path: &Path) -> Result<(Reading, Fingerprint), FileError> {
     let format = Format::to_read(path).map_err(FileError::at(path))?;
-    read_file_as(path, format)
+    let bytes = read_bytes(path).map_err(FileError::at(path))?;
+    let reading = format.read(&bytes).map_err(FileError::at(path))?;
+    Ok((reading, Fingerprint::of(&bytes)))
+}
+
+/// The fingerprint of what a file holds now; `None` if there is no such file, or it cannot be read.
+pub fn fingerprint(path: &Path) -> Option<Fingerprint> {
+    let bytes = read_bytes(path).ok()?;
+    Some(Fingerprint::of(&bytes))
 }
 
 /// Read the curves of a file of a given format, whatever its name.
@@ -44,7 +62,7 @@ pub fn read_file(path: &Path) -> Result<Reading, FileError> {
 /// # Errors
 /// [`FileError`], naming the file and the place in it.
 pub fn read_file_as(path: &Path, format: Format) -> Result<Reading, FileError> {
-    let bytes = read_bytes(path, MOST_BYTES).map_err(FileError::at(path))?;
+    let bytes = read_bytes(path).map_err(FileError::at(path))?;
     format.read(&bytes).map_err(FileError::at(path))
 }
 
@@ -71,6 +89,8 @@ pub struct Saved {
     pub losses: LossReport,
     /// How many other names (hard links) the old file had: they keep its content.
     pub other_names: u64,
+    /// The fingerprint of what was written.
+    pub fingerprint: Fingerprint,
 }
 
 impl Saved {
@@ -135,6 +155,7 @@ pub fn write_export(path: &Path, export: Export) -> Result<Saved, FileError> {
     Ok(Saved {
         other_names: write_bytes(path, &export.bytes).map_err(FileError::at(path))?,
         losses: export.losses,
+        fingerprint: Fingerprint::of(&export.bytes),
     })
 }
 
@@ -144,7 +165,7 @@ pub fn write_export(path: &Path, export: Export) -> Result<Saved, FileError> {
 /// Returns how many other names (hard links) the old file had: they keep its content.
 ///
 /// What killed saves have left in the folder is removed.
-fn write_bytes(path: &Path, bytes: &[u8]) -> Result<u64, FileProblem> {
+pub(super) fn write_bytes(path: &Path, bytes: &[u8]) -> Result<u64, FileProblem> {
     let (not_found, not_written) = (FileProblem::system("find"), FileProblem::system("write"));
     let target = followed(path).map_err(&not_found)?;
     let old = match fs::metadata(&target) {
@@ -180,7 +201,57 @@ fn write_bytes(path: &Path, bytes: &[u8]) -> Result<u64, FileProblem> {
     Ok(old.as_ref().map_or(0, other_names))
 }
 
-fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, FileProblem> {
+/// Read a whole file, unless it has more bytes than Batten reads.
+pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, FileProblem> {
+    read_at_most(path, MOST_BYTES)
+}
+
+/// A lock on a file: held until it is dropped or the process ends, however it ends.
+#[derive(Debug)]
+pub(super) struct FileLock(#[expect(dead_code, reason = "held, never read")] File);
+
+/// Lock a file, which is made if it is not there; `None` if another holds the lock.
+pub(super) fn lock(path: &Path) -> Result<Option<FileLock>, FileProblem> {
+    let mut options = File::options();
+    let file = options.create(true).truncate(false).write(true).open(path);
+    let file = file.map_err(FileProblem::system("open"))?;
+    match file.try_lock() {
+        Ok(()) => Ok(Some(FileLock(file))),
+        Err(TryLockError::WouldBlock) => Ok(None),
+        Err(TryLockError::Error(error)) => Err(FileProblem::system("lock")(error)),
+    }
+}
+
+/// Create a folder with a name of its own in another, which is made if it is not there.
+pub(super) fn create_own_folder(parent: &Path) -> Result<PathBuf, FileProblem> {
+    fs::create_dir_all(parent).map_err(FileProblem::system("create"))?;
+    let folder = tempfile::Builder::new().prefix("").tempdir_in(parent);
+    Ok(folder.map_err(FileProblem::system("create"))?.keep())
+}
+
+/// List the folders in a folder; none if it is not there.
+pub(super) fn folders_in(parent: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(parent).into_iter().flatten().flatten();
+    let folders = entries.filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_dir()));
+    folders.map(|entry| entry.path()).collect()
+}
+
+/// Remove a file if it is there.
+pub(super) fn remove_file(path: &Path) -> Result<(), FileProblem> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => {
+            Err(FileProblem::system("remove")(error))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Remove a folder with all that is in it, as far as the system allows.
+pub(super) fn remove_folder(path: &Path) {
+    let _ = fs::remove_dir_all(path);
+}
+
+fn read_at_most(path: &Path, most: u64) -> Result<Vec<u8>, FileProblem> {
     let file = File::open(path).map_err(FileProblem::system("read"))?;
     let metadata = file.metadata().map_err(FileProblem::system("read"))?;
     if metadata.is_dir() {

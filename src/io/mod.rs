@@ -6,6 +6,7 @@
 //! the bytes together with a [`LossReport`] of what the format could not hold. Nothing in here
 //! opens dialogs or changes a document.
 
+pub mod autosave;
 mod codec;
 mod decimals;
 pub mod disk;
@@ -13,6 +14,7 @@ pub mod dxf;
 mod error;
 pub mod examples;
 mod file_match;
+mod fingerprint;
 mod format;
 pub mod json_layout;
 mod layer_names;
@@ -26,12 +28,15 @@ mod project_v1;
 mod project_v2;
 mod project_values;
 mod reading;
+mod sessions;
 pub mod table;
 mod table_header;
 mod text;
 
 pub use error::{FileError, FileProblem, Place, Problem, ReadError, WriteError, shown_path};
 pub use file_match::{FileMatch, MatchSource};
+pub use fingerprint::Fingerprint;
 pub use format::{Format, FormatError};
 pub use loss::{Export, Loss, LossReport};
 pub use reading::{Owner, Reading, Remark, Remarks};
+pub use sessions::{AbandonedSession, Session, Sessions};

@@ -23,6 +23,8 @@ pub enum Action {
     Save,
     /// Save under another path.
     SaveAs,
+    /// Open the document's file again.
+    Reload,
     /// Write a drawing for CAD.
     ExportDxf,
     /// Write a table of polygon vertices.
@@ -64,6 +66,7 @@ impl Action {
             Self::Import,
             Self::Save,
             Self::SaveAs,
+            Self::Reload,
             Self::ExportDxf,
         ];
         all.extend(PolygonKind::ALL.map(Self::ExportCsv));
@@ -91,6 +94,7 @@ impl Action {
             Self::Import => "Import curves…",
             Self::Save => "Save",
             Self::SaveAs => "Save as…",
+            Self::Reload => "Reload",
             Self::ExportDxf => "Export DXF…",
             Self::ExportCsv(PolygonKind::Float) => "Export float S-polygon as CSV…",
             Self::ExportCsv(PolygonKind::Clamped) => "Export closed S-polygon as CSV…",
@@ -139,6 +143,7 @@ impl Action {
             Self::Import => "Add the curves of a file to this document",
             Self::Save => "Save the document to its file",
             Self::SaveAs => "Save the document to another file",
+            Self::Reload => "Open the document's file again, as it is on the disk",
             Self::ExportDxf => {
                 "Write curves and polygons as DXF: clamped splines, and both S-polygons on layers of their own"
             }
@@ -177,7 +182,11 @@ impl Action {
             Self::TogglePlots => Shortcut::plain(Key::Function(8)),
             Self::Palette => Shortcut::ctrl('p'),
             Self::Keys => Shortcut::plain(Key::Function(1)),
-            Self::OpenExample(_) | Self::ExportCsv(_) | Self::Paper | Self::About => return None,
+            Self::OpenExample(_)
+            | Self::ExportCsv(_)
+            | Self::Reload
+            | Self::Paper
+            | Self::About => return None,
         })
     }
 
@@ -186,6 +195,7 @@ impl Action {
         match self {
             Self::Command(command) => editor.is_enabled(command),
             Self::ExportDxf | Self::ExportCsv(_) => !editor.document().is_empty(),
+            Self::Reload => editor.workspace().path().is_some(),
             Self::Cut | Self::Copy => editor.active().is_some(),
             _ => true,
         }

@@ -1,6 +1,7 @@
 //! The application's window: where everything stands, and who is told what.
 
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use eframe::egui::{self, CentralPanel, Context, Frame, Margin, Panel, Ui, ViewportCommand};
 
@@ -17,8 +18,10 @@ use super::message::message_ui;
 use super::palette::Palette;
 use super::paper_panel::PaperPanel;
 use super::plots::{self, Plots, Tab};
+use super::recovery::{self, Choice};
 use super::shell::Shell;
 use super::side::Side;
+use super::signals::Signals;
 use super::status_bar::{self, status_bar_ui};
 use super::theme::{self, Tokens};
 use super::tool_rail::{self, tool_rail_ui};
@@ -49,6 +52,7 @@ pub struct App {
     title: String,
     /// Whether the window may close without being asked again.
     leaving: bool,
+    signals: Signals,
 }
 
 impl App {
@@ -90,7 +94,17 @@ impl App {
             actions: Vec::new(),
             title: String::new(),
             leaving: false,
+            signals: Signals::default(),
         }
+    }
+
+    /// End well when the system asks the program to end: by SIGTERM, SIGINT or SIGHUP.
+    ///
+    /// # Errors
+    /// If the system does not let signals be heard.
+    pub fn listen_to_signals(&mut self, context: &Context) -> std::io::Result<()> {
+        self.signals = Signals::listen(context, self.editor.autosaver())?;
+        Ok(())
     }
 
     /// The editor behind the window.
@@ -124,6 +138,23 @@ impl App {
         }
         self.update_title(&context);
         self.watch_closing(&context);
+        self.keep(&context);
+    }
+
+    /// Keep what is not saved for the case of a crash, and look at the file when the window gets the
+    /// keyboard again.
+    fn keep(&mut self, context: &Context) {
+        let (gained, lost) = context.input(|input| {
+            let has = |gains| input.events.contains(&egui::Event::WindowFocused(gains));
+            (has(true), has(false))
+        });
+        if gained {
+            self.editor.look_at_file();
+            context.request_repaint();
+        }
+        if let Some(wait) = self.editor.autosave(Instant::now(), lost) {
+            context.request_repaint_after(wait);
+        }
     }
 
     fn take_answers(&mut self, context: &Context) {
@@ -261,6 +292,12 @@ impl App {
         if let Some(chosen) = self.files.show(context) {
             self.use_chosen(context, chosen);
         }
+        match recovery::recovery_ui(context, self.editor.recoverable()) {
+            Some(Choice::Open(id)) => self.confirm(context, AfterDiscard::Recover(id)),
+            Some(Choice::Discard(id)) => self.editor.discard_recoverable(id),
+            Some(Choice::Later) => self.editor.leave_recoverable(),
+            None => {}
+        }
         let decided = self
             .dialog
             .as_mut()
@@ -284,11 +321,13 @@ impl App {
             Action::Paper => self.confirm(context, AfterDiscard::OpenPaper(self.paper.page())),
             Action::Quit => self.confirm(context, AfterDiscard::Quit),
             Action::Import => self.files.ask(context, Purpose::Import, self.folder()),
-            Action::Save => match self.editor.workspace().path().map(Path::to_owned) {
-                Some(path) => told(self.editor.save(&path)),
-                None => self.ask_save(context, None),
-            },
+            Action::Save => self.save_own(context, None),
             Action::SaveAs => self.ask_save(context, None),
+            Action::Reload => {
+                if let Some(path) = self.editor.workspace().path().map(Path::to_owned) {
+                    self.confirm(context, AfterDiscard::OpenFile(path));
+                }
+            }
             Action::ExportDxf => self.ask_export(context, Format::Dxf, PolygonKind::Float),
             Action::ExportCsv(polygon) => self.ask_export(context, Format::Csv, polygon),
             Action::Cut => copy(context, self.editor.cut()),
@@ -321,6 +360,7 @@ impl App {
             AfterDiscard::New => self.editor.begin_empty(),
             AfterDiscard::Open => self.files.ask(context, Purpose::Open, self.folder()),
             AfterDiscard::OpenFile(path) => told(self.editor.open(&[path])),
+            AfterDiscard::Recover(id) => told(self.editor.recover(id)),
             AfterDiscard::OpenExample(index) => told(self.editor.open_example(index)),
             AfterDiscard::OpenPaper(page) => {
                 told(self.editor.open_paper(page));
@@ -371,10 +411,32 @@ impl App {
         match decision {
             Decision::Close => {}
             Decision::Discard(after) => self.go_on(context, after),
-            Decision::Save(after) => match self.editor.workspace().path().map(Path::to_owned) {
-                Some(path) => self.save_and(context, &path, Some(after)),
-                None => self.ask_save(context, Some(after)),
-            },
+            Decision::Save(after) => self.save_own(context, Some(after)),
+            Decision::SaveAs(after) => self.ask_save(context, after),
+            Decision::Overwrite(after) => self.overwrite(context, after),
+            Decision::Reload => {
+                if let Some(path) = self.editor.workspace().path().map(Path::to_owned) {
+                    told(self.editor.open(&[path]));
+                }
+            }
+        }
+    }
+
+    /// Save to the document's own file, unless another program has changed it.
+    fn save_own(&mut self, context: &Context, after: Option<AfterDiscard>) {
+        if self.editor.is_file_changed() {
+            self.dialog = Some(Dialog::Changed(after));
+        } else {
+            self.overwrite(context, after);
+        }
+    }
+
+    /// Save to the document's own file, whatever it holds.
+    fn overwrite(&mut self, context: &Context, after: Option<AfterDiscard>) {
+        match (self.editor.workspace().path().map(Path::to_owned), after) {
+            (Some(path), None) => told(self.editor.save(&path)),
+            (Some(path), after) => self.save_and(context, &path, after),
+            (None, after) => self.ask_save(context, after),
         }
     }
 
@@ -430,8 +492,13 @@ impl App {
         }
     }
 
-    /// A window that is closed from outside asks about unsaved changes first.
+    /// A window that is closed from outside asks about unsaved changes first; a signal closes it at
+    /// once, as what is not saved is kept.
     fn watch_closing(&mut self, context: &Context) {
+        if self.signals.have_come() {
+            context.send_viewport_cmd(ViewportCommand::Close);
+            return;
+        }
         let asked = context.input(|input| input.viewport().close_requested());
         if asked && !self.leaving && self.editor.workspace().is_modified() {
             context.send_viewport_cmd(ViewportCommand::CancelClose);
@@ -460,6 +527,14 @@ impl eframe::App for App {
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         eframe::set_value(storage, SETTINGS, &self.settings());
+    }
+
+    fn on_exit(&mut self, _: Option<&eframe::glow::Context>) {
+        if self.leaving || !self.editor.workspace().is_settled_modified() {
+            self.editor.close_session();
+        } else {
+            told(self.editor.autosave_now());
+        }
     }
 
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {

@@ -1,4 +1,5 @@
-//! The few things that stop everything else: unsaved changes, the list of keys, about.
+//! The few things that stop everything else: unsaved changes, a file that has changed, the list of
+//! keys, about.
 
 use eframe::egui::{Context, Id, Key, Label, Modal, RichText, ScrollArea, Ui, vec2};
 
@@ -14,6 +15,9 @@ use crate::editor::Editor;
 pub enum Dialog {
     /// Save, discard or go back, before something replaces the document.
     Unsaved(AfterDiscard),
+    /// Reload, save elsewhere, overwrite or go back, before a file is overwritten that another
+    /// program has changed; and what goes on once the document is saved.
+    Changed(Option<AfterDiscard>),
     /// What keys and mouse do.
     Keys,
     /// What this program is.
@@ -27,6 +31,12 @@ pub enum Decision {
     Save(AfterDiscard),
     /// Go on without saving.
     Discard(AfterDiscard),
+    /// Open the document's file again, without the changes made here.
+    Reload,
+    /// Save to another file, then go on.
+    SaveAs(Option<AfterDiscard>),
+    /// Save over what another program has written, then go on.
+    Overwrite(Option<AfterDiscard>),
     /// Close the dialog.
     Close,
 }
@@ -40,6 +50,7 @@ pub fn dialog_ui(context: &Context, dialog: &mut Dialog, editor: &Editor) -> Opt
             ui.spacing_mut().item_spacing.y = 2.0 * STEP;
             match dialog {
                 Dialog::Unsaved(after) => unsaved_ui(ui, after, editor),
+                Dialog::Changed(after) => changed_ui(ui, after, editor),
                 Dialog::Keys => keys_ui(ui),
                 Dialog::About => about_ui(ui),
             }
@@ -51,10 +62,7 @@ pub fn dialog_ui(context: &Context, dialog: &mut Dialog, editor: &Editor) -> Opt
 fn unsaved_ui(ui: &mut Ui, after: &AfterDiscard, editor: &Editor) -> Option<Decision> {
     ui.set_width(400.0);
     ui.strong("Save changes?");
-    let name = editor.workspace().path().and_then(|path| path.file_name());
-    let name = name.map_or("the document".to_owned(), |name| {
-        quoted(&name.to_string_lossy())
-    });
+    let name = name_of(editor);
     widgets::note(ui, &format!("Unsaved changes to {name} will be lost."));
     let mut decision = None;
     ui.horizontal(|ui| {
@@ -72,6 +80,47 @@ fn unsaved_ui(ui: &mut Ui, after: &AfterDiscard, editor: &Editor) -> Option<Deci
         });
     });
     decision
+}
+
+fn changed_ui(ui: &mut Ui, after: &Option<AfterDiscard>, editor: &Editor) -> Option<Decision> {
+    ui.set_width(440.0);
+    ui.strong("The file has changed on disk");
+    let name = name_of(editor);
+    let what = match editor.workspace().is_modified() {
+        true => "Reloading loses the changes made here, overwriting those made there.",
+        false => "Overwriting loses the changes made there.",
+    };
+    widgets::note(
+        ui,
+        &format!("Another program has changed {name} since it was read or saved here. {what}"),
+    );
+    let mut decision = None;
+    ui.horizontal(|ui| {
+        widgets::at_right(ui, |ui| {
+            let save_as = widgets::primary_button(ui, "Save as…");
+            if save_as.clicked() || ui.input(|input| input.key_pressed(Key::Enter)) {
+                decision = Some(Decision::SaveAs(after.clone()));
+            }
+            if ui.button("Overwrite").clicked() {
+                decision = Some(Decision::Overwrite(after.clone()));
+            }
+            if ui.button("Reload").clicked() {
+                decision = Some(Decision::Reload);
+            }
+            if ui.button("Cancel").clicked() {
+                decision = Some(Decision::Close);
+            }
+        });
+    });
+    decision
+}
+
+/// What dialogs call the document.
+fn name_of(editor: &Editor) -> String {
+    let name = editor.workspace().path().and_then(|path| path.file_name());
+    name.map_or("the document".to_owned(), |name| {
+        quoted(&name.to_string_lossy())
+    })
 }
 
 /// What the mouse does, beside the keys that the table of commands lists.

@@ -24,6 +24,8 @@ pub enum AfterDiscard {
     Open,
     /// Open this file.
     OpenFile(PathBuf),
+    /// Open what an earlier session has left unsaved.
+    Recover(usize),
     /// Open a built-in example.
     OpenExample(usize),
     /// Open the document of a page about the paper.

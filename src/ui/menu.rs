@@ -72,6 +72,7 @@ fn menus() -> [(&'static str, Vec<Entry>); 6] {
         Divider,
         Item(Action::Save),
         Item(Action::SaveAs),
+        Item(Action::Reload),
         Divider,
         Item(Action::ExportDxf),
     ];

@@ -49,13 +49,17 @@ pub fn message_ui(
                 ui.add_space(0.0);
                 ui.label(icons::text(icon).color(colour));
                 ui.vertical(|ui| {
-                    let buttons = if message.offers_undo { 32.0 } else { 18.0 };
+                    let offers = message.offers_undo || message.offers_reload;
+                    let buttons = if offers { 32.0 } else { 18.0 };
                     ui.set_max_width(width - buttons * STEP);
                     let text = RichText::new(&message.text).color(tokens.text);
                     ui.add(Label::new(text).wrap().selectable(true));
                 });
                 if message.offers_undo && ui.small_button("Undo").clicked() {
                     commands.push(Command::Undo.into());
+                }
+                if message.offers_reload && ui.small_button("Reload").clicked() {
+                    commands.push(Action::Reload);
                 }
                 IconButton::new(Icon::X, "Dismiss message")
                     .size(5.0 * STEP)

@@ -48,9 +48,11 @@ mod paper_pages;
 mod paper_panel;
 mod plots;
 mod proposal;
+mod recovery;
 mod reference_panel;
 mod shell;
 mod side;
+mod signals;
 mod status_bar;
 mod theme;
 mod tool_rail;
@@ -70,12 +72,19 @@ use eframe::egui::{IconData, ViewportBuilder};
 pub use app::App;
 
 use crate::editor::Editor;
+use crate::io::Sessions;
 
 /// The window's size at first.
 const SIZE: [f32; 2] = [1440.0, 900.0];
 
 /// The smallest size at which nothing is cut off.
 const LEAST: [f32; 2] = [960.0, 640.0];
+
+/// How much work is lost at most when the program ends badly.
+const AUTOSAVE_PERIOD: Duration = Duration::from_secs(30);
+
+/// The variable that sets another period, in seconds: for tests.
+const AUTOSAVE_VARIABLE: &str = "BATTEN_AUTOSAVE_SECONDS";
 
 /// How long a frame waits for what is worked out beside it.
 const PATIENCE: Duration = Duration::from_millis(4);
@@ -88,6 +97,9 @@ pub fn run(files: &[PathBuf]) -> anyhow::Result<()> {
     let mut editor = Editor::new();
     editor.open(files)?;
     check_display()?;
+    if let Some(sessions) = Sessions::of_user() {
+        editor.autosave_in(sessions, autosave_period());
+    }
     let mut viewport = ViewportBuilder::default()
         .with_title("Batten")
         .with_app_id("batten")
@@ -104,7 +116,8 @@ pub fn run(files: &[PathBuf]) -> anyhow::Result<()> {
     let create: eframe::AppCreator<'_> = Box::new(move |creation| {
         let context = creation.egui_ctx.clone();
         editor.run_in_background(PATIENCE, move || context.request_repaint());
-        let app = App::new(&creation.egui_ctx, creation.storage, true, editor);
+        let mut app = App::new(&creation.egui_ctx, creation.storage, true, editor);
+        app.listen_to_signals(&creation.egui_ctx)?;
         Ok(Box::new(app))
     });
     eframe::run_native("Batten", options, create).map_err(|error| {
@@ -113,6 +126,13 @@ pub fn run(files: &[PathBuf]) -> anyhow::Result<()> {
         let cause = text.rsplit(": ").next().unwrap_or_default();
         anyhow!("the window cannot be opened: {cause}. Is there a display that can be reached?")
     })
+}
+
+fn autosave_period() -> Duration {
+    let given = std::env::var(AUTOSAVE_VARIABLE).ok();
+    let seconds = given.and_then(|text| text.parse().ok());
+    let period = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    period.unwrap_or(AUTOSAVE_PERIOD)
 }
 
 /// On Linux and its like, say what is missing instead of failing deep inside.

@@ -4,6 +4,7 @@
 mod common;
 
 mod approximating;
+mod autosaving;
 mod background;
 mod between;
 mod commands;

@@ -12,6 +12,7 @@ mod matching;
 mod numbers;
 mod operations;
 mod paper;
+mod recovery;
 mod references;
 
 use batten::editor::{Layer, ToolKind};

@@ -90,9 +90,9 @@ fn a_file_that_is_too_large_is_not_read() {
         "{message}"
     );
     fs::write(&path, [b' '; 11]).unwrap();
-    assert_eq!(read_bytes(&path, 11).unwrap().len(), 11);
+    assert_eq!(read_at_most(&path, 11).unwrap().len(), 11);
     assert!(matches!(
-        read_bytes(&path, 10),
+        read_at_most(&path, 10),
         Err(FileProblem::TooLarge(10))
     ));
 }

@@ -8,6 +8,7 @@ mod display;
 use std::net::{TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
+use std::rc::Rc;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
@@ -26,28 +27,67 @@ const PATIENCE: Duration = Duration::from_secs(60);
 pub struct Window {
     program: Child,
     connection: TcpStream,
-    home: tempfile::TempDir,
+    home: Rc<tempfile::TempDir>,
     scale: f32,
+}
+
+/// How the program is started.
+#[derive(Clone, Copy, Debug)]
+pub struct Start<'a> {
+    /// What follows its name.
+    pub arguments: &'a [&'a str],
+    /// How many pixels a screen point has.
+    pub scale: f32,
+    /// At most so many seconds' work may be lost.
+    pub autosave_seconds: f64,
+}
+
+impl Default for Start<'_> {
+    fn default() -> Self {
+        Self {
+            arguments: &[],
+            scale: 1.0,
+            autosave_seconds: 30.0,
+        }
+    }
 }
 
 impl Window {
     /// Start the program on a display and wait for its window. The program is the one named by
-    /// `BATTEN`, or the one that Batten's own tests have built.
+    /// `BATTEN`, or the one that Batten's own tests have built. Its home is a new folder.
     pub fn open(display: &mut Display, arguments: &[&str], scale: f32) -> Result<Self> {
+        let start = Start {
+            arguments,
+            scale,
+            ..Start::default()
+        };
+        Self::open_at(display, Rc::new(tempfile::tempdir()?), start)
+    }
+
+    /// Start the program as [`Window::open`] does, with a home that other windows may have too.
+    pub fn open_at(
+        display: &mut Display,
+        home: Rc<tempfile::TempDir>,
+        start: Start<'_>,
+    ) -> Result<Self> {
         let program = program()?;
         let address = free_address()?;
-        let home = tempfile::tempdir()?;
         let mut child = Command::new(&program)
-            .args(arguments)
+            .args(start.arguments)
             .env("DISPLAY", display.name())
             .env_remove("WAYLAND_DISPLAY")
             // Neither a bus nor zenity is found: whatever the desktop offers, Batten asks itself.
             .env("DBUS_SESSION_BUS_ADDRESS", unreachable_bus(home.path()))
             .env("PATH", "")
-            .env("WINIT_X11_SCALE_FACTOR", scale.to_string())
+            .env("WINIT_X11_SCALE_FACTOR", start.scale.to_string())
             .env("LIBGL_ALWAYS_SOFTWARE", "1")
             .env("HOME", home.path())
             .env("XDG_DATA_HOME", home.path().join("data"))
+            .env("XDG_STATE_HOME", home.path().join("state"))
+            .env(
+                "BATTEN_AUTOSAVE_SECONDS",
+                start.autosave_seconds.to_string(),
+            )
             .env("EGUI_INSPECTION", &address)
             .stdin(Stdio::null())
             .spawn()
@@ -65,7 +105,7 @@ impl Window {
             program: child,
             connection,
             home,
-            scale,
+            scale: start.scale,
         };
         window.settle()?;
         Ok(window)
@@ -74,6 +114,21 @@ impl Window {
     /// A folder of the program's own, for files.
     pub fn folder(&self) -> &Path {
         self.home.path()
+    }
+
+    /// Kill the program, as nothing can be handled by it. Returns when it has ended.
+    pub fn kill(mut self) -> Result<()> {
+        self.program.kill()?;
+        self.program.wait()?;
+        Ok(())
+    }
+
+    /// Send the program a signal by its name, as "TERM".
+    pub fn signal(&mut self, name: &str) -> Result<()> {
+        let mut kill = Command::new("kill");
+        let sent = kill.args(["-s", name]).arg(self.program.id().to_string());
+        ensure!(sent.status()?.success(), "the signal {name} is not sent");
+        Ok(())
     }
 
     /// Wait until nothing changes any more.
@@ -142,6 +197,20 @@ impl Window {
         self.settle()
     }
 
+    /// Press at one place and move to another, without releasing.
+    pub fn hold(&mut self, from: Pos2, to: Pos2) -> Result<()> {
+        self.events(vec![Event::PointerMoved(from)])?;
+        self.events(vec![button(from, true)])?;
+        self.events(vec![Event::PointerMoved(from.lerp(to, 0.5))])?;
+        self.events(vec![Event::PointerMoved(to)])
+    }
+
+    /// Release the button.
+    pub fn release(&mut self, place: Pos2) -> Result<()> {
+        self.events(vec![button(place, false)])?;
+        self.settle()
+    }
+
     /// Move the pointer.
     pub fn move_to(&mut self, place: Pos2) -> Result<()> {
         self.events(vec![Event::PointerMoved(place)])?;
@@ -150,16 +219,22 @@ impl Window {
 
     /// Press a key.
     pub fn key(&mut self, key: Key, modifiers: Modifiers) -> Result<()> {
-        for pressed in [true, false] {
-            self.events(vec![Event::Key {
-                key,
-                physical_key: None,
-                pressed,
-                repeat: false,
-                modifiers,
-            }])?;
-        }
+        self.tap(key, modifiers)?;
         self.settle()
+    }
+
+    /// Press a key and return after the frame that gets it.
+    pub fn tap(&mut self, key: Key, modifiers: Modifiers) -> Result<()> {
+        self.events(key_events(key, modifiers))
+    }
+
+    /// Press a key and return at once.
+    pub fn tap_and_leave(&mut self, key: Key, modifiers: Modifiers) -> Result<()> {
+        let events = key_events(key, modifiers);
+        Ok(write_message(
+            &mut self.connection,
+            &Request::ApplyEvents { events },
+        )?)
     }
 
     /// Type a text into the field that has the keyboard.
@@ -274,6 +349,17 @@ fn button(pos: Pos2, pressed: bool) -> Event {
         pressed,
         modifiers: Modifiers::NONE,
     }
+}
+
+fn key_events(key: Key, modifiers: Modifiers) -> Vec<Event> {
+    let event = |pressed| Event::Key {
+        key,
+        physical_key: None,
+        pressed,
+        repeat: false,
+        modifiers,
+    };
+    vec![event(true), event(false)]
 }
 
 /// Find the program: `BATTEN`, or what Batten's tests have built into the folder of this build.

@@ -138,6 +138,36 @@ fn quitting_asks_about_unsaved_changes() -> Result<()> {
     Ok(())
 }
 
+#[test]
+fn saving_with_the_button_held_writes_the_state_before_the_drag() -> Result<()> {
+    let mut display = Display::start(1600, 1000)?;
+    let mut window = Window::open(&mut display, &[], 1.0)?;
+    let canvas = window.find("Canvas")?;
+    saved(&mut window, "arc")?;
+    let path = window.folder().join("arc.batten");
+    std::fs::remove_file(&path)?;
+    let original = arc();
+    let from = place(canvas, &original, 5);
+    window.hold(from, from + vec2(30.0, 30.0))?;
+    window.key(Key::S, Modifiers::COMMAND)?;
+    let read = || -> Result<Curve> {
+        let curves = disk::read_file(&path)?.curves;
+        curves.into_iter().next().context("the file has no curve")
+    };
+    ensure!(read()?.polygon == original, "the drag is saved");
+    window.move_to(from + vec2(60.0, 10.0))?;
+    window.release(from + vec2(60.0, 10.0))?;
+    window.key(Key::S, Modifiers::COMMAND)?;
+    let moved = read()?.polygon.vertex(5) - original.vertex(5);
+    let scale = fitted(canvas).view().viewport().scale;
+    let off = (moved - DVec3::new(60.0, -10.0, 0.0) / scale).length();
+    ensure!(
+        off < PLACE_TOLERANCE * original.size(),
+        "the drag has not gone on: {moved}"
+    );
+    Ok(())
+}
+
 /// Save under a new name and read the curve back.
 fn saved(window: &mut Window, name: &str) -> Result<Curve> {
     let path = window.folder().join(format!("{name}.batten"));

@@ -1,0 +1,278 @@
+//! Saving what is not saved yet: every so often, beside the frame, for the case of a crash.
+
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::{Duration, Instant, SystemTime};
+
+use crate::document::Document;
+use crate::editor::worker::{Outcome, Worker};
+use crate::editor::workspace::Workspace;
+use crate::io::autosave::Origin;
+use crate::io::{AbandonedSession, FileError, Fingerprint, Session, Sessions};
+
+/// An autosave begins when this share of its period is over, so that it is on the disk when the
+/// period ends.
+const BEGINS: f64 = 0.95;
+
+/// Decide when what is not saved is written, and see to it. By default nothing is.
+#[derive(Debug, Default)]
+pub struct Autosaving {
+    autosaver: Option<Autosaver>,
+    writing: Writing,
+    /// At most so much work is lost.
+    period: Duration,
+    /// What the autosaver knows of.
+    state: State,
+    /// What it has not been told to supersede yet.
+    superseded: Vec<AbandonedSession>,
+    /// When it writes next, if there is something to write.
+    due: Option<Instant>,
+    /// Whether the last attempt failed: failures that follow are not told.
+    has_failed: bool,
+}
+
+/// Where autosaves are written: at once in tests.
+#[derive(Debug)]
+struct Writing(Worker<Result<(), FileError>>);
+
+/// What an autosave depends on.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+struct State {
+    /// The revision of the document, if it is not saved.
+    unsaved: Option<u64>,
+    path: Option<PathBuf>,
+}
+
+/// Write the newest autosave of a session, from whichever thread asks.
+#[derive(Clone, Debug)]
+pub struct Autosaver(Arc<Shared>);
+
+/// What threads share. The frame waits for `newest` alone, which nobody holds for long.
+#[derive(Debug)]
+struct Shared {
+    newest: Mutex<Newest>,
+    kept: Mutex<Kept>,
+    sessions: Sessions,
+}
+
+/// What is to be written.
+#[derive(Debug, Default)]
+struct Newest {
+    /// The document, if it is not saved.
+    unsaved: Option<(Document, Option<Fingerprint>)>,
+    state: State,
+    /// Sessions whose documents were taken over: they are removed when this one's is on the disk.
+    superseded: Vec<AbandonedSession>,
+}
+
+/// What is written.
+#[derive(Debug)]
+struct Kept {
+    /// `None` once the session is closed.
+    session: Option<Session>,
+    state: State,
+}
+
+impl Autosaver {
+    /// Write what is not saved, unless it is written already. Returns when it is on the disk.
+    ///
+    /// # Errors
+    /// [`FileError`] if it cannot be written; the autosave before is unchanged then.
+    pub fn write(&self) -> Result<(), FileError> {
+        let mut kept = held(&self.0.kept);
+        let Kept { session, state } = &mut *kept;
+        let Some(session) = session else {
+            return Ok(());
+        };
+        let (unsaved, newest, mut superseded) = {
+            let mut newest = held(&self.0.newest);
+            let superseded = std::mem::take(&mut newest.superseded);
+            (newest.unsaved.clone(), newest.state.clone(), superseded)
+        };
+        let written = write(session, state, unsaved, newest);
+        match written {
+            Ok(()) => superseded.into_iter().for_each(AbandonedSession::remove),
+            Err(_) => held(&self.0.newest).superseded.append(&mut superseded),
+        }
+        written
+    }
+
+    fn begin(sessions: Sessions) -> Result<Self, FileError> {
+        let session = Some(sessions.begin()?);
+        let state = State::default();
+        Ok(Self(Arc::new(Shared {
+            newest: Mutex::default(),
+            kept: Mutex::new(Kept { session, state }),
+            sessions,
+        })))
+    }
+
+    fn set_newest(&self, workspace: &Workspace, state: State, superseded: Vec<AbandonedSession>) {
+        let document = || (workspace.settled().clone(), workspace.fingerprint());
+        let mut newest = held(&self.0.newest);
+        newest.unsaved = state.unsaved.map(|_| document());
+        newest.state = state;
+        // Together with the document that supersedes them.
+        newest.superseded.extend(superseded);
+    }
+
+    /// Remove the session with its autosave.
+    fn close(&self) {
+        let session = held(&self.0.kept).session.take();
+        let superseded = std::mem::take(&mut held(&self.0.newest).superseded);
+        superseded.into_iter().for_each(AbandonedSession::remove);
+        if let Some(session) = session {
+            // Should it stay, the work is offered once too often, and not lost.
+            let _ = session.remove_autosave();
+        }
+    }
+}
+
+/// Bring the files of a session from one state to another.
+fn write(
+    session: &Session,
+    state: &mut State,
+    unsaved: Option<(Document, Option<Fingerprint>)>,
+    newest: State,
+) -> Result<(), FileError> {
+    match unsaved {
+        Some((document, fingerprint)) if state.unsaved != newest.unsaved => {
+            let origin = Origin {
+                path: newest.path.clone(),
+                fingerprint,
+                time: SystemTime::now(),
+                revision: newest.unsaved.unwrap_or_default(),
+            };
+            session.write_autosave(&origin, &document)?;
+        }
+        Some(_) => {}
+        None => session.remove_autosave()?,
+    }
+    state.unsaved = newest.unsaved;
+    if state.path != newest.path {
+        session.tell_open(newest.path.as_deref())?;
+        state.path = newest.path;
+    }
+    Ok(())
+}
+
+impl Autosaving {
+    /// Write on a thread of its own from now on; `wake` is called when something was written.
+    pub fn run_in_background(&mut self, wake: impl Fn() + Send + 'static) {
+        self.writing = Writing(Worker::background("autosave", wake));
+    }
+
+    /// Keep what is not saved in a session of its own from now on; at most a `period`'s work is lost.
+    ///
+    /// # Errors
+    /// [`FileError`] if there can be no session: nothing is kept then.
+    pub fn begin(&mut self, sessions: Sessions, period: Duration) -> Result<(), FileError> {
+        self.autosaver = Some(Autosaver::begin(sessions)?);
+        self.period = period;
+        Ok(())
+    }
+
+    /// What writes from other threads, if there is a session.
+    pub fn autosaver(&self) -> Option<&Autosaver> {
+        self.autosaver.as_ref()
+    }
+
+    /// Whether another window has a file open.
+    pub fn is_open_elsewhere(&self, path: &Path) -> bool {
+        self.autosaver.as_ref().is_some_and(|autosaver| {
+            let kept = held(&autosaver.0.kept);
+            let session = kept.session.as_ref();
+            session.is_some_and(|session| autosaver.0.sessions.has_open(path, session))
+        })
+    }
+
+    /// Remove a session whose document was put into the workspace, once this one holds it: soon.
+    pub fn supersede(&mut self, session: AbandonedSession) {
+        self.superseded.push(session);
+    }
+
+    /// How long it is until something is written, if anything is.
+    pub fn wait(&self, now: Instant) -> Option<Duration> {
+        Some(self.due?.saturating_duration_since(now))
+    }
+
+    /// Remove the session with its autosave.
+    pub fn close(&mut self) {
+        if let Some(autosaver) = &self.autosaver {
+            autosaver.close();
+        }
+    }
+
+    /// See to it that what has changed is written in time, at once if it is `urgent`. Returns why what
+    /// was tried since the last time has failed, unless the attempt before it had too.
+    pub fn advance(
+        &mut self,
+        workspace: &Workspace,
+        now: Instant,
+        urgent: bool,
+    ) -> Option<FileError> {
+        let autosaver = self.autosaver.as_ref()?;
+        let unsaved = workspace.is_settled_modified();
+        let state = State {
+            unsaved: unsaved.then_some(workspace.revision()),
+            path: workspace.path().map(Path::to_owned),
+        };
+        if state != self.state {
+            // A file that was opened, saved or left is soon told; changes can wait.
+            let waits = state.unsaved.is_some()
+                && state.path == self.state.path
+                && self.superseded.is_empty();
+            let due = if waits {
+                now + self.period.mul_f64(BEGINS)
+            } else {
+                now
+            };
+            self.due = Some(self.due.map_or(due, |before| before.min(due)));
+            let superseded = std::mem::take(&mut self.superseded);
+            autosaver.set_newest(workspace, state.clone(), superseded);
+            self.state = state;
+        }
+        let mut outcomes = self.writing.0.take();
+        if self.due.is_some_and(|due| due <= now || urgent) {
+            self.due = None;
+            let autosaver = autosaver.clone();
+            let job = move |_: &_| autosaver.write();
+            outcomes.extend(self.writing.0.start(job, Duration::ZERO));
+        }
+        // The newest tells how it is now.
+        match outcomes.pop_back()? {
+            Outcome::Done(written) => self.note(written, now),
+            Outcome::Panicked(_) => None,
+        }
+    }
+
+    fn note(&mut self, written: Result<(), FileError>, now: Instant) -> Option<FileError> {
+        let had_failed = std::mem::replace(&mut self.has_failed, written.is_err());
+        let error = written.err()?;
+        self.due.get_or_insert(now + self.period);
+        (!had_failed).then_some(error)
+    }
+}
+
+impl Drop for Autosaving {
+    /// When the program panics, write what is not saved.
+    fn drop(&mut self) {
+        if let Some(autosaver) = &self.autosaver
+            && thread::panicking()
+        {
+            // Nobody is left to be told.
+            let _ = autosaver.write();
+        }
+    }
+}
+
+impl Default for Writing {
+    fn default() -> Self {
+        Self(Worker::inline())
+    }
+}
+
+fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

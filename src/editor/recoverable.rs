@@ -1,0 +1,121 @@
+//! What an earlier session has left unsaved, and a look at it.
+
+use std::time::SystemTime;
+
+use glam::{DVec2, DVec3};
+
+use crate::document::{Curve, Document};
+use crate::geometry::ParametricCurve;
+use crate::io::autosave::Origin;
+use crate::io::{AbandonedSession, FileError, Sessions, disk};
+
+/// How many chords show a curve in a small picture.
+const CHORDS: usize = 120;
+
+/// What an earlier session has left unsaved.
+#[derive(Debug)]
+pub struct Recoverable {
+    /// A number that tells it from the others.
+    pub id: usize,
+    /// What it holds, or why that cannot be read.
+    pub content: Result<RecoverableDocument, FileError>,
+    pub(in crate::editor) session: AbandonedSession,
+}
+
+/// A document that an earlier session has left unsaved.
+#[derive(Debug)]
+pub struct RecoverableDocument {
+    /// The name of its file; `None` if it was never saved.
+    pub name: Option<String>,
+    /// When it was written.
+    pub time: SystemTime,
+    /// Whether its file was changed since.
+    pub is_file_changed: bool,
+    /// The number of its curves.
+    pub curves: usize,
+    /// The number of their vertices.
+    pub vertices: usize,
+    /// Its visible curves as chains of points, seen from where they are widest.
+    pub picture: Vec<Vec<DVec2>>,
+    pub(in crate::editor) origin: Origin,
+    pub(in crate::editor) document: Document,
+}
+
+impl Recoverable {
+    /// Find what earlier sessions have left, and read it: the newest first, damaged ones last.
+    pub fn find(sessions: &Sessions) -> Vec<Self> {
+        let found = sessions.abandoned().into_iter();
+        let mut found: Vec<Self> = found.map(Self::new).collect();
+        found.sort_by_key(|recoverable| {
+            let time = recoverable.content.as_ref().map(|content| content.time);
+            std::cmp::Reverse(time.ok())
+        });
+        for (id, recoverable) in found.iter_mut().enumerate() {
+            recoverable.id = id;
+        }
+        found
+    }
+
+    fn new(session: AbandonedSession) -> Self {
+        let read = session.read();
+        Self {
+            id: 0,
+            content: read.map(|(origin, document)| RecoverableDocument::new(origin, document)),
+            session,
+        }
+    }
+}
+
+impl RecoverableDocument {
+    fn new(origin: Origin, document: Document) -> Self {
+        let name = origin.path.as_deref().and_then(|path| path.file_name());
+        let found = origin.path.as_deref().and_then(disk::fingerprint);
+        let is_file_changed = found.is_some() && found != origin.fingerprint;
+        let vertices = document
+            .curves()
+            .map(|(_, curve)| curve.polygon.vertices().len());
+        Self {
+            name: name.map(|name| name.to_string_lossy().into_owned()),
+            time: origin.time,
+            is_file_changed,
+            curves: document.curves().count(),
+            vertices: vertices.sum(),
+            picture: picture(&document),
+            origin,
+            document,
+        }
+    }
+}
+
+/// Draw the visible curves as chains, without the coordinate in which they extend least.
+fn picture(document: &Document) -> Vec<Vec<DVec2>> {
+    let visible = document.curves().filter(|(_, curve)| curve.visible);
+    let chains: Vec<Vec<DVec3>> = visible.map(|(_, curve)| chain(curve)).collect();
+    let points = || chains.iter().flatten();
+    let least = points().copied().reduce(DVec3::min).unwrap_or_default();
+    let most = points().copied().reduce(DVec3::max).unwrap_or_default();
+    let extent = most - least;
+    let flat = |point: &DVec3| match extent.min_position() {
+        0 => DVec2::new(point.y, point.z),
+        1 => DVec2::new(point.x, point.z),
+        _ => point.truncate(),
+    };
+    let chains = chains.iter();
+    chains
+        .map(|chain| chain.iter().map(flat).collect())
+        .collect()
+}
+
+fn chain(curve: &Curve) -> Vec<DVec3> {
+    let pieces = curve.polygon.pieces();
+    let at = |index: usize| {
+        let u = pieces as f64 * index as f64 / CHORDS as f64;
+        let piece = (u as usize).min(pieces - 1);
+        let mut point = [DVec3::ZERO];
+        curve
+            .polygon
+            .fill_derivatives(piece, u - piece as f64, &mut point);
+        point[0]
+    };
+    (0..=CHORDS).map(at).collect()
+}

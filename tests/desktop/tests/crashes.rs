@@ -1,0 +1,306 @@
+//! What a window that is killed, or asked to end by a signal, leaves behind: files are whole, and
+//! what was not saved is offered at the next start.
+
+use std::path::PathBuf;
+use std::rc::Rc;
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result, bail, ensure};
+use batten::document::{Document, Extras};
+use batten::io::{Sessions, disk};
+use batten_desktop_tests::arc::arc;
+use batten_desktop_tests::{Display, Start, Window};
+use egui::{Key, Modifiers};
+use tempfile::TempDir;
+
+/// The period of autosaves here: at most so many seconds' work may be lost.
+const PERIOD: f64 = 1.0;
+
+/// How late an autosave may be on a loaded machine, in seconds: frames and disk take their time.
+const LATENESS: f64 = 1.0;
+
+/// The longest that a window is worked in before it is killed.
+const LONGEST: f64 = 2.5;
+
+/// How far a vertex may be from a whole number of nudges, in nudges.
+const NUDGE_TOLERANCE: f64 = 1e-6;
+
+/// A document whose edits are counted: each nudge moves all vertices by the same step.
+struct Work {
+    home: Rc<TempDir>,
+    file: PathBuf,
+    /// Where the first vertex was before any nudge.
+    origin: f64,
+    step: f64,
+}
+
+/// What came of killing a window.
+#[derive(Debug, Default)]
+struct Tally {
+    kills: usize,
+    offered: usize,
+    /// The most work that was lost, in seconds.
+    largest_loss: f64,
+}
+
+impl Work {
+    /// Write a file and find out how far a nudge goes.
+    fn new(display: &mut Display) -> Result<Self> {
+        let home = Rc::new(tempfile::tempdir()?);
+        let file = home.path().join("work.batten");
+        let curve = batten::document::Curve::new("arc".to_owned(), arc());
+        disk::write_file(&file, &[curve], &Extras::default(), None)?;
+        let mut work = Self {
+            home,
+            file,
+            origin: arc().vertex(0).x,
+            step: 1.0,
+        };
+        let mut window = work.open(display)?;
+        nudge(&mut window)?;
+        window.key(Key::S, Modifiers::COMMAND)?;
+        window.kill()?;
+        let moved = x_of(&disk::read_file(&work.file)?.into_document()?)?;
+        work.step = moved - work.origin;
+        ensure!(work.step > 0.0, "nothing was nudged");
+        Ok(work)
+    }
+
+    fn open(&self, display: &mut Display) -> Result<Window> {
+        let file = self.file.to_string_lossy();
+        let start = Start {
+            arguments: &[&file],
+            autosave_seconds: PERIOD,
+            ..Start::default()
+        };
+        let mut window = Window::open_at(display, self.home.clone(), start)?;
+        window.tap(Key::A, Modifiers::COMMAND)?;
+        Ok(window)
+    }
+
+    /// Count the nudges in a document.
+    fn nudges(&self, document: &Document) -> Result<usize> {
+        let nudges = (x_of(document)? - self.origin) / self.step;
+        let whole = nudges.round();
+        ensure!(
+            (nudges - whole).abs() < NUDGE_TOLERANCE && whole >= 0.0,
+            "{nudges} nudges"
+        );
+        Ok(whole as usize)
+    }
+
+    /// Count the nudges in the file, which must be whole.
+    fn in_file(&self) -> Result<usize> {
+        let reading = disk::read_file(&self.file).context("the file is torn")?;
+        self.nudges(&reading.into_document()?)
+    }
+
+    /// Count the nudges in the autosave, which must be whole, if there is one.
+    fn in_autosave(&self) -> Result<Option<usize>> {
+        let folder = self.home.path().join("state/batten/sessions");
+        let abandoned = Sessions::in_folder(folder).abandoned();
+        ensure!(abandoned.len() <= 1, "{} autosaves", abandoned.len());
+        let Some(session) = abandoned.first() else {
+            return Ok(None);
+        };
+        let (origin, document) = session.read().context("the autosave is torn")?;
+        ensure!(
+            origin.path.as_ref() == Some(&self.file),
+            "the autosave is of {:?}",
+            origin.path
+        );
+        self.nudges(&document).map(Some)
+    }
+
+    /// Work in a window and kill it at a random moment; then look what is left, and open it again.
+    fn kill_once(
+        &self,
+        display: &mut Display,
+        random: &mut Random,
+        tally: &mut Tally,
+    ) -> Result<()> {
+        let mut window = self.open(display)?;
+        let before = self.in_file()?;
+        // When each nudge was sent.
+        let mut sent = Vec::new();
+        let end = Instant::now() + Duration::from_secs_f64(LONGEST * random.next());
+        while Instant::now() < end {
+            if random.next() < 0.1 {
+                window.tap(Key::S, Modifiers::COMMAND)?;
+            } else {
+                sent.push(Instant::now());
+                nudge(&mut window)?;
+            }
+        }
+        // The last key is not waited for: the kill comes while it is worked on.
+        if random.next() < 0.5 {
+            window.tap_and_leave(Key::S, Modifiers::COMMAND)?;
+        } else {
+            sent.push(Instant::now());
+            window.tap_and_leave(Key::ArrowRight, Modifiers::NONE)?;
+        }
+        std::thread::sleep(Duration::from_secs_f64(0.03 * random.next()));
+        let killed = Instant::now();
+        window.kill()?;
+        tally.kills += 1;
+
+        let (file, autosave) = (self.in_file()?, self.in_autosave()?);
+        let kept = file.max(autosave.unwrap_or(0));
+        ensure!(
+            before <= kept && kept <= before + sent.len(),
+            "{kept} nudges"
+        );
+        if let Some(lost) = sent.get(kept - before) {
+            let loss = killed.duration_since(*lost).as_secs_f64();
+            tally.largest_loss = tally.largest_loss.max(loss);
+            ensure!(loss < PERIOD + LATENESS, "{loss} s of work are lost");
+        }
+        if let Some(autosave) = autosave {
+            self.recover(display, file, autosave)?;
+            tally.offered += 1;
+        }
+        Ok(())
+    }
+
+    /// Open what was kept, if it is newer than the file, and save it.
+    fn recover(&self, display: &mut Display, file: usize, autosave: usize) -> Result<()> {
+        let mut window = self.open(display)?;
+        window.find("Recovered documents")?;
+        if autosave > file {
+            window.click("Open")?;
+            window.find_beginning("Recovered “work.batten”")?;
+            window.key(Key::S, Modifiers::COMMAND)?;
+            let saved = self.in_file()?;
+            ensure!(saved == autosave, "{saved} nudges instead of {autosave}");
+        } else {
+            window.click("Discard")?;
+        }
+        ensure!(!window.has("Recovered documents")?, "it is still offered");
+        quit(window)?;
+        let left = self.in_autosave()?;
+        ensure!(left.is_none(), "the autosave is still there");
+        Ok(())
+    }
+}
+
+/// Move all vertices to the right.
+fn nudge(window: &mut Window) -> Result<()> {
+    window.tap(Key::ArrowRight, Modifiers::NONE)
+}
+
+fn quit(mut window: Window) -> Result<()> {
+    let _ = window.tap_and_leave(Key::Q, Modifiers::COMMAND);
+    ensure!(window.wait()?, "the program failed");
+    Ok(())
+}
+
+fn x_of(document: &Document) -> Result<f64> {
+    let (_, curve) = document.curves().next().context("no curve")?;
+    Ok(curve.polygon.vertex(0).x)
+}
+
+/// Random numbers in [0, 1), the same in every run.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        // Marsaglia's xorshift.
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+fn kill(times: usize) -> Result<Tally> {
+    let mut display = Display::start(1600, 1000)?;
+    let work = Work::new(&mut display)?;
+    let mut random = Random(0x5eed_5eed_5eed_5eed);
+    let mut tally = Tally::default();
+    for kill in 0..times {
+        let killed = work.kill_once(&mut display, &mut random, &mut tally);
+        killed.with_context(|| format!("kill {kill}"))?;
+    }
+    println!(
+        "{} kills: recovery offered {} times, whenever there was something unsaved; no torn file; \
+         at most {:.2} s of work lost, with a period of {PERIOD} s",
+        tally.kills, tally.offered, tally.largest_loss
+    );
+    Ok(tally)
+}
+
+#[test]
+fn killed_windows_lose_at_most_a_periods_work() -> Result<()> {
+    let tally = kill(6)?;
+    ensure!(tally.offered > 0, "nothing was ever recovered");
+    Ok(())
+}
+
+#[test]
+#[ignore = "200 windows take a quarter of an hour"]
+fn two_hundred_killed_windows_lose_at_most_a_periods_work() -> Result<()> {
+    let tally = kill(200)?;
+    ensure!(tally.offered > 20, "{tally:?}");
+    Ok(())
+}
+
+#[test]
+fn signals_keep_what_is_not_saved_and_end_an_idle_window() -> Result<()> {
+    let mut display = Display::start(1600, 1000)?;
+    let work = Work::new(&mut display)?;
+    for name in ["TERM", "INT", "HUP"] {
+        let mut window = work.open(&mut display)?;
+        let before = work.in_file()?;
+        nudge(&mut window)?;
+        window.settle()?;
+        window.signal(name)?;
+        let began = Instant::now();
+        ensure!(window.wait()?, "SIG{name} is no good end");
+        ensure!(began.elapsed() < Duration::from_secs(3), "it hesitates");
+        match work.in_autosave()? {
+            Some(kept) if kept == before + 1 => {}
+            kept => bail!("SIG{name} keeps {kept:?} nudges instead of {}", before + 1),
+        }
+        ensure!(work.in_file()? == before, "a signal saves nothing");
+        work.recover(&mut display, before, before + 1)?;
+    }
+    Ok(())
+}
+
+#[test]
+fn a_second_window_on_a_file_is_told_and_notices_what_the_first_saves() -> Result<()> {
+    let mut display = Display::start(1600, 1000)?;
+    let work = Work::new(&mut display)?;
+    let mut first = work.open(&mut display)?;
+    first.settle()?;
+    let mut second = work.open(&mut display)?;
+    second.find_beginning("1 curve read")?;
+    ensure!(
+        second
+            .texts()?
+            .iter()
+            .any(|text| text.contains("Another window has this file open")),
+        "the second window does not know of the first"
+    );
+    let before = work.in_file()?;
+    nudge(&mut first)?;
+    first.key(Key::S, Modifiers::COMMAND)?;
+    nudge(&mut second)?;
+    nudge(&mut second)?;
+    second.key(Key::S, Modifiers::COMMAND)?;
+    second.find("The file has changed on disk")?;
+    ensure!(work.in_file()? == before + 1, "it is overwritten unasked");
+    second.click("Cancel")?;
+    ensure!(
+        work.in_file()? == before + 1,
+        "it is overwritten all the same"
+    );
+    second.key(Key::S, Modifiers::COMMAND)?;
+    second.click("Overwrite")?;
+    ensure!(work.in_file()? == before + 2, "it is not overwritten");
+    first.key(Key::S, Modifiers::COMMAND)?;
+    first.click("Reload")?;
+    first.find_beginning("1 curve read")?;
+    quit(first)?;
+    quit(second)
+}
