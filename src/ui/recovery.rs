@@ -78,17 +78,25 @@ fn row_ui(ui: &mut Ui, recoverable: &Recoverable) -> Option<Choice> {
         let picture = recoverable.content.as_ref().map(|content| &content.picture);
         picture_ui(ui, picture.map_or(&[], |picture| picture));
         widgets::at_right(ui, |ui| {
-            if ui.button("Discard").clicked() {
+            // Each row's buttons have names of their own.
+            let [title, lines] = texts(recoverable);
+            let discard = ui.button("Discard");
+            if discard
+                .accessible_name(&format!("Discard {title}"))
+                .clicked()
+            {
                 choice = Some(Choice::Discard(recoverable.id));
             }
-            if recoverable.content.is_ok() && widgets::primary_button(ui, "Open").clicked() {
-                choice = Some(Choice::Open(recoverable.id));
+            if recoverable.content.is_ok() {
+                let open = widgets::primary_button(ui, "Open");
+                if open.accessible_name(&format!("Open {title}")).clicked() {
+                    choice = Some(Choice::Open(recoverable.id));
+                }
             }
             let room = vec2(ui.available_width(), PICTURE.y);
             ui.allocate_ui_with_layout(room, *ui.layout(), |ui| {
                 ui.vertical(|ui| {
                     ui.spacing_mut().item_spacing.y = STEP;
-                    let [title, lines] = texts(recoverable);
                     ui.add(Label::new(RichText::new(title).color(tokens.strong_text)).truncate());
                     let colour = match &recoverable.content {
                         Ok(_) => tokens.faint_text,
@@ -109,7 +117,7 @@ fn texts(recoverable: &Recoverable) -> [String; 2] {
             let name = content.name.as_deref().unwrap_or("Untitled").to_owned();
             [name, facts(content, SystemTime::now()).join("\n")]
         }
-        Err(error) => ["Damaged".to_owned(), error.to_string()],
+        Err(error) => ["Damaged document".to_owned(), error.to_string()],
     }
 }
 

@@ -69,28 +69,18 @@ fn recovered_documents_are_listed_opened_and_discarded() {
     assert_eq!(window.state().editor().hand().tool(), ToolKind::Draw);
     press(&mut window, Modifiers::NONE, Key::V);
 
-    // Which of them is first depends on the second in which they were written.
-    let found = window.state().editor().recoverable();
-    let place = found.iter().position(|found| {
-        let content = found.content.as_ref().expect("a document");
-        content.name.is_some()
-    });
-    let mut buttons = window.get_all_by_label("Open");
-    let button = buttons.nth(place.expect("the hull"));
-    button.expect("a button").click();
-    drop(buttons);
-    window.run();
+    click(&mut window, "Open hull.batten");
     assert_eq!(curve(&window).polygon, changed);
     assert!(is_modified(&window));
     let own = window.state().editor().workspace().path();
     assert_eq!(own, Some(path.as_path()));
 
     // The other one would take the place of changes that are not saved.
-    click(&mut window, "Open");
+    click(&mut window, "Open Untitled");
     window.get_by_label("Save changes?");
     click(&mut window, "Cancel");
     assert!(is_offered(&window));
-    click(&mut window, "Discard");
+    click(&mut window, "Discard Untitled");
     assert!(!is_offered(&window));
     press(&mut window, Modifiers::COMMAND, Key::S);
     assert!(!is_modified(&window));
@@ -121,9 +111,10 @@ fn a_damaged_document_says_so_and_cannot_be_opened() {
     fs::write(found[0].path(), "{").expect("damage");
     drop(found);
     let mut window = open_with(Editor::new(), folder.path());
-    window.get_by_label("Damaged");
-    assert!(window.query_by_label("Open").is_none());
-    click(&mut window, "Discard");
+    window.get_by_label("Damaged document");
+    let opens = window.query_by_label("Open Damaged document");
+    assert!(opens.is_none());
+    click(&mut window, "Discard Damaged document");
     assert!(!is_offered(&window));
 }
 

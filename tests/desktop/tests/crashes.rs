@@ -14,7 +14,7 @@ use egui::{Key, Modifiers};
 use tempfile::TempDir;
 
 /// The period of autosaves here: at most so many seconds' work may be lost.
-const PERIOD: f64 = 1.0;
+const PERIOD: f64 = 0.5;
 
 /// How late an autosave may be on a loaded machine, in seconds: frames and disk take their time.
 const LATENESS: f64 = 1.0;
@@ -56,7 +56,7 @@ impl Work {
             origin: arc().vertex(0).x,
             step: 1.0,
         };
-        let mut window = work.open(display)?;
+        let mut window = work.open_selected(display)?;
         nudge(&mut window)?;
         window.key(Key::S, Modifiers::COMMAND)?;
         window.kill()?;
@@ -73,8 +73,13 @@ impl Work {
             autosave_seconds: PERIOD,
             ..Start::default()
         };
-        let mut window = Window::open_at(display, self.home.clone(), start)?;
-        window.tap(Key::A, Modifiers::COMMAND)?;
+        Window::open_at(display, self.home.clone(), start)
+    }
+
+    /// Open a window and select all vertices.
+    fn open_selected(&self, display: &mut Display) -> Result<Window> {
+        let mut window = self.open(display)?;
+        select_all(&mut window)?;
         Ok(window)
     }
 
@@ -119,13 +124,13 @@ impl Work {
         random: &mut Random,
         tally: &mut Tally,
     ) -> Result<()> {
-        let mut window = self.open(display)?;
+        let mut window = self.open_selected(display)?;
         let before = self.in_file()?;
         // When each nudge was sent.
         let mut sent = Vec::new();
         let end = Instant::now() + Duration::from_secs_f64(LONGEST * random.next());
         while Instant::now() < end {
-            if random.next() < 0.1 {
+            if random.next() < 0.03 {
                 window.tap(Key::S, Modifiers::COMMAND)?;
             } else {
                 sent.push(Instant::now());
@@ -165,22 +170,26 @@ impl Work {
     /// Open what was kept, if it is newer than the file, and save it.
     fn recover(&self, display: &mut Display, file: usize, autosave: usize) -> Result<()> {
         let mut window = self.open(display)?;
-        window.find("Recovered documents")?;
+        window.find("Discard work.batten")?;
         if autosave > file {
-            window.click("Open")?;
+            window.click("Open work.batten")?;
             window.find_beginning("Recovered “work.batten”")?;
             window.key(Key::S, Modifiers::COMMAND)?;
             let saved = self.in_file()?;
             ensure!(saved == autosave, "{saved} nudges instead of {autosave}");
         } else {
-            window.click("Discard")?;
+            window.click("Discard work.batten")?;
         }
-        ensure!(!window.has("Recovered documents")?, "it is still offered");
+        ensure!(!window.has("Discard work.batten")?, "it is still offered");
         quit(window)?;
         let left = self.in_autosave()?;
         ensure!(left.is_none(), "the autosave is still there");
         Ok(())
     }
+}
+
+fn select_all(window: &mut Window) -> Result<()> {
+    window.tap(Key::A, Modifiers::COMMAND)
 }
 
 /// Move all vertices to the right.
@@ -249,7 +258,7 @@ fn signals_keep_what_is_not_saved_and_end_an_idle_window() -> Result<()> {
     let mut display = Display::start(1600, 1000)?;
     let work = Work::new(&mut display)?;
     for name in ["TERM", "INT", "HUP"] {
-        let mut window = work.open(&mut display)?;
+        let mut window = work.open_selected(&mut display)?;
         let before = work.in_file()?;
         nudge(&mut window)?;
         window.settle()?;
@@ -282,13 +291,15 @@ fn a_second_window_on_a_file_is_told_and_notices_what_the_first_saves() -> Resul
             .any(|text| text.contains("Another window has this file open")),
         "the second window does not know of the first"
     );
+    select_all(&mut first)?;
+    select_all(&mut second)?;
     let before = work.in_file()?;
     nudge(&mut first)?;
     first.key(Key::S, Modifiers::COMMAND)?;
     nudge(&mut second)?;
     nudge(&mut second)?;
     second.key(Key::S, Modifiers::COMMAND)?;
-    second.find("The file has changed on disk")?;
+    second.find_beginning("The file has changed on disk")?;
     ensure!(work.in_file()? == before + 1, "it is overwritten unasked");
     second.click("Cancel")?;
     ensure!(
