@@ -1,10 +1,13 @@
 //! The document and its history: gestures, undo and redo, locked curves, edits that fail.
 
+use batten::document::Reference;
 use batten::document::{
     Colour, Curve, CurveId, Document, Edit, EditError, EndMatch, History, LockedVertices,
     MatchPlace,
 };
 use batten::geometry::end_correction::EndTarget;
+use batten::geometry::expressions::LengthUnit;
+use batten::geometry::references::ReferenceCurve;
 use batten::geometry::{Continuity, End, FloatPolygon};
 use glam::DVec3;
 
@@ -640,4 +643,65 @@ fn removing_a_curve_removes_its_matches_and_undo_brings_them_back() {
         history.undo();
         assert!(history.document().is_same(&before));
     }
+}
+
+#[test]
+fn a_unit_relabels_and_converting_it_keeps_every_size() {
+    let mut first = Curve::new("first", cubic());
+    first.locked = true;
+    first.targets.start = Some(EndTarget {
+        point: DVec3::new(1.0, 2.0, 0.0),
+        direction: Some(DVec3::X),
+        curvature: Some(0.5),
+        slope: Some(-2.0),
+        ..EndTarget::default()
+    });
+    let mut second = Curve::new("second", cubic());
+    second.visible = false;
+    let circle = ReferenceCurve::from_text("circle:radius=3").expect("a reference");
+    let document =
+        Document::from_curves([first, second]).with_references([Reference::new("round", circle)]);
+    let ids: Vec<CurveId> = document.all_ids().collect();
+    let convert = |unit| vec![Edit::ConvertUnit(unit)];
+    let mut history = History::new(document.clone());
+    let refused = history.apply("Convert", convert(LengthUnit::Metre));
+    assert_eq!(refused, Err(EditError::NoUnit));
+
+    let inches = vec![Edit::SetUnit(Some(LengthUnit::Inch))];
+    history.apply("Set unit", inches).expect("an edit");
+    assert_eq!(bits(history.document()), bits(&document), "numbers stay");
+    assert!(history.is_modified());
+    history
+        .apply("Convert", convert(LengthUnit::Millimetre))
+        .expect("an edit");
+    assert_eq!(history.undo_steps(), 2);
+    let converted = history.document().clone();
+    assert_eq!(converted.unit(), Some(LengthUnit::Millimetre));
+    for id in &ids[..2] {
+        let [before, after] = [&document, &converted].map(|it| it.curve(*id).expect("a curve"));
+        let vertices = before.polygon.vertices().iter().map(|at| *at * 25.4);
+        assert_eq!(after.polygon.vertices(), vertices.collect::<Vec<_>>());
+        assert_eq!(
+            (after.locked, after.visible),
+            (before.locked, before.visible)
+        );
+    }
+    let target = converted
+        .curve(ids[0])
+        .and_then(|curve| curve.targets.start);
+    let target = target.expect("a target");
+    assert_eq!(target.point, DVec3::new(25.4, 50.8, 0.0));
+    assert_eq!(target.direction, Some(DVec3::X));
+    assert_eq!(target.curvature, Some(0.5 / 25.4));
+    assert_eq!(target.slope, Some(-2.0 / 25.4_f64.powi(2)));
+    let round = &converted.reference(ids[2]).expect("a reference").curve;
+    let at = round.derivatives(0.0, 0)[0];
+    assert!((at - DVec3::X * 76.2).length() < 1e-13);
+
+    history.undo();
+    history.undo();
+    assert!(history.document().is_same(&document) && !history.is_modified());
+    history.redo();
+    history.redo();
+    assert!(history.document().is_same(&converted));
 }

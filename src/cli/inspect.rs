@@ -9,9 +9,10 @@ use super::feature_lists::FeatureLists;
 use super::output;
 use super::progress::Progress;
 use crate::document::Curve;
+use crate::geometry::expressions::LengthUnit;
 use crate::geometry::features::Features;
 use crate::geometry::{ClampedPolygon, End, FloatPolygon, Jet};
-use crate::io::{Place, json_layout};
+use crate::io::{Place, Reading, json_layout};
 
 /// Levels of curvature and torsion that are printed.
 const LEVELS: usize = 3;
@@ -21,7 +22,7 @@ const LENGTH_TOLERANCE: f64 = 1e-13;
 
 /// Print the curves of a file, evaluated at some parameters.
 pub(super) fn run(source: &Source, at: &[f64]) -> anyhow::Result<()> {
-    let curves = source.read()?.curves;
+    let Reading { curves, unit, .. } = source.read()?;
     for (index, curve) in curves.iter().enumerate() {
         let last = curve.polygon.segments() as f64;
         if let Some(u) = at.iter().find(|u| !(0.0..=last).contains(*u)) {
@@ -48,11 +49,14 @@ pub(super) fn run(source: &Source, at: &[f64]) -> anyhow::Result<()> {
     });
     let curves = curves.collect();
     drop(progress);
-    output::print(&json_layout::to_text(&Report { curves }))
+    let unit = unit.map(LengthUnit::symbol);
+    output::print(&json_layout::to_text(&Report { unit, curves }))
 }
 
 #[derive(Serialize)]
 struct Report {
+    /// The unit of all coordinates; null if the file says none.
+    unit: Option<&'static str>,
     curves: Vec<Inspected>,
 }
 

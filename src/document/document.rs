@@ -8,6 +8,7 @@ use super::extras::Extras;
 use super::names::free_name;
 use super::reference::Reference;
 use crate::geometry::ParametricCurve;
+use crate::geometry::expressions::LengthUnit;
 
 /// Hold the curves of a project and its references, each in the order in which they are listed and drawn.
 ///
@@ -18,6 +19,7 @@ pub struct Document {
     pub(super) references: Vec<(CurveId, Arc<Reference>)>,
     pub(super) next: u64,
     pub(super) matches: Vec<EndMatch>,
+    pub(super) unit: Option<LengthUnit>,
     extras: Extras,
 }
 
@@ -37,6 +39,16 @@ impl Document {
             self.push_reference(reference);
         }
         self
+    }
+
+    /// Say in which unit the numbers of the document are lengths; `None` if nothing is said of it.
+    pub fn with_unit(self, unit: Option<LengthUnit>) -> Self {
+        Self { unit, ..self }
+    }
+
+    /// The unit of length of all coordinates. New documents have none: nothing is claimed that nobody said.
+    pub fn unit(&self) -> Option<LengthUnit> {
+        self.unit
     }
 
     /// Add what the project's file said that this program does not know. Every edit keeps it.
@@ -133,10 +145,12 @@ impl Document {
         self.curves.is_empty() && self.references.is_empty()
     }
 
-    /// Whether the other document holds equal curves and equal references in the same order, and the same matches.
+    /// Whether the other document holds equal curves and equal references in the same order, the same matches
+    /// and the same unit.
     /// What both share is not compared number by number.
     pub fn is_same(&self, other: &Self) -> bool {
-        self.matches == other.matches
+        self.unit == other.unit
+            && self.matches == other.matches
             && are_same(&self.curves, &other.curves)
             && are_same(&self.references, &other.references)
     }

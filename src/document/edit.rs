@@ -12,6 +12,7 @@ use super::error::EditError;
 use super::locked_vertices::LockedVertices;
 use super::reference::Reference;
 use crate::geometry::end_correction::EndTarget;
+use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::ReferenceCurve;
 use crate::geometry::{End, FloatPolygon, PolygonError};
 
@@ -106,6 +107,10 @@ pub enum Edit {
         /// The end.
         end: End,
     },
+    /// Give the document another unit of length, or none. Its numbers stay: 5 mm become 5 in.
+    SetUnit(Option<LengthUnit>),
+    /// Convert the document to another unit of length: everything keeps its size, 25.4 mm become 1 in.
+    ConvertUnit(LengthUnit),
     /// Add a curve behind the others. It gets [`Document::next_id`].
     Add(Box<Curve>),
     /// Add a reference behind the others. It gets [`Document::next_id`].
@@ -212,6 +217,11 @@ impl Document {
                 self.remove_match(curve, end);
                 Ok(())
             }
+            Edit::SetUnit(unit) => {
+                self.unit = unit;
+                Ok(())
+            }
+            Edit::ConvertUnit(unit) => self.convert_unit(unit),
             Edit::Add(curve) if !curve.targets.are_usable() => Err(EditError::BadTarget),
             Edit::Add(curve) => {
                 check_vertices(&curve, curve.locked_vertices.iter())?;

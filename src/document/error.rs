@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use super::wording::quoted;
 use crate::geometry::PolygonError;
+use crate::geometry::references::ReferenceError;
 
 /// Why an edit cannot be made; the document is as it was.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -74,6 +75,17 @@ pub enum EditError {
         /// The name of the one that it would follow.
         source_name: String,
     },
+    /// A reference cannot be where it would be put.
+    #[error("{}: {error}", quoted(.name))]
+    Reference {
+        /// The reference's name.
+        name: String,
+        /// What is wrong.
+        error: ReferenceError,
+    },
+    /// The document has no unit that could be converted.
+    #[error("the document has no unit: set one first")]
+    NoUnit,
     /// A name is empty.
     #[error("a curve needs a name: type at least one character")]
     EmptyName,

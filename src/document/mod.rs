@@ -14,6 +14,7 @@ mod history;
 mod locked_vertices;
 mod names;
 mod reference;
+mod unit_conversion;
 mod wording;
 
 pub use curve::{Colour, Curve, CurveId, EndTargets};

@@ -228,6 +228,7 @@ impl Editor {
         let count = counted(visible.len(), "curve", "curves");
         let exported = Document::from_curves(visible)
             .with_references(references)
+            .with_unit(document.unit())
             .with_extras(document.extras().clone());
         let mut saved = disk::write_document(&path, &exported, polygon)?;
         saved.losses.add_matches(document, |curve| curve.visible);

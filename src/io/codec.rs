@@ -24,7 +24,7 @@ impl Format {
         }
     }
 
-    /// Write curves to bytes.
+    /// Write curves to bytes, in no unit.
     ///
     /// `polygon` chooses by which polygon each curve is held (project and table) or which
     /// polygon is drawn beside it (DXF); without it a project and a table hold the float
@@ -41,9 +41,12 @@ impl Format {
     ) -> Result<Export, WriteError> {
         let curves: Vec<&Curve> = curves.iter().map(Borrow::borrow).collect();
         let mut export = match self {
-            Self::Batten => project::write(&curves, &[], &[], extras, polygon.unwrap_or_default()),
-            Self::Csv => table::write(&curves, &[], polygon.unwrap_or_default())?,
-            Self::Dxf => dxf::write(&curves, polygon)?,
+            Self::Batten => {
+                let kind = polygon.unwrap_or_default();
+                project::write(&curves, &[], &[], (None, extras), kind)
+            }
+            Self::Csv => table::write(&curves, &[], None, polygon.unwrap_or_default())?,
+            Self::Dxf => dxf::write(&curves, None, polygon)?,
         };
         export.losses.project_keys = self != Self::Batten && !extras.is_empty();
         Ok(export)
@@ -62,12 +65,13 @@ impl Format {
         let curves: Vec<&Curve> = document.curves().map(|(_, curve)| &**curve).collect();
         let references: Vec<&Reference> = document.references().map(|(_, it)| &**it).collect();
         let (matches, extras) = (FileMatch::all(document), document.extras());
+        let unit = document.unit();
         let kind = polygon.unwrap_or_default();
         let mut export = match self {
-            Self::Batten => project::write(&curves, &references, &matches, extras, kind),
-            Self::Csv => table::write(&curves, &references, kind)?,
+            Self::Batten => project::write(&curves, &references, &matches, (unit, extras), kind),
+            Self::Csv => table::write(&curves, &references, unit, kind)?,
             Self::Dxf => {
-                let mut export = dxf::write(&curves, polygon)?;
+                let mut export = dxf::write(&curves, unit, polygon)?;
                 export.losses.add_references(references);
                 export
             }

@@ -201,8 +201,14 @@ mod tests {
         for example in EXAMPLES {
             let curves = example.curves().unwrap();
             let curves: Vec<&Curve> = curves.iter().collect();
-            let written =
-                project::write(&curves, &[], &[], &Extras::default(), PolygonKind::Float).bytes;
+            let written = project::write(
+                &curves,
+                &[],
+                &[],
+                (None, &Extras::default()),
+                PolygonKind::Float,
+            )
+            .bytes;
             assert_eq!(
                 String::from_utf8(written).unwrap(),
                 example.text,

@@ -40,3 +40,6 @@ pub use format::{Format, FormatError};
 pub use loss::{Export, Loss, LossReport};
 pub use reading::{Owner, Reading, Remark, Remarks};
 pub use sessions::{AbandonedSession, Session, Sessions};
+
+#[cfg(test)]
+mod units;

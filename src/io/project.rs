@@ -9,7 +9,8 @@
 //! Each version has types of its own, so that a change of the curves in memory cannot change
 //! what old files mean. A project is written in the first version that holds all of it, so that
 //! older programs read what they can read: version 2 adds `locked_vertices` to a curve,
-//! `curvature`, `normal` and `slope` to a target, and `matches` and `references` to the project.
+//! `curvature`, `normal` and `slope` to a target, and `matches`, `references` and the `unit` of length ("mm", "cm",
+//! "m" or "in"; left out if there is none) to the project.
 
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -28,6 +29,7 @@ use super::{project_v1, project_v2};
 use crate::document::{Curve, Extras, Reference, escaped};
 use crate::geometry::PolygonKind;
 use crate::geometry::end_correction::EndTarget;
+use crate::geometry::expressions::LengthUnit;
 
 /// Read a project.
 ///
@@ -55,21 +57,22 @@ pub fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
 }
 
 /// Write a project with each curve held by one of its polygons; by the float polygon nothing is
-/// lost. `matches` are those between the curves and references, `extras` those of the project.
+/// lost. `matches` are those between the curves and references, `unit` and `extras` those of the project.
 pub fn write(
     curves: &[&Curve],
     references: &[&Reference],
     matches: &[FileMatch],
-    extras: &Extras,
+    (unit, extras): (Option<LengthUnit>, &Extras),
     kind: PolygonKind,
 ) -> Export {
     let mut losses = LossReport::new(Format::Batten);
-    let needs_version_2 = !matches.is_empty()
+    let needs_version_2 = unit.is_some()
+        || !matches.is_empty()
         || !references.is_empty()
         || curves.iter().any(|curve| needs_version_2(curve));
     let bytes = if needs_version_2 {
         let content = (curves, references, matches);
-        let project = project_v2::Project::from_content(content, extras, kind, &mut losses);
+        let project = project_v2::Project::from_content(content, (unit, extras), kind, &mut losses);
         json_layout::to_text(&project).into_bytes()
     } else {
         let project = project_v1::Project::from_curves(curves, extras, kind, &mut losses);

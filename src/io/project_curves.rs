@@ -93,6 +93,7 @@ pub(super) fn read_curves(
         curves,
         references,
         matches,
+        unit: None,
         extras,
         remarks,
     };

@@ -1,5 +1,5 @@
 //! Version 2 of the project file: locked vertices, targets with curvature, osculating plane and
-//! slope of curvature, matches of ends, and references.
+//! slope of curvature, matches of ends, references, and the unit of length.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -12,10 +12,11 @@ use super::object::Object;
 use super::polygon::FilePolygon;
 use super::project_curves::{FORMAT, FileCurve, UnknownKeys, read_curves};
 use super::project_references::FileReference;
-use super::project_values::{Coordinates, Degree, HexColour, Kind, Number};
+use super::project_values::{Coordinates, Degree, HexColour, Kind, Number, Unit};
 use super::reading::Reading;
 use crate::document::{Curve, EndTargets, Extras, MatchPlace, Reference};
 use crate::geometry::end_correction::EndTarget;
+use crate::geometry::expressions::LengthUnit;
 use crate::geometry::{Continuity, End, PolygonKind};
 
 /// The version.
@@ -34,6 +35,9 @@ pub(super) struct ProjectV2 {
     /// [`VERSION`], if it is of this version.
     #[serde(default)]
     pub version: Value,
+    /// The unit of all coordinates.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    unit: Option<Unit>,
     curves: Vec<Object<CurveV2>>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     references: Vec<Object<FileReference>>,
@@ -137,11 +141,11 @@ enum Level {
 }
 
 impl Project {
-    /// Take what version 2 writes of curves, references and matches, with the keys of the project that
-    /// are not known.
+    /// Take what version 2 writes of curves, references and matches, with the unit and the keys of the
+    /// project that are not known.
     pub(super) fn from_content(
         (curves, references, matches): (&[&Curve], &[&Reference], &[FileMatch]),
-        extras: &Extras,
+        (unit, extras): (Option<LengthUnit>, &Extras),
         kind: PolygonKind,
         losses: &mut LossReport,
     ) -> Self {
@@ -157,6 +161,7 @@ impl Project {
             value: ProjectV2 {
                 format: FORMAT.into(),
                 version: VERSION.into(),
+                unit: unit.map(Unit),
                 curves: curves.collect(),
                 references: references.collect(),
                 matches: matches.iter().map(|it| Object::new(it.into())).collect(),
@@ -167,6 +172,7 @@ impl Project {
 
     /// Check the content and make curves of it.
     pub(super) fn into_reading(self) -> Result<Reading, ReadError> {
+        let unit = self.value.unit.map(|unit| unit.0);
         let curves = self.value.curves.into_iter();
         let curves = curves.map(|Object { value, extras }| FileCurve {
             extras,
@@ -185,7 +191,8 @@ impl Project {
             })
         });
         let references: Vec<Reference> = references.collect::<Result<_, ReadError>>()?;
-        read_curves(curves, references, (matches, unknown), self.extras)
+        let reading = read_curves(curves, references, (matches, unknown), self.extras)?;
+        Ok(Reading { unit, ..reading })
     }
 }
 

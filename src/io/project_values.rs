@@ -5,6 +5,7 @@ use serde::de::{Error, Unexpected};
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::document::{Colour, quoted};
+use crate::geometry::expressions::LengthUnit;
 use crate::geometry::{MAX_DEGREE, PolygonKind};
 
 /// A whole number; whether it is a possible degree the polygon checks.
@@ -67,6 +68,29 @@ impl TryFrom<String> for Kind {
 impl From<Kind> for &str {
     fn from(kind: Kind) -> Self {
         kind.0.name()
+    }
+}
+
+/// A unit of length by its symbol.
+#[derive(Clone, Deserialize, Serialize)]
+#[serde(try_from = "String", into = "&str")]
+pub(super) struct Unit(pub LengthUnit);
+
+impl TryFrom<String> for Unit {
+    type Error = String;
+
+    fn try_from(symbol: String) -> Result<Self, String> {
+        let unit = LengthUnit::of_symbol(&symbol).map(Self);
+        unit.ok_or_else(|| {
+            let symbol = quoted(&symbol);
+            format!("{symbol} is not a unit of length: mm, cm, m or in is needed")
+        })
+    }
+}
+
+impl From<Unit> for &str {
+    fn from(unit: Unit) -> Self {
+        unit.0.symbol()
     }
 }
 

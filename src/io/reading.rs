@@ -5,6 +5,7 @@ use std::fmt;
 
 use super::file_match::{FileMatch, MatchSource};
 use crate::document::{Curve, CurveId, Document, EditError, EndMatch, Extras, Reference, quoted};
+use crate::geometry::expressions::LengthUnit;
 use crate::geometry::{PolygonKind, counted, rounded_up};
 
 /// The most unknown keys that are named one by one.
@@ -19,6 +20,8 @@ pub struct Reading {
     pub references: Vec<Reference>,
     /// The matches between them; none is of what is not there.
     pub matches: Vec<FileMatch>,
+    /// The unit of length, if the file says one.
+    pub unit: Option<LengthUnit>,
     /// What a project says of itself that this program does not know.
     pub extras: Extras,
     /// What the reader should tell its user.
@@ -99,6 +102,7 @@ impl Reading {
     pub fn into_document(self) -> Result<Document, EditError> {
         let document = Document::from_curves(self.curves)
             .with_references(self.references)
+            .with_unit(self.unit)
             .with_extras(self.extras);
         let curves: Vec<CurveId> = document.ids().collect();
         let references: Vec<CurveId> = document.references().map(|(id, _)| id).collect();
@@ -125,8 +129,14 @@ impl Reading {
         }
     }
 
-    /// Add what was read of another file: curves, references and the matches between them.
+    /// Add what was read of another file: curves, references and the matches between them. The unit stays if
+    /// both have the same.
     pub fn append(&mut self, other: Self) {
+        if self.is_empty() {
+            self.unit = other.unit;
+        } else if self.unit != other.unit {
+            self.unit = None;
+        }
         let [curves, references] = [self.curves.len(), self.references.len()];
         self.curves.extend(other.curves);
         self.references.extend(other.references);

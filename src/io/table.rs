@@ -12,6 +12,8 @@
 //! their names in any order, so that `x,y,weight` is read too. Numbers are written with the
 //! digits that it takes to read the very same number again.
 //!
+//! A line `# unit=mm` above all tables says the unit of length: mm, cm, m or in. Without it there is none.
+//!
 //! A table without `degree=` holds points, which make a reference: the line above its column names
 //! may give it a name, as in `# name=scan`, or be left out, as may the names of the columns.
 //!
@@ -33,11 +35,15 @@ use super::reading::{Reading, Remark, Remarks};
 use super::table_header::{CurveHeader, TableHeader, begins_table};
 use super::text::text;
 use crate::document::{Curve, Reference};
+use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::{PointList, ReferenceCurve, ReferenceError, ReferenceForm};
 use crate::geometry::{PolygonError, PolygonKind};
 
 /// The columns that a table can have, in the order in which they are written.
 const COLUMNS: [&str; 4] = ["x", "y", "z", "weight"];
+
+/// What begins the line that says the unit.
+const UNIT_LINE: &str = "# unit=";
 
 /// The column of weights, which points do not have.
 const WEIGHT: usize = 3;
@@ -82,7 +88,10 @@ pub fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
         });
     }
     comments.remark(&mut remarks);
-    let mut reading = Reading::default();
+    let mut reading = Reading {
+        unit: comments.unit,
+        ..Reading::default()
+    };
     for mut block in blocks {
         match block.header.curve.take() {
             Some(header) => {
@@ -100,13 +109,14 @@ pub fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
 }
 
 /// Write curves as tables of one of their polygons, and references that are points as tables of
-/// these, where they are placed.
+/// these, where they are placed, under a line that says the unit of length if there is one.
 ///
 /// # Errors
 /// [`WriteError::NoCurves`]: an empty file could not be read again.
 pub fn write(
     curves: &[&Curve],
     references: &[&Reference],
+    unit: Option<LengthUnit>,
     kind: PolygonKind,
 ) -> Result<Export, WriteError> {
     let mut lists = references.iter().filter_map(|reference| reference.points());
@@ -115,7 +125,8 @@ pub fn write(
         return Err(WriteError::NoCurves { format });
     }
     let mut losses = LossReport::new(Format::Csv);
-    let mut bytes = Vec::new();
+    let unit_line = unit.map(|unit| format!("{UNIT_LINE}{}\n", unit.symbol()));
+    let mut bytes = unit_line.unwrap_or_default().into_bytes();
     for curve in curves {
         if !bytes.is_empty() {
             bytes.push(b'\n');
@@ -208,9 +219,10 @@ fn are_coordinates(record: &StringRecord) -> bool {
     (2..=3).contains(&record.len()) && record.iter().all(is_number)
 }
 
-/// The comments of a file.
+/// The comments of a file, and the unit of length that the first line of this kind says.
 #[derive(Default)]
 struct Comments {
+    unit: Option<LengthUnit>,
     first: usize,
     count: usize,
 }
@@ -229,7 +241,10 @@ impl Comments {
                 blanked.push('\n');
             }
             if is_comment(line) {
-                self.add(index + 1);
+                match unit_of(line).filter(|_| self.unit.is_none()) {
+                    Some(unit) => self.unit = Some(unit),
+                    None => self.add(index + 1),
+                }
             } else {
                 blanked.push_str(line);
             }
@@ -247,11 +262,17 @@ impl Comments {
     }
 
     fn remark(&self, remarks: &mut Remarks) {
-        let Self { first, count } = *self;
+        let Self { first, count, .. } = *self;
         if count > 0 {
             remarks.add(Remark::Comments { first, count });
         }
     }
+}
+
+/// The unit that a line says, if it says one; spreadsheets pad lines with separators.
+fn unit_of(line: &str) -> Option<LengthUnit> {
+    let symbol = line.trim_matches(['"', ' ']).strip_prefix(UNIT_LINE)?;
+    LengthUnit::of_symbol(symbol.trim_end_matches([',', ';', '\t', ' ', '\r']))
 }
 
 /// Find what stands between the columns, from the line with their names: the first line that

@@ -6,6 +6,7 @@ use super::inputs::Inputs;
 use crate::document::EditError;
 use crate::geometry::approximation::{ApproximationError, FitError};
 use crate::geometry::between::BetweenError;
+use crate::geometry::expressions::ExpressionMistake;
 use crate::geometry::fairing::bridging::BridgeError;
 use crate::geometry::fairing::harmonising::HarmonyError;
 use crate::geometry::fairing::joint_correction::CorrectionError;
@@ -95,6 +96,18 @@ pub enum OperationError {
         needed: String,
         /// "is" or "are".
         verb: &'static str,
+    },
+    /// A text that is no number.
+    #[error("{label}: {needed} {verb} needed: {mistake}")]
+    NotANumber {
+        /// The parameter, as it is shown.
+        label: &'static str,
+        /// What it takes.
+        needed: String,
+        /// "is" or "are".
+        verb: &'static str,
+        /// What is wrong, with its column in the text.
+        mistake: ExpressionMistake,
     },
     /// A value of a parameter that a planar curve has no use for.
     #[error("{label}: only a curve in space has this, and the curve lies in the plane z = 0")]

@@ -7,6 +7,7 @@ use super::amount::Amount;
 use super::error::OperationError;
 use super::input::Input;
 use super::value::Value;
+use crate::geometry::expressions::{NumberContext, Quantity, parts};
 use crate::geometry::references::ReferenceCurve;
 
 /// Describe a parameter.
@@ -180,10 +181,7 @@ impl Parameter {
                 Some(Value::Reference(Some(Box::new(curve))))
             }
             Kind::Whole { .. } => text.parse().ok().map(Value::Whole),
-            Kind::Real { unit, .. } => {
-                let number = text.parse().ok();
-                number.map(|number: f64| Value::Real(unit.typed(number)))
-            }
+            Kind::Real { unit, .. } => Some(Value::Real(unit.typed(self.number(0, text)?))),
             Kind::Choice { options, .. } => {
                 let mut names = options.iter().map(|option| option.name);
                 names.position(|name| name == text).map(Value::Choice)
@@ -194,11 +192,10 @@ impl Parameter {
                 _ => None,
             },
             Kind::List { unit, .. } => {
-                let parts = text.split(',').filter(|_| !text.is_empty());
-                let numbers = parts.map(|part| part.trim().parse().ok());
-                let numbers: Option<Vec<f64>> = numbers.collect();
-                let typed = |numbers: Vec<f64>| numbers.into_iter().map(|it| unit.typed(it));
-                numbers.map(|numbers| Value::List(typed(numbers).collect()))
+                let parts = parts(text, ',').into_iter().filter(|_| !text.is_empty());
+                let numbers = parts.map(|(before, part)| self.number(before, part));
+                let numbers = numbers.map(|number| number.map(|number| unit.typed(number)));
+                Some(Value::List(numbers.collect::<Result<_, _>>()?))
             }
         };
         let value = value.ok_or_else(|| self.wrong_kind())?;
@@ -354,15 +351,35 @@ impl Parameter {
     }
 
     fn wrong_kind(&self) -> OperationError {
-        let several = match &self.kind {
-            Kind::List { count, .. } => *count.end() > 1,
-            _ => false,
-        };
         OperationError::WrongKind {
             label: self.label,
             needed: self.range_words(),
-            verb: if several { "are" } else { "is" },
+            verb: self.verb(),
         }
+    }
+
+    /// Whether what it takes "is" or "are".
+    fn verb(&self) -> &'static str {
+        match &self.kind {
+            Kind::List { count, .. } if *count.end() > 1 => "are",
+            _ => "is",
+        }
+    }
+
+    /// Read a number, which may be an expression; so many characters stand before it.
+    fn number(&self, before: usize, text: &str) -> Result<f64, OperationError> {
+        let context = NumberContext {
+            quantity: self.unit().quantity(),
+            ..NumberContext::default()
+        };
+        context
+            .read(text)
+            .map_err(|mistake| OperationError::NotANumber {
+                label: self.label,
+                needed: self.range_words(),
+                verb: self.verb(),
+                mistake: mistake.shifted(before),
+            })
     }
 
     fn check_limits(&self, value: &Value, limits: Limits) -> Result<(), OperationError> {
@@ -403,6 +420,15 @@ impl Unit {
         match self {
             Self::Angle => shown.to_radians(),
             Self::None | Self::Length | Self::Parameter => shown,
+        }
+    }
+
+    /// What numbers in this unit measure.
+    pub fn quantity(self) -> Quantity {
+        match self {
+            Self::None | Self::Parameter => Quantity::Number,
+            Self::Length => Quantity::Length,
+            Self::Angle => Quantity::Angle,
         }
     }
 

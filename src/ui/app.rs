@@ -9,6 +9,7 @@ use super::action::Action;
 use super::canvas::Canvas;
 use super::canvas_entry::CanvasEntry;
 use super::dialogs::{self, Decision, Dialog};
+use super::document_unit;
 use super::file_dialogs::{AfterDiscard, Chosen, FileDialogs, Purpose};
 use super::gizmo::gizmo_ui;
 use super::keyboard::{self, Asked, Keyboard, Typing};
@@ -70,6 +71,9 @@ impl App {
         let kept = storage.and_then(|storage| eframe::get_value(storage, SETTINGS));
         let shell: Shell = kept.unwrap_or_default();
         theme::choose(context, shell.dark);
+        if let Some(step) = shell.nudge_step {
+            editor.set_nudge_step(step);
+        }
         if let Some(hidden) = &shell.hidden {
             hide_layers(&mut editor, hidden);
         }
@@ -121,6 +125,7 @@ impl App {
     pub fn show(&mut self, ui: &mut Ui) {
         let context = ui.ctx().clone();
         self.editor.begin_frame();
+        document_unit::set(&context, self.editor.document().unit());
         self.take_answers(&context);
         self.take_dropped_files(&context);
         self.take_keys(&context);
@@ -215,9 +220,9 @@ impl App {
                 menu_ui(ui, &mut self.editor, &self.shell, &mut self.actions);
             });
         let status = Panel::bottom("status").frame(bar(12, 0)).resizable(false);
-        status
-            .exact_size(status_bar::HEIGHT)
-            .show(ui, |ui| status_bar_ui(ui, &self.editor));
+        status.exact_size(status_bar::HEIGHT).show(ui, |ui| {
+            status_bar_ui(ui, &mut self.editor, &self.shell, &mut self.actions);
+        });
         let rail = Panel::left("tools").frame(bar(4, 4)).resizable(false);
         rail.exact_size(tool_rail::WIDTH).show(ui, |ui| {
             tool_rail_ui(ui, &self.editor, &mut self.actions);
@@ -514,6 +519,7 @@ impl App {
             .filter(|(_, layer)| !layers.shows(*layer));
         Shell {
             harmony: self.plots.tab() == Tab::Harmony,
+            nudge_step: Some(self.editor.hand().nudge_step()),
             hidden: Some(hidden.map(|(place, _)| place).collect()),
             ..self.shell.clone()
         }

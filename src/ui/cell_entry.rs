@@ -1,15 +1,11 @@
 //! A number of a table that is being typed, and which number it is.
 
-use std::ops::RangeInclusive;
-
-use super::draft::Draft;
+use super::draft::{Accepted, Draft, Fault};
 use super::vertex_columns::Column;
 use crate::document::CurveId;
 use crate::editor::{Editor, told};
 use crate::geometry::FloatPolygon;
-
-/// The numbers that can be typed, as far as the field can tell.
-pub const ANY: RangeInclusive<f64> = f64::MIN..=f64::MAX;
+use crate::geometry::expressions::LengthUnit;
 
 /// A place in the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,13 +56,22 @@ impl Entry {
         })
     }
 
+    /// The numbers that can be typed, as far as the field can tell.
+    pub fn accepted(&self, unit: Option<LengthUnit>) -> Accepted {
+        Accepted {
+            quantity: self.cell.column.quantity(),
+            unit,
+            range: f64::MIN..=f64::MAX,
+        }
+    }
+
     /// Give the number to the vertex it was typed for. If that vertex is gone or has changed
     /// meanwhile, nothing is changed.
     ///
     /// # Errors
-    /// Why the number cannot be taken, in words.
-    pub fn take_over(&self, editor: &mut Editor) -> Result<(), String> {
-        let Some(value) = self.draft.value(&ANY)? else {
+    /// Why the number cannot be taken.
+    pub fn take_over(&self, editor: &mut Editor) -> Result<(), Fault> {
+        let Some(value) = self.draft.value(&self.accepted(editor.document().unit()))? else {
             return Ok(());
         };
         let Cell { vertex, column } = self.cell;

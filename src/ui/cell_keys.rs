@@ -91,7 +91,7 @@ pub fn for_text(ui: &Ui) -> Option<CellKey> {
 
 fn begins_number(text: &str) -> bool {
     let first = text.chars().next();
-    first.is_some_and(|first| first.is_ascii_digit() || "+-−.,".contains(first))
+    first.is_some_and(|first| first.is_ascii_alphanumeric() || "+-−.,*/(π".contains(first))
 }
 
 /// What a key stands for; those that a text needs for itself only while there is none.

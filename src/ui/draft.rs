@@ -1,26 +1,106 @@
 //! A number while it is being typed, and the remark beside a field whose text was not taken.
 
+use std::fmt;
 use std::ops::RangeInclusive;
 
+use eframe::egui::text::{CCursor, CCursorRange};
+use eframe::egui::text_edit::{TextEditOutput, TextEditState};
 use eframe::egui::{
-    Align2, EventFilter, Id, Rect, Response, TextEdit, Tooltip, Ui, text::CCursorRange,
-    text_edit::TextEditState,
+    Align2, EventFilter, Id, Rect, Response, Stroke, TextEdit, Tooltip, Ui, UiBuilder, vec2,
 };
 
 use super::figures;
 use super::theme::{self, Tokens};
 use crate::document::quoted;
+use crate::geometry::expressions::{ExpressionMistake, LengthUnit, NumberContext, Quantity};
 
 /// How long a remark stays, in seconds.
 const SECONDS: f64 = 6.0;
+
+/// The height of the mark under a mistake.
+const CARET: f32 = 5.0;
+
+/// The numbers that a field takes.
+#[derive(Clone, Debug)]
+pub struct Accepted {
+    /// What they measure.
+    pub quantity: Quantity,
+    /// The document's unit of length.
+    pub unit: Option<LengthUnit>,
+    /// How large they may be.
+    pub range: RangeInclusive<f64>,
+}
+
+/// Why a text is not taken.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fault {
+    /// The column of the mistake, counted from 1, if it has one.
+    column: Option<usize>,
+    reason: String,
+}
 
 /// A number while it is being typed.
 #[derive(Clone, Debug, Default)]
 pub struct Draft {
     text: String,
-    before: String,
+    /// The text that it began with, and its number.
+    before: (String, f64),
     /// Why Enter did not take it; what is typed next takes this away.
-    refusal: Option<String>,
+    refusal: Option<Fault>,
+}
+
+impl Accepted {
+    /// Read a number that takes the place of `before`.
+    ///
+    /// # Errors
+    /// [`Fault`]: what is wrong, and where.
+    pub fn read(&self, text: &str, before: f64) -> Result<f64, Fault> {
+        let value = self.context(before).read(text)?;
+        let range = &self.range;
+        if range.contains(&value) {
+            return Ok(value);
+        }
+        let (low, high) = (figures::exact(*range.start()), figures::exact(*range.end()));
+        let reason = match (range.start().is_finite(), *range.end() < f64::MAX) {
+            (true, true) => format!("Only numbers from {low} to {high}"),
+            (true, false) => format!("Only numbers from {low} on"),
+            _ => format!("Only numbers up to {high}"),
+        };
+        Err(Fault::from(reason))
+    }
+
+    fn context(&self, before: f64) -> NumberContext {
+        NumberContext {
+            quantity: self.quantity,
+            unit: self.unit,
+            before: Some(before),
+        }
+    }
+}
+
+impl From<String> for Fault {
+    fn from(reason: String) -> Self {
+        let column = None;
+        Self { column, reason }
+    }
+}
+
+impl From<ExpressionMistake> for Fault {
+    fn from(mistake: ExpressionMistake) -> Self {
+        Self {
+            column: Some(mistake.column),
+            reason: mistake.error.to_string(),
+        }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.column {
+            Some(column) => write!(formatter, "Column {column}: {}", self.reason),
+            None => formatter.write_str(&self.reason),
+        }
+    }
 }
 
 impl Draft {
@@ -28,7 +108,7 @@ impl Draft {
     pub fn of(value: f64) -> Self {
         let text = figures::exact(value);
         Self {
-            before: text.clone(),
+            before: (text.clone(), value),
             text,
             refusal: None,
         }
@@ -45,31 +125,34 @@ impl Draft {
     /// Read the number; `None` if the text is as it was.
     ///
     /// # Errors
-    /// Why it cannot be taken, in words.
-    pub fn value(&self, range: &RangeInclusive<f64>) -> Result<Option<f64>, String> {
-        if self.text == self.before {
+    /// Why it cannot be taken.
+    pub fn value(&self, accepted: &Accepted) -> Result<Option<f64>, Fault> {
+        let (before, number) = &self.before;
+        if self.text == *before {
             return Ok(None);
         }
-        let Some(value) = figures::read(&self.text) else {
-            return Err(match self.text.trim() {
-                "" => "Type a number, such as 12.5".to_owned(),
-                text => format!("{} is not a number", quoted(text)),
-            });
-        };
-        if range.contains(&value) {
-            return Ok(Some(value));
+        if self.text.trim().is_empty() {
+            return Err(Fault::from("Type a number, such as 12.5".to_owned()));
         }
-        let (low, high) = (figures::exact(*range.start()), figures::exact(*range.end()));
-        Err(match (range.start().is_finite(), *range.end() < f64::MAX) {
-            (true, true) => format!("Only numbers from {low} to {high}"),
-            (true, false) => format!("Only numbers from {low} on"),
-            _ => format!("Only numbers up to {high}"),
-        })
+        accepted.read(&self.text, *number).map(Some)
     }
 
     /// Keep the text, to be changed, and say why it is not taken.
-    pub fn refuse(&mut self, reason: String) {
-        self.refusal = Some(reason);
+    pub fn refuse(&mut self, fault: Fault) {
+        self.refusal = Some(fault);
+    }
+
+    /// Say why the text was not taken when its field was left, though it is not seen any more; `shown` stays.
+    pub fn left(&self, ui: &Ui, fault: &Fault, shown: &str) -> Remark {
+        let Fault { column, reason } = fault;
+        let text = quoted(self.text.trim());
+        Remark::new(
+            ui,
+            match column {
+                Some(column) => format!("{text}, column {column}: {reason}: {shown} stays"),
+                None => format!("{reason}: {shown} stays"),
+            },
+        )
     }
 
     /// Show it as a text field that has the keyboard; all of it is selected when it `is_new`.
@@ -78,7 +161,7 @@ impl Draft {
         &mut self,
         ui: &mut Ui,
         field: (Id, Rect, &str),
-        range: &RangeInclusive<f64>,
+        accepted: &Accepted,
         is_new: bool,
         keys: EventFilter,
     ) -> Response {
@@ -90,13 +173,13 @@ impl Draft {
             state.cursor.set_char_range(Some(all));
             state.store(ui.ctx(), id);
         }
-        let error = self.error(range);
+        let fault = self.fault(accepted);
         let tokens = Tokens::of(ui);
         let edit = TextEdit::singleline(&mut self.text)
             .id(id)
             .font(theme::number_font())
             .align(Align2::RIGHT_CENTER)
-            .text_color(if error.is_none() {
+            .text_color(if fault.is_none() {
                 tokens.strong_text
             } else {
                 tokens.error
@@ -105,26 +188,32 @@ impl Draft {
             .return_key(None)
             .min_size(rect.size())
             .desired_width(rect.width());
-        let response = ui.put(rect, edit);
+        let place = UiBuilder::new().max_rect(rect);
+        let output = ui.scope_builder(place, |ui| edit.show(ui)).inner;
+        let response = output.response.response.clone();
         ui.ctx()
             .accesskit_node_builder(id, |node| node.set_label(name));
         if response.changed() {
             self.refusal = None;
         }
-        if let Some(error) = error {
-            remark_ui(ui, id, rect, &error);
+        if let Some(fault) = fault {
+            if let Some(column) = fault.column {
+                caret_ui(ui, &output, column);
+            }
+            remark_ui(ui, id, rect.expand2(vec2(0.0, CARET)), &fault.to_string());
         }
         response
     }
 
     /// What is wrong with the text so far. What may still become a number is not wrong yet.
-    fn error(&self, range: &RangeInclusive<f64>) -> Option<String> {
+    fn fault(&self, accepted: &Accepted) -> Option<Fault> {
         if self.refusal.is_some() {
             return self.refusal.clone();
         }
-        let is_begun = figures::read(&self.text).is_none()
-            && figures::read(&format!("{}0", self.text)).is_some();
-        self.value(range).err().filter(|_| !is_begun)
+        let fault = self.value(accepted).err()?;
+        let is_begun = || accepted.context(self.before.1).is_begun(&self.text);
+        let is_whole = fault.column.is_none() && !self.text.trim().is_empty();
+        (is_whole || !is_begun()).then_some(fault)
     }
 }
 
@@ -142,11 +231,6 @@ impl Remark {
         Self { text, until }
     }
 
-    /// Say that what was typed was not taken when its field was left; `shown` stays.
-    pub fn left(ui: &Ui, reason: &str, shown: &str) -> Self {
-        Self::new(ui, format!("{reason}: {shown} stays"))
-    }
-
     /// Show it beside its field; tells whether it is to be kept.
     pub fn show(&self, ui: &Ui, id: Id, rect: Rect) -> bool {
         let left = self.until - ui.input(|input| input.time);
@@ -157,6 +241,16 @@ impl Remark {
         }
         left > 0.0
     }
+}
+
+/// Mark a place in a text field from below: the left edge of the character in a column, counted from 1.
+pub fn caret_ui(ui: &Ui, field: &TextEditOutput, column: usize) {
+    let cursor = CCursor::new(column.saturating_sub(1));
+    let place = field.galley.pos_from_cursor(cursor);
+    let tip = place.translate(field.galley_pos.to_vec2()).left_bottom();
+    let caret = [tip + vec2(-3.0, CARET), tip, tip + vec2(3.0, CARET)];
+    let stroke = Stroke::new(1.5, Tokens::of(ui).error);
+    ui.painter().line(caret.to_vec(), stroke);
 }
 
 /// Say something beside a field.
@@ -171,26 +265,46 @@ pub fn remark_ui(ui: &Ui, id: Id, rect: Rect, text: &str) {
 mod tests {
     use super::*;
 
-    #[test]
-    fn a_draft_says_why_it_is_no_number() {
-        let any = f64::NEG_INFINITY..=f64::INFINITY;
-        let read =
-            |text: &str, range: &RangeInclusive<f64>| Draft::instead_of(1.25, text).value(range);
-        assert_eq!(Draft::of(1.25).value(&any), Ok(None));
-        assert_eq!(read("-3,5", &any), Ok(Some(-3.5)));
-        assert_eq!(read("one", &any), Err("“one” is not a number".to_owned()));
-        let expected = "Only numbers from 0 to 17".to_owned();
-        assert_eq!(read("18", &(0.0..=17.0)), Err(expected));
-        let expected = "Only numbers from 0 on".to_owned();
-        assert_eq!(read("-1", &(0.0..=f64::MAX)), Err(expected));
+    fn accepted(range: RangeInclusive<f64>) -> Accepted {
+        Accepted {
+            quantity: Quantity::Length,
+            unit: Some(LengthUnit::Millimetre),
+            range,
+        }
     }
 
     #[test]
-    fn what_may_become_a_number_is_no_error_yet() {
-        let any = f64::NEG_INFINITY..=f64::INFINITY;
-        for text in ["", "-", "+.", "1e", "2e-"] {
-            assert_eq!(Draft::instead_of(1.25, text).error(&any), None, "{text}");
+    fn a_draft_says_why_it_is_no_number() {
+        let any = accepted(f64::NEG_INFINITY..=f64::INFINITY);
+        let read = |text: &str, accepted: &Accepted| {
+            let draft = Draft::instead_of(1.25, text);
+            draft.value(accepted).map_err(|fault| fault.to_string())
+        };
+        assert_eq!(Draft::of(1.25).value(&any), Ok(None));
+        assert_eq!(read("-3,5", &any), Ok(Some(-3.5)));
+        assert_eq!(read("+=1cm", &any), Ok(Some(11.25)));
+        let fault = read("2+one", &any).expect_err("no number");
+        assert!(
+            fault.starts_with("Column 3: “one” means nothing here"),
+            "{fault}"
+        );
+        let expected = "Only numbers from 0 to 17".to_owned();
+        assert_eq!(read("9*2", &accepted(0.0..=17.0)), Err(expected));
+        let expected = "Only numbers from 0 on".to_owned();
+        assert_eq!(read("-1", &accepted(0.0..=f64::MAX)), Err(expected));
+    }
+
+    #[test]
+    fn what_may_become_a_number_is_no_fault_yet() {
+        let any = accepted(0.0..=100.0);
+        for text in ["", "-", "+.", "1e", "2e-", "sqr", "+=", "3*(1+", "2c"] {
+            assert_eq!(Draft::instead_of(1.25, text).fault(&any), None, "{text}");
         }
-        assert!(Draft::instead_of(1.25, "1x").error(&any).is_some());
+        for text in ["1x", "101", "-1"] {
+            assert!(
+                Draft::instead_of(1.25, text).fault(&any).is_some(),
+                "{text}"
+            );
+        }
     }
 }

@@ -10,6 +10,7 @@ use super::number_field::NumberField;
 use super::theme::STEP;
 use super::{figures, widgets};
 use crate::editor::{EndFitAction, EndFitReport};
+use crate::geometry::expressions::Quantity;
 
 /// The width of a field.
 const FIELD: f32 = 96.0;
@@ -20,6 +21,7 @@ pub fn curvature_ui(ui: &mut Ui, report: &EndFitReport) -> Option<Asked> {
     let curvature = Row {
         name: "Curvature",
         about: "Give the end a curvature κ, positive where it turns left",
+        quantity: Quantity::Curvature,
         value: target.curvature,
         actual: report.curvature,
     };
@@ -30,6 +32,7 @@ pub fn curvature_ui(ui: &mut Ui, report: &EndFitReport) -> Option<Asked> {
     let slope = Row {
         name: "Slope",
         about: "Give the curvature a slope dκ/ds by arc length",
+        quantity: Quantity::Number,
         value: target.slope,
         actual: report.slope,
     };
@@ -40,6 +43,7 @@ pub fn curvature_ui(ui: &mut Ui, report: &EndFitReport) -> Option<Asked> {
 struct Row {
     name: &'static str,
     about: &'static str,
+    quantity: Quantity,
     /// What it is to be; `None` if it is free.
     value: Option<f64>,
     /// What the end has.
@@ -64,6 +68,7 @@ impl Row {
                     let speed = if size > 0.0 { 0.01 * size } else { 0.001 };
                     let field = NumberField::new(&name, value, figures::significant(value, 6))
                         .speed(speed)
+                        .quantity(self.quantity)
                         .width(FIELD);
                     let event = field.show(ui).1;
                     asked = Asked::of_field(event, |value| action(Some(value)));

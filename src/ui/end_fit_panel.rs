@@ -1,7 +1,7 @@
 //! The end-fit panel: the seven steps, each with its live figures and its button.
 
 use eframe::egui::{Button, Checkbox, Ui, vec2};
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use lucide_icons::Icon;
 
 use super::end_fit_asked::Asked;
@@ -17,6 +17,7 @@ use super::widgets::IconButton;
 use super::{figures, widgets};
 use crate::editor::{Editor, EndFitAction, EndFitReport, Layer, Refusal, told};
 use crate::geometry::end_correction::EndOverlap;
+use crate::geometry::expressions::{Quantity, sin_cos_of_degrees};
 use crate::geometry::{End, counted};
 use crate::operations::LargestMove;
 
@@ -191,6 +192,7 @@ impl Panel<'_> {
                 let shown = figures::to_resolution(value, 0.01 * self.pixel);
                 let field = NumberField::new(&name, value, shown)
                     .speed(self.pixel)
+                    .quantity(Quantity::Length)
                     .width(width);
                 let event = field.show(ui).1;
                 self.field(event, |value| {
@@ -247,10 +249,12 @@ impl Panel<'_> {
         let shown = format!("{degrees:.3}°");
         let field = NumberField::new("target direction", degrees, shown)
             .speed(0.25)
+            .quantity(Quantity::Angle)
             .width(FIELD + 8.0);
         let event = field.show(ui).1;
         self.field(event, |degrees| {
-            let direction = DVec2::from_angle(degrees.to_radians()).extend(0.0);
+            let (sine, cosine) = sin_cos_of_degrees(degrees);
+            let direction = DVec3::new(cosine, sine, 0.0);
             EndFitAction::SetDirection(Some(direction))
         });
     }
@@ -411,6 +415,7 @@ impl Panel<'_> {
             let field =
                 NumberField::new("tolerance", tolerance, figures::significant(tolerance, 4))
                     .range(0.0..=f64::MAX)
+                    .quantity(Quantity::Length)
                     .typed_only()
                     .width(FIELD + 24.0);
             if let FieldEvent::Typed(value) = field.show(ui).1 {

@@ -59,21 +59,6 @@ pub fn exact(value: f64) -> String {
     }
 }
 
-/// Read what was typed into a field: a number, with a decimal comma or point, any minus sign,
-/// and a unit that is passed over.
-pub fn read(text: &str) -> Option<f64> {
-    let plain: String = text
-        .chars()
-        .filter(|character| !character.is_whitespace() && *character != '°')
-        .map(|character| match character {
-            ',' => '.',
-            '−' | '–' => '-',
-            other => other,
-        })
-        .collect();
-    plain.parse().ok().filter(|value: &f64| value.is_finite())
-}
-
 /// The most digits that a field shows.
 const MOST_DIGITS: usize = 10;
 
@@ -106,6 +91,7 @@ fn without_negative_zero(text: String) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::expressions::NumberContext;
 
     #[test]
     fn numbers_line_up_and_stay_short() {
@@ -123,13 +109,10 @@ mod tests {
     }
 
     #[test]
-    fn fields_show_numbers_exactly_and_read_what_people_type() {
+    fn fields_read_what_they_show_to_the_bit() {
+        let context = NumberContext::default();
         for value in [0.1 + 0.2, -1e-300, 12.0, f64::MAX, 8.748_581_800_695_999] {
-            assert_eq!(read(&exact(value)), Some(value));
+            assert_eq!(context.read(&exact(value)), Ok(value));
         }
-        assert_eq!(read(" 3,5° "), Some(3.5));
-        assert_eq!(read("−2"), Some(-2.0));
-        assert_eq!(read("abc"), None);
-        assert_eq!(read("inf"), None);
     }
 }

@@ -1,10 +1,9 @@
 //! Fields for the formulas of a reference: what is typed is shown as soon as it can be, and a mistake
 //! is told under the place where it is.
 
-use eframe::egui::text::CCursor;
-use eframe::egui::{Id, Key, Rect, TextEdit, Ui, vec2};
+use eframe::egui::{Key, TextEdit, Ui, vec2};
 
-use super::draft::remark_ui;
+use super::draft::{caret_ui, remark_ui};
 use super::theme::{self, ROW, Tokens};
 use super::widgets;
 use crate::document::CurveId;
@@ -73,7 +72,7 @@ impl Draft {
             field.show(ui)
         });
         let output = row.inner;
-        let response = output.response.response.accessible_name(label);
+        let response = output.response.response.clone().accessible_name(label);
         if response.changed() {
             self.error = editor
                 .preview_reference(&ReferenceChange::Formula(self.texts.clone()))
@@ -91,11 +90,9 @@ impl Draft {
         if let Some((column, text)) = self.mistake(name)
             && response.has_focus()
         {
-            let at = output
-                .galley
-                .pos_from_cursor(CCursor::new(column.saturating_sub(1)));
-            let place = at.translate(output.galley_pos.to_vec2());
-            mark_ui(ui, response.id, place, &text);
+            caret_ui(ui, &output, column);
+            let below = response.rect.expand2(vec2(0.0, 6.0));
+            remark_ui(ui, response.id.with("mistake"), below, &text);
         }
         response.has_focus()
     }
@@ -111,15 +108,4 @@ impl Draft {
             error => Some((1, error.to_string())),
         }
     }
-}
-
-/// Mark a place in a text, and tell below it what is wrong there.
-fn mark_ui(ui: &Ui, id: Id, place: Rect, text: &str) {
-    let error = Tokens::of(ui).error;
-    let tip = place.left_bottom();
-    let caret = [tip + vec2(-3.0, 5.0), tip, tip + vec2(3.0, 5.0)];
-    let stroke = eframe::egui::Stroke::new(1.5, error);
-    ui.painter().line(caret.to_vec(), stroke);
-    let below = Rect::from_min_max(place.min, place.max + vec2(1.0, 6.0));
-    remark_ui(ui, id.with("mistake"), below, text);
 }

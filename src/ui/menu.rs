@@ -1,21 +1,18 @@
 //! The menu bar, read from the table of commands.
 
-use eframe::egui::{Button, Color32, MenuBar, RichText, Ui, vec2};
-use lucide_icons::Icon;
+use eframe::egui::{Button, MenuBar, Ui, vec2};
 
 use super::action::Action;
 use super::feature_list::chip_ui;
+use super::menu_item::{WIDTH, blank, item_ui};
 use super::shell::Shell;
-use super::theme::Tokens;
-use super::{icons, keyboard, widgets};
+use super::unit_menu::units_ui;
+use super::widgets;
 use crate::editor::{Command, Editor, Follow, Layer, NamedView, ToolKind};
 use crate::geometry::PolygonKind;
 use crate::geometry::references::KINDS;
 use crate::io::examples::EXAMPLES;
 use crate::operations;
-
-/// The least width of an open menu.
-const WIDTH: f32 = 240.0;
 
 /// One line of a menu.
 enum Entry {
@@ -23,6 +20,7 @@ enum Entry {
     Divider,
     Examples,
     References,
+    Units,
 }
 
 use Entry::{Action as Item, Divider};
@@ -46,6 +44,7 @@ pub fn menu_ui(ui: &mut Ui, editor: &mut Editor, shell: &Shell, commands: &mut V
                         Entry::References => {
                             references_ui(ui, commands);
                         }
+                        Entry::Units => document_unit_ui(ui, editor, shell, commands),
                         Entry::Examples => {
                             examples_ui(ui, editor, shell, commands);
                         }
@@ -95,6 +94,8 @@ fn menus() -> [(&'static str, Vec<Entry>); 6] {
         command(Command::Follow(Follow::InHarmony)),
         command(Command::Follow(Follow::Softly)),
         command(Command::ToggleKeeping),
+        Divider,
+        Entry::Units,
     ];
     let mut curve = vec![
         Entry::References,
@@ -160,6 +161,15 @@ fn examples_ui(ui: &mut Ui, editor: &Editor, shell: &Shell, commands: &mut Vec<A
     response.response.accessible_name("Examples");
 }
 
+/// The units that the document can have.
+fn document_unit_ui(ui: &mut Ui, editor: &Editor, shell: &Shell, commands: &mut Vec<Action>) {
+    let response = ui.menu_button((blank(), "Document unit"), |ui| {
+        ui.set_min_width(WIDTH);
+        units_ui(ui, editor, shell, commands);
+    });
+    response.response.accessible_name("Document unit");
+}
+
 /// The kinds of references that can be added, from their table.
 fn references_ui(ui: &mut Ui, commands: &mut Vec<Action>) {
     let title = (blank(), "Add reference");
@@ -179,42 +189,4 @@ fn references_ui(ui: &mut Ui, commands: &mut Vec<Action>) {
         }
     });
     response.response.accessible_name("Add reference");
-}
-
-fn item_ui(
-    ui: &mut Ui,
-    editor: &Editor,
-    shell: &Shell,
-    action: Action,
-    commands: &mut Vec<Action>,
-) {
-    let label = action.label_now(editor);
-    let checked = action.is_checked(editor, shell);
-    let mark = if checked == Some(true) {
-        icons::text(Icon::Check)
-    } else {
-        blank()
-    };
-    let mut button = Button::new((mark, label.clone())).min_size(vec2(WIDTH, 0.0));
-    if let Some(shortcut) = action.shortcut() {
-        let keys =
-            RichText::new(keyboard::shortcut_text(shortcut)).color(Tokens::of(ui).faint_text);
-        button = button.shortcut_text(keys);
-    }
-    let response = ui
-        .add_enabled(action.is_enabled(editor), button)
-        .accessible_name(&label);
-    let tooltip = action.tooltip_now(editor);
-    let response = response
-        .on_hover_text(&tooltip)
-        .on_disabled_hover_text(&tooltip);
-    if response.clicked() {
-        commands.push(action);
-        ui.close();
-    }
-}
-
-/// A place as wide as a check mark, so that labels line up.
-fn blank() -> RichText {
-    icons::text(Icon::Check).color(Color32::TRANSPARENT)
 }

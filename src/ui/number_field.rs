@@ -7,10 +7,12 @@ use eframe::egui::{
     Ui, Vec2, WidgetInfo, accesskit::Action, accesskit::ActionData, pos2,
 };
 
-use super::draft::{Draft, Remark};
+use super::document_unit;
+use super::draft::{Accepted, Draft, Remark};
 use super::keyboard::{self, Typing};
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
 use super::{figures, labels};
+use crate::geometry::expressions::Quantity;
 
 /// What the hand did to a field.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,6 +36,7 @@ pub struct NumberField<'a> {
     shown: String,
     speed: f64,
     width: f32,
+    quantity: Quantity,
     range: RangeInclusive<f64>,
     flat: bool,
     typed_only: bool,
@@ -65,6 +68,7 @@ impl<'a> NumberField<'a> {
             shown,
             speed: 1.0,
             width: 80.0,
+            quantity: Quantity::Number,
             range: f64::NEG_INFINITY..=f64::INFINITY,
             flat: false,
             typed_only: false,
@@ -81,6 +85,12 @@ impl<'a> NumberField<'a> {
     /// The field's width in points.
     pub fn width(mut self, width: f32) -> Self {
         self.width = width;
+        self
+    }
+
+    /// What its numbers measure; without this they are mere numbers.
+    pub fn quantity(mut self, quantity: Quantity) -> Self {
+        self.quantity = quantity;
         self
     }
 
@@ -134,15 +144,16 @@ impl<'a> NumberField<'a> {
             vertical_arrows: true,
             ..EventFilter::default()
         };
-        let response = draft.show(ui, (id, rect, self.name), &self.range, is_new, keys);
+        let accepted = self.accepted(ui);
+        let response = draft.show(ui, (id, rect, self.name), &accepted, is_new, keys);
         let is_left = !response.has_focus();
         let entered = !is_left && ui.input(|input| input.key_pressed(Key::Enter));
-        match draft.value(&self.range) {
+        match draft.value(&accepted) {
             // What was typed stays, to be changed.
-            Err(reason) if entered => draft.refuse(reason),
-            value if entered || is_left => {
+            Err(fault) if entered => draft.refuse(fault),
+            _ if entered || is_left => {
                 ui.memory_mut(|memory| memory.surrender_focus(id));
-                let event = self.taken(ui, id, value);
+                let event = self.taken(ui, id, &draft);
                 return (response, event.map_or(FieldEvent::Idle, FieldEvent::Typed));
             }
             _ => {}
@@ -159,17 +170,25 @@ impl<'a> NumberField<'a> {
         if called_off {
             None
         } else {
-            self.taken(ui, id, draft.value(&self.range))
+            self.taken(ui, id, &draft)
         }
     }
 
     /// The number to take over; for a text that is none, a remark beside the field.
-    fn taken(&self, ui: &Ui, id: Id, value: Result<Option<f64>, String>) -> Option<f64> {
-        value.unwrap_or_else(|reason| {
-            let remark = Remark::left(ui, &reason, &self.shown);
+    fn taken(&self, ui: &Ui, id: Id, draft: &Draft) -> Option<f64> {
+        draft.value(&self.accepted(ui)).unwrap_or_else(|fault| {
+            let remark = draft.left(ui, &fault, &self.shown);
             ui.data_mut(|data| data.insert_temp(id, remark));
             None
         })
+    }
+
+    fn accepted(&self, ui: &Ui) -> Accepted {
+        Accepted {
+            quantity: self.quantity,
+            unit: document_unit::get(ui.ctx()),
+            range: self.range.clone(),
+        }
     }
 
     fn clamped(&self, value: f64) -> f64 {
@@ -298,6 +317,7 @@ impl<'a> NumberField<'a> {
 
     /// A number that a screen reader, or a test, sets.
     fn requested_value(&self, ui: &Ui, id: Id) -> Option<FieldEvent> {
+        let accepted = self.accepted(ui);
         ui.input(|input| {
             let mut requests = input.accesskit_action_requests(id, Action::SetValue);
             requests.find_map(|request| match &request.data {
@@ -305,7 +325,8 @@ impl<'a> NumberField<'a> {
                     Some(FieldEvent::Typed(self.clamped(*value)))
                 }
                 Some(ActionData::Value(text)) => {
-                    figures::read(text).map(|value| FieldEvent::Typed(self.clamped(value)))
+                    let value = accepted.read(text, self.value).ok()?;
+                    Some(FieldEvent::Typed(value))
                 }
                 _ => None,
             })

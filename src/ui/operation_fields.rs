@@ -135,6 +135,7 @@ impl OperationFields {
         let speed = if whole { 0.05 } else { speed(&range, number) };
         let field = NumberField::new(parameter.label, number, shown)
             .range(range)
+            .quantity(parameter.unit().quantity())
             .speed(speed)
             .width(FIELD);
         let event = field.show(ui).1;

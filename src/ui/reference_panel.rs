@@ -9,6 +9,7 @@ use super::number_field::{FieldEvent, NumberField};
 use super::widgets;
 use crate::document::{CurveId, Reference};
 use crate::editor::{Editor, ReferenceChange, ReferenceReport, told};
+use crate::geometry::expressions::Quantity;
 use crate::geometry::references::{AnalyticForm, ReferenceCurve, ReferenceForm};
 
 /// The width of a field that stands alone.
@@ -47,7 +48,8 @@ fn parameters_ui(ui: &mut Ui, editor: &mut Editor, form: &AnalyticForm) {
     let parameters = form.kind().parameters.iter().zip(form.values());
     for (index, (parameter, value)) in parameters.enumerate() {
         let row = widgets::form_row(ui, parameter.label, |ui| {
-            let event = field(parameter.label, *value).width(FIELD).show(ui).1;
+            let field = field(parameter.label, *value).quantity(parameter.quantity());
+            let event = field.width(FIELD).show(ui).1;
             changed(editor, event, |value| ReferenceChange::Value(index, value));
         });
         row.response.on_hover_text(parameter.help);
@@ -57,10 +59,11 @@ fn parameters_ui(ui: &mut Ui, editor: &mut Editor, form: &AnalyticForm) {
 fn interval_ui(ui: &mut Ui, editor: &mut Editor, curve: &ReferenceCurve) {
     let [from, to] = curve.interval();
     widgets::form_row(ui, "t from", |ui| {
-        let event = field("t from", from).width(NARROW).show(ui).1;
+        let t_field = |name, t| field(name, t).quantity(Quantity::Parameter).width(NARROW);
+        let event = t_field("t from", from).show(ui).1;
         changed(editor, event, |from| ReferenceChange::Interval([from, to]));
         widgets::caption(ui, "to");
-        let event = field("t to", to).width(NARROW).show(ui).1;
+        let event = t_field("t to", to).show(ui).1;
         changed(editor, event, |to| ReferenceChange::Interval([from, to]));
     });
 }
@@ -76,7 +79,9 @@ pub fn placement_ui(ui: &mut Ui, editor: &mut Editor, curve: &ReferenceCurve) {
             let value = at.dot(axis);
             let label = format!("origin {name}");
             let shown = figures::short(value);
-            let field = NumberField::new(&label, value, shown).speed(pixel);
+            let field = NumberField::new(&label, value, shown)
+                .speed(pixel)
+                .quantity(Quantity::Length);
             let event = field.width(NARROW).show(ui).1;
             changed(editor, event, |to| {
                 ReferenceChange::Translate(at + axis * (to - value))
@@ -132,7 +137,9 @@ fn field(name: &str, value: f64) -> NumberField<'_> {
 
 fn angle_field(name: &str, degrees: f64) -> NumberField<'_> {
     let shown = format!("{}°", figures::short(degrees));
-    NumberField::new(name, degrees, shown).speed(0.5)
+    NumberField::new(name, degrees, shown)
+        .speed(0.5)
+        .quantity(Quantity::Angle)
 }
 
 /// Do what a field was dragged or typed to.

@@ -12,6 +12,8 @@ pub struct Shell {
     pub(super) harmony: bool,
     /// The layers that are hidden, by their place in the list.
     pub(super) hidden: Option<Vec<usize>>,
+    /// How far an arrow key moves the selection; none is as the editor begins.
+    pub(super) nudge_step: Option<f64>,
 }
 
 impl Default for Shell {
@@ -21,6 +23,7 @@ impl Default for Shell {
             plots: true,
             harmony: false,
             hidden: None,
+            nudge_step: None,
         }
     }
 }

@@ -2,8 +2,11 @@
 
 use eframe::egui::{Label, Response, RichText, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
 
+use super::action::Action;
 use super::figures;
+use super::shell::Shell;
 use super::theme::{self, STEP, Tokens};
+use super::unit_menu::unit_cell_ui;
 use super::widgets;
 use crate::editor::{Editor, Readout};
 
@@ -20,12 +23,13 @@ const GAP: f32 = 4.0 * STEP;
 const GIVING_WAY: [&str; 2] = ["u", "κ"];
 
 /// Show the bar.
-pub fn status_bar_ui(ui: &mut Ui, editor: &Editor) {
+pub fn status_bar_ui(ui: &mut Ui, editor: &mut Editor, shell: &Shell, actions: &mut Vec<Action>) {
     let readout = editor.readout();
     let width = ui.available_width();
     widgets::at_right(ui, |ui| {
         ui.spacing_mut().item_spacing.x = GAP;
-        for (name, text, width) in fitting(cells(&readout), width).into_iter().rev() {
+        unit_cell_ui(ui, editor, shell, actions);
+        for (name, text, width) in fitting(cells(&readout), width - CELL.x - GAP).into_iter().rev() {
             cell_ui(ui, name, &text, width);
         }
         ui.with_layout(

@@ -7,6 +7,7 @@ use super::figures;
 use super::number_field::{FieldEvent, NumberField};
 use super::widgets;
 use crate::editor::{Editor, ToolKind, Transformation, told};
+use crate::geometry::expressions::Quantity;
 
 /// What is typed into the fields, until it is applied.
 pub struct TransformPanel {
@@ -42,7 +43,8 @@ impl TransformPanel {
     fn angle_ui(&mut self, ui: &mut Ui, editor: &mut Editor) {
         let shown = format!("{}°", figures::significant(self.degrees, 6));
         let field = NumberField::new("rotation angle", self.degrees, shown);
-        keep(&mut self.degrees, field.speed(0.5).show(ui).1);
+        let field = field.speed(0.5).quantity(Quantity::Angle);
+        keep(&mut self.degrees, field.show(ui).1);
         if apply_ui(ui, editor, "Apply rotation") {
             told(editor.transform(Transformation::Rotate(self.degrees.to_radians())));
         }
@@ -73,7 +75,9 @@ fn pivot_ui(ui: &mut Ui, editor: &mut Editor) {
             let value = pivot.dot(axis);
             let shown = figures::significant(value, 6);
             let mut changed = value;
-            let field = NumberField::new(name, value, shown).speed(pixel);
+            let field = NumberField::new(name, value, shown)
+                .speed(pixel)
+                .quantity(Quantity::Length);
             keep(&mut changed, field.show(ui).1);
             if changed != value {
                 editor.set_pivot(Some(pivot + axis * (changed - value)));

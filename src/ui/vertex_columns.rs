@@ -7,6 +7,7 @@ use lucide_icons::Icon;
 use super::theme::Tokens;
 use super::{figures, icons, widgets};
 use crate::document::{Curve, CurveId, Edit};
+use crate::geometry::expressions::Quantity;
 use crate::geometry::{FloatPolygon, PolygonError};
 
 /// What one column of fields holds.
@@ -26,6 +27,14 @@ impl Column {
             Self::Axis(1) => "y",
             Self::Axis(_) => "z",
             Self::Weight => "weight",
+        }
+    }
+
+    /// What its numbers measure.
+    pub fn quantity(self) -> Quantity {
+        match self {
+            Self::Axis(_) => Quantity::Length,
+            Self::Weight => Quantity::Number,
         }
     }
 

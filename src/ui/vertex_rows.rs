@@ -146,7 +146,9 @@ impl Rows<'_> {
         let value = cell.column.value(&self.curve.polygon, cell.vertex)?;
         let (shown, speed) = cell.column.shown(value, self.pixel);
         let name = name(cell);
-        let mut field = NumberField::new(&name, value, shown).speed(speed);
+        let mut field = NumberField::new(&name, value, shown)
+            .speed(speed)
+            .quantity(cell.column.quantity());
         if cell.column == Column::Weight {
             field = field.range(value.min(LEAST_WEIGHT)..=f64::MAX);
         }

@@ -7,8 +7,9 @@ use eframe::egui::{
     EventFilter, Rect, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, vec2,
 };
 
-use super::cell_entry::{ANY, Cell, Entry};
+use super::cell_entry::{Cell, Entry};
 use super::cell_keys::{self, CellKey, Step};
+use super::document_unit;
 use super::draft::Remark;
 use super::figures;
 use super::keyboard::{self, Typing};
@@ -216,8 +217,8 @@ impl VertexTable {
     fn finish(&mut self, ui: &mut Ui, editor: &mut Editor, mut entry: Entry) -> bool {
         let taken = entry.take_over(editor);
         let is_taken = taken.is_ok();
-        if let Err(reason) = taken {
-            entry.draft.refuse(reason);
+        if let Err(fault) = taken {
+            entry.draft.refuse(fault);
             self.entry = Some(entry);
         }
         ui.ctx().request_repaint();
@@ -227,14 +228,14 @@ impl VertexTable {
     /// The keyboard is elsewhere: the number is taken, or a remark says why not.
     fn leave(&mut self, ui: &mut Ui, editor: &mut Editor, entry: Entry) {
         let is_shown = editor.active() == Some(entry.curve);
-        if let Err(reason) = entry.take_over(editor)
+        if let Err(fault) = entry.take_over(editor)
             && is_shown
         {
             let (shown, _) = entry
                 .cell
                 .column
                 .shown(entry.before, editor.view().viewport().pixel());
-            let remark = Remark::left(ui, &reason, &shown);
+            let remark = entry.draft.left(ui, &fault, &shown);
             self.remark = Some((entry.cell, remark));
         }
         // After a command the table goes on; after a press the keyboard is where that leads.
@@ -372,9 +373,10 @@ impl VertexTable {
             return false;
         };
         let name = name(entry.cell);
+        let accepted = entry.accepted(document_unit::get(ui.ctx()));
         let is_new = std::mem::take(&mut entry.is_new);
         let field = (id(), rect, name.as_str());
-        entry.draft.show(ui, field, &ANY, is_new, KEYS);
+        entry.draft.show(ui, field, &accepted, is_new, KEYS);
         true
     }
 

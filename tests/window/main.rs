@@ -2,6 +2,7 @@
 #![cfg(feature = "gui")]
 
 mod canvas;
+mod expressions;
 mod fields;
 mod files;
 mod generating;

@@ -5,6 +5,7 @@ use crate::editor::hand::input::{Key, Modifiers};
 use crate::editor::hand::tools::ToolKind;
 use crate::editor::view::layers::Layer;
 use crate::editor::view::orbit::NamedView;
+use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::{KINDS, ReferenceKind};
 use crate::operations::{self, Operation};
 
@@ -31,6 +32,10 @@ pub enum Command {
     TogglePeriodic,
     /// Do an operation on the active curve.
     Operation(&'static Operation),
+    /// Say in which unit the document's numbers are, or that they have none; they stay.
+    SetUnit(Option<LengthUnit>),
+    /// Convert the document's numbers to a unit.
+    ConvertUnit(LengthUnit),
     /// Add a reference of a kind.
     AddReference(&'static ReferenceKind),
     /// Add a reference by formulas.
@@ -116,6 +121,12 @@ impl Command {
         )
     }
 
+    /// The commands that set the document's unit: none first.
+    pub fn units() -> impl Iterator<Item = Self> {
+        let units = LengthUnit::ALL.into_iter().map(Some);
+        [None].into_iter().chain(units).map(Self::SetUnit)
+    }
+
     /// List every command there is, in the order in which the palette offers them.
     pub fn all() -> Vec<Self> {
         let mut all = vec![
@@ -131,6 +142,8 @@ impl Command {
             Self::ToggleVisible,
             Self::ToggleLocked,
         ];
+        all.extend(Self::units());
+        all.extend(LengthUnit::ALL.map(Self::ConvertUnit));
         all.extend(operations::ALL.iter().copied().map(Self::Operation));
         all.extend(KINDS.iter().copied().map(Self::AddReference));
         all.push(Self::AddFormula);
@@ -161,6 +174,9 @@ impl Command {
             Self::Operation(operation) => return format!("{}…", operation.label),
             Self::AddReference(kind) => return format!("Add reference: {}", kind.label),
             Self::AddFormula => "Add reference: Formula",
+            Self::SetUnit(None) => "Document unit: none",
+            Self::SetUnit(Some(unit)) => return format!("Document unit: {}", unit.name()),
+            Self::ConvertUnit(unit) => return format!("Convert document to {}", unit.name()),
             Self::ToggleVisible => "Visible",
             Self::ToggleLocked => "Locked",
             Self::Fit => "Fit selection",
@@ -197,6 +213,12 @@ impl Command {
             Self::Operation(operation) => operation.help,
             Self::AddReference(kind) => return format!("{}: {}", kind.label, kind.help),
             Self::AddFormula => "Add a curve by formulas x(t), y(t) and z(t) of your own",
+            Self::SetUnit(_) => {
+                "Set the unit that the document's numbers are in; the numbers stay as they are"
+            }
+            Self::ConvertUnit(_) => {
+                "Convert every number of the document to this unit; everything keeps its size"
+            }
             Self::ToggleVisible => "Show or hide the active curve",
             Self::ToggleLocked => "Protect the active curve's shape from edits, or release it",
             Self::Fit => "Show the selected vertices, or everything if fewer than two are selected",

@@ -61,6 +61,10 @@ impl Editor {
             Command::Operation(operation) => self.check_operation(operation).is_ok(),
             Command::SelectAll | Command::Fit | Command::FitAll => !self.document().is_empty(),
             Command::SelectNone | Command::ToggleVerticesLocked => !self.hand.selection.is_empty(),
+            Command::ConvertUnit(unit) => {
+                let before = self.document().unit();
+                before.is_some_and(|before| before != unit)
+            }
             // What is dragged is dragged in the plane that is seen.
             Command::View(_) => !self.hand.is_dragging(),
             _ => true,
@@ -79,6 +83,7 @@ impl Editor {
             Command::Operation(operation) => Some(self.is_tried(operation)),
             Command::View(view) => Some(self.view.viewport.orientation == view.orientation()),
             Command::ToggleVerticesLocked => Some(self.is_selection_locked()),
+            Command::SetUnit(unit) => Some(self.document().unit() == unit),
             Command::TogglePeriodic => Some(curve.is_some_and(|c| c.polygon.is_periodic())),
             Command::ToggleVisible => {
                 let active = self.active();
@@ -197,6 +202,8 @@ impl Editor {
             Command::Operation(operation) => return self.try_operation(operation),
             Command::AddReference(kind) => return self.add_reference(kind),
             Command::AddFormula => return self.add_formula(),
+            Command::SetUnit(unit) => return self.set_unit(unit),
+            Command::ConvertUnit(unit) => return self.convert_unit(unit),
             _ => {
                 if let Some((id, reference)) = self.active_reference() {
                     return self.execute_on_reference(command, id, &reference);

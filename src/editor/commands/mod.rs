@@ -7,6 +7,7 @@ mod execute;
 mod locking;
 pub(in crate::editor) mod polygon_edits;
 mod references;
+mod units;
 
 pub use command::{Command, Shortcut};
 pub use references::ReferenceChange;

@@ -226,6 +226,7 @@ impl Editor {
             modifiers: self.hand.modifiers,
             axis: self.hand.axis,
             snapping: self.hand.snapping,
+            nudge_step: self.hand.nudge_step(),
             following: self.hand.following,
             pointer: self
                 .hand

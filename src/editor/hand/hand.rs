@@ -9,6 +9,16 @@ use crate::editor::hand::selection::Selection;
 use crate::editor::hand::tools::{ToolKind, Tools};
 use crate::editor::hand::typed_point::TypedPoint;
 
+/// How far an arrow key moves the selection, in units of the model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::editor) struct NudgeStep(pub f64);
+
+impl Default for NudgeStep {
+    fn default() -> Self {
+        Self(0.1)
+    }
+}
+
 /// Hold the tool, its gesture, the selection, and which keys are held.
 #[derive(Debug, Default)]
 pub struct Hand {
@@ -19,6 +29,7 @@ pub struct Hand {
     /// The axis of the model (0 x, 1 y, 2 z) whose key is held.
     pub(in crate::editor) axis: Option<usize>,
     pub(in crate::editor) snapping: bool,
+    pub(in crate::editor) nudge_step: NudgeStep,
     pub(in crate::editor) cycle: Cycle,
     pub(in crate::editor) following: Following,
     /// Whether features are kept while dragging.
@@ -44,6 +55,11 @@ impl Hand {
     /// Whether points snap.
     pub fn snaps(&self) -> bool {
         self.snapping
+    }
+
+    /// How far an arrow key moves the selection.
+    pub fn nudge_step(&self) -> f64 {
+        self.nudge_step.0
     }
 
     /// How the neighbours of dragged vertices follow.

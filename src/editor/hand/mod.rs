@@ -26,6 +26,7 @@ pub use end_fit::{EndFitAction, EndFitReport, MatchReport};
 pub use entering::Entry;
 pub use following::{Follow, Following};
 pub use hand::Hand;
+pub(in crate::editor) use hand::NudgeStep;
 pub use input::{Button, Input, Key, Modifiers};
 pub use selection::{Selection, VertexId};
 pub use tools::{Cursor, DrawSettings, ToolKind, Transformation};

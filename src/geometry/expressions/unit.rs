@@ -27,6 +27,16 @@ impl LengthUnit {
         }
     }
 
+    /// What it is called: millimetres, centimetres, metres or inches.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Millimetre => "millimetres",
+            Self::Centimetre => "centimetres",
+            Self::Metre => "metres",
+            Self::Inch => "inches",
+        }
+    }
+
     /// Find a unit by its symbol; `None` if there is none of this symbol.
     pub fn of_symbol(symbol: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|unit| unit.symbol() == symbol)

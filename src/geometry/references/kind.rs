@@ -4,6 +4,7 @@ use std::hash::{Hash, Hasher};
 use std::ops::{Bound, RangeBounds};
 
 use super::error::ReferenceError;
+use crate::geometry::expressions::Quantity;
 use crate::geometry::power_series::PowerSeries;
 
 /// Describe a kind of curve.
@@ -74,6 +75,14 @@ impl ReferenceKind {
 }
 
 impl ReferenceParameter {
+    /// What it measures: what can have any [size](SIZE) is a length.
+    pub fn quantity(&self) -> Quantity {
+        match self.limits == SIZE {
+            true => Quantity::Length,
+            false => Quantity::Number,
+        }
+    }
+
     /// Refuse a number that is not allowed.
     ///
     /// # Errors

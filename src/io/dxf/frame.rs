@@ -6,6 +6,7 @@ use glam::DVec3;
 use super::writer::{MODEL_SPACE, Writer};
 use crate::document::Curve;
 use crate::geometry::PolygonKind;
+use crate::geometry::expressions::LengthUnit;
 
 /// A table of the drawing.
 struct Table {
@@ -43,8 +44,16 @@ const LAYOUTS: u64 = 0x22;
 const MODEL_LAYOUT: u64 = 0x23;
 const PAPER_LAYOUT: u64 = 0x24;
 
-/// Millimetres, as `$INSUNITS` counts units.
-const MILLIMETRES: i64 = 4;
+/// A unit as `$INSUNITS` counts them; 0 says that there is none.
+fn unit_code(unit: Option<LengthUnit>) -> i64 {
+    match unit {
+        None => 0,
+        Some(LengthUnit::Inch) => 1,
+        Some(LengthUnit::Millimetre) => 4,
+        Some(LengthUnit::Centimetre) => 5,
+        Some(LengthUnit::Metre) => 6,
+    }
+}
 
 /// A layer of the drawing.
 pub(super) struct Layer {
@@ -73,7 +82,12 @@ impl Layer {
 }
 
 /// Put the entities into a whole drawing.
-pub(super) fn drawing(layers: &[Layer], entities: Writer, reach: (DVec3, DVec3)) -> String {
+pub(super) fn drawing(
+    layers: &[Layer],
+    entities: Writer,
+    unit: Option<LengthUnit>,
+    reach: (DVec3, DVec3),
+) -> String {
     let mut rest = Writer::following(&entities);
     section(&mut rest, "CLASSES", |_| {});
     section(&mut rest, "TABLES", |writer| tables(writer, layers, reach));
@@ -85,7 +99,7 @@ pub(super) fn drawing(layers: &[Layer], entities: Writer, reach: (DVec3, DVec3))
     let mut writer = Writer::new();
     let free_handle = rest.next_handle();
     section(&mut writer, "HEADER", |writer| {
-        header(writer, free_handle, reach)
+        header(writer, free_handle, unit, reach)
     });
     writer.append(&rest.into_text());
     writer.into_text()
@@ -98,7 +112,12 @@ fn section(writer: &mut Writer, name: &str, content: impl FnOnce(&mut Writer)) {
     writer.text(0, "ENDSEC");
 }
 
-fn header(writer: &mut Writer, free_handle: u64, (low, high): (DVec3, DVec3)) {
+fn header(
+    writer: &mut Writer,
+    free_handle: u64,
+    unit: Option<LengthUnit>,
+    (low, high): (DVec3, DVec3),
+) {
     writer.text(9, "$ACADVER");
     writer.text(1, "AC1015");
     writer.text(9, "$DWGCODEPAGE");
@@ -110,9 +129,9 @@ fn header(writer: &mut Writer, free_handle: u64, (low, high): (DVec3, DVec3)) {
     writer.text(9, "$EXTMAX");
     writer.point(10, high);
     writer.text(9, "$INSUNITS");
-    writer.integer(70, MILLIMETRES);
+    writer.integer(70, unit_code(unit));
     writer.text(9, "$MEASUREMENT");
-    writer.integer(70, 1);
+    writer.integer(70, i64::from(unit != Some(LengthUnit::Inch)));
     writer.text(9, "$HANDSEED");
     writer.handle(5, free_handle);
 }

@@ -1,12 +1,14 @@
 //! AutoCAD's drawing exchange format, version AC1015 (AutoCAD 2000), written only.
 //!
 //! Each curve is a SPLINE on clamped knots that start at 0, which is what readers agree on,
-//! with its polygons beside it as polylines on layers of their own. Lengths are millimetres.
+//! with its polygons beside it as polylines on layers of their own. The header says the unit of the
+//! document, or that there is none.
 //! Numbers have the digits that it takes to read the very same number again.
 
 use glam::DVec3;
 
 use crate::document::Curve;
+use crate::geometry::expressions::LengthUnit;
 use crate::geometry::{ClampedPolygon, PolygonKind};
 use crate::io::error::WriteError;
 use crate::io::format::Format;
@@ -26,7 +28,7 @@ const MOST_KNOTS: usize = i16::MAX as usize;
 /// The polygons that are drawn beside the curve unless one is chosen.
 const DRAWN: [PolygonKind; 2] = [PolygonKind::Float, PolygonKind::Clamped];
 
-/// Write curves as a drawing. `polygon` chooses the one polygon that is drawn beside each
+/// Write curves as a drawing in a unit of length, or in none. `polygon` chooses the one polygon that is drawn beside each
 /// curve; without it these are the float and the clamped one.
 ///
 /// A periodic curve is opened at u = 0; its last vertex is exactly its first one. A hidden curve
@@ -34,7 +36,11 @@ const DRAWN: [PolygonKind; 2] = [PolygonKind::Float, PolygonKind::Clamped];
 ///
 /// # Errors
 /// [`WriteError`] if there are no curves, or one has more vertices than the format can count.
-pub fn write(curves: &[&Curve], polygon: Option<PolygonKind>) -> Result<Export, WriteError> {
+pub fn write(
+    curves: &[&Curve],
+    unit: Option<LengthUnit>,
+    polygon: Option<PolygonKind>,
+) -> Result<Export, WriteError> {
     let format = Format::Dxf;
     if curves.is_empty() {
         return Err(WriteError::NoCurves { format });
@@ -74,7 +80,7 @@ pub fn write(curves: &[&Curve], polygon: Option<PolygonKind>) -> Result<Export, 
             polyline(&mut entities, curve, kind, &layer, &mut reach);
         }
     }
-    let text = frame::drawing(&layers, entities, (reach.low, reach.high));
+    let text = frame::drawing(&layers, entities, unit, (reach.low, reach.high));
     Ok(Export {
         bytes: text.into_bytes(),
         losses,

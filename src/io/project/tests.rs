@@ -22,8 +22,17 @@ fn curves_of(text: &str) -> Vec<Curve> {
 }
 
 fn text_of(curves: &[&Curve]) -> String {
-    String::from_utf8(write(curves, &[], &[], &Extras::default(), PolygonKind::Float).bytes)
-        .unwrap()
+    String::from_utf8(
+        write(
+            curves,
+            &[],
+            &[],
+            (None, &Extras::default()),
+            PolygonKind::Float,
+        )
+        .bytes,
+    )
+    .unwrap()
 }
 
 #[test]
@@ -508,7 +517,7 @@ proptest! {
     #[test]
     fn every_polygon_survives_a_table_bit_for_bit(mut curve in any_curve()) {
         curve.name = curve.name.trim().to_owned();
-        let bytes = super::super::table::write(&[&curve], &[], PolygonKind::Float).expect("one curve").bytes;
+        let bytes = super::super::table::write(&[&curve], &[], None, PolygonKind::Float).expect("one curve").bytes;
         let back = super::super::table::read(&bytes).expect("what is written is read").curves;
         prop_assert_eq!(bits(&back[0]), bits(&curve));
         prop_assert_eq!((&back[0].name, &back[0].polygon), (&curve.name, &curve.polygon));

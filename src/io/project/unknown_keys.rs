@@ -41,7 +41,13 @@ fn many_unknown_keys_do_not_fill_the_screen() {
 fn unknown_keys_are_written_again_to_the_letter() {
     let reading = read(WITH_EXTRAS.as_bytes()).unwrap();
     let curves: Vec<&Curve> = reading.curves.iter().collect();
-    let written = write(&curves, &[], &[], &reading.extras, PolygonKind::Float);
+    let written = write(
+        &curves,
+        &[],
+        &[],
+        (None, &reading.extras),
+        PolygonKind::Float,
+    );
     assert!(written.losses.is_empty(), "{}", written.losses);
     let text = String::from_utf8(written.bytes).unwrap();
     for part in [

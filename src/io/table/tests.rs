@@ -38,7 +38,9 @@ fn rational() -> Curve {
 #[test]
 fn the_layout_is_as_described() {
     let check = |curve: Curve, expected: &str| {
-        let bytes = write(&[&curve], &[], PolygonKind::Float).unwrap().bytes;
+        let bytes = write(&[&curve], &[], None, PolygonKind::Float)
+            .unwrap()
+            .bytes;
         assert_eq!(String::from_utf8(bytes).unwrap(), expected);
     };
     check(
@@ -58,7 +60,7 @@ fn the_layout_is_as_described() {
 #[test]
 fn tables_come_back_exactly() {
     let curves = [planar(), spatial(), rational()];
-    let export = write(&curves.each_ref(), &[], PolygonKind::Float).unwrap();
+    let export = write(&curves.each_ref(), &[], None, PolygonKind::Float).unwrap();
     assert!(export.losses.is_empty(), "{}", export.losses);
     assert_eq!(read(&export.bytes).unwrap().curves, curves);
 }
@@ -71,7 +73,9 @@ fn what_a_table_does_not_hold_is_reported() {
     changed.visible = false;
     changed.locked = true;
     changed.targets.start = Some(crate::geometry::end_correction::EndTarget::default());
-    let losses = write(&[&changed], &[], PolygonKind::Bezier).unwrap().losses;
+    let losses = write(&[&changed], &[], None, PolygonKind::Bezier)
+        .unwrap()
+        .losses;
     let losses: Vec<Loss> = losses.losses.into_iter().map(|(_, loss)| loss).collect();
     let expected = [
         Loss::Periodic,
@@ -82,7 +86,7 @@ fn what_a_table_does_not_hold_is_reported() {
     ];
     assert_eq!(losses, expected);
     assert!(matches!(
-        write(&[], &[], PolygonKind::Float),
+        write(&[], &[], None, PolygonKind::Float),
         Err(WriteError::NoCurves { .. })
     ));
 }
@@ -253,7 +257,9 @@ fn every_name_survives_every_separator() {
         None,
         false,
     );
-    let bytes = write(&[&named], &[], PolygonKind::Float).unwrap().bytes;
+    let bytes = write(&[&named], &[], None, PolygonKind::Float)
+        .unwrap()
+        .bytes;
     let text = String::from_utf8(bytes).unwrap();
     let (header, rows) = text.split_once('\n').unwrap();
     for separator in [",", ";", "\t"] {
@@ -360,7 +366,7 @@ fn curves_and_points_stand_in_one_file() {
     let circle = ReferenceCurve::from_text("circle:radius=2").unwrap();
     let circle = Reference::new("round", circle);
     let references = [&scan, &circle];
-    let export = write(&[&planar()], &references, PolygonKind::Float).unwrap();
+    let export = write(&[&planar()], &references, None, PolygonKind::Float).unwrap();
     assert_eq!(
         export.losses.to_string(),
         "“round”: references aren't stored in the CSV table"
@@ -376,6 +382,6 @@ fn curves_and_points_stand_in_one_file() {
     let expected = list.points().iter().map(|point| turned.point(*point));
     assert_eq!(points.points(), expected.collect::<Vec<_>>());
     assert_eq!(read.name, "scan");
-    let alone = write(&[], &[&circle], PolygonKind::Float);
+    let alone = write(&[], &[&circle], None, PolygonKind::Float);
     assert!(matches!(alone, Err(WriteError::NoCurves { .. })));
 }

@@ -38,6 +38,8 @@ pub struct Context<'a> {
     pub axis: Option<usize>,
     /// Whether snapping is on; Ctrl turns it round.
     pub snapping: bool,
+    /// How far an arrow key moves the selection.
+    pub nudge_step: f64,
     /// How the neighbours of dragged vertices follow.
     pub following: Following,
     /// Where the pointer is, in the view plane.

@@ -1,0 +1,19 @@
+//! The document's unit of length, for fields that convert to it.
+
+use eframe::egui::{Context, Id};
+
+use crate::geometry::expressions::LengthUnit;
+
+fn id() -> Id {
+    Id::unique("document unit")
+}
+
+/// Tell the fields of this frame the document's unit.
+pub fn set(context: &Context, unit: Option<LengthUnit>) {
+    context.data_mut(|data| data.insert_temp(id(), unit));
+}
+
+/// The document's unit.
+pub fn get(context: &Context) -> Option<LengthUnit> {
+    context.data(|data| data.get_temp(id())).flatten()
+}

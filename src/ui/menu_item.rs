@@ -1,0 +1,52 @@
+//! A line of a menu.
+
+use eframe::egui::{Button, Color32, RichText, Ui, vec2};
+use lucide_icons::Icon;
+
+use super::action::Action;
+use super::shell::Shell;
+use super::theme::Tokens;
+use super::{icons, keyboard};
+use crate::editor::Editor;
+
+/// The least width of an open menu.
+pub const WIDTH: f32 = 240.0;
+
+/// Show one action as a line of a menu.
+pub fn item_ui(
+    ui: &mut Ui,
+    editor: &Editor,
+    shell: &Shell,
+    action: Action,
+    commands: &mut Vec<Action>,
+) {
+    let label = action.label_now(editor);
+    let checked = action.is_checked(editor, shell);
+    let mark = if checked == Some(true) {
+        icons::text(Icon::Check)
+    } else {
+        blank()
+    };
+    let mut button = Button::new((mark, label.clone())).min_size(vec2(WIDTH, 0.0));
+    if let Some(shortcut) = action.shortcut() {
+        let keys =
+            RichText::new(keyboard::shortcut_text(shortcut)).color(Tokens::of(ui).faint_text);
+        button = button.shortcut_text(keys);
+    }
+    let response = ui
+        .add_enabled(action.is_enabled(editor), button)
+        .accessible_name(&label);
+    let tooltip = action.tooltip_now(editor);
+    let response = response
+        .on_hover_text(&tooltip)
+        .on_disabled_hover_text(&tooltip);
+    if response.clicked() {
+        commands.push(action);
+        ui.close();
+    }
+}
+
+/// A place as wide as a check mark, so that labels line up.
+pub fn blank() -> RichText {
+    icons::text(Icon::Check).color(Color32::TRANSPARENT)
+}

@@ -1,0 +1,90 @@
+//! The document's unit of length and the step of the arrow keys, in a menu.
+
+use eframe::egui::{
+    Popup, PopupCloseBehavior, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo,
+};
+
+use super::action::Action;
+use super::figures;
+use super::menu_item::item_ui;
+use super::number_field::{FieldEvent, NumberField};
+use super::shell::Shell;
+use super::theme::{self, STEP, Tokens};
+use super::widgets;
+use crate::editor::{Command, Editor};
+use crate::geometry::expressions::{LengthUnit, Quantity};
+
+/// The size of the cell in the status bar.
+const CELL: Vec2 = Vec2::new(72.0, 5.0 * STEP);
+
+/// The width of the popup.
+const POPUP: f32 = 260.0;
+
+/// Show the units that the document can have, and those that it can be converted to.
+pub fn units_ui(ui: &mut Ui, editor: &Editor, shell: &Shell, actions: &mut Vec<Action>) {
+    for command in Command::units() {
+        item_ui(ui, editor, shell, command.into(), actions);
+    }
+    ui.separator();
+    for unit in LengthUnit::ALL {
+        item_ui(
+            ui,
+            editor,
+            shell,
+            Command::ConvertUnit(unit).into(),
+            actions,
+        );
+    }
+}
+
+/// Show the document's unit in the status bar: a press opens its menu, with the nudge step.
+pub fn unit_cell_ui(ui: &mut Ui, editor: &mut Editor, shell: &Shell, actions: &mut Vec<Action>) {
+    let response = cell_ui(ui, editor.document().unit());
+    let popup = Popup::menu(&response).close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    popup.show(|ui| {
+        ui.set_width(POPUP);
+        units_ui(ui, editor, shell, actions);
+        ui.separator();
+        nudge_ui(ui, editor);
+    });
+    response.on_hover_text("Document unit and nudge step");
+}
+
+fn cell_ui(ui: &mut Ui, unit: Option<LengthUnit>) -> Response {
+    let (rect, response) = ui.allocate_exact_size(CELL, Sense::click());
+    let tokens = Tokens::of(ui);
+    let divider = rect.left() - 2.0 * STEP;
+    ui.painter()
+        .vline(divider, rect.y_range(), Stroke::new(1.0, tokens.outline));
+    let text = unit.map_or("none", LengthUnit::symbol);
+    widgets::label_in(ui, rect, "Unit", tokens.faint_text);
+    let colour = match response.hovered() {
+        true => tokens.strong_text,
+        false => tokens.text,
+    };
+    let font = theme::small_font();
+    let right = eframe::egui::Align2::RIGHT_CENTER;
+    ui.painter()
+        .text(rect.right_center(), right, text, font, colour);
+    if response.has_focus() {
+        widgets::focus_ring(ui, rect);
+    }
+    let name = format!("Unit {text}");
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name.clone()));
+    response
+}
+
+fn nudge_ui(ui: &mut Ui, editor: &mut Editor) {
+    let row = widgets::form_row(ui, "Nudge step", |ui| {
+        let step = editor.hand().nudge_step();
+        let field = NumberField::new("Nudge step", step, figures::short(step))
+            .range(Editor::NUDGE_STEPS)
+            .quantity(Quantity::Length)
+            .speed(0.02 * step);
+        if let FieldEvent::Typed(step) | FieldEvent::Preview(step) = field.show(ui).1 {
+            editor.set_nudge_step(step);
+        }
+    });
+    let tooltip = "How far an arrow key moves the selection, at any zoom; Shift ×10, Ctrl ×0.1";
+    row.response.on_hover_text(tooltip);
+}
