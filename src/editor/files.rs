@@ -7,6 +7,7 @@ use crate::document::{Curve, CurveId, Document, Edit, EndMatch, Reference, quote
 use crate::editor::reply::{Message, Note, Refusal, Reply};
 use crate::editor::{Editor, Export};
 use crate::geometry::counted;
+use crate::geometry::expressions::LengthUnit;
 use crate::io::examples::EXAMPLES;
 use crate::io::{FileError, Fingerprint, Format, Reading, disk, shown_path};
 
@@ -174,7 +175,12 @@ impl Editor {
 
     fn add_files(&mut self, paths: &[PathBuf]) -> Reply {
         let (reading, remarks) = read_together(paths)?;
-        let text = format!("{} added", reading.counted());
+        let mut text = format!("{} added", reading.counted());
+        let foreign = |unit: &LengthUnit| self.document().unit() != Some(*unit);
+        if let Some(unit) = reading.unit.filter(foreign) {
+            let name = unit.name();
+            text += &format!("; what is added is in {name}, and its numbers stay as they are");
+        }
         self.add("Import curves", reading)?;
         self.fit_all();
         Ok(Note::done(with_lines(text, &remarks)))

@@ -16,7 +16,7 @@ pub fn figure(value: f64) -> String {
 }
 
 /// Write a number with some significant digits: plainly where that is short, otherwise with an
-/// exponent.
+/// exponent, and then without zeros at its end: 1e-9.
 pub fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 {
         return "0".to_owned();
@@ -29,7 +29,14 @@ pub fn significant(value: f64, digits: usize) -> String {
         let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
         format!("{value:.decimals$}")
     } else {
-        format!("{value:.*e}", digits.saturating_sub(1).min(3))
+        let text = format!("{value:.*e}", digits.saturating_sub(1).min(3));
+        match text.split_once('e') {
+            Some((digits, exponent)) if digits.contains('.') => {
+                let digits = digits.trim_end_matches('0').trim_end_matches('.');
+                format!("{digits}e{exponent}")
+            }
+            _ => text,
+        }
     }
 }
 

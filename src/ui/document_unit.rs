@@ -13,6 +13,22 @@ pub fn set(context: &Context, unit: Option<LengthUnit>) {
     context.data_mut(|data| data.insert_temp(id(), unit));
 }
 
+/// Write a length that is written without a unit with that of the document, if it has one.
+pub fn length(context: &Context, text: String) -> String {
+    match get(context) {
+        Some(unit) => format!("{text} {}", unit.symbol()),
+        None => text,
+    }
+}
+
+/// Write a curvature that is written without a unit with one over that of the document.
+pub fn curvature(context: &Context, text: String) -> String {
+    match get(context) {
+        Some(unit) => format!("{text} /{}", unit.symbol()),
+        None => text,
+    }
+}
+
 /// The document's unit.
 pub fn get(context: &Context) -> Option<LengthUnit> {
     context.data(|data| data.get_temp(id())).flatten()

@@ -247,7 +247,10 @@ impl Remark {
 pub fn caret_ui(ui: &Ui, field: &TextEditOutput, column: usize) {
     let cursor = CCursor::new(column.saturating_sub(1));
     let place = field.galley.pos_from_cursor(cursor);
-    let tip = place.translate(field.galley_pos.to_vec2()).left_bottom();
+    let mut tip = place.translate(field.galley_pos.to_vec2()).left_bottom();
+    // A long text is scrolled.
+    let rect = field.response.response.rect;
+    tip.x = tip.x.clamp(rect.left(), rect.right());
     let caret = [tip + vec2(-3.0, CARET), tip, tip + vec2(3.0, CARET)];
     let stroke = Stroke::new(1.5, Tokens::of(ui).error);
     ui.painter().line(caret.to_vec(), stroke);

@@ -6,6 +6,9 @@ pub use crate::geometry::significant;
 /// The most characters a number is written plainly with.
 const LONGEST: usize = 14;
 
+/// Numbers below this are written with an exponent.
+pub const SMALL: f64 = 1e-4;
+
 /// Write a number with as many decimals as `resolution` needs, so that neighbours line up:
 /// the resolution is the smallest difference that matters. Numbers too long for that lose
 /// decimals first, and are then written with an exponent.
@@ -23,7 +26,16 @@ pub fn to_resolution(value: f64, resolution: f64) -> String {
     if needed > 9 && decimals < needed && value.abs() < 1.0 {
         return significant(value, 6);
     }
-    without_negative_zero(format!("{value:.decimals$}"))
+    let text = without_negative_zero(format!("{value:.decimals$}"));
+    let zeros = text
+        .bytes()
+        .take_while(|byte| b"-0.".contains(byte))
+        .count();
+    if value.abs() < SMALL && zeros < text.len() {
+        // 1e-9, not 0.000000001.
+        return significant(value, text.len() - zeros);
+    }
+    text
 }
 
 /// The number of decimals that tell values apart that differ by `resolution`.
@@ -52,7 +64,7 @@ pub fn small_angle(radians: f64) -> String {
 /// Write a number so that reading it gives the very same number.
 pub fn exact(value: f64) -> String {
     let magnitude = value.abs();
-    if magnitude != 0.0 && !(1e-6..1e15).contains(&magnitude) {
+    if magnitude != 0.0 && !(SMALL..1e15).contains(&magnitude) {
         format!("{value:e}")
     } else {
         format!("{value}")
@@ -97,13 +109,20 @@ mod tests {
     fn numbers_line_up_and_stay_short() {
         assert_eq!(to_resolution(1.0 / 3.0, 0.001), "0.333");
         assert_eq!(to_resolution(-0.0001, 0.01), "0.00");
-        assert_eq!(to_resolution(2.5e12, 1e9), "2.500e12");
+        assert_eq!(to_resolution(2.5e12, 1e9), "2.5e12");
         assert_eq!(to_resolution(1e9 + 0.3, 1e-5), "1000000000.30");
         assert_eq!(to_resolution(-2e9, 0.2), "-2000000000.0");
-        assert_eq!(to_resolution(1.5e-13, 1e-14), "1.500e-13");
+        assert_eq!(to_resolution(1.5e-13, 1e-14), "1.5e-13");
+        assert_eq!(to_resolution(1e-9, 1e-9), "1e-9");
+        assert_eq!(to_resolution(-2.34e-9, 1e-11), "-2.34e-9");
+        assert_eq!(to_resolution(3e-9, 1e-6), "0.000000");
+        assert_eq!(to_resolution(0.00123, 1e-5), "0.00123");
+        assert_eq!(exact(1e-9), "1e-9");
+        assert_eq!(short(1.234_567_89e-9), "1.235e-9");
+        assert_eq!(significant(1e-9, 6), "1e-9");
         assert_eq!(to_resolution(f64::NAN, 0.1), "–");
         assert_eq!(significant(8.918_176, 4), "8.918");
-        assert_eq!(significant(-1.25e-9, 4), "-1.250e-9");
+        assert_eq!(significant(-1.25e-9, 4), "-1.25e-9");
         assert_eq!(significant(123_456.0, 4), "1.235e5");
         assert_eq!(degrees(std::f64::consts::PI, 1), "180.0°");
     }

@@ -6,7 +6,6 @@ use eframe::egui::{
 use lucide_icons::Icon;
 
 use super::curve_list::swatch_in;
-use super::figures;
 use super::formula_fields::FormulaFields;
 use super::harmony_list::harmony_list_ui;
 use super::keyboard::{self, Typing};
@@ -14,6 +13,7 @@ use super::number_field::{FieldEvent, NumberField};
 use super::reference_panel;
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
+use super::{document_unit, figures};
 use crate::document::{Colour, Curve, CurveId, Reference};
 use crate::editor::{CurveReport, Editor, told};
 use crate::geometry::MAX_DEGREE;
@@ -246,10 +246,13 @@ fn figures_ui(ui: &mut Ui, curve: &Curve, report: &CurveReport) {
     };
     widgets::fact_row(ui, "Kind", kind);
     widgets::figure_row(ui, "Segments", &report.segments.to_string());
-    widgets::figure_row(ui, "Length", &figures::significant(report.length, 8));
     let plain = |value: f64| figures::significant(value, 6);
-    widgets::figure_row(ui, "Curvature", &figures::range(report.curvature, plain));
-    widgets::figure_row(ui, "Polygon legs", &figures::range(report.legs, plain));
+    let length = document_unit::length(ui.ctx(), figures::significant(report.length, 8));
+    widgets::figure_row(ui, "Length", &length);
+    let curvature = document_unit::curvature(ui.ctx(), figures::range(report.curvature, plain));
+    widgets::figure_row(ui, "Curvature", &curvature);
+    let legs = document_unit::length(ui.ctx(), figures::range(report.legs, plain));
+    widgets::figure_row(ui, "Polygon legs", &legs);
     let angle = |value: f64| figures::degrees(value, 3);
     widgets::figure_row(ui, "Turning angles", &figures::range(report.turns, angle));
     let text = format!(

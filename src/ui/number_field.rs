@@ -293,7 +293,8 @@ impl<'a> NumberField<'a> {
         let value = self.value;
         let is_plain = self.shown.ends_with(|last: char| last.is_ascii_digit());
         let plain = (1..=9).rev().map(move |decimals| (decimals, value));
-        let plain = plain.filter(|(decimals, value)| value.abs() >= 0.1_f64.powi(*decimals));
+        let plain = plain
+            .filter(|(decimals, value)| value.abs() >= 0.1_f64.powi(*decimals).max(figures::SMALL));
         let plain = plain.map(|(decimals, value)| {
             let decimals = decimals as usize;
             format!("{value:.decimals$}")

@@ -3,10 +3,10 @@
 use eframe::egui::Ui;
 use glam::{DQuat, DVec3, EulerRot};
 
-use super::figures;
 use super::formula_fields::FormulaFields;
 use super::number_field::{FieldEvent, NumberField};
 use super::widgets;
+use super::{document_unit, figures};
 use crate::document::{CurveId, Reference};
 use crate::editor::{Editor, ReferenceChange, ReferenceReport, told};
 use crate::geometry::expressions::Quantity;
@@ -166,9 +166,12 @@ pub fn figures_ui(ui: &mut Ui, reference: &Reference, report: &ReferenceReport) 
         "Kind",
         &format!("{kind}, {}", reference.curve.form().label().to_lowercase()),
     );
-    widgets::figure_row(ui, "Length", &figures::significant(report.length, 8));
+    let length = document_unit::length(ui.ctx(), figures::significant(report.length, 8));
+    widgets::figure_row(ui, "Length", &length);
     if reference.curve.form().is_smooth() {
         let plain = |value: f64| figures::significant(value, 6);
-        widgets::figure_row(ui, "Curvature", &figures::range(report.curvature, plain));
+        let curvature = figures::range(report.curvature, plain);
+        let curvature = document_unit::curvature(ui.ctx(), curvature);
+        widgets::figure_row(ui, "Curvature", &curvature);
     }
 }

@@ -6,9 +6,10 @@ use super::action::Action;
 use super::figures;
 use super::shell::Shell;
 use super::theme::{self, STEP, Tokens};
-use super::unit_menu::unit_cell_ui;
+use super::unit_menu::{CELL, unit_cell_ui};
 use super::widgets;
 use crate::editor::{Editor, Readout};
+use crate::geometry::expressions::LengthUnit;
 
 /// The bar's height in points.
 pub const HEIGHT: f32 = 28.0;
@@ -29,7 +30,9 @@ pub fn status_bar_ui(ui: &mut Ui, editor: &mut Editor, shell: &Shell, actions: &
     widgets::at_right(ui, |ui| {
         ui.spacing_mut().item_spacing.x = GAP;
         unit_cell_ui(ui, editor, shell, actions);
-        for (name, text, width) in fitting(cells(&readout), width - CELL.x - GAP).into_iter().rev() {
+        let unit = editor.document().unit();
+        let cells = fitting(cells(&readout, unit), width - CELL.x - GAP);
+        for (name, text, width) in cells.into_iter().rev() {
             cell_ui(ui, name, &text, width);
         }
         ui.with_layout(
@@ -58,7 +61,7 @@ fn fitting(mut cells: Vec<Cell>, width: f32) -> Vec<Cell> {
 
 /// The cells from left to right. Widths are fixed, so that no number
 /// moves its neighbours.
-fn cells(readout: &Readout) -> Vec<Cell> {
+fn cells(readout: &Readout, unit: Option<LengthUnit>) -> Vec<Cell> {
     let pixel = 1.0 / readout.scale.max(f64::MIN_POSITIVE);
     let coordinate = |value: Option<f64>| {
         value.map_or_else(blank, |value| figures::to_resolution(value, 0.5 * pixel))
@@ -84,7 +87,7 @@ fn cells(readout: &Readout) -> Vec<Cell> {
         .degree
         .map_or_else(blank, |degree| degree.to_string());
     cells.push(("degree", degree, 60.0));
-    cells.push(("scale", zoom(readout.scale), 136.0));
+    cells.push(("scale", zoom(readout.scale, unit), 136.0));
     cells
 }
 
@@ -93,8 +96,9 @@ fn blank() -> String {
 }
 
 /// The zoom: how many points a unit of the model spans.
-fn zoom(scale: f64) -> String {
-    format!("{} px/unit", figures::significant(scale, 3))
+fn zoom(scale: f64, unit: Option<LengthUnit>) -> String {
+    let unit = unit.map_or("unit", LengthUnit::symbol);
+    format!("{} px/{unit}", figures::significant(scale, 3))
 }
 
 fn cell_ui(ui: &mut Ui, name: &str, text: &str, width: f32) -> Response {

@@ -15,7 +15,7 @@ use crate::editor::{Command, Editor};
 use crate::geometry::expressions::{LengthUnit, Quantity};
 
 /// The size of the cell in the status bar.
-const CELL: Vec2 = Vec2::new(72.0, 5.0 * STEP);
+pub const CELL: Vec2 = Vec2::new(72.0, 5.0 * STEP);
 
 /// The width of the popup.
 const POPUP: f32 = 260.0;

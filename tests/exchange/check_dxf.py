@@ -6,7 +6,7 @@ For each NAME.dxf of the folder, NAME.json is what `batten inspect` prints of th
 exported, in their order. Of every drawing is asked that
 
 * the audit finds nothing to complain of and nothing to mend,
-* the drawing is in millimetres,
+* the drawing is in the unit of the document, and in none where it has none,
 * there is one SPLINE a curve, on clamped knots that start at 0, with the clamped vertices and
   weights to the last digit, and with the points of the float polygon's curve,
 * every polyline is on a layer of its own and holds the vertices of its polygon to the last digit.
@@ -22,7 +22,7 @@ import ezdxf
 import numpy as np
 from scipy.interpolate import BSpline
 
-MILLIMETRES = 4
+UNITS = {None: 0, "in": 1, "mm": 4, "cm": 5, "m": 6}  # as $INSUNITS counts them
 SAMPLES = 257
 TOLERANCE = 1e-11  # of the curve's size
 HIGHEST_EZDXF_DEGREE = 10  # ezdxf's compiled evaluation stops here
@@ -108,13 +108,15 @@ def polyline_problems(entity, base, curve):
     yield f"a polyline is on layer {entity.dxf.layer!r}"
 
 
-def problems(path, curves):
+def problems(path, unit, curves):
     drawing = ezdxf.readfile(path)
     audit = drawing.audit()
     for entry in [*audit.errors, *audit.fixes]:
         yield f"audit: {entry.message}"
-    if drawing.header.get("$INSUNITS") != MILLIMETRES:
-        yield "the drawing is not in millimetres"
+    if drawing.header.get("$INSUNITS") != UNITS[unit] or drawing.units != UNITS[unit]:
+        yield f"the drawing is in unit {drawing.units}, not in {unit}"
+    if drawing.header.get("$MEASUREMENT") != (0 if unit == "in" else 1):
+        yield "the drawing is metric where it is not, or the other way"
     model = drawing.modelspace()
     splines = model.query("SPLINE")
     if len(splines) != len(curves):
@@ -143,8 +145,9 @@ def main(folder):
     expected = sorted(pathlib.Path(folder).glob("*.json"))
     wrong = 0
     for path in expected:
-        curves = json.loads(path.read_text(encoding="utf-8"))["curves"]
-        found = list(problems(path.with_suffix(".dxf"), curves))
+        inspected = json.loads(path.read_text(encoding="utf-8"))
+        curves, unit = inspected["curves"], inspected["unit"]
+        found = list(problems(path.with_suffix(".dxf"), unit, curves))
         wrong += bool(found)
         for problem in found:
             print(f"{path.stem}: {problem}")

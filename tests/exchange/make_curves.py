@@ -3,7 +3,8 @@
     make_curves.py FOLDER
 
 One project for each degree from 1 to 25: planar and in space, polynomial and rational, open and
-periodic, with few vertices and with many. The numbers are drawn from a fixed seed.
+periodic, with few vertices and with many, in every unit of length and in none. The numbers are drawn
+from a fixed seed.
 """
 
 import json
@@ -12,6 +13,7 @@ import random
 import sys
 
 DEGREES = range(1, 26)
+UNITS = [None, "mm", "cm", "m", "in"]
 NAMES = ["plain", "Größe 3", "a/b:c", "名前", "x" * 300, "layer, with = signs", "plain"]
 
 
@@ -34,7 +36,10 @@ def main(folder):
     draw = random.Random(20)
     for degree in DEGREES:
         curves = [curve(draw, degree, number) for number in range(len(NAMES))]
-        project = {"format": "batten", "version": 1, "curves": curves}
+        unit = UNITS[degree % len(UNITS)]
+        project = {"format": "batten", "version": 2 if unit else 1, "curves": curves}
+        if unit:
+            project["unit"] = unit
         path = pathlib.Path(folder) / f"degree{degree}.batten"
         path.write_text(json.dumps(project), encoding="utf-8")
 
