@@ -8,7 +8,7 @@ use batten::document::{
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::expressions::LengthUnit;
 use batten::geometry::references::ReferenceCurve;
-use batten::geometry::{Continuity, End, FloatPolygon};
+use batten::geometry::{Continuity, Differentiable, End, FloatPolygon};
 use glam::DVec3;
 
 fn cubic() -> FloatPolygon {

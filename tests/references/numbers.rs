@@ -165,7 +165,7 @@ proptest! {
     }
 
     #[test]
-    fn lengths_convert_there_and_back(value in -1e6..1e6, from in 0usize..4, to in 0usize..4) {
+    fn lengths_convert_there_and_back(value in -1e6f64..1e6, from in 0usize..4, to in 0usize..4) {
         let [from, to] = [from, to].map(|index| LengthUnit::ALL[index]);
         let read = |unit: LengthUnit, text: &str| {
             let context = NumberContext { quantity: Quantity::Length, unit: Some(unit), before: None };
@@ -178,7 +178,7 @@ proptest! {
     }
 
     #[test]
-    fn sines_of_degrees_keep_their_symmetries_to_the_bit(degrees in -720.0..720.0) {
+    fn sines_of_degrees_keep_their_symmetries_to_the_bit(degrees in -720.0f64..720.0) {
         let (sine, cosine) = sin_cos_of_degrees(degrees);
         prop_assert!((sine.hypot(cosine) - 1.0).abs() < 1e-15);
         prop_assert_eq!(sin_cos_of_degrees(-degrees), (-sine, cosine));
