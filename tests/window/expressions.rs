@@ -5,7 +5,7 @@ use eframe::egui::{Event, Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 
 use crate::hand::*;
-use crate::numbers::{click_events, enter, state, wave, window_of, x, y};
+use crate::numbers::{click_events, enter, state, table_of, wave, window_of, x, y};
 
 /// Type a text that may begin in a cell.
 fn write(window: &mut Window, text: &str) {
@@ -24,7 +24,7 @@ fn write_cell(window: &mut Window, cell: &str, text: &str) {
 
 #[test]
 fn cells_take_arithmetic_functions_commas_and_changes() {
-    let mut window = window_of(vec![wave(8, 3)]);
+    let mut window = table_of(vec![wave(8, 3)]);
     let before = state(&window);
     let mut expected = x(&window, 1);
     for (text, value) in [
@@ -55,7 +55,7 @@ fn cells_take_arithmetic_functions_commas_and_changes() {
 
 #[test]
 fn a_mistake_is_told_at_the_field_with_its_column_and_changes_nothing() {
-    let mut window = window_of(vec![wave(8, 3)]);
+    let mut window = table_of(vec![wave(8, 3)]);
     let before = state(&window);
     for (text, words) in [
         ("2*foo(3)", "Column 3: “foo” means nothing here"),
@@ -83,14 +83,14 @@ fn a_mistake_is_told_at_the_field_with_its_column_and_changes_nothing() {
     write(&mut window, "2*sq");
     assert!(window.query_by_label_contains("Column").is_none());
     // Left, the old number stays, and the remark tells what was typed.
-    click(&mut window, "Degree");
+    click(&mut window, "Canvas");
     window.get_by_label_contains("“2*sq”, column 3: “sq” means nothing here");
     assert_eq!(state(&window), before);
 }
 
 #[test]
 fn lengths_are_converted_to_the_documents_unit() {
-    let mut window = window_of(vec![wave(8, 3)]);
+    let mut window = table_of(vec![wave(8, 3)]);
     click(&mut window, "Unit none");
     click(&mut window, "Document unit: centimetres");
     window.get_by_label("Unit cm");
@@ -139,7 +139,7 @@ fn panels_take_them_too() {
 
 #[test]
 fn the_nudge_step_is_typed_and_does_not_depend_on_the_zoom() {
-    let mut window = window_of(vec![wave(8, 3)]);
+    let mut window = table_of(vec![wave(8, 3)]);
     click(&mut window, "Unit none");
     click(&mut window, "Nudge step");
     type_over(&mut window, "1/4");

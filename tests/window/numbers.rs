@@ -100,7 +100,7 @@ pub fn state(window: &Window) -> State {
 }
 
 /// A window with some curves, and the table of the first one's vertices.
-fn table_of(polygons: Vec<FloatPolygon>) -> Window {
+pub fn table_of(polygons: Vec<FloatPolygon>) -> Window {
     let mut window = window_of(polygons);
     show_vertices(&mut window);
     window
