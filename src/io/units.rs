@@ -54,7 +54,7 @@ fn old_projects_have_none_and_unknown_units_are_refused() {
     let error = Format::Batten.read(&text(r#""unit":"ft","#));
     assert_eq!(
         error.expect_err("no unit").to_string(),
-        "line 1, column 43: “ft” is not a unit of length: mm, cm, m or in is needed"
+        "line 1, column 42: “ft” is not a unit of length: mm, cm, m or in is needed"
     );
 }
 

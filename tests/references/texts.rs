@@ -95,11 +95,6 @@ fn mistakes_in_formulas_name_their_columns() {
         16,
         "expected an operator or the end, found “)”",
     );
-    assert_refused(
-        "formula:x=t;y=2 t",
-        17,
-        "expected an operator or the end, found “t”",
-    );
     assert_refused("formula:x=t;y=2 t", 17, "“t” is no unit here");
     assert_refused("formula:x=t;y=2mm", 16, "“mm” is no unit here");
     assert_refused(

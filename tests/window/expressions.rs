@@ -70,7 +70,7 @@ fn a_mistake_is_told_at_the_field_with_its_column_and_changes_nothing() {
         ("1/0", "Column 1: “1/0” is no number"),
         (
             "2*(3",
-            "Column 5: the end stands where an operator or a closing",
+            "Column 5: expected an operator or a closing parenthesis, found the end",
         ),
     ] {
         write_cell(&mut window, "vertex 1 x", text);

@@ -388,7 +388,7 @@ fn what_is_no_number_is_refused_beside_its_field() {
     click(&mut window, "vertex 1 x");
     strike(&mut window, "1.2.3");
     enter(&mut window);
-    window.get_by_label_contains("Column 4: “.” stands where an operator");
+    window.get_by_label_contains("Column 4: expected an operator or the end, found “.”");
     press(&mut window, Modifiers::NONE, Key::Backspace);
     press(&mut window, Modifiers::NONE, Key::Backspace);
     enter(&mut window);
@@ -399,7 +399,7 @@ fn what_is_no_number_is_refused_beside_its_field() {
     // Leaving says that the old number stays.
     strike(&mut window, "4-");
     click(&mut window, "Canvas");
-    window.get_by_label_contains("“4-”, column 3: the end stands where a number");
+    window.get_by_label_contains("“4-”, column 3: expected a number");
     assert_eq!(state(&window), before);
     show_inspector(&mut window);
     click(&mut window, "Degree");

@@ -120,7 +120,9 @@ impl Conventions {
                     },
                 })?;
                 // In this order 12 mm are 0.012 m to the bit.
-                let number = inner.number * length.millimetres() / document.millimetres();
+                let converted = inner.number * length.millimetres() / document.millimetres();
+                let is_same = length == document;
+                let number = if is_same { inner.number } else { converted };
                 (number, Dimension::LENGTH)
             }
             Unit::Degree => (inner.number, Dimension::ANGLE),

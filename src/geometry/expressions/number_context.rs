@@ -104,6 +104,8 @@ impl NumberContext {
         let last = |name: &str| text.trim_end().ends_with(name);
         match &mistake.error {
             ExpressionError::Syntax { found: None, .. } => true,
+            // 1/0 becomes 1/0.5.
+            ExpressionError::NotANumber { .. } => true,
             ExpressionError::UnknownName { name, .. } if last(name) && begins_name(name) => true,
             ExpressionError::UnknownUnit { name, .. } if last(name) && Unit::begins(name) => true,
             _ => self.read(&format!("{text}0")).is_ok(),
@@ -112,8 +114,11 @@ impl NumberContext {
 
     fn number(&self, text: &str, quantity: Quantity) -> Result<f64, ExpressionMistake> {
         let expression = Expression::read_number(&with_decimal_points(text))?;
+        let is_length = matches!(quantity, Quantity::Length | Quantity::Curvature);
+        // Where lengths make no sense, any unit tells so, or cancels.
+        let any_unit = (!is_length).then_some(LengthUnit::Millimetre);
         let conventions = Conventions {
-            unit: self.unit,
+            unit: self.unit.or(any_unit),
             degrees: quantity == Quantity::Angle,
         };
         let found = conventions.measure(&expression.0)?;
@@ -320,10 +325,26 @@ mod tests {
     }
 
     #[test]
+    fn without_a_unit_lengths_are_refused_where_they_make_sense_and_cancel_elsewhere() {
+        let read = |quantity, text: &str| {
+            let context = NumberContext {
+                quantity,
+                ..NumberContext::default()
+            };
+            let read = context.read(text);
+            read.map_err(|mistake| mistake.to_string())
+        };
+        let refused = read(Quantity::Angle, "2mm");
+        let words = "column 1: a length is given where an angle is needed";
+        assert_eq!(refused, Err(words.to_owned()));
+        assert_eq!(read(Quantity::Number, "2cm/(5mm)"), Ok(4.0));
+    }
+
+    #[test]
     fn what_may_become_a_number_is_begun() {
         for text in [
             "", "-", "+.", "1e", "2e-", "1e-", "10*", "10*c", "sqr", "sqrt(2", "30d", "+=", "+= ",
-            "max(1,",
+            "max(1,", "1/0",
         ] {
             assert!(context(Quantity::Angle).is_begun(text), "{text}");
         }
