@@ -461,6 +461,8 @@ fn commands_of_curves_do_nothing_to_a_reference() {
                 | Command::DeleteCurve
                 | Command::ToggleVisible
                 | Command::ToggleLocked
+                | Command::SetUnit(_)
+                | Command::ConvertUnit(_)
                 | Command::Undo
                 | Command::Redo
         );
