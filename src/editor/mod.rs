@@ -2,7 +2,9 @@
 //! (how it is seen) and the hand (what works on it). Nothing in here knows of egui.
 
 mod autosaving;
+mod changing;
 mod commands;
+mod comparing;
 mod file_watch;
 mod files;
 mod guides;
@@ -30,8 +32,8 @@ pub use commands::{Command, ReferenceChange, Shortcut};
 pub use files::with_extension;
 pub use hand::{
     Button, Cursor, DrawSettings, EndFitAction, EndFitReport, Entry, EntryError, Follow, Following,
-    Hand, Input, Key, Leg, LegLocks, MatchReport, Modifiers, Selection, ToolKind, Transformation,
-    VertexId,
+    Hand, Input, Key, Leg, LegLocks, MatchReport, MenuRequest, MenuSubject, Modifiers, Selection,
+    ToolKind, Transformation, VertexId,
 };
 pub use paper::{PaperError, PaperPage, spiral_deviations};
 pub use recoverable::{Recoverable, RecoverableDocument};
@@ -50,6 +52,7 @@ pub use workspace::{Interruption, PreviewId, Workspace};
 use crate::analysis::AnalysisCache;
 use crate::document::{CurveId, Document, Edit, quoted};
 use autosaving::Autosaving;
+use comparing::Comparing;
 use file_watch::FileWatch;
 use guides::Guides;
 use hand::gesture::Gesture;
@@ -70,6 +73,7 @@ pub struct Editor {
     patience: Patience,
     proving: Proving,
     measuring: Measuring,
+    comparing: Comparing,
     guides: Guides,
     autosaving: Autosaving,
     recoverable: Vec<Recoverable>,
@@ -103,6 +107,7 @@ impl Editor {
         self.patience = Patience::new(patience);
         self.proving = Proving::background(wake.clone());
         self.measuring = Measuring::background(wake.clone());
+        self.comparing = Comparing::background(wake.clone());
         self.guides = Guides::background(wake.clone());
         self.autosaving.run_in_background(wake.clone());
         self.file_watch = FileWatch::background(wake.clone());

@@ -26,10 +26,19 @@ impl Editor {
             Stage::Applied { revision, .. } => {
                 self.workspace.revision() == revision
                     && self.workspace.preview().is_none()
-                    && (trial.curve().is_none() || trial.curve() == self.active())
+                    && self.is_about_active(trial)
             }
         };
         counts.then_some(trial)
+    }
+
+    /// Whether the active curve is the one that an operation works on or one that it made; an operation without
+    /// a curve does not mind.
+    fn is_about_active(&self, trial: &Trial) -> bool {
+        let active = self.active();
+        trial.curve().is_none()
+            || trial.curve() == active
+            || active.is_some_and(|active| self.made_by(trial).contains(&active))
     }
 
     /// Whether an operation is being tried out.
@@ -106,34 +115,6 @@ impl Editor {
         reply
     }
 
-    /// Give the operation that is tried out, or was applied last, another value for a parameter.
-    ///
-    /// # Errors
-    /// As [`Editor::set_values`].
-    pub fn set_value(&mut self, parameter: &str, value: Value) -> Result<(), OperationError> {
-        self.set_values(&[(parameter, value)])
-    }
-
-    /// Give the operation that is tried out, or was applied last, other values for some parameters.
-    ///
-    /// # Errors
-    /// [`OperationError`] if a parameter does not take its value; nothing is changed then.
-    pub fn set_values(&mut self, given: &[(&str, Value)]) -> Result<(), OperationError> {
-        if self.trial().is_none() {
-            return Ok(());
-        }
-        let Some(trial) = &mut self.operations.trial else {
-            return Ok(());
-        };
-        let (operation, input) = (trial.operation, &trial.input);
-        let values = operation.values_with(input, &trial.values, given.iter().cloned())?;
-        if values != trial.values {
-            trial.values = values;
-            self.ask();
-        }
-        Ok(())
-    }
-
     /// Keep what the operation that is tried out does, as one step; if it still runs, as soon as it
     /// is done. The reply is told.
     ///
@@ -143,7 +124,7 @@ impl Editor {
         if !self.is_trying() {
             return Ok(Note::silent());
         }
-        if self.end_handle_drag().is_some() {
+        if self.end_handle_drag() {
             self.hand.gestures.reset();
         }
         let reply = self.settle_trial();
@@ -177,6 +158,22 @@ impl Editor {
         trial.input.document().curve(active).cloned()
     }
 
+    /// The other curves that the operation that is tried out works on, as they were.
+    pub(in crate::editor) fn others_before_operation(&self) -> Vec<Arc<Curve>> {
+        let trial = self.trial().filter(|trial| !trial.is_applied());
+        trial.map_or_else(Vec::new, |trial| {
+            let others = trial.input.curves().iter();
+            let changed = |(id, curve): &&(CurveId, Arc<Curve>)| {
+                let now = self.document().curve(*id);
+                Some(*id) != self.active() && !now.is_some_and(|now| Arc::ptr_eq(now, curve))
+            };
+            others
+                .filter(changed)
+                .map(|(_, curve)| curve.clone())
+                .collect()
+        })
+    }
+
     /// What the operation that is tried out marks on the canvas.
     pub(in crate::editor) fn operation_marks(&self) -> Vec<Mark> {
         let trial = self.trial().filter(|trial| !trial.is_applied());
@@ -194,9 +191,9 @@ impl Editor {
 
     /// End what is tried out if another curve is active now.
     pub(in crate::editor) fn leave_stale_trial(&mut self) {
-        let other = self.trial().is_some_and(|trial| {
-            !trial.is_applied() && trial.curve().is_some() && trial.curve() != self.active()
-        });
+        let other = self
+            .trial()
+            .is_some_and(|trial| !trial.is_applied() && !self.is_about_active(trial));
         if other {
             self.leave_trial_selecting(self.hand.selection.clone());
         }
@@ -295,13 +292,16 @@ impl Editor {
             pending: false,
             features: None,
             question: 0,
+            handles: Vec::new(),
             dragged: None,
+            held: None,
+            earlier: Vec::new(),
             applies: false,
         });
         Ok(())
     }
 
-    /// Make a curve the active one that an operation without inputs has made, compare it with the
+    /// Make a curve the active one that an operation has made beside its inputs, compare it with the
     /// other if there is one, else with the reference that was active, and bring it into view when
     /// it is new.
     fn activate_made(&mut self, is_new: bool) {
@@ -321,19 +321,33 @@ impl Editor {
         if is_new {
             let before = self.trial().and_then(|trial| trial.selection.active());
             let reference = before.filter(|id| self.document().reference(*id).is_some());
-            self.view.compared = reference.or(self.view.compared);
+            // What approximates a curve is compared with it.
+            let followed = self
+                .trial()
+                .filter(|trial| trial.operation().inputs == Inputs::OneOrNone);
+            let followed = followed.and_then(Trial::curve);
+            self.view.compared = reference.or(followed).or(self.view.compared);
             self.bring_into_view(&made);
         }
     }
 
-    /// The curves that an operation without inputs has made: they are compared with each other.
+    /// The curves that the operation has made beside those that it left as they were: they are compared with
+    /// each other.
     pub fn made_curves(&self) -> Vec<CurveId> {
-        let trial = self.trial().filter(|trial| trial.curve().is_none());
-        trial.map_or_else(Vec::new, |trial| {
-            let before = trial.input.document();
-            let ids = self.document().ids();
-            ids.filter(|id| before.curve(*id).is_none()).collect()
-        })
+        self.trial()
+            .map_or_else(Vec::new, |trial| self.made_by(trial))
+    }
+
+    fn made_by(&self, trial: &Trial) -> Vec<CurveId> {
+        let (before, now) = (trial.input.document(), self.document());
+        let leaves = |(id, curve): &(CurveId, Arc<Curve>)| {
+            now.curve(*id).is_some_and(|now| Arc::ptr_eq(now, curve))
+        };
+        if !trial.input.curves().iter().all(leaves) {
+            return Vec::new();
+        }
+        let ids = now.ids();
+        ids.filter(|id| before.curve(*id).is_none()).collect()
     }
 
     /// Ask the worker what the operation comes to, and wait a moment for the answer.
@@ -414,6 +428,10 @@ impl Editor {
             return;
         };
         let is_first = trial.run.is_none();
+        // Where there is no curve, the last one's handles are what leads back to one.
+        if let Ok(run) = &run {
+            trial.handles.clone_from(&run.outcome.handles);
+        }
         trial.run = Some(run);
         trial.pending = false;
         let (label, stage, applies) = (trial.operation.label, trial.stage, trial.applies);
@@ -479,6 +497,7 @@ impl Editor {
             return Ok(Note::silent());
         }
         trial.dragged = None;
+        trial.held = None;
         let renumbers = match &trial.run {
             None => return Ok(Note::silent()),
             Some(Err(error)) => return Err(Refusal(error.to_string())),

@@ -146,15 +146,20 @@ impl Editor {
         self.shortened().is_some()
     }
 
-    /// Show the curve of the rounding test with so many digits kept; [`Editor::commit_preview`]
-    /// keeps it.
-    pub fn preview_shortened(&mut self, test: &RoundingTest) {
-        if let Some(curve) = self.shortened() {
-            let polygon = test.polygon.clone();
-            self.preview(
-                "Shorten coordinates",
-                vec![Edit::SetPolygon { curve, polygon }],
-            );
+    /// Show the curve of the rounding test with so many digits kept. In a page as it was opened that is no step,
+    /// and nothing to save; where something was edited it is a preview, which [`Editor::commit_preview`] keeps.
+    pub fn show_shortened(&mut self, test: &RoundingTest) {
+        let Some(curve) = self.shortened() else {
+            return;
+        };
+        let polygon = test.polygon.clone();
+        let edits = vec![Edit::SetPolygon { curve, polygon }];
+        if !self.workspace.is_as_opened() {
+            return self.preview("Shorten coordinates", edits);
+        }
+        if let Ok(document) = self.document().edited(edits) {
+            self.workspace.replace(document, None);
+            self.document_changed();
         }
     }
 

@@ -21,8 +21,10 @@ pub struct Readout {
     /// What the view plane's coordinates are called: the model's, or "right" and "up" in a view
     /// that is turned against it.
     pub axes: [&'static str; 2],
-    /// The parameter of the hovered place on the curve.
-    pub u: Option<f64>,
+    /// The parameter of the hovered place: u of a curve, t of a reference.
+    pub parameter: Option<f64>,
+    /// What that is called.
+    pub parameter_name: &'static str,
     /// The curvature there.
     pub curvature: Option<f64>,
     /// Screen points a unit.

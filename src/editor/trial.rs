@@ -7,7 +7,7 @@ use crate::editor::worker::Worker;
 use crate::editor::workspace::PreviewId;
 use crate::geometry::Progress;
 use crate::operations::{
-    FeatureComparison, Input, Operation, OperationError, Outcome, Report, Values,
+    FeatureComparison, Handle, Input, Operation, OperationError, Outcome, Report, Values,
 };
 
 /// Hold an operation that is being tried out, or that was applied last: its values can be changed
@@ -28,8 +28,14 @@ pub struct Trial {
     pub(in crate::editor) features: Option<FeatureComparison>,
     /// The number of the question whose answers count.
     pub(in crate::editor) question: u64,
+    /// The handles that it offers, or offered when it made a curve last.
+    pub(in crate::editor) handles: Vec<Handle>,
     /// The handle that is dragged on the canvas.
     pub(in crate::editor) dragged: Option<HandleDrag>,
+    /// The values before the change that is going on.
+    pub(in crate::editor) held: Option<Values>,
+    /// The values before each change, the oldest first.
+    pub(in crate::editor) earlier: Vec<Values>,
     /// Whether it is applied as soon as it is known what it comes to.
     pub(in crate::editor) applies: bool,
 }

@@ -85,6 +85,13 @@ impl Workspace {
         self.history.is_modified()
     }
 
+    /// Whether nothing was done to the document since it was opened, which is not of a file.
+    pub fn is_as_opened(&self) -> bool {
+        let history = &self.history;
+        let has_steps = history.undo_steps() > 0 || history.redo_label().is_some();
+        self.path.is_none() && self.preview.is_none() && !has_steps && !self.is_modified()
+    }
+
     /// A number that grows with every step, undo and redo.
     pub fn revision(&self) -> u64 {
         self.revision

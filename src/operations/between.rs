@@ -188,8 +188,22 @@ pub static OPERATION: Operation = Operation {
         TOLERANCE,
     ],
     check: |_| Ok(()),
+    unused,
     run,
 };
+
+/// Each kind has numbers of its own.
+fn unused(values: &Values) -> &'static [&'static str] {
+    values.choice(
+        &KIND,
+        &[
+            &[A.name, B.name, C.name][..],
+            &[ALPHA.name],
+            &[ALPHA.name, A.name, B.name, C.name],
+            &[ALPHA.name, A.name, B.name, C.name],
+        ],
+    )
+}
 
 fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
     let ends = ends(input, values);

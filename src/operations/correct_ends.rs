@@ -212,6 +212,7 @@ pub static OPERATION: Operation = Operation {
         TOLERANCE,
     ],
     check: |input| open(input, "corrected at its ends").map(drop),
+    unused: |_| &[],
     run,
 };
 

@@ -29,6 +29,7 @@ pub static OPERATION: Operation = Operation {
     inputs: Inputs::One,
     parameters: &[DEGREE],
     check,
+    unused: |_| &[],
     run,
 };
 

@@ -33,6 +33,7 @@ pub static OPERATION: Operation = Operation {
     inputs: Inputs::One,
     parameters: &[END, SEGMENTS],
     check: |input| open(input, "extended").map(drop),
+    unused: |_| &[],
     run,
 };
 

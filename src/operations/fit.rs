@@ -56,6 +56,7 @@ pub static OPERATION: Operation = Operation {
     inputs: Inputs::Points,
     parameters: &[DEGREE, COUNT, EXTREMA, TOLERANCE],
     check: |_| Ok(()),
+    unused: |_| &[],
     run,
 };
 

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::value::Value;
+use crate::geometry::mineur_farin::Configuration;
 
 /// Describe a point on the canvas that sets parameters when it is dragged.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,6 +42,17 @@ pub enum Sets {
         /// The direction about which the angle turns.
         normal: DVec3,
     },
+    /// Two numbers of a Mineur–Farin configuration, such that its last point follows.
+    LastPoint {
+        /// The length ratio.
+        ratio: &'static str,
+        /// The turning angle.
+        angle: &'static str,
+        /// The configuration.
+        configuration: Configuration,
+        /// The number of its legs.
+        legs: usize,
+    },
 }
 
 impl Handle {
@@ -66,6 +78,18 @@ impl Handle {
                 vec![
                     (ratio, Value::Real(vector.length() / base.length())),
                     (angle, Value::Real(sine.atan2(cosine))),
+                ]
+            }
+            Sets::LastPoint {
+                ratio,
+                angle,
+                configuration,
+                legs,
+            } => {
+                let found = configuration.reaching(legs, point);
+                vec![
+                    (ratio, Value::Real(found.ratio)),
+                    (angle, Value::Real(found.turn)),
                 ]
             }
         }

@@ -126,6 +126,7 @@ pub static OPERATION: Operation = Operation {
         LOCKED,
     ],
     check: check_editable,
+    unused: |_| &[],
     run,
 };
 

@@ -65,6 +65,7 @@ pub static OPERATION: Operation = Operation {
     inputs: Inputs::Two,
     parameters: &[BRIDGE, FIRST_END, SECOND_END, MOVE_SECOND],
     check: |input| two(input).map(drop),
+    unused: |_| &[],
     run,
 };
 

@@ -131,6 +131,7 @@ pub static OPERATION: Operation = Operation {
         LEGS, RATIO, ANGLE, TORSION, DEGREE, POLYGON, START, FIRST_LEG,
     ],
     check: |_| Ok(()),
+    unused: |_| &[],
     run,
 };
 
@@ -168,7 +169,7 @@ fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, Operatio
         let remark = format!("A Bézier polygon of {legs} legs has degree {legs}");
         outcome.remarks.push(remark);
     }
-    outcome.handles = handles(&configuration);
+    outcome.handles = handles(&configuration, legs);
     let shown = if chosen == [1] { Format::Bezier } else { float };
     let plane = mineur_farin::Atlas::around(&configuration, shown, legs);
     outcome.atlas = Some(Atlas {
@@ -239,13 +240,26 @@ fn closed_form(configuration: &Configuration, legs: usize) -> Vec<Figure> {
     [monotone].into_iter().chain(place).collect()
 }
 
-/// The first three points: they set the start, the first leg, and ratio and angle.
-fn handles(configuration: &Configuration) -> Vec<Handle> {
+/// The first three points set the start, the first leg, and ratio and angle; so does the last one, if it is
+/// another.
+fn handles(configuration: &Configuration, legs: usize) -> Vec<Handle> {
     let points = configuration.points(2);
     let [start, second, third] = points[..] else {
         return Vec::new();
     };
-    vec![
+    let last = configuration.points(legs).last().copied();
+    let last = last.filter(|last| legs > 2 && last.is_finite());
+    let last = last.map(|at| Handle {
+        at,
+        label: "length ratio and turning angle, by the last point",
+        sets: Sets::LastPoint {
+            ratio: RATIO.name,
+            angle: ANGLE.name,
+            configuration: *configuration,
+            legs,
+        },
+    });
+    let first = [
         Handle {
             at: start,
             label: "start",
@@ -270,5 +284,6 @@ fn handles(configuration: &Configuration) -> Vec<Handle> {
                 normal: configuration.binormal(),
             },
         },
-    ]
+    ];
+    first.into_iter().chain(last).collect()
 }

@@ -27,6 +27,8 @@ pub struct Operation {
     pub parameters: &'static [Parameter],
     /// Tell why it cannot run on this input, whatever the values.
     pub(crate) check: fn(&Input) -> Result<(), OperationError>,
+    /// Name the parameters that mean nothing with these values, as numbers of a kind that is not chosen.
+    pub(crate) unused: fn(&Values) -> &'static [&'static str],
     /// Do it.
     pub(crate) run: fn(&Input, &Values, &Progress) -> Result<Outcome, OperationError>,
 }
@@ -47,6 +49,17 @@ impl Hash for Operation {
 }
 
 impl Operation {
+    /// List the parameters that there is something to give for, with these values of them.
+    pub fn parameters_for(
+        &self,
+        input: &Input,
+        values: &Values,
+    ) -> impl Iterator<Item = &'static Parameter> {
+        let unused = (self.unused)(values);
+        let applying = self.parameters.iter().filter(|it| it.applies(input));
+        applying.filter(move |parameter| !unused.contains(&parameter.name))
+    }
+
     /// Tell beforehand why the operation cannot run on this input, whatever the values: the curve
     /// is locked or hidden, it has no ends, its degree is the highest already.
     ///

@@ -22,6 +22,7 @@ pub static OPERATION: Operation = Operation {
     inputs: Inputs::One,
     parameters: &[DEGREE],
     check,
+    unused: |_| &[],
     run,
 };
 

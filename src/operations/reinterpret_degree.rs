@@ -35,6 +35,7 @@ pub static OPERATION: Operation = Operation {
     inputs: Inputs::One,
     parameters: &[DEGREE],
     check: check_editable,
+    unused: |_| &[],
     run,
 };
 

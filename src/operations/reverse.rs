@@ -19,6 +19,7 @@ pub static OPERATION: Operation = Operation {
     inputs: Inputs::One,
     parameters: &[],
     check: check_editable,
+    unused: |_| &[],
     run,
 };
 

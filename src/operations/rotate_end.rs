@@ -19,6 +19,7 @@ pub static OPERATION: Operation = Operation {
     inputs: Inputs::One,
     parameters: &[END],
     check: check_targets,
+    unused: |_| &[],
     run,
 };
 

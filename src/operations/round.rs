@@ -52,6 +52,7 @@ pub static OPERATION: Operation = Operation {
     inputs: Inputs::One,
     parameters: &[POLYGON, DIGITS],
     check: check_editable,
+    unused: |_| &[],
     run,
 };
 

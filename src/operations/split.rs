@@ -52,6 +52,7 @@ pub static OPERATION: Operation = Operation {
     inputs: Inputs::One,
     parameters: &[AT, SUBDIVISIONS],
     check: |input| open(input, "cut in two at one place").map(drop),
+    unused: |_| &[],
     run,
 };
 

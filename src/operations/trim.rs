@@ -51,6 +51,7 @@ pub static OPERATION: Operation = Operation {
     inputs: Inputs::One,
     parameters: &[FROM, TO, SUBDIVISIONS],
     check: check_editable,
+    unused: |_| &[],
     run,
 };
 

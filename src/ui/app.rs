@@ -8,6 +8,7 @@ use eframe::egui::{self, CentralPanel, Context, Frame, Margin, Panel, Ui, Viewpo
 use super::action::Action;
 use super::canvas::Canvas;
 use super::canvas_entry::CanvasEntry;
+use super::context_menu::ContextMenu;
 use super::dialogs::{self, Decision, Dialog};
 use super::document_unit;
 use super::file_dialogs::{AfterDiscard, Chosen, FileDialogs, Purpose};
@@ -27,7 +28,7 @@ use super::status_bar::{self, status_bar_ui};
 use super::theme::{self, Tokens};
 use super::tool_rail::{self, tool_rail_ui};
 use super::{canvas, overlays, widgets};
-use crate::editor::{Command, Editor, Export, Layer, Refusal, ToolKind, told};
+use crate::editor::{Command, Editor, Export, Layer, MenuSubject, Refusal, ToolKind, told};
 use crate::geometry::PolygonKind;
 use crate::io::Format;
 
@@ -43,6 +44,7 @@ pub struct App {
     keyboard: Keyboard,
     side: Side,
     plots: Plots,
+    context_menu: ContextMenu,
     palette: Palette,
     paper: PaperPanel,
     files: FileDialogs,
@@ -91,6 +93,7 @@ impl App {
             keyboard: Keyboard::default(),
             side: Side::default(),
             plots,
+            context_menu: ContextMenu::default(),
             palette: Palette::default(),
             paper: PaperPanel::default(),
             files: FileDialogs::new(native_dialogs),
@@ -177,6 +180,9 @@ impl App {
         }
         self.side.take_keys(context, &self.editor);
         self.entry.take_keys(context, &self.editor, &self.canvas);
+        if keyboard::asks_for_menu(context) {
+            self.editor.ask_for_menu_of_selection();
+        }
         let typing = keyboard::typing(context) == Typing::Text;
         let asked = self.keyboard.asked(context, &self.editor);
         if typing && !asked.is_empty() {
@@ -264,7 +270,7 @@ impl App {
             return;
         }
         let panel = Panel::bottom("plots").frame(frame).resizable(true);
-        panel
+        let shown = panel
             .default_size(232.0)
             .size_range(168.0..=640.0)
             .show(ui, |ui| {
@@ -276,6 +282,9 @@ impl App {
                     self.plots.show(ui, &mut self.editor);
                 });
             });
+        if is_menu_asked_for(ui, shown.response.rect) {
+            self.editor.ask_for_menu(MenuSubject::Plot);
+        }
     }
 
     fn overlays_ui(&mut self, context: &Context) {
@@ -293,6 +302,10 @@ impl App {
                 overlays::empty_ui(context, rect);
             }
         }
+        let canvas = self.canvas.rect().map_or(egui::Pos2::ZERO, |rect| rect.min);
+        let (shell, actions) = (&self.shell, &mut self.actions);
+        self.context_menu
+            .show(context, canvas, &mut self.editor, shell, actions);
         self.palette.show(context, &self.editor, &mut self.actions);
         if let Some(chosen) = self.files.show(context) {
             self.use_chosen(context, chosen);
@@ -319,7 +332,13 @@ impl App {
             return;
         }
         match action {
-            Action::Command(command) => told(self.editor.execute(command)),
+            Action::Command(command) => {
+                if command == Command::Undo {
+                    // A field's drag that is taken back must not go on.
+                    context.stop_dragging();
+                }
+                told(self.editor.execute(command));
+            }
             Action::New => self.confirm(context, AfterDiscard::New),
             Action::Open => self.confirm(context, AfterDiscard::Open),
             Action::OpenExample(index) => self.confirm(context, AfterDiscard::OpenExample(index)),
@@ -576,4 +595,14 @@ fn hide_layers(editor: &mut Editor, hidden: &[usize]) {
             told(editor.execute(Command::ToggleLayer(layer)));
         }
     }
+}
+
+/// Whether the second button was clicked in a box: pressed and released, not dragged.
+fn is_menu_asked_for(ui: &Ui, rect: egui::Rect) -> bool {
+    let clicked = ui.input(|input| {
+        let pointer = &input.pointer;
+        let inside = pointer.interact_pos().is_some_and(|at| rect.contains(at));
+        inside && pointer.button_clicked(egui::PointerButton::Secondary)
+    });
+    clicked && !keyboard::is_covered(ui.ctx())
 }

@@ -29,9 +29,20 @@ const POINT: f32 = 6.0;
 #[derive(Default)]
 pub struct AtlasView {
     picture: Option<(Picture, TextureHandle)>,
-    /// The values before the drag that goes on; none once it is called off.
-    before: Option<Vec<(&'static str, Value)>>,
-    called_off: bool,
+    /// Whether its point is dragged; no more once that is called off.
+    dragged: bool,
+}
+
+/// What is asked for in the atlas.
+pub enum Asked {
+    /// These values, as a change of their own.
+    Set(Vec<(&'static str, Value)>),
+    /// These values, as a part of the drag that goes on.
+    Drag(Vec<(&'static str, Value)>),
+    /// An end of the drag; its values stay.
+    Release,
+    /// An end of the drag, and the values from before it.
+    CallOff,
 }
 
 /// What a picture was made of.
@@ -43,14 +54,14 @@ struct Picture {
 }
 
 impl AtlasView {
-    /// Show the atlas of the operation at hand; returns the values that are asked for.
+    /// Show the atlas of the operation at hand; returns what is asked for.
     pub fn show(
         &mut self,
         ui: &mut Ui,
         editor: &Editor,
         trial: &Trial,
         atlas: &Atlas,
-    ) -> Option<Vec<(&'static str, Value)>> {
+    ) -> Option<Asked> {
         let size = vec2(ui.available_width(), HEIGHT + MARGINS[1]);
         let (whole, _) = ui.allocate_exact_size(size, Sense::hover());
         let low = whole.min + vec2(MARGINS[0], 0.5 * STEP);
@@ -68,37 +79,39 @@ impl AtlasView {
             paint_point(&painter, at(rect, place), hot, Tokens::of(ui));
         }
         legend_ui(ui, atlas);
-        self.asked(ui, &response, rect, trial, atlas)
+        self.asked(ui, &response, rect, editor, atlas)
     }
 
-    /// The values that a click or a drag asks for; Esc asks for those before the drag.
+    /// What a click or a drag asks for. Undo ends a drag in the editor, Esc here.
     fn asked(
         &mut self,
         ui: &Ui,
         response: &Response,
         rect: Rect,
-        trial: &Trial,
+        editor: &Editor,
         atlas: &Atlas,
-    ) -> Option<Vec<(&'static str, Value)>> {
-        if response.drag_started() {
-            let now = [atlas.across, atlas.up].map(|it| (it.name, trial.values().get(it).clone()));
-            self.before = Some(now.to_vec());
-            self.called_off = false;
-        }
-        let asked = if ui.input(|input| input.key_pressed(Key::Escape)) {
-            // Esc also ends egui's drag.
-            self.called_off = self.before.is_some();
-            return self.before.take();
-        } else if (response.dragged() && !self.called_off) || response.clicked() {
+    ) -> Option<Asked> {
+        let values = || {
             let pointer = response.interact_pointer_pos()?;
             Some(atlas.values(place_at(rect, pointer)).to_vec())
-        } else {
-            None
         };
-        if !response.dragged() {
-            self.before = None;
+        if response.drag_started() {
+            self.dragged = true;
+            return values().map(Asked::Drag);
         }
-        asked
+        if !self.dragged {
+            let clicked = response.clicked().then(values).flatten();
+            return clicked.map(Asked::Set);
+        }
+        self.dragged = response.dragged() && editor.holds_values();
+        if ui.input(|input| input.key_pressed(Key::Escape)) {
+            self.dragged = false;
+            return Some(Asked::CallOff);
+        }
+        if self.dragged {
+            return values().map(Asked::Drag);
+        }
+        Some(Asked::Release)
     }
 
     fn paint_picture(&mut self, ui: &Ui, rect: Rect, atlas: &Atlas, found: Option<&AtlasVerdicts>) {

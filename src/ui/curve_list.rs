@@ -39,6 +39,7 @@ fn field_id() -> Id {
 /// What a row asks for.
 enum Asked {
     Activate(CurveId),
+    Menu(CurveId),
     Rename(CurveId),
     Lock(CurveId, bool),
     Show(CurveId, bool),
@@ -89,6 +90,7 @@ impl CurveList {
             });
         match asked {
             Some(Asked::Activate(curve)) => editor.activate(curve),
+            Some(Asked::Menu(curve)) => editor.ask_for_menu_of(curve),
             Some(Asked::Rename(curve)) => self.begin_renaming(ui.ctx(), editor, curve),
             Some(Asked::Lock(curve, locked)) => told(editor.set_locked(curve, locked)),
             Some(Asked::Show(curve, visible)) => told(editor.set_visible(curve, visible)),
@@ -123,6 +125,9 @@ impl CurveList {
         }
         if response.double_clicked() {
             asked = Some(Asked::Rename(row.id));
+        }
+        if response.secondary_clicked() {
+            asked = Some(Asked::Menu(row.id));
         }
         let inner = rect.shrink2(vec2(2.0 * STEP, 0.0));
         let builder = UiBuilder::new().max_rect(inner).id_salt(row.id);

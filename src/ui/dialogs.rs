@@ -124,10 +124,11 @@ fn name_of(editor: &Editor) -> String {
 }
 
 /// What the mouse does, beside the keys that the table of commands lists.
-const MOUSE: [(&str, &str); 21] = [
+const MOUSE: [(&str, &str); 22] = [
     ("Wheel, pinch", "Zoom to the pointer"),
     ("Middle button, Space and drag", "Pan"),
     ("Right button and drag", "Orbit"),
+    ("Right click, menu key", "Menu of what is there"),
     ("Double-click on empty canvas", "Fit all"),
     ("Click, Shift and click", "Select, add to the selection"),
     ("Drag on empty canvas", "Select by a box"),

@@ -6,6 +6,7 @@ use eframe::egui::{
 use lucide_icons::Icon;
 
 use super::curve_list::swatch_in;
+use super::distance_panel::distance_ui;
 use super::formula_fields::FormulaFields;
 use super::harmony_list::harmony_list_ui;
 use super::keyboard::{self, Typing};
@@ -49,6 +50,7 @@ impl Inspector {
             if let Some(report) = editor.report() {
                 figures_ui(ui, &curve, &report);
             }
+            distance_ui(ui, editor);
         });
         widgets::section(ui, "Harmony", false, |ui| harmony_list_ui(ui, editor));
     }
@@ -92,6 +94,7 @@ impl Inspector {
             if let Some(report) = editor.reference_report() {
                 reference_panel::figures_ui(ui, reference, &report);
             }
+            distance_ui(ui, editor);
         });
     }
 

@@ -132,6 +132,17 @@ pub fn is_covered(context: &Context) -> bool {
     egui::Popup::is_any_open(context) || context.memory(|memory| memory.top_modal_layer().is_some())
 }
 
+/// Whether the menu key is pressed, or Shift and F10, while nothing is typed.
+pub fn asks_for_menu(context: &Context) -> bool {
+    if is_covered(context) || typing(context) == Typing::Text {
+        return false;
+    }
+    context.input(|input| {
+        input.key_pressed(egui::Key::Menu)
+            || (input.modifiers.shift && input.key_pressed(egui::Key::F10))
+    })
+}
+
 /// What this frame's keys ask for.
 pub enum Asked {
     /// An action of the table.

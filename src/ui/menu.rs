@@ -1,6 +1,6 @@
 //! The menu bar, read from the table of commands.
 
-use eframe::egui::{Button, MenuBar, Ui, vec2};
+use eframe::egui::{Button, MenuBar, Response, Ui, vec2};
 
 use super::action::Action;
 use super::feature_list::chip_ui;
@@ -15,17 +15,25 @@ use crate::io::examples::EXAMPLES;
 use crate::operations;
 
 /// One line of a menu.
-enum Entry {
+pub enum Entry {
+    /// An action of the table.
     Action(Action),
+    /// A line between groups.
     Divider,
+    /// The built-in examples, in a menu of their own.
     Examples,
+    /// The kinds of references, in a menu of their own.
     References,
+    /// The document's unit, in a menu of its own.
     Units,
+    /// Other lines, in a menu of their own with this title.
+    Submenu(&'static str, Vec<Entry>),
 }
 
 use Entry::{Action as Item, Divider};
 
-fn command(command: Command) -> Entry {
+/// A line for a command.
+pub fn command(command: Command) -> Entry {
     Item(Action::Command(command))
 }
 
@@ -35,21 +43,7 @@ pub fn menu_ui(ui: &mut Ui, editor: &mut Editor, shell: &Shell, commands: &mut V
         for (title, entries) in menus() {
             ui.menu_button(title, |ui| {
                 ui.set_min_width(WIDTH);
-                for entry in entries {
-                    match entry {
-                        Item(action) => item_ui(ui, editor, shell, action, commands),
-                        Divider => {
-                            ui.separator();
-                        }
-                        Entry::References => {
-                            references_ui(ui, commands);
-                        }
-                        Entry::Units => document_unit_ui(ui, editor, shell, commands),
-                        Entry::Examples => {
-                            examples_ui(ui, editor, shell, commands);
-                        }
-                    }
-                }
+                entries_ui(ui, editor, shell, entries, commands);
             });
         }
         widgets::at_right(ui, |ui| {
@@ -60,6 +54,37 @@ pub fn menu_ui(ui: &mut Ui, editor: &mut Editor, shell: &Shell, commands: &mut V
             }
         });
     });
+}
+
+/// Show the lines of a menu; returns the first one that can be chosen.
+pub fn entries_ui(
+    ui: &mut Ui,
+    editor: &Editor,
+    shell: &Shell,
+    entries: Vec<Entry>,
+    commands: &mut Vec<Action>,
+) -> Option<Response> {
+    let mut first = None;
+    for entry in entries {
+        match entry {
+            Item(action) => {
+                let item = item_ui(ui, editor, shell, action, commands);
+                first = first.or(Some(item).filter(Response::enabled));
+            }
+            Divider => drop(ui.separator()),
+            Entry::References => references_ui(ui, commands),
+            Entry::Units => document_unit_ui(ui, editor, shell, commands),
+            Entry::Examples => examples_ui(ui, editor, shell, commands),
+            Entry::Submenu(title, entries) => {
+                let response = ui.menu_button((blank(), title), |ui| {
+                    ui.set_min_width(WIDTH);
+                    entries_ui(ui, editor, shell, entries, commands);
+                });
+                response.response.accessible_name(title);
+            }
+        }
+    }
+    first
 }
 
 fn menus() -> [(&'static str, Vec<Entry>); 6] {

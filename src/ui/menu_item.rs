@@ -1,6 +1,6 @@
 //! A line of a menu.
 
-use eframe::egui::{Button, Color32, RichText, Ui, vec2};
+use eframe::egui::{Button, Color32, Response, RichText, Ui, vec2};
 use lucide_icons::Icon;
 
 use super::action::Action;
@@ -12,14 +12,14 @@ use crate::editor::Editor;
 /// The least width of an open menu.
 pub const WIDTH: f32 = 240.0;
 
-/// Show one action as a line of a menu.
+/// Show one action as a line of a menu; returns its response.
 pub fn item_ui(
     ui: &mut Ui,
     editor: &Editor,
     shell: &Shell,
     action: Action,
     commands: &mut Vec<Action>,
-) {
+) -> Response {
     let label = action.label_now(editor);
     let checked = action.is_checked(editor, shell);
     let mark = if checked == Some(true) {
@@ -44,6 +44,7 @@ pub fn item_ui(
         commands.push(action);
         ui.close();
     }
+    response
 }
 
 /// A place as wide as a check mark, so that labels line up.

@@ -2,16 +2,21 @@
 
 use std::ops::{Bound, RangeInclusive};
 
-use eframe::egui::{Button, ComboBox, Key, Role, TextEdit, Ui, Vec2, WidgetInfo};
+use eframe::egui::{
+    Button, ComboBox, Key, Label, RichText, Role, TextEdit, TextStyle, Ui, Vec2, WidgetInfo,
+};
 
 use super::number_field::{FieldEvent, NumberField};
-use super::theme::STEP;
+use super::theme::{self, STEP, Tokens};
 use super::{figures, widgets};
 use crate::editor::Trial;
 use crate::operations::{Choice, Kind, Limits, Parameter, Unit, Value};
 
-/// The width of the caption of a field.
-const LABEL: f32 = 112.0;
+/// The least width of the captions of fields.
+const LABEL: f32 = 72.0;
+
+/// The most of a row that its caption takes.
+const MOST_LABEL: f32 = 0.5;
 
 /// The most options that stand side by side as buttons.
 const MOST_BUTTONS: usize = 4;
@@ -22,12 +27,31 @@ const FIELD: f32 = 120.0;
 /// The state of the fields.
 #[derive(Default)]
 pub struct OperationFields {
-    /// The parameter whose field is dragged, with its value before.
-    dragged: Option<(&'static str, Value)>,
     /// The list that is typed.
     typed: Option<TypedList>,
     /// Why the last value was not accepted.
-    pub refusal: Option<String>,
+    pub refusal: Option<Refused>,
+}
+
+/// Why a value was not accepted.
+#[derive(Clone, PartialEq)]
+pub struct Refused {
+    /// The parameter whose field that belongs to, if it is of one.
+    pub parameter: Option<&'static str>,
+    /// What is wrong, and how to mend it.
+    pub text: String,
+}
+
+/// What is asked for in a field.
+pub enum Asked {
+    /// A value, as a change of its own or as the end of one.
+    Set(Value),
+    /// A value, as a part of the change that goes on.
+    Try(Value),
+    /// An end of that change; its values stay.
+    Keep,
+    /// An end of that change, and the values from before it.
+    Restore,
 }
 
 /// A list that is typed: it counts as far as it is one, while it is typed.
@@ -38,36 +62,68 @@ struct TypedList {
 }
 
 impl OperationFields {
-    /// Show the field of a parameter; returns the value that it is given.
+    /// Show the field of a parameter; returns what is asked for in it.
     pub fn show(
         &mut self,
         ui: &mut Ui,
         trial: &Trial,
         parameter: &'static Parameter,
-    ) -> Option<Value> {
+    ) -> Option<Asked> {
         let value = trial.values().get(parameter);
-        let row = widgets::wide_form_row(ui, parameter.label, LABEL, |ui| {
+        let label = label_width(ui, trial);
+        let row = widgets::wide_form_row(ui, parameter.label, label, |ui| {
             match (&parameter.kind, value) {
                 (Kind::Choice { options, .. }, Value::Choice(chosen)) => {
-                    choice_ui(ui, parameter.label, options, *chosen)
+                    choice_ui(ui, parameter.label, options, *chosen).map(Asked::Set)
                 }
-                (Kind::List { none, .. }, _) => {
-                    self.list_ui(ui, parameter, value, none(Some(trial.input())))
+                (Kind::List { .. } | Kind::Reference { .. }, _) => {
+                    self.list_ui(ui, parameter, value, hint_of(trial, parameter))
                 }
-                (Kind::Reference { none }, _) => self.list_ui(ui, parameter, value, none),
                 (Kind::Switch { .. }, Value::Switch(on)) => {
                     let mut on = *on;
                     let switch = ui.checkbox(&mut on, "");
                     switch.widget_info(|| {
                         WidgetInfo::selected(Role::CheckBox, true, on, parameter.label)
                     });
-                    switch.clicked().then_some(Value::Switch(on))
+                    let set = switch.clicked().then_some(Value::Switch(on));
+                    set.map(Asked::Set)
                 }
                 _ => self.number_ui(ui, trial, parameter, value),
             }
         });
         row.response.on_hover_text(parameter.help);
+        self.below_ui(ui, trial, parameter, label);
         row.inner
+    }
+
+    /// Below a field: what an empty one means, where that does not fit into it, and why its last value was not
+    /// accepted.
+    fn below_ui(&self, ui: &mut Ui, trial: &Trial, parameter: &'static Parameter, label: f32) {
+        let gap = ui.spacing().item_spacing.x;
+        let below = |ui: &mut Ui, text: RichText| {
+            ui.horizontal(|ui| {
+                ui.add_space(label + gap);
+                ui.add(Label::new(text.font(theme::small_font())).wrap());
+            });
+        };
+        let is_empty = parameter.text(trial.values().get(parameter)).is_empty();
+        let room = ui.available_width() - label - gap;
+        let hint = hint_of(trial, parameter);
+        if is_empty && !fits(ui, hint, room) {
+            let text = format!("empty: {hint}");
+            below(ui, RichText::new(text).color(Tokens::of(ui).faint_text));
+        }
+        let refused = self.refusal.as_ref();
+        if let Some(refused) = refused.filter(|it| it.parameter == Some(parameter.name)) {
+            below(ui, RichText::new(&refused.text).color(Tokens::of(ui).error));
+        }
+    }
+
+    fn refuse(&mut self, parameter: &'static Parameter, text: String) {
+        self.refusal = Some(Refused {
+            parameter: Some(parameter.name),
+            text,
+        });
     }
 
     /// A field for numbers with commas between them, which may stay empty. What is typed counts at once,
@@ -78,7 +134,7 @@ impl OperationFields {
         parameter: &'static Parameter,
         value: &Value,
         none: &str,
-    ) -> Option<Value> {
+    ) -> Option<Asked> {
         let typed = self
             .typed
             .take_if(|typed| typed.parameter == parameter.name);
@@ -86,9 +142,14 @@ impl OperationFields {
             Some(typed) => (typed.text, typed.before),
             None => (parameter.text(value), value.clone()),
         };
+        // What does not fit stands below.
+        let hint = match fits(ui, none, ui.available_width()) {
+            true => none,
+            false => "",
+        };
         let field = TextEdit::singleline(&mut text)
             .id_salt(parameter.name)
-            .hint_text(none)
+            .hint_text(hint)
             .desired_width(f32::INFINITY);
         let field = ui.add(field);
         field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, parameter.label));
@@ -103,19 +164,21 @@ impl OperationFields {
                 text,
                 before,
             });
-            return read.ok().filter(|read| field.changed() && read != value);
+            let changed = read.ok().filter(|read| field.changed() && read != value);
+            return changed.map(Asked::Try);
         }
         if !field.lost_focus() {
             return None;
         }
         if ui.input(|input| input.key_pressed(Key::Escape)) {
-            return Some(before).filter(|before| before != value);
+            return Some(Asked::Restore);
         }
         match read {
-            Ok(read) => Some(read).filter(|read| read != value),
+            Ok(read) if read != *value => Some(Asked::Set(read)),
+            Ok(_) => Some(Asked::Keep),
             Err(error) => {
-                self.refusal = Some(error.to_string());
-                Some(before).filter(|before| before != value)
+                self.refuse(parameter, error.to_string());
+                Some(Asked::Restore)
             }
         }
     }
@@ -126,7 +189,7 @@ impl OperationFields {
         trial: &Trial,
         parameter: &'static Parameter,
         value: &Value,
-    ) -> Option<Value> {
+    ) -> Option<Asked> {
         let limits = parameter.limits(trial.input()).ok().flatten();
         let number = shown_number(value, parameter.unit());
         let range = field_range(limits, parameter.unit());
@@ -146,25 +209,46 @@ impl OperationFields {
         match event {
             FieldEvent::Idle => None,
             FieldEvent::Typed(number) if whole && number.fract() != 0.0 => {
-                self.refusal = Some(format!("{}: a whole number is needed", parameter.label));
+                let needed = format!("{}: a whole number is needed", parameter.label);
+                self.refuse(parameter, needed);
                 None
             }
-            FieldEvent::Typed(number) => Some(of(number)),
-            FieldEvent::Preview(number) => {
-                self.dragged.get_or_insert((parameter.name, value.clone()));
-                Some(of(number))
-            }
-            FieldEvent::Commit => {
-                self.dragged = None;
-                None
-            }
-            FieldEvent::Abort => {
-                let before = self.dragged.take();
-                before
-                    .filter(|(name, _)| *name == parameter.name)
-                    .map(|(_, value)| value)
-            }
+            FieldEvent::Typed(number) => Some(Asked::Set(of(number))),
+            FieldEvent::Preview(number) => Some(Asked::Try(of(number))),
+            FieldEvent::Commit => Some(Asked::Keep),
+            FieldEvent::Abort => Some(Asked::Restore),
         }
+    }
+}
+
+/// The width of the captions: that of the longest, so that none is cut off.
+fn label_width(ui: &Ui, trial: &Trial) -> f32 {
+    let parameters = trial.operation().parameters.iter();
+    let widths = parameters.map(|parameter| text_width(ui, parameter.label));
+    let most = (MOST_LABEL * ui.available_width()).max(LABEL);
+    (widths.fold(0.0, f32::max) + STEP).clamp(LABEL, most)
+}
+
+fn text_width(ui: &Ui, text: &str) -> f32 {
+    let font = TextStyle::Body.resolve(ui.style());
+    let colour = Tokens::of(ui).text;
+    ui.painter()
+        .layout_no_wrap(text.to_owned(), font, colour)
+        .size()
+        .x
+}
+
+/// Whether a text fits into a field of a width.
+fn fits(ui: &Ui, text: &str, width: f32) -> bool {
+    text_width(ui, text) + 4.0 * STEP <= width
+}
+
+/// What an empty field means, of parameters that may be left empty.
+fn hint_of(trial: &Trial, parameter: &Parameter) -> &'static str {
+    match parameter.kind {
+        Kind::List { none, .. } => none(Some(trial.input())),
+        Kind::Reference { none } => none,
+        _ => "",
     }
 }
 

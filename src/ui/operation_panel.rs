@@ -3,8 +3,8 @@
 use eframe::egui::{Frame, Panel, ProgressBar, ScrollArea, Ui};
 use lucide_icons::Icon;
 
-use super::atlas::AtlasView;
-use super::operation_fields::OperationFields;
+use super::atlas::{self, AtlasView};
+use super::operation_fields::{self, OperationFields, Refused};
 use super::operation_report::{came_to_ui, error_ui};
 use super::theme::STEP;
 use super::widgets::{self, IconButton};
@@ -26,8 +26,10 @@ pub struct OperationPanel {
 
 /// What the user asks for.
 enum Asked {
-    Set(&'static Parameter, Value),
-    SetAll(Vec<(&'static str, Value)>),
+    /// What is asked for in the field of a parameter.
+    Field(&'static Parameter, operation_fields::Asked),
+    /// What is asked for in the atlas.
+    Atlas(atlas::Asked),
     Apply,
     Leave,
 }
@@ -51,37 +53,71 @@ impl OperationPanel {
         ui.separator();
         let mut shows_atlas = false;
         widgets::scrolling(ui, trial.operation().name, |ui| {
-            if let Some(refusal) = &self.fields.refusal {
-                error_ui(ui, refusal);
+            let refused = self.fields.refusal.as_ref();
+            if let Some(refused) = refused.filter(|refused| refused.parameter.is_none()) {
+                error_ui(ui, &refused.text);
             }
             if let Some(atlas) = &atlas {
                 let view = &mut self.atlas;
                 let shown =
                     widgets::section(ui, "Atlas", true, |ui| view.show(ui, editor, trial, atlas));
                 shows_atlas = shown.is_some();
-                asked.extend(shown.flatten().map(Asked::SetAll));
+                asked.extend(shown.flatten().map(Asked::Atlas));
                 ui.add_space(STEP);
             }
             came_to_ui(ui, trial);
         });
         editor.view_mut().show_atlas(shows_atlas);
         for asked in asked {
-            match asked {
-                Asked::Set(parameter, value) => {
-                    let set = editor.set_value(parameter.name, value);
-                    let refused = set.err().map(|error| error.to_string());
-                    // A text that was refused just now gave back the value before it.
-                    if refused.is_some() || self.fields.refusal == told_before {
-                        self.fields.refusal = refused;
-                    }
-                }
-                Asked::SetAll(values) => {
-                    let set = editor.set_values(&values);
-                    self.fields.refusal = set.err().map(|error| error.to_string());
-                }
-                Asked::Apply => told(editor.apply_trial()),
-                Asked::Leave => editor.leave_trial(),
+            self.take(asked, editor, &told_before);
+        }
+    }
+
+    /// Do what the user asks for.
+    fn take(&mut self, asked: Asked, editor: &mut Editor, told_before: &Option<Refused>) {
+        use operation_fields::Asked as Field;
+        match asked {
+            Asked::Field(parameter, Field::Set(value)) => {
+                self.set(editor, &[(parameter.name, value)], told_before);
+                editor.keep_values();
             }
+            Asked::Field(parameter, Field::Try(value)) => {
+                editor.hold_values();
+                self.set(editor, &[(parameter.name, value)], told_before);
+            }
+            Asked::Atlas(atlas::Asked::Set(values)) => self.set(editor, &values, told_before),
+            Asked::Atlas(atlas::Asked::Drag(values)) => {
+                editor.hold_values();
+                self.set(editor, &values, told_before);
+            }
+            Asked::Field(_, Field::Keep) | Asked::Atlas(atlas::Asked::Release) => {
+                editor.keep_values();
+            }
+            Asked::Field(_, Field::Restore) | Asked::Atlas(atlas::Asked::CallOff) => {
+                editor.restore_values();
+            }
+            Asked::Apply => told(editor.apply_trial()),
+            Asked::Leave => editor.leave_trial(),
+        }
+    }
+
+    fn set(
+        &mut self,
+        editor: &mut Editor,
+        values: &[(&'static str, Value)],
+        told_before: &Option<Refused>,
+    ) {
+        let refused = editor.set_values(values).err();
+        let refused = refused.map(|error| Refused {
+            parameter: match values {
+                [(parameter, _)] => Some(*parameter),
+                _ => None,
+            },
+            text: error.to_string(),
+        });
+        // A text that was refused just now gave back the value before it.
+        if refused.is_some() || self.fields.refusal == *told_before {
+            self.fields.refusal = refused;
         }
     }
 
@@ -93,11 +129,11 @@ impl OperationPanel {
         let width = ui.available_width() - ui.spacing().scroll.allocated_width();
         let shown = area.show(ui, |ui| {
             ui.set_max_width(width);
-            let parameters = trial.operation().parameters.iter();
-            let parameters = parameters.filter(|it| it.applies(trial.input()));
+            let operation = trial.operation();
+            let parameters = operation.parameters_for(trial.input(), trial.values());
             let asked = parameters.filter_map(|parameter| {
                 let set = self.fields.show(ui, trial, parameter);
-                set.map(|value| Asked::Set(parameter, value))
+                set.map(|set| Asked::Field(parameter, set))
             });
             asked.collect()
         });

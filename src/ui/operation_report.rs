@@ -3,11 +3,11 @@
 use eframe::egui::{Label, RichText, Ui};
 
 use super::feature_comparison::{OUTDATED, features_ui};
+use super::level_comparison::level_comparisons_ui;
 use super::theme::Tokens;
 use super::{figures, widgets};
 use crate::editor::Trial;
-use crate::geometry::approximation::LevelComparison;
-use crate::geometry::{counted, rounded_up};
+use crate::geometry::rounded_up;
 use crate::operations::{Deviation, Figure, Report, Unit, Value};
 
 /// Show what the operation came to, faintly while other values are being tried.
@@ -61,9 +61,7 @@ fn report_ui(ui: &mut Ui, trial: &Trial, report: &Report) {
         for figure in &report.figures {
             widgets::figure_row(ui, figure.label, &figure_text(figure));
         }
-        for level in report.equivalence.iter().flatten() {
-            equivalence_ui(ui, level);
-        }
+        level_comparisons_ui(ui, report.equivalence.as_deref().unwrap_or_default());
         if report.useful {
             features_ui(ui, trial);
         }
@@ -71,40 +69,6 @@ fn report_ui(ui: &mut Ui, trial: &Trial, report: &Report) {
     for remark in &report.remarks {
         widgets::note(ui, remark);
     }
-}
-
-/// Whether a level has the features of what the curve stands for; both are listed as one points at it.
-fn equivalence_ui(ui: &mut Ui, level: &LevelComparison) {
-    let name = level.name();
-    let there: Vec<&str> = level.there.iter().map(|feature| feature.name()).collect();
-    let here = level.here.iter();
-    let here: Vec<String> = here
-        .map(|(u, feature)| format!("{} at u = {}", feature.name(), figures::significant(*u, 4)))
-        .collect();
-    let text = match level.first_difference() {
-        None => format!("the same {}", counted(there.len(), "feature", "features")),
-        Some(index) => format!("differs from feature {} on", index + 1),
-    };
-    let listed = |features: String| {
-        if features.is_empty() {
-            "none".to_owned()
-        } else {
-            features
-        }
-    };
-    let hover = format!(
-        "Reference: {}\nCurve: {}",
-        listed(there.join(", ")),
-        listed(here.join(", "))
-    );
-    let row = ui.scope(|ui| {
-        if !level.is_equal() {
-            let error = Tokens::of(ui).error;
-            ui.visuals_mut().override_text_color = Some(error);
-        }
-        widgets::figure_row(ui, &name, &text);
-    });
-    row.response.on_hover_text(hover);
 }
 
 fn figure_text(figure: &Figure) -> String {

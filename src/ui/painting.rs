@@ -28,7 +28,7 @@ const CROWD: usize = 200;
 const SMALL_EVOLUTE: f32 = 4.0;
 
 /// The radius of the circle round a vertex where the flow is least even.
-const UNEVEN: f32 = 9.0;
+const EXTREME: f32 = 9.0;
 
 /// The radius of an operation's handle.
 const HANDLE: f32 = 6.5;
@@ -217,21 +217,21 @@ impl Brush<'_> {
     }
 
     /// Mark a vertex, and say what is uneven there on a side of it that is free, if one is.
-    fn uneven(&self, at: DVec2, text: &str) {
+    fn extreme(&self, at: DVec2, text: &str) {
         let Some(at) = self.screen.point(at) else {
             return;
         };
         let tokens = self.tokens;
         let colour = tokens.warning;
         self.painter
-            .circle_stroke(at, UNEVEN, Stroke::new(1.5, colour));
+            .circle_stroke(at, EXTREME, Stroke::new(1.5, colour));
         let font = theme::small_font();
         let size = labels::size(self.painter, text, font.clone());
         let sides = [
-            (Align2::LEFT_BOTTOM, vec2(UNEVEN, -UNEVEN)),
-            (Align2::RIGHT_BOTTOM, vec2(-UNEVEN, -UNEVEN)),
-            (Align2::LEFT_TOP, vec2(UNEVEN, UNEVEN)),
-            (Align2::RIGHT_TOP, vec2(-UNEVEN, UNEVEN)),
+            (Align2::LEFT_BOTTOM, vec2(EXTREME, -EXTREME)),
+            (Align2::RIGHT_BOTTOM, vec2(-EXTREME, -EXTREME)),
+            (Align2::LEFT_TOP, vec2(EXTREME, EXTREME)),
+            (Align2::RIGHT_TOP, vec2(-EXTREME, EXTREME)),
         ];
         let boxes = sides.map(|(align, by)| align.anchor_size(at + by, size));
         if let Some(free) = boxes.into_iter().find(|rect| self.keep_text(*rect)) {
@@ -277,7 +277,7 @@ impl Brush<'_> {
                         .rect_stroke(rect, 0, accent, StrokeKind::Middle);
                 }
             }
-            Mark::Uneven { at, text } => self.uneven(*at, text),
+            Mark::Extreme { at, text } => self.extreme(*at, text),
             Mark::Handle { at, marked } => self.handle(*at, *marked),
             Mark::Label(at, text) => {
                 if let Some(at) = self.screen.point(*at) {

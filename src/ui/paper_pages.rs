@@ -2,7 +2,9 @@
 
 use std::collections::HashMap;
 
-use eframe::egui::{Button, Grid, Label, RichText, Slider, Ui};
+use eframe::egui::{
+    Align2, Button, Label, Response, RichText, Role, Sense, Slider, Ui, WidgetInfo, vec2,
+};
 
 use super::theme::{self, Tokens};
 use super::{figures, widgets};
@@ -19,7 +21,10 @@ const DEGREES: std::ops::RangeInclusive<usize> = 2..=15;
 const MOST_DIGITS: usize = 15;
 
 /// The width of a column of the table of circles.
-const COLUMN: f32 = 88.0;
+const COLUMN: f32 = 92.0;
+
+/// The height of a line of that table.
+const LINE: f32 = 5.0 * theme::STEP;
 
 /// What the paper prints of Table 1: the degree, the Bézier curve, the B-spline.
 const PRINTED: [(usize, &str, &str); 4] = [
@@ -178,7 +183,7 @@ impl PaperPages {
         if before != (self.digits, self.shortening) {
             self.rounding = None;
             if let Some(test) = self.rounding(self.digits) {
-                editor.preview_shortened(&test);
+                editor.show_shortened(&test);
             }
             if !slider.dragged() {
                 editor.commit_preview();
@@ -198,37 +203,16 @@ impl PaperPages {
              The figures are the largest distance of the evolute from the centre.",
         );
         let mut asked = None;
-        Grid::new("table 1")
-            .num_columns(3)
-            .min_col_width(COLUMN)
-            .spacing([theme::STEP, 0.0])
-            .striped(true)
-            .show(ui, |ui| {
-                for heading in ["Degree", "Bézier", "B-spline"] {
-                    widgets::caption(ui, heading);
+        ui.scope(|ui| {
+            ui.spacing_mut().item_spacing.y = 0.0;
+            let headings = ["Degree", "Bézier", "B-spline"].map(str::to_owned);
+            columns_ui(ui, [(headings, Type::Caption)], Sense::hover(), false);
+            for row in DEGREES {
+                if self.row_ui(ui, row, row == degree).clicked() {
+                    asked = Some(PaperPage::Circles { degree: row });
                 }
-                ui.end_row();
-                for row in DEGREES {
-                    let shown = Button::selectable(row == degree, row.to_string());
-                    let response = ui
-                        .add(shown)
-                        .on_hover_text("Open the curves of this degree");
-                    if response.clicked() {
-                        asked = Some(PaperPage::Circles { degree: row });
-                    }
-                    let circle = self.circle(row);
-                    number(ui, &scientific(circle.map(|row| row.bezier)));
-                    number(ui, &scientific(circle.map(|row| row.bspline)));
-                    ui.end_row();
-                    let mut printed = PRINTED.iter();
-                    if let Some((_, bezier, bspline)) = printed.find(|(of, ..)| *of == row) {
-                        widgets::caption(ui, "printed");
-                        widgets::caption(ui, bezier);
-                        widgets::caption(ui, bspline);
-                        ui.end_row();
-                    }
-                }
-            });
+            }
+        });
         text(
             ui,
             "From degree 3 on each degree makes the B-spline about ten times rounder, and the Bézier \
@@ -241,6 +225,30 @@ impl PaperPages {
              been rounded to five or six digits. Ours agree with a computation in 60 digits.",
         );
         asked
+    }
+
+    /// A row of the table of circles, with what the paper prints of it below. All of it can be clicked.
+    fn row_ui(&mut self, ui: &mut Ui, degree: usize, shown: bool) -> Response {
+        let circle = self.circle(degree);
+        let figures = [
+            degree.to_string(),
+            scientific(circle.map(|row| row.bezier)),
+            scientific(circle.map(|row| row.bspline)),
+        ];
+        let mut label = format!(
+            "Degree {degree}: Bézier {}, B-spline {}",
+            figures[1], figures[2]
+        );
+        let printed = PRINTED.iter().find(|(of, ..)| *of == degree);
+        let printed = printed.map(|(_, bezier, bspline)| {
+            label += &format!("; printed {bezier}, {bspline}");
+            let texts = ["printed", bezier, bspline].map(str::to_owned);
+            (texts, Type::Caption)
+        });
+        let lines = [(figures, Type::Number)].into_iter().chain(printed);
+        let response = columns_ui(ui, lines, Sense::click(), shown);
+        response.widget_info(|| WidgetInfo::selected(Role::Button, true, shown, label.clone()));
+        response.on_hover_text("Open the curves of this degree")
     }
 
     fn spiral_ui(&mut self, ui: &mut Ui, vertices: usize) -> Option<PaperPage> {
@@ -307,6 +315,48 @@ impl PaperPages {
             .get_or_insert_with(|| RoundingTest::new(digits, shortening));
         test.clone().ok()
     }
+}
+
+/// How a line of a table is written.
+#[derive(Clone, Copy)]
+enum Type {
+    Number,
+    Caption,
+}
+
+/// Lines of three columns that are one row: it is marked if it is chosen, or hovered where it can be clicked.
+fn columns_ui(
+    ui: &mut Ui,
+    lines: impl IntoIterator<Item = ([String; 3], Type)>,
+    sense: Sense,
+    chosen: bool,
+) -> Response {
+    let lines: Vec<_> = lines.into_iter().collect();
+    let size = vec2(ui.available_width(), LINE * lines.len() as f32);
+    let (rect, response) = ui.allocate_exact_size(size, sense);
+    let tokens = Tokens::of(ui);
+    let is_hot = sense.senses_click() && (response.hovered() || response.has_focus());
+    if chosen || is_hot {
+        let fill = if chosen {
+            tokens.selection
+        } else {
+            tokens.button[1]
+        };
+        ui.painter().rect_filled(rect, theme::RADIUS, fill);
+    }
+    for (line, (texts, written)) in lines.iter().enumerate() {
+        let (font, colour) = match written {
+            Type::Number => (theme::number_font(), tokens.text),
+            Type::Caption => (theme::small_font(), tokens.faint_text),
+        };
+        for (column, text) in texts.iter().enumerate() {
+            let x = theme::STEP + COLUMN * column as f32;
+            let at = rect.left_top() + vec2(x, LINE * (line as f32 + 0.5));
+            let align = Align2::LEFT_CENTER;
+            ui.painter().text(at, align, text, font.clone(), colour);
+        }
+    }
+    response
 }
 
 fn steps_ui(ui: &mut Ui) {

@@ -71,8 +71,10 @@ fn cells(readout: &Readout, unit: Option<LengthUnit>) -> Vec<Cell> {
         (readout.axes[0], coordinate(pointer.map(|at| at.x)), 96.0),
         (readout.axes[1], coordinate(pointer.map(|at| at.y)), 96.0),
         (
-            "u",
-            readout.u.map_or_else(blank, |u| format!("{u:.3}")),
+            readout.parameter_name,
+            readout
+                .parameter
+                .map_or_else(blank, |parameter| format!("{parameter:.3}")),
             64.0,
         ),
         (

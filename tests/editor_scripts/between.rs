@@ -1,6 +1,6 @@
 //! A segment between two ends: preview, handles for points and directions, ends of chosen curves.
 
-use batten::editor::{Command, Mark};
+use batten::editor::{Command, Key, Mark};
 use batten::geometry::End;
 use batten::geometry::features::{Features, Verdict};
 use batten::operations::{Handle, Value};
@@ -121,4 +121,62 @@ fn an_open_curve_is_closed_and_escape_restores_it() {
     script.key(batten::editor::Key::Escape);
     assert!(script.editor.document().is_same(&before));
     assert_eq!(script.steps(), 0);
+}
+
+#[test]
+fn beside_a_chosen_curve_the_new_segment_is_the_active_one() {
+    let mut script = Script::example("s-curve");
+    let (own, before) = (script.curve(), script.editor.document().clone());
+    script.try_out(NAME).expect("it can run");
+    let made = script.curve();
+    assert_ne!(made, own);
+    assert_eq!(script.editor.made_curves(), [made]);
+    // Values are changed, a handle is dragged, and it stays the active one.
+    script.set("degree", Value::Whole(4)).expect("a degree");
+    let at = drag(&mut script, 1, DVec2::new(8.0, 5.0));
+    script.release(at);
+    assert!(script.editor.is_trying());
+    assert_eq!(script.editor.active(), Some(made));
+    assert!(script.plots().before.is_none(), "the curve is as it was");
+    // The curve that was chosen may be looked at.
+    script.editor.activate(own);
+    assert!(script.editor.is_trying());
+    script.key(Key::Escape);
+    assert_eq!(script.curve(), own);
+    assert!(script.editor.document().is_same(&before));
+    script.try_out(NAME).expect("it can run");
+    script.key(Key::Enter);
+    assert_eq!((script.curve(), script.steps()), (made, 1));
+    // What was applied may be changed as long as nothing else is active than these two.
+    script.set("degree", Value::Whole(6)).expect("a degree");
+    assert_eq!((script.polygon().degree(), script.steps()), (6, 1));
+    script.command(Command::Undo);
+    assert!(script.editor.document().is_same(&before));
+}
+
+#[test]
+fn numbers_of_kinds_that_are_not_chosen_are_not_offered() {
+    let mut script = alone();
+    let shown = |script: &Script| -> Vec<&str> {
+        let trial = script.editor.trial().expect("an operation");
+        let operation = trial.operation();
+        let shown = operation.parameters_for(trial.input(), trial.values());
+        shown.map(|parameter| parameter.name).collect()
+    };
+    for (kind, expected) in [
+        (0, &["alpha"][..]),
+        (1, &["a", "b", "c"]),
+        (2, &[]),
+        (3, &[]),
+    ] {
+        script.set("kind", Value::Choice(kind)).expect("a kind");
+        let shown = shown(&script);
+        let own = ["alpha", "a", "b", "c"];
+        let own: Vec<&str> = own
+            .into_iter()
+            .filter(|name| shown.contains(name))
+            .collect();
+        assert_eq!(own, expected);
+        assert!(shown.contains(&"degree"));
+    }
 }

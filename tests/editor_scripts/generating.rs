@@ -1,6 +1,6 @@
 //! Curves that an operation makes of its parameters alone: preview, handles on the canvas, atlas.
 
-use batten::editor::{Command, Editor, HoverScene, Input, Key, Mark, Modifiers};
+use batten::editor::{Button, Command, Editor, HoverScene, Input, Key, Mark, Modifiers, ToolKind};
 use batten::geometry::features::Verdict;
 use batten::operations::{Handle, Value};
 use glam::{DVec2, DVec3};
@@ -118,12 +118,12 @@ fn it_begins_in_an_empty_document_too() {
 #[test]
 fn the_third_point_sets_ratio_and_angle() {
     let mut script = figure_2();
-    assert_eq!(marks(&mut script), [false; 3]);
+    assert_eq!(marks(&mut script), [false; 4]);
     let (from, by) = (at_handle(&script, 2), DVec2::new(40.0, -25.0));
     // A pointer beside the middle of the handle keeps its distance to it.
     let off = DVec2::new(3.0, 2.0);
     script.move_to(from + off);
-    assert_eq!(marks(&mut script), [false, false, true]);
+    assert_eq!(marks(&mut script), [false, false, true, false]);
     let Some(HoverScene::Handle { text, .. }) = script.scene().hover.clone() else {
         panic!("{:?}", script.scene().hover);
     };
@@ -165,6 +165,121 @@ fn escape_puts_a_handle_back_and_then_ends_the_operation() {
     script.key(Key::Escape);
     assert!(!script.editor.is_trying());
     assert!(script.editor.document().is_same(&before));
+}
+
+/// A place on the canvas far from every handle and curve.
+const NOWHERE: DVec2 = DVec2::new(7.0, 9.0);
+
+#[test]
+fn a_press_beside_the_handles_leaves_the_operation_alone() {
+    for tool in [ToolKind::Select, ToolKind::Draw] {
+        let mut script = Script::example("arc");
+        script.tool(tool);
+        script.try_out(NAME).expect("it can run");
+        script.set("ratio", Value::Real(1.7)).expect("a ratio");
+        script.command(Command::FitAll);
+        let shown = script.editor.document().clone();
+        let vertex = script.at_vertex(4);
+        for from in [NOWHERE, vertex] {
+            script.click(from);
+            script.drag(from, from + DVec2::new(30.0, 20.0));
+            assert!(script.editor.is_trying(), "{tool:?} at {from}");
+            assert!(script.editor.document().is_same(&shown));
+            assert_eq!(real(&script, "ratio"), 1.7);
+        }
+    }
+    // The view stays free.
+    let mut script = figure_2();
+    let before = script.editor.view().viewport().centre;
+    script.drag_with(Button::Middle, NOWHERE, NOWHERE + DVec2::new(30.0, 20.0));
+    assert_ne!(script.editor.view().viewport().centre, before);
+    script.input(Input::DoubleClicked { at: NOWHERE });
+    assert!(script.editor.is_trying());
+    // A vertex says what comes first.
+    let vertex = script.at_vertex(3);
+    script.press(vertex);
+    script.move_to(vertex + DVec2::new(30.0, 20.0));
+    assert!(script.message().starts_with("Apply or cancel"));
+    script.release(vertex);
+}
+
+#[test]
+fn undo_takes_a_drag_of_a_handle_back_then_changes_of_values_and_only_then_the_operation() {
+    let mut script = figure_2();
+    let (ratio, angle) = (real(&script, "ratio"), real(&script, "angle"));
+    let shown = script.editor.document().clone();
+    let (from, by) = (at_handle(&script, 2), DVec2::new(40.0, -25.0));
+    script.press(from);
+    script.move_to(from + 0.5 * by);
+    script.move_to(from + by);
+    script.command(Command::Undo);
+    assert!(script.editor.is_trying() && !script.editor.drags_handle());
+    assert!(script.editor.document().is_same(&shown));
+    // The rest of the drag does nothing.
+    script.move_to(from + 2.0 * by);
+    script.release(from + 2.0 * by);
+    assert!(script.editor.document().is_same(&shown));
+    // A drag is one change, however far it went, and so is a field's.
+    script.drag(from, from + by);
+    script.editor.hold_values();
+    for ratio in [1.1, 1.2, 1.3] {
+        script.set("ratio", Value::Real(ratio)).expect("a ratio");
+    }
+    script.editor.keep_values();
+    assert_eq!(script.editor.label(Command::Undo), "Undo change of values");
+    script.command(Command::Undo);
+    let dragged = (real(&script, "ratio"), real(&script, "angle"));
+    assert_ne!(dragged, (ratio, angle));
+    assert!(at_handle(&script, 2).distance(from + by) < 1e-6);
+    script.command(Command::Undo);
+    assert_eq!(
+        (real(&script, "ratio"), real(&script, "angle")),
+        (ratio, angle)
+    );
+    assert!(script.editor.document().is_same(&shown));
+    // Four values were given at first.
+    for _ in 0..4 {
+        script.command(Command::Undo);
+        assert!(script.editor.is_trying());
+    }
+    script.command(Command::Undo);
+    assert!(!script.editor.is_trying());
+    assert_eq!(script.message(), "Mineur–Farin curve: cancelled");
+}
+
+#[test]
+fn the_last_point_sets_ratio_and_angle_so_that_it_follows() {
+    let mut script = figure_2();
+    script.command(Command::ToggleSnapping);
+    script.set("ratio", Value::Real(1.2)).expect("a ratio");
+    let angle = Value::Real(25f64.to_radians());
+    script.set("angle", angle).expect("an angle");
+    script.set("legs", Value::Whole(6)).expect("legs");
+    script.command(Command::FitAll);
+    let from = at_handle(&script, 3);
+    for by in [
+        DVec2::new(40.0, -25.0),
+        DVec2::new(-90.0, 60.0),
+        DVec2::new(3.0, 140.0),
+    ] {
+        let before = (real(&script, "ratio"), real(&script, "angle"));
+        script.press(from);
+        script.move_to(from + 0.5 * by);
+        script.move_to(from + by);
+        assert!(at_handle(&script, 3).distance(from + by) < 1e-6, "{by}");
+        let last = script.polygon().vertex(6);
+        assert!(last.distance(handle(&script.editor, 3).at) < 1e-9);
+        assert_ne!((real(&script, "ratio"), real(&script, "angle")), before);
+        // The first leg stays.
+        assert_eq!(handle(&script.editor, 1).at, DVec3::X);
+        script.key(Key::Escape);
+        assert_eq!((real(&script, "ratio"), real(&script, "angle")), before);
+        script.release(from);
+    }
+    // Of two legs the last point is the third.
+    script.set("degree", Value::Whole(2)).expect("a degree");
+    script.set("legs", Value::Whole(2)).expect("legs");
+    assert_eq!(marks(&mut script).len(), 3);
 }
 
 #[test]

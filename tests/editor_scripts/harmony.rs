@@ -23,7 +23,7 @@ fn strips(script: &mut Script) -> PlotScene {
 fn uneven(script: &mut Script) -> Vec<(DVec2, String)> {
     let marks = script.scene().marks.iter();
     let uneven = marks.filter_map(|mark| match mark {
-        Mark::Uneven { at, text } => Some((*at, text.clone())),
+        Mark::Extreme { at, text } => Some((*at, text.clone())),
         _ => None,
     });
     uneven.collect()

@@ -51,6 +51,36 @@ fn two_curves_are_joined_as_one_step_and_undone_to_the_bit() {
 }
 
 #[test]
+fn the_ghost_shows_both_curves_as_they_were() {
+    let (mut script, [arc, other]) = two();
+    let chains = script.scene().curves.iter();
+    let alone: Vec<usize> = [arc, other]
+        .iter()
+        .map(|id| {
+            chains
+                .clone()
+                .find(|it| it.id == Some(*id))
+                .map_or(0, |it| it.float.len())
+        })
+        .collect();
+    script.try_out("join").expect("an operation");
+    let curve = |script: &Script, id| script.editor.workspace().settled().curve(id).cloned();
+    let vertices = [arc, other].map(|id| curve(&script, id).expect("a curve").polygon.clone());
+    let viewport = *script.editor.view().viewport();
+    let scene = script.scene();
+    for polygon in &vertices {
+        for vertex in polygon.vertices() {
+            let seen = viewport.flatten(*vertex);
+            assert!(scene.ghost_polygon.contains(&seen), "{seen}");
+        }
+    }
+    assert!(scene.ghost_polygon.len() >= alone.iter().sum::<usize>());
+    assert!(!scene.ghost.is_empty());
+    script.editor.apply_trial().expect("a step");
+    assert!(script.scene().ghost.is_empty());
+}
+
+#[test]
 fn of_more_curves_those_with_selected_vertices_are_joined() {
     let (mut script, [arc, other]) = two();
     add(&mut script, "third", 40.0);

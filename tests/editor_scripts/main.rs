@@ -27,6 +27,7 @@ mod locking;
 mod matching;
 mod matrix;
 mod measuring;
+mod menus;
 mod model;
 mod paper;
 mod places;

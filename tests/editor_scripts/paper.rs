@@ -46,20 +46,34 @@ fn every_page_opens_its_curves_unmodified() {
 }
 
 #[test]
-fn digits_that_are_dragged_are_one_step_of_undo() {
+fn digits_that_are_dragged_leave_nothing_to_save_but_after_an_edit_they_are_a_step() {
     let mut script = opened(PaperPage::Rounding);
     let arc = RoundingTest::arc().expect("an arc");
     assert_eq!(script.polygon(), arc);
-    for digits in [6, 4, 3] {
-        let test = RoundingTest::new(digits, Shortening::CutOff).expect("a test");
-        script.editor.preview_shortened(&test);
-        assert_eq!(script.polygon(), test.polygon);
-    }
-    script.editor.commit_preview();
-    assert_eq!(script.steps(), 1);
-    assert_eq!(polygons(&script.editor)[0], arc, "the other curve stays");
+    let drag = |script: &mut Script| {
+        for digits in [6, 4, 3] {
+            let test = RoundingTest::new(digits, Shortening::CutOff).expect("a test");
+            script.editor.show_shortened(&test);
+            assert_eq!(script.polygon(), test.polygon);
+        }
+        script.editor.commit_preview();
+        assert_eq!(polygons(&script.editor)[0], arc, "the other curve stays");
+    };
+    let curve = script.curve();
+    drag(&mut script);
+    assert_eq!((script.curve(), script.steps()), (curve, 0));
+    assert!(!script.editor.workspace().is_modified());
+    assert!(!script.editor.is_enabled(Command::Undo));
+
+    let test = RoundingTest::new(9, Shortening::CutOff).expect("a test");
+    script.editor.show_shortened(&test);
+    script.editor.set_visible(curve, false).expect("an edit");
+    script.editor.set_visible(curve, true).expect("an edit");
+    let steps = script.steps();
+    drag(&mut script);
+    assert_eq!(script.steps(), steps + 1);
     script.command(Command::Undo);
-    assert_eq!(script.polygon(), arc);
+    assert_eq!(script.polygon(), test.polygon);
 }
 
 #[test]
@@ -70,7 +84,7 @@ fn the_rounding_test_waits_for_a_curve_that_it_knows() {
     assert!(!script.editor.has_shortened());
     let before = script.editor.document().clone();
     let test = RoundingTest::new(3, Shortening::Rounded).expect("a test");
-    script.editor.preview_shortened(&test);
+    script.editor.show_shortened(&test);
     assert!(script.editor.document().is_same(&before));
     script.command(Command::ToggleLocked);
     script

@@ -1,12 +1,14 @@
 //! References under the hand: added, picked, moved, rotated, scaled, hidden, copied, and measured by.
 
-use batten::document::{CurveId, MatchPlace, Reference};
+use batten::document::{CurveId, Edit, MatchPlace, Reference};
 use batten::editor::{
     Command, EndFitAction, FeatureKind, HoverScene, Key, Mark, Modifiers, NamedView, PlotKind,
-    ReferenceChange, ToolKind,
+    ReferenceChange, ToolKind, Transformation,
 };
-use batten::geometry::references::{ReferenceCurve, ReferenceError, find};
-use batten::geometry::{Continuity, End, ParametricCurve};
+use batten::geometry::references::{
+    AnalyticForm, ReferenceCurve, ReferenceError, ReferenceForm, find,
+};
+use batten::geometry::{Continuity, End, ParametricCurve, figure};
 use glam::{DQuat, DVec2, DVec3};
 
 use super::script::Script;
@@ -18,13 +20,21 @@ const MET: f64 = 1e-9;
 /// What a drag of whole screen points leaves of rounding, in units of what is moved.
 const ROUNDING: f64 = 1e-12;
 
-/// The paper's arc and a reference, which is active, seen as a whole.
+/// The paper's arc and a reference where its formula puts it, which is active, seen as a whole.
 fn with(kind: &str) -> (Script, CurveId) {
     let mut script = Script::example("arc");
-    script.command(Command::AddReference(find(kind).expect("a kind")));
+    let id = script.editor.document().next_id();
+    let kind = find(kind).expect("a kind");
+    let form = AnalyticForm::new(kind, kind.defaults()).expect("a form");
+    let curve = ReferenceCurve::of(ReferenceForm::Analytic(form)).expect("a curve");
+    let reference = Reference::new(kind.label.to_lowercase(), curve);
+    let added = vec![Edit::AddReference(Box::new(reference))];
+    script
+        .editor
+        .apply("Add reference", added)
+        .expect("an edit");
+    script.editor.activate(id);
     script.command(Command::FitAll);
-    let id = script.curve();
-    assert!(script.editor.document().reference(id).is_some());
     (script, id)
 }
 
@@ -74,6 +84,10 @@ fn a_new_reference_is_active_named_and_seen_and_one_step() {
     script.command(Command::AddReference(find("circle").expect("a kind")));
     let second = script.curve();
     assert_eq!(reference(&script, second).name, "circle 2");
+    // A new one is as large as the view asks for.
+    let [right, left] = [0.0, 0.5].map(|share| seen(&script, second, share));
+    let extent = (right.x - left.x).abs();
+    assert!((140.0..700.0).contains(&extent), "{extent}");
     script.command(Command::Undo);
     script.command(Command::Undo);
     assert_eq!(script.editor.document().references().len(), 0);
@@ -191,6 +205,212 @@ fn in_space_it_rotates_about_the_direction_of_the_view() {
     }
     script.command(Command::Undo);
     assert_eq!(curve(&script, id), before);
+}
+
+#[test]
+fn undo_in_the_middle_of_a_drag_takes_back_the_drag_alone() {
+    let (mut script, id) = with("circle");
+    let at = seen(&script, id, 0.3);
+    script.drag(at, at + DVec2::new(30.0, 10.0));
+    let (before, steps) = (curve(&script, id), script.steps());
+    let (corners, turn) = frame(&mut script);
+    for from in [seen(&script, id, 0.3), corners[2], turn] {
+        script.press(from);
+        script.move_to(from + DVec2::new(20.0, 8.0));
+        script.move_to(from + DVec2::new(40.0, 16.0));
+        assert_ne!(curve(&script, id), before);
+        script.command(Command::Undo);
+        assert_eq!(curve(&script, id), before);
+        assert_eq!(script.steps(), steps);
+        script.move_to(from + DVec2::new(60.0, 16.0));
+        script.release(from + DVec2::new(60.0, 16.0));
+        assert_eq!(curve(&script, id), before);
+        assert_eq!(script.steps(), steps);
+    }
+    // A field that shows what there was before is no step: nothing before it is taken back.
+    let origin = before.placement().translation();
+    let shown = script
+        .editor
+        .preview_reference(&ReferenceChange::Translate(origin));
+    shown.expect("a place");
+    script.command(Command::Undo);
+    assert_eq!(curve(&script, id), before);
+    assert_eq!(script.steps(), steps);
+}
+
+#[test]
+fn the_rotate_and_the_scale_tool_take_a_reference_as_one_step() {
+    let (mut script, id) = with("clothoid");
+    let (before, steps) = (curve(&script, id), script.steps());
+    script.tool(ToolKind::Rotate);
+    let pivot = script.editor.pivot().expect("a pivot");
+    let at = script.editor.view().viewport().to_screen(pivot);
+    let arm = DVec2::new(80.0, 0.0);
+    script.drag(at + arm, at + DVec2::from_angle(-0.5).rotate(arm));
+    let turned = curve(&script, id);
+    let turn = DQuat::from_rotation_z(0.5);
+    let angle = turned.placement().rotation().angle_between(turn);
+    assert!(angle <= 1e-7, "{turned:?}");
+    let pivot = pivot.extend(0.0);
+    for u in [0.1, 0.8] {
+        let expected = pivot + turn * (before.jet(u).point - pivot);
+        let distance = turned.jet(u).point.distance(expected);
+        assert!(distance <= ROUNDING * 1e3, "{distance}");
+    }
+    assert!(turned.is_planar());
+    assert_eq!(script.steps(), steps + 1);
+    script.command(Command::Undo);
+    assert_eq!(curve(&script, id), before);
+
+    // In mid-drag Esc restores to the bit; what is typed does the same.
+    script.tool(ToolKind::Scale);
+    script.press(at + arm);
+    script.move_to(at + 2.0 * arm);
+    let dragged = curve(&script, id);
+    script.key(Key::Escape);
+    assert_eq!(curve(&script, id), before);
+    script.release(at + arm);
+    let scaled = script.editor.transform(Transformation::Scale(2.0));
+    scaled.expect("a scale");
+    let typed = curve(&script, id);
+    for found in [&dragged, &typed] {
+        let placement = found.placement();
+        let ratio = placement.scale() / before.placement().scale();
+        assert!((ratio - 2.0).abs() <= 1e-9, "{ratio}");
+        let still = pivot + 2.0 * (before.placement().translation() - pivot);
+        assert!(placement.translation().distance(still) <= 1e-9);
+    }
+    assert_eq!(script.steps(), steps + 1);
+    // It cannot be turned inside out, nor vanish.
+    for factor in [0.0, -1.0] {
+        let refused = script.editor.transform(Transformation::Scale(factor));
+        assert!(refused.is_err(), "{factor}");
+        assert_eq!(curve(&script, id), typed);
+    }
+    // What is locked stays.
+    script.command(Command::ToggleLocked);
+    script.tool(ToolKind::Rotate);
+    assert_eq!(script.editor.pivot(), None);
+    assert!(
+        script
+            .editor
+            .transform(Transformation::Rotate(1.0))
+            .is_err()
+    );
+    assert_eq!(curve(&script, id), typed);
+}
+
+#[test]
+fn its_distance_from_a_curve_is_measured_and_marked() {
+    let (mut script, circle) = with("circle");
+    // The arc is seen against a circle of radius 9 about the same centre.
+    for change in [
+        ReferenceChange::Scale(1.0),
+        ReferenceChange::Translate(DVec3::ZERO),
+        ReferenceChange::Value(0, 9.0),
+    ] {
+        script.editor.change_reference(&change).expect("a circle");
+    }
+    script.editor.refresh();
+    assert!(script.editor.distance().is_none());
+    let arc = script.editor.document().ids().next().expect("the arc");
+    let polygon = script
+        .editor
+        .document()
+        .curve(arc)
+        .expect("the arc")
+        .polygon
+        .clone();
+    let far = |u: f64| (polygon.point(u).length() - 9.0).abs();
+    let largest = (0..=1000)
+        .map(|step| far(f64::from(step) / 1000.0))
+        .fold(0.0, f64::max);
+    for (active, compared) in [(arc, circle), (circle, arc)] {
+        script.editor.activate(active);
+        script.editor.view_mut().compare(Some(compared));
+        script.editor.refresh();
+        let found = *script.editor.distance().expect("a distance");
+        assert!((found.largest / largest - 1.0).abs() <= 1e-6, "{found:?}");
+        assert!(found.mean <= found.largest && found.mean > 0.999 * found.largest);
+        assert!((far(found.u) - found.largest).abs() <= ROUNDING);
+        let [from, to] = found.places;
+        assert!((from.distance(to) - found.largest).abs() <= ROUNDING);
+        assert!((to.length() - 9.0).abs() <= ROUNDING);
+        let marks = script.scene().marks.clone();
+        let text = format!("distance {}", figure(found.largest));
+        assert!(
+            marks
+                .iter()
+                .any(|mark| matches!(mark, Mark::Extreme { text: own, .. } if *own == text))
+        );
+    }
+    // It follows a drag, and is not marked where one of both is hidden.
+    script.editor.activate(arc);
+    script.editor.view_mut().compare(Some(circle));
+    script.drag_vertex(3, DVec2::new(0.0, -30.0));
+    script.editor.refresh();
+    assert!(script.editor.distance().expect("a distance").largest > largest);
+    script.command(Command::ToggleVisible);
+    let is_mark = |mark: &Mark| matches!(mark, Mark::Extreme { .. });
+    assert!(!script.scene().marks.iter().any(is_mark));
+    script.editor.view_mut().compare(None);
+    script.editor.refresh();
+    assert!(script.editor.distance().is_none());
+}
+
+#[test]
+fn a_list_of_points_is_measured_point_by_point() {
+    let mut script = Script::example("arc");
+    let arc = script.curve();
+    let polygon = script.polygon();
+    let place = polygon.point(0.4);
+    let out = place.normalize();
+    let points = [polygon.point(0.2), place + 0.25 * out, polygon.point(0.7)];
+    let rows = points.map(|point| format!("{},{}", point.x, point.y));
+    script
+        .editor
+        .paste_text(&rows.join("\n"))
+        .expect("a list of points");
+    script.editor.view_mut().compare(Some(arc));
+    script.editor.refresh();
+    let found = *script.editor.distance().expect("a distance");
+    // What is pasted stands aside: the points are measured where they are.
+    let (_, list) = script
+        .editor
+        .document()
+        .references()
+        .next()
+        .expect("a list");
+    let points = list.points().expect("points");
+    let nearest = |point: DVec3| {
+        let places = (0..=20_000).map(|step| polygon.point(f64::from(step) / 20_000.0));
+        places
+            .map(|place| place.distance(point))
+            .fold(f64::INFINITY, f64::min)
+    };
+    let distances: Vec<f64> = points.iter().map(|point| nearest(*point)).collect();
+    let largest = distances.iter().copied().fold(0.0, f64::max);
+    let mean = distances.iter().sum::<f64>() / 3.0;
+    assert!((found.largest / largest - 1.0).abs() <= 1e-6, "{found:?}");
+    assert!((found.mean / mean - 1.0).abs() <= 1e-6, "{found:?}");
+    assert_eq!(distances[found.t as usize], largest);
+    assert_eq!(found.places[1], points[found.t as usize]);
+}
+
+#[test]
+fn the_status_bar_tells_the_references_own_parameter() {
+    let (mut script, id) = with("circle");
+    script.move_to(seen(&script, id, 0.25));
+    script.editor.refresh();
+    let readout = script.editor.readout();
+    assert_eq!(readout.parameter_name, "t");
+    let [from, to] = curve(&script, id).interval();
+    let expected = from + 0.25 * (to - from);
+    let found = readout.parameter.expect("a parameter");
+    assert!(
+        (found - expected).abs() <= 1e-2 * (to - from),
+        "{found} {expected}"
+    );
 }
 
 #[test]

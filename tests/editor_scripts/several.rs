@@ -56,8 +56,10 @@ fn what_is_hovered_is_told_of_the_curve_it_is_on() {
     assert_eq!((curve, script.curve()), (other, arc));
     assert!(text.starts_with("other\n"), "{text}");
     let readout = script.editor.readout();
-    assert!((readout.u.expect("u") - u).abs() < 1e-3);
-    let expected = polygon.jet(readout.u.expect("u")).signed_curvature();
+    assert!((readout.parameter.expect("u") - u).abs() < 1e-3);
+    let expected = polygon
+        .jet(readout.parameter.expect("u"))
+        .signed_curvature();
     assert_eq!(readout.curvature, Some(expected));
     // The plots are the active curve's, which is not hovered.
     assert_eq!(script.plots().hovered, None);

@@ -120,6 +120,11 @@ fn cancel_escape_and_undo_leave_no_trace() {
         script.key(Key::Escape);
         check_left(&script, &before);
         let (mut script, before) = trying(name);
+        // Values that were given come first.
+        for _ in given(name) {
+            script.command(Command::Undo);
+            assert!(script.editor.is_trying());
+        }
         script.command(Command::Undo);
         check_left(&script, &before);
         // What was selected meanwhile is taken back, too.

@@ -93,7 +93,7 @@ fn hovering_tells_of_vertices_and_of_the_curve() {
         other => panic!("{other:?}"),
     }
     let readout = script.editor.readout();
-    assert!((readout.u.expect("u") - 0.5).abs() < 1e-6);
+    assert!((readout.parameter.expect("u") - 0.5).abs() < 1e-6);
 }
 
 #[test]

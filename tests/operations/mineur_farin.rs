@@ -208,13 +208,16 @@ fn a_handle_sets_the_values_that_bring_its_point_where_it_is_dragged() {
             Sets::Point(_) => 0,
             Sets::Vector { .. } => 1,
             Sets::RatioAndAngle { .. } => 2,
+            Sets::LastPoint { .. } => 3,
         };
         // The leg that the handle belongs to ends there, and those before stay.
         if index == 1 {
             given.push(("start", Value::List(vec![0.0, 0.0])));
         }
         let moved = run(&given).expect("a curve").handles[index].at;
-        assert!(moved.distance(to) < 1e-14, "{moved}");
+        // The last point is led there by steps that end at rounding.
+        let allowed = if index == 3 { 1e-12 } else { 1e-14 };
+        assert!(moved.distance(to) < allowed, "{index}: {moved}");
     }
 }
 

@@ -151,6 +151,37 @@ fn escape_puts_the_point_of_the_atlas_back() {
 }
 
 #[test]
+fn undo_in_a_drag_in_the_atlas_takes_back_the_drag_alone() {
+    let mut window = figure_2();
+    let rect = atlas(&mut window);
+    let shown = curve(&window);
+    let from = within(rect, 0.5, 0.75);
+    window.hover_at(from);
+    window.run();
+    window.drag_at(from);
+    window.step();
+    for across in [0.4, 0.3] {
+        window.hover_at(within(rect, across, 0.4));
+        window.step();
+    }
+    assert_ne!(curve(&window), shown);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(curve(&window), shown);
+    window.hover_at(within(rect, 0.2, 0.2));
+    window.step();
+    window.drop_at(within(rect, 0.2, 0.2));
+    window.run();
+    assert_eq!(curve(&window), shown);
+    assert!(window.state().editor().is_trying());
+    // A drag that comes to its end is one change.
+    drag(&mut window, from, within(rect, 0.3, 0.4));
+    assert_ne!(curve(&window), shown);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(curve(&window), shown);
+    assert!(window.state().editor().is_trying());
+}
+
+#[test]
 fn a_handle_on_the_canvas_changes_the_fields() {
     let mut window = figure_2();
     let from = vertex(&window, 2);

@@ -10,6 +10,7 @@ mod hand;
 mod harmony;
 mod locking;
 mod matching;
+mod menus;
 mod numbers;
 mod operations;
 mod paper;
@@ -276,7 +277,7 @@ fn what_a_plot_marks_goes_with_the_plot() {
     let on_plot = canvas.center_bottom() + vec2(0.0, 120.0);
     window.hover_at(on_plot);
     window.run();
-    let hovered = |window: &Window| window.state().editor().readout().u;
+    let hovered = |window: &Window| window.state().editor().readout().parameter;
     assert!(hovered(&window).is_some_and(|u| 0.0 < u && u < 1.0));
     press(&mut window, Modifiers::NONE, Key::F8);
     window.hover_at(canvas.center_top() + vec2(0.0, 20.0));

@@ -24,8 +24,14 @@ fn pages_open_their_curves_and_close() {
     for name in names {
         window.get_by_label_contains(name);
     }
-    click(&mut window, "15");
-    assert_eq!(curve(&window).polygon.degree(), 15);
+    // Any place of a row opens its curves, that of the printed figures too.
+    let row = |degree: usize| format!("Degree {degree}: ");
+    for (degree, across, down) in [(15, 0.1, 0.5), (9, 0.9, 0.9), (3, 0.5, 0.2), (7, 0.6, 0.8)] {
+        let rect = window.get_by_label_contains(&row(degree)).rect();
+        let at = rect.left_top() + vec2(across * rect.width(), down * rect.height());
+        drag(&mut window, at, at);
+        assert_eq!(curve(&window).polygon.degree(), degree);
+    }
     click(&mut window, "Close the paper");
     assert!(window.query_by_label("Next").is_none());
 }
@@ -50,6 +56,15 @@ fn the_slider_takes_digits_from_the_closed_polygon() {
     window.get_by_label_contains("Vertex y: 8.749");
     let test = RoundingTest::new(3, Shortening::Rounded).expect("a test");
     assert_eq!(curve(&window).polygon, test.polygon);
+    // Nothing of that is an edit: nothing asks to be saved, and another page opens at once.
+    let workspace = |window: &Window| {
+        let workspace = window.state().editor().workspace();
+        (workspace.is_modified(), workspace.history().undo_steps())
+    };
+    assert_eq!(workspace(&window), (false, 0));
+    click(&mut window, "Next");
+    assert!(window.query_by_label("Discard").is_none());
+    click(&mut window, "Previous");
 }
 
 #[test]

@@ -1,8 +1,9 @@
 //! References in the window: added by the menu, changed in the inspector, hidden and locked in the list.
 
 use batten::document::Reference;
+use batten::geometry::ParametricCurve;
 use batten::geometry::references::{KINDS, ReferenceForm};
-use eframe::egui::{Key, Modifiers};
+use eframe::egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::Queryable;
 
 use crate::hand::*;
@@ -125,4 +126,49 @@ fn a_formula_is_shown_while_it_is_typed_and_a_mistake_is_told() {
     assert_ne!(reference(&window), before);
     press(&mut window, Modifiers::NONE, Key::Escape);
     assert_eq!(reference(&window), before, "Esc calls it off");
+}
+
+#[test]
+fn undo_in_the_middle_of_a_drag_takes_back_the_drag_alone() {
+    let mut window = open_window();
+    add(&mut window, "Circle");
+    let steps = |window: &Window| window.state().editor().workspace().history().undo_steps();
+    for label in ["origin x", "Radius"] {
+        let before = reference(&window);
+        let from = window.get_by_label(label).rect().center();
+        window.hover_at(from);
+        window.run();
+        window.drag_at(from);
+        window.step();
+        for by in [20.0, 40.0] {
+            window.hover_at(from + vec2(by, 0.0));
+            window.step();
+        }
+        assert_ne!(reference(&window), before, "{label}");
+        press(&mut window, Modifiers::COMMAND, Key::Z);
+        assert_eq!(reference(&window), before, "{label}");
+        // The rest of the drag does nothing.
+        window.hover_at(from + vec2(60.0, 0.0));
+        window.step();
+        window.drop_at(from + vec2(60.0, 0.0));
+        window.run();
+        assert_eq!(reference(&window), before, "{label}");
+        assert_eq!(steps(&window), 1);
+    }
+    let start = reference(&window).curve.jet(0.0).point.truncate();
+    let (before, from) = (reference(&window), place(&window, start));
+    window.hover_at(from);
+    window.run();
+    window.drag_at(from);
+    window.step();
+    for by in [20.0, 40.0] {
+        window.hover_at(from + vec2(by, by));
+        window.step();
+    }
+    assert_ne!(reference(&window), before);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    window.drop_at(from);
+    window.run();
+    assert_eq!(reference(&window), before);
+    assert_eq!(steps(&window), 1);
 }

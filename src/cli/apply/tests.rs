@@ -50,6 +50,7 @@ static LINE: Operation = Operation {
     inputs: Inputs::None,
     parameters: &[LENGTH, ANGLE, BACK],
     check: |_| Ok(()),
+    unused: |_| &[],
     run: |_, values, _| {
         let (Value::Real(length), Value::Real(angle), Value::Switch(back)) =
             (values.get(&LENGTH), values.get(&ANGLE), values.get(&BACK))
@@ -70,6 +71,7 @@ static FOLLOW: Operation = Operation {
     inputs: Inputs::Two,
     parameters: &[],
     check: |_| Ok(()),
+    unused: |_| &[],
     run: |input, _, _| {
         let [(curve, _), (_, other)] = input.curves() else {
             panic!("two curves");
@@ -88,6 +90,7 @@ static POLYLINE: Operation = Operation {
     inputs: Inputs::Points,
     parameters: &[],
     check: |_| Ok(()),
+    unused: |_| &[],
     run: |input, _: &Values, _| added(input.points()),
 };
 

@@ -8,6 +8,7 @@ use crate::editor::commands::polygon_edits::made_periodic;
 use crate::editor::hand::selection::VertexId;
 use crate::editor::reply::{Note, Reply};
 use crate::editor::view::layers::Layer;
+use crate::editor::workspace::Interruption;
 use crate::editor::{Editor, Refusal};
 
 /// The factor by which the zoom commands change the scale.
@@ -137,13 +138,27 @@ impl Editor {
 
     /// What undo would take back: a point of what the tool has not finished comes first.
     fn undo_label(&self) -> Option<&str> {
+        if self.has_changed_values() {
+            return Some("Change of values");
+        }
         let point = self.hand.tools.used().undo_label();
         point.or_else(|| self.workspace.history().undo_label())
     }
 
     /// Take back what a drag shows or what the tool has not finished, otherwise the last step.
     fn undo(&mut self) -> Note {
+        let in_field = self.workspace.interruption() == Some(Interruption::Commits);
+        let steps = self.workspace.history().undo_steps();
+        if self.undo_values() {
+            return Note::silent();
+        }
+        let tried = self.trial().filter(|trial| !trial.is_applied());
+        let tried = tried.map(|trial| format!("{}: cancelled", trial.operation().label));
         if self.interrupt() {
+            return tried.map_or_else(Note::silent, Note::told);
+        }
+        // What a field shows is taken back, and no step before it.
+        if in_field && self.workspace.history().undo_steps() == steps {
             return Note::silent();
         }
         if self.hand.tools.used().undo_label().is_some() {

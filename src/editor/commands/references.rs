@@ -15,7 +15,7 @@ use crate::geometry::references::{
 use crate::io::Reading;
 
 /// A new reference is placed elsewhere if less than this share of the view's smaller side shows it.
-const SMALLEST: f64 = 0.1;
+const SMALLEST: f64 = 0.25;
 
 /// The share of the view's smaller side that a reference gets then, about.
 const SHARE: f64 = 0.4;

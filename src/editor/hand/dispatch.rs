@@ -37,6 +37,9 @@ impl Editor {
         let field = self.workspace.interruption() == Some(Interruption::Commits);
         match input {
             Input::Key(Key::Escape) if field => return self.abort_preview(),
+            Input::Key(Key::Escape) if self.holds_values() && !self.drags_handle() => {
+                return self.restore_values();
+            }
             Input::Key(Key::Escape) if self.is_trying() && !self.drags_handle() => {
                 return self.leave_trial();
             }
@@ -94,6 +97,10 @@ impl Editor {
         }
         if self.is_over_handle() {
             return "Drag the handle to change the values in the panel".into();
+        }
+        if self.offers_handles() {
+            return "Drag a handle, or change the values in the panel; Enter applies, Esc cancels"
+                .into();
         }
         if self.is_trying() && !self.hand.is_dragging() {
             return "Change the values in the panel; Enter applies, Esc cancels".into();
@@ -162,6 +169,9 @@ impl Editor {
         if self.drags_handle() || self.is_over_handle() {
             return Cursor::Move;
         }
+        if self.offers_handles() {
+            return Cursor::Default;
+        }
         self.hand.tools.used().cursor(&self.context())
     }
 
@@ -170,6 +180,14 @@ impl Editor {
     pub(in crate::editor) fn deliver(&mut self, gesture: Gesture, repeats: bool) {
         if self.is_trying() && self.drag_handle(gesture) {
             return;
+        }
+        if let Gesture::SecondaryClick(at) = gesture
+            && self.hand.tools.used().undo_label().is_none()
+        {
+            return self.ask_for_menu_at(at);
+        }
+        if self.offers_handles() {
+            return self.leave_beside_handles(gesture);
         }
         self.analyse();
         let layers = self.layers();

@@ -5,6 +5,7 @@ use crate::editor::hand::following::Following;
 use crate::editor::hand::gesture::GestureMachine;
 use crate::editor::hand::input::Modifiers;
 use crate::editor::hand::keeping::Keeping;
+use crate::editor::hand::menu_request::MenuRequest;
 use crate::editor::hand::selection::Selection;
 use crate::editor::hand::tools::{ToolKind, Tools};
 use crate::editor::hand::typed_point::TypedPoint;
@@ -39,6 +40,8 @@ pub struct Hand {
     pub(in crate::editor) keeping: Keeping,
     /// The point that is being typed, as far as the text is one.
     pub(in crate::editor) typed: Option<TypedPoint>,
+    /// The menu that is asked for.
+    pub(in crate::editor) menu: Option<MenuRequest>,
 }
 
 impl Hand {

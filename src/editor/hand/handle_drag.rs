@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::operations::{Handle, Values};
+use crate::operations::Handle;
 
 /// Hold a handle that is dragged.
 #[derive(Clone, Debug)]
@@ -13,6 +13,4 @@ pub struct HandleDrag {
     pub planar: bool,
     /// Where it was pressed, in the view plane.
     pub from: DVec2,
-    /// The operation's values then.
-    pub before: Values,
 }

@@ -6,11 +6,11 @@ use crate::editor::Editor;
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::handle_drag::HandleDrag;
 use crate::editor::hand::snapping::Carried;
-use crate::editor::reply::Refusal;
+use crate::editor::reply::{Message, Refusal};
 use crate::editor::view::hit::REACH;
 use crate::editor::view::scene::{HoverScene, Mark};
 use crate::geometry::figure;
-use crate::operations::{Handle, Parameter, Unit, Value, Values};
+use crate::operations::{Handle, Parameter, Unit, Value};
 
 /// To what angles are constrained, in degrees.
 const ANGLE_STEP: f64 = 15.0;
@@ -31,16 +31,41 @@ impl Editor {
                 }
                 true
             }
-            Gesture::DragEnd(_) => self.end_handle_drag().is_some(),
-            Gesture::Cancel => match self.end_handle_drag() {
-                Some(drag) => {
-                    self.restore_values(drag.before);
-                    true
+            Gesture::DragEnd(_) => {
+                let drags = self.end_handle_drag();
+                if drags {
+                    self.keep_values();
                 }
-                None => false,
-            },
+                drags
+            }
+            Gesture::Cancel => {
+                let drags = self.end_handle_drag();
+                if drags {
+                    self.restore_values();
+                }
+                drags
+            }
             _ => false,
         }
+    }
+
+    /// Leave a gesture beside the handles without effect on the operation that offers them; a double click on
+    /// nothing still shows everything.
+    pub(in crate::editor) fn leave_beside_handles(&mut self, gesture: Gesture) {
+        match gesture {
+            Gesture::DoubleClick(at) if !self.is_over_curve(at) => self.fit_all(),
+            Gesture::DragStart(at) if self.is_over_curve(at) => {
+                let label = self.trial().map_or("", |trial| trial.operation().label);
+                let first = format!("Apply or cancel {label} before you edit curves on the canvas");
+                self.message = Message::of(&Err(Refusal(first)));
+            }
+            _ => {}
+        }
+    }
+
+    fn is_over_curve(&self, at: DVec2) -> bool {
+        let hits = self.context().hits;
+        hits.vertex(at).is_some() || hits.curve(at).is_some() || hits.leg(at, 0.5 * REACH).is_some()
     }
 
     fn begin_handle_drag(&mut self, at: DVec2) -> bool {
@@ -49,12 +74,12 @@ impl Editor {
         };
         let planar = self.handles().iter().all(|handle| handle.at.z == 0.0);
         let from = self.view.viewport.to_model(at);
+        self.hold_values();
         if let Some(trial) = &mut self.operations.trial {
             trial.dragged = Some(HandleDrag {
                 handle,
                 planar,
                 from,
-                before: trial.values.clone(),
             });
         }
         true
@@ -65,9 +90,15 @@ impl Editor {
         self.dragged_handle().is_some()
     }
 
-    /// Forget the handle that is dragged; its values stay.
-    pub(in crate::editor) fn end_handle_drag(&mut self) -> Option<HandleDrag> {
-        self.operations.trial.as_mut()?.dragged.take()
+    /// Whether the operation that is tried out offers handles: the canvas is for them then.
+    pub(in crate::editor) fn offers_handles(&self) -> bool {
+        !self.handles().is_empty()
+    }
+
+    /// Let go of the handle that is dragged; returns whether one was.
+    pub(in crate::editor) fn end_handle_drag(&mut self) -> bool {
+        let trial = self.operations.trial.as_mut();
+        trial.is_some_and(|trial| trial.dragged.take().is_some())
     }
 
     /// What the canvas shows of the handles.
@@ -115,10 +146,7 @@ impl Editor {
     /// The handles of the operation that is tried out.
     fn handles(&self) -> &[Handle] {
         let trial = self.trial().filter(|trial| !trial.is_applied());
-        match trial.and_then(|trial| trial.run()) {
-            Some(Ok(run)) => &run.outcome.handles,
-            _ => &[],
-        }
+        trial.map_or(&[], |trial| &trial.handles)
     }
 
     /// The handle at a place on the canvas; of equal ones the last.
@@ -179,16 +207,6 @@ impl Editor {
             }
         }
         values
-    }
-
-    /// Give the operation all the values back that it had.
-    fn restore_values(&mut self, before: Values) {
-        if let Some(trial) = &mut self.operations.trial
-            && trial.values != before
-        {
-            trial.values = before;
-            self.ask();
-        }
     }
 }
 

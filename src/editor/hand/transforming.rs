@@ -3,9 +3,8 @@
 use glam::DVec2;
 
 use crate::editor::Editor;
-use crate::editor::hand::tools::{self, Transformation, move_edits};
-use crate::editor::reply::{Note, Reply};
-use crate::geometry::counted;
+use crate::editor::hand::tools::{self, Transformation, Transformed};
+use crate::editor::reply::{Note, Refusal, Reply};
 
 impl Editor {
     /// The pivot of the rotate or the scale tool, if one of them is in the hand and there is
@@ -23,7 +22,7 @@ impl Editor {
         }
     }
 
-    /// Rotate or scale what is selected, or the active curve, about the pivot, as one step. The
+    /// Rotate or scale what is selected, or the active curve or reference, about the pivot, as one step. The
     /// reply is told.
     ///
     /// # Errors
@@ -34,16 +33,15 @@ impl Editor {
         let Some(pivot) = tool.and_then(|tool| tool.pivot(&context)) else {
             return self.tell(Err(tools::NOTHING_TO_TRANSFORM.into()));
         };
-        let vertices = context.transformed();
-        let count = counted(vertices.len(), "vertex", "vertices");
+        let taken = Transformed::of(&context);
         let label = match transformation {
-            Transformation::Rotate(_) => format!("Rotate {count}"),
-            Transformation::Scale(_) => format!("Scale {count}"),
+            Transformation::Rotate(_) => format!("Rotate {}", taken.noun()),
+            Transformation::Scale(_) => format!("Scale {}", taken.noun()),
         };
-        let moved = vertices
-            .into_iter()
-            .map(|(id, vertex)| (id, transformation.apply(pivot, vertex, context.viewport)));
-        let edits = move_edits(moved);
+        let edits = match taken.edits(transformation, pivot, context.viewport) {
+            Ok(edits) => edits,
+            Err(error) => return self.tell(Err(Refusal(error.to_string()))),
+        };
         let staying = context.staying();
         let reply = self.apply(&label, edits);
         match staying {

@@ -12,6 +12,7 @@ use crate::editor::view::comb::CombSettings;
 use crate::editor::view::curve_outlines::{CurveOutlines, PieceTrend};
 use crate::editor::view::end_marks;
 use crate::editor::view::feature_report::{FeatureMark, append_marks};
+use crate::editor::view::ghost::Ghost;
 use crate::editor::view::layers::{Layer, Layers};
 use crate::editor::view::orientation::Orientation;
 use crate::editor::view::outline::{GAP, ViewBox};
@@ -46,6 +47,7 @@ impl Editor {
         scene.marks.extend(self.operation_marks());
         scene.marks.extend(self.handle_marks());
         scene.marks.extend(self.flow_marks());
+        scene.marks.extend(self.distance_marks());
         self.draw_guides(&mut scene.guides);
         scene.hover = self.hover();
         self.view.scene = scene;
@@ -196,13 +198,21 @@ impl Editor {
     fn draw_ghost(&mut self, view: &ViewBox, scene: &mut Scene) {
         scene.ghost.clear();
         scene.ghost_polygon.clear();
-        let Some(before) = self.before() else {
-            return;
-        };
+        let others = self.others_before_operation();
         let orientation = self.view.viewport.orientation;
         let shows_float = self.layers().shows(Layer::Float);
-        let chains = [&mut scene.ghost, &mut scene.ghost_polygon];
-        self.view.ghost.append(&before, orientation, view, chains);
+        if let Some(before) = self.before() {
+            let chains = [&mut scene.ghost, &mut scene.ghost_polygon];
+            self.view.ghost.append(&before, orientation, view, chains);
+        }
+        let ghosts = &mut self.view.other_ghosts;
+        ghosts.resize_with(others.len(), Ghost::default);
+        for (ghost, other) in ghosts.iter_mut().zip(&others) {
+            scene.ghost.push(GAP);
+            scene.ghost_polygon.push(GAP);
+            let chains = [&mut scene.ghost, &mut scene.ghost_polygon];
+            ghost.append(other, orientation, view, chains);
+        }
         if !shows_float {
             scene.ghost_polygon.clear();
         }

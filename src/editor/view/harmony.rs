@@ -67,7 +67,7 @@ impl Editor {
         let marks = worst.into_iter().filter_map(|(vertex, text)| {
             let vertex = curve.polygon.vertices().get(vertex)?;
             let at = self.view.viewport.flatten(*vertex);
-            Some(Mark::Uneven { at, text })
+            Some(Mark::Extreme { at, text })
         });
         marks.collect()
     }

@@ -3,6 +3,7 @@
 mod chain_outlines;
 pub(in crate::editor) mod comb;
 mod curve_outlines;
+mod distances;
 mod drawing;
 pub(in crate::editor) mod end_marks;
 mod evolute;

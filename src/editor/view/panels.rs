@@ -18,11 +18,25 @@ impl Editor {
                 .map(|at| self.view.viewport.to_model(at)),
             axes: self.axis_names(),
             scale: self.view.viewport.scale,
+            parameter_name: match self.active_reference_id() {
+                Some(_) => "t",
+                None => "u",
+            },
             degree: self.active_curve().map(|(_, curve)| curve.polygon.degree()),
             ..Readout::default()
         };
-        if let Some(HoverScene::Curve { u, curvature, .. }) = self.view.scene.hover {
-            readout.u = Some(u);
+        if let Some(HoverScene::Curve {
+            curve,
+            u,
+            curvature,
+            ..
+        }) = self.view.scene.hover
+        {
+            let reference = self.document().reference(curve);
+            (readout.parameter_name, readout.parameter) = match reference {
+                Some(reference) => ("t", Some(reference.curve.parameter(u))),
+                None => ("u", Some(u)),
+            };
             readout.curvature = Some(curvature);
         }
         readout

@@ -4,12 +4,13 @@ use crate::editor::Editor;
 
 impl Editor {
     /// Bring up to date all that is derived from the document and how it is seen: analyses, features,
-    /// harmony, guides, the scene and what is hovered, and the plot that is shown. Whoever reads any of it
+    /// harmony, distances, guides, the scene and what is hovered, and the plot that is shown. Whoever reads any of it
     /// does so after this.
     pub fn refresh(&mut self) {
         self.analyse();
         self.prove();
         self.measure();
+        self.compare_distances();
         self.guide();
         self.draw();
         self.plot();

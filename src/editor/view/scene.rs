@@ -128,11 +128,11 @@ pub enum Mark {
     },
     /// A place that the pointer snapped to.
     Snap(DVec2),
-    /// A vertex at which the flow of the polygon's vertices is least even.
-    Uneven {
+    /// A place where something is most: the flow of the vertices uneven, or another curve far.
+    Extreme {
         /// Where it is.
         at: DVec2,
-        /// What is uneven there, in a word or two.
+        /// What is most there, in a few words.
         text: String,
     },
     /// A handle that sets parameters of an operation.

@@ -42,6 +42,8 @@ pub struct View {
     pub(in crate::editor) outlines: Outlines,
     pub(in crate::editor) ghost: Ghost,
     pub(in crate::editor) proposed: ProposedCurve,
+    /// The other curves that an operation works on.
+    pub(in crate::editor) other_ghosts: Vec<Ghost>,
 }
 
 /// What panels say is hovered there, to be marked on the canvas.

@@ -32,6 +32,8 @@ pub struct MeasuredDeviation {
     pub largest: f64,
     /// The parameter u where it is.
     pub u: f64,
+    /// The parameter of the other curve's point that is nearest there.
+    pub t: f64,
     /// The mean over the arc length.
     pub mean: f64,
 }
@@ -53,7 +55,8 @@ impl MeasuredDeviation {
         let count = (segments * SAMPLES).max(LEAST_SAMPLES);
         let interval = [0, segments].map(|u| parameter(u as f64));
         let target = Target::new(curve, interval, reach, count)?;
-        let distance = |u: f64| target.distance(polygon.point(u), parameter(u));
+        let nearest = |u: f64| target.nearest(polygon.point(u), parameter(u));
+        let distance = |u: f64| nearest(u).0;
         let last = segments * SAMPLES;
         let place = |index: usize| index as f64 / SAMPLES as f64;
         let distances: Vec<f64> = (0..=last).map(|index| distance(place(index))).collect();
@@ -61,6 +64,7 @@ impl MeasuredDeviation {
             Self {
                 largest: -1.0,
                 u: 0.0,
+                t: 0.0,
                 mean: mean(polygon, &distances),
             },
             |found, index| found.or(distances[index], place(index)),
@@ -74,6 +78,7 @@ impl MeasuredDeviation {
                 found = found.or(largest, u);
             }
         }
+        found.t = nearest(found.u).1;
         Ok(found)
     }
 
@@ -176,30 +181,34 @@ impl<'a> Target<'a> {
         })
     }
 
-    /// The distance of a point from the curve; `near` is a parameter in its neighbourhood.
-    fn distance(&self, point: DVec3, near: f64) -> f64 {
+    /// The distance of a point from the curve, and the parameter of the nearest point there; `near` is a
+    /// parameter in its neighbourhood.
+    fn nearest(&self, point: DVec3, near: f64) -> (f64, f64) {
         let last = self.samples.len() - 1;
         let start = ((near - self.samples[0].0) / self.step).round();
         let mut best = self.refined(point, (start.max(0.0) as usize).min(last));
         for block in &self.blocks {
             let box_distance = point.distance(point.clamp(block.low, block.high));
-            if box_distance - block.margin >= best {
+            if box_distance - block.margin >= best.0 {
                 continue;
             }
             let samples = block.first..=(block.first + BLOCK).min(last);
             let distances = samples.map(|index| (self.samples[index].1.distance(point), index));
             let nearest = distances.min_by(|a, b| a.0.total_cmp(&b.0));
             if let Some((distance, index)) = nearest
-                && distance - block.margin < best
+                && distance - block.margin < best.0
             {
-                best = best.min(self.refined(point, index));
+                let refined = self.refined(point, index);
+                if refined.0 < best.0 {
+                    best = refined;
+                }
             }
         }
         best
     }
 
-    /// The distance from the curve near one of its samples.
-    fn refined(&self, point: DVec3, index: usize) -> f64 {
+    /// The distance from the curve near one of its samples, and where that is.
+    fn refined(&self, point: DVec3, index: usize) -> (f64, f64) {
         let last = self.samples.len() - 1;
         let bracket = [index.saturating_sub(1), (index + 1).min(last)];
         let bracket = bracket.map(|index| self.samples[index].0);
@@ -217,7 +226,11 @@ impl<'a> Target<'a> {
         let refined = self.curve.derivatives(t, 0)[0].distance(point);
         let sampled = sample.distance(point);
         // Where the curve has no derivatives the sample counts.
-        if refined < sampled { refined } else { sampled }
+        if refined < sampled {
+            (refined, t)
+        } else {
+            (sampled, start)
+        }
     }
 }
 

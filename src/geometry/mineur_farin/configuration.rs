@@ -11,6 +11,15 @@ use crate::geometry::float_polygon::FloatPolygon;
 /// this.
 const UPRIGHT: f64 = 1e-9;
 
+/// In how many steps the last point is led to a place.
+const WAY: usize = 32;
+
+/// The most corrections a step of that.
+const MOST_STEPS: usize = 30;
+
+/// The largest change of ln s and of θ at once.
+const LARGEST_CHANGE: f64 = 0.2;
+
 /// Hold a Mineur–Farin configuration: leg k is sᵏ Mᵏ a, where a is the first leg, s the length ratio
 /// and M the rotation that turns by the turning angle θ about the binormal, and the binormal by the
 /// torsion angle about the leg. In the plane legs multiply by the complex number λ = s e^{iθ}.
@@ -57,6 +66,95 @@ impl Configuration {
             frame *= step;
         }
         points
+    }
+
+    /// Change length ratio and turning angle so that the last point lies at a place, or as near to it as this
+    /// finds: in the plane, where the last point is start + a (1 + λ + … + λᵏ⁻¹), it is exact to rounding.
+    ///
+    /// The last point is led along the straight way from where it is, in even steps,
+    /// by damped Gauss–Newton steps in ln s and θ; derivatives come from the recurrence of the legs. Where the
+    /// way leads through a place that cannot be reached, it goes on beside it.
+    pub fn reaching(&self, legs: usize, place: DVec3) -> Self {
+        let from = self.last_point(legs).0;
+        let mut found = *self;
+        for step in 1..=WAY {
+            let target = from.lerp(place, step as f64 / WAY as f64);
+            found = found.corrected(legs, target);
+        }
+        let (sine, cosine) = found.turn.sin_cos();
+        Self {
+            turn: sine.atan2(cosine),
+            ..found
+        }
+    }
+
+    /// Bring the last point nearer to a place, until rounding.
+    fn corrected(mut self, legs: usize, target: DVec3) -> Self {
+        let (mut last, mut slopes) = self.last_point(legs);
+        for _ in 0..MOST_STEPS {
+            let left = target - last;
+            let [a, b] = slopes;
+            // The normal equations of two unknowns.
+            let (aa, ab, bb) = (a.dot(a), a.dot(b), b.dot(b));
+            let determinant = aa * bb - ab * ab;
+            let [ra, rb] = [a.dot(left), b.dot(left)];
+            let change = [
+                (bb * ra - ab * rb) / determinant,
+                (aa * rb - ab * ra) / determinant,
+            ];
+            let largest = change.map(f64::abs).into_iter().fold(0.0, f64::max);
+            if !largest.is_finite() {
+                return self;
+            }
+            let mut share = (LARGEST_CHANGE / largest).min(1.0);
+            let nearer = loop {
+                let tried = Self {
+                    ratio: self.ratio * (share * change[0]).exp(),
+                    turn: self.turn + share * change[1],
+                    ..self
+                };
+                let (point, slopes) = tried.last_point(legs);
+                if point.distance(target) < left.length() {
+                    break Some((tried, point, slopes));
+                }
+                share *= 0.5;
+                if share * largest <= f64::EPSILON {
+                    break None;
+                }
+            };
+            match nearer {
+                Some(nearer) => (self, last, slopes) = nearer,
+                None => return self,
+            }
+        }
+        self
+    }
+
+    /// The last point, and its derivatives by ln s and by θ.
+    fn last_point(&self, legs: usize) -> (DVec3, [DVec3; 2]) {
+        let step = self.step();
+        let (sine, cosine) = self.turn.sin_cos();
+        let turning = DMat3::from_cols_array(&[
+            -sine, cosine, 0.0, //
+            -cosine, -sine, 0.0, //
+            0.0, 0.0, 0.0,
+        ]);
+        let turned = turning * DMat3::from_rotation_x(self.torsion) * self.ratio;
+        let mut frame = self.frame();
+        let mut slopes = [DMat3::ZERO; 2];
+        let mut point = self.start;
+        let mut point_slopes = [DVec3::ZERO; 2];
+        for _ in 0..legs {
+            point += frame.x_axis;
+            point_slopes[0] += slopes[0].x_axis;
+            point_slopes[1] += slopes[1].x_axis;
+            slopes = [
+                slopes[0] * step + frame * step,
+                slopes[1] * step + frame * turned,
+            ];
+            frame *= step;
+        }
+        (point, point_slopes)
     }
 
     /// The curve on the points as the polygon of a format; a Bézier curve is held by the float

@@ -12,15 +12,23 @@ const WIDTH: f32 = 120.0;
 /// Where the bar leaves less room than this, in points, the caption is left out.
 const NARROW: f32 = 320.0;
 
-/// Show the choice.
+/// Show the choice with a caption at its left where there is room.
 pub fn compare_ui(ui: &mut Ui, editor: &mut Editor) {
+    let narrow = ui.available_width() < NARROW;
+    choice_ui(ui, editor, "Curve to compare with");
+    if !narrow {
+        widgets::caption(ui, "Compare with");
+    }
+}
+
+/// Show the choice; `name` is what a screen reader calls it.
+pub fn choice_ui(ui: &mut Ui, editor: &mut Editor, name: &str) {
     let others = others(editor);
     let compared = editor.view().compared();
     let chosen = others.iter().find(|(id, _)| Some(*id) == compared);
     let text = chosen.map_or("nothing", |(_, name)| name).to_owned();
-    let narrow = ui.available_width() < NARROW;
     ui.add_enabled_ui(!others.is_empty(), |ui| {
-        let choice = ComboBox::from_id_salt("compared")
+        let choice = ComboBox::from_id_salt(name)
             .selected_text(text)
             .width(WIDTH)
             .truncate();
@@ -32,14 +40,11 @@ pub fn compare_ui(ui: &mut Ui, editor: &mut Editor) {
             }
             editor.view_mut().compare(compared);
         });
-        let response = choice.response.accessible_name("Curve to compare with");
+        let response = choice.response.accessible_name(name);
         response.on_hover_text(
-            "Show the same plots of another curve or reference beside those of this one",
+            "Show the plots of another curve or reference beside those of this one, and how far they are apart",
         );
     });
-    if !narrow {
-        widgets::caption(ui, "Compare with");
-    }
 }
 
 /// The curves and references beside the active one, with their names.

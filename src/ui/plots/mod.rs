@@ -8,6 +8,8 @@ mod harmony;
 mod level_names;
 mod levels;
 
+pub use compare::choice_ui as compare_choice_ui;
+
 use std::collections::HashMap;
 
 use eframe::egui::{Button, Ui};

@@ -11,12 +11,14 @@ mod reference_drags;
 mod select;
 mod tool;
 mod transform;
+mod transformed;
 mod vertices;
 
 pub use draw::DrawSettings;
 pub use drawing::DrawingTool;
-pub use tool::{Context, Cursor, Effect, Look, Tool, move_edits};
-pub use transform::{Action as Transformation, NOTHING_TO_TRANSFORM};
+pub use tool::{Context, Cursor, Effect, Look, Tool};
+pub use transform::NOTHING_TO_TRANSFORM;
+pub use transformed::{Action as Transformation, Transformed};
 
 use draw::DrawTool;
 use end_fit::EndFitTool;

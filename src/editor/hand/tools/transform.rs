@@ -1,17 +1,14 @@
 //! Rotate and scale the selection about a movable pivot.
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
-use super::tool::{Context, Effect, Tool, move_edits};
+use super::tool::{Context, Effect, Tool};
+use super::transformed::{Action, Transformed};
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
-use crate::editor::hand::selection::VertexId;
 use crate::editor::hand::snapping::{Carried, by_fifteen_degrees};
 use crate::editor::view::hit::REACH;
-use crate::editor::view::outline::Bounds;
 use crate::editor::view::scene::Mark;
-use crate::editor::view::viewport::Viewport;
-use crate::geometry::counted;
 
 /// What is said where there is nothing to rotate or scale.
 pub const NOTHING_TO_TRANSFORM: &str =
@@ -51,7 +48,7 @@ enum State {
     Turning {
         pivot: DVec2,
         origin: DVec2,
-        vertices: Vec<(VertexId, DVec3)>,
+        taken: Transformed,
         now: DVec2,
         label: String,
     },
@@ -78,15 +75,11 @@ impl TransformTool {
         if let Some(pivot) = self.pivot {
             return Some(pivot);
         }
-        let mut bounds = Bounds::EMPTY;
-        for (_, vertex) in context.transformed() {
-            bounds.add(context.viewport.flatten(vertex));
-        }
-        (!bounds.is_empty()).then(|| 0.5 * (bounds.low + bounds.high))
+        Transformed::of(context).middle(context)
     }
 
     fn start(&mut self, place: DVec2, context: &Context) -> Vec<Effect> {
-        let vertices = context.transformed();
+        let taken = Transformed::of(context);
         let Some(pivot) = self.pivot(context) else {
             return vec![Effect::Say(NOTHING_TO_TRANSFORM.into())];
         };
@@ -99,12 +92,12 @@ impl TransformTool {
             Transform::Rotate => "Rotate",
             Transform::Scale => "Scale",
         };
-        let label = format!("{verb} {}", counted(vertices.len(), "vertex", "vertices"));
+        let label = format!("{verb} {}", taken.noun());
         let origin = context.model(place);
         self.state = State::Turning {
             pivot,
             origin,
-            vertices,
+            taken,
             now: origin,
             label: String::new(),
         };
@@ -143,30 +136,12 @@ impl TransformTool {
     }
 }
 
-/// A transformation about a pivot, as it is dragged or typed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Action {
-    /// Turn by an angle in radians, counterclockwise as it is seen.
-    Rotate(f64),
-    /// Scale by a factor, in all directions.
-    Scale(f64),
-}
-
-impl Action {
-    /// Carry one vertex along, about a pivot of the view plane: turned in the view plane, or
-    /// scaled about the pivot's place on the ground.
-    pub fn apply(self, pivot: DVec2, vertex: DVec3, viewport: &Viewport) -> DVec3 {
-        match self {
-            Self::Rotate(angle) => {
-                let arm = viewport.flatten(vertex) - pivot;
-                let turned = pivot + DVec2::from_angle(angle).rotate(arm);
-                viewport.orientation.point_at(turned, vertex)
-            }
-            Self::Scale(factor) => {
-                let pivot = viewport.grounded(pivot);
-                pivot + factor * (vertex - pivot)
-            }
-        }
+/// Make the reference under a place the active one.
+fn reference_at(place: DVec2, context: &Context) -> Vec<Effect> {
+    let hit = context.hits.curve(place).map(|hit| hit.curve);
+    match hit.filter(|id| context.document.reference(*id).is_some()) {
+        Some(reference) => vec![Effect::Select(Vec::new()), Effect::Activate(reference)],
+        None => Vec::new(),
     }
 }
 
@@ -177,7 +152,7 @@ impl Tool for TransformTool {
             (State::Idle, Gesture::Click(place)) => match context.hits.vertex(place) {
                 Some(vertex) if context.modifiers.shift => vec![Effect::ToggleSelected(vertex)],
                 Some(vertex) => vec![Effect::Select(vec![vertex])],
-                None => Vec::new(),
+                None => reference_at(place, context),
             },
             (State::Idle, Gesture::DoubleClick(_)) => {
                 self.pivot = None;
@@ -197,25 +172,25 @@ impl Tool for TransformTool {
                 State::Turning {
                     pivot,
                     origin,
-                    vertices,
+                    taken,
                     ..
                 },
                 Gesture::Drag(place),
             ) => {
                 let now = context.model(place);
                 let (action, label) = self.action(pivot, origin, now, context);
-                let moved = vertices
-                    .iter()
-                    .map(|(id, at)| (*id, action.apply(pivot, *at, context.viewport)));
-                let effects = vec![Effect::Preview(move_edits(moved))];
+                let effect = match taken.edits(action, pivot, context.viewport) {
+                    Ok(edits) => Effect::Preview(edits),
+                    Err(error) => Effect::Say(error.to_string()),
+                };
                 self.state = State::Turning {
                     pivot,
                     origin,
-                    vertices,
+                    taken,
                     now,
                     label,
                 };
-                effects
+                vec![effect]
             }
             (State::Turning { .. }, Gesture::DragEnd(_)) => {
                 let staying = context.staying().map(Effect::Say);
@@ -246,7 +221,7 @@ impl Tool for TransformTool {
                 format!("{staying}Shift snaps to {steps}, hold Alt to compare, Esc cancels")
             }
             State::MovingPivot { .. } => "Release to leave the pivot here".into(),
-            State::Idle if context.transformed().is_empty() => {
+            State::Idle if Transformed::of(context).is_empty() => {
                 format!("Select vertices or a curve to {verb}; Esc ends")
             }
             State::Idle => {

@@ -1,0 +1,94 @@
+//! How far a curve is from another curve or from a reference.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use crate::document::{Curve, Reference};
+use crate::geometry::approximation::MeasuredDeviation;
+use crate::geometry::{Differentiable, FloatPolygon};
+
+/// What a curve is measured against.
+#[derive(Clone, Debug)]
+pub enum Measured {
+    /// Another curve.
+    Curve(Arc<Curve>),
+    /// A reference.
+    Reference(Arc<Reference>),
+}
+
+/// Hold how far a curve is from another one, or points are from a curve: true distances, to the nearest point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Distance {
+    /// The largest distance.
+    pub largest: f64,
+    /// The mean: over the arc length of the curve, or over the points.
+    pub mean: f64,
+    /// The parameter of the curve where the largest is.
+    pub u: f64,
+    /// The parameter of the other curve there, or the number of the point.
+    pub t: f64,
+    /// The two places between which the largest is, the first one on the curve.
+    pub places: [DVec3; 2],
+}
+
+impl Measured {
+    /// Whether two of them are the same state of the same curve or reference.
+    pub fn is_same(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Curve(own), Self::Curve(other)) => Arc::ptr_eq(own, other),
+            (Self::Reference(own), Self::Reference(other)) => Arc::ptr_eq(own, other),
+            _ => false,
+        }
+    }
+}
+
+impl Distance {
+    /// Measure how far a curve is from what it is compared with; how far points are from the curve, if that is
+    /// a list of points. `None` where the other one has no points.
+    pub fn measure(polygon: &FloatPolygon, other: &Measured) -> Option<Self> {
+        match other {
+            Measured::Curve(other) => {
+                let end = other.polygon.segments() as f64;
+                Self::between(polygon, &other.polygon, [0.0, end])
+            }
+            Measured::Reference(other) => match other.points() {
+                Some(points) => Self::of_points(polygon, &points),
+                None => Self::between(polygon, &other.curve, other.curve.interval()),
+            },
+        }
+    }
+
+    fn between(
+        polygon: &FloatPolygon,
+        other: &dyn Differentiable,
+        [from, to]: [f64; 2],
+    ) -> Option<Self> {
+        let segments = polygon.segments() as f64;
+        let beside = |u: f64| from + (to - from) * u / segments;
+        let found = MeasuredDeviation::measure(polygon, other, &beside, [from, to]).ok()?;
+        Some(Self {
+            largest: found.largest,
+            mean: found.mean,
+            u: found.u,
+            t: found.t,
+            places: [polygon.point(found.u), other.derivatives(found.t, 0)[0]],
+        })
+    }
+
+    fn of_points(polygon: &FloatPolygon, points: &[DVec3]) -> Option<Self> {
+        let nearest = points.iter().map(|point| polygon.nearest(*point));
+        let nearest: Vec<_> = nearest.collect();
+        let sum: f64 = nearest.iter().map(|nearest| nearest.distance).sum();
+        let places = nearest.iter().zip(points).enumerate();
+        let (index, (found, point)) =
+            places.max_by(|(_, (a, _)), (_, (b, _))| a.distance.total_cmp(&b.distance))?;
+        Some(Self {
+            largest: found.distance,
+            mean: sum / points.len() as f64,
+            u: found.u,
+            t: index as f64,
+            places: [found.point, *point],
+        })
+    }
+}

@@ -1,0 +1,207 @@
+//! Menus about what is under the pointer, read from the table of commands.
+
+use eframe::egui::{
+    Align, Context, Id, LayerId, Layout, Popup, PopupKind, Pos2, SetOpenCommand, containers,
+};
+
+use super::action::Action;
+use super::menu::{Entry, command, entries_ui};
+use super::menu_item::WIDTH;
+use super::shell::Shell;
+use crate::editor::{Command, Editor, Follow, Layer, MenuSubject, NamedView, ToolKind};
+use crate::operations::{self, Inputs, Operation};
+
+/// Show the menu that is asked for.
+#[derive(Default)]
+pub struct ContextMenu {
+    open: Option<Shown>,
+}
+
+/// A menu that is open.
+#[derive(Clone, Copy)]
+struct Shown {
+    subject: MenuSubject,
+    at: Pos2,
+    /// Whether its first line is still to get the keyboard: it was opened by a key.
+    takes_keyboard: bool,
+}
+
+impl ContextMenu {
+    /// Show the menu that is asked for, or that is still open; `canvas` is the canvas's upper left corner.
+    pub fn show(
+        &mut self,
+        context: &Context,
+        canvas: Pos2,
+        editor: &mut Editor,
+        shell: &Shell,
+        commands: &mut Vec<Action>,
+    ) {
+        let asked = editor.take_menu();
+        if let Some(asked) = asked {
+            let pointer = context.input(|input| input.pointer.latest_pos());
+            let by_key = asked
+                .at
+                .map(|at| canvas + eframe::egui::vec2(at.x as f32, at.y as f32));
+            self.open = Some(Shown {
+                subject: asked.subject,
+                at: by_key.or(pointer).unwrap_or(canvas),
+                takes_keyboard: by_key.is_some(),
+            });
+        }
+        let Some(open) = &mut self.open else {
+            return;
+        };
+        let (subject, at) = (open.subject, open.at);
+        let id = Id::unique("context menu");
+        let popup = Popup::new(id, context.clone(), at, LayerId::background())
+            .kind(PopupKind::Menu)
+            .layout(Layout::top_down_justified(Align::Min))
+            .style(containers::menu::menu_style)
+            .open_memory(asked.map(|_| SetOpenCommand::Bool(true)))
+            .gap(0.0);
+        let shown = popup.show(|ui| {
+            ui.set_min_width(WIDTH);
+            let first = entries_ui(ui, editor, shell, entries(subject, editor), commands);
+            // While its size is found nothing in it is enabled.
+            if let Some(first) = first.filter(|_| open.takes_keyboard) {
+                first.request_focus();
+                open.takes_keyboard = false;
+            }
+        });
+        if shown.is_none() {
+            self.open = None;
+        }
+    }
+}
+
+fn tool(tool: ToolKind) -> Entry {
+    command(Command::Tool(tool))
+}
+
+fn layer(layer: Layer) -> Entry {
+    command(Command::ToggleLayer(layer))
+}
+
+fn operation(operation: &'static Operation) -> Entry {
+    command(Command::Operation(operation))
+}
+
+/// What applies to a subject.
+fn entries(subject: MenuSubject, editor: &Editor) -> Vec<Entry> {
+    use Entry::Divider;
+    match subject {
+        MenuSubject::Vertex | MenuSubject::Leg => {
+            let mut entries = vec![
+                command(Command::Delete),
+                Entry::Action(Action::Cut),
+                Entry::Action(Action::Copy),
+                Divider,
+                command(Command::ToggleVerticesLocked),
+                tool(ToolKind::Rotate),
+                tool(ToolKind::Scale),
+                Divider,
+                command(Command::Follow(Follow::InHarmony)),
+                command(Command::Follow(Follow::Softly)),
+                command(Command::ToggleKeeping),
+                Divider,
+                command(Command::SelectAll),
+                command(Command::Fit),
+            ];
+            entries.insert(
+                4,
+                match subject {
+                    MenuSubject::Leg => tool(ToolKind::Insert),
+                    _ => layer(Layer::SafeRegion),
+                },
+            );
+            entries
+        }
+        MenuSubject::End => vec![
+            tool(ToolKind::EndFit),
+            operation(&operations::extend::OPERATION),
+            operation(&operations::trim::OPERATION),
+            Divider,
+            operation(&operations::translate_end::OPERATION),
+            operation(&operations::rotate_end::OPERATION),
+            operation(&operations::correct_ends::OPERATION),
+            Divider,
+            operation(&operations::between::OPERATION),
+            operation(&operations::join::OPERATION),
+            operation(&operations::close::OPERATION),
+        ],
+        MenuSubject::Curve => {
+            let changing = operations::ALL.iter().copied();
+            let changing =
+                changing.filter(|it| it.inputs != Inputs::None && it.inputs != Inputs::Points);
+            vec![
+                command(Command::Duplicate),
+                command(Command::DeleteCurve),
+                Entry::Action(Action::Copy),
+                Divider,
+                Entry::Submenu("Operations", changing.map(operation).collect()),
+                command(Command::TogglePeriodic),
+                tool(ToolKind::Rotate),
+                tool(ToolKind::Scale),
+                Divider,
+                command(Command::SelectAll),
+                command(Command::Fit),
+                Divider,
+                command(Command::ToggleVisible),
+                command(Command::ToggleLocked),
+            ]
+        }
+        MenuSubject::Reference => {
+            let points = editor
+                .active()
+                .and_then(|id| editor.document().reference(id))
+                .is_some_and(|reference| reference.points().is_some());
+            vec![
+                command(Command::Duplicate),
+                command(Command::DeleteCurve),
+                Entry::Action(Action::Copy),
+                Divider,
+                operation(match points {
+                    true => &operations::fit::OPERATION,
+                    false => &operations::approximate::OPERATION,
+                }),
+                tool(ToolKind::Rotate),
+                tool(ToolKind::Scale),
+                Divider,
+                command(Command::Fit),
+                Divider,
+                command(Command::ToggleVisible),
+                command(Command::ToggleLocked),
+            ]
+        }
+        MenuSubject::Canvas => vec![
+            command(Command::Undo),
+            command(Command::Redo),
+            Divider,
+            Entry::Action(Action::Paste),
+            tool(ToolKind::Draw),
+            Entry::References,
+            Divider,
+            command(Command::SelectAll),
+            command(Command::SelectNone),
+            Divider,
+            command(Command::FitAll),
+            Entry::Submenu(
+                "View from",
+                NamedView::ALL
+                    .map(|view| command(Command::View(view)))
+                    .into(),
+            ),
+            Entry::Submenu("Layers", Layer::ALL.map(layer).into()),
+            command(Command::ToggleSnapping),
+        ],
+        MenuSubject::Plot => vec![
+            layer(Layer::Features),
+            layer(Layer::Comb),
+            command(Command::ResetComb),
+            Divider,
+            operation(&operations::harmonise::OPERATION),
+            Divider,
+            Entry::Action(Action::TogglePlots),
+        ],
+    }
+}

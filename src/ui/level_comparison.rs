@@ -1,0 +1,111 @@
+//! The features of two curves side by side, level by level.
+
+use eframe::egui::{Align2, Rect, Role, Sense, Ui, WidgetInfo, vec2};
+
+use super::theme::{self, STEP, Tokens};
+use super::{figures, widgets};
+use crate::geometry::approximation::{LevelComparison, LevelFeature};
+use crate::geometry::counted;
+
+/// The height of a row.
+const LINE: f32 = 4.5 * STEP;
+
+/// Show whether each level has the features of what the curve stands for, and below that both lists in two
+/// columns; the first difference is marked.
+pub fn level_comparisons_ui(ui: &mut Ui, levels: &[LevelComparison]) {
+    for level in levels {
+        level_ui(ui, level);
+    }
+}
+
+fn level_ui(ui: &mut Ui, level: &LevelComparison) {
+    let difference = level.first_difference();
+    let text = match difference {
+        None => format!("same {}", counted(level.there.len(), "feature", "features")),
+        Some(index) => format!("differs from feature {} on", index + 1),
+    };
+    let name = level.name();
+    heading_ui(ui, &name, &text, difference.is_some());
+    if level.there.is_empty() && level.here.is_empty() {
+        return;
+    }
+    row_ui(
+        ui,
+        &name,
+        ["reference".into(), "curve".into()],
+        Row::Heading,
+    );
+    for index in 0..level.there.len().max(level.here.len()) {
+        let there = level.there.get(index).map(|it| it.name().to_owned());
+        let here = level.here.get(index);
+        let here = here.map(|(u, feature)| told("u", *u, *feature));
+        let row = match difference {
+            Some(first) if first == index => Row::Difference,
+            _ => Row::Feature,
+        };
+        let or_none = |text: Option<String>| text.unwrap_or_else(|| "–".to_owned());
+        row_ui(ui, &name, [or_none(there), or_none(here)], row);
+    }
+    ui.add_space(STEP);
+}
+
+/// What a feature is, and at which parameter.
+fn told(parameter: &str, at: f64, feature: LevelFeature) -> String {
+    let at = figures::significant(at, 4);
+    format!("{} at {parameter} = {at}", feature.name())
+}
+
+/// What a row shows.
+#[derive(Clone, Copy, PartialEq)]
+enum Row {
+    Heading,
+    Feature,
+    /// The first features that differ.
+    Difference,
+}
+
+fn heading_ui(ui: &mut Ui, name: &str, text: &str, differs: bool) {
+    let tokens = Tokens::of(ui);
+    let size = vec2(ui.available_width(), 5.0 * STEP);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    widgets::label_in(ui, rect, name, tokens.text);
+    let colour = if differs { tokens.error } else { tokens.good };
+    let font = theme::small_font();
+    let at = rect.right_center();
+    ui.painter()
+        .text(at, Align2::RIGHT_CENTER, text, font, colour);
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{name}: {text}")));
+}
+
+fn row_ui(ui: &mut Ui, level: &str, texts: [String; 2], row: Row) {
+    let tokens = Tokens::of(ui);
+    let size = vec2(ui.available_width(), LINE);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    if row == Row::Difference {
+        let fill = tokens.error.gamma_multiply(0.18);
+        ui.painter().rect_filled(rect, 2, fill);
+    }
+    let colour = match row {
+        Row::Heading => tokens.faint_text,
+        Row::Feature => tokens.text,
+        Row::Difference => tokens.strong_text,
+    };
+    let middle = rect.center().x;
+    let columns = [rect.with_max_x(middle), rect.with_min_x(middle)];
+    for (column, text) in columns.into_iter().zip(&texts) {
+        let column = Rect::from_min_max(column.min + vec2(STEP, 0.0), column.max);
+        ui.painter_at(column).text(
+            column.left_center(),
+            Align2::LEFT_CENTER,
+            text,
+            theme::small_font(),
+            colour,
+        );
+    }
+    let difference = match row {
+        Row::Difference => "first difference, ",
+        _ => "",
+    };
+    let told = format!("{level}: {difference}{} | {}", texts[0], texts[1]);
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, told.clone()));
+}
