@@ -64,14 +64,15 @@ fn vertices_beyond_an_end(polygon: &FloatPolygon) -> usize {
 
 /// Remember the arc length where the last question ended, so that questions in rising order
 /// walk along the curve once.
-#[derive(Default)]
-struct LengthCursor {
+#[derive(Debug, Default)]
+pub struct LengthCursor {
     block: usize,
     before_block: f64,
 }
 
 impl LengthCursor {
-    fn length_at(&mut self, SampledCurve { curve, samples }: SampledCurve<'_>, u: f64) -> f64 {
+    /// Measure the arc length from the curve's start to u, as [`SampledCurve::length_at`] does.
+    pub fn length_at(&mut self, SampledCurve { curve, samples }: SampledCurve<'_>, u: f64) -> f64 {
         let (piece, t) = curve.locate(u);
         if piece < samples.block_pieces(self.block).start {
             *self = Self::default();

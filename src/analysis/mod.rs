@@ -22,6 +22,7 @@ pub use cache::AnalysisCache;
 pub use curvature_series::CurvatureSeries;
 pub use curve_analysis::CurveAnalysis;
 pub use curve_samples::{Block, CurveSamples, SampledCurve};
+pub use discrete_curvature::LengthCursor;
 pub use distance::{Distance, Measured};
 pub use feature_proof::{FeatureProof, ProofResult};
 pub use harmony_measurement::{HarmonyMeasurement, MeasuredHarmony};

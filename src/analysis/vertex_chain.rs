@@ -139,6 +139,18 @@ impl VertexChain {
         known.copied()
     }
 
+    /// Append the discrete curvature at the vertices, with their numbers, over the length of the legs
+    /// from the first vertex on; thinned out as for a plot.
+    pub fn append_curvatures_by_length(&self, out: &mut Vec<(usize, DVec2)>) {
+        let (mut vertex, mut length) = (0, 0.0);
+        for (index, curvature) in self.extreme_curvatures() {
+            let legs = (vertex..index).filter_map(|leg| self.leg(leg));
+            length += legs.sum::<f64>();
+            vertex = index;
+            out.push((index, DVec2::new(length, curvature)));
+        }
+    }
+
     /// Append a sequence of the flow over the vertices' numbers, thinned so that its extrema are
     /// kept; what belongs to a leg stands at the vertex where it begins, angles are in radians.
     /// Where there is no number there is a gap, a NaN point.

@@ -43,8 +43,8 @@ pub use trial::{Run, Trial};
 pub use view::{
     Bounds, ChainOutlines, CombSettings, CurveOutlines, CurveScene, EndFitMarks, FeatureKind,
     FeatureMark, FeatureReport, FeatureRow, GAP, GuideLabel, GuideScene, HoverScene, Layer, Layers,
-    LossArrow, Mark, NamedView, Orientation, PieceTrend, PlotKind, PlotScene, ProposalScene, REACH,
-    Scene, VertexMark, View, ViewBox, Viewport, grid_steps,
+    LossArrow, Mark, NamedView, Orientation, PieceTrend, PlotBand, PlotFeature, PlotKind,
+    PlotScene, ProposalScene, REACH, Scene, VertexMark, View, ViewBox, Viewport, grid_steps,
 };
 pub use worker::{Outcome, Worker};
 pub use workspace::{Interruption, PreviewId, Workspace};

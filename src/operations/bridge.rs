@@ -86,3 +86,9 @@ pub(super) fn marks(found: &Bridged) -> Vec<Mark> {
         .map(|vertex| Mark::Point(found.polygon.vertex(vertex)))
         .collect()
 }
+
+/// The parameters between which the curve depends on the bridge, or on both parts.
+pub(super) fn joint(found: &Bridged) -> [f64; 2] {
+    let degree = found.polygon.degree();
+    [found.bridge.start.saturating_sub(degree), found.bridge.end].map(|u| u as f64)
+}

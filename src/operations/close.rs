@@ -1,6 +1,6 @@
 //! A curve whose ends are joined, so that it is periodic.
 
-use super::bridge::{BRIDGE, figures, found, marks, remarks, vertices};
+use super::bridge::{BRIDGE, figures, found, joint, marks, remarks, vertices};
 use super::editable::open;
 use super::error::OperationError;
 use super::input::Input;
@@ -55,5 +55,6 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
     outcome.figures = figures(&found);
     outcome.remarks.extend(remarks(&found));
     outcome.marks = marks(&found);
+    outcome.joint = Some(joint(&found));
     Ok(outcome)
 }

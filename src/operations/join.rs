@@ -1,6 +1,6 @@
 //! Two curves made one by a bridge between them.
 
-use super::bridge::{self, BRIDGE, figures, marks};
+use super::bridge::{self, BRIDGE, figures, joint, marks};
 use super::editable::open_of;
 use super::error::OperationError;
 use super::input::Input;
@@ -135,6 +135,7 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
     outcome.remarks = bridge::remarks(&found);
     outcome.remarks.extend(locks::lost(second, &[&part]));
     outcome.marks = marks(&found);
+    outcome.joint = Some(joint(&found));
     Ok(outcome)
 }
 

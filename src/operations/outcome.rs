@@ -33,6 +33,9 @@ pub struct Outcome {
     pub remarks: Vec<String>,
     /// What to draw on the canvas.
     pub marks: Vec<Mark>,
+    /// The parameters of the curve between which it was joined; on a periodic curve the second may
+    /// lie beyond the end.
+    pub joint: Option<[f64; 2]>,
     /// Points on the canvas that set parameters when they are dragged.
     pub handles: Vec<Handle>,
     /// A plane of two parameters to choose from.
@@ -195,6 +198,7 @@ impl Outcome {
             equivalence: None,
             remarks: Vec::new(),
             marks: Vec::new(),
+            joint: None,
             handles: Vec::new(),
             atlas: None,
         }

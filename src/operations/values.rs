@@ -105,6 +105,14 @@ impl Values {
         }
     }
 
+    /// The reference that was given for any parameter, if one was.
+    pub fn given_reference(&self) -> Option<&ReferenceCurve> {
+        self.0.iter().find_map(|(_, value)| match value {
+            Value::Reference(reference) => reference.as_deref(),
+            _ => None,
+        })
+    }
+
     /// The numbers of a parameter that takes lists.
     ///
     /// # Panics

@@ -1,7 +1,7 @@
 //! The table of actions: the editor's commands, and what only a window can do. Menus, keys,
 //! buttons and the command palette all read it.
 
-use crate::editor::{Command, Editor, Key, Shortcut};
+use crate::editor::{Command, Editor, Key, Modifiers, Shortcut};
 use crate::geometry::PolygonKind;
 use crate::io::examples::EXAMPLES;
 use crate::ui::shell::Shell;
@@ -41,6 +41,8 @@ pub enum Action {
     ToggleTheme,
     /// Show or hide the plots.
     TogglePlots,
+    /// Show all of the plot in front again.
+    FitPlot,
     /// Find an action by its name.
     Palette,
     /// Explain the paper's figures, with their curves.
@@ -76,6 +78,7 @@ impl Action {
         all.extend([
             Self::ToggleTheme,
             Self::TogglePlots,
+            Self::FitPlot,
             Self::Palette,
             Self::Paper,
             Self::Keys,
@@ -105,6 +108,7 @@ impl Action {
             Self::Paste => "Paste",
             Self::ToggleTheme => "Light theme",
             Self::TogglePlots => "Plots",
+            Self::FitPlot => "Fit plot",
             Self::Palette => "Find a command…",
             Self::Paper => "The paper",
             Self::Keys => "Keys and mouse",
@@ -154,6 +158,9 @@ impl Action {
             Self::Paste => "Add what was copied as a curve of its own",
             Self::ToggleTheme => "Switch between the dark and the light theme",
             Self::TogglePlots => "Show or hide the plots under the canvas",
+            Self::FitPlot => {
+                "Show the whole plot again after zooming with the wheel or moving it; a double click does the same"
+            }
             Self::Palette => "Find a command by typing a part of its name",
             Self::Paper => {
                 "Open the figures and tables of the paper behind Batten as documents, with explanations"
@@ -180,6 +187,10 @@ impl Action {
             Self::Paste => Shortcut::ctrl('v'),
             Self::ToggleTheme => Shortcut::plain(Key::Function(9)),
             Self::TogglePlots => Shortcut::plain(Key::Function(8)),
+            Self::FitPlot => Shortcut {
+                modifiers: Modifiers::SHIFT,
+                key: Key::Function(8),
+            },
             Self::Palette => Shortcut::ctrl('p'),
             Self::Keys => Shortcut::plain(Key::Function(1)),
             Self::OpenExample(_)

@@ -274,6 +274,7 @@ impl App {
             .default_size(232.0)
             .size_range(168.0..=640.0)
             .show(ui, |ui| {
+                self.plots.set_fingers(self.canvas.has_fingers());
                 widgets::filling(ui, |ui| {
                     ui.allocate_ui(egui::vec2(ui.available_width(), plots::BAR), |ui| {
                         self.plots
@@ -362,6 +363,7 @@ impl App {
                 theme::choose(context, self.shell.dark);
             }
             Action::TogglePlots => self.shell.plots = !self.shell.plots,
+            Action::FitPlot => self.plots.fit(),
             Action::Palette => self.palette.open(),
             Action::Keys => self.dialog = Some(Dialog::Keys),
             Action::About => self.dialog = Some(Dialog::About),

@@ -16,7 +16,7 @@ use super::{gizmo, grid, keyboard, painting};
 use crate::editor::{Button, Cursor, Editor, Input, Key, Layer, Modifiers};
 
 /// Points of the wheel that scale by the factor e.
-const WHEEL_POINTS: f64 = 220.0;
+pub const WHEEL_POINTS: f64 = 220.0;
 
 /// The canvas's own state: how egui's events are to be read.
 #[derive(Debug, Default)]
@@ -48,6 +48,11 @@ impl Canvas {
     /// Where the canvas is, once it was shown.
     pub fn rect(&self) -> Option<Rect> {
         self.rect
+    }
+
+    /// Whether fingers on a touchpad turn the wheel.
+    pub fn has_fingers(&self) -> bool {
+        self.fingers
     }
 
     /// Send this frame's events to the editor. Called before any panel is shown, so that all of

@@ -54,6 +54,7 @@ pub fn of_action(action: Action) -> Option<Icon> {
         Action::Paste => Icon::ClipboardPaste,
         Action::ToggleTheme => Icon::SunMoon,
         Action::TogglePlots => Icon::ChartSpline,
+        Action::FitPlot => Icon::Maximize,
         Action::Palette => Icon::Search,
         Action::Keys => Icon::Keyboard,
         Action::About => Icon::Info,

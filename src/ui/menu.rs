@@ -153,6 +153,7 @@ fn menus() -> [(&'static str, Vec<Entry>); 6] {
         command(Command::ResetComb),
         Divider,
         Item(Action::TogglePlots),
+        Item(Action::FitPlot),
         Item(Action::ToggleTheme),
     ]);
     let tools = ToolKind::ALL

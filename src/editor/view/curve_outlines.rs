@@ -59,13 +59,14 @@ impl PieceTrend {
     /// Every trend that is drawn.
     pub const ALL: [Self; 3] = [Self::Rising, Self::Falling, Self::Undecided];
 
-    fn is_of(self, piece: &SignPiece) -> bool {
-        matches!(
-            (self, piece.sign),
-            (Self::Rising, Sign::Positive)
-                | (Self::Falling, Sign::Negative)
-                | (Self::Undecided, Sign::Unknown)
-        )
+    /// What the curvature does on a piece; `None` where it is constant, or has an extremum.
+    pub(in crate::editor) fn of(piece: &SignPiece) -> Option<Self> {
+        match piece.sign {
+            Sign::Positive => Some(Self::Rising),
+            Sign::Negative => Some(Self::Falling),
+            Sign::Unknown => Some(Self::Undecided),
+            Sign::Zero | Sign::Root { .. } => None,
+        }
     }
 }
 
@@ -202,7 +203,7 @@ impl CurveOutlines {
                 let mut start = 0.0;
                 for piece in &features.curvature_slope {
                     let end = piece.until;
-                    if trend.is_of(piece) {
+                    if PieceTrend::of(piece) == Some(trend) {
                         out.push(at(start));
                         let inner = ((start * steps) as usize + 1)..samples.len();
                         let inner = inner.take_while(|index| (*index as f64) < end * steps);

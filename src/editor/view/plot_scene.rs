@@ -6,6 +6,8 @@ use glam::DVec2;
 
 use crate::analysis::{Flow, LevelPlot};
 use crate::document::{Curve, CurveId};
+use crate::editor::view::curve_outlines::PieceTrend;
+use crate::editor::view::feature_report::FeatureKind;
 use crate::editor::view::shown::Shown;
 
 /// What is plotted of the active curve.
@@ -47,6 +49,15 @@ pub struct PlotScene {
     pub worst: [Option<DVec2>; Flow::ALL.len()],
     /// The series of the curve or reference to compare with.
     pub compared: Option<Box<PlotScene>>,
+    /// What the curve or reference to compare with is called.
+    pub compared_name: String,
+    /// The features that belong to the plot, in the order of u.
+    pub features: Vec<PlotFeature>,
+    /// Where the curvature rises, falls, or may do either, as far as it is proved: in the plot of
+    /// the curvature.
+    pub bands: Vec<PlotBand>,
+    /// The parts of the curve that the operation at hand has made to join it.
+    pub joints: Vec<[f64; 2]>,
     /// The arc length of the whole curve.
     pub length: f64,
     /// The arc length and curvature at what is hovered on the canvas.
@@ -57,12 +68,48 @@ pub struct PlotScene {
     pub before: Option<Box<PlotScene>>,
 }
 
+/// A feature as a plot marks it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlotFeature {
+    /// What it is.
+    pub kind: FeatureKind,
+    /// Its arc length, and the curvature or torsion there; not finite at a cusp.
+    pub at: DVec2,
+}
+
+/// A part of a curve, by arc length, on which its curvature does one thing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlotBand {
+    /// What it does.
+    pub trend: PieceTrend,
+    /// Where the part begins.
+    pub from: f64,
+    /// Where it ends.
+    pub to: f64,
+}
+
 impl PlotScene {
     /// The plot of the curvature of the curve scaled to length 1, over shares of its length.
     pub fn at_length_one(&self) -> Self {
         let place = |point: &DVec2| DVec2::new(point.x / self.length, point.y * self.length);
         let dots = self.discrete.iter();
+        let features = self.features.iter().map(|feature| PlotFeature {
+            at: place(&feature.at),
+            ..*feature
+        });
+        let bands = self.bands.iter().map(|band| PlotBand {
+            from: band.from / self.length,
+            to: band.to / self.length,
+            ..*band
+        });
+        let joints = self.joints.iter();
         Self {
+            features: features.collect(),
+            bands: bands.collect(),
+            joints: joints
+                .map(|joint| joint.map(|end| end / self.length))
+                .collect(),
+            compared_name: self.compared_name.clone(),
             curvature: self.curvature.iter().map(place).collect(),
             discrete: dots.map(|(index, at)| (*index, place(at))).collect(),
             hovered: self.hovered.as_ref().map(place),
@@ -93,7 +140,29 @@ pub struct PlotSource {
     /// The curve as it was.
     pub before: Option<Arc<Curve>>,
     /// What it is compared with.
-    pub compared: Option<(CurveId, Shown)>,
+    pub compared: Option<Compared>,
+}
+
+/// What a curve is compared with in the plots.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Compared {
+    /// A curve or a reference of the document.
+    Item(CurveId, Shown),
+    /// The reference that an operation was given, which the document does not have.
+    Given(Shown),
+}
+
+/// What the marks of a plot are made of, beside its series.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MarkSource {
+    /// What is plotted.
+    pub kind: PlotKind,
+    /// The curve or the reference as it is.
+    pub shown: Shown,
+    /// Whether its features are known and shown.
+    pub features: bool,
+    /// The parameters between which it was joined.
+    pub joint: Option<[f64; 2]>,
 }
 
 impl PartialEq for PlotSource {

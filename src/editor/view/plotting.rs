@@ -1,12 +1,15 @@
 //! Making the plot of the active curve that is shown.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
 use crate::analysis::{CurveAnalysis, Flow, ReferenceAnalysis, SampledCurve};
-use crate::document::CurveId;
+use crate::document::{CurveId, Reference};
 use crate::editor::Editor;
-use crate::editor::view::plot_scene::{PlotKind, PlotScene, PlotSource};
+use crate::editor::view::plot_scene::{Compared, PlotKind, PlotScene, PlotSource};
 use crate::editor::view::shown::Shown;
+use crate::geometry::references::ReferenceCurve;
 
 impl Editor {
     /// Make the plot that is shown; its series are made anew only if its curves or its kind changed.
@@ -20,7 +23,9 @@ impl Editor {
             plots.clear();
             self.fill(&mut plots, source.as_ref());
             self.view.plotted = source;
+            self.view.plot_marked = None;
         }
+        self.mark_plot(&mut plots);
         if let Some((id, kind)) = self.active().zip(self.view.plot)
             && let Some(sampled) = self.analyses.sampled(id)
         {
@@ -41,17 +46,49 @@ impl Editor {
     }
 
     /// What is to be plotted; `None` if nothing is.
-    fn plot_source(&self) -> Option<PlotSource> {
+    fn plot_source(&mut self) -> Option<PlotSource> {
         let (id, kind) = self.active().zip(self.view.plot)?;
-        let shown = |id| Shown::of(self.document(), id);
-        let compared = self.view.compared.filter(|other| *other != id);
         Some(PlotSource {
             kind,
             id,
-            shown: shown(id)?,
+            shown: Shown::of(self.document(), id)?,
             before: self.before(),
-            compared: compared.and_then(|other| Some((other, shown(other)?))),
+            compared: self.compared_with(id),
         })
+    }
+
+    /// What the active curve is compared with: the reference that the operation at hand was given, or
+    /// what was chosen.
+    fn compared_with(&mut self, id: CurveId) -> Option<Compared> {
+        let given = self
+            .trial()
+            .and_then(|trial| trial.values().given_reference());
+        let document = self.document();
+        let has = |curve: &ReferenceCurve| {
+            let mut references = document.references();
+            references.find(|(_, reference)| reference.curve == *curve)
+        };
+        match given {
+            Some(curve) if has(curve).is_none() => {
+                let known = self.view.given.as_ref().map(ReferenceAnalysis::reference);
+                let known = known.filter(|known| known.curve == *curve);
+                let reference = known.cloned().unwrap_or_else(|| {
+                    let name = curve.form().label().to_lowercase();
+                    Arc::new(Reference::new(name, curve.clone()))
+                });
+                match &mut self.view.given {
+                    Some(analysis) => analysis.update(&reference),
+                    given => *given = Some(ReferenceAnalysis::new(reference.clone())),
+                }
+                Some(Compared::Given(Shown::Reference(reference)))
+            }
+            given => {
+                let of_document = given.and_then(has).map(|(id, _)| id);
+                let other = of_document.or(self.view.compared);
+                let other = other.filter(|other| *other != id)?;
+                Some(Compared::Item(other, Shown::of(document, other)?))
+            }
+        }
     }
 
     fn fill(&mut self, plots: &mut PlotScene, source: Option<&PlotSource>) {
@@ -64,11 +101,22 @@ impl Editor {
             scene.fill(self.view.ghost.analysis(before), source.kind);
             plots.before = Some(Box::new(scene));
         }
-        if let Some((other, _)) = &source.compared {
-            let mut scene = PlotScene::default();
-            self.fill_of(&mut scene, *other, source.kind);
-            plots.compared = Some(Box::new(scene));
+        let mut scene = PlotScene::default();
+        match &source.compared {
+            Some(Compared::Item(other, _)) => {
+                self.fill_of(&mut scene, *other, source.kind);
+                plots.compared_name = self.document().name(*other).unwrap_or_default().to_owned();
+            }
+            Some(Compared::Given(_)) => {
+                if let Some(analysis) = &mut self.view.given {
+                    scene.fill_reference(analysis, source.kind);
+                    let name = &analysis.reference().name;
+                    plots.compared_name = format!("source: {name}");
+                }
+            }
+            None => return,
         }
+        plots.compared = Some(Box::new(scene));
     }
 
     /// Make the series of a curve or a reference.
@@ -96,10 +144,15 @@ impl PlotScene {
         self.length = samples.length();
     }
 
-    /// Make the series of a reference: a list of points has none, and there is no flow of vertices.
+    /// Make the series of a reference: a list of points has but the discrete curvature, and there is
+    /// no flow of vertices.
     fn fill_reference(&mut self, reference: &mut ReferenceAnalysis, kind: PlotKind) {
         self.begin(reference.sampled());
         match kind {
+            PlotKind::Curvature if !reference.is_smooth() => {
+                let points = reference.points();
+                points.append_curvatures_by_length(&mut self.discrete);
+            }
             _ if !reference.is_smooth() => {}
             PlotKind::Curvature => reference.append_curvature(&mut self.curvature),
             PlotKind::Levels { plot, normalised } => {

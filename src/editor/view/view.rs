@@ -1,5 +1,6 @@
 //! What is seen, and how.
 
+use crate::analysis::ReferenceAnalysis;
 use crate::document::CurveId;
 use crate::editor::guides::FeatureOf;
 use crate::editor::view::comb::CombSettings;
@@ -7,7 +8,7 @@ use crate::editor::view::feature_report::FeatureReport;
 use crate::editor::view::ghost::Ghost;
 use crate::editor::view::layers::Layers;
 use crate::editor::view::outlines::Outlines;
-use crate::editor::view::plot_scene::{PlotKind, PlotScene, PlotSource};
+use crate::editor::view::plot_scene::{MarkSource, PlotKind, PlotScene, PlotSource};
 use crate::editor::view::proposed::ProposedCurve;
 use crate::editor::view::scene::Scene;
 use crate::editor::view::shown::Shown;
@@ -35,6 +36,10 @@ pub struct View {
     pub(in crate::editor) plots: PlotScene,
     /// What its series were made of.
     pub(in crate::editor) plotted: Option<PlotSource>,
+    /// What its marks were made of.
+    pub(in crate::editor) plot_marked: Option<MarkSource>,
+    /// What is known of the reference that an operation was given.
+    pub(in crate::editor) given: Option<ReferenceAnalysis>,
     /// Whether a panel shows the harmony of the active curve.
     pub(in crate::editor) harmony: bool,
     /// Whether a panel shows the atlas of an operation.

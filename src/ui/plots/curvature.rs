@@ -1,110 +1,146 @@
 //! The plot of curvature over arc length, with the polygon's discrete curvature.
 
-use std::ops::RangeInclusive;
-
-use eframe::egui::{Stroke, Ui};
-use egui_plot::{GridMark, HoverPosition, PlotBounds, PlotPoints, PlotUi, Polygon};
+use eframe::egui::{Shape, Stroke, Ui};
+use egui_plot::{HoverPosition, MarkerShape, PlotBounds, PlotPoints, PlotUi, Polygon};
 use glam::DVec2;
 
-use super::Plots;
+use super::dots::Dots;
 use super::drawing::*;
-use super::frame::{bounds_of, padded};
+use super::frame::{padded, within_reason};
+use super::marks::{self, behind, features};
+use super::navigation::navigate;
+use super::pane::Pane;
+use super::ticks::Scale;
+use super::{Plots, area, is_held, peaks};
 use crate::analysis::LevelPlot;
-use crate::editor::{Editor, PlotScene};
+use crate::editor::{Editor, PlotFeature, PlotScene};
 use crate::ui::figures;
 use crate::ui::theme::Tokens;
+
+/// How far beyond the rest of the curve a peak may reach and still be shown, in units of the
+/// extent of the rest.
+const TALLEST: f64 = 20.0;
+
+/// How far beyond the curve dots may reach and still be shown, in units of its extent …
+const DOTS: f64 = 0.5;
+
+/// … or of its curvature, for one that is nearly constant.
+const DOTS_OF_SIZE: f64 = 0.1;
+
+/// How far arrows stay from the edge, in points.
+const ARROW: f64 = 6.0;
+
+/// Curvatures that differ by less than this, times the length of the curve, look constant.
+const ROUNDING: f64 = 1e-9;
 
 /// Say what the dots are, and what the shaded flanks hold.
 fn legend(flank: f64) -> &'static str {
     if flank > 0.0 {
-        "Dots: discrete curvature of the float S-polygon; shaded: vertices beyond the ends, evenly spaced"
+        "Dots: discrete curvature of the float S-polygon; arrows: beyond the plot; shaded: vertices beyond the ends, evenly spaced"
     } else {
-        "Dots: discrete curvature of the float S-polygon"
+        "Dots: discrete curvature of the float S-polygon; arrows: beyond the plot"
     }
 }
 
 impl Plots {
     pub(super) fn curvature_ui(&mut self, ui: &mut Ui, editor: &mut Editor) {
         let tokens = Tokens::of(ui);
-        let dragging = editor.hand().is_dragging();
+        let held = is_held(ui, editor);
         let scene = editor.view().plots();
-        self.legend = legend(scene.flank);
         let whole = scene.length;
         let normalised = self.normalised && whole > 0.0;
         let scaled = normalised.then(|| scene.at_length_one());
         let scene = scaled.as_ref().unwrap_or(scene);
         let length = scene.length;
-        let dots = scene.discrete.iter().map(|(_, point)| *point);
-        let of = |scene: Option<&PlotScene>| scene.map_or(Vec::new(), |it| it.curvature.clone());
-        let (was, other) = (of(scene.before.as_deref()), of(scene.compared.as_deref()));
-        let points = scene.curvature.iter().chain(&was).chain(&other).copied();
-        let mut wanted = bounds_of(points.chain(dots));
-        wanted.0.x = wanted.0.x.min(-scene.flank);
-        wanted.1.x = wanted.1.x.max(length + scene.flank);
-        let frame = self.levels.entry((LevelPlot::Curvature(1), normalised));
-        let bounds = frame.or_default().settle(padded(wanted), dragging);
-        let signed = match (scene.planar, normalised) {
-            (true, false) => "signed curvature κ (1/unit)",
-            (false, false) => "curvature κ (1/unit)",
-            (true, true) => "signed curvature κ, length 1",
-            (false, true) => "curvature κ, length 1",
+        let (wanted, cut) = wanted(scene);
+        self.legend = cut.map_or_else(|| legend(scene.flank).to_owned(), peaks);
+        let mut frame = self.frame((LevelPlot::Curvature(1), normalised));
+        let bounds = frame.settle(padded(wanted), held);
+        let area = area(ui);
+        let pane = Pane::within(area.size(), bounds);
+        let series: Vec<DVec2> = scene.discrete.iter().map(|(_, at)| *at).collect();
+        let hovered_dot = scene.hovered_vertex.and_then(|vertex| {
+            let mut dots = scene.discrete.iter();
+            dots.position(|(index, _)| *index == vertex)
+        });
+        let dots = Dots::new(&series, &pane, hovered_dot);
+        let names = [
+            across_name(normalised),
+            upwards_name(scene.planar, normalised),
+        ];
+        let axes = Axes {
+            names,
+            scale: Scale::Even,
+            numbered: [0.0, length],
         };
-        let across = if normalised {
-            "share of the arc length"
-        } else {
-            "arc length (units)"
-        };
-        let numbers = move |mark: GridMark, range: &RangeInclusive<f64>| {
-            let on_curve = (-1e-9 * length..=length * (1.0 + 1e-9)).contains(&mark.value);
-            if on_curve {
-                axis_number(mark, range)
-            } else {
-                String::new()
-            }
-        };
-        let plot = plot("curvature", across, signed, bounds, tokens)
-            .x_axis_formatter(numbers)
+        let near = self.near.and_then(|index| scene.features.get(index));
+        let back = ui.painter().add(Shape::Noop);
+        let plot = plot("curvature", &axes, &pane, tokens)
+            .width(area.width())
+            .height(area.height())
             .label_formatter(|hover| {
-                if let HoverPosition::NearDataPoint {
-                    position,
-                    plot_name: "discrete",
-                    index,
-                } = hover
-                {
-                    let curvature = figures::significant(position.y, 6);
-                    return Some(discrete_label(scene, *index, &curvature));
+                if let Some(feature) = near {
+                    return Some(feature_label(feature));
+                }
+                if let Some(dot) = hovered_place(hover, &dots) {
+                    return Some(discrete_label(scene, dot));
                 }
                 // The figures are those of the place that is marked, not of a sample near it.
                 let at = scene.hovered?;
                 let (x, y) = (figures::significant(at.x, 5), figures::significant(at.y, 6));
                 Some(format!("κ {y}\nat {x}"))
             });
-        let hovered = plot
-            .show(ui, |plot| {
-                plot.set_plot_bounds(bounds);
-                flanks(plot, scene, bounds, tokens);
-                zero_line(plot, tokens);
-                before_lines(plot, &was, tokens);
-                lines(plot, "compared", &other, tokens.joints);
-                lines(plot, "curvature", &scene.curvature, tokens.comb);
-                let dots: Vec<DVec2> = scene.discrete.iter().map(|(_, point)| *point).collect();
-                plot.points(dots_of("discrete", &dots, tokens.float));
-                if let Some(at) = scene.hovered {
-                    cursor(plot, at, tokens);
-                }
-                if let Some(vertex) = scene.hovered_vertex {
-                    let found = scene.discrete.iter().find(|(index, _)| *index == vertex);
-                    if let Some((_, at)) = found {
-                        plot.points(ring(*at, tokens));
-                    }
-                }
-                hovered_x(plot)
-            })
-            .inner;
+        let shown = plot.show(ui, |plot| {
+            plot.set_plot_bounds(bounds);
+            flanks(plot, scene, bounds, tokens);
+            zero_line(plot, tokens);
+            if let Some(before) = &scene.before {
+                before_lines(plot, &before.curvature, tokens);
+            }
+            if let Some(other) = &scene.compared {
+                lines(plot, "compared", &other.curvature, tokens.joints);
+                points_compared(plot, other, &pane, tokens);
+            }
+            lines(plot, "curvature", &scene.curvature, tokens.comb);
+            show_dots(plot, &series, &dots, &pane, tokens);
+            if let Some(at) = scene.hovered {
+                cursor(plot, at, tokens);
+            }
+            if let Some(at) = hovered_dot.and_then(|dot| series.get(dot)) {
+                let [low, high] = pane.corners();
+                plot.points(ring(at.clamp(low, high), tokens));
+            }
+            hovered_x(plot)
+        });
+        let transform = &shown.transform;
+        let painter = ui.painter_at(*transform.frame());
+        painter.set(back, behind(scene, transform, tokens));
+        let pointer = shown.response.hover_pos();
+        let near = features(&painter, scene, transform, pointer, tokens);
+        marks::legend(&painter, scene, transform.frame(), tokens);
+        navigate(
+            ui,
+            &shown.response,
+            area,
+            transform,
+            self.fingers,
+            &mut frame,
+        );
+        // What a glyph stands for is marked exactly there.
+        let hovered = match near.and_then(|index| scene.features.get(index)) {
+            Some(feature) => Some(feature.at.x),
+            None => shown.inner,
+        };
         let beyond = hovered.filter(|x| !(0.0..=length).contains(x));
         let vertex = beyond.and_then(|x| nearest_dot(scene, x));
         let along = hovered.filter(|x| (0.0..=length).contains(x));
         let along = along.map(|x| x * whole / length);
+        self.levels
+            .insert((LevelPlot::Curvature(1), normalised), frame);
+        if self.near != near {
+            self.near = near;
+            ui.ctx().request_repaint();
+        }
         if let Some(along) = along {
             editor.view_mut().hover_length(along);
         }
@@ -114,11 +150,110 @@ impl Plots {
     }
 }
 
-/// Say which vertex a dot belongs to.
-fn discrete_label(scene: &PlotScene, dot: usize, curvature: &str) -> String {
-    let Some((vertex, at)) = scene.discrete.get(dot) else {
-        return format!("discrete κ {curvature}");
+/// The bounds that hold the curve, and dots near it; if peaks of the curve are cut off, also how far
+/// they reach.
+fn wanted(scene: &PlotScene) -> ((DVec2, DVec2), Option<(f64, f64)>) {
+    let overlaid = [scene.before.as_deref(), scene.compared.as_deref()];
+    let overlaid = overlaid.into_iter().flatten();
+    let overlaid = overlaid.flat_map(|scene| &scene.curvature);
+    let points: Vec<DVec2> = scene.curvature.iter().chain(overlaid).copied().collect();
+    let noise = ROUNDING / scene.length.max(f64::MIN_POSITIVE);
+    let ((mut low, mut high), cut) = within_reason(&points, noise, TALLEST);
+    let size = low.y.abs().max(high.y.abs());
+    let reach = (DOTS * (high.y - low.y)).max(DOTS_OF_SIZE * size);
+    let reached = low.y - reach..=high.y + reach;
+    let near = scene.discrete.iter().map(|(_, dot)| dot.y);
+    let near: Vec<f64> = near.filter(|y| reached.contains(y)).collect();
+    // Half a dot more, so that none is cut.
+    let room = 0.02 * (high.y - low.y);
+    for y in near {
+        low.y = low.y.min(y - room);
+        high.y = high.y.max(y + room);
+    }
+    low.x = low.x.min(-scene.flank);
+    high.x = high.x.max(scene.length + scene.flank);
+    ((low, high), cut)
+}
+
+fn across_name(normalised: bool) -> &'static str {
+    match normalised {
+        true => "share of the arc length",
+        false => "arc length (units)",
+    }
+}
+
+fn upwards_name(planar: bool, normalised: bool) -> &'static str {
+    match (planar, normalised) {
+        (true, false) => "signed κ (1/unit)",
+        (false, false) => "κ (1/unit)",
+        (true, true) => "signed κ, length 1",
+        (false, true) => "κ, length 1",
+    }
+}
+
+/// The dot or arrow that is hovered, by its place in the series.
+fn hovered_place(hover: &HoverPosition<'_>, dots: &Dots) -> Option<usize> {
+    let HoverPosition::NearDataPoint {
+        plot_name, index, ..
+    } = hover
+    else {
+        return None;
     };
+    let places = match *plot_name {
+        "discrete" => &dots.inside,
+        "above" => &dots.above,
+        "below" => &dots.below,
+        _ => return None,
+    };
+    places.get(*index).copied()
+}
+
+/// Show the dots, and arrows at the edges for those beyond.
+fn show_dots(plot: &mut PlotUi<'_>, series: &[DVec2], dots: &Dots, pane: &Pane, tokens: &Tokens) {
+    let [low, high] = pane.corners();
+    let edge = ARROW * pane.point().y;
+    let at = |places: &[usize]| -> Vec<DVec2> {
+        let points = places.iter().filter_map(|place| series.get(*place));
+        points.copied().collect()
+    };
+    plot.points(dots_of("discrete", &at(&dots.inside), tokens.float));
+    for (name, places, y, shape) in [
+        ("above", &dots.above, high.y - edge, MarkerShape::Up),
+        ("below", &dots.below, low.y + edge, MarkerShape::Down),
+    ] {
+        let points: Vec<DVec2> = at(places).iter().map(|at| DVec2::new(at.x, y)).collect();
+        let arrows = dots_of(name, &points, tokens.float);
+        plot.points(arrows.shape(shape).radius(4.0));
+    }
+}
+
+/// Show the discrete curvature of points that a curve is compared with, as far as there is room.
+fn points_compared(plot: &mut PlotUi<'_>, other: &PlotScene, pane: &Pane, tokens: &Tokens) {
+    if !other.curvature.is_empty() {
+        return;
+    }
+    let series: Vec<DVec2> = other.discrete.iter().map(|(_, at)| *at).collect();
+    let inside = Dots::new(&series, pane, None).inside;
+    let points: Vec<DVec2> = inside.iter().map(|place| series[*place]).collect();
+    let dots = dots_of("points", &points, tokens.joints.gamma_multiply(0.7));
+    plot.points(dots.radius(2.0).allow_hover(false));
+}
+
+/// Say what a glyph stands for.
+fn feature_label(feature: &PlotFeature) -> String {
+    let (x, y) = (
+        figures::significant(feature.at.x, 5),
+        figures::significant(feature.at.y, 6),
+    );
+    format!("{}\nκ {y}\nat {x}", feature.kind.label())
+}
+
+/// Say which vertex a dot belongs to.
+fn discrete_label(scene: &PlotScene, dot: usize) -> String {
+    let Some((vertex, at)) = scene.discrete.get(dot) else {
+        return String::new();
+    };
+    let curvature = figures::significant(at.y, 6);
     let place = if at.x < 0.0 {
         "beyond the start".to_owned()
     } else if at.x > scene.length {

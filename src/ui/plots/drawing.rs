@@ -2,25 +2,59 @@
 
 use std::ops::RangeInclusive;
 
-use eframe::egui::{Color32, Vec2};
+use eframe::egui::{Color32, Rangef, Vec2};
 use egui_plot::{
-    GridInput, GridMark, Line, MarkerShape, Plot, PlotBounds, PlotPoint, PlotPoints, PlotUi,
-    Points, VLine, uniform_grid_spacer,
+    AxisHints, GridMark, Line, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points, VLine,
 };
 use glam::DVec2;
 
-use crate::ui::figures;
-use crate::ui::theme::Tokens;
+use super::pane::{LEFT, Pane, RIGHT};
+use super::ticks::Scale;
+use crate::ui::theme::{self, Tokens};
 
-/// A plot that shows the bounds it is given and cannot be pushed about.
-pub fn plot<'a>(
-    id: &'a str,
-    x: &'a str,
-    y: &'a str,
-    bounds: PlotBounds,
-    tokens: &Tokens,
-) -> Plot<'a> {
-    let resolution = 1e-3 * (bounds.height()).abs();
+/// Half the width of a letter beside a tick, in points.
+const HALF_LETTER: f64 = 3.2;
+
+/// Half the height of a letter beside a tick, in points.
+const HALF_LINE: f64 = 7.0;
+
+/// Points of a line that are nearer to the last one than this, in points of the screen, are left
+/// out: they could not be told apart.
+const FINE: f64 = 0.7;
+
+/// What rounding may add to a range, as a share of it.
+const SLACK: f64 = 1e-9;
+
+/// What the axes of a plot are called, across and upwards, and what their numbers are.
+pub struct Axes<'a> {
+    pub names: [&'a str; 2],
+    pub scale: Scale,
+    /// The range of the horizontal axis in which ticks have numbers.
+    pub numbered: [f64; 2],
+}
+
+/// A plot that shows the bounds it is given; whoever shows it moves them.
+pub fn plot<'a>(id: &'a str, axes: &Axes<'a>, pane: &Pane, tokens: &Tokens) -> Plot<'a> {
+    let (scale, size, [first, last]) = (axes.scale, pane.size, axes.numbered);
+    let slack = SLACK * (last - first);
+    let numbered = first - slack..=last + slack;
+    let font = theme::small_font();
+    let across = AxisHints::new_x()
+        .label(axes.names[0])
+        .label_spacing(Rangef::new(1.0, 2.0))
+        .tick_label_font(font.clone())
+        .tick_label_color(tokens.faint_text)
+        .formatter(move |mark, range| match numbered.contains(&mark.value) {
+            true => across_number(scale, mark, range, size.x),
+            false => String::new(),
+        });
+    let upwards = AxisHints::new_y()
+        .label(axes.names[1])
+        .label_spacing(Rangef::new(1.0, 2.0))
+        .tick_label_font(font)
+        .tick_label_color(tokens.faint_text)
+        .min_thickness(LEFT)
+        .formatter(move |mark, range| upwards_number(scale, mark, range, size.y));
     Plot::new(id)
         .allow_drag(false)
         .allow_zoom(false)
@@ -32,37 +66,40 @@ pub fn plot<'a>(
         .grid_color(tokens.grid_major)
         .grid_fade(0.0)
         .set_margin_fraction(Vec2::ZERO)
-        .x_axis_label(x)
-        .y_axis_label(y)
-        .y_axis_min_width(56.0)
-        .x_grid_spacer(uniform_grid_spacer(|input| steps(input, 10.0)))
-        .y_grid_spacer(uniform_grid_spacer(|input| steps(input, 4.0)))
-        .x_axis_formatter(axis_number)
-        .y_axis_formatter(move |mark, _| axis_figure(mark.value, mark.step_size.max(resolution)))
+        .custom_x_axes(vec![across])
+        .custom_y_axes(vec![upwards])
+        .x_grid_spacer(move |input| scale.across(input))
+        .y_grid_spacer(move |input| scale.upwards(input))
         .show_background(false)
 }
 
-/// Choose the steps of an axis: one family of lines, each with its number, at 1, 2 or 5 times a
-/// power of ten and `times` the least spacing apart.
-pub fn steps(input: GridInput, times: f64) -> [f64; 3] {
-    let least = (times * input.base_step_size).max(f64::MIN_POSITIVE);
-    let power = 10f64.powf(least.log10().floor());
-    let factors = [1.0, 2.0, 5.0, 10.0].into_iter();
-    let step = factors
-        .map(|factor| factor * power)
-        .find(|step| *step >= least);
-    [step.unwrap_or(10.0 * power); 3]
+/// The number below a tick, unless it would run over the right edge of the window's part.
+pub fn across_number(
+    scale: Scale,
+    mark: GridMark,
+    range: &RangeInclusive<f64>,
+    width: f64,
+) -> String {
+    let text = scale.number(mark, range);
+    let share = (range.end() - mark.value) / (range.end() - range.start());
+    let room = share * width + f64::from(RIGHT);
+    match text.chars().count() as f64 * HALF_LETTER > room {
+        true => String::new(),
+        false => text,
+    }
 }
 
-pub fn axis_number(mark: GridMark, _: &RangeInclusive<f64>) -> String {
-    axis_figure(mark.value, mark.step_size)
-}
-
-pub fn axis_figure(value: f64, step: f64) -> String {
-    if value.abs() < 1e-9 * step {
-        "0".to_owned()
-    } else {
-        figures::to_resolution(value, step)
+/// The number beside a tick, unless it would run over the upper or the lower edge.
+pub fn upwards_number(
+    scale: Scale,
+    mark: GridMark,
+    range: &RangeInclusive<f64>,
+    height: f64,
+) -> String {
+    let room = HALF_LINE / height.max(1.0) * (range.end() - range.start());
+    match mark.value < range.start() + room || mark.value > range.end() - room {
+        true => String::new(),
+        false => scale.number(mark, range),
     }
 }
 
@@ -75,22 +112,47 @@ pub fn zero_line(plot: &mut PlotUi<'_>, tokens: &Tokens) {
 
 /// Draw a chain, one line for each of its pieces.
 pub fn lines(plot: &mut PlotUi<'_>, name: &str, chain: &[DVec2], colour: Color32) {
-    for piece in chain
-        .split(|point| point.is_nan())
-        .filter(|piece| !piece.is_empty())
-    {
-        let line = Line::new(name.to_owned(), series(piece))
-            .color(colour)
-            .width(1.5);
+    for piece in pieces(plot, chain) {
+        let line = Line::new(name.to_owned(), piece).color(colour).width(1.5);
         plot.line(line);
     }
 }
 
+/// The pieces of a chain between its gaps, with the points that can be told apart on the screen.
+fn pieces(plot: &PlotUi<'_>, chain: &[DVec2]) -> Vec<PlotPoints<'static>> {
+    let bounds = plot.plot_bounds();
+    let size = plot.transform().frame().size();
+    let size = DVec2::new(f64::from(size.x), f64::from(size.y)).max(DVec2::ONE);
+    let point = DVec2::new(bounds.width(), bounds.height()) / size;
+    let pieces = chain.split(|point| point.is_nan());
+    let pieces = pieces.filter(|piece| !piece.is_empty());
+    pieces
+        .map(|piece| series(&told_apart(piece, point)))
+        .collect()
+}
+
+/// Leave out points that cannot be told from the one before; `point` is the extent of a point of
+/// the screen.
+fn told_apart(piece: &[DVec2], point: DVec2) -> Vec<DVec2> {
+    let mut kept: Vec<DVec2> = Vec::with_capacity(piece.len());
+    let mut skipped = None;
+    for at in piece {
+        let is_near = |last: &DVec2| ((*at - *last) / point).length_squared() < FINE * FINE;
+        if kept.last().is_some_and(is_near) {
+            skipped = Some(*at);
+        } else {
+            kept.push(*at);
+            skipped = None;
+        }
+    }
+    kept.extend(skipped);
+    kept
+}
+
 /// Draw a chain as it was, faintly; it tells nothing when it is hovered.
 pub fn before_lines(plot: &mut PlotUi<'_>, chain: &[DVec2], tokens: &Tokens) {
-    let pieces = chain.split(|point| point.is_nan());
-    for piece in pieces.filter(|piece| !piece.is_empty()) {
-        let line = Line::new("before", series(piece))
+    for piece in pieces(plot, chain) {
+        let line = Line::new("before", piece)
             .color(tokens.strong_text.gamma_multiply(0.3))
             .width(1.5);
         plot.line(line.allow_hover(false));
@@ -140,9 +202,49 @@ pub fn cursor(plot: &mut PlotUi<'_>, at: DVec2, tokens: &Tokens) {
 
 /// The abscissa under the pointer, if it is over the plot.
 pub fn hovered_x(plot: &PlotUi<'_>) -> Option<f64> {
-    let is_over = plot.response().hovered();
+    let is_over = plot.response().hovered() && !plot.response().dragged();
     is_over
         .then(|| plot.pointer_coordinate())
         .flatten()
         .map(|point| point.x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_keeps_its_ends_and_all_that_can_be_seen() {
+        let wave = |index: usize| {
+            let x = 1e-3 * index as f64;
+            DVec2::new(x, (9.0 * x).sin())
+        };
+        let chain: Vec<DVec2> = (0..=10_000).map(wave).collect();
+        let point = DVec2::new(10.0, 2.0) / DVec2::new(1000.0, 100.0);
+        let kept = told_apart(&chain, point);
+        assert!(kept.len() < 3000, "{}", kept.len());
+        assert_eq!((kept[0], kept.last()), (chain[0], chain.last()));
+        for at in &chain {
+            let near = |other: &DVec2| ((*at - *other) / point).length() < FINE;
+            assert!(kept.iter().any(near));
+        }
+    }
+
+    #[test]
+    fn numbers_that_would_be_clipped_are_left_out() {
+        let range = 0.0..=10.0;
+        let mark = |value| GridMark {
+            value,
+            step_size: 0.5,
+        };
+        let across = |value| across_number(Scale::Even, mark(value), &range, 500.0);
+        assert_eq!(across(10.0), "10.0");
+        let narrow = GridMark {
+            value: 10.0,
+            step_size: 1e-4,
+        };
+        assert_eq!(across_number(Scale::Even, narrow, &range, 500.0), "");
+        let upwards = |value| upwards_number(Scale::Even, mark(value), &range, 100.0);
+        assert_eq!([upwards(0.5), upwards(1.0), upwards(9.5)], ["", "1.0", ""]);
+    }
 }

@@ -1,27 +1,22 @@
 //! The flow of the float S-polygon's vertices as strips, one below the other.
 
-use std::ops::RangeInclusive;
-
-use eframe::egui::{Align2, Color32, Stroke, Ui, Vec2, vec2};
-use egui_plot::{GridMark, HoverPosition, PlotBounds, PlotUi, uniform_grid_spacer};
+use eframe::egui::{Color32, Rect, Stroke, Ui, Vec2, vec2};
+use egui_plot::{HoverPosition, PlotResponse, PlotUi};
 use glam::DVec2;
 
-use super::Plots;
 use super::drawing::*;
 use super::frame::bounds_of;
+use super::navigation::navigate;
+use super::pane::{BELOW, LEFT, Pane};
+use super::ticks::Scale;
+use super::{Plots, area, is_held};
 use crate::analysis::Flow;
 use crate::editor::{Editor, PlotScene};
 use crate::ui::figures;
 use crate::ui::theme::{self, STEP, Tokens};
 
-/// The height of the axis below the last strip.
-const AXIS: f32 = 38.0;
-
 /// The room at the left of a strip for its name.
 const NAME: f32 = 112.0;
-
-/// The height of a number beside a strip.
-const NUMBER: f32 = 14.0;
 
 /// The least height of a strip.
 const LOWEST: f32 = 24.0;
@@ -46,36 +41,64 @@ fn name(flow: Flow) -> &'static str {
 impl Plots {
     pub(super) fn harmony_ui(&mut self, ui: &mut Ui, editor: &mut Editor) {
         let tokens = Tokens::of(ui);
-        let dragging = editor.hand().is_dragging();
+        let held = is_held(ui, editor);
         let scene = editor.view().plots();
         let strips: Vec<Flow> = Flow::ALL
             .into_iter()
             .filter(|flow| *flow != Flow::TorsionAngles || !scene.planar)
             .collect();
         let count = last_vertex(scene) + 1.0;
-        let width = ui.available_width();
-        let room = ui.available_height() - AXIS;
-        let height = (room / strips.len() as f32).max(LOWEST);
-        let spacing = (width - NAME).max(1.0) / count as f32;
-        let (left, right) = (-0.5 - f64::from(NAME / spacing), count - 0.5);
+        let whole = area(ui);
+        let (width, height) = (whole.width(), whole.height() - BELOW);
+        let height = (height / strips.len() as f32).max(LOWEST);
+        // Vertices begin at the right of the strips' names.
+        let room = (width - LEFT - NAME).max(1.0);
+        let left = -0.5 - f64::from(NAME / room) * count;
+        let across = [left, count - 0.5];
         let mut hovered = None;
+        let mut moved = None;
         ui.spacing_mut().item_spacing.y = 0.0;
         for flow in &strips {
             let is_last = Some(flow) == strips.last();
             let frame = &mut self.strips[*flow as usize];
-            let settled = frame.settle(wanted(scene, *flow, [left, right]), dragging);
-            // All strips have one axis, whatever keeps still upwards.
-            let bounds =
-                PlotBounds::from_min_max([left, settled.min()[1]], [right, settled.max()[1]]);
-            let size = vec2(width, height + if is_last { AXIS } else { 0.0 });
+            let bounds = frame.settle(wanted(scene, *flow, across), held);
+            let below = if is_last { BELOW } else { 0.0 };
+            let size = vec2(width, height + below);
+            let pane = Pane {
+                bounds,
+                size: DVec2::new(f64::from(width - LEFT), f64::from(height)),
+            };
             let strip = Strip {
                 flow: *flow,
                 scene,
-                bounds,
-                spacing,
+                pane,
+                spacing: 1.0 / pane.point().x as f32,
                 tokens,
             };
-            hovered = strip.show(ui, size, is_last).or(hovered);
+            let shown = strip.show(ui, size, is_last);
+            hovered = shown.inner.or(hovered);
+            let area = Rect::from_min_size(ui.min_rect().left_bottom() - vec2(0.0, size.y), size);
+            let before = *frame;
+            navigate(
+                ui,
+                &shown.response,
+                area,
+                &shown.transform,
+                self.fingers,
+                frame,
+            );
+            if *frame != before {
+                moved = Some(*frame);
+            }
+        }
+        // All strips show the same vertices.
+        if let Some(moved) = moved {
+            for frame in &mut self.strips {
+                frame.follow_across(&moved);
+                if !moved.is_chosen() {
+                    frame.fit();
+                }
+            }
         }
         let vertex = hovered
             .map(|x| x.round())
@@ -124,7 +147,7 @@ fn wanted(scene: &PlotScene, flow: Flow, [left, right]: [f64; 2]) -> (DVec2, DVe
 struct Strip<'a> {
     flow: Flow,
     scene: &'a PlotScene,
-    bounds: PlotBounds,
+    pane: Pane,
     /// How far two vertices are apart, in points.
     spacing: f32,
     tokens: &'static Tokens,
@@ -132,30 +155,21 @@ struct Strip<'a> {
 
 impl Strip<'_> {
     /// Show the strip; returns the abscissa under the pointer.
-    fn show(&self, ui: &mut Ui, size: Vec2, with_axis: bool) -> Option<f64> {
+    fn show(&self, ui: &mut Ui, size: Vec2, with_axis: bool) -> PlotResponse<Option<f64>> {
         let (flow, tokens) = (self.flow, self.tokens);
-        let across = if with_axis { "vertex" } else { "" };
-        // Numbers at its edges would stand over those of the strips beside it.
-        let inner = size.y - if with_axis { AXIS } else { 0.0 };
-        let edge = 0.5 * f64::from(NUMBER / inner.max(NUMBER));
-        let resolution = 1e-3 * self.bounds.height().abs();
-        let plot = plot(name(flow), across, "", self.bounds, tokens)
+        let axes = Axes {
+            names: [if with_axis { "vertex" } else { "" }, ""],
+            scale: Scale::Even,
+            numbered: [0.0, f64::MAX],
+        };
+        let plot = plot(name(flow), &axes, &self.pane, tokens)
             .width(size.x)
             .height(size.y)
             .show_axes([with_axis, true])
-            .x_axis_formatter(vertex_number)
-            .y_axis_formatter(move |mark, range| {
-                let room = edge * (range.end() - range.start());
-                if mark.value < range.start() + room || mark.value > range.end() - room {
-                    String::new()
-                } else {
-                    axis_figure(mark.value, mark.step_size.max(resolution))
-                }
-            })
-            .y_grid_spacer(uniform_grid_spacer(|input| steps(input, 2.5)))
+            .y_grid_spacer(|input| Scale::Even.in_strip(input))
             .label_formatter(move |hover| label(flow, hover));
         let shown = plot.show(ui, |plot| {
-            plot.set_plot_bounds(self.bounds);
+            plot.set_plot_bounds(self.pane.bounds);
             self.draw(plot);
             hovered_x(plot)
         });
@@ -165,14 +179,11 @@ impl Strip<'_> {
         painter.hline(rect.x_range(), rect.top(), edge);
         let corner = rect.left_top() + vec2(STEP, 0.5 * STEP);
         let font = theme::small_font();
-        painter.text(
-            corner,
-            Align2::LEFT_TOP,
-            name(flow),
-            font,
-            tokens.faint_text,
-        );
-        shown.inner
+        let galley = painter.layout_no_wrap(name(flow).to_owned(), font, tokens.faint_text);
+        let plate = Rect::from_min_size(corner, galley.size());
+        painter.rect_filled(plate, 2.0, tokens.panel.gamma_multiply(0.8));
+        painter.galley(corner, galley, tokens.faint_text);
+        shown
     }
 
     fn draw(&self, plot: &mut PlotUi<'_>) {
@@ -202,15 +213,6 @@ impl Strip<'_> {
         if self.spacing >= CROWDED[1] {
             plot.points(dots_of(name, points, colour).radius(radius));
         }
-    }
-}
-
-/// The number of a vertex below the strips; none where the names stand.
-fn vertex_number(mark: GridMark, range: &RangeInclusive<f64>) -> String {
-    if mark.value < 0.0 {
-        String::new()
-    } else {
-        axis_number(mark, range)
     }
 }
 

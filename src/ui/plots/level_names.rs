@@ -29,9 +29,11 @@ pub fn explanation(plot: LevelPlot) -> String {
         LevelPlot::Torsion(1) => "The torsion over arc length".to_owned(),
         LevelPlot::Curvature(level) => graph_of("curvature", level.max(2)),
         LevelPlot::Torsion(level) => graph_of("torsion", level),
-        LevelPlot::Logarithmic => "The logarithmic curvature graph, log |ρ ds/dρ| over log ρ: a \
+        LevelPlot::Logarithmic => {
+            "The logarithmic curvature graph, |ρ ds/dρ| over ρ, both on logarithmic axes: a \
                                    straight line of slope α on a log-aesthetic curve"
-            .to_owned(),
+                .to_owned()
+        }
     }
 }
 
@@ -46,6 +48,6 @@ pub fn axis_name(plot: LevelPlot, normalised: bool) -> String {
         LevelPlot::Curvature(level) => format!("κ level {level}{unit}"),
         LevelPlot::Torsion(1) => format!("torsion τ{unit}"),
         LevelPlot::Torsion(level) => format!("τ level {level}{unit}"),
-        LevelPlot::Logarithmic => "log₁₀ |ρ ds/dρ|".to_owned(),
+        LevelPlot::Logarithmic => "|ρ ds/dρ|".to_owned(),
     }
 }

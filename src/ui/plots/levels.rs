@@ -1,21 +1,28 @@
 //! The plots of curvature and torsion levels, and the logarithmic curvature graph.
 
-use eframe::egui::{Checkbox, Ui};
+use eframe::egui::{Checkbox, Shape, Ui};
 use egui_plot::{HoverPosition, Plot};
 use glam::DVec2;
 
-use super::Plots;
 use super::drawing::*;
 use super::frame::{most_of, padded, within_reason};
 use super::level_names::axis_name;
+use super::marks::{self, behind, features};
+use super::navigation::navigate;
+use super::pane::Pane;
+use super::ticks::Scale;
+use super::{Plots, area, is_held, peaks};
 use crate::analysis::LevelPlot;
-use crate::editor::Editor;
+use crate::editor::{Editor, PlotFeature};
 use crate::ui::figures;
 use crate::ui::theme::{STEP, Tokens};
 use crate::ui::widgets;
 
 /// Where the bar leaves less room than this, in points, the switch has a short name.
 const NARROW: f32 = 150.0;
+
+/// How far beyond the others a peak may reach and still be shown, in units of their extent.
+const TALLEST: f64 = 4.0;
 
 impl Plots {
     /// What the bar says of a plot of levels: the switch that normalises, and what is cut off.
@@ -27,6 +34,13 @@ impl Plots {
         let remark = std::mem::take(&mut self.remark);
         self.normalised_ui(ui, &remark);
         self.remark = remark;
+    }
+
+    /// What the bar says of the plot of the curvature.
+    pub(super) fn curvature_bar_ui(&mut self, ui: &mut Ui) {
+        let legend = std::mem::take(&mut self.legend);
+        self.normalised_ui(ui, &legend);
+        self.legend = legend;
     }
 
     /// The switch that scales the curve to length 1, and a remark beside it.
@@ -47,7 +61,7 @@ impl Plots {
 
     pub(super) fn levels_ui(&mut self, ui: &mut Ui, editor: &mut Editor, which: LevelPlot) {
         let tokens = Tokens::of(ui);
-        let dragging = editor.hand().is_dragging();
+        let held = is_held(ui, editor);
         let normalised = self.normalises(which);
         let scene = editor.view().plots();
         let is_graph = which == LevelPlot::Logarithmic;
@@ -67,55 +81,87 @@ impl Plots {
         let other = scene.compared.as_deref();
         let other = other.map_or(&[][..], |other| &other.levels);
         let all: Vec<DVec2> = scene.levels.iter().chain(other).copied().collect();
-        let (wanted, cut) = if is_graph {
+        let (mut wanted, cut) = if is_graph {
             (most_of(&all), None)
         } else {
-            within_reason(&all, noise(which, extent))
+            within_reason(&all, noise(which, extent), TALLEST)
         };
         self.remark = match cut {
             _ if is_graph => slope_remark(editor),
-            Some((low, high)) => format!(
-                "Peaks beyond the plot: {} … {}",
-                figures::significant(low, 4),
-                figures::significant(high, 4)
-            ),
+            Some(cut) => peaks(cut),
             None => String::new(),
         };
-        let mut wanted = wanted;
         if !is_graph {
             wanted.0.x = wanted.0.x.min(0.0);
             wanted.1.x = wanted.1.x.max(extent);
         }
-        let frame = self.levels.entry((which, normalised)).or_default();
-        let bounds = frame.settle(padded(wanted), dragging);
+        let mut frame = self.frame((which, normalised));
+        let bounds = frame.settle(padded(wanted), held);
+        let area = area(ui);
+        let pane = Pane::within(area.size(), bounds);
         let across = match (is_graph, normalised) {
-            (true, _) => "log₁₀ ρ",
+            (true, _) => "radius of curvature ρ (units)",
             (_, true) => "share of the arc length",
             _ => "arc length (units)",
         };
         let upwards = axis_name(which, normalised);
+        let axes = Axes {
+            names: [across, &upwards],
+            scale: match is_graph {
+                true => Scale::Logarithmic,
+                false => Scale::Even,
+            },
+            numbered: match is_graph {
+                true => [f64::MIN, f64::MAX],
+                false => [0.0, extent],
+            },
+        };
         let marked = scene.hovered_level.filter(|_| !is_graph);
-        let plot = plot("levels", across, &upwards, bounds, tokens);
-        let hovered = labelled(plot, marked, is_graph)
-            .show(ui, |plot| {
-                plot.set_plot_bounds(bounds);
-                if !is_graph {
-                    zero_line(plot, tokens);
-                }
-                if let Some(before) = &scene.before {
-                    before_lines(plot, &before.levels, tokens);
-                }
-                lines(plot, "compared", other, tokens.joints);
-                lines(plot, "level", &scene.levels, tokens.comb);
-                if let Some(at) = scene.hovered_level {
-                    cursor(plot, at, tokens);
-                }
-                hovered_x(plot)
-            })
-            .inner;
+        let near = self.near.and_then(|index| scene.features.get(index));
+        let back = ui.painter().add(Shape::Noop);
+        let plot = plot("levels", &axes, &pane, tokens);
+        let plot = plot.width(area.width()).height(area.height());
+        let shown = labelled(plot, marked, near, is_graph).show(ui, |plot| {
+            plot.set_plot_bounds(bounds);
+            if !is_graph {
+                zero_line(plot, tokens);
+            }
+            if let Some(before) = &scene.before {
+                before_lines(plot, &before.levels, tokens);
+            }
+            lines(plot, "compared", other, tokens.joints);
+            lines(plot, "level", &scene.levels, tokens.comb);
+            if let Some(at) = scene.hovered_level {
+                cursor(plot, at, tokens);
+            }
+            hovered_x(plot)
+        });
+        let transform = &shown.transform;
+        let painter = ui.painter_at(*transform.frame());
+        painter.set(back, behind(scene, transform, tokens));
+        let pointer = shown.response.hover_pos();
+        let near = features(&painter, scene, transform, pointer, tokens);
+        marks::legend(&painter, scene, transform.frame(), tokens);
+        navigate(
+            ui,
+            &shown.response,
+            area,
+            transform,
+            self.fingers,
+            &mut frame,
+        );
+        let hovered = match near.and_then(|index| scene.features.get(index)) {
+            Some(feature) => Some(feature.at.x),
+            None => shown.inner,
+        };
         let along = hovered
             .filter(|x| !is_graph && (0.0..=extent).contains(x))
             .map(|x| x * length / extent);
+        self.levels.insert((which, normalised), frame);
+        if self.near != near {
+            self.near = near;
+            ui.ctx().request_repaint();
+        }
         if let Some(along) = along {
             editor.view_mut().hover_length(along);
         }
@@ -151,8 +197,17 @@ fn noise(plot: LevelPlot, length: f64) -> f64 {
 
 /// Let a plot tell the figures of the place that is marked in it; of the graph, which has none, of
 /// the point near the pointer.
-fn labelled(plot: Plot<'_>, marked: Option<DVec2>, is_graph: bool) -> Plot<'_> {
+fn labelled<'a>(
+    plot: Plot<'a>,
+    marked: Option<DVec2>,
+    near: Option<&'a PlotFeature>,
+    is_graph: bool,
+) -> Plot<'a> {
     plot.label_formatter(move |hover| {
+        if let Some(feature) = near {
+            let [x, y] = [feature.at.x, feature.at.y].map(|value| figures::significant(value, 6));
+            return Some(format!("{}\n{y}\nat {x}", feature.kind.label()));
+        }
         let at = match hover {
             HoverPosition::NearDataPoint { position, .. } if is_graph => {
                 Some(DVec2::new(position.x, position.y))
@@ -160,9 +215,14 @@ fn labelled(plot: Plot<'_>, marked: Option<DVec2>, is_graph: bool) -> Plot<'_> {
             _ => marked.filter(|at| at.is_finite()),
         };
         let at = at?;
+        let at = if is_graph {
+            DVec2::new(10f64.powf(at.x), 10f64.powf(at.y))
+        } else {
+            at
+        };
         let (x, y) = (figures::significant(at.x, 5), figures::significant(at.y, 6));
         Some(if is_graph {
-            format!("log ρ {x}\nlog |ρ ds/dρ| {y}")
+            format!("ρ {x}\n|ρ ds/dρ| {y}")
         } else {
             format!("{y}\nat {x}")
         })

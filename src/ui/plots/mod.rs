@@ -2,28 +2,37 @@
 
 mod compare;
 mod curvature;
+mod dots;
 mod drawing;
 mod frame;
 mod harmony;
 mod level_names;
 mod levels;
+mod marks;
+mod navigation;
+mod pane;
+mod ticks;
 
 pub use compare::choice_ui as compare_choice_ui;
 
 use std::collections::HashMap;
 
-use eframe::egui::{Button, Ui};
+use eframe::egui::{Button, Rect, Ui};
 use lucide_icons::Icon;
 
+use super::figures;
 use super::theme::STEP;
 use super::widgets::{self, IconButton};
 use crate::analysis::{Flow, LevelPlot};
+use crate::document::CurveId;
 use crate::editor::{Editor, PlotKind};
 use crate::geometry::LEVELS;
 use crate::ui::action::Action;
+use crate::ui::keyboard::shortcut_text;
 use compare::compare_ui;
 use frame::Frame;
 use level_names::{explanation, tab_name};
+use pane::RIGHT;
 
 /// The height of the bar with the tabs.
 pub const BAR: f32 = 32.0;
@@ -70,16 +79,88 @@ const STRIPS: &str = "Leg lengths, turning angles, discrete curvature and, in sp
 pub struct Plots {
     tab: Tab,
     strips: [Frame; Flow::ALL.len()],
-    /// What the curvature plot's dots are.
-    legend: &'static str,
+    /// What the curvature plot's dots are, or how far its peaks reach.
+    legend: String,
     /// What a plot of levels has to say.
     remark: String,
     /// Whether levels are those of the curve scaled to length 1.
     normalised: bool,
     levels: HashMap<(LevelPlot, bool), Frame>,
+    /// The feature whose glyph the pointer is near, by its place in the plot's list.
+    near: Option<usize>,
+    /// Whether fingers on a touchpad turn the wheel.
+    fingers: bool,
+    /// Whose plots they are.
+    shown_of: Option<CurveId>,
+}
+
+/// Whether the plots keep still: while something is dragged, on the canvas or in a panel.
+fn is_held(ui: &Ui, editor: &Editor) -> bool {
+    let is_down = ui.input(|input| input.pointer.any_down());
+    editor.hand().is_dragging() || is_down && editor.workspace().preview().is_some()
+}
+
+/// The area of a plot with its numbers.
+fn area(ui: &Ui) -> Rect {
+    let whole = ui.available_rect_before_wrap();
+    whole.with_max_x((whole.right() - RIGHT).max(whole.left()))
+}
+
+/// Say how far peaks reach that the plot cuts off.
+fn peaks((low, high): (f64, f64)) -> String {
+    format!(
+        "Peaks beyond the plot: {} … {}",
+        figures::significant(low, 4),
+        figures::significant(high, 4)
+    )
 }
 
 impl Plots {
+    /// The frame of a plot over arc length, or of the graph.
+    fn frame(&self, of: (LevelPlot, bool)) -> Frame {
+        self.levels.get(&of).copied().unwrap_or_default()
+    }
+
+    /// Show all of the plot in front again.
+    pub fn fit(&mut self) {
+        match self.frame_key() {
+            Some(key) => self.levels.entry(key).or_default().fit(),
+            None => self.strips.iter_mut().for_each(Frame::fit),
+        }
+    }
+
+    /// Whether the user has zoomed or moved the plot in front.
+    fn is_moved(&self) -> bool {
+        match self.frame_key() {
+            Some(key) => self.frame(key).is_chosen(),
+            None => self.strips.iter().any(Frame::is_chosen),
+        }
+    }
+
+    /// Under which key the frame of the plot in front is kept; `None` for the strips.
+    fn frame_key(&self) -> Option<(LevelPlot, bool)> {
+        match self.tab {
+            Tab::Curvature => Some((LevelPlot::Curvature(1), self.normalised)),
+            Tab::Levels(plot) => Some((plot, self.normalises(plot))),
+            Tab::Harmony => None,
+        }
+    }
+
+    /// Say whether fingers on a touchpad turn the wheel: they move a plot.
+    pub fn set_fingers(&mut self, fingers: bool) {
+        self.fingers = fingers;
+    }
+
+    /// Forget what was chosen to be seen of another curve.
+    fn follow_active(&mut self, editor: &Editor) {
+        let active = editor.active();
+        if self.shown_of != active {
+            self.shown_of = active;
+            self.levels.clear();
+            self.strips = Default::default();
+        }
+    }
+
     /// Which tab is in front.
     pub fn tab(&self) -> Tab {
         self.tab
@@ -143,12 +224,19 @@ impl Plots {
                     commands.push(Action::TogglePlots);
                 }
                 if shown {
+                    let fit = IconButton::new(Icon::Maximize, "Fit the plot");
+                    let key = Action::FitPlot.shortcut().map(shortcut_text);
+                    let key = key.map_or(String::new(), |key| format!(" ({key})"));
+                    let fit = fit.tooltip(Action::FitPlot.tooltip() + &key);
+                    if fit.enabled(self.is_moved()).show(ui).clicked() {
+                        commands.push(Action::FitPlot);
+                    }
                     compare_ui(ui, editor);
                 }
                 match self.tab {
                     _ if !shown => {}
                     Tab::Curvature if is_reference => self.normalised_ui(ui, ""),
-                    Tab::Curvature => self.normalised_ui(ui, self.legend),
+                    Tab::Curvature => self.curvature_bar_ui(ui),
                     Tab::Levels(plot) => self.level_bar_ui(ui, plot),
                     Tab::Harmony => {}
                 }
@@ -195,6 +283,7 @@ impl Plots {
             ui.take_available_space();
             return;
         }
+        self.follow_active(editor);
         let kind = self.kind();
         if editor.view().plot() != Some(kind) {
             editor.view_mut().show_plot(Some(kind));

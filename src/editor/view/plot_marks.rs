@@ -1,0 +1,195 @@
+//! What a plot marks beside its series: features, what the curvature does, what was joined.
+
+use glam::DVec2;
+
+use crate::analysis::{LengthCursor, LevelPlot, SampledCurve};
+use crate::document::CurveId;
+use crate::editor::Editor;
+use crate::editor::trial::Trial;
+use crate::editor::view::curve_outlines::PieceTrend;
+use crate::editor::view::feature_report::{FeatureKind, FeatureRow};
+use crate::editor::view::layers::Layer;
+use crate::editor::view::plot_scene::{
+    MarkSource, PlotBand, PlotFeature, PlotKind, PlotScene, PlotSource,
+};
+use crate::geometry::ParametricCurve;
+use crate::geometry::features::SegmentFeatures;
+
+/// Features that are nearer together than this share of the length are one mark.
+const FINEST_MARK: f64 = 1.0 / 16384.0;
+
+/// Bands are looked at in so many places along a curve.
+const BANDS: usize = 2048;
+
+/// The quantity that a plot shows, if it has features.
+#[derive(Clone, Copy, PartialEq)]
+enum Quantity {
+    Curvature,
+    Torsion,
+}
+
+impl Quantity {
+    fn of(kind: PlotKind) -> Option<Self> {
+        match kind {
+            PlotKind::Curvature => Some(Self::Curvature),
+            PlotKind::Levels { plot, .. } => match plot {
+                LevelPlot::Curvature(1) => Some(Self::Curvature),
+                LevelPlot::Torsion(1) => Some(Self::Torsion),
+                _ => None,
+            },
+            PlotKind::Harmony => None,
+        }
+    }
+
+    fn has(self, kind: FeatureKind) -> bool {
+        match kind {
+            FeatureKind::Inflection
+            | FeatureKind::CurvatureMaximum
+            | FeatureKind::CurvatureMinimum => self == Self::Curvature,
+            FeatureKind::TorsionZero
+            | FeatureKind::TorsionMaximum
+            | FeatureKind::TorsionMinimum => self == Self::Torsion,
+            FeatureKind::Cusp | FeatureKind::Undecided => true,
+        }
+    }
+
+    /// The quantity at a feature: not a number where there is none.
+    fn value(self, row: &FeatureRow, curve: &dyn ParametricCurve, planar: bool) -> f64 {
+        if let Some([low, high]) = row.value {
+            return 0.5 * (low + high);
+        }
+        match (row.kind, self) {
+            (FeatureKind::Inflection | FeatureKind::TorsionZero, _) => 0.0,
+            (_, Self::Curvature) => curve.jet(row.middle).curvature_of(planar),
+            (_, Self::Torsion) => curve.jet(row.middle).torsion(),
+        }
+    }
+}
+
+impl Editor {
+    /// Mark in the plot what the canvas marks; made anew only if something of it changed.
+    pub(in crate::editor) fn mark_plot(&mut self, plots: &mut PlotScene) {
+        let source = self.mark_source();
+        if source == self.view.plot_marked {
+            return;
+        }
+        plots.features.clear();
+        plots.bands.clear();
+        plots.joints.clear();
+        if let Some((source, id)) = source.as_ref().zip(self.active()) {
+            if source.features {
+                self.mark_features(plots, id, source.kind);
+            }
+            if let (Some(joint), PlotKind::Curvature) = (source.joint, source.kind) {
+                self.mark_joint(plots, id, joint);
+            }
+        }
+        self.view.plot_marked = source;
+    }
+
+    fn mark_source(&self) -> Option<MarkSource> {
+        let PlotSource { kind, shown, .. } = self.view.plotted.as_ref()?;
+        let run = self.trial().and_then(Trial::run);
+        let joint = run.and_then(|run| run.as_ref().ok()?.outcome.joint);
+        Some(MarkSource {
+            kind: *kind,
+            shown: shown.clone(),
+            features: self.layers().shows(Layer::Features) && self.features().is_some(),
+            joint,
+        })
+    }
+
+    fn mark_features(&self, plots: &mut PlotScene, id: CurveId, kind: PlotKind) {
+        let Some((quantity, sampled)) = Quantity::of(kind).zip(self.analyses.sampled(id)) else {
+            return;
+        };
+        let rows = self.features().map_or(&[][..], |report| &report.rows);
+        let planar = sampled.samples.is_planar();
+        // The curvature is scaled when it is shown, other plots where they are made.
+        let scale = match kind {
+            PlotKind::Levels { normalised, .. } if normalised => 1.0 / plots.length,
+            _ => 1.0,
+        };
+        let mut cursor = LengthCursor::default();
+        let apart = FINEST_MARK * plots.length;
+        let mut last = f64::NEG_INFINITY;
+        for row in rows.iter().filter(|row| quantity.has(row.kind)) {
+            let along = cursor.length_at(sampled, row.middle);
+            if (along - last).abs() < apart {
+                continue;
+            }
+            last = along;
+            let value = quantity.value(row, sampled.curve, planar);
+            plots.features.push(PlotFeature {
+                kind: row.kind,
+                at: DVec2::new(along * scale, value / scale),
+            });
+        }
+        if let Some(analysis) = self.analyses.get(id)
+            && let Some(segments) = analysis.proved_segments()
+            && kind == PlotKind::Curvature
+        {
+            append_bands(sampled, segments, plots.length, &mut plots.bands);
+        }
+    }
+
+    /// Mark the part between two parameters; on a periodic curve it may run over the end.
+    fn mark_joint(&self, plots: &mut PlotScene, id: CurveId, [from, to]: [f64; 2]) {
+        let Some(sampled) = self.analyses.sampled(id) else {
+            return;
+        };
+        let end = sampled.curve.pieces() as f64;
+        let within = |u: f64| sampled.length_at(u.clamp(0.0, end));
+        plots.joints.push([from, to].map(within));
+        if sampled.curve.is_periodic() && to > end {
+            plots.joints.push([0.0, within(to - end)]);
+        }
+    }
+}
+
+/// Append the parts on which the curvature does one thing, as far as they are long enough to see.
+fn append_bands(
+    sampled: SampledCurve<'_>,
+    segments: &[SegmentFeatures],
+    length: f64,
+    out: &mut Vec<PlotBand>,
+) {
+    let mut cursor = LengthCursor::default();
+    let step = length / BANDS as f64;
+    // The next place that is looked at.
+    let mut next = 0.5 * step;
+    let mut from = 0.0;
+    let mut add = |trend: Option<PieceTrend>, until: f64| {
+        let to = cursor.length_at(sampled, until);
+        if to > next {
+            next += ((to - next) / step).floor() * step + step;
+            match (trend, out.last_mut()) {
+                (Some(trend), Some(last)) if last.trend == trend && last.to >= from => last.to = to,
+                (Some(trend), _) => out.push(PlotBand { trend, from, to }),
+                (None, _) => {}
+            }
+        } else if let Some(last) = out.last_mut().filter(|last| last.to >= from) {
+            // What is too short to see belongs to what comes before.
+            last.to = to;
+        }
+        from = to;
+    };
+    let mut run: Option<(Option<PieceTrend>, f64)> = None;
+    for (index, segment) in segments.iter().enumerate() {
+        for piece in &segment.curvature_slope {
+            let (trend, until) = (PieceTrend::of(piece), index as f64 + piece.until);
+            match &mut run {
+                Some((last, end)) if *last == trend => *end = until,
+                _ => {
+                    if let Some((last, end)) = run {
+                        add(last, end);
+                    }
+                    run = Some((trend, until));
+                }
+            }
+        }
+    }
+    if let Some((last, end)) = run {
+        add(last, end);
+    }
+}
