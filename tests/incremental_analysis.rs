@@ -95,7 +95,7 @@ fn drawn(analysis: &mut CurveAnalysis, outlines: &mut Outlines, eye: Orientation
     points.extend(teeth.into_flattened());
     analysis.append_curvature(&mut points);
     let mut dots = Vec::new();
-    analysis.append_discrete_curvature(&mut dots);
+    analysis.append_discrete_curvature(None, &mut dots);
     points.extend(dots.into_iter().map(|(_, place)| place));
     analysis.append_levels(LevelPlot::Curvature(2), false, &mut points);
     for flow in Flow::ALL {

@@ -55,6 +55,9 @@ impl Block {
             let samples = sampled.samples.piece(piece);
             for sample in samples {
                 let point = DVec2::new(start + sample.arc_length, sample.curvature);
+                if sample.leaps {
+                    bins.add(DVec2::new(point.x, f64::NAN), points);
+                }
                 bins.add(point, points);
             }
             start += samples.last().map_or(0.0, |sample| sample.arc_length);

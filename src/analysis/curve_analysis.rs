@@ -212,9 +212,14 @@ impl CurveAnalysis {
 
     /// Append the polygon's discrete curvature at its vertices, by their numbers, over arc length.
     /// Vertices that lie beyond an end of the curve stand evenly spaced in a flank beside it.
-    /// Returns the flanks' width, 0 if there are none.
-    pub fn append_discrete_curvature(&self, out: &mut Vec<(usize, DVec2)>) -> f64 {
-        append_discrete_curvature(&self.curve.polygon, &self.float, self.sampled(), out)
+    /// Of many vertices only the outermost are listed, but of a `part` between two arc lengths all, if
+    /// it has few. Returns the flanks' width, 0 if there are none.
+    pub fn append_discrete_curvature(
+        &self,
+        part: Option<[f64; 2]>,
+        out: &mut Vec<(usize, DVec2)>,
+    ) -> f64 {
+        append_discrete_curvature(&self.curve.polygon, &self.float, self.sampled(), part, out)
     }
 
     /// Append a plot of levels: see [`LevelSeries::append`].

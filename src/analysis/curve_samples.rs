@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::leaps;
 use super::revision::Revision;
 use super::sample::{PieceSampler, Sample};
 use crate::geometry::references::Placement;
@@ -90,6 +91,18 @@ impl CurveSamples {
         }
         let revision = Revision::new();
         for block in pieces.start / BLOCK..pieces.end.div_ceil(BLOCK) {
+            self.blocks[block] = self.summary(block, revision);
+        }
+    }
+
+    /// Mark where a curve leaps that a formula gives: all else is continuous.
+    pub(super) fn mark_leaps(&mut self, curve: &dyn ParametricCurve) {
+        let size = self.steps() + 1;
+        for (piece, samples) in self.samples.chunks_mut(size).enumerate() {
+            leaps::mark(curve, piece, samples);
+        }
+        let revision = Revision::new();
+        for block in 0..self.blocks.len() {
             self.blocks[block] = self.summary(block, revision);
         }
     }
@@ -205,7 +218,7 @@ impl CurveSamples {
     fn summary(&self, block: usize, revision: Revision) -> Block {
         let samples = self.block(block);
         let mut longest: f64 = 0.0;
-        for pair in samples.windows(2) {
+        for pair in samples.windows(2).filter(|pair| !pair[1].leaps) {
             longest = longest.max(pair[0].point.distance_squared(pair[1].point));
         }
         let mut length = 0.0;

@@ -1,9 +1,12 @@
 //! The polygon's discrete curvature at its vertices, as it is plotted below the curve's own.
 
+use std::ops::Range;
+
 use glam::DVec2;
 
+use super::bins::BINS;
 use super::curve_samples::SampledCurve;
-use super::vertex_chain::VertexChain;
+use super::vertex_chain::{Flow, VertexChain};
 use crate::geometry::FloatPolygon;
 
 /// How far apart vertices beyond an end are drawn, as a share of the curve's length …
@@ -18,10 +21,14 @@ const WIDEST_FLANK: f64 = 1.0 / 6.0;
 ///
 /// Vertices whose abscissae lie beyond an end of the curve, where there is no arc length,
 /// stand evenly spaced in a flank beside it. Returns the flanks' width, 0 if there are none.
+///
+/// Where only a part of the curve, between two arc lengths, is looked at, it has all its vertices if
+/// they are no more than bins.
 pub(super) fn append_discrete_curvature(
     polygon: &FloatPolygon,
     chain: &VertexChain,
     sampled: SampledCurve<'_>,
+    part: Option<[f64; 2]>,
     out: &mut Vec<(usize, DVec2)>,
 ) -> f64 {
     let end = polygon.segments() as f64;
@@ -29,7 +36,15 @@ pub(super) fn append_discrete_curvature(
     let beyond = vertices_beyond_an_end(polygon);
     let step = length * FLANK_STEP.min(WIDEST_FLANK / (beyond as f64 + 0.5));
     let mut cursor = LengthCursor::default();
-    for (index, value) in chain.extreme_curvatures() {
+    let few = part.and_then(|part| vertices_of(polygon, sampled, part));
+    let all = match few {
+        Some(few) => {
+            let value = |index| Some((index, chain.flow(Flow::Curvatures, index)?));
+            few.filter_map(value).collect()
+        }
+        None => chain.extreme_curvatures().collect::<Vec<_>>(),
+    };
+    for (index, value) in all {
         if !value.is_finite() {
             continue;
         }
@@ -52,6 +67,20 @@ pub(super) fn append_discrete_curvature(
     }
 }
 
+/// The vertices of a part of a curve, if they are few and it is not periodic.
+fn vertices_of(
+    polygon: &FloatPolygon,
+    sampled: SampledCurve<'_>,
+    part: [f64; 2],
+) -> Option<Range<usize>> {
+    let [from, to] = part.map(|length| sampled.samples.parameter_at_length(length));
+    let first = polygon.greville(0);
+    let [from, to] = [from - first, to - first].map(|place| place.max(0.0) as usize);
+    let vertices = from..(to + 2).min(polygon.vertices().len());
+    let is_few = vertices.len() <= BINS as usize && !polygon.is_periodic();
+    is_few.then_some(vertices)
+}
+
 /// Count the inner vertices of an open polygon whose Greville abscissae lie beyond one end:
 /// those before number (n − 1)/2, the very first excepted.
 fn vertices_beyond_an_end(polygon: &FloatPolygon) -> usize {
@@ -72,8 +101,18 @@ pub struct LengthCursor {
 
 impl LengthCursor {
     /// Measure the arc length from the curve's start to u, as [`SampledCurve::length_at`] does.
-    pub fn length_at(&mut self, SampledCurve { curve, samples }: SampledCurve<'_>, u: f64) -> f64 {
-        let (piece, t) = curve.locate(u);
+    pub fn length_at(&mut self, sampled: SampledCurve<'_>, u: f64) -> f64 {
+        let (piece, t) = sampled.curve.locate(u);
+        self.length_on(sampled, piece, t)
+    }
+
+    /// Measure the arc length from the curve's start to the local parameter t of a piece.
+    pub fn length_on(
+        &mut self,
+        SampledCurve { samples, .. }: SampledCurve<'_>,
+        piece: usize,
+        t: f64,
+    ) -> f64 {
         if piece < samples.block_pieces(self.block).start {
             *self = Self::default();
         }

@@ -20,7 +20,7 @@ pub enum LevelPlot {
 
 impl LevelPlot {
     /// The value at one parameter: NaN where there is none.
-    fn point(self, levels: &CurvatureLevels, arc_length: f64) -> DVec2 {
+    pub(super) fn point(self, levels: &CurvatureLevels, arc_length: f64) -> DVec2 {
         let level = |values: &[f64], level: usize| {
             let value = level.checked_sub(1).and_then(|index| values.get(index));
             DVec2::new(arc_length, value.copied().unwrap_or(f64::NAN))
@@ -134,6 +134,12 @@ fn block_levels(
         let levels = curve.levels(piece, &parameters, scale, samples.is_planar());
         for (sample, levels) in own.iter().zip(&levels) {
             let point = plot.point(levels, start + sample.arc_length);
+            if sample.leaps {
+                match is_graph {
+                    true => append_apart(DVec2::NAN, &mut points),
+                    false => bins.add(DVec2::new(point.x, f64::NAN), &mut points),
+                }
+            }
             if is_graph {
                 append_apart(point, &mut points);
             } else {

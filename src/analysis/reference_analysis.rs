@@ -35,10 +35,11 @@ impl ReferenceAnalysis {
     /// Analyse a reference.
     pub fn new(reference: Arc<Reference>) -> Self {
         let unplaced = reference.curve.clone().placed(Placement::default());
-        Self::of_samples(
-            reference,
-            Arc::new(CurveSamples::with_about(SAMPLES, &unplaced)),
-        )
+        let mut samples = CurveSamples::with_about(SAMPLES, &unplaced);
+        if reference.curve.form().may_leap() {
+            samples.mark_leaps(&unplaced);
+        }
+        Self::of_samples(reference, Arc::new(samples))
     }
 
     /// Analyse a reference whose curve is sampled already.

@@ -15,8 +15,11 @@ pub struct Sample {
     pub normal: DVec3,
     /// The curvature: signed for planar curves, not negative in space; NaN at a cusp.
     pub curvature: f64,
-    /// The arc length from the piece's start.
+    /// The arc length from the piece's start; over a leap there is none.
     pub arc_length: f64,
+    /// Whether the curve leaps between the sample before and this one: through infinity, or over a
+    /// jump of its formula.
+    pub leaps: bool,
 }
 
 impl Sample {
@@ -40,6 +43,7 @@ impl Sample {
                 f64::NAN
             },
             arc_length: 0.0,
+            leaps: false,
         }
     }
 
@@ -59,6 +63,7 @@ impl Sample {
             normal,
             curvature,
             arc_length: placement.scale() * self.arc_length,
+            leaps: self.leaps,
         }
     }
 

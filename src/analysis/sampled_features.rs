@@ -44,8 +44,18 @@ pub(super) fn sampled_features(sampled: SampledCurve<'_>) -> Vec<SampledFeature>
     if sampled.samples.is_planar() {
         features.extend(inflections(&points, noise, sampled));
     }
+    // Through infinity the curvature may change its sign, but the curve has no point there.
+    features.retain(|feature| !leaps_at(sampled, feature.u));
     features.sort_by(|a, b| a.u.total_cmp(&b.u));
     features
+}
+
+/// Whether the curve leaps in the step between two samples that holds u.
+fn leaps_at(sampled: SampledCurve<'_>, u: f64) -> bool {
+    let (piece, t) = sampled.curve.locate(u);
+    let after = (t * sampled.samples.steps() as f64) as usize + 1;
+    let sample = sampled.samples.piece(piece).get(after);
+    sample.is_some_and(|sample| sample.leaps)
 }
 
 /// The finite curvatures of all samples, with their parameters.

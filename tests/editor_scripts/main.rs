@@ -31,6 +31,7 @@ mod menus;
 mod model;
 mod paper;
 mod places;
+mod plots;
 mod previews;
 mod references;
 mod reshaping;

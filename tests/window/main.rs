@@ -15,6 +15,7 @@ mod numbers;
 mod operations;
 mod paper;
 mod recovery;
+mod plots;
 mod references;
 
 use batten::editor::{Layer, ToolKind};

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::analysis::{PieceSampler, Revision, Sample, SampledCurve};
+use crate::analysis::{PieceSampler, Revision, Sample, SampledCurve, mark_closer};
 use crate::editor::view::comb::{CombSettings, Teeth};
 use crate::editor::view::evolute::Evolute;
 use crate::editor::view::orientation::Orientation;
@@ -312,7 +312,8 @@ impl CurveOutlines {
                 continue;
             }
             for piece in samples.block_pieces(index) {
-                for (step, pair) in samples.piece(piece).windows(2).enumerate() {
+                let steps = samples.piece(piece).windows(2).enumerate();
+                for (step, pair) in steps.filter(|(_, pair)| !pair[1].leaps) {
                     let (from, to) = (self.seen(pair[0].point), self.seen(pair[1].point));
                     let chord = to - from;
                     let share =
@@ -459,6 +460,7 @@ fn append_fine<P, C>(
         places.for_each(|place| bounds.add(place));
         if bounds.may_meet(view) {
             fine.fill(curve, piece, samples.is_planar(), &mut closer);
+            mark_closer(curve, piece, samples.piece(piece), &mut closer);
             chained.clear();
             (layer.points)(piece, &closer, Some(view), &mut chained);
             let spacing = 2f64.powi(view.level());

@@ -52,6 +52,11 @@ impl Evolute<'_> {
         out.push(self.place(first));
         for (number, pair) in samples.windows(2).enumerate() {
             let at = |offset: usize| (number + offset) as f64 / steps;
+            if pair[1].leaps {
+                out.push(GAP);
+                out.push(self.place(&pair[1]));
+                continue;
+            }
             self.follow(
                 Step {
                     piece,

@@ -15,11 +15,11 @@ use crate::editor::view::plot_scene::{
 use crate::geometry::ParametricCurve;
 use crate::geometry::features::SegmentFeatures;
 
-/// Features that are nearer together than this share of the length are one mark.
-const FINEST_MARK: f64 = 1.0 / 16384.0;
+/// Features that are nearer together than this share of what a plot shows are one mark.
+const FINEST_MARK: f64 = 1.0 / 8192.0;
 
-/// Bands are looked at in so many places along a curve.
-const BANDS: usize = 2048;
+/// Bands are looked at in so many places along what a plot shows.
+const BANDS: f64 = 2048.0;
 
 /// The quantity that a plot shows, if it has features.
 #[derive(Clone, Copy, PartialEq)]
@@ -88,7 +88,9 @@ impl Editor {
     }
 
     fn mark_source(&self) -> Option<MarkSource> {
-        let PlotSource { kind, shown, .. } = self.view.plotted.as_ref()?;
+        let PlotSource {
+            kind, shown, part, ..
+        } = self.view.plotted.as_ref()?;
         let run = self.trial().and_then(Trial::run);
         let joint = run.and_then(|run| run.as_ref().ok()?.outcome.joint);
         Some(MarkSource {
@@ -96,6 +98,7 @@ impl Editor {
             shown: shown.clone(),
             features: self.layers().shows(Layer::Features) && self.features().is_some(),
             joint,
+            part: *part,
         })
     }
 
@@ -111,7 +114,8 @@ impl Editor {
             _ => 1.0,
         };
         let mut cursor = LengthCursor::default();
-        let apart = FINEST_MARK * plots.length;
+        let [from, to] = plots.part.unwrap_or([0.0, plots.length]);
+        let apart = FINEST_MARK * (to - from);
         let mut last = f64::NEG_INFINITY;
         for row in rows.iter().filter(|row| quantity.has(row.kind)) {
             let along = cursor.length_at(sampled, row.middle);
@@ -129,7 +133,8 @@ impl Editor {
             && let Some(segments) = analysis.proved_segments()
             && kind == PlotKind::Curvature
         {
-            append_bands(sampled, segments, plots.length, &mut plots.bands);
+            let [from, to] = plots.part.unwrap_or([0.0, plots.length]);
+            append_bands(sampled, segments, to - from, &mut plots.bands);
         }
     }
 
@@ -138,8 +143,12 @@ impl Editor {
         let Some(sampled) = self.analyses.sampled(id) else {
             return;
         };
-        let end = sampled.curve.pieces() as f64;
-        let within = |u: f64| sampled.length_at(u.clamp(0.0, end));
+        let (end, whole) = (sampled.curve.pieces() as f64, plots.length);
+        // On a periodic curve the end is the start.
+        let within = |u: f64| match u < end {
+            true => sampled.length_at(u.max(0.0)),
+            false => whole,
+        };
         plots.joints.push([from, to].map(within));
         if sampled.curve.is_periodic() && to > end {
             plots.joints.push([0.0, within(to - end)]);
@@ -147,20 +156,21 @@ impl Editor {
     }
 }
 
-/// Append the parts on which the curvature does one thing, as far as they are long enough to see.
+/// Append the parts on which the curvature does one thing, as far as they are long enough to see where
+/// a plot shows a part of the curve of some `extent`.
 fn append_bands(
     sampled: SampledCurve<'_>,
     segments: &[SegmentFeatures],
-    length: f64,
+    extent: f64,
     out: &mut Vec<PlotBand>,
 ) {
     let mut cursor = LengthCursor::default();
-    let step = length / BANDS as f64;
+    let step = extent / BANDS;
     // The next place that is looked at.
     let mut next = 0.5 * step;
     let mut from = 0.0;
-    let mut add = |trend: Option<PieceTrend>, until: f64| {
-        let to = cursor.length_at(sampled, until);
+    let mut add = |trend: Option<PieceTrend>, (segment, until): (usize, f64)| {
+        let to = cursor.length_on(sampled, segment, until);
         if to > next {
             next += ((to - next) / step).floor() * step + step;
             match (trend, out.last_mut()) {
@@ -174,10 +184,10 @@ fn append_bands(
         }
         from = to;
     };
-    let mut run: Option<(Option<PieceTrend>, f64)> = None;
+    let mut run: Option<(Option<PieceTrend>, (usize, f64))> = None;
     for (index, segment) in segments.iter().enumerate() {
         for piece in &segment.curvature_slope {
-            let (trend, until) = (PieceTrend::of(piece), index as f64 + piece.until);
+            let (trend, until) = (PieceTrend::of(piece), (index, piece.until));
             match &mut run {
                 Some((last, end)) if *last == trend => *end = until,
                 _ => {

@@ -49,6 +49,9 @@ pub struct PlotScene {
     pub worst: [Option<DVec2>; Flow::ALL.len()],
     /// The series of the curve or reference to compare with.
     pub compared: Option<Box<PlotScene>>,
+    /// The part of the curve, between two arc lengths, that is looked at closely and that the series
+    /// are of; `None` where they are of the whole curve.
+    pub part: Option<[f64; 2]>,
     /// What the curve or reference to compare with is called.
     pub compared_name: String,
     /// The features that belong to the plot, in the order of u.
@@ -109,6 +112,7 @@ impl PlotScene {
             joints: joints
                 .map(|joint| joint.map(|end| end / self.length))
                 .collect(),
+            part: self.part.map(|part| part.map(|end| end / self.length)),
             compared_name: self.compared_name.clone(),
             curvature: self.curvature.iter().map(place).collect(),
             discrete: dots.map(|(index, at)| (*index, place(at))).collect(),
@@ -141,6 +145,8 @@ pub struct PlotSource {
     pub before: Option<Arc<Curve>>,
     /// What it is compared with.
     pub compared: Option<Compared>,
+    /// The part that is looked at closely.
+    pub part: Option<[f64; 2]>,
 }
 
 /// What a curve is compared with in the plots.
@@ -163,6 +169,8 @@ pub struct MarkSource {
     pub features: bool,
     /// The parameters between which it was joined.
     pub joint: Option<[f64; 2]>,
+    /// The part that is looked at closely.
+    pub part: Option<[f64; 2]>,
 }
 
 impl PartialEq for PlotSource {
@@ -173,6 +181,7 @@ impl PartialEq for PlotSource {
             && self.id == other.id
             && self.shown == other.shown
             && self.compared == other.compared
+            && self.part == other.part
             && before(self) == before(other)
     }
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use crate::analysis::{CurveAnalysis, Flow, ReferenceAnalysis, SampledCurve};
+use crate::analysis::{CurveAnalysis, Flow, LevelPlot, ReferenceAnalysis, SampledCurve};
 use crate::document::{CurveId, Reference};
 use crate::editor::Editor;
 use crate::editor::view::plot_scene::{Compared, PlotKind, PlotScene, PlotSource};
@@ -54,15 +54,16 @@ impl Editor {
             shown: Shown::of(self.document(), id)?,
             before: self.before(),
             compared: self.compared_with(id),
+            part: self.view.plot_part.filter(|_| can_be_closer(kind)),
         })
     }
 
     /// What the active curve is compared with: the reference that the operation at hand was given, or
     /// what was chosen.
     fn compared_with(&mut self, id: CurveId) -> Option<Compared> {
-        let given = self
-            .trial()
-            .and_then(|trial| trial.values().given_reference());
+        let trial = self.trial();
+        let trial = trial.filter(|trial| !trial.is_applied() || self.made_curves().contains(&id));
+        let given = trial.and_then(|trial| trial.values().given_reference());
         let document = self.document();
         let has = |curve: &ReferenceCurve| {
             let mut references = document.references();
@@ -95,9 +96,14 @@ impl Editor {
         let Some(source) = source else {
             return;
         };
+        plots.part = source.part;
         self.fill_of(plots, source.id, source.kind);
         if let Some(before) = &source.before {
-            let mut scene = PlotScene::default();
+            let part = source.part;
+            let mut scene = PlotScene {
+                part,
+                ..PlotScene::default()
+            };
             scene.fill(self.view.ghost.analysis(before), source.kind);
             plots.before = Some(Box::new(scene));
         }
@@ -129,6 +135,16 @@ impl Editor {
     }
 }
 
+/// Whether a part of a plot can be looked at closely: the graph has no arc length, and strips show
+/// vertices.
+fn can_be_closer(kind: PlotKind) -> bool {
+    match kind {
+        PlotKind::Curvature => true,
+        PlotKind::Levels { plot, .. } => plot != LevelPlot::Logarithmic,
+        PlotKind::Harmony => false,
+    }
+}
+
 /// A number of the flow as it is shown: angles in degrees.
 fn shown(flow: Flow, value: f64) -> f64 {
     match flow {
@@ -154,22 +170,41 @@ impl PlotScene {
                 points.append_curvatures_by_length(&mut self.discrete);
             }
             _ if !reference.is_smooth() => {}
+            PlotKind::Harmony => {}
+            _ if self.fill_part(reference.sampled(), kind) => {}
             PlotKind::Curvature => reference.append_curvature(&mut self.curvature),
             PlotKind::Levels { plot, normalised } => {
                 reference.append_levels(plot, normalised, &mut self.levels);
             }
-            PlotKind::Harmony => {}
+        }
+    }
+
+    /// Make the series of the part that is looked at closely, if there is one.
+    fn fill_part(&mut self, sampled: SampledCurve<'_>, kind: PlotKind) -> bool {
+        let Some(part) = self.part else {
+            return false;
+        };
+        match kind {
+            PlotKind::Curvature => {
+                sampled.append_curvature_part(part, &mut self.curvature);
+                true
+            }
+            PlotKind::Levels { plot, normalised } => {
+                sampled.append_level_part(plot, normalised, part, &mut self.levels)
+            }
+            PlotKind::Harmony => false,
         }
     }
 
     /// Make the series of a curve.
     fn fill(&mut self, analysis: &mut CurveAnalysis, kind: PlotKind) {
         self.begin(analysis.sampled());
+        if kind == PlotKind::Curvature {
+            self.flank = analysis.append_discrete_curvature(self.part, &mut self.discrete);
+        }
         match kind {
-            PlotKind::Curvature => {
-                analysis.append_curvature(&mut self.curvature);
-                self.flank = analysis.append_discrete_curvature(&mut self.discrete);
-            }
+            _ if self.fill_part(analysis.sampled(), kind) => {}
+            PlotKind::Curvature => analysis.append_curvature(&mut self.curvature),
             PlotKind::Levels { plot, normalised } => {
                 analysis.append_levels(plot, normalised, &mut self.levels);
             }

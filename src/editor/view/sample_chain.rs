@@ -5,8 +5,8 @@ use glam::DVec2;
 use crate::analysis::Sample;
 use crate::editor::view::outline::GAP;
 
-/// Turn samples into a chain of points with a gap wherever the curvature changes sign, if the
-/// points follow the curvature through infinity there.
+/// Turn samples into a chain of points with a gap wherever the curve leaps, or the curvature changes
+/// sign, if the points follow the curvature through infinity there.
 pub fn chain(
     samples: &[Sample],
     place: impl Fn(&Sample) -> DVec2 + Copy,
@@ -15,7 +15,8 @@ pub fn chain(
     samples.iter().flat_map(move |sample| {
         let point = place(sample);
         let gap = before.is_some_and(|before| {
-            turned(before, sample) && leaps(place(before), point, before, sample)
+            let runs = turned(before, sample) && leaps(place(before), point, before, sample);
+            runs || sample.leaps
         });
         before = Some(sample);
         gap.then_some(GAP).into_iter().chain([point])

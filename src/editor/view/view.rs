@@ -33,6 +33,8 @@ pub struct View {
     /// Which plot is shown; `None` while plots are folded.
     pub(in crate::editor) plot: Option<PlotKind>,
     pub(in crate::editor) compared: Option<CurveId>,
+    /// The part of the plot that is looked at closely, between two arc lengths.
+    pub(in crate::editor) plot_part: Option<[f64; 2]>,
     pub(in crate::editor) plots: PlotScene,
     /// What its series were made of.
     pub(in crate::editor) plotted: Option<PlotSource>,
@@ -104,6 +106,12 @@ impl View {
     /// Show another plot, or none.
     pub fn show_plot(&mut self, plot: Option<PlotKind>) {
         self.plot = plot;
+    }
+
+    /// Look closely at a part of the plot, between two arc lengths of the active curve, or at all of
+    /// it.
+    pub fn look_at_part(&mut self, part: Option<[f64; 2]>) {
+        self.plot_part = part;
     }
 
     /// The curve or reference that the active one is compared with in every plot.

@@ -87,6 +87,11 @@ impl ReferenceForm {
         !matches!(self, Self::Points(_))
     }
 
+    /// Whether it may run through infinity, or jump, within its domain: formulas may.
+    pub fn may_leap(&self) -> bool {
+        matches!(self, Self::Formula(_))
+    }
+
     /// The interval of its parameter t that is drawn if none is given: of points all of them.
     pub fn default_interval(&self) -> [f64; 2] {
         match self {

@@ -8,7 +8,6 @@ use super::dots::Dots;
 use super::drawing::*;
 use super::frame::{padded, within_reason};
 use super::marks::{self, behind, features};
-use super::navigation::navigate;
 use super::pane::Pane;
 use super::ticks::Scale;
 use super::{Plots, area, is_held, peaks};
@@ -26,6 +25,9 @@ const DOTS: f64 = 0.5;
 
 /// … or of its curvature, for one that is nearly constant.
 const DOTS_OF_SIZE: f64 = 0.1;
+
+/// The share of the plot's height that is kept free beyond the outermost dots.
+const DOT_ROOM: f64 = 0.06;
 
 /// How far arrows stay from the edge, in points.
 const ARROW: f64 = 6.0;
@@ -53,9 +55,13 @@ impl Plots {
         let scene = scaled.as_ref().unwrap_or(scene);
         let length = scene.length;
         let (wanted, cut) = wanted(scene);
-        self.legend = cut.map_or_else(|| legend(scene.flank).to_owned(), peaks);
+        if scene.part.is_none() {
+            self.legend = cut.map_or_else(|| legend(scene.flank).to_owned(), peaks);
+        }
         let mut frame = self.frame((LevelPlot::Curvature(1), normalised));
-        let bounds = frame.settle(padded(wanted), held);
+        // A part tells nothing of the whole.
+        let whole_plot = frame.whole().filter(|_| scene.part.is_some());
+        let bounds = frame.settle(whole_plot.unwrap_or(padded(wanted)), held);
         let area = area(ui);
         let pane = Pane::within(area.size(), bounds);
         let series: Vec<DVec2> = scene.discrete.iter().map(|(_, at)| *at).collect();
@@ -101,8 +107,14 @@ impl Plots {
                 lines(plot, "compared", &other.curvature, tokens.joints);
                 points_compared(plot, other, &pane, tokens);
             }
+            // Where there are many dots the curve is on top.
+            if dots.crowded {
+                show_dots(plot, &series, &dots, &pane, tokens);
+            }
             lines(plot, "curvature", &scene.curvature, tokens.comb);
-            show_dots(plot, &series, &dots, &pane, tokens);
+            if !dots.crowded {
+                show_dots(plot, &series, &dots, &pane, tokens);
+            }
             if let Some(at) = scene.hovered {
                 cursor(plot, at, tokens);
             }
@@ -118,14 +130,8 @@ impl Plots {
         let pointer = shown.response.hover_pos();
         let near = features(&painter, scene, transform, pointer, tokens);
         marks::legend(&painter, scene, transform.frame(), tokens);
-        navigate(
-            ui,
-            &shown.response,
-            area,
-            transform,
-            self.fingers,
-            &mut frame,
-        );
+        self.navigation
+            .navigate(ui, &shown.response, area, transform, &mut frame);
         // What a glyph stands for is marked exactly there.
         let hovered = match near.and_then(|index| scene.features.get(index)) {
             Some(feature) => Some(feature.at.x),
@@ -141,6 +147,7 @@ impl Plots {
             self.near = near;
             ui.ctx().request_repaint();
         }
+        self.look_closely(ui, editor, &bounds, whole / length);
         if let Some(along) = along {
             editor.view_mut().hover_length(along);
         }
@@ -164,12 +171,15 @@ fn wanted(scene: &PlotScene) -> ((DVec2, DVec2), Option<(f64, f64)>) {
     let reached = low.y - reach..=high.y + reach;
     let near = scene.discrete.iter().map(|(_, dot)| dot.y);
     let near: Vec<f64> = near.filter(|y| reached.contains(y)).collect();
-    // Half a dot more, so that none is cut.
-    let room = 0.02 * (high.y - low.y);
+    let [bottom, top] = [low.y, high.y];
     for y in near {
-        low.y = low.y.min(y - room);
-        high.y = high.y.max(y + room);
+        low.y = low.y.min(y);
+        high.y = high.y.max(y);
     }
+    // Dots at the edge are whole.
+    let room = DOT_ROOM * (high.y - low.y);
+    low.y -= if low.y < bottom { room } else { 0.0 };
+    high.y += if high.y > top { room } else { 0.0 };
     low.x = low.x.min(-scene.flank);
     high.x = high.x.max(scene.length + scene.flank);
     ((low, high), cut)
@@ -216,7 +226,9 @@ fn show_dots(plot: &mut PlotUi<'_>, series: &[DVec2], dots: &Dots, pane: &Pane, 
         let points = places.iter().filter_map(|place| series.get(*place));
         points.copied().collect()
     };
-    plot.points(dots_of("discrete", &at(&dots.inside), tokens.float));
+    let radius = if dots.crowded { 2.0 } else { 3.0 };
+    let inside = dots_of("discrete", &at(&dots.inside), tokens.float);
+    plot.points(inside.radius(radius));
     for (name, places, y, shape) in [
         ("above", &dots.above, high.y - edge, MarkerShape::Up),
         ("below", &dots.below, low.y + edge, MarkerShape::Down),

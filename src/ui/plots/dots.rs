@@ -21,6 +21,8 @@ pub struct Dots {
     pub above: Vec<usize>,
     /// Those below.
     pub below: Vec<usize>,
+    /// Whether there are others that would touch these.
+    pub crowded: bool,
 }
 
 impl Dots {
@@ -47,6 +49,8 @@ impl Dots {
             };
             if crowd.keep(at) {
                 kept.push(index);
+            } else if Some(index) != first {
+                dots.crowded = true;
             }
         }
         dots
@@ -143,6 +147,7 @@ mod tests {
         assert!(dots.above.len() > 5 && dots.below.len() > 5);
         let count = dots.inside.len() + dots.above.len() + dots.below.len();
         assert_eq!(count, 40);
+        assert!(!dots.crowded && !Dots::new(&series, &pane(), Some(7)).crowded);
     }
 
     #[test]
@@ -151,6 +156,7 @@ mod tests {
         for count in [100, 1000, 10_000] {
             let series = waves(count);
             let dots = Dots::new(&series, &pane, None);
+            assert!(dots.crowded);
             let place = |index: &usize| pane.place(series[*index]);
             for (a, index) in dots.inside.iter().enumerate() {
                 for other in &dots.inside[..a] {

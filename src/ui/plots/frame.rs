@@ -51,6 +51,11 @@ impl Frame {
         PlotBounds::from_min_max(low, high)
     }
 
+    /// The bounds that hold all that is to be seen, as they were settled last.
+    pub fn whole(&self) -> Option<(DVec2, DVec2)> {
+        self.whole
+    }
+
     /// Show the whole plot again.
     pub fn fit(&mut self) {
         self.chosen = [None; 2];

@@ -6,7 +6,6 @@ use glam::DVec2;
 
 use super::drawing::*;
 use super::frame::bounds_of;
-use super::navigation::navigate;
 use super::pane::{BELOW, LEFT, Pane};
 use super::ticks::Scale;
 use super::{Plots, area, is_held};
@@ -79,14 +78,8 @@ impl Plots {
             hovered = shown.inner.or(hovered);
             let area = Rect::from_min_size(ui.min_rect().left_bottom() - vec2(0.0, size.y), size);
             let before = *frame;
-            navigate(
-                ui,
-                &shown.response,
-                area,
-                &shown.transform,
-                self.fingers,
-                frame,
-            );
+            self.navigation
+                .navigate(ui, &shown.response, area, &shown.transform, frame);
             if *frame != before {
                 moved = Some(*frame);
             }

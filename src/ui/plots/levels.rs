@@ -8,7 +8,6 @@ use super::drawing::*;
 use super::frame::{most_of, padded, within_reason};
 use super::level_names::axis_name;
 use super::marks::{self, behind, features};
-use super::navigation::navigate;
 use super::pane::Pane;
 use super::ticks::Scale;
 use super::{Plots, area, is_held, peaks};
@@ -67,7 +66,7 @@ impl Plots {
         let is_graph = which == LevelPlot::Logarithmic;
         let length = scene.length;
         let extent = if normalised { 1.0 } else { length };
-        if scene.levels.iter().all(|point| point.is_nan()) {
+        if scene.part.is_none() && scene.levels.iter().all(|point| point.is_nan()) {
             self.remark.clear();
             let text = match which {
                 LevelPlot::Torsion(_) if scene.planar => "A planar curve has no torsion.",
@@ -96,7 +95,9 @@ impl Plots {
             wanted.1.x = wanted.1.x.max(extent);
         }
         let mut frame = self.frame((which, normalised));
-        let bounds = frame.settle(padded(wanted), held);
+        // A part tells nothing of the whole.
+        let whole = frame.whole().filter(|_| scene.part.is_some());
+        let bounds = frame.settle(whole.unwrap_or(padded(wanted)), held);
         let area = area(ui);
         let pane = Pane::within(area.size(), bounds);
         let across = match (is_graph, normalised) {
@@ -142,14 +143,8 @@ impl Plots {
         let pointer = shown.response.hover_pos();
         let near = features(&painter, scene, transform, pointer, tokens);
         marks::legend(&painter, scene, transform.frame(), tokens);
-        navigate(
-            ui,
-            &shown.response,
-            area,
-            transform,
-            self.fingers,
-            &mut frame,
-        );
+        self.navigation
+            .navigate(ui, &shown.response, area, transform, &mut frame);
         let hovered = match near.and_then(|index| scene.features.get(index)) {
             Some(feature) => Some(feature.at.x),
             None => shown.inner,
@@ -161,6 +156,9 @@ impl Plots {
         if self.near != near {
             self.near = near;
             ui.ctx().request_repaint();
+        }
+        if !is_graph {
+            self.look_closely(ui, editor, &bounds, length / extent);
         }
         if let Some(along) = along {
             editor.view_mut().hover_length(along);

@@ -15,8 +15,9 @@ const BAND: f32 = 4.0;
 /// How far glyphs stay from the edges, and from each other, in points.
 const GLYPH: f32 = 7.0;
 
-/// How far the middles of two glyphs stay apart, in points.
-const APART: f64 = 11.0;
+/// How far the middles of two glyphs stay apart, in points: so far where few would touch, and
+/// farther where most would.
+const APART: [f64; 2] = [11.0, 44.0];
 
 /// How near the pointer must be to a glyph, in points.
 const NEAR: f32 = 8.0;
@@ -72,7 +73,7 @@ pub fn features(
 ) -> Option<usize> {
     let frame = transform.frame();
     let size = DVec2::new(f64::from(frame.width()), f64::from(frame.height()));
-    let mut crowd = Crowd::new(size, APART);
+    let mut crowd = Crowd::new(size, apart(scene, transform));
     let mut nearest: Option<(f32, usize)> = None;
     for index in by_halves(scene.features.len()) {
         let feature = &scene.features[index];
@@ -93,6 +94,16 @@ pub fn features(
         }
     }
     nearest.map(|(_, index)| index)
+}
+
+/// How far glyphs stay apart: the curve is seen between them, however many there are.
+fn apart(scene: &PlotScene, transform: &PlotTransform) -> f64 {
+    let bounds = transform.bounds();
+    let seen = bounds.min()[0]..=bounds.max()[0];
+    let features = scene.features.iter();
+    let seen = features.filter(|feature| seen.contains(&feature.at.x));
+    let covered = seen.count() as f64 * APART[0];
+    APART[usize::from(covered > 0.5 * f64::from(transform.frame().width()))]
 }
 
 /// Where the glyph of a feature stands: at the edge if its value lies beyond it. `None` if it is

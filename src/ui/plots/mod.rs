@@ -18,6 +18,7 @@ pub use compare::choice_ui as compare_choice_ui;
 use std::collections::HashMap;
 
 use eframe::egui::{Button, Rect, Ui};
+use egui_plot::PlotBounds;
 use lucide_icons::Icon;
 
 use super::figures;
@@ -32,6 +33,7 @@ use crate::ui::keyboard::shortcut_text;
 use compare::compare_ui;
 use frame::Frame;
 use level_names::{explanation, tab_name};
+use navigation::Navigation;
 use pane::RIGHT;
 
 /// The height of the bar with the tabs.
@@ -88,8 +90,7 @@ pub struct Plots {
     levels: HashMap<(LevelPlot, bool), Frame>,
     /// The feature whose glyph the pointer is near, by its place in the plot's list.
     near: Option<usize>,
-    /// Whether fingers on a touchpad turn the wheel.
-    fingers: bool,
+    navigation: Navigation,
     /// Whose plots they are.
     shown_of: Option<CurveId>,
 }
@@ -98,6 +99,27 @@ pub struct Plots {
 fn is_held(ui: &Ui, editor: &Editor) -> bool {
     let is_down = ui.input(|input| input.pointer.any_down());
     editor.hand().is_dragging() || is_down && editor.workspace().preview().is_some()
+}
+
+/// A part of a plot is looked at closely if it is less than this share of the whole …
+const CLOSE: f64 = 0.4;
+
+/// … with as much of it again at either side, and anew if what is seen is less than this share of it.
+const STALE: f64 = 0.15;
+
+/// The part of a curve, between two arc lengths, to look at closely when a range of it is seen: the
+/// one that is known as long as it does.
+fn close_part(known: Option<[f64; 2]>, [from, to]: [f64; 2], length: f64) -> Option<[f64; 2]> {
+    let extent = to - from;
+    if !(extent < CLOSE * length) {
+        return None;
+    }
+    let does = |[first, last]: &[f64; 2]| {
+        let holds = *first <= from.max(0.0) && *last >= to.min(length);
+        holds && extent >= STALE * (last - first)
+    };
+    let part = || [(from - extent).max(0.0), (to + extent).min(length)];
+    known.filter(does).or_else(|| Some(part()))
 }
 
 /// The area of a plot with its numbers.
@@ -148,7 +170,7 @@ impl Plots {
 
     /// Say whether fingers on a touchpad turn the wheel: they move a plot.
     pub fn set_fingers(&mut self, fingers: bool) {
-        self.fingers = fingers;
+        self.navigation.fingers = fingers;
     }
 
     /// Forget what was chosen to be seen of another curve.
@@ -158,6 +180,18 @@ impl Plots {
             self.shown_of = active;
             self.levels.clear();
             self.strips = Default::default();
+        }
+    }
+
+    /// Look closely at what is seen of the active curve; `scale` is how many of its units are one of
+    /// the plot's.
+    fn look_closely(&self, ui: &Ui, editor: &mut Editor, bounds: &PlotBounds, scale: f64) {
+        let plots = editor.view().plots();
+        let seen = [bounds.min()[0], bounds.max()[0]].map(|x| x * scale);
+        let part = close_part(plots.part, seen, plots.length);
+        if part != plots.part {
+            editor.view_mut().look_at_part(part);
+            ui.ctx().request_repaint();
         }
     }
 
@@ -294,5 +328,27 @@ impl Plots {
             Tab::Levels(plot) => self.levels_ui(ui, editor, plot),
             Tab::Harmony => self.harmony_ui(ui, editor),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::close_part;
+
+    #[test]
+    fn a_part_is_looked_at_closely_until_it_does_no_longer() {
+        let length = 100.0;
+        assert_eq!(close_part(None, [-2.0, 102.0], length), None);
+        let part = close_part(None, [20.0, 30.0], length);
+        assert_eq!(part, Some([10.0, 40.0]));
+        for seen in [[11.0, 21.0], [28.0, 39.0], [20.0, 25.0]] {
+            assert_eq!(close_part(part, seen, length), part);
+        }
+        assert_eq!(close_part(part, [9.0, 19.0], length), Some([0.0, 29.0]));
+        assert_eq!(close_part(part, [20.0, 22.0], length), Some([18.0, 24.0]));
+        assert_eq!(close_part(part, [0.0, 60.0], length), None);
+        let end = close_part(None, [95.0, 105.0], length);
+        assert_eq!(end, Some([85.0, 100.0]));
+        assert_eq!(close_part(end, [94.0, 104.0], length), end);
     }
 }

@@ -11,7 +11,7 @@ const UNIT: f64 = 8.0;
 const ACROSS: f64 = 80.0;
 
 /// The room for a tick upwards, in points.
-const UPWARDS: f64 = 32.0;
+const UPWARDS: f64 = 24.0;
 
 /// The room for a tick upwards in a low strip, in points.
 const LOW: f64 = 20.0;
