@@ -124,7 +124,7 @@ fn name_of(editor: &Editor) -> String {
 }
 
 /// What the mouse does, beside the keys that the table of commands lists.
-const MOUSE: [(&str, &str); 22] = [
+const MOUSE: [(&str, &str); 24] = [
     ("Wheel, pinch", "Zoom to the pointer"),
     ("Middle button, Space and drag", "Pan"),
     ("Right button and drag", "Orbit"),
@@ -143,6 +143,8 @@ const MOUSE: [(&str, &str); 22] = [
     ("Alt", "Hold to compare with the state before"),
     ("Arrows; with Shift, Ctrl", "Nudge; nudge ×10, ×0.1"),
     ("Tab", "Cycle overlapping"),
+    ("Wheel, drag on a plot", "Zoom to the pointer, pan"),
+    ("Shift and wheel on a plot", "Zoom along the curve alone"),
     ("F6", "Focus panels"),
     ("Enter, Shift and Enter", "Table: confirm and go down, up"),
     ("Tab, Shift and Tab", "Table: confirm and go right, left"),

@@ -147,6 +147,19 @@ fn a_joint_is_marked_while_curves_are_joined() {
     // Before or after it the first curve is as it was.
     let kept = (from - own).abs().min((plots.length - to - own).abs());
     assert!(kept <= 1e-4 * own, "{from} {to} {own}");
+    // Strips mark the vertices of the bridge.
+    let bridge = script.trial_report();
+    let bridge = serde_json::to_value(bridge).expect("a report");
+    let count = bridge["bridge"].as_u64().expect("the bridge");
+    script.editor.view_mut().show_plot(Some(PlotKind::Harmony));
+    let [[first, last]] = script.plots().joints[..] else {
+        panic!("no joint in the strips");
+    };
+    assert_eq!(last - first, count as f64);
+    script
+        .editor
+        .view_mut()
+        .show_plot(Some(PlotKind::Curvature));
     script.editor.apply_trial().expect("a step");
     assert_eq!(script.plots().joints, plots.joints);
     script.command(Command::Undo);

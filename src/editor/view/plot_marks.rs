@@ -80,8 +80,8 @@ impl Editor {
             if source.features {
                 self.mark_features(plots, id, source.kind);
             }
-            if let (Some(joint), PlotKind::Curvature) = (source.joint, source.kind) {
-                self.mark_joint(plots, id, joint);
+            if let Some(joint) = source.joint {
+                self.mark_joint(plots, id, source.kind, joint);
             }
         }
         self.view.plot_marked = source;
@@ -138,16 +138,29 @@ impl Editor {
         }
     }
 
-    /// Mark the part between two parameters; on a periodic curve it may run over the end.
-    fn mark_joint(&self, plots: &mut PlotScene, id: CurveId, [from, to]: [f64; 2]) {
+    /// Mark the part between two parameters, in strips its vertices; on a periodic curve it may run
+    /// over the end.
+    fn mark_joint(&self, plots: &mut PlotScene, id: CurveId, kind: PlotKind, [from, to]: [f64; 2]) {
         let Some(sampled) = self.analyses.sampled(id) else {
             return;
+        };
+        let scale = match kind {
+            PlotKind::Curvature => 1.0,
+            PlotKind::Levels { plot, .. } if plot == LevelPlot::Logarithmic => return,
+            PlotKind::Levels { normalised, .. } if normalised => 1.0 / plots.length,
+            PlotKind::Levels { .. } => 1.0,
+            PlotKind::Harmony => {
+                let degree = self.document().curve(id).map(|it| it.polygon.degree());
+                let first = from + degree.unwrap_or_default() as f64;
+                plots.joints.push([first, to].map(|vertex| vertex - 0.5));
+                return;
+            }
         };
         let (end, whole) = (sampled.curve.pieces() as f64, plots.length);
         // On a periodic curve the end is the start.
         let within = |u: f64| match u < end {
-            true => sampled.length_at(u.max(0.0)),
-            false => whole,
+            true => scale * sampled.length_at(u.max(0.0)),
+            false => scale * whole,
         };
         plots.joints.push([from, to].map(within));
         if sampled.curve.is_periodic() && to > end {

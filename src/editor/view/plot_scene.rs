@@ -59,7 +59,7 @@ pub struct PlotScene {
     /// Where the curvature rises, falls, or may do either, as far as it is proved: in the plot of
     /// the curvature.
     pub bands: Vec<PlotBand>,
-    /// The parts of the curve that the operation at hand has made to join it.
+    /// The parts of the curve that the operation at hand has made to join it, along the plot's axis.
     pub joints: Vec<[f64; 2]>,
     /// The arc length of the whole curve.
     pub length: f64,

@@ -1,11 +1,12 @@
 //! The flow of the float S-polygon's vertices as strips, one below the other.
 
-use eframe::egui::{Color32, Rect, Stroke, Ui, Vec2, vec2};
+use eframe::egui::{Color32, Rect, Shape, Stroke, Ui, Vec2, vec2};
 use egui_plot::{HoverPosition, PlotResponse, PlotUi};
 use glam::DVec2;
 
 use super::drawing::*;
 use super::frame::bounds_of;
+use super::marks::behind;
 use super::pane::{BELOW, LEFT, Pane};
 use super::ticks::Scale;
 use super::{Plots, area, is_held};
@@ -161,6 +162,7 @@ impl Strip<'_> {
             .show_axes([with_axis, true])
             .y_grid_spacer(|input| Scale::Even.in_strip(input))
             .label_formatter(move |hover| label(flow, hover));
+        let back = ui.painter().add(Shape::Noop);
         let shown = plot.show(ui, |plot| {
             plot.set_plot_bounds(self.pane.bounds);
             self.draw(plot);
@@ -168,6 +170,7 @@ impl Strip<'_> {
         });
         let rect = shown.response.rect;
         let painter = ui.painter_at(rect);
+        painter.set(back, behind(self.scene, &shown.transform, tokens));
         let edge = Stroke::new(1.0, tokens.axes);
         painter.hline(rect.x_range(), rect.top(), edge);
         let corner = rect.left_top() + vec2(STEP, 0.5 * STEP);
