@@ -14,8 +14,8 @@ mod menus;
 mod numbers;
 mod operations;
 mod paper;
-mod recovery;
 mod plots;
+mod recovery;
 mod references;
 
 use batten::editor::{Layer, ToolKind};
