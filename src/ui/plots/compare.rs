@@ -6,14 +6,20 @@ use crate::document::CurveId;
 use crate::editor::Editor;
 use crate::ui::widgets;
 
-/// The width of the choice.
-const WIDTH: f32 = 120.0;
+/// The least and the greatest width of the choice: in a bar with less room it is left out.
+const WIDTH: [f32; 2] = [56.0, 120.0];
+
+/// The room that the bar keeps beside the choice.
+const BESIDE: f32 = 64.0;
 
 /// Where the bar leaves less room than this, in points, the caption is left out.
 const NARROW: f32 = 320.0;
 
 /// Show the choice with a caption at its left where there is room.
 pub fn compare_ui(ui: &mut Ui, editor: &mut Editor) {
+    if ui.available_width() < WIDTH[0] + BESIDE {
+        return;
+    }
     let narrow = ui.available_width() < NARROW;
     choice_ui(ui, editor, "Curve to compare with");
     if !narrow {
@@ -23,6 +29,7 @@ pub fn compare_ui(ui: &mut Ui, editor: &mut Editor) {
 
 /// Show the choice; `name` is what a screen reader calls it.
 pub fn choice_ui(ui: &mut Ui, editor: &mut Editor, name: &str) {
+    let width = (ui.available_width() - BESIDE).clamp(WIDTH[0], WIDTH[1]);
     let others = others(editor);
     let compared = editor.view().compared();
     let chosen = others.iter().find(|(id, _)| Some(*id) == compared);
@@ -30,7 +37,7 @@ pub fn choice_ui(ui: &mut Ui, editor: &mut Editor, name: &str) {
     ui.add_enabled_ui(!others.is_empty(), |ui| {
         let choice = ComboBox::from_id_salt(name)
             .selected_text(text)
-            .width(WIDTH)
+            .width(width)
             .truncate();
         let choice = choice.show_ui(ui, |ui| {
             let mut compared = compared;

@@ -17,8 +17,9 @@ use crate::ui::figures;
 use crate::ui::theme::{STEP, Tokens};
 use crate::ui::widgets;
 
-/// Where the bar leaves less room than this, in points, the switch has a short name.
-const NARROW: f32 = 150.0;
+/// Where the bar leaves less room than the first of these, in points, the switch has a short name, and
+/// than the second there is none.
+const NARROW: [f32; 2] = [150.0, 48.0];
 
 /// How far beyond the others a peak may reach and still be shown, in units of their extent.
 const TALLEST: f64 = 4.0;
@@ -44,10 +45,13 @@ impl Plots {
 
     /// The switch that scales the curve to length 1, and a remark beside it.
     pub(super) fn normalised_ui(&mut self, ui: &mut Ui, remark: &str) {
+        if ui.available_width() < NARROW[1] {
+            return;
+        }
         ui.spacing_mut().item_spacing.x = 2.0 * STEP;
         let tooltip = "Show the levels of the curve scaled to length 1, over shares of its length";
         let name = "Normalise length";
-        let text = if ui.available_width() < NARROW {
+        let text = if ui.available_width() < NARROW[0] {
             "1/L"
         } else {
             name
