@@ -111,6 +111,7 @@ fn outcome(edits: Vec<Edit>) -> Outcome {
         equivalence: None,
         remarks: Vec::new(),
         marks: Vec::new(),
+        joint: None,
         handles: Vec::new(),
         atlas: None,
     }
