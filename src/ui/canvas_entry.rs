@@ -78,6 +78,7 @@ impl CanvasEntry {
                 }
                 ui.horizontal(|ui| {
                     self.entry_ui(ui, editor, entry);
+                    ui.add_space(2.0 * STEP);
                     through_ends_ui(ui, editor);
                 });
             });
@@ -182,6 +183,7 @@ fn caption_ui(ui: &mut Ui, caption: &str) {
 /// Degree, length and angle of what is drawn.
 fn leg_ui(ui: &mut Ui, editor: &mut Editor) {
     degree_ui(ui, editor);
+    ui.add_space(2.0 * STEP);
     let Some(locks) = editor.leg_locks() else {
         return;
     };
@@ -190,6 +192,7 @@ fn leg_ui(ui: &mut Ui, editor: &mut Editor) {
     let length = leg.map(|leg| leg.length);
     let shown = |value| figures::to_resolution(value, 0.1 * pixel);
     let length = figure_ui(ui, ("Length", "leg length"), (locks.length, length), shown);
+    ui.add_space(2.0 * STEP);
     let degrees = leg.and_then(|leg| leg.degrees);
     let shown = |value| format!("{}°", figures::to_resolution(value, 0.01));
     let degrees = figure_ui(ui, ("Angle", "leg angle"), (locks.degrees, degrees), shown);

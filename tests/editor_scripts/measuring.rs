@@ -6,8 +6,8 @@ use glam::{DVec2, DVec3};
 
 use super::script::Script;
 
-/// Half of the last digit that is written.
-const DIGIT: f64 = 0.5e-6;
+/// Half of the last digit that is written, in units of the first.
+const DIGIT: f64 = 0.5e-7;
 
 /// The figures that are written at the ruler.
 fn written(script: &mut Script) -> Option<String> {
@@ -61,13 +61,10 @@ fn between_both_ends_the_arc_is_the_whole_curve() {
                 panic!("{text}");
             };
             let whole = polygon.arc_length(1e-13);
-            assert!(
-                (found - whole).abs() <= DIGIT + 1e-12 * whole,
-                "{name}: {text}"
-            );
+            assert!((found - whole).abs() <= DIGIT * whole, "{name}: {text}");
             let chord = polygon.end_jet(End::Finish).point - polygon.end_jet(End::Start).point;
-            assert!((numbers(&text, "dx")[0] - chord.x).abs() <= DIGIT + 1e-12 * whole);
-            assert!((numbers(&text, "dy")[0] - chord.y).abs() <= DIGIT + 1e-12 * whole);
+            assert!((numbers(&text, "dx")[0] - chord.x).abs() <= DIGIT * whole);
+            assert!((numbers(&text, "dy")[0] - chord.y).abs() <= DIGIT * whole);
         }
     }
 }
@@ -82,7 +79,10 @@ fn between_two_points_of_a_periodic_curve_there_are_two_arcs() {
     let found = numbers(&text, "arc");
     let whole = polygon.arc_length(1e-13);
     assert_eq!(found.len(), 2, "{text}");
-    assert!((found[0] + found[1] - whole).abs() <= 2.0 * DIGIT, "{text}");
+    assert!(
+        (found[0] + found[1] - whole).abs() <= 2.0 * DIGIT * whole,
+        "{text}"
+    );
     let expected = arc_length_between(&polygon, 1.25, 4.5, 1e-13);
     // The pointer is on the curve only to a part of a pixel.
     let near = |it: &f64| (it - expected).abs() < 0.1 * script.editor.view().viewport().pixel();
@@ -126,8 +126,8 @@ fn vertices_attract_and_beside_curves_there_is_no_arc() {
         to - DVec2::splat(2.0),
     );
     let leg = script.polygon().vertex(3) - script.polygon().vertex(1);
-    assert!((numbers(&text, "dx")[0] - leg.x).abs() <= DIGIT);
-    assert!((numbers(&text, "dy")[0] - leg.y).abs() <= DIGIT);
+    assert!((numbers(&text, "dx")[0] - leg.x).abs() <= DIGIT * leg.length());
+    assert!((numbers(&text, "dy")[0] - leg.y).abs() <= DIGIT * leg.length());
     assert!(!text.contains("arc"), "{text}");
     // A hidden curve attracts nothing.
     script.command(Command::ToggleVisible);

@@ -10,10 +10,17 @@ use crate::editor::hand::gesture::{Gesture, is_hasty_click};
 use crate::editor::hand::input::Key;
 use crate::editor::hand::snapping::{Carried, along_axis, snap_to_grid, snap_to_point};
 use crate::editor::view::scene::Mark;
-use crate::geometry::{End, arc_length_between};
+use crate::geometry::{End, arc_length_between, significant};
 
 /// To what part of itself an arc length is found.
 const TOLERANCE: f64 = 1e-12;
+
+/// The digits of figures, and of those that are found to plotting accuracy.
+const DIGITS: usize = 8;
+const PLOTTED_DIGITS: usize = 5;
+
+/// What rounding leaves of a difference of coordinates, in units of them.
+const ROUNDING: f64 = 1e-14;
 
 /// How far a point may be from a curve that it lies on, in units of its coordinates or 1.
 const ON_CURVE: f64 = 1e-9;
@@ -232,9 +239,7 @@ impl Measured {
     fn arc_line(&self, context: &Context) -> Option<String> {
         let arc = self.arc.as_ref()?;
         if arc.shape.is_in(arc.id, context.document) {
-            let lengths = arc.lengths.iter().map(|length| format!("{length:.6}"));
-            let lengths: Vec<String> = lengths.collect();
-            return Some(format!("arc {}", lengths.join(" or ")));
+            return Some(format!("arc {}", joined(&arc.lengths, DIGITS)));
         }
         let curve = context.document.shape(arc.id)?;
         let ends = arc.parameters.into_iter().zip([self.from, self.to]);
@@ -252,20 +257,26 @@ impl Measured {
 fn about(id: CurveId, [u, v]: [f64; 2], context: &Context) -> Option<String> {
     let sampled = context.hits.analyses.sampled(id)?;
     let one_way = (sampled.length_at(u) - sampled.length_at(v)).abs();
-    if !sampled.curve.is_periodic() {
-        return Some(format!("arc ≈ {one_way:.4}"));
-    }
     let other_way = sampled.samples.length() - one_way;
-    let (short, long) = (one_way.min(other_way), one_way.max(other_way));
-    Some(format!("arc ≈ {short:.4} or {long:.4}"))
+    let lengths = match sampled.curve.is_periodic() {
+        true => vec![one_way.min(other_way), one_way.max(other_way)],
+        false => vec![one_way],
+    };
+    Some(format!("arc ≈ {}", joined(&lengths, PLOTTED_DIGITS)))
+}
+
+fn joined(lengths: &[f64], digits: usize) -> String {
+    let lengths = lengths.iter().map(|length| significant(*length, digits));
+    lengths.collect::<Vec<String>>().join(" or ")
 }
 
 /// Say a distance in space and its parts and, within a plane of two axes, its direction, a line each.
 fn figures(from: DVec3, to: DVec3) -> Vec<String> {
     const NAMES: [&str; 3] = ["x", "y", "z"];
-    let span = to - from;
-    let part = |axis: usize| format!("d{} {:.6}", NAMES[axis], span[axis]);
-    let mut lines = vec![format!("{:.6}", span.length())];
+    let rounding = ROUNDING * from.abs().max(to.abs());
+    let span = DVec3::select((to - from).abs().cmple(rounding), DVec3::ZERO, to - from);
+    let part = |axis: usize| format!("d{} {}", NAMES[axis], significant(span[axis], DIGITS));
+    let mut lines = vec![significant(span.length(), DIGITS)];
     // The plane z = 0 first: it is where planar curves are.
     match [2, 1, 0].into_iter().find(|normal| span[*normal] == 0.0) {
         Some(normal) => {
