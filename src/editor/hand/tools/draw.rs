@@ -71,12 +71,16 @@ impl DrawTool {
         periodic: bool,
         context: &Context,
     ) -> Result<FloatPolygon, PolygonError> {
-        let wanted = self.degree(context);
         if self.settings.through_ends && !periodic {
-            return FloatPolygon::through_ends(wanted, &points);
+            return FloatPolygon::through_ends(self.degree(context), &points);
         }
-        let degree = wanted.min(points.len().saturating_sub(1)).max(1);
+        let degree = self.highest_degree(points.len(), context);
         FloatPolygon::new(degree, points, None, periodic)
+    }
+
+    /// The degree that is wanted, or the highest that so many vertices have.
+    fn highest_degree(&self, vertices: usize, context: &Context) -> usize {
+        self.degree(context).min(vertices.saturating_sub(1)).max(1)
     }
 
     /// The vertex that a click at a place of the view plane sets.
@@ -259,14 +263,18 @@ impl Tool for DrawTool {
         self.points.pop();
     }
 
-    fn hint(&self, _context: &Context) -> String {
+    fn hint(&self, context: &Context) -> String {
         match self.points.len() {
             0 => "Click to set the first vertex, or type x,y; Esc ends".into(),
             1 | 2 => "Click the next vertex, or type @dx,dy or @length<angle; Shift snaps to 15°, Backspace removes the last one, Esc starts over"
                 .into(),
             count => format!(
-                "{}: Enter or right click ends; click the first vertex to make it periodic",
-                counted(count, "vertex", "vertices")
+                "{}, degree {}: Enter or right click ends; click the first vertex to make it periodic",
+                counted(count, "vertex", "vertices"),
+                match self.settings.through_ends {
+                    true => self.degree(context),
+                    false => self.highest_degree(count, context),
+                }
             ),
         }
     }
