@@ -32,6 +32,9 @@ impl Window {
         if !editor.layers().shows(Layer::Comb) {
             editor.execute(comb).expect("a command");
         }
+        // In a crowd only what is selected can be pressed.
+        let curve = editor.active().expect("a curve");
+        editor.select_vertex(curve, count / 2, false);
         let context = Context::default();
         let app = App::new(&context, None, false, editor);
         let mut window = Self {
@@ -80,7 +83,7 @@ impl Window {
             modifiers: Modifiers::NONE,
         }]);
         self.frame(vec![Event::PointerMoved(at + vec2(10.0, 10.0))]);
-        assert!(self.app.editor().hand().is_dragging());
+        assert!(self.app.editor().workspace().preview().is_some());
         at
     }
 }

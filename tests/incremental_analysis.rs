@@ -7,7 +7,7 @@ use std::sync::Arc;
 use batten::analysis::{CurveAnalysis, Flow, LevelPlot};
 use batten::document::Curve;
 use batten::editor::{
-    ChainOutlines, CombSettings, CurveOutlines, Orientation, PieceTrend, ViewBox,
+    ChainOutlines, CombSettings, CurveOutlines, Legs, Orientation, PieceTrend, ViewBox,
 };
 use batten::geometry::features::Features;
 use batten::geometry::harmony::Harmony;
@@ -103,7 +103,15 @@ fn drawn(analysis: &mut CurveAnalysis, outlines: &mut Outlines, eye: Orientation
     }
     float.set_orientation(eye);
     float.update(analysis.float());
-    float.append_legs(analysis.float(), &view, &mut points);
+    let mut legs = Legs::default();
+    float.append_legs(analysis.float(), None, &view, &mut legs);
+    for (chain, strength) in legs.chains() {
+        points.extend(chain);
+        points.push(DVec2::splat(f64::from(strength)));
+    }
+    float.append_discs(analysis.float(), &view, |index, place, size| {
+        points.extend([place, DVec2::new(index as f64, f64::from(size))]);
+    });
     let bits = |point: DVec2| point.to_array().map(f64::to_bits);
     points.into_iter().map(bits).collect()
 }

@@ -27,7 +27,7 @@ pub(super) struct Arguments {
     #[command(subcommand)]
     command: Option<Command>,
 
-    /// Files to open in the editor; without any, the built-in arc
+    /// Files to open in the editor; without any, an S-curve
     #[arg(value_name = "FILE")]
     files: Vec<PathBuf>,
 }

@@ -10,6 +10,13 @@ use crate::geometry::{End, FloatPolygon};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct CurveId(pub(super) u64);
 
+impl CurveId {
+    /// How many curves and references the document had before, those that are deleted included.
+    pub fn number(self) -> u64 {
+        self.0
+    }
+}
+
 /// A colour: red, green, blue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Colour(pub [u8; 3]);

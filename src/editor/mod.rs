@@ -41,16 +41,18 @@ pub use reply::{Message, Note, Refusal, Reply, told};
 pub use report::{CurveReport, Export, Readout, ReferenceReport};
 pub use trial::{Run, Trial};
 pub use view::{
-    Bounds, ChainOutlines, CombSettings, CurveOutlines, CurveScene, EndFitMarks, FeatureKind,
-    FeatureMark, FeatureReport, FeatureRow, GAP, GuideLabel, GuideScene, HoverScene, Layer, Layers,
-    LossArrow, Mark, NamedView, Orientation, PieceTrend, PlotBand, PlotFeature, PlotKind,
-    PlotScene, ProposalScene, REACH, Scene, VertexMark, View, ViewBox, Viewport, grid_steps,
+    Bounds, ChainOutlines, ClampedMark, CombSettings, CurveOutlines, CurveScene, DragReadout,
+    EndFitMarks, FeatureKind, FeatureMark, FeatureReport, FeatureRow, GAP, GroundGrid, GuideLabel,
+    GuideScene, HoverScene, Layer, Layers, Legs, LossArrow, Mark, NamedView, Orientation,
+    PieceTrend, PlotBand, PlotFeature, PlotKind, PlotScene, ProposalScene, REACH, Scene,
+    VertexMark, View, ViewBox, Viewport, grid_steps, ground_grid, view_name,
 };
 pub use worker::{Outcome, Worker};
 pub use workspace::{Interruption, PreviewId, Workspace};
 
 use crate::analysis::AnalysisCache;
 use crate::document::{CurveId, Document, Edit, quoted};
+use crate::io::examples::{EXAMPLES, FIRST};
 use autosaving::Autosaving;
 use comparing::Comparing;
 use file_watch::FileWatch;
@@ -82,10 +84,12 @@ pub struct Editor {
 }
 
 impl Editor {
-    /// Begin with the built-in arc.
+    /// Begin with a curve to try things out on, and its comb.
     pub fn new() -> Self {
         let mut editor = Self::default();
-        told(editor.open_example(0));
+        editor.view.layers.set(Layer::Comb, true);
+        let first = EXAMPLES.iter().position(|example| example.name == FIRST);
+        told(editor.open_example(first.unwrap_or(0)));
         editor.message = None;
         editor
     }

@@ -1,6 +1,6 @@
 //! What the editor tells the panels: plain figures and texts, made anew each frame.
 
-use glam::DVec2;
+use glam::DVec3;
 
 use crate::geometry::{Amplification, Range};
 
@@ -16,11 +16,11 @@ pub struct Export {
 /// What the status bar reads.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Readout {
-    /// Where the pointer is, in the view plane.
-    pub pointer: Option<DVec2>,
-    /// What the view plane's coordinates are called: the model's, or "right" and "up" in a view
-    /// that is turned against it.
-    pub axes: [&'static str; 2],
+    /// The point of the model under the pointer: what is hovered, or in the plane through the point about
+    /// which the view turns.
+    pub pointer: Option<DVec3>,
+    /// Whether z is told: something is in space, or seen from elsewhere than from above.
+    pub in_space: bool,
     /// The parameter of the hovered place: u of a curve, t of a reference.
     pub parameter: Option<f64>,
     /// What that is called.

@@ -16,8 +16,10 @@ pub struct Example {
     text: &'static str,
 }
 
-/// Every example, in the order in which they are offered. The first is what an editor without
-/// a file opens.
+/// The name of the example that an editor without a file opens.
+pub const FIRST: &str = "s-curve";
+
+/// Every example, in the order in which they are offered.
 pub const EXAMPLES: [Example; 8] = [
     Example {
         name: "arc",

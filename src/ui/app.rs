@@ -79,6 +79,7 @@ impl App {
         if let Some(hidden) = &shell.hidden {
             hide_layers(&mut editor, hidden);
         }
+        editor.view_mut().show_bands(shell.bands);
         let mut plots = Plots::default();
         plots.set_tab(if shell.harmony {
             Tab::Harmony
@@ -542,6 +543,7 @@ impl App {
             harmony: self.plots.tab() == Tab::Harmony,
             nudge_step: Some(self.editor.hand().nudge_step()),
             hidden: Some(hidden.map(|(place, _)| place).collect()),
+            bands: self.editor.view().shows_bands(),
             ..self.shell.clone()
         }
     }

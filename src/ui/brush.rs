@@ -7,6 +7,7 @@ use glam::DVec2;
 
 use super::chains::Screen;
 use super::theme::{STEP, Tokens};
+use crate::editor::Legs;
 
 /// What the parts of the scene are painted with.
 pub struct Brush<'a> {
@@ -49,6 +50,20 @@ impl Brush<'_> {
         }
     }
 
+    /// Paint the legs of a polygon, fainter where they crowd.
+    pub fn legs(&self, legs: &Legs, stroke: Stroke) {
+        for (chain, strength) in legs.chains() {
+            self.chain(chain, faded(stroke, strength));
+        }
+    }
+
+    /// Paint the legs of a polygon as dashed lines, fainter where they crowd.
+    pub fn dashed_legs(&self, legs: &Legs, stroke: Stroke) {
+        for (chain, strength) in legs.chains() {
+            self.dashed_chain(chain, faded(stroke, strength));
+        }
+    }
+
     /// Paint a dashed line between two model points.
     pub fn dashed(&self, segment: [DVec2; 2], stroke: Stroke) {
         self.dashed_chain(&segment, stroke);
@@ -69,4 +84,8 @@ impl Brush<'_> {
                 .add(Shape::convex_polygon(points, stroke.color, Stroke::NONE));
         }
     }
+}
+
+fn faded(stroke: Stroke, strength: f32) -> Stroke {
+    Stroke::new(stroke.width, stroke.color.gamma_multiply(strength))
 }

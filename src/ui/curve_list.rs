@@ -314,10 +314,11 @@ impl Row {
         let swatch = Rect::from_center_size(centre, Vec2::splat(3.0 * STEP));
         let own = self.colour.map(theme::of_document);
         if self.is_reference {
-            let colour = own.unwrap_or(tokens.reference);
+            let colour = own.unwrap_or_else(|| tokens.of_reference(self.id));
             widgets::icon(ui, swatch, Icon::SplinePointer, colour);
         } else {
-            swatch_in(ui, swatch, own.unwrap_or(tokens.curve));
+            let colour = own.unwrap_or_else(|| tokens.of_curve(self.id));
+            swatch_in(ui, swatch, colour);
         }
         let label = format!("{} {}", self.noun(), self.name);
         response

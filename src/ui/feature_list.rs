@@ -3,11 +3,13 @@
 use std::time::Duration;
 
 use eframe::egui::{
-    Button, Response, RichText, Role, ScrollArea, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+    Button, Color32, Response, RichText, Role, ScrollArea, Sense, Ui, UiBuilder, WidgetInfo, pos2,
+    vec2,
 };
 use lucide_icons::Icon;
 
 use super::feature_marks::glyph;
+use super::legend::legend_ui;
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
 use super::{figures, icons, widgets};
 use crate::editor::{Editor, FeatureKind, FeatureReport, FeatureRow};
@@ -31,7 +33,9 @@ pub fn feature_list_ui(ui: &mut Ui, editor: &mut Editor) {
     let (_, heading) = ui.allocate_space(vec2(ui.available_width(), ROW));
     ui.scope_builder(UiBuilder::new().max_rect(heading), |ui| match report {
         Some(report) => verdict_ui(ui, report),
-        None => proving_ui(ui, editor),
+        None => {
+            proving_ui(ui, editor);
+        }
     });
     let chosen = report.and_then(|report| rows_ui(ui, report, editor.chosen_feature()));
     if let Some(u) = chosen {
@@ -58,17 +62,16 @@ fn rows_ui(ui: &mut Ui, report: &FeatureReport, own: Option<f64>) -> Option<f64>
 
 fn verdict_ui(ui: &mut Ui, report: &FeatureReport) {
     let (icon, text) = verdict(report);
-    let colour = colour_of(report, Tokens::of(ui));
+    let tokens = Tokens::of(ui);
     ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = 1.5 * STEP;
-        ui.label(icons::text(icon).color(colour));
-        ui.label(RichText::new(text).color(colour));
+        ui.label(icons::text(icon).color(colour_of(icon, tokens)));
+        ui.label(RichText::new(text).color(tokens.text));
     });
 }
 
-/// The verdict's icon and words.
+/// The verdict's icon and words. It counts; only what is undecided is a doubt.
 fn verdict(report: &FeatureReport) -> (Icon, String) {
-    let extrema = report.count(&[FeatureKind::CurvatureMaximum, FeatureKind::CurvatureMinimum]);
     if report.polyline {
         let text = match report.sampled {
             true => "Points have no curvature",
@@ -76,78 +79,102 @@ fn verdict(report: &FeatureReport) -> (Icon, String) {
         };
         return (Icon::Minus, text.to_owned());
     }
+    let counts = counts(report);
     if report.sampled {
-        let text = match extrema {
-            0 => "No curvature extremum sampled".to_owned(),
-            count => format!("{} sampled", count_extrema(count)),
-        };
-        return (Icon::ChartSpline, text);
+        return (Icon::ChartSpline, format!("{counts}, sampled"));
     }
+    let is_doubtful = report.count(&[FeatureKind::Undecided]) > 0 || report.has_doubts;
     match report.monotone {
-        Verdict::Disproved if report.has_doubts => {
-            let least = extrema.max(1);
-            (Icon::Spline, format!("At least {}", count_extrema(least)))
-        }
-        Verdict::Proved if report.constant => {
-            (Icon::Check, "Curvature constant: proved".to_owned())
-        }
-        Verdict::Proved => (Icon::Check, "Curvature monotone: proved".to_owned()),
-        Verdict::Disproved => (Icon::Spline, count_extrema(extrema)),
         Verdict::Undecided => (
             Icon::CircleQuestionMark,
             "Curvature monotone: undecided".to_owned(),
         ),
+        Verdict::Disproved if is_doubtful => {
+            (Icon::CircleQuestionMark, format!("At least {counts}"))
+        }
+        Verdict::Disproved => (Icon::Spline, counts),
+        Verdict::Proved => {
+            let kind = match report.constant {
+                true => "constant",
+                false => "monotone",
+            };
+            let icon = match is_doubtful {
+                true => Icon::CircleQuestionMark,
+                false => Icon::Check,
+            };
+            let inflections = inflections(report).map(|text| format!(" · {text}"));
+            let text = format!(
+                "Curvature {kind}: proved{}",
+                inflections.unwrap_or_default()
+            );
+            (icon, text)
+        }
     }
 }
 
-fn count_extrema(count: usize) -> String {
-    counted(count, "curvature extremum", "curvature extrema")
+/// Count the features of a planar curve: "2 inflections · 4 extrema".
+fn counts(report: &FeatureReport) -> String {
+    let extrema = report.count(&[FeatureKind::CurvatureMaximum, FeatureKind::CurvatureMinimum]);
+    // Where curvature is proved not to be monotone there is an extremum, even if none was counted.
+    let least = usize::from(report.monotone == Verdict::Disproved);
+    let extrema = counted(extrema.max(least), "extremum", "extrema");
+    let counts = inflections(report).into_iter().chain([extrema]);
+    counts.collect::<Vec<String>>().join(" · ")
 }
 
-fn colour_of(report: &FeatureReport, tokens: &Tokens) -> eframe::egui::Color32 {
-    match report.monotone {
-        Verdict::Proved => tokens.good,
-        Verdict::Disproved => tokens.warning,
-        Verdict::Undecided => tokens.undecided,
+/// Count the inflections, if there are any.
+fn inflections(report: &FeatureReport) -> Option<String> {
+    let count = report.count(&[FeatureKind::Inflection]);
+    (count > 0).then(|| counted(count, "inflection", "inflections"))
+}
+
+fn colour_of(icon: Icon, tokens: &Tokens) -> Color32 {
+    match icon {
+        Icon::Check => tokens.good,
+        Icon::CircleQuestionMark => tokens.warning,
+        _ => tokens.faint_text,
     }
 }
 
 /// Tell how far the proofs of a long curve have come.
-fn proving_ui(ui: &mut Ui, editor: &Editor) {
+fn proving_ui(ui: &mut Ui, editor: &Editor) -> Option<Response> {
     if let Some(progress) = editor.proof_progress() {
-        widgets::caption(ui, &format!("Proving features: {:.0} %", 100.0 * progress));
         ui.ctx().request_repaint_after(PROGRESS);
+        let text = format!("Proving features: {:.0} %", 100.0 * progress);
+        Some(widgets::caption(ui, &text))
     } else if editor.active().is_some() {
-        widgets::caption(ui, "Features could not be proved: please report this curve");
+        let text = "Features could not be proved: please report this curve";
+        Some(widgets::caption(ui, text))
+    } else {
+        None
     }
 }
 
 /// Show the verdict as a chip; pressing it shows the features.
 pub fn chip_ui(ui: &mut Ui, editor: &mut Editor) -> Option<Response> {
     let Some(report) = editor.features() else {
-        proving_ui(ui, editor);
-        return None;
+        let proving = proving_ui(ui, editor)?;
+        return Some(proving.on_hover_ui(|ui| legend_ui(ui, "What the canvas shows:")));
     };
     let (icon, text) = verdict(report);
-    let colour = colour_of(report, Tokens::of(ui));
+    let tokens = Tokens::of(ui);
     let button = Button::new((
-        icons::text(icon).color(colour),
-        RichText::new(text).font(theme::small_font()).color(colour),
+        icons::text(icon).color(colour_of(icon, tokens)),
+        RichText::new(text)
+            .font(theme::small_font())
+            .color(tokens.text),
     ));
     let response = ui.add(button).accessible_name("Verdict");
-    let inflections = report.count(&[FeatureKind::Inflection]);
     let undecided = report.count(&[FeatureKind::Undecided]);
-    if report.sampled {
-        let tooltip =
-            "Features of references are sampled, not proved. The inspector lists them all.";
-        return Some(response.on_hover_text(tooltip));
-    }
-    let tooltip = format!(
-        "Proved for the numbers as they are: {}, {} undecided. The inspector lists them all.",
-        counted(inflections, "inflection", "inflections"),
-        counted(undecided, "piece", "pieces"),
-    );
-    Some(response.on_hover_text(tooltip))
+    let remark = match (report.sampled, undecided) {
+        (true, _) => "Features of references are sampled, not proved.".to_owned(),
+        (false, 0) => "Proved for the numbers as they are.".to_owned(),
+        (false, count) => format!(
+            "Proved for the numbers as they are, but for {}.",
+            counted(count, "undecided piece", "undecided pieces")
+        ),
+    };
+    Some(response.on_hover_ui(|ui| legend_ui(ui, &remark)))
 }
 
 /// What a feature is called where there is little room.

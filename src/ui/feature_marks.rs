@@ -19,8 +19,10 @@ pub fn paint(brush: &Brush<'_>, mark: &FeatureMark) {
 /// The colour of a kind of feature.
 fn colour(kind: FeatureKind, tokens: &Tokens) -> Color32 {
     match kind {
-        FeatureKind::Inflection | FeatureKind::TorsionZero => tokens.strong_text,
-        FeatureKind::CurvatureMaximum | FeatureKind::CurvatureMinimum => tokens.warning,
+        FeatureKind::Inflection
+        | FeatureKind::TorsionZero
+        | FeatureKind::CurvatureMaximum
+        | FeatureKind::CurvatureMinimum => tokens.strong_text,
         FeatureKind::TorsionMaximum | FeatureKind::TorsionMinimum => tokens.evolute,
         FeatureKind::Cusp => tokens.error,
         FeatureKind::Undecided => tokens.undecided,

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 
 use super::action::Action;
 use super::theme::{self, STEP, Tokens};
-use crate::editor::{Command, Editor, NamedView, Orientation};
+use crate::editor::{Command, Editor, NamedView, Orientation, view_name};
 
 /// The gizmo's width and height, in points.
 const SIZE: f32 = 84.0;
@@ -30,6 +30,16 @@ pub fn place(canvas: Rect) -> Option<Rect> {
     }
     let corner = canvas.right_top() + vec2(-SIZE - 2.0 * STEP, 2.0 * STEP);
     Some(Rect::from_min_size(corner, Vec2::splat(SIZE)))
+}
+
+/// The place of the name of the view, below the gizmo.
+pub fn name_place(canvas: Rect) -> Option<Rect> {
+    let gizmo = place(canvas)?;
+    let size = vec2(SIZE, 4.0 * STEP);
+    Some(Rect::from_min_size(
+        gizmo.left_bottom() - vec2(0.0, 2.0 * STEP),
+        size,
+    ))
 }
 
 /// Show the gizmo over the canvas.
@@ -56,6 +66,20 @@ pub fn gizmo_ui(ui: &mut Ui, canvas: Rect, editor: &mut Editor, commands: &mut V
     if !response.dragged() {
         response.on_hover_text(label);
     }
+    if let Some(rect) = name_place(canvas) {
+        name_ui(ui, rect, view_name(&view));
+    }
+}
+
+/// Name the side from which the model is seen.
+fn name_ui(ui: &Ui, rect: Rect, name: &str) {
+    let response = ui.interact(rect, Id::unique("view name"), Sense::hover());
+    let label = format!("Seen from: {name}");
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, label.clone()));
+    let (centre, font) = (rect.center(), theme::small_font());
+    let colour = Tokens::of(ui).faint_text;
+    ui.painter()
+        .text(centre, Align2::CENTER_CENTER, name, font, colour);
 }
 
 /// The view along the axis whose tip is at a place.

@@ -7,7 +7,7 @@ use super::chains::Screen;
 use super::figures;
 use super::labels;
 use super::theme::{self, STEP, Tokens};
-use crate::editor::{Viewport, grid_steps};
+use crate::editor::{Viewport, grid_steps, ground_grid};
 
 /// The most lines that are drawn one way: a guard, steps are chosen so that fewer suffice.
 const MOST: i64 = 1000;
@@ -20,9 +20,10 @@ enum Axis {
 }
 
 /// Paint the grid's lines and axes behind everything else. A view that is turned against the
-/// model shows the model's three axes alone.
+/// model shows the grid on the ground, and the model's three axes.
 pub fn paint(painter: &Painter, rect: Rect, viewport: &Viewport, tokens: &Tokens) {
     if viewport.orientation.axes().is_none() {
+        paint_ground(painter, rect, viewport, tokens);
         paint_model_axes(painter, rect, viewport, tokens);
         return;
     }
@@ -47,6 +48,21 @@ pub fn paint(painter: &Painter, rect: Rect, viewport: &Viewport, tokens: &Tokens
                 place as f32,
                 Stroke::new(hair.max(1.0), tokens.axes),
             );
+        }
+    }
+}
+
+fn paint_ground(painter: &Painter, rect: Rect, viewport: &Viewport, tokens: &Tokens) {
+    let screen = Screen::new(viewport, rect);
+    let hair = 1.0 / painter.pixels_per_point();
+    let grid = ground_grid(viewport);
+    for (lines, colour) in [
+        (grid.minor, tokens.grid_minor),
+        (grid.major, tokens.grid_major),
+    ] {
+        let stroke = Stroke::new(hair, colour.gamma_multiply(grid.strength));
+        for line in lines.into_iter().filter_map(|line| screen.segment(line)) {
+            painter.line_segment(line, stroke);
         }
     }
 }

@@ -67,7 +67,7 @@ impl Inspector {
             widgets::form_row(ui, "Name", |ui| {
                 self.name_ui(ui, editor, id, &reference.name)
             });
-            let default = Tokens::of(ui).reference;
+            let default = Tokens::of(ui).of_reference(id);
             widgets::form_row(ui, "Colour", |ui| {
                 colour_ui(ui, editor, id, (reference.colour, default));
             });
@@ -100,7 +100,7 @@ impl Inspector {
 
     fn curve_ui(&mut self, ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
         widgets::form_row(ui, "Name", |ui| self.name_ui(ui, editor, id, &curve.name));
-        let default = Tokens::of(ui).curve;
+        let default = Tokens::of(ui).of_curve(id);
         widgets::form_row(ui, "Colour", |ui| {
             colour_ui(ui, editor, id, (curve.colour, default));
         });

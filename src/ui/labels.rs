@@ -57,6 +57,62 @@ pub fn tooltip(painter: &Painter, canvas: Rect, point: Pos2, text: &str, tokens:
     painter.galley(rect.min + padding, galley, tokens.text);
 }
 
+/// Name what is at a point, in small type below it.
+pub fn name(painter: &Painter, canvas: Rect, point: Pos2, text: &str, tokens: &Tokens) {
+    let font = theme::small_font();
+    let size = size(painter, text, font.clone());
+    let rect = Rect::from_center_size(point + vec2(0.0, CLEARANCE + 0.5 * size.y), size);
+    let at = moved_into(canvas.shrink(STEP), rect).left_top();
+    let colour = tokens.strong_text;
+    paint(painter, at, Align2::LEFT_TOP, text, font, colour, tokens);
+}
+
+/// Show some lines in a box beside a point that moves along `way`: behind it, where it comes from.
+pub fn behind(
+    painter: &Painter,
+    canvas: Rect,
+    (point, way): (Pos2, Vec2),
+    text: &str,
+    tokens: &Tokens,
+) {
+    let galley = painter.layout_no_wrap(text.to_owned(), theme::number_font(), tokens.text);
+    let padding = vec2(2.0 * STEP, 1.5 * STEP);
+    let size = galley.size() + 2.0 * padding;
+    let rect = place_behind(canvas.shrink(STEP), point, way, size);
+    let outline = Stroke::new(1.0, tokens.outline);
+    painter.rect(rect, RADIUS, tokens.panel, outline, StrokeKind::Outside);
+    painter.galley(rect.min + padding, galley, tokens.text);
+}
+
+/// Find a box of some size behind a point that moves along `way`; near the canvas's edge on one of its other
+/// sides, where there is room.
+fn place_behind(canvas: Rect, point: Pos2, way: Vec2, size: Vec2) -> Rect {
+    let back = match way == Vec2::ZERO {
+        true => vec2(0.0, -1.0),
+        false => -way.normalized(),
+    };
+    let sides = [back, back.rot90(), -back.rot90(), -back];
+    let boxes = sides.map(|side| {
+        let rect = outside(point, side, size);
+        moved_into(canvas, rect)
+    });
+    let is_clear = |rect: &&Rect| !rect.expand(0.5 * CLEARANCE).contains(point);
+    boxes.iter().find(is_clear).copied().unwrap_or(boxes[0])
+}
+
+/// Find a box of some size on one side of a point.
+fn outside(point: Pos2, side: Vec2, size: Vec2) -> Rect {
+    let half = 0.5 * (side.x.abs() * size.x + side.y.abs() * size.y);
+    Rect::from_center_size(point + side * (CLEARANCE + half), size)
+}
+
+/// Move a box so that it lies on the canvas.
+fn moved_into(canvas: Rect, rect: Rect) -> Rect {
+    let low = (canvas.min - rect.min).max(Vec2::ZERO);
+    let high = (canvas.max - rect.max).min(Vec2::ZERO);
+    rect.translate(low + high)
+}
+
 /// Find a box of some size beside a point: right of it and above if there is room, otherwise on
 /// another side.
 fn beside(canvas: Rect, point: Pos2, size: Vec2) -> Rect {
@@ -84,6 +140,24 @@ mod tests {
     use eframe::egui::pos2;
 
     use super::*;
+
+    #[test]
+    fn a_readout_stands_where_the_drag_comes_from() {
+        let canvas = Rect::from_min_size(pos2(0.0, 0.0), vec2(600.0, 400.0));
+        let size = vec2(150.0, 50.0);
+        for step in 0..24 {
+            let way = Vec2::angled(step as f32);
+            let point = pos2(300.0, 200.0);
+            let rect = place_behind(canvas, point, way, size);
+            assert!((rect.center() - point).dot(way) < 0.0, "{way:?}: {rect:?}");
+            let ahead = (0..200).map(|far| point + way * far as f32);
+            assert!(ahead.into_iter().all(|place| !rect.contains(place)));
+            for corner in [pos2(3.0, 2.0), pos2(598.0, 3.0), pos2(2.0, 397.0)] {
+                let rect = place_behind(canvas, corner, way, size);
+                assert!(canvas.contains_rect(rect) && !rect.contains(corner));
+            }
+        }
+    }
 
     #[test]
     fn a_tooltip_stays_on_the_canvas_and_off_its_point() {

@@ -146,6 +146,7 @@ fn menus() -> [(&'static str, Vec<Entry>); 6] {
         Divider,
     ];
     view.extend(Layer::ALL.map(|layer| command(Command::ToggleLayer(layer))));
+    view.push(command(Command::ToggleBands));
     view.push(Divider);
     view.extend(NamedView::ALL.map(|view| command(Command::View(view))));
     view.extend([

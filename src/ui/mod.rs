@@ -38,6 +38,7 @@ mod key_order;
 mod keyboard;
 mod labels;
 mod layer_strip;
+mod legend;
 mod level_comparison;
 mod menu;
 mod menu_item;

@@ -35,7 +35,7 @@ pub fn empty_ui(context: &Context, canvas: Rect) {
 
 /// Say that a planar drawing is seen at an angle, with the way back.
 pub fn orbited_ui(context: &Context, canvas: Rect, commands: &mut Vec<Action>) {
-    let top = gizmo::place(canvas).map_or(canvas.top(), |gizmo| gizmo.bottom());
+    let top = gizmo::name_place(canvas).map_or(canvas.top(), |name| name.bottom());
     let area = Area::new(Id::unique("orbited"))
         .order(Order::Middle)
         .pivot(Align2::RIGHT_TOP)

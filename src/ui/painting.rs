@@ -9,8 +9,9 @@ use glam::DVec2;
 
 use super::brush::Brush;
 use super::theme;
+use super::vertex_columns::Column;
 use super::{end_marks, feature_marks, guides, labels, proposal, transform_marks};
-use crate::editor::{CurveScene, HoverScene, Mark, Scene, VertexMark};
+use crate::editor::{CurveScene, DragReadout, HoverScene, Mark, Scene, VertexMark};
 
 /// Half the length of the tick across a joint, in points.
 const TICK: f32 = 5.0;
@@ -18,10 +19,19 @@ const TICK: f32 = 5.0;
 /// The width of the bands that tell what the curvature does.
 const BAND: f32 = 7.0;
 
+/// How strong these bands are: the curve on them is brighter.
+const BAND_STRENGTH: f32 = 0.4;
+
+/// The radius of a vertex's disc.
+const DISC: f32 = 4.0;
+
+/// The radius of a selected vertex's disc, and of the ring round it.
+const SELECTED: [f32; 2] = [5.0, 8.0];
+
 /// Half the side of the closed polygon's squares.
 const SQUARE: f32 = 3.5;
 
-/// More vertices than this are marked by smaller discs.
+/// More points of a list than this are marked by smaller discs.
 const CROWD: usize = 200;
 
 /// An evolute smaller than this, in points, is marked by a disc.
@@ -44,7 +54,7 @@ pub fn paint(brush: &Brush<'_>, scene: &Scene) {
     }
     let ghostly = |width, colour: Color32| Stroke::new(width, colour.gamma_multiply(GHOST));
     let (curve, float) = (brush.tokens.curve, brush.tokens.float);
-    brush.chain(&scene.ghost_polygon, ghostly(1.0, float));
+    brush.legs(&scene.ghost_polygon, ghostly(1.0, float));
     brush.chain(&scene.ghost, ghostly(1.5, curve));
     for curve in others.iter().chain(&active) {
         brush.curve(curve);
@@ -77,8 +87,8 @@ impl Brush<'_> {
         self.hairs(&curve.teeth, fade(tokens.comb_teeth));
         self.chain(&curve.comb, Stroke::new(1.0, fade(tokens.comb)));
         self.evolute(&curve.evolute, fade(tokens.evolute));
-        self.dashed_chain(&curve.clamped, Stroke::new(1.0, fade(tokens.clamped)));
-        self.chain(&curve.float, Stroke::new(1.25, fade(tokens.float)));
+        self.dashed_legs(&curve.clamped, Stroke::new(1.0, fade(tokens.clamped)));
+        self.legs(&curve.float, Stroke::new(1.25, fade(tokens.float)));
     }
 
     /// The evolute of an arc of nearly constant curvature is hardly more than a point: it gets a
@@ -98,16 +108,31 @@ impl Brush<'_> {
     fn curve(&self, curve: &CurveScene) {
         let fade = fading(curve);
         let own = curve.colour.map(theme::of_document);
-        if curve.is_reference {
-            return self.reference(curve, own.unwrap_or(self.tokens.reference));
-        }
-        let colour = fade(own.unwrap_or(self.tokens.curve));
-        let width = if curve.active { 2.0 } else { 1.5 };
         let tokens = self.tokens;
+        if curve.is_reference {
+            let next = || {
+                curve
+                    .id
+                    .map_or(tokens.reference, |id| tokens.of_reference(id))
+            };
+            return self.reference(curve, own.unwrap_or_else(next));
+        }
+        let next = || curve.id.map_or(tokens.curve, |id| tokens.of_curve(id));
+        // What tells curves apart fades less than what belongs to them.
+        let strength = match (curve.active, curve.locked) {
+            (true, false) => 1.0,
+            (true, true) | (false, false) => 0.75,
+            (false, true) => 0.5,
+        };
+        let colour = own.unwrap_or_else(next).gamma_multiply(strength);
+        let width = if curve.active { 2.0 } else { 1.5 };
         let trends = [tokens.rising, tokens.falling, tokens.undecided];
         for (chain, trend) in curve.pieces.iter().zip(trends) {
             // Bands under the curve, which keeps its own colour.
-            self.chain(chain, Stroke::new(BAND, trend.gamma_multiply(0.6)));
+            self.chain(
+                chain,
+                Stroke::new(BAND, trend.gamma_multiply(BAND_STRENGTH)),
+            );
         }
         self.chain(&curve.curve, Stroke::new(width, colour));
         let tick = Stroke::new(1.5, fade(self.tokens.joints));
@@ -148,44 +173,44 @@ impl Brush<'_> {
 
     fn handles(&self, curve: &CurveScene) {
         let fade = fading(curve);
-        let square = Stroke::new(1.25, fade(self.tokens.clamped));
         for vertex in &curve.clamped_vertices {
-            if let Some(at) = self.screen.point(*vertex) {
-                let rect = Rect::from_center_size(at, Vec2::splat(2.0 * SQUARE));
+            if let Some(at) = self.screen.point(vertex.at) {
+                let side = Vec2::splat(2.0 * SQUARE * vertex.size);
+                let width = 1.25 * vertex.size.max(0.5);
+                let square = Stroke::new(width, fade(self.tokens.clamped));
+                let rect = Rect::from_center_size(at, side);
                 self.painter
                     .rect_stroke(rect, 0, square, StrokeKind::Middle);
             }
         }
+        let colour = fade(self.tokens.float);
+        for vertex in &curve.vertices {
+            self.vertex(vertex, colour, curve.locked);
+        }
         for mark in &curve.features {
             feature_marks::paint(self, mark);
         }
-        let colour = fade(self.tokens.float);
-        let radius = if curve.vertices.len() > CROWD {
-            2.0
-        } else {
-            4.0
-        };
-        for vertex in &curve.vertices {
-            self.vertex(vertex, colour, curve.locked, radius);
-        }
     }
 
-    fn vertex(&self, vertex: &VertexMark, colour: Color32, locked: bool, radius: f32) {
+    fn vertex(&self, vertex: &VertexMark, colour: Color32, locked: bool) {
         let Some(at) = self.screen.point(vertex.at) else {
             return;
         };
+        let size = vertex.size;
         if vertex.locked {
             self.locked_vertex(vertex, at, colour);
         } else if vertex.selected {
-            self.painter.circle_filled(at, 5.0, colour);
-            self.painter
-                .circle_stroke(at, 8.0, Stroke::new(1.5, self.tokens.strong_text));
+            let [disc, ring] = SELECTED.map(|radius| radius * size);
+            let stroke = Stroke::new(1.5 * size, self.tokens.strong_text);
+            self.painter.circle_filled(at, disc, colour);
+            self.painter.circle_stroke(at, ring, stroke);
         } else if locked {
-            let stroke = Stroke::new(1.25, colour);
+            let stroke = Stroke::new(1.25 * size, colour);
+            let radius = (DISC - 0.5) * size;
             self.painter
-                .circle(at, radius - 0.5, self.tokens.background, stroke);
+                .circle(at, radius, self.tokens.background, stroke);
         } else {
-            self.painter.circle_filled(at, radius, colour);
+            self.painter.circle_filled(at, DISC * size, colour);
         }
     }
 
@@ -277,6 +302,19 @@ impl Brush<'_> {
                         .rect_stroke(rect, 0, accent, StrokeKind::Middle);
                 }
             }
+            Mark::Name(at, name) => {
+                if let Some(at) = self.screen.point(*at) {
+                    labels::name(self.painter, self.rect, at, name, tokens);
+                }
+            }
+            Mark::Axis { ends, axis } => {
+                let own = axis.and_then(|axis| tokens.model_axes.get(axis).copied());
+                let stroke = Stroke::new(1.0, own.unwrap_or(tokens.accent));
+                if let Some(line) = self.screen.segment(*ends) {
+                    self.painter.line_segment(line, stroke);
+                }
+            }
+            Mark::Drag(readout) => self.drag_readout(readout),
             Mark::Extreme { at, text } => self.extreme(*at, text),
             Mark::Handle { at, marked } => self.handle(*at, *marked),
             Mark::Label(at, text) => {
@@ -285,6 +323,17 @@ impl Brush<'_> {
                 }
             }
         }
+    }
+
+    /// Tell what a drag did, on the other side of where it goes.
+    fn drag_readout(&self, readout: &DragReadout) {
+        let Some(at) = self.screen.point(readout.at) else {
+            return;
+        };
+        let pixel = 1.0 / self.screen.scale();
+        let text = drag_text(readout, pixel);
+        let way = vec2(readout.way.x as f32, -readout.way.y as f32);
+        labels::behind(self.painter, self.rect, (at, way), &text, self.tokens);
     }
 
     /// The frame of a reference: squares scale, the disc above rotates.
@@ -371,10 +420,16 @@ impl Brush<'_> {
         let tokens = self.tokens;
         let ring = Stroke::new(1.5, tokens.accent);
         match hover {
-            HoverScene::Vertex { at, text } | HoverScene::Handle { at, text } => {
+            HoverScene::Vertex { at, text, .. } | HoverScene::Handle { at, text } => {
                 if let Some(at) = self.screen.point(*at) {
+                    if matches!(hover, HoverScene::Vertex { .. }) {
+                        // In a crowd it may have no disc otherwise.
+                        self.painter.circle_filled(at, DISC, tokens.float);
+                    }
                     self.painter.circle_stroke(at, 8.0, ring);
-                    labels::tooltip(self.painter, self.rect, at, text, tokens);
+                    if !text.is_empty() {
+                        labels::tooltip(self.painter, self.rect, at, text, tokens);
+                    }
                 }
             }
             HoverScene::Curve {
@@ -418,6 +473,30 @@ impl Brush<'_> {
             self.painter.circle_filled(centre, 2.5, self.tokens.evolute);
         }
     }
+}
+
+/// What a drag did, in lines: the difference, then the place, with the digits of the table of vertices.
+fn drag_text(readout: &DragReadout, pixel: f64) -> String {
+    let axes = if readout.in_space { 3 } else { 2 };
+    let cell = |axis: usize, value: f64| Column::Axis(axis).shown(value, pixel).0;
+    let columns = (0..axes).map(|axis| {
+        let texts = [readout.by, readout.to].map(|vector| cell(axis, vector[axis]));
+        let width = texts.iter().map(|text| text.chars().count()).max();
+        (["x", "y", "z"][axis], texts, width.unwrap_or(0))
+    });
+    let columns: Vec<_> = columns.collect();
+    let line = |row: usize, sign: &str| {
+        let cells = columns.iter().map(|(name, texts, width)| {
+            let text = &texts[row];
+            format!("{sign}{name} {text:>width$}")
+        });
+        cells.collect::<Vec<String>>().join("  ")
+    };
+    let lines = [line(0, "Δ"), line(1, " ")].into_iter();
+    lines
+        .chain(readout.remarks.iter().cloned())
+        .collect::<Vec<String>>()
+        .join("\n")
 }
 
 /// How a curve steps back: inactive ones most, locked ones too.

@@ -12,7 +12,7 @@ const FAINT: f32 = 0.55;
 pub fn paint(brush: &Brush<'_>, proposal: &ProposalScene) {
     let tokens = brush.tokens;
     let faint = |colour: eframe::egui::Color32| Stroke::new(1.0, colour.gamma_multiply(FAINT));
-    brush.dashed_chain(&proposal.clamped, faint(tokens.clamped));
-    brush.chain(&proposal.float, faint(tokens.float));
+    brush.dashed_legs(&proposal.clamped, faint(tokens.clamped));
+    brush.legs(&proposal.float, faint(tokens.float));
     brush.chain(&proposal.curve, Stroke::new(1.5, tokens.curve));
 }

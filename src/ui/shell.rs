@@ -14,6 +14,8 @@ pub struct Shell {
     pub(super) hidden: Option<Vec<usize>>,
     /// How far an arrow key moves the selection; none is as the editor begins.
     pub(super) nudge_step: Option<f64>,
+    /// Whether bands of rising and falling curvature are shown on the canvas.
+    pub(super) bands: bool,
 }
 
 impl Default for Shell {
@@ -24,6 +26,7 @@ impl Default for Shell {
             harmony: false,
             hidden: None,
             nudge_step: None,
+            bands: true,
         }
     }
 }

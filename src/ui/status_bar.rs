@@ -67,9 +67,11 @@ fn cells(readout: &Readout, unit: Option<LengthUnit>) -> Vec<Cell> {
         value.map_or_else(blank, |value| figures::to_resolution(value, 0.5 * pixel))
     };
     let pointer = readout.pointer;
-    let mut cells = vec![
-        (readout.axes[0], coordinate(pointer.map(|at| at.x)), 96.0),
-        (readout.axes[1], coordinate(pointer.map(|at| at.y)), 96.0),
+    let axes = if readout.in_space { 3 } else { 2 };
+    let place = ["x", "y", "z"].into_iter().enumerate().take(axes);
+    let place = place.map(|(axis, name)| (name, coordinate(pointer.map(|at| at[axis])), 96.0));
+    let mut cells: Vec<(&'static str, String, f32)> = place.collect();
+    cells.extend([
         (
             readout.parameter_name,
             readout
@@ -84,7 +86,7 @@ fn cells(readout: &Readout, unit: Option<LengthUnit>) -> Vec<Cell> {
                 .map_or_else(blank, |k| figures::significant(k, 5)),
             88.0,
         ),
-    ];
+    ]);
     let degree = readout
         .degree
         .map_or_else(blank, |degree| degree.to_string());

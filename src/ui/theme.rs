@@ -8,7 +8,7 @@ use eframe::egui::{
     style::TextCursorStyle, style::WidgetVisuals, style::Widgets,
 };
 
-use crate::document::Colour;
+use crate::document::{Colour, CurveId};
 
 /// The step that all distances are multiples of, in points.
 pub const STEP: f32 = 4.0;
@@ -58,6 +58,9 @@ pub struct Tokens {
     pub model_axes: [Color32; 3],
     /// The curve.
     pub curve: Color32,
+    /// The colours of the curves and references of a document, one after the other: the first is the curve's.
+    /// All are apart for the colour-blind.
+    pub items: [Color32; 8],
     /// Pieces of the curve on which curvature is proved to rise.
     pub rising: Color32,
     /// Pieces of the curve on which curvature is proved to fall.
@@ -133,6 +136,16 @@ static DARK: Tokens = Tokens {
     axes: rgb(0x3A404B),
     model_axes: [rgb(0xE5716B), rgb(0x6CBF5B), rgb(0x6A9CF0)],
     curve: rgb(0xF4F6FA),
+    items: [
+        rgb(0xF4F6FA),
+        rgb(0x3EABFF),
+        rgb(0xDA360E),
+        rgb(0x48FCA6),
+        rgb(0xB05698),
+        rgb(0x4A5CE0),
+        rgb(0xE4D000),
+        rgb(0x828C62),
+    ],
     rising: rgb(0x34D399),
     falling: rgb(0x38BDF8),
     undecided: rgb(0x9CA3AF),
@@ -167,6 +180,16 @@ static LIGHT: Tokens = Tokens {
     axes: rgb(0xC9C9C3),
     model_axes: [rgb(0xBF3B34), rgb(0x3D8A2B), rgb(0x2F62C4)],
     curve: rgb(0x14161A),
+    items: [
+        rgb(0x14161A),
+        rgb(0x028DF5),
+        rgb(0xE16517),
+        rgb(0x136E7B),
+        rgb(0x902B3E),
+        rgb(0x1C2582),
+        rgb(0x818D52),
+        rgb(0x613C00),
+    ],
     rising: rgb(0x0E9F6E),
     falling: rgb(0x0369A1),
     undecided: rgb(0x6B7280),
@@ -194,6 +217,19 @@ impl Tokens {
     /// The colours of the dark or the light theme.
     pub fn of_theme(dark: bool) -> &'static Self {
         if dark { &DARK } else { &LIGHT }
+    }
+
+    /// The colour of a curve that was given none: the next for each one that is added.
+    pub fn of_curve(&self, id: CurveId) -> Color32 {
+        self.items[(id.number() % self.items.len() as u64) as usize]
+    }
+
+    /// The colour of a reference that was given none: as for a curve, and quieter if it is the first.
+    pub fn of_reference(&self, id: CurveId) -> Color32 {
+        match self.of_curve(id) {
+            first if first == self.curve => self.reference,
+            next => next,
+        }
     }
 
     fn visuals(&self, dark: bool) -> Visuals {
@@ -346,4 +382,127 @@ fn style(dark: bool) -> Style {
     style.interaction.selectable_labels = false;
     style.interaction.tooltip_delay = 0.4;
     style
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Linear light, red to blue.
+    type Light = [f64; 3];
+
+    /// What an eye without one kind of cones sees of linear light (Machado, Oliveira and Fernandes 2009): long,
+    /// middle, short; and every eye.
+    const EYES: [[Light; 3]; 4] = [
+        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        [
+            [0.152286, 1.052583, -0.204868],
+            [0.114503, 0.786281, 0.099216],
+            [-0.003882, -0.048116, 1.051998],
+        ],
+        [
+            [0.367322, 0.860646, -0.227968],
+            [0.280085, 0.672501, 0.047413],
+            [-0.011820, 0.042940, 0.968881],
+        ],
+        [
+            [1.255528, -0.076749, -0.178779],
+            [-0.078411, 0.930809, 0.147602],
+            [0.004733, 0.691367, 0.303900],
+        ],
+    ];
+
+    fn light(colour: Color32) -> Light {
+        [colour.r(), colour.g(), colour.b()].map(|channel| {
+            let share = f64::from(channel) / 255.0;
+            match share <= 0.04045 {
+                true => share / 12.92,
+                false => ((share + 0.055) / 1.055).powf(2.4),
+            }
+        })
+    }
+
+    fn luminance([red, green, blue]: Light) -> f64 {
+        0.2126 * red + 0.7152 * green + 0.0722 * blue
+    }
+
+    fn contrast(a: Color32, b: Color32) -> f64 {
+        let [a, b] = [a, b].map(|colour| luminance(light(colour)) + 0.05);
+        a.max(b) / a.min(b)
+    }
+
+    fn seen(by: &[Light; 3], colour: Color32) -> Light {
+        let light = light(colour);
+        by.map(|row| {
+            let sum: f64 = row
+                .iter()
+                .zip(light)
+                .map(|(share, light)| share * light)
+                .sum();
+            sum.clamp(0.0, 1.0)
+        })
+    }
+
+    /// The CIE 1976 distance of two lights under D65.
+    fn distance(a: Light, b: Light) -> f64 {
+        let lab = |light: Light| {
+            let [red, green, blue] = light;
+            let x = (0.4124 * red + 0.3576 * green + 0.1805 * blue) / 0.9505;
+            let z = (0.0193 * red + 0.1192 * green + 0.9505 * blue) / 1.089;
+            let [x, y, z] = [x, luminance(light), z].map(|t: f64| match t > 0.008856 {
+                true => t.cbrt(),
+                false => 7.787 * t + 16.0 / 116.0,
+            });
+            [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
+        };
+        let squares = lab(a)
+            .into_iter()
+            .zip(lab(b))
+            .map(|(a, b)| (a - b) * (a - b));
+        squares.sum::<f64>().sqrt()
+    }
+
+    #[test]
+    fn the_colours_of_curves_stand_out_from_both_canvases() {
+        for tokens in [&DARK, &LIGHT] {
+            for colour in tokens.items {
+                let contrast = contrast(colour, tokens.background);
+                assert!(contrast >= 3.0, "{colour:?}: {contrast}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_colours_of_curves_are_apart_for_every_eye() {
+        for tokens in [&DARK, &LIGHT] {
+            for eye in &EYES {
+                for (index, a) in tokens.items.iter().enumerate() {
+                    for b in &tokens.items[index + 1..] {
+                        let distance = distance(seen(eye, *a), seen(eye, *b));
+                        assert!(distance > 20.0, "{a:?} and {b:?}: {distance}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_curve_is_the_brightest_of_what_is_drawn_along_it() {
+        for tokens in [&DARK, &LIGHT] {
+            let curve = contrast(tokens.curve, tokens.background);
+            for other in [
+                tokens.float,
+                tokens.clamped,
+                tokens.joints,
+                tokens.evolute,
+                tokens.comb,
+                tokens.rising,
+                tokens.falling,
+                tokens.reference,
+            ] {
+                let other = contrast(other, tokens.background);
+                assert!(curve > 1.5 * other, "{curve} against {other}");
+            }
+        }
+    }
 }

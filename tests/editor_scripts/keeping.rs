@@ -162,7 +162,7 @@ fn a_vertex_of_the_closed_polygon_is_held_back_too() {
     script.input(Input::KeepingHeld(true));
     script.command(Command::ToggleLayer(batten::editor::Layer::Float));
     let before = script.polygon();
-    let clamped = script.scene().curves[0].clamped_vertices[2];
+    let clamped = script.scene().curves[0].clamped_vertices[2].at;
     let at = script.editor.view().viewport().to_screen(clamped);
     script.press(at);
     let mut moved = false;

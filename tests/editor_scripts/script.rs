@@ -23,7 +23,7 @@ impl Script {
     /// Begin with a built-in example.
     pub fn example(name: &str) -> Self {
         let index = EXAMPLES.iter().position(|example| example.name == name);
-        let mut editor = Editor::new();
+        let mut editor = Editor::default();
         editor.set_canvas_size(DVec2::new(1000.0, 700.0));
         told(editor.open_example(index.expect("an example")));
         let mut script = Self { editor };

@@ -114,3 +114,77 @@ fn ways_of_following_are_switches_that_show_whether_they_are_on() {
         assert!(!is_on(&window), "{label}");
     }
 }
+
+#[test]
+fn the_chip_counts_and_holds_the_legend() {
+    let mut window = open_window();
+    choose(&mut window, &["File", "Examples", "Bottle"]);
+    assert!(
+        window
+            .query_all_by_label("1 inflection · 4 extrema")
+            .count()
+            > 0
+    );
+    assert!(window.query_by_label("Curvature rises").is_none());
+    window.get_by_label("Verdict").hover();
+    window.run_steps(60);
+    for meaning in [
+        "Proved for the numbers as they are.",
+        "Curvature rises",
+        "Curvature falls",
+        "Curvature maximum",
+        "Inflection",
+        "Closed S-polygon",
+        "Locked vertex",
+        "Evolute",
+    ] {
+        assert!(window.query_all_by_label(meaning).count() > 0, "{meaning}");
+    }
+}
+
+#[test]
+fn the_view_has_a_name_and_the_status_bar_tells_the_model() {
+    let mut window = open_window();
+    let tells_z = |window: &Window| {
+        let cells = window.query_all_by_label_contains("z ");
+        let mut texts = cells.filter_map(|cell| {
+            let node = cell.accesskit_node();
+            node.label().or_else(|| node.value())
+        });
+        texts.any(|text| text.starts_with("z "))
+    };
+    let hovered = |window: &mut Window| {
+        let at = vertex(window, 4);
+        window.hover_at(at);
+        window.run();
+        window.state().editor().readout().pointer
+    };
+    let expected = Some(curve(&window).polygon.vertex(4));
+    window.get_by_label("Seen from: Top");
+    assert_eq!(hovered(&mut window), expected);
+    assert!(!tells_z(&window), "planar and seen from above");
+    press(&mut window, Modifiers::NONE, Key::F5);
+    window.get_by_label("Seen from: Isometric");
+    assert!(tells_z(&window));
+}
+
+#[test]
+fn the_first_window_shows_an_s_curve_with_its_comb() {
+    let window = open_window_with(batten::editor::Editor::new(), 1440.0, 900.0);
+    assert_eq!(curve(&window).name, "s-curve");
+    let scene = window.state().editor().view().scene();
+    assert!(!scene.curves[0].teeth.is_empty());
+    let canvas = window.state().canvas_rect().expect("a canvas");
+    let view = window.state().editor().view().viewport();
+    let places = scene.curves[0]
+        .curve
+        .iter()
+        .map(|point| view.to_screen(*point).x);
+    let (low, high) = places.fold((f64::MAX, f64::MIN), |(low, high), x| {
+        (low.min(x), high.max(x))
+    });
+    assert!(
+        high - low > 0.4 * f64::from(canvas.width()),
+        "at a good size"
+    );
+}

@@ -17,7 +17,10 @@ pub fn open_window() -> Window {
 }
 
 pub fn open_window_of(width: f32, height: f32) -> Window {
-    open_window_with(Editor::new(), width, height)
+    let mut editor = Editor::default();
+    editor.open_example(0).expect("the arc");
+    editor.dismiss_message();
+    open_window_with(editor, width, height)
 }
 
 pub fn open_window_with(editor: Editor, width: f32, height: f32) -> Window {

@@ -18,7 +18,7 @@ fn hovered(window: &mut Window, share: f32) -> f64 {
     window.hover_at(at);
     window.run();
     window.run();
-    let u = window.state().editor().readout().u;
+    let u = window.state().editor().readout().parameter;
     u.unwrap_or_else(|| panic!("nothing is hovered at {share}"))
 }
 
@@ -197,7 +197,7 @@ fn hovering_a_feature_in_the_plot_marks_it_exactly() {
             window.hover_at(Pos2::new(at.x, y));
             window.step();
             window.step();
-            let u = window.state().editor().readout().u;
+            let u = window.state().editor().readout().parameter;
             exactly += u32::from(u.is_some_and(|u| (u - report.rows[1].middle).abs() < 1e-9));
         }
     }

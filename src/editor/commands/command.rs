@@ -58,6 +58,8 @@ pub enum Command {
     ResetComb,
     /// Show or hide a layer.
     ToggleLayer(Layer),
+    /// Show the bands of rising and falling curvature on the canvas, or only under the plot.
+    ToggleBands,
     /// Snap to grid, vertices and targets, or not.
     ToggleSnapping,
     /// Let the neighbours of dragged vertices follow, or not.
@@ -115,6 +117,7 @@ impl Command {
                 | Self::View(_)
                 | Self::ResetComb
                 | Self::ToggleLayer(_)
+                | Self::ToggleBands
                 | Self::ToggleSnapping
                 | Self::Follow(_)
                 | Self::ToggleKeeping
@@ -151,6 +154,7 @@ impl Command {
         all.extend(NamedView::ALL.map(Self::View));
         all.push(Self::ResetComb);
         all.extend(Layer::ALL.map(Self::ToggleLayer));
+        all.push(Self::ToggleBands);
         all.extend([Self::ToggleSnapping, Self::ToggleKeeping]);
         all.extend(Follow::ALL.map(Self::Follow));
         all.extend(ToolKind::ALL.map(Self::Tool));
@@ -186,6 +190,7 @@ impl Command {
             Self::View(view) => view.label(),
             Self::ResetComb => "Reset comb scale",
             Self::ToggleLayer(layer) => layer.label(),
+            Self::ToggleBands => "Feature bands on the canvas",
             Self::ToggleSnapping => "Snapping",
             Self::Follow(follow) => follow.label(),
             Self::ToggleKeeping => "Keep features",
@@ -231,6 +236,9 @@ impl Command {
                 "Show or hide where the selected vertex may go without adding a curvature extremum or an inflection"
             }
             Self::ToggleLayer(_) => "Show or hide this layer",
+            Self::ToggleBands => {
+                "Show the bands of rising and falling curvature along the curve, or only under the plot"
+            }
             Self::ToggleSnapping => {
                 "Let dragged points snap to the grid, to vertices and to targets"
             }

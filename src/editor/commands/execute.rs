@@ -77,6 +77,7 @@ impl Editor {
         let curve = self.active_curve().map(|(_, curve)| curve);
         match command {
             Command::ToggleLayer(layer) => Some(self.layers().shows(layer)),
+            Command::ToggleBands => Some(self.view.shows_bands()),
             Command::ToggleSnapping => Some(self.hand.snapping),
             Command::Follow(follow) => Some(self.hand.following.follow == Some(follow)),
             Command::ToggleKeeping => Some(self.hand.keeps),
@@ -200,6 +201,7 @@ impl Editor {
             Command::View(view) => self.set_orientation(view.orientation()),
             Command::ResetComb => self.reset_comb(),
             Command::ToggleLayer(layer) => self.toggle_layer(layer),
+            Command::ToggleBands => self.view.show_bands(!self.view.shows_bands()),
             Command::ToggleSnapping => self.hand.snapping = !self.hand.snapping,
             Command::Follow(follow) => self.hand.following.toggle(follow),
             Command::ToggleKeeping => self.hand.keeps = !self.hand.keeps,

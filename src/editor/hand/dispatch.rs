@@ -238,6 +238,7 @@ impl Editor {
                 comb: self.view.comb,
                 viewport: &self.view.viewport,
                 layers,
+                selection: &self.hand.selection,
                 active,
                 cycle: self.hand.cycle.count(),
             },

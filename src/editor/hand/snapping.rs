@@ -25,8 +25,17 @@ pub struct Carried {
     pub reference: Option<CurveId>,
 }
 
-/// Find the point of the model that a dragged place of the view plane snaps to, or `None` if
-/// nothing is near: vertices, end points, targets, the points of lists, and the origin.
+/// What a dragged place snaps to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Snap {
+    /// The point of the model.
+    pub point: DVec3,
+    /// What is there, in a word or two.
+    pub name: String,
+}
+
+/// Find what a dragged place of the view plane snaps to, or `None` if nothing is near: vertices, end
+/// points, targets, the points of lists, and the origin.
 ///
 /// What is carried along does not attract.
 pub fn snap_to_point(
@@ -34,13 +43,13 @@ pub fn snap_to_point(
     document: &Document,
     carried: &Carried,
     viewport: &Viewport,
-) -> Option<DVec3> {
+) -> Option<Snap> {
     let reach = REACH * viewport.pixel();
-    let mut best: Option<(f64, DVec3)> = None;
-    let mut consider = |candidate: DVec3| {
+    let mut best: Option<(f64, DVec3, Snapped)> = None;
+    let mut consider = |candidate: DVec3, what: Snapped| {
         let distance = viewport.flatten(candidate).distance(place);
-        if distance <= reach && best.is_none_or(|(nearest, _)| distance < nearest) {
-            best = Some((distance, candidate));
+        if distance <= reach && best.is_none_or(|(nearest, ..)| distance < nearest) {
+            best = Some((distance, candidate, what));
         }
     };
     for (id, curve) in document.curves().filter(|(_, curve)| curve.visible) {
@@ -48,18 +57,18 @@ pub fn snap_to_point(
         for (index, vertex) in polygon.vertices().iter().enumerate() {
             let near = viewport.flatten(*vertex).distance(place) <= reach;
             if near && !carried.vertices.contains(&(id, index)) {
-                consider(*vertex);
+                consider(*vertex, Snapped::Vertex(index));
             }
         }
         for end in End::BOTH {
             if let Some(target) = curve.targets.get(end)
                 && carried.target != Some((id, end))
             {
-                consider(target.point);
+                consider(target.point, Snapped::Target(end));
             }
             let feels = |index| carried.vertices.contains(&(id, index));
             if !polygon.is_periodic() && !polygon.terminal_vertices(end).any(feels) {
-                consider(polygon.end_jet(end).point);
+                consider(polygon.end_jet(end).point, Snapped::End(end));
             }
         }
     }
@@ -71,21 +80,55 @@ pub fn snap_to_point(
             let jets = End::BOTH.map(|end| MatchPlace::End(end).jet(&reference.curve));
             jets.into_iter().flatten().map(|jet| jet.point).collect()
         };
+        let what = Snapped::Reference(id);
         let points = reference.points().unwrap_or_else(ends);
-        points.into_iter().for_each(&mut consider);
+        points.into_iter().for_each(|point| consider(point, what));
     }
-    consider(DVec3::ZERO);
-    best.map(|(_, point)| point)
+    consider(DVec3::ZERO, Snapped::Origin);
+    best.map(|(_, point, what)| Snap {
+        point,
+        name: what.name(document),
+    })
+}
+
+/// What is at a point that attracts.
+#[derive(Clone, Copy)]
+enum Snapped {
+    Vertex(usize),
+    End(End),
+    Target(End),
+    Reference(CurveId),
+    Origin,
+}
+
+impl Snapped {
+    fn name(self, document: &Document) -> String {
+        match self {
+            Self::Vertex(index) => format!("vertex {index}"),
+            Self::End(end) => end.name().to_owned(),
+            Self::Target(end) => format!("target of the {}", end.name()),
+            Self::Reference(id) => reference_name(id, document),
+            Self::Origin => "origin".to_owned(),
+        }
+    }
+}
+
+/// What a snap to a reference is called.
+pub fn reference_name(id: CurveId, document: &Document) -> String {
+    format!("reference {}", document.name(id).unwrap_or_default())
 }
 
 /// Find the crossing of the grid's minor lines that a place of the view plane snaps to, if one is near.
-pub fn snap_to_grid(place: DVec2, viewport: &Viewport) -> Option<DVec3> {
+pub fn snap_to_grid(place: DVec2, viewport: &Viewport) -> Option<Snap> {
     // Only a view along an axis of the model shows the grid.
     viewport.orientation.axes()?;
     let (minor, _) = grid_steps(viewport);
     let crossing = (place / minor).round() * minor;
     let near = crossing.distance(place) <= GRID_REACH * viewport.pixel();
-    (near && crossing.is_finite()).then(|| viewport.grounded(crossing))
+    (near && crossing.is_finite()).then(|| Snap {
+        point: viewport.grounded(crossing),
+        name: "grid".to_owned(),
+    })
 }
 
 /// Constrain a movement to the nearer axis.

@@ -1,13 +1,15 @@
-//! A polygon as it is drawn: its legs and the handles at its vertices.
+//! A polygon as it is drawn: its legs and the discs at its vertices.
 
 use glam::DVec2;
 
 use crate::analysis::{Revision, VertexChain};
+use crate::editor::view::density::{self, SeenChain};
 use crate::editor::view::orientation::Orientation;
-use crate::editor::view::outline::{Bounds, Outline, OutlineKey, ViewBox};
+use crate::editor::view::outline::{Bounds, ViewBox};
+use crate::editor::view::scene::Legs;
 
-/// Handles closer together than this, in screen points, are thinned out.
-const HANDLE_SPACING: f64 = 7.0;
+/// Points closer together than this, in screen points, are thinned out.
+const POINT_SPACING: f64 = 7.0;
 
 /// Hold, block by block, what is drawn of a polygon, seen from somewhere.
 #[derive(Debug, Default)]
@@ -20,13 +22,15 @@ pub struct ChainOutlines {
 struct Block {
     /// What the block was made of.
     revision: Revision,
-    legs: Outline,
-    handles: Handles,
+    points: ThinnedPoints,
+    /// The box around the vertices and the legs that begin at them.
     bounds: Bounds,
+    /// The longest of the legs that begin at the vertices, as it is seen.
+    longest: f64,
 }
 
 #[derive(Clone, Debug, Default)]
-struct Handles {
+struct ThinnedPoints {
     level: Option<i32>,
     indices: Vec<usize>,
 }
@@ -50,16 +54,7 @@ impl ChainOutlines {
             if known == Some(revision) {
                 continue;
             }
-            let mut bounds = Bounds::EMPTY;
-            for vertex in &chain.vertices()[chain.block_vertices(index)] {
-                bounds.add(self.orientation.flatten(*vertex));
-            }
-            let block = Block {
-                revision,
-                legs: Outline::default(),
-                handles: Handles::default(),
-                bounds,
-            };
+            let block = Block::new(revision, index, &self.seen(chain));
             match self.blocks.get_mut(index) {
                 Some(old) => *old = block,
                 None => self.blocks.push(block),
@@ -67,41 +62,90 @@ impl ChainOutlines {
         }
     }
 
-    /// Append what is visible of the legs.
-    pub fn append_legs(&mut self, chain: &VertexChain, view: &ViewBox, out: &mut Vec<DVec2>) {
-        let key = OutlineKey {
-            level: Some(view.level()),
-            shape: 0,
+    /// The vertices as they are seen.
+    pub fn seen<'a>(&self, chain: &'a VertexChain) -> SeenChain<'a> {
+        let eye = self.orientation;
+        SeenChain { chain, eye }
+    }
+
+    /// Append what is visible of the legs. Where they crowd they fade, and those of which both ends lie on
+    /// `covering` are left out.
+    pub fn append_legs(
+        &self,
+        chain: &VertexChain,
+        covering: Option<&SeenChain>,
+        view: &ViewBox,
+        out: &mut Legs,
+    ) {
+        let seen = self.seen(chain);
+        let count = chain.vertices().len();
+        let legs = if chain.is_closed() {
+            count
+        } else {
+            count.saturating_sub(1)
         };
-        let (vertices, eye) = (chain.vertices(), self.orientation);
-        for (index, block) in self.blocks.iter_mut().enumerate() {
-            let own = chain.block_vertices(index);
-            // One vertex more than the block has, so that neighbouring blocks join.
-            let end = (own.end + 1).min(vertices.len());
-            let closing = chain.is_closed() && own.end == vertices.len();
-            block.legs.refresh(key, || {
-                let wrap = closing.then(|| eye.flatten(vertices[0]));
-                let own = vertices[own.start..end].iter();
-                let own = own.map(move |vertex| eye.flatten(*vertex));
-                own.chain(wrap)
-            });
-            block.legs.append(view, out);
+        let covers = |vertex: usize| {
+            covering.is_some_and(|covering| seen.coincides(covering, vertex, 0, view.pixel))
+        };
+        for (index, block) in self.blocks.iter().enumerate() {
+            let longest = self.longest_near(index) / view.pixel;
+            if density::leg(longest) == 0.0 || !block.bounds.meets(view) {
+                continue;
+            }
+            for from in chain.block_vertices(index).take_while(|from| *from < legs) {
+                let strength = density::leg(seen.leg_spacing(from) / view.pixel);
+                let ends = seen.place(from).zip(seen.place(from + 1));
+                if let Some((start, end)) = ends
+                    && !(covers(from) && covers(from + 1))
+                {
+                    out.add([start, end], strength);
+                }
+            }
         }
     }
 
-    /// Append the numbers of the vertices whose handles are drawn: all, unless they crowd.
-    pub fn append_handles(&mut self, chain: &VertexChain, view: &ViewBox, out: &mut Vec<usize>) {
-        let view = view.grown(HANDLE_SPACING * view.pixel);
+    /// List the vertices whose discs are seen: number, place, and the share of a disc's full size. Where they
+    /// crowd discs shrink, and vanish.
+    pub fn append_discs(
+        &self,
+        chain: &VertexChain,
+        view: &ViewBox,
+        mut found: impl FnMut(usize, DVec2, f32),
+    ) {
+        let seen = self.seen(chain);
+        for (index, block) in self.blocks.iter().enumerate() {
+            let longest = self.longest_near(index) / view.pixel;
+            if density::disc(longest) == 0.0 || !block.bounds.meets(view) {
+                continue;
+            }
+            for vertex in chain.block_vertices(index) {
+                let size = density::disc(seen.spacing(vertex) / view.pixel);
+                let place = seen.place(vertex).filter(|at| view.holds(*at));
+                if let Some(at) = place.filter(|_| size > 0.0) {
+                    found(vertex, at, size);
+                }
+            }
+        }
+    }
+
+    /// Append the numbers of the points of a list that are drawn: all, unless they crowd.
+    pub fn append_points(&mut self, chain: &VertexChain, view: &ViewBox, out: &mut Vec<usize>) {
+        let view = view.grown(POINT_SPACING * view.pixel);
         let level = view.level();
         let eye = self.orientation;
         for (index, block) in self.blocks.iter_mut().enumerate() {
-            block.handles.refresh(level, index, &eye, chain);
-            let visible = |index: &usize| {
-                let at = eye.flatten(chain.vertices()[*index]);
-                at.cmpge(view.low).all() && at.cmple(view.high).all()
-            };
-            out.extend(block.handles.indices.iter().copied().filter(visible));
+            block.points.refresh(level, index, &eye, chain);
+            let visible = |index: &usize| view.holds(eye.flatten(chain.vertices()[*index]));
+            out.extend(block.points.indices.iter().copied().filter(visible));
         }
+    }
+
+    /// The longest leg of a block and of those beside it: no spacing within the block is larger.
+    fn longest_near(&self, block: usize) -> f64 {
+        let count = self.blocks.len();
+        let near = [(block + count - 1) % count, block, (block + 1) % count];
+        let lengths = near.map(|index| self.blocks[index].longest);
+        lengths.into_iter().fold(0.0, f64::max)
     }
 
     /// The box around the vertices, as they are seen.
@@ -114,7 +158,27 @@ impl ChainOutlines {
     }
 }
 
-impl Handles {
+impl Block {
+    fn new(revision: Revision, index: usize, seen: &SeenChain) -> Self {
+        let mut bounds = Bounds::EMPTY;
+        let mut longest = 0.0f64;
+        for vertex in seen.chain.block_vertices(index) {
+            let places = [vertex, vertex + 1].map(|vertex| seen.place(vertex));
+            places.iter().flatten().for_each(|place| bounds.add(*place));
+            if let [Some(from), Some(to)] = places {
+                longest = longest.max(from.distance(to));
+            }
+        }
+        Self {
+            revision,
+            points: ThinnedPoints::default(),
+            bounds,
+            longest,
+        }
+    }
+}
+
+impl ThinnedPoints {
     fn refresh(&mut self, level: i32, block: usize, eye: &Orientation, chain: &VertexChain) {
         if self.level == Some(level) {
             return;
@@ -122,8 +186,8 @@ impl Handles {
         self.level = Some(level);
         self.indices.clear();
         let mut kept: Option<DVec2> = None;
-        // Vertices in a handful of legs are all kept: only crowds are thinned.
-        let crowded = 0.5 * HANDLE_SPACING * 2f64.powi(level + 1);
+        // A handful of points is kept whole: only crowds are thinned.
+        let crowded = 0.5 * POINT_SPACING * 2f64.powi(level + 1);
         for index in chain.block_vertices(block) {
             let at = eye.flatten(chain.vertices()[index]);
             if kept.is_none_or(|kept| kept.distance(at) >= crowded) {

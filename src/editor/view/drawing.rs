@@ -7,23 +7,25 @@ use glam::DVec2;
 use crate::analysis::SampledCurve;
 use crate::document::{Curve, CurveId, Reference};
 use crate::editor::Editor;
+use crate::editor::hand::snapping::{Carried, snap_to_point};
 use crate::editor::hand::tools::ToolKind;
 use crate::editor::view::comb::CombSettings;
 use crate::editor::view::curve_outlines::{CurveOutlines, PieceTrend};
+use crate::editor::view::density::{disc, disc_among_kept};
 use crate::editor::view::end_marks;
 use crate::editor::view::feature_report::{FeatureMark, append_marks};
 use crate::editor::view::ghost::Ghost;
 use crate::editor::view::layers::{Layer, Layers};
 use crate::editor::view::orientation::Orientation;
 use crate::editor::view::outline::{GAP, ViewBox};
-use crate::editor::view::scene::{CurveScene, ProposalScene, Scene, VertexMark};
+use crate::editor::view::scene::{ClampedMark, CurveScene, Mark, ProposalScene, Scene, VertexMark};
 use crate::geometry::End;
 
 /// Screen points around the canvas that are drawn too, so that strokes run off it.
 const BORDER: f64 = 16.0;
 
-/// Joints nearer together than this, in screen points, are not drawn.
-const JOINT_SPACING: f64 = 12.0;
+/// Where pieces are smaller than this on the whole, in screen points, joints are not looked at.
+const JOINT_SPACING: f64 = 6.0;
 
 impl Editor {
     /// Make the scene of what is analysed.
@@ -48,9 +50,32 @@ impl Editor {
         scene.marks.extend(self.handle_marks());
         scene.marks.extend(self.flow_marks());
         scene.marks.extend(self.distance_marks());
+        scene.marks.extend(self.snap_name());
         self.draw_guides(&mut scene.guides);
         scene.hover = self.hover();
         self.view.scene = scene;
+    }
+
+    /// The name of what a click of a tool that sets points would snap to.
+    fn snap_name(&self) -> Option<Mark> {
+        let sets_points = matches!(
+            self.hand.tool(),
+            ToolKind::Draw | ToolKind::AddVertex | ToolKind::Measure
+        );
+        // With Shift they keep to a direction instead.
+        if !sets_points || self.hand.modifiers.shift || self.is_trying() {
+            return None;
+        }
+        let context = self.context();
+        let (at, carried) = (context.pointer?, Carried::default());
+        let snap = match self.hand.tool() {
+            // What is measured is attracted without the switch.
+            ToolKind::Measure if context.modifiers.ctrl => None,
+            ToolKind::Measure => snap_to_point(at, context.before, &carried, context.viewport),
+            _ => context.snap(at, &carried),
+        }?;
+        let at = self.view.viewport.flatten(snap.point);
+        Some(Mark::Name(at, snap.name))
     }
 
     fn draw_curves(&mut self, view: &ViewBox, scenes: &mut Vec<CurveScene>) {
@@ -104,7 +129,7 @@ impl Editor {
         outlined.curve.append_curve(sampled, view, &mut scene.curve);
         let mut points = Vec::new();
         let chain = analysis.points();
-        outlined.float.append_handles(chain, view, &mut points);
+        outlined.float.append_points(chain, view, &mut points);
         let points = points.iter().filter_map(|index| chain.get(*index));
         let places = points.map(|point| orientation.flatten(point));
         scene.points.extend(places);
@@ -124,11 +149,12 @@ impl Editor {
     }
 
     fn draw_curve(&mut self, id: CurveId, curve: &Curve, view: &ViewBox, scene: &mut CurveScene) {
-        let (polygon, locked) = (&curve.polygon, &curve.locked_vertices);
+        let locked = &curve.locked_vertices;
         let (layers, comb, active) = (self.layers(), self.view.comb, scene.active);
         let viewport = self.view.viewport;
         let orientation = viewport.orientation;
         self.append_features(active, view, &mut scene.features);
+        let shows_bands = layers.shows(Layer::Features) && self.view.shows_bands();
         let outlined = self.view.outlines.get_mut(id);
         let Some((analysis, outlined)) = self.analyses.get(id).zip(outlined) else {
             return;
@@ -139,32 +165,44 @@ impl Editor {
             append_joints(sampled, &orientation, view, &mut scene.joints);
         }
         if layers.shows(Layer::Float) {
-            let (outlines, chain) = (&mut outlined.float, analysis.float());
-            outlines.append_legs(chain, view, &mut scene.float);
-            let mut handles = Vec::new();
-            outlines.append_handles(chain, view, &mut handles);
+            let (outlines, chain) = (&outlined.float, analysis.float());
+            outlines.append_legs(chain, None, view, &mut scene.float);
             let selection = &self.hand.selection;
-            // A selected or locked vertex keeps its handle in a crowd.
-            let crowd = handles.len() < polygon.vertices().len();
-            if crowd {
-                handles.extend(selection.of_curve(id).chain(locked.iter()));
-                handles.sort_unstable();
-                handles.dedup();
+            let mark = |index: usize, at: DVec2, size: f32| VertexMark {
+                index,
+                at,
+                selected: selection.contains((id, index)),
+                locked: locked.contains(index),
+                size,
+            };
+            let marks = &mut scene.vertices;
+            outlines.append_discs(chain, view, |index, at, size| {
+                let mark = mark(index, at, size);
+                if !(mark.selected || mark.locked) {
+                    marks.push(mark);
+                }
+            });
+            // A selected or locked vertex keeps its disc in a crowd, smaller where its neighbours do too.
+            let mut kept: Vec<usize> = selection.of_curve(id).chain(locked.iter()).collect();
+            kept.sort_unstable();
+            kept.dedup();
+            let seen = outlines.seen(chain);
+            for (place, index) in kept.iter().enumerate() {
+                let last = place.checked_sub(1).and_then(|last| kept.get(last));
+                let is_beside = last.is_some_and(|last| last + 1 == *index)
+                    || kept.get(place + 1) == Some(&(index + 1));
+                let size = match is_beside {
+                    true => disc_among_kept(seen.spacing(*index) / view.pixel),
+                    false => 1.0,
+                };
+                marks.extend(seen.place(*index).map(|at| mark(*index, at, size)));
             }
-            scene
-                .vertices
-                .extend(handles.into_iter().map(|index| VertexMark {
-                    index,
-                    at: viewport.flatten(polygon.vertex(index)),
-                    selected: selection.contains((id, index)),
-                    locked: locked.contains(index),
-                }));
         }
         // Only the active curve shows what is derived from it: the others step back.
         if !active {
             return;
         }
-        if layers.shows(Layer::Features) {
+        if shows_bands {
             // What is not proved yet must not be remembered as empty.
             if let Some(segments) = analysis.proved_segments() {
                 for (trend, chain) in PieceTrend::ALL.into_iter().zip(&mut scene.pieces) {
@@ -174,13 +212,20 @@ impl Editor {
             }
         }
         if layers.shows(Layer::Clamped) {
-            let (outlines, chain) = (&mut outlined.clamped, analysis.clamped());
-            outlines.append_legs(chain, view, &mut scene.clamped);
-            let mut handles = Vec::new();
-            outlines.append_handles(chain, view, &mut handles);
-            let vertices = handles.iter().filter_map(|index| chain.get(*index));
-            let places = vertices.map(|vertex| viewport.flatten(vertex));
-            scene.clamped_vertices.extend(places);
+            let (outlines, chain) = (&outlined.clamped, analysis.clamped());
+            let float = outlined.float.seen(analysis.float());
+            let covering = layers.shows(Layer::Float).then_some(&float);
+            outlines.append_legs(chain, covering, view, &mut scene.clamped);
+            let seen = outlines.seen(chain);
+            let reach = curve.polygon.degree();
+            let covers = |index| {
+                covering.is_some_and(|float| seen.coincides(float, index, reach, view.pixel))
+            };
+            outlines.append_discs(chain, view, |index, at, size| {
+                if !covers(index) {
+                    scene.clamped_vertices.push(ClampedMark { at, size });
+                }
+            });
         }
         append_derived(&mut outlined.curve, sampled, view, (layers, comb), scene);
     }
@@ -202,15 +247,14 @@ impl Editor {
         let orientation = self.view.viewport.orientation;
         let shows_float = self.layers().shows(Layer::Float);
         if let Some(before) = self.before() {
-            let chains = [&mut scene.ghost, &mut scene.ghost_polygon];
+            let chains = (&mut scene.ghost, &mut scene.ghost_polygon);
             self.view.ghost.append(&before, orientation, view, chains);
         }
         let ghosts = &mut self.view.other_ghosts;
         ghosts.resize_with(others.len(), Ghost::default);
         for (ghost, other) in ghosts.iter_mut().zip(&others) {
             scene.ghost.push(GAP);
-            scene.ghost_polygon.push(GAP);
-            let chains = [&mut scene.ghost, &mut scene.ghost_polygon];
+            let chains = (&mut scene.ghost, &mut scene.ghost_polygon);
             ghost.append(other, orientation, view, chains);
         }
         if !shows_float {
@@ -261,12 +305,12 @@ impl CurveScene {
         self.vertices.clear();
         self.features.clear();
         self.pieces.iter_mut().for_each(Vec::clear);
+        self.clamped_vertices.clear();
+        self.clamped.clear();
+        self.float.clear();
         for chain in [
             &mut self.comb,
             &mut self.evolute,
-            &mut self.clamped,
-            &mut self.clamped_vertices,
-            &mut self.float,
             &mut self.curve,
             &mut self.points,
         ] {
@@ -292,7 +336,7 @@ fn append_derived(
     }
 }
 
-/// Append the joints between pieces, with the curve's unit normals, unless they crowd.
+/// Append the joints between pieces, with the curve's normals, which are shorter where the joints crowd.
 fn append_joints(
     SampledCurve { curve, samples }: SampledCurve<'_>,
     eye: &Orientation,
@@ -300,19 +344,24 @@ fn append_joints(
     out: &mut Vec<[DVec2; 2]>,
 ) {
     let pieces = samples.pieces();
-    let joint = |piece: usize| samples.piece(piece).first();
-    let mut kept = GAP;
-    // Where a whole piece is smaller than the spacing everywhere there is nothing to draw.
+    // Where a whole piece is smaller than that everywhere there is nothing to draw.
     if pieces as f64 * JOINT_SPACING * view.pixel > 4.0 * extent(view) {
         return;
     }
+    let ends = |piece: usize| {
+        let own = samples.piece(piece);
+        Some((own.first()?, own.last()?))
+    };
     let from = usize::from(!curve.is_periodic());
-    for sample in (from..pieces).filter_map(joint) {
-        let at = eye.flatten(sample.point);
-        let apart = kept.is_nan() || at.distance(kept) >= JOINT_SPACING * view.pixel;
-        if apart && at.cmpge(view.low).all() && at.cmple(view.high).all() {
-            out.push([at, eye.flatten(sample.normal)]);
-            kept = at;
+    for piece in from..pieces {
+        let before = ends(if piece == 0 { pieces - 1 } else { piece - 1 });
+        let Some(((start, joint), (_, end))) = before.zip(ends(piece)) else {
+            continue;
+        };
+        let [last, at, next] = [start, joint, end].map(|sample| eye.flatten(sample.point));
+        let size = disc(0.5 * (last.distance(at) + at.distance(next)) / view.pixel);
+        if size > 0.0 && view.holds(at) {
+            out.push([at, f64::from(size) * eye.flatten(joint.normal)]);
         }
     }
 }

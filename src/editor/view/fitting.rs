@@ -27,6 +27,7 @@ impl Editor {
             bounds.unite(&self.bounds_of(id));
         }
         self.view.viewport = self.view.viewport.fitted(&bounds);
+        self.view.target = self.middle();
     }
 
     /// Fit everything into the canvas if one of some curves lies beyond what is visible.

@@ -10,6 +10,7 @@ use crate::editor::view::chain_outlines::ChainOutlines;
 use crate::editor::view::curve_outlines::CurveOutlines;
 use crate::editor::view::orientation::Orientation;
 use crate::editor::view::outline::ViewBox;
+use crate::editor::view::scene::Legs;
 
 /// Remember what is known of a curve as it was, which changes rarely while it is drawn often.
 #[derive(Debug, Default)]
@@ -34,7 +35,7 @@ impl Ghost {
         curve: &Arc<Curve>,
         orientation: Orientation,
         view: &ViewBox,
-        [curves, polygons]: [&mut Vec<DVec2>; 2],
+        (curves, polygons): (&mut Vec<DVec2>, &mut Legs),
     ) {
         self.analysis(curve);
         let Some(analysis) = &self.analysis else {
@@ -45,6 +46,7 @@ impl Ghost {
         self.curve.append_curve(analysis.sampled(), view, curves);
         self.float.set_orientation(orientation);
         self.float.update(analysis.float());
-        self.float.append_legs(analysis.float(), view, polygons);
+        self.float
+            .append_legs(analysis.float(), None, view, polygons);
     }
 }

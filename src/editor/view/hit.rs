@@ -4,7 +4,9 @@ use glam::{DVec2, DVec3};
 
 use crate::analysis::AnalysisCache;
 use crate::document::{Curve, CurveId, Document};
+use crate::editor::hand::selection::{Selection, VertexId};
 use crate::editor::view::comb::CombSettings;
+use crate::editor::view::density::{self, SeenChain};
 use crate::editor::view::feature_report::{FeatureReport, FeatureRow};
 use crate::editor::view::layers::{Layer, Layers};
 use crate::editor::view::outlines::Outlines;
@@ -40,6 +42,8 @@ pub struct HitTest<'a> {
     pub viewport: &'a Viewport,
     /// Which layers are shown, and can therefore be hit.
     pub layers: Layers,
+    /// What is selected, and is hit however much it crowds.
+    pub selection: &'a Selection,
     /// The curve that is preferred among equals.
     pub active: Option<CurveId>,
     /// How many times Tab was pressed over things that overlap.
@@ -99,7 +103,8 @@ impl<'a> HitTest<'a> {
         self.clamped_vertex_within(place, REACH)
     }
 
-    /// The vertices within some screen points of a place, with their distances in the model.
+    /// The vertices within some screen points of a place, with their distances in the model. Where a polygon
+    /// crowds so much that even its legs are not drawn, its vertices are not there to be hit: the curve is.
     fn vertices_within(
         &self,
         place: DVec2,
@@ -113,7 +118,29 @@ impl<'a> HitTest<'a> {
         });
         let distances =
             all.map(move |(vertex, id)| (self.viewport.flatten(vertex).distance(model), id));
-        distances.filter(move |(distance, _)| *distance <= reach)
+        let near = distances.filter(move |(distance, _)| *distance <= reach);
+        near.filter(|(_, id)| self.is_seen(*id))
+    }
+
+    /// Whether something is seen of a vertex, or of the polygon at it.
+    fn is_seen(&self, id: VertexId) -> bool {
+        let (curve, index) = id;
+        let is_locked = |curve: &Curve| curve.locked_vertices.contains(index);
+        self.spacing_on(curve, |seen| seen.spacing(index))
+            || self.selection.contains(id)
+            || self
+                .document
+                .curve(curve)
+                .is_some_and(|curve| is_locked(curve))
+    }
+
+    /// Whether legs are drawn at a spacing of a curve's polygon.
+    fn spacing_on(&self, curve: CurveId, spacing: impl Fn(SeenChain) -> f64) -> bool {
+        let known = self.analyses.get(curve).zip(self.outlines.get(curve));
+        known.is_none_or(|(analysis, outlined)| {
+            let seen = outlined.float.seen(analysis.float());
+            density::leg(spacing(seen) * self.viewport.scale) > 0.0
+        })
     }
 
     fn clamped_vertex_within(&self, place: DVec2, reach: f64) -> Option<(CurveId, usize)> {
@@ -122,11 +149,14 @@ impl<'a> HitTest<'a> {
         }
         let id = self.shown_active()?;
         let model = self.viewport.to_model(place);
-        let vertices = self.analyses.get(id)?.clamped().vertices();
+        let chain = self.analyses.get(id)?.clamped();
+        let vertices = chain.vertices();
         let distance = |vertex: &DVec3| self.viewport.flatten(*vertex).distance(model);
         let distances = vertices.iter().map(distance).enumerate();
         let (index, nearest) = distances.min_by(|a, b| a.1.total_cmp(&b.1))?;
-        (nearest <= reach * self.viewport.pixel()).then_some((id, index))
+        let spacing = self.outlines.get(id)?.clamped.seen(chain).spacing(index);
+        let is_seen = density::leg(spacing * self.viewport.scale) > 0.0;
+        (is_seen && nearest <= reach * self.viewport.pixel()).then_some((id, index))
     }
 
     /// Find the place on a curve or on a reference under a place on the canvas. Where a curve follows
@@ -200,7 +230,7 @@ impl<'a> HitTest<'a> {
         self.active.filter(|id| self.document.is_visible(*id))
     }
 
-    /// Find the leg nearest to a place, within `reach` screen points.
+    /// Find the leg nearest to a place, within `reach` screen points, of those that are drawn.
     pub fn leg(&self, place: DVec2, reach: f64) -> Option<LegHit> {
         if !self.layers.shows(Layer::Float) {
             return None;
@@ -229,7 +259,9 @@ impl<'a> HitTest<'a> {
                 };
                 let point = from + share * leg;
                 let distance = point.distance(model);
-                if best.as_ref().is_none_or(|(nearest, _)| distance < *nearest) {
+                if best.as_ref().is_none_or(|(nearest, _)| distance < *nearest)
+                    && self.spacing_on(id, |seen| seen.leg_spacing(index))
+                {
                     let hit = LegHit {
                         curve: id,
                         index,

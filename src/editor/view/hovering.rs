@@ -26,8 +26,12 @@ impl Editor {
         let place = self.hand.gestures.pointer()?;
         let context = self.context();
         if self.hand.gestures.is_dragging() {
-            let held = self.held_vertex()?;
-            return self.vertex_hover(held);
+            let mut hover = self.vertex_hover(self.held_vertex()?);
+            if let Some(HoverScene::Vertex { text, .. }) = &mut hover {
+                // What a drag does is told beside it.
+                text.clear();
+            }
+            return hover;
         }
         if self.hand.gestures.is_panning()
             || !matches!(
@@ -99,6 +103,7 @@ impl Editor {
         }
         Some(HoverScene::Vertex {
             at: self.view.viewport.flatten(vertex),
+            point: vertex,
             text,
         })
     }
@@ -168,6 +173,7 @@ impl Editor {
             u,
             curvature,
             at: self.view.viewport.flatten(jet.point),
+            point: jet.point,
             centre: centre
                 .filter(|_| seen_as_it_is)
                 .map(|centre| self.view.viewport.flatten(centre)),

@@ -3,6 +3,7 @@
 mod chain_outlines;
 pub(in crate::editor) mod comb;
 mod curve_outlines;
+mod density;
 mod distances;
 mod drawing;
 pub(in crate::editor) mod end_marks;
@@ -41,14 +42,16 @@ pub use comb::CombSettings;
 pub use curve_outlines::{CurveOutlines, PieceTrend};
 pub use end_marks::EndFitMarks;
 pub use feature_report::{FeatureKind, FeatureMark, FeatureReport, FeatureRow};
-pub use grid::grid_steps;
+pub use grid::{GroundGrid, grid_steps, ground_grid};
 pub use guide_scene::{GuideLabel, GuideScene, LossArrow};
 pub use hit::REACH;
 pub use layers::{Layer, Layers};
-pub use orbit::NamedView;
+pub use orbit::{NamedView, view_name};
 pub use orientation::Orientation;
 pub use outline::{Bounds, GAP, ViewBox};
 pub use plot_scene::{PlotBand, PlotFeature, PlotKind, PlotScene};
-pub use scene::{CurveScene, HoverScene, Mark, ProposalScene, Scene, VertexMark};
+pub use scene::{
+    ClampedMark, CurveScene, DragReadout, HoverScene, Legs, Mark, ProposalScene, Scene, VertexMark,
+};
 pub use view::View;
 pub use viewport::Viewport;

@@ -35,21 +35,39 @@ impl NamedView {
         }
     }
 
-    /// What the view is called on screen.
-    pub fn label(self) -> &'static str {
+    /// The side from which it looks, in a word.
+    pub fn name(self) -> &'static str {
         match self {
-            Self::Xy => "View XY, from above",
-            Self::Xz => "View XZ, from the front",
-            Self::Yz => "View YZ, from the side",
+            Self::Xy => "Top",
+            Self::Xz => "Front",
+            Self::Yz => "Right",
             Self::Isometric => "Isometric",
         }
     }
+
+    /// What the view is called on screen.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Xy => "Top view (XY)",
+            Self::Xz => "Front view (XZ)",
+            Self::Yz => "Right view (YZ)",
+            Self::Isometric => "Isometric",
+        }
+    }
+}
+
+/// The name of the side from which an orientation looks: that of a named view, or "Orbit".
+pub fn view_name(orientation: &Orientation) -> &'static str {
+    let named = NamedView::ALL.into_iter();
+    let mut named = named.filter(|view| view.orientation() == *orientation);
+    named.next().map_or("Orbit", NamedView::name)
 }
 
 impl Editor {
     /// See the model from somewhere else; the middle of what is shown stays where it is.
     pub fn set_orientation(&mut self, orientation: Orientation) {
         let pivot = self.middle();
+        self.view.target = pivot;
         let before = self.view.viewport.flatten(pivot);
         self.view.viewport.orientation = orientation;
         self.view.viewport.centre += self.view.viewport.flatten(pivot) - before;
@@ -75,16 +93,15 @@ impl Editor {
             && shown.all(|(_, curve)| curve.polygon.is_planar())
     }
 
-    /// What the view plane's coordinates are called.
-    pub(in crate::editor) fn axis_names(&self) -> [&'static str; 2] {
-        let axes = self.view.viewport.orientation.axes();
-        axes.map_or(["right", "up"], |axes| {
-            axes.map(|axis| ["x", "y", "z"][axis])
-        })
+    /// The point of the model under a place of the view plane: in the plane through the middle of what was
+    /// shown when the view was last turned or fitted, or in the plane z = 0 seen from above.
+    pub(in crate::editor) fn point_under(&self, place: DVec2) -> DVec3 {
+        let orientation = &self.view.viewport.orientation;
+        orientation.point_at(place, self.view.target)
     }
 
     /// The middle of the box around the polygons that are shown.
-    fn middle(&self) -> DVec3 {
+    pub(in crate::editor) fn middle(&self) -> DVec3 {
         let shown = self.document().curves().filter(|(_, curve)| curve.visible);
         let vertices = shown.flat_map(|(_, curve)| curve.polygon.vertices());
         let (low, high) = vertices.fold(

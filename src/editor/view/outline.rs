@@ -23,6 +23,11 @@ impl ViewBox {
         (0.5 * self.pixel).log2().floor().clamp(-1000.0, 1000.0) as i32
     }
 
+    /// Whether a point lies in the box.
+    pub fn holds(&self, point: DVec2) -> bool {
+        point.cmpge(self.low).all() && point.cmple(self.high).all()
+    }
+
     /// Widen the box on every side.
     pub fn grown(&self, by: f64) -> Self {
         Self {

@@ -1,5 +1,7 @@
 //! What panels read.
 
+use glam::DVec3;
+
 use crate::analysis::CurveAnalysis;
 use crate::document::CurveId;
 use crate::editor::Editor;
@@ -11,12 +13,8 @@ impl Editor {
     /// What the status bar reads.
     pub fn readout(&self) -> Readout {
         let mut readout = Readout {
-            pointer: self
-                .hand
-                .gestures
-                .pointer()
-                .map(|at| self.view.viewport.to_model(at)),
-            axes: self.axis_names(),
+            pointer: self.pointed_at(),
+            in_space: self.tells_z(),
             scale: self.view.viewport.scale,
             parameter_name: match self.active_reference_id() {
                 Some(_) => "t",
@@ -40,6 +38,26 @@ impl Editor {
             readout.curvature = Some(curvature);
         }
         readout
+    }
+
+    /// The point of the model that is hovered, or under the pointer.
+    fn pointed_at(&self) -> Option<DVec3> {
+        match &self.view.scene.hover {
+            Some(HoverScene::Vertex { point, .. } | HoverScene::Curve { point, .. }) => {
+                Some(*point)
+            }
+            _ => {
+                let place = self.hand.gestures.pointer()?;
+                Some(self.point_under(self.view.viewport.to_model(place)))
+            }
+        }
+    }
+
+    /// Whether the third coordinate tells something.
+    fn tells_z(&self) -> bool {
+        let is_planar = |id| self.is_planar(id).unwrap_or(true);
+        let mut shown = self.document().all_ids();
+        !self.view.viewport.orientation.is_from_above() || shown.any(|id| !is_planar(id))
     }
 
     /// What the inspector says of the active curve.

@@ -47,12 +47,15 @@ impl ProposedCurve {
         self.float.set_orientation(orientation);
         self.float.update(analysis.float());
         let float = &mut scene.float;
-        self.float.append_legs(analysis.float(), view, float);
+        self.float.append_legs(analysis.float(), None, view, float);
         if layers.shows(Layer::Clamped) {
             self.clamped.set_orientation(orientation);
             self.clamped.update(analysis.clamped());
             let clamped = &mut scene.clamped;
-            self.clamped.append_legs(analysis.clamped(), view, clamped);
+            let covering = Some(self.float.seen(analysis.float()));
+            let chain = analysis.clamped();
+            self.clamped
+                .append_legs(chain, covering.as_ref(), view, clamped);
         }
         self.analysis = Some(analysis);
     }

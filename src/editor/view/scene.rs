@@ -1,11 +1,12 @@
 //! What the canvas shows, in model coordinates: the ui only paints it.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use crate::document::{Colour, CurveId};
 use crate::editor::view::end_marks::EndFitMarks;
 use crate::editor::view::feature_report::FeatureMark;
 use crate::editor::view::guide_scene::GuideScene;
+use crate::editor::view::outline::append_gap;
 
 /// All that is on the canvas, from back to front. Chains are points in the model's plane; a NaN
 /// point ([`crate::editor::GAP`]) breaks them.
@@ -16,7 +17,7 @@ pub struct Scene {
     /// The curve as it was before the gesture or the correction, drawn faintly.
     pub ghost: Vec<DVec2>,
     /// Its float S-polygon as it was.
-    pub ghost_polygon: Vec<DVec2>,
+    pub ghost_polygon: Legs,
     /// The curve that a click would make.
     pub proposal: ProposalScene,
     /// What the tool in the hand draws.
@@ -32,10 +33,10 @@ pub struct Scene {
 /// The curve that a click would make, with its polygons; empty if it would make none.
 #[derive(Clone, Debug, Default)]
 pub struct ProposalScene {
-    /// The closed S-polygon's legs.
-    pub clamped: Vec<DVec2>,
+    /// The closed S-polygon's legs, without those that lie on the float one's.
+    pub clamped: Legs,
     /// The float S-polygon's legs.
-    pub float: Vec<DVec2>,
+    pub float: Legs,
     /// The curve.
     pub curve: Vec<DVec2>,
 }
@@ -59,13 +60,13 @@ pub struct CurveScene {
     pub comb: Vec<DVec2>,
     /// The evolute.
     pub evolute: Vec<DVec2>,
-    /// The closed S-polygon's legs.
-    pub clamped: Vec<DVec2>,
-    /// The closed S-polygon's vertices.
-    pub clamped_vertices: Vec<DVec2>,
+    /// The closed S-polygon's legs, without those that lie on the float one's.
+    pub clamped: Legs,
+    /// The closed S-polygon's vertices, without those that lie on the float one's.
+    pub clamped_vertices: Vec<ClampedMark>,
     /// The float S-polygon's legs.
-    pub float: Vec<DVec2>,
-    /// The float S-polygon's vertices.
+    pub float: Legs,
+    /// The float S-polygon's vertices, without those that crowd.
     pub vertices: Vec<VertexMark>,
     /// The curve itself.
     pub curve: Vec<DVec2>,
@@ -76,8 +77,60 @@ pub struct CurveScene {
     pub pieces: [Vec<DVec2>; 3],
     /// Its proved features.
     pub features: Vec<FeatureMark>,
-    /// The joints between segments: points with the curve's unit normals.
+    /// The joints between segments: points with the curve's normals, of length 1 or less where they crowd.
     pub joints: Vec<[DVec2; 2]>,
+}
+
+/// The legs of a polygon, by the strength with which they are drawn: where they crowd they fade.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Legs {
+    chains: [Vec<DVec2>; LEG_STRENGTHS],
+}
+
+/// How many strengths of legs there are.
+const LEG_STRENGTHS: usize = 5;
+
+impl Legs {
+    /// The chains with the strength of each, more than 0 and at most 1.
+    pub fn chains(&self) -> impl Iterator<Item = (&[DVec2], f32)> {
+        let chains = self.chains.iter().enumerate();
+        chains.map(|(step, chain)| (chain.as_slice(), (step + 1) as f32 / LEG_STRENGTHS as f32))
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.chains.iter().all(Vec::is_empty)
+    }
+
+    /// Forget all.
+    pub fn clear(&mut self) {
+        self.chains.iter_mut().for_each(Vec::clear);
+    }
+
+    /// Add a leg of a strength between 0 and 1; the last one goes on where it begins.
+    pub fn add(&mut self, [from, to]: [DVec2; 2], strength: f32) {
+        let step = (strength * LEG_STRENGTHS as f32).ceil() as usize;
+        let Some(chain) = step
+            .checked_sub(1)
+            .and_then(|step| self.chains.get_mut(step))
+        else {
+            return;
+        };
+        if chain.last() != Some(&from) {
+            append_gap(chain);
+            chain.push(from);
+        }
+        chain.push(to);
+    }
+}
+
+/// A vertex of a closed S-polygon, as it is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClampedMark {
+    /// Where it is.
+    pub at: DVec2,
+    /// The share of its full size.
+    pub size: f32,
 }
 
 /// A vertex of a float S-polygon, as it is drawn.
@@ -91,6 +144,8 @@ pub struct VertexMark {
     pub selected: bool,
     /// Whether the vertex itself is locked.
     pub locked: bool,
+    /// The share of its full size.
+    pub size: f32,
 }
 
 /// Something that a tool draws.
@@ -128,6 +183,17 @@ pub enum Mark {
     },
     /// A place that the pointer snapped to.
     Snap(DVec2),
+    /// A name beside a place.
+    Name(DVec2, String),
+    /// The line that a drag keeps to, and the axis of the model (0 x, 1 y, 2 z) that it is.
+    Axis {
+        /// Its ends, beyond the canvas.
+        ends: [DVec2; 2],
+        /// The axis of the model; `None` for a direction of the screen.
+        axis: Option<usize>,
+    },
+    /// What a drag has done so far, beside what is dragged.
+    Drag(DragReadout),
     /// A place where something is most: the flow of the vertices uneven, or another curve far.
     Extreme {
         /// Where it is.
@@ -146,6 +212,23 @@ pub enum Mark {
     Label(DVec2, String),
 }
 
+/// How far a point was dragged, and where it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DragReadout {
+    /// Where the point is seen.
+    pub at: DVec2,
+    /// Where it goes, as it is seen: the readout stands on the other side.
+    pub way: DVec2,
+    /// How far it was moved.
+    pub by: DVec3,
+    /// Where it is.
+    pub to: DVec3,
+    /// Whether z is told too.
+    pub in_space: bool,
+    /// What else there is to tell, a line each.
+    pub remarks: Vec<String>,
+}
+
 /// What the pointer is over.
 #[derive(Clone, Debug, PartialEq)]
 pub enum HoverScene {
@@ -153,7 +236,9 @@ pub enum HoverScene {
     Vertex {
         /// Where it is.
         at: DVec2,
-        /// Its number and coordinates, in words.
+        /// The point itself.
+        point: DVec3,
+        /// Its number and coordinates, in words; empty while it is dragged.
         text: String,
     },
     /// A place on a curve.
@@ -164,8 +249,10 @@ pub enum HoverScene {
         u: f64,
         /// The curvature: signed for a planar curve, not negative in space.
         curvature: f64,
-        /// The point.
+        /// Where it is seen.
         at: DVec2,
+        /// The point itself.
+        point: DVec3,
         /// The centre of the osculating circle of a planar curve seen from above; `None` where it
         /// is straight, or seen otherwise.
         centre: Option<DVec2>,

@@ -1,5 +1,7 @@
 //! What is seen, and how.
 
+use glam::DVec3;
+
 use crate::analysis::ReferenceAnalysis;
 use crate::document::CurveId;
 use crate::editor::guides::FeatureOf;
@@ -18,9 +20,13 @@ use crate::editor::view::viewport::Viewport;
 #[derive(Debug, Default)]
 pub struct View {
     pub(in crate::editor) viewport: Viewport,
+    /// The point about which the view turns.
+    pub(in crate::editor) target: DVec3,
     /// Whether the canvas has been given its size and the document fitted into it.
     pub(in crate::editor) placed: bool,
     pub(in crate::editor) layers: Layers,
+    /// Whether bands are left to the plot.
+    bands_only_plotted: bool,
     pub(in crate::editor) comb: CombSettings,
     pub(in crate::editor) hovered: Hovered,
     /// What panels said in the frame before: those that are shown first read it.
@@ -86,6 +92,16 @@ impl View {
     /// Which layers the user has chosen, whatever the tool in the hand makes of them.
     pub fn chosen_layers(&self) -> Layers {
         self.layers
+    }
+
+    /// Whether the canvas shows bands of rising and falling curvature, with the layer of features.
+    pub fn shows_bands(&self) -> bool {
+        !self.bands_only_plotted
+    }
+
+    /// Show bands of rising and falling curvature on the canvas, or leave them to the plot.
+    pub fn show_bands(&mut self, shown: bool) {
+        self.bands_only_plotted = !shown;
     }
 
     /// What the canvas shows.

@@ -1,4 +1,4 @@
-//! The window as it opens, with the built-in arc fitted into its canvas.
+//! The window with the arc of the examples fitted into its canvas.
 
 use anyhow::Result;
 use batten::editor::Editor;
@@ -8,18 +8,33 @@ use glam::DVec2;
 
 use crate::Window;
 
-/// The built-in arc.
+/// The arc.
 pub fn arc() -> FloatPolygon {
-    let editor = Editor::new();
+    let editor = editor();
     let curve = editor
         .active()
         .and_then(|id| editor.document().curve(id).cloned());
-    curve.expect("the built-in arc").polygon.clone()
+    curve.expect("the arc").polygon.clone()
+}
+
+/// An editor as it opens, with the arc chosen.
+fn editor() -> Editor {
+    let mut editor = Editor::new();
+    editor.open_example(0).expect("the arc");
+    editor
+}
+
+/// Choose the arc in the menu.
+pub fn open(window: &mut Window) -> Result<()> {
+    for label in ["File", "Examples", "Ninth-degree arc"] {
+        window.click(label)?;
+    }
+    Ok(())
 }
 
 /// An editor whose canvas has the window's size: it fits the arc as the window did.
 pub fn fitted(canvas: Rect) -> Editor {
-    let mut editor = Editor::new();
+    let mut editor = editor();
     editor.set_canvas_size(DVec2::new(canvas.width().into(), canvas.height().into()));
     editor
 }

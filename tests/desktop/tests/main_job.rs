@@ -8,7 +8,7 @@ use batten::document::Curve;
 use batten::geometry::end_correction::EndDifference;
 use batten::geometry::{ClampedPolygon, End};
 use batten::io::disk;
-use batten_desktop_tests::arc::{arc, correct_an_end, fitted, place};
+use batten_desktop_tests::arc::{self, arc, correct_an_end, fitted, place};
 use batten_desktop_tests::{Display, Window};
 use egui::{Key, Modifiers, Pos2, vec2};
 use glam::DVec3;
@@ -24,6 +24,7 @@ fn the_main_job_end_to_end() -> Result<()> {
     let mut display = Display::start(1600, 1000)?;
     let mut window = Window::open(&mut display, &[], 1.0)?;
     window.resize(1480, 920)?;
+    arc::open(&mut window)?;
     window.key(Key::H, Modifiers::NONE)?;
     let canvas = window.find("Canvas")?;
     let original = arc();
@@ -112,6 +113,7 @@ fn a_window_at_twice_the_scale_and_in_the_light_theme() -> Result<()> {
     let mut display = Display::start(3200, 2000)?;
     let mut window = Window::open(&mut display, &[], 2.0)?;
     window.resize(1480, 920)?;
+    arc::open(&mut window)?;
     window.key(Key::H, Modifiers::NONE)?;
     window.key(Key::F9, Modifiers::NONE)?;
     let canvas = window.find("Canvas")?;
@@ -125,6 +127,7 @@ fn a_window_at_twice_the_scale_and_in_the_light_theme() -> Result<()> {
 fn quitting_asks_about_unsaved_changes() -> Result<()> {
     let mut display = Display::start(1600, 1000)?;
     let mut window = Window::open(&mut display, &[], 1.0)?;
+    arc::open(&mut window)?;
     let canvas = window.find("Canvas")?;
     let from = place(canvas, &arc(), 5);
     window.drag(from, from + vec2(30.0, 30.0))?;

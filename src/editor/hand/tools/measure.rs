@@ -181,8 +181,8 @@ impl MeasureTool {
         if context.modifiers.ctrl {
             return free(view.grounded(at));
         }
-        if let Some(point) = snap_to_point(at, context.before, &Carried::default(), view) {
-            return Place::new(point, context);
+        if let Some(snap) = snap_to_point(at, context.before, &Carried::default(), view) {
+            return Place::new(snap.point, context);
         }
         let hit = context.hits.curve(view.to_screen(at));
         let curve = hit.and_then(|hit| Some((hit, context.document.shape(hit.curve)?)));
@@ -193,7 +193,7 @@ impl MeasureTool {
             };
         }
         let grid = snap_to_grid(at, view).filter(|_| context.snapping);
-        free(grid.unwrap_or_else(|| view.grounded(at)))
+        free(grid.map_or_else(|| view.grounded(at), |snap| snap.point))
     }
 
     /// What is measured now, in lines of figures, with the two points.

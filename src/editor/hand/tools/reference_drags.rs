@@ -3,10 +3,10 @@
 use glam::{DQuat, DVec2, DVec3};
 
 use super::tool::{Context, Effect};
-use crate::document::{CurveId, Edit, Reference};
-use crate::editor::hand::snapping::{Carried, by_fifteen_degrees};
+use crate::document::{CurveId, Document, Edit, Reference};
+use crate::editor::hand::snapping::{Carried, Snap, by_fifteen_degrees};
 use crate::editor::view::hit::{CurveHit, REACH};
-use crate::editor::view::scene::Mark;
+use crate::editor::view::scene::{DragReadout, Mark};
 use crate::geometry::ParametricCurve;
 use crate::geometry::references::{Placement, ReferenceError};
 
@@ -46,7 +46,9 @@ pub struct ReferenceDrag {
     origin: DVec2,
     /// What is told of it.
     label: Option<(DVec2, String)>,
-    snap: Option<DVec2>,
+    snap: Option<Snap>,
+    /// How far the pointer asks it to move.
+    by: DVec2,
 }
 
 #[derive(Debug)]
@@ -156,6 +158,7 @@ impl ReferenceDrag {
             origin,
             label: None,
             snap: None,
+            by: DVec2::ZERO,
         };
         (drag, Effect::Begin(label.to_owned()))
     }
@@ -204,7 +207,7 @@ impl ReferenceDrag {
                     ..Carried::default()
                 };
                 let (by, snap) = context.movement_to(self.origin, held, place, &carried);
-                self.snap = snap;
+                (self.snap, self.by) = (snap, by);
                 let to = before.translation() + context.movement(by, planar);
                 Placement::new(before.rotation(), before.scale(), to)
             }
@@ -234,10 +237,37 @@ impl ReferenceDrag {
     }
 
     /// What is drawn while it is dragged.
-    pub fn marks(&self) -> Vec<Mark> {
-        let snap = self.snap.map(Mark::Snap);
+    pub fn marks(&self, context: &Context) -> Vec<Mark> {
+        let snap = self.snap.as_ref();
+        let at = snap.map(|snap| Mark::Snap(context.viewport.flatten(snap.point)));
         let label = self.label.clone().map(|(at, text)| Mark::Label(at, text));
-        snap.into_iter().chain(label).collect()
+        let (guide, readout) = match self.kind {
+            Kind::Move { held, .. } => (
+                context.axis_guide(held, self.by),
+                self.readout(held, context).map(Mark::Drag),
+            ),
+            _ => (None, None),
+        };
+        let marks = guide.into_iter().chain(at).chain(label);
+        marks.chain(readout).collect()
+    }
+
+    /// How far the reference was moved, and where its own origin is.
+    fn readout(&self, held: DVec2, context: &Context) -> Option<DragReadout> {
+        let placed = |document: &Document| {
+            let curve = &document.reference(self.id)?.curve;
+            Some((curve.placement().translation(), curve.is_planar()))
+        };
+        let ((from, is_planar), (to, _)) = placed(context.before).zip(placed(context.document))?;
+        let way = context.viewport.flatten(to - from);
+        Some(DragReadout {
+            at: held + way,
+            way,
+            by: to - from,
+            to,
+            in_space: !is_planar,
+            remarks: self.snap.iter().map(|snap| snap.name.clone()).collect(),
+        })
     }
 }
 

@@ -5,15 +5,15 @@ use std::collections::BTreeSet;
 use glam::{DVec2, DVec3};
 
 use super::reference_drags::{Frame, ReferenceDrag, nudged};
-use super::tool::{Context, Cursor, Effect, Look, Tool, followers_label, move_edits};
-use crate::document::{CurveId, EditError};
+use super::tool::{Context, Cursor, Effect, Look, Tool, move_edits};
+use crate::document::{CurveId, Document, EditError};
 use crate::editor::hand::following::Follow;
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
 use crate::editor::hand::selection::VertexId;
-use crate::editor::hand::snapping::Carried;
+use crate::editor::hand::snapping::{Carried, Snap};
 use crate::editor::view::hit::{LegHit, REACH};
-use crate::editor::view::scene::Mark;
+use crate::editor::view::scene::{DragReadout, Mark};
 use crate::geometry::{counted, significant};
 
 /// How near to a leg the pointer must be to take it, in screen points: less than to a vertex.
@@ -50,16 +50,18 @@ struct Moving {
     carried: Carried,
     /// The curves that lie in the plane z = 0.
     planar: BTreeSet<CurveId>,
-    snap: Option<DVec2>,
-    /// Where the pointer is.
-    pointer: DVec2,
+    snap: Option<Snap>,
+    /// The vertex that the readout tells of.
+    grip: VertexId,
+    /// How far the pointer asks it to move.
+    by: DVec2,
 }
 
 impl Moving {
     fn drag(&mut self, place: DVec2, context: &Context) -> Effect {
-        self.pointer = context.model(place);
         let (by, snap) = context.movement_to(self.origin, self.held, place, &self.carried);
         self.snap = snap;
+        self.by = by;
         let places = self.vertices.iter().map(|(id, at)| {
             let is_planar = self.planar.contains(&id.0);
             (*id, *at + context.movement(by, is_planar))
@@ -71,6 +73,45 @@ impl Moving {
     }
 }
 
+impl Moving {
+    fn marks(&self, context: &Context) -> Vec<Mark> {
+        let (id, index) = self.grip;
+        let vertex = |document: &Document| {
+            let curve = document.curve(id)?;
+            curve.polygon.vertices().get(index).copied()
+        };
+        let snap = self.snap.as_ref();
+        let at = snap.map(|snap| Mark::Snap(context.viewport.flatten(snap.point)));
+        let names = snap.map(|snap| snap.name.clone());
+        let remarks = names.into_iter().chain(context.following.words());
+        let readout = vertex(context.before).zip(vertex(context.document));
+        let readout = readout.map(|(from, to)| {
+            let in_space = !self.planar.contains(&id);
+            Mark::Drag(dragged([from, to], in_space, remarks.collect(), context))
+        });
+        let guide = context.axis_guide(self.held, self.by);
+        guide.into_iter().chain(at).chain(readout).collect()
+    }
+}
+
+/// Tell of a point that was dragged from somewhere to somewhere.
+fn dragged(
+    [from, to]: [DVec3; 2],
+    in_space: bool,
+    remarks: Vec<String>,
+    context: &Context,
+) -> DragReadout {
+    let by = to - from;
+    DragReadout {
+        at: context.viewport.flatten(to),
+        way: context.viewport.flatten(by),
+        by,
+        to,
+        in_space,
+        remarks,
+    }
+}
+
 #[derive(Debug)]
 struct MovingClamped {
     origin: DVec2,
@@ -78,14 +119,35 @@ struct MovingClamped {
     held: DVec3,
     vertex: VertexId,
     planar: bool,
+    snap: Option<Snap>,
+    /// How far the pointer asks it to move.
+    by: DVec2,
 }
 
 impl MovingClamped {
-    fn drag(&self, place: DVec2, context: &Context) -> Effect {
+    fn drag(&mut self, place: DVec2, context: &Context) -> Effect {
         let seen = context.viewport.flatten(self.held);
-        let (by, _) = context.movement_to(self.origin, seen, place, &Carried::default());
+        let (by, snap) = context.movement_to(self.origin, seen, place, &Carried::default());
+        (self.by, self.snap) = (by, snap);
         let to = self.held + context.movement(by, self.planar);
         move_clamped(self.vertex, to, context)
+    }
+
+    fn marks(&self, context: &Context) -> Vec<Mark> {
+        let (id, index) = self.vertex;
+        let analysis = context.hits.analyses.get(id);
+        let now = analysis.and_then(|analysis| analysis.clamped().vertices().get(index));
+        let seen = context.viewport.flatten(self.held);
+        let snap = self.snap.as_ref();
+        let at = snap.map(|snap| Mark::Snap(context.viewport.flatten(snap.point)));
+        let remarks = snap.map(|snap| snap.name.clone()).into_iter();
+        let remarks: Vec<String> = remarks.chain(context.following.words()).collect();
+        let readout = now.map(|now| {
+            let ends = [self.held, *now];
+            Mark::Drag(dragged(ends, !self.planar, remarks, context))
+        });
+        let guide = context.axis_guide(seen, self.by);
+        guide.into_iter().chain(at).chain(readout).collect()
     }
 }
 
@@ -200,12 +262,9 @@ impl Tool for SelectTool {
                     context.model(*to),
                 ])]
             }
-            State::Moving(moving) => {
-                let snap = moving.snap.map(Mark::Snap);
-                let label = followers_label(moving.pointer, context);
-                snap.into_iter().chain(label).collect()
-            }
-            State::Reference(drag) => drag.marks(),
+            State::Moving(moving) => moving.marks(context),
+            State::MovingClamped(moving) => moving.marks(context),
+            State::Reference(drag) => drag.marks(context),
             State::Idle => {
                 let frame = Frame::of(context);
                 frame.iter().map(Frame::mark).collect()
@@ -312,7 +371,7 @@ impl SelectTool {
         let moved = context.places(taken.iter().copied()).len();
         let label = format!("Move {}", counted(moved, "vertex", "vertices"));
         let mut effects = vec![Effect::Select(taken.clone()), Effect::Activate(hit.0)];
-        effects.extend(self.move_these(place, held, taken, &label, context));
+        effects.extend(self.move_these(place, (hit, held), taken, &label, context));
         effects
     }
 
@@ -333,7 +392,11 @@ impl SelectTool {
             (ends.into(), "Move leg".to_owned())
         };
         let mut effects = vec![Effect::Select(taken.clone()), Effect::Activate(leg.curve)];
-        effects.extend(self.move_these(place, leg.point, taken, &label, context));
+        let free = ends
+            .into_iter()
+            .find(|end| !context.places([*end]).is_empty());
+        let grip = free.unwrap_or(ends[0]);
+        effects.extend(self.move_these(place, (grip, leg.point), taken, &label, context));
         effects
     }
 
@@ -357,6 +420,8 @@ impl SelectTool {
             held: *held,
             vertex,
             planar: curve.polygon.is_planar(),
+            snap: None,
+            by: DVec2::ZERO,
         });
         let label = format!("Move vertex {index} of closed S-polygon");
         vec![Effect::Select(Vec::new()), Effect::Begin(label)]
@@ -365,7 +430,7 @@ impl SelectTool {
     fn move_these(
         &mut self,
         place: DVec2,
-        held: DVec2,
+        (grip, held): (VertexId, DVec2),
         taken: Vec<VertexId>,
         label: &str,
         context: &Context,
@@ -381,7 +446,8 @@ impl SelectTool {
             planar: context.planar_curves(&vertices),
             vertices,
             snap: None,
-            pointer: context.model(place),
+            grip,
+            by: DVec2::ZERO,
         });
         vec![Effect::Begin(label.to_owned())]
     }

@@ -10,7 +10,7 @@ use crate::editor::hand::following::Following;
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Modifiers;
 use crate::editor::hand::selection::{Selection, VertexId};
-use crate::editor::hand::snapping::{self, Carried};
+use crate::editor::hand::snapping::{self, Carried, Snap};
 use crate::editor::hand::typed_point::TypedPoint;
 use crate::editor::view::comb::CombSettings;
 use crate::editor::view::hit::HitTest;
@@ -154,14 +154,14 @@ impl Context<'_> {
     }
 
     /// How far what is dragged moves, in the view plane, when the pointer that began at `origin` is at a
-    /// place on the canvas, and the place that the held point snaps to. Shift locks to an axis.
+    /// place on the canvas, and what the held point snaps to. Shift locks to an axis.
     pub fn movement_to(
         &self,
         origin: DVec2,
         held: DVec2,
         place: DVec2,
         carried: &Carried,
-    ) -> (DVec2, Option<DVec2>) {
+    ) -> (DVec2, Option<Snap>) {
         let free = self.model(place) - origin;
         if self.axis.is_some() {
             return (free, None);
@@ -170,9 +170,36 @@ impl Context<'_> {
             return (snapping::along_axis(free), None);
         }
         let wanted = held + free;
-        let snapped = self.snapped(wanted, carried);
-        let snap = (snapped != wanted).then_some(snapped);
-        (snap.map_or(free, |snap| snap - held), snap)
+        let snap = self.snap(wanted, carried);
+        let by = snap.as_ref().map_or(free, |snap| {
+            let snapped = self.viewport.flatten(snap.point);
+            // What rests on its snap already does not move by rounding.
+            if snapped == wanted {
+                free
+            } else {
+                snapped - held
+            }
+        });
+        (by, snap)
+    }
+
+    /// The line that a drag of a point keeps to, seen at `held` when it began, if it keeps to one.
+    pub fn axis_guide(&self, held: DVec2, by: DVec2) -> Option<Mark> {
+        let (direction, axis) = match self.axis {
+            Some(axis) => (self.viewport.flatten(*DVec3::AXES.get(axis)?), Some(axis)),
+            None if self.modifiers.shift => {
+                let direction = snapping::along_axis(by);
+                let across = usize::from(direction.x == 0.0);
+                let axes = self.viewport.orientation.axes();
+                (direction, axes.map(|axes| axes[across]))
+            }
+            None => return None,
+        };
+        let direction = direction.try_normalize()?;
+        let box_seen = self.viewport.view_box();
+        let reach = 2.0 * box_seen.low.distance(box_seen.high);
+        let ends = [held - reach * direction, held + reach * direction];
+        Some(Mark::Axis { ends, axis })
     }
 
     /// The plane in which clicks set points.
@@ -194,6 +221,11 @@ impl Context<'_> {
     /// The point of the model that a place of the view plane snaps to, if snapping is on and
     /// something is near.
     pub fn snapped_point(&self, place: DVec2, carried: &Carried) -> Option<DVec3> {
+        self.snap(place, carried).map(|snap| snap.point)
+    }
+
+    /// What a place of the view plane snaps to, if snapping is on and something is near.
+    pub fn snap(&self, place: DVec2, carried: &Carried) -> Option<Snap> {
         let snaps = self.snapping != self.modifiers.ctrl;
         let near = || {
             let point = snapping::snap_to_point(place, self.before, carried, self.viewport);
@@ -205,10 +237,13 @@ impl Context<'_> {
     }
 
     /// The point of a reference that is seen near a place of the view plane.
-    fn on_reference(&self, place: DVec2, carried: &Carried) -> Option<DVec3> {
+    fn on_reference(&self, place: DVec2, carried: &Carried) -> Option<Snap> {
         let place = self.viewport.to_screen(place);
         let hit = self.hits.reference(place, carried.reference)?;
-        Some(self.document.shape(hit.curve)?.jet(hit.u).point)
+        Some(Snap {
+            point: self.document.shape(hit.curve)?.jet(hit.u).point,
+            name: snapping::reference_name(hit.curve, self.document),
+        })
     }
 
     /// The vertices that a transformation takes: the selected ones that can be moved, or all of

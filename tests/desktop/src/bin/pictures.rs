@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
-use batten_desktop_tests::arc::correct_an_end;
+use batten_desktop_tests::arc::{self, correct_an_end};
 use batten_desktop_tests::{Display, Window};
 use egui::{Key, Modifiers};
 
@@ -16,8 +16,9 @@ fn main() -> Result<()> {
     let mut window = Window::open(&mut display, &[], 1.0)?;
     window.resize(1480, 920)?;
     window.key(Key::H, Modifiers::NONE)?;
-    let canvas = window.find("Canvas")?;
     window.picture(&folder.join("dark.png"))?;
+    arc::open(&mut window)?;
+    let canvas = window.find("Canvas")?;
     correct_an_end(&mut window, canvas)?;
     window.picture(&folder.join("end-fit.png"))?;
     window.key(Key::F9, Modifiers::NONE)?;

@@ -1,0 +1,146 @@
+//! The legend: what the colours and marks on the canvas mean.
+
+use eframe::egui::{
+    Color32, Label, Painter, Pos2, Rect, RichText, Sense, Shape, Stroke, StrokeKind, TextWrapMode,
+    Ui, Vec2, vec2,
+};
+
+use super::feature_marks::glyph;
+use super::theme::{STEP, Tokens};
+use crate::editor::FeatureKind;
+
+/// The width of what a row shows beside its words.
+const SAMPLE: f32 = 7.0 * STEP;
+
+/// The height of a row.
+const HEIGHT: f32 = 5.0 * STEP;
+
+/// What a row shows.
+#[derive(Clone, Copy)]
+enum Sample {
+    /// A band along the curve.
+    Band(Color32),
+    /// A line.
+    Line(Color32),
+    /// A dashed line with a square.
+    Closed(Color32),
+    /// A line with a disc.
+    Float(Color32),
+    /// A tick across the curve.
+    Tick(Color32),
+    /// A feature's glyph.
+    Glyph(FeatureKind),
+    /// A disc in a square.
+    Locked(Color32),
+}
+
+/// Show the legend under a remark.
+pub fn legend_ui(ui: &mut Ui, remark: &str) {
+    ui.set_min_width(60.0 * STEP);
+    ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
+    ui.label(remark);
+    ui.separator();
+    ui.spacing_mut().item_spacing.y = 0.0;
+    let tokens = Tokens::of(ui);
+    ui.columns(2, |columns| {
+        let [left, right] = columns else {
+            return;
+        };
+        for (sample, text) in bands(tokens).into_iter().chain(glyphs()) {
+            row_ui(left, sample, text);
+        }
+        for (sample, text) in lines(tokens) {
+            row_ui(right, sample, text);
+        }
+    });
+}
+
+fn bands(tokens: &Tokens) -> [(Sample, &'static str); 3] {
+    [
+        (Sample::Band(tokens.rising), "Curvature rises"),
+        (Sample::Band(tokens.falling), "Curvature falls"),
+        (Sample::Band(tokens.undecided), "Undecided"),
+    ]
+}
+
+fn glyphs() -> impl Iterator<Item = (Sample, &'static str)> {
+    let kinds = [
+        FeatureKind::CurvatureMaximum,
+        FeatureKind::CurvatureMinimum,
+        FeatureKind::Inflection,
+        FeatureKind::Cusp,
+        FeatureKind::TorsionMaximum,
+        FeatureKind::TorsionMinimum,
+        FeatureKind::TorsionZero,
+        FeatureKind::Undecided,
+    ];
+    let named = kinds.map(|kind| {
+        let name = match kind {
+            FeatureKind::Undecided => "Undecided feature",
+            _ => kind.label(),
+        };
+        (Sample::Glyph(kind), name)
+    });
+    named.into_iter()
+}
+
+fn lines(tokens: &Tokens) -> [(Sample, &'static str); 9] {
+    [
+        (Sample::Line(tokens.curve), "Curve"),
+        (Sample::Float(tokens.float), "Float S-polygon"),
+        (Sample::Closed(tokens.clamped), "Closed S-polygon"),
+        (Sample::Locked(tokens.float), "Locked vertex"),
+        (Sample::Tick(tokens.joints), "Joint of segments"),
+        (Sample::Line(tokens.comb), "Curvature comb"),
+        (Sample::Line(tokens.evolute), "Evolute"),
+        (Sample::Line(tokens.target), "End target"),
+        (Sample::Line(tokens.reference), "Reference"),
+    ]
+}
+
+fn row_ui(ui: &mut Ui, sample: Sample, text: &str) {
+    ui.horizontal(|ui| {
+        let (rect, _) = ui.allocate_exact_size(vec2(SAMPLE, HEIGHT), Sense::hover());
+        paint(ui.painter(), rect, sample, Tokens::of(ui));
+        ui.add(Label::new(RichText::new(text)));
+    });
+}
+
+fn paint(painter: &Painter, rect: Rect, sample: Sample, tokens: &Tokens) {
+    let at = rect.center();
+    let ends = [rect.left_center(), rect.right_center()];
+    let line = |width: f32, colour: Color32| {
+        painter.line_segment(ends, Stroke::new(width, colour));
+    };
+    match sample {
+        Sample::Band(colour) => {
+            line(7.0, colour.gamma_multiply(0.4));
+            line(2.0, tokens.curve);
+        }
+        Sample::Line(colour) => line(1.5, colour),
+        Sample::Closed(colour) => {
+            let stroke = Stroke::new(1.0, colour);
+            painter.extend(Shape::dashed_line(&ends, stroke, 5.0, 4.0));
+            square(painter, at, 7.0, colour);
+        }
+        Sample::Float(colour) => {
+            line(1.25, colour);
+            painter.circle_filled(at, 4.0, colour);
+        }
+        Sample::Tick(colour) => {
+            line(2.0, tokens.curve);
+            let half = vec2(0.0, 5.0);
+            painter.line_segment([at - half, at + half], Stroke::new(1.5, colour));
+        }
+        Sample::Glyph(kind) => glyph(painter, at, kind, tokens),
+        Sample::Locked(colour) => {
+            painter.circle_filled(at, 3.0, colour);
+            square(painter, at, 13.0, colour);
+        }
+    }
+}
+
+fn square(painter: &Painter, at: Pos2, side: f32, colour: Color32) {
+    let rect = Rect::from_center_size(at, Vec2::splat(side));
+    painter.rect_stroke(rect, 0, Stroke::new(1.25, colour), StrokeKind::Middle);
+}

@@ -1,0 +1,215 @@
+//! What is told and drawn while something is dragged: the readout, what it snaps to, the axis it keeps to.
+
+use batten::document::{Curve, Document};
+use batten::editor::{Command, ToolKind};
+use batten::editor::{DragReadout, Editor, HoverScene, Input, Key, Mark, Modifiers, NamedView};
+use batten::geometry::FloatPolygon;
+use glam::{DVec2, DVec3};
+
+use super::script::Script;
+
+fn readout(script: &mut Script) -> Option<DragReadout> {
+    let mut marks = script.scene().marks.iter();
+    marks.find_map(|mark| match mark {
+        Mark::Drag(readout) => Some(readout.clone()),
+        _ => None,
+    })
+}
+
+/// The ends and the axis of the line that a drag keeps to.
+fn guide(script: &mut Script) -> Option<([DVec2; 2], Option<usize>)> {
+    let mut marks = script.scene().marks.iter();
+    marks.find_map(|mark| match mark {
+        Mark::Axis { ends, axis } => Some((*ends, *axis)),
+        _ => None,
+    })
+}
+
+/// Two curves of degree 3 whose vertices lie off the grid.
+fn two() -> Script {
+    let polygon = |x: f64| {
+        let points = [(0.13, 0.21), (2.17, 1.33), (4.11, 0.87), (6.23, 2.19)];
+        FloatPolygon::planar(3, &points.map(|(a, b)| (a + x, b))).expect("a polygon")
+    };
+    let curves = [
+        Curve::new("left", polygon(0.0)),
+        Curve::new("right", polygon(9.0)),
+    ];
+    let mut editor = Editor::with_document(Document::from_curves(curves));
+    editor.set_canvas_size(DVec2::new(1000.0, 700.0));
+    let mut script = Script { editor };
+    // Steps of the grid that are wide enough to get between.
+    script.input(Input::Zoomed {
+        at: DVec2::new(500.0, 350.0),
+        factor: 0.9,
+    });
+    script
+}
+
+#[test]
+fn a_drag_tells_the_difference_and_the_place_behind_it() {
+    let mut script = two();
+    let before = script.polygon().vertex(1);
+    let at = script.at_vertex(1);
+    script.press(at);
+    let way = DVec2::new(60.0, -45.0);
+    script.move_to(at + way);
+    let told = readout(&mut script).expect("a readout");
+    let now = script.polygon().vertex(1);
+    assert_eq!((told.to, told.by), (now, now - before));
+    assert!(told.by.x > 0.0 && told.by.y > 0.0 && !told.in_space);
+    // The readout stands opposite: the way is the drag's.
+    let expected = DVec2::new(60.0, 45.0) / script.editor.view().viewport().scale;
+    assert!(told.way.distance(expected) < 1e-12, "{}", told.way);
+    assert_eq!(told.at, now.truncate());
+    assert_eq!(told.remarks, Vec::<String>::new());
+    // The vertex under the hand is marked without a text that would lie over the readout.
+    let Some(HoverScene::Vertex { text, point, .. }) = script.scene().hover.clone() else {
+        panic!("the vertex is marked");
+    };
+    assert_eq!((text.as_str(), point), ("", now));
+    script.release(at + way);
+    assert_eq!(readout(&mut script), None);
+}
+
+#[test]
+fn a_drag_names_what_it_snaps_to() {
+    let mut script = two();
+    script.command(Command::ToggleSnapping);
+    let other = script.editor.document().ids().last().expect("a curve");
+    let at = script.at_vertex(3);
+    let near = DVec2::new(3.0, 2.0);
+    let seen = |script: &Script, point: DVec3| {
+        let viewport = script.editor.view().viewport();
+        viewport.to_screen(viewport.flatten(point))
+    };
+    let polygon = script
+        .editor
+        .document()
+        .curve(other)
+        .expect("it")
+        .polygon
+        .clone();
+    let end = polygon.end_jet(batten::geometry::End::Start).point;
+    let crossing = DVec3::new(10.0, -4.0, 0.0);
+    let targets = [
+        (script.at_vertex_of(other, 2), "vertex 2"),
+        (seen(&script, end), "start"),
+        (seen(&script, crossing), "grid"),
+        (seen(&script, DVec3::ZERO), "origin"),
+    ];
+    script.press(at);
+    for (place, name) in targets {
+        script.move_to(place + near);
+        assert_eq!(readout(&mut script).expect("a readout").remarks, [name]);
+        let marks = &script.scene().marks;
+        assert!(
+            marks.iter().any(|mark| matches!(mark, Mark::Snap(_))),
+            "{name}"
+        );
+    }
+    script.key(Key::Escape);
+}
+
+#[test]
+fn drawing_names_what_a_click_would_snap_to() {
+    let mut script = two();
+    script.command(Command::ToggleSnapping);
+    let at = script.at_vertex(3);
+    script.command(Command::Tool(ToolKind::Draw));
+    let names = |script: &mut Script| {
+        let marks = script.scene().marks.iter();
+        let names = marks.filter_map(|mark| match mark {
+            Mark::Name(_, name) => Some(name.clone()),
+            _ => None,
+        });
+        names.collect::<Vec<String>>()
+    };
+    script.move_to(at + DVec2::new(3.0, -2.0));
+    assert_eq!(names(&mut script), ["vertex 3"]);
+    script.input(Input::Modifiers(Modifiers::CTRL));
+    assert_eq!(names(&mut script), Vec::<String>::new(), "without snapping");
+}
+
+#[test]
+fn what_keeps_to_an_axis_shows_its_line() {
+    let mut script = two();
+    let start = script.polygon().vertex(1).truncate();
+    let at = script.at_vertex(1);
+    script.press(at);
+    script.move_to(at + DVec2::new(40.0, 10.0));
+    assert_eq!(guide(&mut script), None);
+    let check = |script: &mut Script, direction: DVec2, expected: Option<usize>| {
+        let (ends, axis) = guide(script).expect("a line");
+        assert_eq!(axis, expected);
+        let along = (ends[1] - ends[0]).normalize();
+        assert!(along.perp_dot(direction).abs() < 1e-9, "{along}");
+        let off = (start - ends[0]).perp_dot(along).abs();
+        assert!(off < 1e-9 * ends[0].distance(ends[1]), "through the start");
+        let view = script.editor.view().viewport().view_box();
+        assert!(ends[0].distance(ends[1]) > 2.0 * view.low.distance(view.high));
+    };
+    script.input(Input::Modifiers(Modifiers::SHIFT));
+    script.move_to(at + DVec2::new(40.0, 11.0));
+    check(&mut script, DVec2::X, Some(0));
+    script.move_to(at + DVec2::new(10.0, 41.0));
+    check(&mut script, DVec2::Y, Some(1));
+    script.input(Input::Modifiers(Modifiers::NONE));
+    script.input(Input::AxisHeld(Some(1)));
+    script.move_to(at + DVec2::new(40.0, 10.0));
+    check(&mut script, DVec2::Y, Some(1));
+    script.input(Input::AxisHeld(Some(2)));
+    script.move_to(at + DVec2::new(41.0, 10.0));
+    assert_eq!(guide(&mut script), None, "z points to the eye");
+    script.key(Key::Escape);
+    script.input(Input::AxisHeld(None));
+    script.command(Command::View(NamedView::Xz));
+    let at = script.at_vertex(1);
+    script.press(at);
+    script.input(Input::AxisHeld(Some(2)));
+    script.move_to(at + DVec2::new(5.0, 30.0));
+    let (ends, axis) = guide(&mut script).expect("a line");
+    assert_eq!((axis, ends[0].x - ends[1].x), (Some(2), 0.0));
+    script.key(Key::Escape);
+}
+
+#[test]
+fn the_status_bar_reads_the_model_in_every_view() {
+    let mut script = Script::example("s-curve");
+    script.move_to(DVec2::new(10.0, 10.0));
+    script.scene();
+    let readout = script.editor.readout();
+    let viewport = *script.editor.view().viewport();
+    let place = viewport.to_model(DVec2::new(10.0, 10.0));
+    assert_eq!(readout.pointer, Some(place.extend(0.0)));
+    assert!(!readout.in_space, "planar and seen from above");
+    // At an angle: in the plane through the middle, seen where the pointer is.
+    script.command(Command::View(NamedView::Isometric));
+    script.scene();
+    let readout = script.editor.readout();
+    let viewport = *script.editor.view().viewport();
+    let point = readout.pointer.expect("a point");
+    let seen = viewport.to_screen(viewport.flatten(point));
+    assert!(readout.in_space && seen.distance(DVec2::new(10.0, 10.0)) < 1e-9);
+    // What is hovered is told itself.
+    script.move_to(script.at_vertex(2));
+    script.scene();
+    let vertex = script.polygon().vertex(2);
+    assert_eq!(script.editor.readout().pointer, Some(vertex));
+}
+
+#[test]
+fn views_have_names() {
+    let mut script = Script::example("s-curve");
+    let name = |script: &Script| {
+        let view = script.editor.view().viewport().orientation;
+        batten::editor::view_name(&view)
+    };
+    let named = NamedView::ALL.map(|view| {
+        script.command(Command::View(view));
+        name(&script)
+    });
+    assert_eq!(named, ["Top", "Front", "Right", "Isometric"]);
+    script.editor.orbit(DVec2::new(7.0, 3.0));
+    assert_eq!(name(&script), "Orbit");
+}
