@@ -312,7 +312,8 @@ impl App {
         if let Some(chosen) = self.files.show(context) {
             self.use_chosen(context, chosen);
         }
-        match recovery::recovery_ui(context, self.editor.recoverable()) {
+        let canvas = self.canvas.rect().unwrap_or(context.content_rect());
+        match recovery::recovery_ui(context, canvas, self.editor.recoverable()) {
             Some(Choice::Open(id)) => self.confirm(context, AfterDiscard::Recover(id)),
             Some(Choice::Discard(id)) => self.editor.discard_recoverable(id),
             Some(Choice::Later) => self.editor.leave_recoverable(),

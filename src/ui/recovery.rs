@@ -34,7 +34,7 @@ pub enum Choice {
 }
 
 /// Show what earlier sessions have left, if there is anything; returns what was chosen.
-pub fn recovery_ui(context: &Context, all: &[Recoverable]) -> Option<Choice> {
+pub fn recovery_ui(context: &Context, canvas: Rect, all: &[Recoverable]) -> Option<Choice> {
     if all.is_empty() {
         return None;
     }
@@ -42,17 +42,14 @@ pub fn recovery_ui(context: &Context, all: &[Recoverable]) -> Option<Choice> {
         .id(Id::unique("recovered documents"))
         .frame(widgets::dialog_frame(&context.global_style()))
         .pivot(Align2::CENTER_CENTER)
-        .default_pos(context.content_rect().center())
+        .default_pos(canvas.center())
         .title_bar(false)
         .resizable(false);
     let shown = window.show(context, |ui| {
         ui.set_width(WIDTH);
         ui.spacing_mut().item_spacing.y = 2.0 * STEP;
         ui.strong("Recovered documents");
-        widgets::note(
-            ui,
-            "Batten ended before these were saved. Open keeps going with one, as a modified document.",
-        );
+        widgets::note(ui, "Batten ended before these documents were saved.");
         let area = ScrollArea::vertical().max_height(HEIGHT);
         let chosen = area.show(ui, |ui| {
             let rows = all.iter().map(|recoverable| row_ui(ui, recoverable));
@@ -62,7 +59,9 @@ pub fn recovery_ui(context: &Context, all: &[Recoverable]) -> Option<Choice> {
         let mut later = None;
         ui.horizontal(|ui| {
             widgets::at_right(ui, |ui| {
-                let button = ui.button("Later").on_hover_text("Offer these at the next start");
+                let button = ui
+                    .button("Later")
+                    .on_hover_text("Offer these at the next start");
                 later = button.clicked().then_some(Choice::Later);
             });
         });
@@ -82,14 +81,14 @@ fn row_ui(ui: &mut Ui, recoverable: &Recoverable) -> Option<Choice> {
             let [title, lines] = texts(recoverable);
             let discard = ui.button("Discard");
             if discard
-                .accessible_name(&format!("Discard {title}"))
+                .accessible_name(format!("Discard {title}"))
                 .clicked()
             {
                 choice = Some(Choice::Discard(recoverable.id));
             }
             if recoverable.content.is_ok() {
                 let open = widgets::primary_button(ui, "Open");
-                if open.accessible_name(&format!("Open {title}")).clicked() {
+                if open.accessible_name(format!("Open {title}")).clicked() {
                     choice = Some(Choice::Open(recoverable.id));
                 }
             }
