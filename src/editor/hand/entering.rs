@@ -37,7 +37,9 @@ impl Editor {
     /// Returns whether that is another one than before.
     pub fn type_entry(&mut self, text: &str) -> bool {
         let is_point = matches!(self.entry(), Some(Entry::Point(_)));
-        let typed = TypedPoint::read(text).ok().filter(|_| is_point);
+        let typed = TypedPoint::read(text, self.document().unit())
+            .ok()
+            .filter(|_| is_point);
         let before = std::mem::replace(&mut self.hand.typed, typed);
         before != typed
     }
@@ -47,14 +49,15 @@ impl Editor {
     /// # Errors
     /// [`EntryError`] if the text means nothing, or nothing can be done; nothing is changed then.
     pub fn enter(&mut self, text: &str) -> Result<(), EntryError> {
+        let unit = self.document().unit();
         match self.entry() {
-            Some(Entry::Point(_)) => self.enter_point(TypedPoint::read(text)?),
+            Some(Entry::Point(_)) => self.enter_point(TypedPoint::read(text, unit)?),
             Some(Entry::Angle) => {
-                let angle = read_number(text, Quantity::Angle)?.to_radians();
+                let angle = read_number(text, Quantity::Angle, unit)?.to_radians();
                 self.enter_transformation(Transformation::Rotate(angle))
             }
             Some(Entry::Factor) => {
-                let factor = read_number(text, Quantity::Number)?;
+                let factor = read_number(text, Quantity::Number, unit)?;
                 self.enter_transformation(Transformation::Scale(factor))
             }
             None => Ok(()),

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 use thiserror::Error;
 
 use crate::editor::hand::drawing_plane::DrawingPlane;
-use crate::geometry::expressions::{ExpressionMistake, NumberContext, Quantity, parts};
+use crate::geometry::expressions::{ExpressionMistake, LengthUnit, NumberContext, Quantity, parts};
 
 /// Why nothing can be made of a text.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -58,30 +58,30 @@ pub enum TypedPoint {
 }
 
 impl TypedPoint {
-    /// Read a text.
+    /// Read a text in a document with a unit of length, or without one.
     ///
     /// # Errors
     /// [`EntryError`] with the column in this text.
-    pub fn read(text: &str) -> Result<Self, EntryError> {
+    pub fn read(text: &str, unit: Option<LengthUnit>) -> Result<Self, EntryError> {
         let leading = text.chars().take_while(|it| it.is_whitespace()).count();
         let trimmed = text.trim();
         match trimmed.strip_prefix('@') {
-            Some(step) => Self::read_step(step, leading + 1),
-            None => match read_coordinates(trimmed, leading)? {
+            Some(step) => Self::read_step(step, leading + 1, unit),
+            None => match read_coordinates(trimmed, leading, unit)? {
                 Coordinates::Plane(point) => Ok(Self::InPlane(point)),
                 Coordinates::Space(point) => Ok(Self::InSpace(point)),
             },
         }
     }
 
-    fn read_step(step: &str, before: usize) -> Result<Self, EntryError> {
+    fn read_step(step: &str, before: usize, unit: Option<LengthUnit>) -> Result<Self, EntryError> {
         if let [(at, length), (angle_at, angle)] = parts(step, '<').as_slice() {
             return Ok(Self::Polar {
-                length: number(length, before + at, Quantity::Length)?,
-                degrees: number(angle, before + angle_at, Quantity::Angle)?,
+                length: number(length, before + at, (Quantity::Length, unit))?,
+                degrees: number(angle, before + angle_at, (Quantity::Angle, unit))?,
             });
         }
-        match read_coordinates(step, before)? {
+        match read_coordinates(step, before, unit)? {
             Coordinates::Plane(step) => Ok(Self::StepInPlane(step)),
             Coordinates::Space(step) => Ok(Self::StepInSpace(step)),
         }
@@ -119,11 +119,15 @@ enum Coordinates {
 }
 
 /// Read numbers with commas between them, after so many characters of the whole text.
-fn read_coordinates(text: &str, before: usize) -> Result<Coordinates, EntryError> {
+fn read_coordinates(
+    text: &str,
+    before: usize,
+    unit: Option<LengthUnit>,
+) -> Result<Coordinates, EntryError> {
     let parts = parts(text, ',');
     let numbers = parts
         .iter()
-        .map(|(at, part)| number(part, before + at, Quantity::Length))
+        .map(|(at, part)| number(part, before + at, (Quantity::Length, unit)))
         .collect::<Result<Vec<f64>, EntryError>>()?;
     match (numbers.as_slice(), parts.get(3)) {
         ([x, y], _) => Ok(Coordinates::Plane(DVec2::new(*x, *y))),
@@ -141,8 +145,12 @@ fn read_coordinates(text: &str, before: usize) -> Result<Coordinates, EntryError
 }
 
 /// Read a number of a part that begins after so many characters.
-fn number(part: &str, before: usize, quantity: Quantity) -> Result<f64, EntryError> {
-    let number = read_number(part, quantity);
+fn number(
+    part: &str,
+    before: usize,
+    (quantity, unit): (Quantity, Option<LengthUnit>),
+) -> Result<f64, EntryError> {
+    let number = read_number(part, quantity, unit);
     Ok(number.map_err(|mistake| mistake.shifted(before))?)
 }
 
@@ -150,10 +158,15 @@ fn number(part: &str, before: usize, quantity: Quantity) -> Result<f64, EntryErr
 ///
 /// # Errors
 /// [`ExpressionMistake`] with the column in this text.
-pub fn read_number(text: &str, quantity: Quantity) -> Result<f64, ExpressionMistake> {
+pub fn read_number(
+    text: &str,
+    quantity: Quantity,
+    unit: Option<LengthUnit>,
+) -> Result<f64, ExpressionMistake> {
     let context = NumberContext {
         quantity,
-        ..NumberContext::default()
+        unit,
+        before: None,
     };
     context.read(text)
 }
@@ -165,7 +178,7 @@ mod tests {
 
     fn point(text: &str, from: Option<DVec3>) -> Result<DVec3, EntryError> {
         let plane = DrawingPlane::of(&Viewport::default());
-        TypedPoint::read(text)?.point(from, &plane)
+        TypedPoint::read(text, Some(LengthUnit::Centimetre))?.point(from, &plane)
     }
 
     #[test]
@@ -173,6 +186,7 @@ mod tests {
         let from = Some(DVec3::new(1.0, 2.0, 3.0));
         for (text, expected) in [
             ("4,5", DVec3::new(4.0, 5.0, 3.0)),
+            ("40mm, 2*2.5cm", DVec3::new(4.0, 5.0, 3.0)),
             (" -4 , .5 ", DVec3::new(-4.0, 0.5, 3.0)),
             ("4,5,6", DVec3::new(4.0, 5.0, 6.0)),
             ("@4,−5", DVec3::new(5.0, -3.0, 3.0)),
