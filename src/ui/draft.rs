@@ -247,7 +247,9 @@ impl Remark {
 pub fn caret_ui(ui: &Ui, field: &TextEditOutput, column: usize) {
     let cursor = CCursor::new(column.saturating_sub(1));
     let place = field.galley.pos_from_cursor(cursor);
-    let mut tip = place.translate(field.galley_pos.to_vec2()).left_bottom();
+    // What is aligned to the right begins left of its origin.
+    let origin = field.galley_pos - vec2(field.galley.rect.left(), 0.0);
+    let mut tip = place.translate(origin.to_vec2()).left_bottom();
     // A long text is scrolled.
     let rect = field.response.response.rect;
     tip.x = tip.x.clamp(rect.left(), rect.right());

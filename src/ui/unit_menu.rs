@@ -1,7 +1,7 @@
 //! The document's unit of length and the step of the arrow keys, in a menu.
 
 use eframe::egui::{
-    Popup, PopupCloseBehavior, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo,
+    Align2, Popup, PopupCloseBehavior, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo,
 };
 
 use super::action::Action;
@@ -57,13 +57,15 @@ fn cell_ui(ui: &mut Ui, unit: Option<LengthUnit>) -> Response {
     ui.painter()
         .vline(divider, rect.y_range(), Stroke::new(1.0, tokens.outline));
     let text = unit.map_or("none", LengthUnit::symbol);
-    widgets::label_in(ui, rect, "Unit", tokens.faint_text);
+    let font = theme::small_font();
+    let (left, right) = (Align2::LEFT_CENTER, Align2::RIGHT_CENTER);
+    let faint = tokens.faint_text;
+    ui.painter()
+        .text(rect.left_center(), left, "unit", font.clone(), faint);
     let colour = match response.hovered() {
         true => tokens.strong_text,
         false => tokens.text,
     };
-    let font = theme::small_font();
-    let right = eframe::egui::Align2::RIGHT_CENTER;
     ui.painter()
         .text(rect.right_center(), right, text, font, colour);
     if response.has_focus() {
