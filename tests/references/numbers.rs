@@ -162,7 +162,8 @@ proptest! {
             for (byte, _) in case.text.char_indices() {
                 let begun = &case.text[..byte];
                 let angle = context.read(begun).is_err_and(|mistake| {
-                    matches!(mistake.error, ExpressionError::WrongQuantity { .. })
+                    use ExpressionError::{Mixed, WrongQuantity};
+                    matches!(mistake.error, WrongQuantity { .. } | Mixed(_))
                 });
                 prop_assert!(angle || context.is_begun(begun), "{begun} of {}", case.text);
             }
