@@ -1,13 +1,13 @@
 //! The end-fit panel's fields for what a target has beyond its direction: curvature, osculating plane
 //! and slope.
 
-use eframe::egui::{Checkbox, Ui};
+use eframe::egui::{Checkbox, Role, Sense, Ui, WidgetInfo, vec2};
 use glam::DVec3;
 
 use super::end_fit_asked::Asked;
 use super::end_fit_steps::field_width;
 use super::number_field::NumberField;
-use super::theme::STEP;
+use super::theme::{ROW, STEP, Tokens};
 use super::{figures, widgets};
 use crate::editor::{EndFitAction, EndFitReport};
 use crate::geometry::expressions::Quantity;
@@ -76,7 +76,11 @@ impl Row {
                 None => {
                     let actual = self.actual.map(|it| figures::significant(it, 6));
                     let actual = actual.unwrap_or_else(|| "none".to_owned());
-                    widgets::caption(ui, &format!("free; now {actual}"));
+                    let size = vec2(FIELD, ROW);
+                    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+                    let text = format!("now {actual}");
+                    widgets::number_in(ui, rect, &text, Tokens::of(ui).faint_text);
+                    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &text));
                 }
             }
             let can_fix = report.tangent.is_some() || self.value.is_some();

@@ -1,6 +1,6 @@
 //! The end-fit panel: the seven steps, each with its live figures and its button.
 
-use eframe::egui::{Button, Checkbox, Ui, vec2};
+use eframe::egui::{self, Button, Checkbox, Frame, Ui, vec2};
 use glam::DVec3;
 use lucide_icons::Icon;
 
@@ -24,38 +24,36 @@ use crate::operations::LargestMove;
 /// The width of a field for a coordinate.
 const FIELD: f32 = 72.0;
 
-/// The panel's own state.
-#[derive(Default)]
-pub struct EndFitPanel {
-    /// The step whose button was pressed last: its outcome is told there.
-    step: Option<usize>,
-}
+/// The height of the place where it is told what the last action came to.
+const OUTCOME: f32 = 15.0 * STEP;
 
-impl EndFitPanel {
-    /// Show the panel.
-    pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor) {
-        let Some(report) = editor.end_fit() else {
-            empty_ui(ui, editor);
-            return;
-        };
-        let mut panel = Panel {
-            report: &report,
-            closed: !editor.layers().shows(Layer::Float),
-            pixel: editor.view().viewport().pixel(),
-            step: self.step,
-            asked: None,
-        };
+/// Show the panel: the steps, and below them, in a place of its own, what the last one came to.
+pub fn end_fit_panel_ui(ui: &mut Ui, editor: &mut Editor) {
+    let Some(report) = editor.end_fit() else {
+        empty_ui(ui, editor);
+        return;
+    };
+    let place = egui::Panel::bottom("end fit outcome").resizable(false);
+    let place = place.frame(Frame::NONE).exact_size(OUTCOME);
+    place.show(ui, |ui| {
+        widgets::scrolling(ui, "end fit outcome", |ui| outcome_ui(ui, &report));
+    });
+    let mut panel = Panel {
+        report: &report,
+        closed: !editor.layers().shows(Layer::Float),
+        pixel: editor.view().viewport().pixel(),
+        asked: None,
+    };
+    widgets::scrolling(ui, "end fit", |ui| {
         // Fields of their own for each end of each curve: what is typed is for no other.
         ui.push_id((editor.active(), report.end), |ui| panel.show(ui));
-        if let Some((step, action)) = panel.asked {
-            self.step = Some(step);
-            match action {
-                Asked::Action(action) => told(editor.end_fit_action(action)),
-                Asked::Preview(action) => editor.preview_end_fit(action),
-                Asked::Commit => editor.commit_preview(),
-                Asked::Abort => editor.abort_preview(),
-            }
-        }
+    });
+    match panel.asked {
+        None => {}
+        Some(Asked::Action(action)) => told(editor.end_fit_action(action)),
+        Some(Asked::Preview(action)) => editor.preview_end_fit(action),
+        Some(Asked::Commit) => editor.commit_preview(),
+        Some(Asked::Abort) => editor.abort_preview(),
     }
 }
 
@@ -77,12 +75,8 @@ struct Panel<'a> {
     /// Whether the closed S-polygon stands in for the float one.
     closed: bool,
     pixel: f64,
-    step: Option<usize>,
-    asked: Option<(usize, Asked)>,
+    asked: Option<Asked>,
 }
-
-/// The number under which the target's fields stand: they are no step.
-const TARGET: usize = 0;
 
 impl Panel<'_> {
     fn show(&mut self, ui: &mut Ui) {
@@ -101,8 +95,8 @@ impl Panel<'_> {
         self.repeat_ui(ui);
     }
 
-    fn ask(&mut self, step: usize, action: EndFitAction) {
-        self.asked = Some((step, Asked::Action(action)));
+    fn ask(&mut self, action: EndFitAction) {
+        self.asked = Some(Asked::Action(action));
     }
 
     fn ends_ui(&mut self, ui: &mut Ui) {
@@ -114,7 +108,7 @@ impl Panel<'_> {
                     let button = Button::selectable(self.report.end == end, name);
                     let response = ui.add_sized(vec2(56.0, ROW), button);
                     if response.clicked() {
-                        self.ask(TARGET, EndFitAction::Choose(end));
+                        self.ask(EndFitAction::Choose(end));
                     }
                 }
             });
@@ -130,7 +124,7 @@ impl Panel<'_> {
                 self.point_ui(ui, point);
                 self.direction_ui(ui);
                 if let Some(asked) = curvature_ui(ui, report) {
-                    self.asked = Some((TARGET, asked));
+                    self.asked = Some(asked);
                 }
             });
         } else {
@@ -147,19 +141,18 @@ impl Panel<'_> {
                 .on_hover_text("Set the target to where the end is now")
                 .clicked()
             {
-                self.ask(TARGET, EndFitAction::TargetActual);
+                self.ask(EndFitAction::TargetActual);
             }
             if ui
                 .add_enabled(report.target_point.is_some(), Button::new("Clear"))
                 .clicked()
             {
-                self.ask(TARGET, EndFitAction::ClearTarget);
+                self.ask(EndFitAction::ClearTarget);
             }
         });
         if let Some(action) = match_ui(ui, report) {
-            self.ask(TARGET, action);
+            self.ask(action);
         }
-        self.outcome_ui(ui, TARGET);
     }
 
     /// The end as it is: its point, and its tangent, the closed S-polygon's outermost leg.
@@ -230,7 +223,7 @@ impl Panel<'_> {
         let button = IconButton::new(Icon::ArrowLeftRight, "Flip direction");
         let enabled = self.report.target_direction.is_some();
         if button.enabled(enabled).show(ui).clicked() {
-            self.ask(TARGET, EndFitAction::TurnRound);
+            self.ask(EndFitAction::TurnRound);
         }
     }
 
@@ -240,7 +233,7 @@ impl Panel<'_> {
         let tooltip = "Give the tangent a direction";
         if free.on_hover_text(tooltip).clicked() {
             let actual = self.report.tangent.unwrap_or(DVec3::X);
-            self.ask(TARGET, EndFitAction::SetDirection(fixed.then_some(actual)));
+            self.ask(EndFitAction::SetDirection(fixed.then_some(actual)));
         }
     }
 
@@ -278,7 +271,7 @@ impl Panel<'_> {
 
     fn field(&mut self, event: FieldEvent, action: impl Fn(f64) -> EndFitAction) {
         if let Some(asked) = Asked::of_field(event, action) {
-            self.asked = Some((TARGET, asked));
+            self.asked = Some(asked);
         }
     }
 
@@ -302,7 +295,7 @@ impl Panel<'_> {
                 let response =
                     response.accessible_name(format!("Show {} S-polygon", name.to_lowercase()));
                 if response.clicked() && closed != wanted {
-                    self.ask(2, EndFitAction::ShowClosed(wanted));
+                    self.ask(EndFitAction::ShowClosed(wanted));
                 }
             }
         });
@@ -355,10 +348,9 @@ impl Panel<'_> {
                 .accessible_name("Translate terminal vertices");
             let tooltip = "Translate the terminal vertices, as one body, by the difference vector";
             if response.on_hover_text(tooltip).clicked() {
-                self.ask(5, EndFitAction::Translate);
+                self.ask(EndFitAction::Translate);
             }
         });
-        self.outcome_ui(ui, 5);
     }
 
     fn rotate_ui(&mut self, ui: &mut Ui) {
@@ -370,10 +362,9 @@ impl Panel<'_> {
                 .accessible_name("Rotate terminal vertices");
             let tooltip = "Rotate them about the end point by the difference angle";
             if response.on_hover_text(tooltip).clicked() {
-                self.ask(6, EndFitAction::Rotate);
+                self.ask(EndFitAction::Rotate);
             }
         });
-        self.outcome_ui(ui, 6);
     }
 
     fn repeat_ui(&mut self, ui: &mut Ui) {
@@ -382,7 +373,7 @@ impl Panel<'_> {
             let response = step_button(ui, "Repeat", report.targets > 0 && report.can_move());
             let tooltip = "Repeat steps 2 to 6 on both ends until within the tolerance";
             if response.on_hover_text(tooltip).clicked() {
-                self.ask(7, EndFitAction::Repeat);
+                self.ask(EndFitAction::Repeat);
             }
         });
         indented(ui, |ui| {
@@ -401,7 +392,6 @@ impl Panel<'_> {
             widgets::figure_row(ui, "Passes", &passes);
             self.tolerance_ui(ui);
         });
-        self.outcome_ui(ui, 7);
         // Once the ends are met, or the loop has said the same, there is nothing to warn of.
         let failed = report.outcome.as_ref().is_some_and(Result::is_err);
         if !report.within && !failed {
@@ -419,7 +409,7 @@ impl Panel<'_> {
                     .typed_only()
                     .width(FIELD + 24.0);
             if let FieldEvent::Typed(value) = field.show(ui).1 {
-                self.ask(7, EndFitAction::SetTolerance(value));
+                self.ask(EndFitAction::SetTolerance(value));
             }
         });
     }
@@ -435,32 +425,30 @@ impl Panel<'_> {
             .inner;
         let tooltip = "Meet all targets together by the least disturbance of the vertices";
         if response.on_hover_text(tooltip).clicked() {
-            self.ask(7, EndFitAction::BothAtOnce);
+            self.ask(EndFitAction::BothAtOnce);
         }
-        if let Some(LargestMove { distance, vertex }) = report.largest_move {
-            let text = format!("{} at vertex {vertex}", figures::significant(distance, 4));
-            widgets::figure_row(ui, "Largest move", &text);
-        }
+        let largest = report.largest_move.map(|LargestMove { distance, vertex }| {
+            format!("{} at vertex {vertex}", figures::significant(distance, 4))
+        });
+        widgets::figure_row(ui, "Largest move", &largest.unwrap_or("–".to_owned()));
     }
+}
 
-    /// Tell what the last action came to, below the button that was pressed.
-    fn outcome_ui(&self, ui: &mut Ui, step: usize) {
-        let (text, failed) = match &self.report.outcome {
-            None => return,
-            Some(Ok(note)) => (&note.text, false),
-            Some(Err(Refusal(reason))) => (reason, true),
-        };
-        let place = self.step.unwrap_or(7);
-        if place != step || text.is_empty() {
-            return;
-        }
-        let tokens = Tokens::of(ui);
-        let (icon, colour) = if failed {
-            (Icon::TriangleAlert, tokens.error)
-        } else {
-            (Icon::Check, tokens.good)
-        };
-        indented(ui, |ui| remark_ui(ui, icon, text, colour));
+/// Tell what the last action came to.
+fn outcome_ui(ui: &mut Ui, report: &EndFitReport) {
+    let (text, failed) = match &report.outcome {
+        None => return,
+        Some(Ok(note)) => (&note.text, false),
+        Some(Err(Refusal(reason))) => (reason, true),
+    };
+    let tokens = Tokens::of(ui);
+    let (icon, colour) = if failed {
+        (Icon::TriangleAlert, tokens.error)
+    } else {
+        (Icon::Check, tokens.good)
+    };
+    if !text.is_empty() {
+        remark_ui(ui, icon, text, colour);
     }
 }
 

@@ -2,6 +2,7 @@
 
 use eframe::egui::{Role, Sense, Ui, WidgetInfo, vec2};
 
+use super::steady_rows::SteadyRows;
 use super::theme::{STEP, Tokens};
 use super::{figures, widgets};
 use crate::editor::Trial;
@@ -18,15 +19,36 @@ const COLUMN: f32 = 96.0;
 /// How many features of a kind there are.
 type Count = fn(&FeatureCounts) -> usize;
 
-/// The proved features, before and afterwards, of each kind that there is.
-pub fn features_ui(ui: &mut Ui, trial: &Trial) {
-    let Some((features, current)) = trial.features() else {
-        widgets::figure_row(ui, "Features", "proving…");
-        return;
-    };
-    if !current && !trial.is_pending() {
-        ui.multiply_opacity(OUTDATED);
+/// What is shown of an operation's features: rows keep their places.
+#[derive(Default)]
+pub struct Comparison {
+    rows: SteadyRows,
+    /// Whether figures take a line of their own, as those of several curves do.
+    is_wide: bool,
+}
+
+impl Comparison {
+    /// Show the proved features, before and afterwards, of each kind that there is.
+    pub fn show(&mut self, ui: &mut Ui, trial: &Trial) {
+        let Some((features, current)) = trial.features() else {
+            widgets::figure_row(ui, "Features", "proving…");
+            return;
+        };
+        if !current && !trial.is_pending() {
+            ui.multiply_opacity(OUTDATED);
+        }
+        let (before, after) = (&features.before, &features.after);
+        self.is_wide |= before.len().max(after.len()) > 1;
+        before_after_ui(ui, "", ["before", "after"], false);
+        for (name, texts) in self.rows.in_place(rows(before, after)) {
+            let texts = texts.unwrap_or_else(|| ["–".to_owned(), "–".to_owned()]);
+            before_after_ui(ui, name, [&texts[0], &texts[1]], self.is_wide);
+        }
     }
+}
+
+/// The rows: name, text before and text afterwards.
+fn rows(before: &[FeatureCounts], after: &[FeatureCounts]) -> Vec<(&'static str, [String; 2])> {
     let kinds: [(&str, Count); 6] = [
         ("Curvature extrema", |counts| counts.curvature_extrema),
         ("Inflections", |counts| counts.inflections),
@@ -35,26 +57,26 @@ pub fn features_ui(ui: &mut Ui, trial: &Trial) {
         ("Cusps", |counts| counts.cusps),
         ("Undecided", |counts| counts.undecided),
     ];
-    let (before, after) = (&features.before, &features.after);
-    before_after_ui(ui, "", "before", "after");
+    let mut rows = Vec::new();
     for (number, (name, count)) in kinds.into_iter().enumerate() {
         let mut all = before.iter().chain(after);
         // Extrema of the curvature are what a curve is judged by: told even if there are none.
         if number == 0 || all.any(|counts| count(counts) > 0) {
             let listed = |counts: &[FeatureCounts]| joined(counts, |c| count(c).to_string());
-            before_after_ui(ui, name, &listed(before), &listed(after));
+            rows.push((name, [listed(before), listed(after)]));
         }
     }
     let verdicts = |counts: &[FeatureCounts]| joined(counts, |c| verdict(c.monotone).to_owned());
-    before_after_ui(ui, "Monotone", &verdicts(before), &verdicts(after));
+    rows.push(("Monotone", [verdicts(before), verdicts(after)]));
     for (name, text) in HARMONY {
         let has = |counts: &FeatureCounts| text(&counts.harmony).is_some();
         if before.iter().chain(after).any(has) {
             let or_none = |text: Option<String>| text.unwrap_or_else(|| "–".to_owned());
             let told = |counts: &[FeatureCounts]| joined(counts, |c| or_none(text(&c.harmony)));
-            before_after_ui(ui, name, &told(before), &told(after));
+            rows.push((name, [told(before), told(after)]));
         }
     }
+    rows
 }
 
 /// A figure of the harmony in a few characters; `None` of a curve that has none.
@@ -120,19 +142,17 @@ fn joined(counts: &[FeatureCounts], text: impl Fn(&FeatureCounts) -> String) -> 
 }
 
 /// One row of figures in two columns: what was, and what is.
-fn before_after_ui(ui: &mut Ui, name: &str, before: &str, after: &str) {
+fn before_after_ui(ui: &mut Ui, name: &str, [before, after]: [&str; 2], is_wide: bool) {
     let told = format!("{name}: {before} before, {after} after");
     let line = 5.0 * STEP;
-    // The figures of several curves take a line of their own.
-    let wide = before.contains(", ") || after.contains(", ");
-    let lines = if wide { 2.0 } else { 1.0 };
+    let lines = if is_wide { 2.0 } else { 1.0 };
     let size = vec2(ui.available_width(), lines * line);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     let tokens = Tokens::of(ui);
     let top = rect.with_max_y(rect.top() + line);
     widgets::label_in(ui, top, name, tokens.faint_text);
     let rect = rect.with_min_y(rect.bottom() - line);
-    let column = if wide { 0.5 * rect.width() } else { COLUMN };
+    let column = if is_wide { 0.5 * rect.width() } else { COLUMN };
     let left = rect.with_max_x(rect.right() - column);
     widgets::number_in(ui, left, before, tokens.text);
     widgets::number_in(ui, rect, after, tokens.text);

@@ -60,6 +60,7 @@ mod shell;
 mod side;
 mod signals;
 mod status_bar;
+mod steady_rows;
 mod theme;
 mod tool_rail;
 mod transform_marks;

@@ -1,11 +1,11 @@
 //! The operation panel: the parameters of the operation that is tried out, and what it does.
 
-use eframe::egui::{Frame, Panel, ProgressBar, ScrollArea, Ui};
+use eframe::egui::{Frame, Panel, ProgressBar, ScrollArea, Ui, vec2};
 use lucide_icons::Icon;
 
 use super::atlas::{self, AtlasView};
 use super::operation_fields::{self, OperationFields, Refused};
-use super::operation_report::{came_to_ui, error_ui};
+use super::operation_report::{ReportView, error_ui, failure};
 use super::theme::STEP;
 use super::widgets::{self, IconButton};
 use crate::editor::{Editor, Trial, told};
@@ -14,14 +14,15 @@ use crate::operations::{Atlas, Parameter, Value};
 /// The most of the panel's height that fields take.
 const FIELDS: f32 = 0.5;
 
-/// The height of the buttons' place.
-const BUTTONS: f32 = 40.0;
+/// The height of the place for what is wrong, and of the buttons' below it.
+const FOOT: [f32; 2] = [9.0 * STEP, 9.0 * STEP];
 
 /// The panel's own state.
 #[derive(Default)]
 pub struct OperationPanel {
     fields: OperationFields,
     atlas: AtlasView,
+    report: ReportView,
 }
 
 /// What the user asks for.
@@ -45,18 +46,14 @@ impl OperationPanel {
         let atlas = atlas_of(trial).copied();
         let told_before = self.fields.refusal.clone();
         let mut asked = Vec::from_iter(heading_ui(ui, trial));
-        let buttons = buttons_panel_ui(ui, trial, editor.operation_progress());
+        let foot = self.foot_ui(ui, trial, editor.operation_progress());
         ui.add_space(STEP);
         asked.extend(self.fields_ui(ui, trial));
         // A click on a button also leaves a field: what was typed there counts first.
-        asked.extend(buttons);
+        asked.extend(foot);
         ui.separator();
         let mut shows_atlas = false;
         widgets::scrolling(ui, trial.operation().name, |ui| {
-            let refused = self.fields.refusal.as_ref();
-            if let Some(refused) = refused.filter(|refused| refused.parameter.is_none()) {
-                error_ui(ui, &refused.text);
-            }
             if let Some(atlas) = &atlas {
                 let view = &mut self.atlas;
                 let shown =
@@ -65,7 +62,7 @@ impl OperationPanel {
                 asked.extend(shown.flatten().map(Asked::Atlas));
                 ui.add_space(STEP);
             }
-            came_to_ui(ui, trial);
+            self.report.show(ui, trial);
         });
         editor.view_mut().show_atlas(shows_atlas);
         for asked in asked {
@@ -121,6 +118,28 @@ impl OperationPanel {
         }
     }
 
+    /// At the lower edge, whatever stands above: why nothing comes of the values, and the buttons.
+    fn foot_ui(&self, ui: &mut Ui, trial: &Trial, progress: Option<f64>) -> Option<Asked> {
+        let [wrong, buttons] = FOOT;
+        let height = if trial.is_applied() { 0.0 } else { buttons };
+        let panel = Panel::bottom("operation foot").resizable(false);
+        let panel = panel.frame(Frame::NONE).exact_size(wrong + height);
+        let asked = panel.show(ui, |ui| {
+            ui.allocate_ui(vec2(ui.available_width(), wrong), |ui| {
+                ui.set_height(wrong);
+                // What is wrong in a field stands below that.
+                let refused = self.fields.refusal.as_ref();
+                let refused = refused.filter(|refused| refused.parameter.is_none());
+                let refused = refused.map(|refused| refused.text.clone());
+                if let Some(text) = refused.or_else(|| failure(trial)) {
+                    error_ui(ui, &text);
+                }
+            });
+            (!trial.is_applied()).then(|| buttons_ui(ui, trial, progress))
+        });
+        asked.inner.flatten()
+    }
+
     fn fields_ui(&mut self, ui: &mut Ui, trial: &Trial) -> Vec<Asked> {
         let area = ScrollArea::vertical()
             .id_salt((trial.operation().name, "fields"))
@@ -139,16 +158,6 @@ impl OperationPanel {
         });
         shown.inner
     }
-}
-
-/// The buttons at the lower edge, whatever stands above them.
-fn buttons_panel_ui(ui: &mut Ui, trial: &Trial, progress: Option<f64>) -> Option<Asked> {
-    if trial.is_applied() {
-        return None;
-    }
-    let panel = Panel::bottom("operation buttons").resizable(false);
-    let panel = panel.frame(Frame::NONE).exact_size(BUTTONS);
-    panel.show(ui, |ui| buttons_ui(ui, trial, progress)).inner
 }
 
 /// The atlas that the operation offers.

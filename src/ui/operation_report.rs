@@ -1,74 +1,99 @@
 //! What the operation at hand came to: its report, its figures and the features before and afterwards.
 
-use eframe::egui::{Label, RichText, Ui};
+use eframe::egui::text::LayoutJob;
+use eframe::egui::{Label, TextStyle, Ui};
 
-use super::feature_comparison::{OUTDATED, features_ui};
+use super::feature_comparison::{Comparison, OUTDATED};
 use super::level_comparison::level_comparisons_ui;
+use super::steady_rows::SteadyRows;
 use super::theme::Tokens;
 use super::{figures, widgets};
 use crate::editor::Trial;
 use crate::geometry::rounded_up;
 use crate::operations::{Deviation, Figure, Report, Unit, Value};
 
-/// Show what the operation came to, faintly while other values are being tried.
-pub fn came_to_ui(ui: &mut Ui, trial: &Trial) {
-    ui.scope(|ui| {
-        if trial.is_pending() {
-            ui.multiply_opacity(OUTDATED);
-        }
-        match trial.run() {
-            None => {}
-            Some(Err(error)) => error_ui(ui, &error.to_string()),
-            Some(Ok(run)) => report_ui(ui, trial, &run.report),
-        }
-    });
+/// The report of one operation; its rows keep their places.
+#[derive(Default)]
+pub struct ReportView {
+    operation: &'static str,
+    figures: SteadyRows,
+    features: Comparison,
 }
 
-fn report_ui(ui: &mut Ui, trial: &Trial, report: &Report) {
-    ui.scope(|ui| {
-        ui.spacing_mut().item_spacing.y = 0.0;
-        if !report.reached {
-            error_ui(
-                ui,
-                match report.useful {
-                    true => "Not reached: this is the best found",
-                    false => "Not reached: nothing will change",
-                },
-            );
-        }
-        let length = |value: f64| figures::significant(value, 4);
-        let deviation = match report.deviation {
-            _ if !report.useful => None,
-            Deviation::Exact => Some("none, exact".to_owned()),
-            Deviation::AtMost(0.0) => Some("none".to_owned()),
-            Deviation::AtMost(bound) => Some(format!("at most {}", rounded_up(bound))),
-            Deviation::Measured(measured) => Some(length(measured)),
-            Deviation::Unmeasured => Some("another curve, not measured".to_owned()),
-        };
-        if let Some(deviation) = deviation {
-            widgets::figure_row(ui, "Deviation", &deviation);
-        }
-        if let Some(residual) = report.residual {
-            widgets::figure_row(ui, "Residual", &length(residual));
-        }
-        if let Some(largest) = report.largest_move {
-            let text = match largest.distance {
-                0.0 => "none".to_owned(),
-                distance => format!("{} at vertex {}", length(distance), largest.vertex),
+impl ReportView {
+    /// Show what the operation came to, faintly while other values are being tried.
+    pub fn show(&mut self, ui: &mut Ui, trial: &Trial) {
+        let operation = trial.operation().name;
+        if self.operation != operation {
+            *self = Self {
+                operation,
+                ..Self::default()
             };
-            widgets::figure_row(ui, "Largest move", &text);
         }
-        for figure in &report.figures {
-            widgets::figure_row(ui, figure.label, &figure_text(figure));
-        }
-        level_comparisons_ui(ui, report.equivalence.as_deref().unwrap_or_default());
-        if report.useful {
-            features_ui(ui, trial);
-        }
-    });
-    for remark in &report.remarks {
-        widgets::note(ui, remark);
+        ui.scope(|ui| {
+            if trial.is_pending() {
+                ui.multiply_opacity(OUTDATED);
+            }
+            if let Some(Ok(run)) = trial.run() {
+                self.report_ui(ui, trial, &run.report);
+            }
+        });
     }
+
+    fn report_ui(&mut self, ui: &mut Ui, trial: &Trial, report: &Report) {
+        ui.scope(|ui| {
+            ui.spacing_mut().item_spacing.y = 0.0;
+            for (name, figure) in self.figures.in_place(figures_of(report)) {
+                let figure = figure.unwrap_or_else(|| "–".to_owned());
+                widgets::figure_row(ui, name, &figure);
+            }
+            level_comparisons_ui(ui, report.equivalence.as_deref().unwrap_or_default());
+            if report.useful {
+                self.features.show(ui, trial);
+            }
+        });
+        for remark in &report.remarks {
+            widgets::note(ui, remark);
+        }
+    }
+}
+
+/// Say why nothing comes of the values, or not all that was asked for.
+pub fn failure(trial: &Trial) -> Option<String> {
+    match trial.run()? {
+        Err(error) => Some(error.to_string()),
+        Ok(run) if run.report.reached => None,
+        Ok(run) if run.report.useful => Some("Not reached: this is the best found".to_owned()),
+        Ok(_) => Some("Not reached: nothing will change".to_owned()),
+    }
+}
+
+/// The figures by their names.
+fn figures_of(report: &Report) -> Vec<(&'static str, String)> {
+    let mut rows = Vec::new();
+    let length = |value: f64| figures::significant(value, 4);
+    let deviation = match report.deviation {
+        _ if !report.useful => None,
+        Deviation::Exact => Some("none, exact".to_owned()),
+        Deviation::AtMost(0.0) => Some("none".to_owned()),
+        Deviation::AtMost(bound) => Some(format!("at most {}", rounded_up(bound))),
+        Deviation::Measured(measured) => Some(length(measured)),
+        Deviation::Unmeasured => Some("another curve, not measured".to_owned()),
+    };
+    rows.extend(deviation.map(|deviation| ("Deviation", deviation)));
+    rows.extend(
+        report
+            .residual
+            .map(|residual| ("Residual", length(residual))),
+    );
+    let largest = report.largest_move.map(|largest| match largest.distance {
+        0.0 => "none".to_owned(),
+        distance => format!("{} at vertex {}", length(distance), largest.vertex),
+    });
+    rows.extend(largest.map(|largest| ("Largest move", largest)));
+    let figures = report.figures.iter();
+    rows.extend(figures.map(|figure| (figure.label, figure_text(figure))));
+    rows
 }
 
 fn figure_text(figure: &Figure) -> String {
@@ -95,8 +120,11 @@ fn figure_text(figure: &Figure) -> String {
     }
 }
 
-/// Show an error, wrapped.
+/// Show an error on two lines; one that needs more is told on hovering.
 pub fn error_ui(ui: &mut Ui, text: &str) {
-    let text = RichText::new(text).color(Tokens::of(ui).error);
-    ui.add(Label::new(text).wrap());
+    let font = TextStyle::Body.resolve(ui.style());
+    let width = ui.available_width();
+    let mut job = LayoutJob::simple(text.to_owned(), font, Tokens::of(ui).error, width);
+    job.wrap.max_rows = 2;
+    ui.add(Label::new(job));
 }

@@ -5,7 +5,7 @@ use eframe::egui::{Button, CentralPanel, Context, Frame, Margin, Panel, Ui, vec2
 
 use super::action::Action;
 use super::curve_list::CurveList;
-use super::end_fit_panel::EndFitPanel;
+use super::end_fit_panel::end_fit_panel_ui;
 use super::feature_list::feature_list_ui;
 use super::inspector::Inspector;
 use super::operation_panel::OperationPanel;
@@ -50,7 +50,6 @@ pub struct Side {
     inspector: Inspector,
     table: VertexTable,
     operation: OperationPanel,
-    end_fit: EndFitPanel,
     transform: TransformPanel,
     tab: Tab,
     /// The task of the last frame: a new one comes to the front.
@@ -157,9 +156,7 @@ impl Side {
     fn task_ui(&mut self, ui: &mut Ui, editor: &mut Editor, task: Task) {
         match task {
             Task::Trial(_) | Task::Applied(_) => self.operation.show(ui, editor),
-            Task::Tool(ToolKind::EndFit) => {
-                widgets::scrolling(ui, "end fit", |ui| self.end_fit.show(ui, editor));
-            }
+            Task::Tool(ToolKind::EndFit) => end_fit_panel_ui(ui, editor),
             Task::Tool(_) => {
                 widgets::scrolling(ui, "tool", |ui| self.transform.show(ui, editor));
             }

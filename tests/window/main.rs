@@ -18,6 +18,7 @@ mod paper;
 mod plots;
 mod recovery;
 mod references;
+mod stillness;
 
 use batten::editor::{Layer, ToolKind};
 use batten::geometry::End;
