@@ -108,6 +108,9 @@ impl CurveList {
             text,
             is_new: true,
         });
+        if let Some(renaming) = &self.renaming {
+            select_all(context, &renaming.text);
+        }
         keyboard::claim(context, field_id(), Typing::Text, Rect::NOTHING);
         context.memory_mut(|memory| memory.request_focus(field_id()));
     }
@@ -162,11 +165,7 @@ impl CurveList {
             .desired_width(rect.width());
         let response = ui.put(rect, field).accessible_name("Curve name");
         keyboard::claim(ui.ctx(), field_id(), Typing::Text, rect);
-        if std::mem::take(&mut renaming.is_new) {
-            select_all(ui, &renaming.text);
-            return None;
-        }
-        if !response.lost_focus() {
+        if std::mem::take(&mut renaming.is_new) || !response.lost_focus() {
             return None;
         }
         let Renaming { curve, text, .. } = self.renaming.take()?;
@@ -176,13 +175,11 @@ impl CurveList {
 }
 
 /// Select the whole name: what is typed takes its place.
-fn select_all(ui: &Ui, text: &str) {
-    let Some(mut state) = TextEditState::load(ui.ctx(), field_id()) else {
-        return;
-    };
+fn select_all(context: &Context, text: &str) {
+    let mut state = TextEditState::load(context, field_id()).unwrap_or_default();
     let all = CCursorRange::two(CCursor::new(0), CCursor::new(text.chars().count()));
     state.cursor.set_char_range(Some(all));
-    state.store(ui.ctx(), field_id());
+    state.store(context, field_id());
 }
 
 fn reorder(editor: &mut Editor, curve: CurveId, place: usize) {
