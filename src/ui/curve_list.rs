@@ -77,9 +77,12 @@ impl CurveList {
         }
         let mut asked = None;
         self.rect = Some(ui.available_rect_before_wrap());
+        // Room for the bar is always kept.
+        let width = ui.available_width() - ui.spacing().scroll.allocated_width();
         ScrollArea::vertical()
             .auto_shrink([false, false])
             .show(ui, |ui| {
+                ui.set_max_width(width);
                 ui.spacing_mut().item_spacing.y = 0.0;
                 for row in rows(editor) {
                     if let Some(more) = self.row_ui(ui, &row) {

@@ -25,7 +25,7 @@ use crate::operations::LargestMove;
 const FIELD: f32 = 72.0;
 
 /// The height of the place where it is told what the last action came to.
-const OUTCOME: f32 = 15.0 * STEP;
+const OUTCOME: f32 = 10.0 * STEP;
 
 /// Show the panel: the steps, and below them, in a place of its own, what the last one came to.
 pub fn end_fit_panel_ui(ui: &mut Ui, editor: &mut Editor) {

@@ -220,14 +220,14 @@ fn row_ui(ui: &mut Ui, row: &FeatureRow, sampled: bool, is_chosen: bool) -> Resp
         format!("{name} {}", figure(at))
     };
     let mut left = rect.with_min_x(rect.left() + 6.0 * STEP);
-    left.max.x -= if high - low > WIDE { 24.0 } else { 36.0 } * STEP;
+    left.max.x -= if high - low > WIDE { 24.0 } else { 35.0 } * STEP;
     widgets::label_in(ui, left, &name, tokens.text);
     let inner = rect.with_max_x(rect.right() - STEP);
     let is_wide = row.value.is_none() && high - low > WIDE;
     let place = if is_wide {
         inner
     } else {
-        inner.with_max_x(inner.right() - 20.0 * STEP)
+        inner.with_max_x(inner.right() - 17.0 * STEP)
     };
     widgets::number_in(ui, place, &u, tokens.text);
     let value = row.value.map_or(String::new(), |bounds| {

@@ -17,7 +17,7 @@ use crate::editor::{CombSettings, Command, Editor, Layer};
 const SIDE: f32 = 28.0;
 
 /// The width that the comb's controls take.
-const COMB: f32 = 240.0;
+const COMB: f32 = 252.0;
 
 /// Show the strip in the upper left corner of the canvas; where it is narrow, the comb's controls stand
 /// below the layers.
@@ -115,14 +115,14 @@ fn comb_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
     let shown = editor.layers().shows(Layer::Comb);
     ui.spacing_mut().item_spacing.x = STEP;
     ui.add_enabled_ui(shown, |ui| {
-        caption_ui(ui, "Comb", 34.0);
+        caption_ui(ui, "Comb", 38.0);
         scale_ui(ui, editor).on_hover_text("Scale of the curvature comb");
         let reset = IconButton::new(Icon::RotateCcw, "Reset comb scale");
         let reset = reset.tooltip(Command::ResetComb.tooltip());
         if reset.show(ui).clicked() {
             commands.push(Command::ResetComb.into());
         }
-        caption_ui(ui, "Teeth", 32.0);
+        caption_ui(ui, "Teeth", 38.0);
         density_ui(ui, editor).on_hover_text("Teeth of the comb per segment");
     });
 }

@@ -1,6 +1,6 @@
 //! The paper's pages: what its figures and its table show, beside the document that they open.
 
-use eframe::egui::{Button, ComboBox, Panel, ScrollArea, Ui};
+use eframe::egui::{Button, ComboBox, Panel, Ui};
 use lucide_icons::Icon;
 
 use super::paper_pages::PaperPages;
@@ -46,19 +46,16 @@ impl PaperPanel {
         let panel = Panel::left("paper").frame(frame).resizable(true);
         let panel = panel.default_size(WIDTH[0]).size_range(WIDTH[1]..=520.0);
         let asked = panel.show(ui, |ui| {
-            let asked = heading_ui(ui, page);
-            let area = ScrollArea::vertical()
-                .id_salt(page.title())
-                .auto_shrink([false, false]);
-            let width = ui.available_width() - ui.spacing().scroll.allocated_width();
-            let opened = area.show(ui, |ui| {
-                ui.set_max_width(width);
-                ui.spacing_mut().item_spacing.y = 2.0 * STEP;
-                let opened = self.pages.show(ui, editor, page);
-                ui.add_space(2.0 * STEP);
-                opened.or(turning_ui(ui, page))
-            });
-            asked.or(opened.inner.map(Asked::Open))
+            widgets::filling(ui, |ui| {
+                let asked = heading_ui(ui, page);
+                let opened = widgets::scrolling(ui, page.title(), |ui| {
+                    ui.spacing_mut().item_spacing.y = 2.0 * STEP;
+                    let opened = self.pages.show(ui, editor, page);
+                    ui.add_space(2.0 * STEP);
+                    opened.or(turning_ui(ui, page))
+                });
+                asked.or(opened.map(Asked::Open))
+            })
         });
         match asked.inner? {
             Asked::Open(page) => Some(page),

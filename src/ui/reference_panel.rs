@@ -3,8 +3,10 @@
 use eframe::egui::Ui;
 use glam::{DQuat, DVec3, EulerRot};
 
+use super::end_fit_steps::field_width;
 use super::formula_fields::FormulaFields;
 use super::number_field::{FieldEvent, NumberField};
+use super::theme::STEP;
 use super::widgets;
 use super::{document_unit, figures};
 use crate::document::{CurveId, Reference};
@@ -73,7 +75,9 @@ pub fn placement_ui(ui: &mut Ui, editor: &mut Editor, curve: &ReferenceCurve) {
     let placement = curve.placement();
     let at = placement.translation();
     let pixel = editor.view().viewport().pixel();
+    let width = field_width(ui, 3);
     widgets::form_row(ui, "Origin", |ui| {
+        ui.spacing_mut().item_spacing.x = STEP;
         let axes = [("x", DVec3::X), ("y", DVec3::Y), ("z", DVec3::Z)];
         for (name, axis) in axes {
             let value = at.dot(axis);
@@ -82,7 +86,7 @@ pub fn placement_ui(ui: &mut Ui, editor: &mut Editor, curve: &ReferenceCurve) {
             let field = NumberField::new(&label, value, shown)
                 .speed(pixel)
                 .quantity(Quantity::Length);
-            let event = field.width(NARROW).show(ui).1;
+            let event = field.width(width).show(ui).1;
             changed(editor, event, |to| {
                 ReferenceChange::Translate(at + axis * (to - value))
             });
@@ -116,10 +120,12 @@ fn rotation_ui(ui: &mut Ui, editor: &mut Editor, rotation: DQuat) {
     }
     let (z, y, x) = rotation.to_euler(EulerRot::ZYX);
     let angles = [x, y, z];
+    let width = field_width(ui, 3);
     widgets::form_row(ui, "Angles", |ui| {
+        ui.spacing_mut().item_spacing.x = STEP;
         for (index, name) in ["angle x", "angle y", "angle z"].into_iter().enumerate() {
             let shown = angles[index].to_degrees();
-            let event = angle_field(name, shown).width(NARROW).show(ui).1;
+            let event = angle_field(name, shown).width(width).show(ui).1;
             changed(editor, event, |angle| {
                 let mut angles = angles;
                 angles[index] = angle.to_radians();

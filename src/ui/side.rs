@@ -1,7 +1,10 @@
 //! The side panel: the list of curves, and below it, one at a time, the inspector, the vertices and what
 //! the operation or the tool at hand asks for.
 
-use eframe::egui::{Button, CentralPanel, Context, Frame, Margin, Panel, Ui, vec2};
+use eframe::egui::{
+    Button, CentralPanel, Context, CursorIcon, Frame, Id, Margin, Panel, Rangef, Rect, Role, Sense,
+    Stroke, Ui, WidgetInfo, vec2,
+};
 
 use super::action::Action;
 use super::curve_list::CurveList;
@@ -9,14 +12,15 @@ use super::end_fit_panel::end_fit_panel_ui;
 use super::feature_list::feature_list_ui;
 use super::inspector::Inspector;
 use super::operation_panel::OperationPanel;
-use super::theme::{ROW, STEP};
+use super::theme::{ROW, STEP, Tokens};
 use super::transform_panel::TransformPanel;
 use super::vertex_table::VertexTable;
 use super::widgets;
 use crate::editor::{Editor, ToolKind};
 
-/// The share of the height that curves and features take at first, and the most that they take.
-const SHARES: [f32; 2] = [0.22, 0.6];
+/// The share of the height that the list of curves takes at first, that of features, and the most that
+/// either takes.
+const SHARES: [f32; 3] = [0.22, 0.3, 0.6];
 
 /// The least height of the lists of curves and of features.
 const LEAST: f32 = 5.0 * ROW;
@@ -61,10 +65,8 @@ pub struct Side {
 impl Side {
     /// Show the panel in all the room that there is.
     pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
-        let height = ui.available_height();
-        let curves = list_panel(Panel::top("curves"), height);
-        curves.show(ui, |ui| {
-            widgets::filling(ui, |ui| self.curves.show(ui, editor, commands));
+        list_ui(ui, Edge::Top, "curves", |ui| {
+            self.curves.show(ui, editor, commands);
         });
         self.notice_task(editor);
         let bar = Panel::top("side tabs").resizable(false).exact_size(TABS[0]);
@@ -132,13 +134,9 @@ impl Side {
         });
         let task = self.task.filter(|_| self.is_task_in_front);
         if task.is_none() && self.tab == Tab::Inspector {
-            let height = ui.available_height();
-            let features = list_panel(Panel::bottom("features"), height);
-            features.show(ui, |ui| {
-                widgets::filling(ui, |ui| {
-                    ui.strong("Features");
-                    feature_list_ui(ui, editor);
-                });
+            list_ui(ui, Edge::Bottom, "features", |ui| {
+                ui.strong("Features");
+                feature_list_ui(ui, editor);
             });
         }
         let body = CentralPanel::default().frame(pad);
@@ -201,12 +199,55 @@ fn task(editor: &Editor) -> Option<Task> {
     Some(Task::Applied(trial.operation().name))
 }
 
-/// A list with a height of its own that the user can change, and nothing else does.
-fn list_panel(panel: Panel, height: f32) -> Panel {
-    let [first, most] = SHARES;
-    panel
+/// Where a list stands.
+#[derive(Clone, Copy)]
+enum Edge {
+    Top,
+    Bottom,
+}
+
+/// Show a list with a share of the height that the user can change, and nothing else does.
+fn list_ui(ui: &mut Ui, edge: Edge, name: &str, contents: impl FnOnce(&mut Ui)) {
+    let height = ui.available_height();
+    let id = Id::unique(name);
+    let [curves, features, most] = SHARES;
+    let (panel, first) = match edge {
+        Edge::Top => (Panel::top(name), curves),
+        Edge::Bottom => (Panel::bottom(name), features),
+    };
+    let share = ui.data_mut(|data| data.get_persisted::<f32>(id));
+    let most = (most * height).max(LEAST);
+    let size = (share.unwrap_or(first) * height).clamp(LEAST, most);
+    let panel = panel
         .frame(Frame::NONE.inner_margin(Margin::symmetric(12, 8)))
-        .resizable(true)
-        .default_size((first * height).max(LEAST))
-        .size_range(LEAST..=(most * height).max(LEAST))
+        .resizable(false)
+        .exact_size(size.round());
+    let rect = panel.show(ui, |ui| widgets::filling(ui, contents));
+    let rect = rect.response.rect;
+    let line = match edge {
+        Edge::Top => rect.bottom(),
+        Edge::Bottom => rect.top(),
+    };
+    if let Some(at) = handle_ui(ui, name, rect.x_range(), line) {
+        let wanted = match edge {
+            Edge::Top => at - rect.top(),
+            Edge::Bottom => rect.bottom() - at,
+        };
+        let share = wanted.clamp(LEAST, most) / height;
+        ui.data_mut(|data| data.insert_persisted(id, share));
+    }
+}
+
+/// The edge of a list, which can be dragged; tells to where.
+fn handle_ui(ui: &mut Ui, name: &str, across: Rangef, line: f32) -> Option<f32> {
+    let place = Rect::from_x_y_ranges(across, Rangef::point(line).expand(0.5 * STEP));
+    let handle = ui.interact(place, Id::unique(name).with("edge"), Sense::drag());
+    let handle = handle.on_hover_and_drag_cursor(CursorIcon::ResizeVertical);
+    if handle.hovered() || handle.dragged() {
+        let stroke = Stroke::new(1.0, Tokens::of(ui).accent);
+        ui.painter().hline(across, line, stroke);
+    }
+    handle.widget_info(|| WidgetInfo::labeled(Role::Splitter, true, format!("Resize {name}")));
+    let at = handle.interact_pointer_pos().filter(|_| handle.dragged());
+    at.map(|at| at.y)
 }
