@@ -449,7 +449,7 @@ fn choosing_a_feature_in_the_list_shows_how_to_lose_it() {
     let mut window = open_window();
     choose(&mut window, &["File", "Examples", "S-curve"]);
     let row = window
-        .query_all_by_label_contains("κ maximum at")
+        .query_all_by_label_contains("κ maximum, ")
         .next()
         .expect("a row");
     row.click();
