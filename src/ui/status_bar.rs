@@ -21,7 +21,7 @@ const HINT: f32 = 280.0;
 const GAP: f32 = 4.0 * STEP;
 
 /// The cells that give way where there is too little room, the first one first.
-const GIVING_WAY: [&str; 2] = ["u", "κ"];
+const GIVING_WAY: [&str; 3] = ["u", "t", "κ"];
 
 /// Show the bar.
 pub fn status_bar_ui(ui: &mut Ui, editor: &mut Editor, shell: &Shell, actions: &mut Vec<Action>) {
