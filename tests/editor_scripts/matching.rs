@@ -486,7 +486,7 @@ fn an_export_names_the_matches_of_what_it_holds() {
         let export = Export { extension, polygon };
         told(script.editor.export(&path, &export));
         let message = script.message();
-        let line = "that its start is matched to “first”";
+        let line = "the match of its start to “first” isn't stored";
         assert!(message.contains(line), "{message}");
     }
     // A curve that is hidden is not exported, and nothing of it is lost.
@@ -495,7 +495,7 @@ fn an_export_names_the_matches_of_what_it_holds() {
     let polygon = PolygonKind::Float;
     told(script.editor.export(&path, &Export { extension, polygon }));
     assert!(
-        !script.message().contains("matched"),
+        !script.message().contains("the match of"),
         "{}",
         script.message()
     );

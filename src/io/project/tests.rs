@@ -654,16 +654,16 @@ fn matches_that_cannot_be_are_refused() {
         ),
         (
             matched("1", "1", "0"),
-            "the project's matches cannot be: “b” cannot be matched to itself: choose another curve",
+            "the project's matches are impossible: “b” cannot be matched to itself: choose another curve",
         ),
         (
             matched("1", "0", "1.5"),
-            "the project's matches cannot be: “b” cannot be matched to “a”: an end needs an open \
+            "the project's matches are impossible: “b” cannot be matched to “a”: an end needs an open \
              curve, and u must lie on the curve",
         ),
         (
             circle,
-            "the project's matches cannot be: “b” follows “a” already: remove that match first",
+            "the project's matches are impossible: “b” follows “a” already: remove that match first",
         ),
         (
             matched("1", "0", "\"middle\""),
