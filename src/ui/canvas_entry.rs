@@ -15,6 +15,7 @@ use super::widgets::{self, IconButton};
 use super::{figures, inspector};
 use crate::editor::{Editor, Entry, EntryError, LegLocks};
 use crate::geometry::MAX_DEGREE;
+use crate::geometry::expressions::Quantity;
 
 /// What texts begin with that are numbers or points.
 const BEGINNINGS: [char; 5] = ['-', '−', '.', '@', '('];
@@ -191,11 +192,21 @@ fn leg_ui(ui: &mut Ui, editor: &mut Editor) {
     let pixel = editor.view().viewport().pixel();
     let length = leg.map(|leg| leg.length);
     let shown = |value| figures::to_resolution(value, 0.1 * pixel);
-    let length = figure_ui(ui, ("Length", "leg length"), (locks.length, length), shown);
+    let length = figure_ui(
+        ui,
+        ("Length", "leg length", Quantity::Length),
+        (locks.length, length),
+        shown,
+    );
     ui.add_space(2.0 * STEP);
     let degrees = leg.and_then(|leg| leg.degrees);
     let shown = |value| format!("{}°", figures::to_resolution(value, 0.01));
-    let degrees = figure_ui(ui, ("Angle", "leg angle"), (locks.degrees, degrees), shown);
+    let degrees = figure_ui(
+        ui,
+        ("Angle", "leg angle", Quantity::Angle),
+        (locks.degrees, degrees),
+        shown,
+    );
     let new = LegLocks { length, degrees };
     if new != locks {
         editor.lock_leg(new);
@@ -226,7 +237,7 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor) {
 /// A figure of the leg, and whether it is locked: typing it locks it. Returns the locked value.
 fn figure_ui(
     ui: &mut Ui,
-    (caption, name): (&str, &str),
+    (caption, name, quantity): (&str, &str, Quantity),
     (locked, drawn): (Option<f64>, Option<f64>),
     shown: impl Fn(f64) -> String,
 ) -> Option<f64> {
@@ -235,6 +246,7 @@ fn figure_ui(
     let text = value.map_or_else(|| "–".to_owned(), shown);
     let field = NumberField::new(name, value.unwrap_or(0.0), text)
         .width(FIGURE)
+        .quantity(quantity)
         .typed_only();
     let typed = match field.show(ui).1 {
         FieldEvent::Typed(value) => Some(value),
