@@ -21,9 +21,10 @@ fn type_keys(window: &mut Window, text: &str) {
                 modifiers: Modifiers::NONE,
             })
         };
-        event(true).map(|event| window.event(event));
-        window.event(Event::Text(character.to_string()));
-        event(false).map(|event| window.event(event));
+        let text = Some(Event::Text(character.to_string()));
+        for event in [event(true), text, event(false)].into_iter().flatten() {
+            window.event(event);
+        }
     }
     window.run();
 }
