@@ -18,6 +18,14 @@ fn sessions(folder: &Path) -> Sessions {
     Sessions::in_folder(folder.join("sessions"))
 }
 
+/// An editor with the arc.
+fn arc() -> Editor {
+    let mut editor = Editor::default();
+    editor.open_example(0).expect("the arc");
+    editor.dismiss_message();
+    editor
+}
+
 fn open_with(mut editor: Editor, folder: &Path) -> Window {
     editor.autosave_in(sessions(folder), Duration::from_secs(30));
     open_window_with(editor, 1480.0, 920.0)
@@ -25,7 +33,7 @@ fn open_with(mut editor: Editor, folder: &Path) -> Window {
 
 /// Leave a session with a vertex moved, as a crash does; `path` is the document's file.
 fn crash(folder: &Path, path: Option<&Path>) -> FloatPolygon {
-    let mut editor = Editor::new();
+    let mut editor = arc();
     if let Some(path) = path {
         editor.save(path).expect("a file");
     }
@@ -57,7 +65,7 @@ fn recovered_documents_are_listed_opened_and_discarded() {
     let path = folder.join("hull.batten");
     let changed = crash(folder, Some(&path));
     crash(folder, None);
-    let mut window = open_with(Editor::new(), folder);
+    let mut window = open_with(arc(), folder);
     let original = curve(&window).polygon;
     for text in ["hull.batten", "Untitled", "Later"] {
         window.get_by_label(text);
@@ -95,7 +103,7 @@ fn what_is_left_for_later_is_offered_again() {
     let folder = tempfile::tempdir().expect("a folder");
     crash(folder.path(), None);
     for _ in 0..2 {
-        let mut window = open_with(Editor::new(), folder.path());
+        let mut window = open_with(arc(), folder.path());
         assert!(is_offered(&window));
         click(&mut window, "Later");
         assert!(!is_offered(&window));
@@ -110,7 +118,7 @@ fn a_damaged_document_says_so_and_cannot_be_opened() {
     let found = sessions(folder.path()).abandoned();
     fs::write(found[0].path(), "{").expect("damage");
     drop(found);
-    let mut window = open_with(Editor::new(), folder.path());
+    let mut window = open_with(arc(), folder.path());
     window.get_by_label("Damaged document");
     let opens = window.query_by_label("Open Damaged document");
     assert!(opens.is_none());
@@ -121,7 +129,7 @@ fn a_damaged_document_says_so_and_cannot_be_opened() {
 /// A window on a file that another program has changed, with a change of its own.
 fn on_changed_file(folder: &Path) -> (Window, PathBuf) {
     let path = folder.join("hull.batten");
-    let mut editor = Editor::new();
+    let mut editor = arc();
     editor.save(&path).expect("a file");
     let mut window = open_window_with(editor, 1480.0, 920.0);
     let from = vertex(&window, 4);
@@ -196,7 +204,7 @@ fn a_changed_file_is_noticed_when_the_window_gets_the_keyboard() {
 #[test]
 fn the_frame_wakes_for_an_autosave_and_otherwise_rests() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut window = open_with(Editor::new(), folder.path());
+    let mut window = open_with(arc(), folder.path());
     let from = vertex(&window, 4);
     drag(&mut window, from, from + BY);
     let steps = window.run();

@@ -145,6 +145,7 @@ fn quitting_asks_about_unsaved_changes() -> Result<()> {
 fn saving_with_the_button_held_writes_the_state_before_the_drag() -> Result<()> {
     let mut display = Display::start(1600, 1000)?;
     let mut window = Window::open(&mut display, &[], 1.0)?;
+    arc::open(&mut window)?;
     let canvas = window.find("Canvas")?;
     saved(&mut window, "arc")?;
     let path = window.folder().join("arc.batten");
