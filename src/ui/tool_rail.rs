@@ -52,9 +52,9 @@ fn groups() -> Vec<Vec<Command>> {
         if starts_group {
             groups.push(Vec::new());
         }
-        groups
-            .last_mut()
-            .map(|group| group.push(Command::Tool(tool)));
+        if let Some(group) = groups.last_mut() {
+            group.push(Command::Tool(tool));
+        }
     }
     let makers = ALL
         .iter()

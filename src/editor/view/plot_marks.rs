@@ -146,7 +146,10 @@ impl Editor {
         };
         let scale = match kind {
             PlotKind::Curvature => 1.0,
-            PlotKind::Levels { plot, .. } if plot == LevelPlot::Logarithmic => return,
+            PlotKind::Levels {
+                plot: LevelPlot::Logarithmic,
+                ..
+            } => return,
             PlotKind::Levels { normalised, .. } if normalised => 1.0 / plots.length,
             PlotKind::Levels { .. } => 1.0,
             PlotKind::Harmony => {

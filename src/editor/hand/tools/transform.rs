@@ -48,7 +48,7 @@ enum State {
     Turning {
         pivot: DVec2,
         origin: DVec2,
-        taken: Transformed,
+        taken: Box<Transformed>,
         now: DVec2,
         label: String,
     },
@@ -97,7 +97,7 @@ impl TransformTool {
         self.state = State::Turning {
             pivot,
             origin,
-            taken,
+            taken: Box::new(taken),
             now: origin,
             label: String::new(),
         };
