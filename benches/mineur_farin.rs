@@ -29,6 +29,7 @@ fn atlases(criterion: &mut Criterion) {
         ("float, degree 5", Format::Float { degree: 5 }, 8, 0.0),
         ("float, degree 9", Format::Float { degree: 9 }, 12, 0.0),
         ("Bézier, degree 9", Format::Bezier, 9, 0.0),
+        ("Bézier in space, degree 9", Format::Bezier, 9, 0.3),
         (
             "float in space, degree 9",
             Format::Float { degree: 9 },

@@ -355,3 +355,58 @@ fn impossible_configurations_are_refused() {
     let none = BezierPolygon::new(1, planar(2.0, 90.0).points(0), None);
     assert!(none.is_err());
 }
+
+/// Whether the curvature rises, and falls, somewhere between samples of the Bézier curve on the points, by de
+/// Casteljau's algorithm; changes of less than `least` of it are left out.
+fn sampled_trends(points: &[DVec3], least: f64) -> [bool; 2] {
+    let curvature = |t: f64| {
+        let mut row = points.to_vec();
+        while row.len() > 3 {
+            row = row.windows(2).map(|pair| pair[0].lerp(pair[1], t)).collect();
+        }
+        let legs = [row[1] - row[0], row[2] - row[1]];
+        let velocity = legs[0].lerp(legs[1], t);
+        velocity.cross(legs[1] - legs[0]).length() / velocity.length().powi(3)
+    };
+    let values: Vec<f64> = (0..=400).map(|index| curvature(f64::from(index) / 400.0)).collect();
+    let change = |sign: f64| {
+        let mut steps = values.windows(2);
+        steps.any(|pair| sign * (pair[1] - pair[0]) > least * pair[0])
+    };
+    [change(1.0), change(-1.0)]
+}
+
+#[test]
+fn verdicts_of_bezier_curves_in_space_are_those_of_samples_and_of_whole_curves() {
+    let mut random = Random(0xb32);
+    let mut prover = SegmentProver::new(false);
+    let (mut monotone, mut whole) = (0, 0);
+    for index in 0..3000 {
+        let legs = 3 + index % 20;
+        let configuration = Configuration {
+            ratio: random.between(-2.0, 2.0).exp2(),
+            turn: random.between(-PI, PI),
+            torsion: random.between(-PI, PI),
+            ..planar(1.0, 0.0)
+        };
+        let atlas = Atlas {
+            torsion: configuration.torsion,
+            ..Atlas::around(&configuration, Format::Bezier, legs)
+        };
+        let verdict = atlas.verdict(configuration.turn, configuration.ratio, &mut prover);
+        let [rises, falls] = sampled_trends(&configuration.points(legs), 1e-11);
+        monotone += usize::from(verdict == Verdict::Proved);
+        // Near the border samples miss the extremum.
+        match verdict {
+            Verdict::Proved => assert!(!(rises && falls), "{configuration:?}, {legs} legs"),
+            Verdict::Disproved => whole += usize::from(!(rises && falls)),
+            Verdict::Undecided => panic!("{configuration:?}, {legs} legs"),
+        }
+        if index % 50 == 0 && legs <= 9 {
+            let proved = bezier_verdict(&configuration, legs);
+            assert_eq!(verdict, proved, "{configuration:?}, {legs} legs");
+        }
+    }
+    assert!(monotone > 200, "{monotone}");
+    assert!(whole < 30, "{whole} extrema between samples");
+}

@@ -35,6 +35,8 @@ pub(super) struct Application {
     pub(super) values: Vec<(&'static str, Value)>,
     /// Whether the best found is written where what was asked for is not reached.
     pub(super) best: bool,
+    /// Whether the report is printed as text, not as JSON.
+    pub(super) text: bool,
 }
 
 /// List the operations.
@@ -48,7 +50,7 @@ pub(super) fn list() -> anyhow::Result<()> {
     output::print(&ALL.iter().map(line).collect::<String>())
 }
 
-/// Apply an operation, write the document, and print the report as JSON: to the standard error if
+/// Apply an operation, write the document, and print the report: to the standard error if
 /// the document goes to the standard output. The exit code is 1, and nothing but the best found, if
 /// that is wanted, is written, if what was asked for is not reached.
 ///
@@ -66,12 +68,15 @@ pub(super) fn run(application: &Application) -> anyhow::Result<ExitCode> {
         let destination = &application.destination;
         destination.write(export.with_context(|| destination.name())?)?;
     }
-    let text = json_layout::to_text(&report);
+    let text = match application.text {
+        true => report.text(),
+        false => json_layout::to_text(&report),
+    };
     if application.destination.is_standard() {
         output::print_error(&text);
     } else {
         output::print(&text)?;
-        if !outcome.reached {
+        if !outcome.reached && !application.text {
             output::message(&report.summary());
         }
     }
@@ -110,9 +115,8 @@ impl Application {
         match self.operation.inputs {
             Inputs::None | Inputs::UpToTwo => Ok(Input::new(&document, [])?),
             Inputs::OneOrNone if self.source.is_none() => Ok(Input::new(&document, [])?),
-            Inputs::One | Inputs::OneOrNone => {
-                Ok(Input::new(&document, [self.curve(&document, 0)?])?)
-            }
+            Inputs::One => Ok(Input::new(&document, [self.curve(&document, 0)?])?),
+            Inputs::OneOrNone => self.curve_or_reference(&document),
             Inputs::Two => match second {
                 None => Ok(Input::new(&document, self.two_curves(&document)?)?),
                 Some(second) => self.with_second(document, second),
@@ -145,6 +149,23 @@ impl Application {
                 bail!("choose one with {option}: {}", there_are(document))
             }
         }
+    }
+
+    /// Choose the curve or reference that was named; without a name, the only one.
+    fn curve_or_reference(&self, document: &Document) -> anyhow::Result<Input> {
+        let mut ids = document.all_ids();
+        let id = match (&self.curves[0], ids.next(), ids.next()) {
+            (Some(name), ..) => item_named(document, name)?,
+            (None, Some(only), None) => only,
+            (None, None, _) => bail!("there is neither a curve nor a reference"),
+            _ => bail!("choose one with --curve: {}", listed(document.names())),
+        };
+        Ok(match document.reference(id) {
+            None => Input::new(document, [id])?,
+            Some(reference) => {
+                Input::new(document, [])?.with_reference(Some(reference.curve.clone()))
+            }
+        })
     }
 
     /// Find the two curves that were named; without names, both if there are just two.
@@ -234,12 +255,35 @@ fn curve_named(document: &Document, name: &str) -> anyhow::Result<CurveId> {
     }
 }
 
+/// Find a curve or reference by its name.
+fn item_named(document: &Document, name: &str) -> anyhow::Result<CurveId> {
+    let named = document.all_ids().zip(document.names());
+    let found: Vec<CurveId> = named
+        .filter(|(_, known)| *known == name)
+        .map(|(id, _)| id)
+        .collect();
+    match found[..] {
+        [id] => Ok(id),
+        [] => Err(anyhow!(
+            "there is no curve or reference {}: {}",
+            quoted(name),
+            listed(document.names())
+        )),
+        _ => Err(anyhow!(
+            "there are {} curves and references {}: give them different names first",
+            found.len(),
+            quoted(name)
+        )),
+    }
+}
+
 /// List the curves of a document by their names.
 fn there_are(document: &Document) -> String {
-    let names: Vec<String> = document
-        .curves()
-        .map(|(_, curve)| quoted(&curve.name))
-        .collect();
+    listed(document.curves().map(|(_, curve)| curve.name.as_str()))
+}
+
+fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    let names: Vec<String> = names.map(quoted).collect();
     match &names[..] {
         [name] => format!("there is {name}"),
         names => format!("there are {}", names.join(", ")),

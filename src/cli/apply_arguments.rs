@@ -1,17 +1,18 @@
 //! The arguments of `batten apply`, made from the descriptions of the operations.
 
-use std::path::PathBuf;
+use std::convert::Infallible;
+use std::path::{Path, PathBuf};
 
 use clap::builder::ValueParser;
 use clap::error::ErrorKind;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches, value_parser};
 
-use super::choice_parser::{Assignments, ChoiceParser};
+use super::choice_parser::{Assignments, ChoiceParser, no_such_parameter};
 use super::parsers::format_parser;
-use crate::geometry::references::{ReferenceCurve, ReferenceTextError};
+use crate::geometry::references::{KINDS, ReferenceCurve};
 use crate::io::Format;
 use crate::operations::{
-    ALL, Inputs, Kind, Operation, OperationError, Parameter, Unit, Value, find,
+    ALL, Choice, Inputs, Kind, Operation, OperationError, Parameter, Unit, Value, find,
 };
 
 const LIST: &str = "list";
@@ -23,6 +24,7 @@ const WITH: &str = "with";
 const FROM_FORMAT: &str = "from-format";
 const TO_FORMAT: &str = "to-format";
 const BEST: &str = "best";
+const TEXT: &str = "text";
 
 /// What `batten apply` is asked for.
 #[derive(Debug)]
@@ -54,6 +56,8 @@ pub(super) struct Given {
     pub(super) values: Vec<(&'static str, Value)>,
     /// Whether the best found is written where what was asked for is not reached.
     pub(super) best: bool,
+    /// Whether the report is printed as text.
+    pub(super) text: bool,
 }
 
 impl Args for ApplyArguments {
@@ -83,13 +87,13 @@ impl FromArgMatches for ApplyArguments {
         let chosen = chosen.and_then(|(name, matches)| Some((find(name)?, matches)));
         Ok(match chosen {
             Some((operation, matches)) => {
-                let given = Given::new(operation, matches);
-                let twice = given.twice().map(|name| {
-                    let message = format!("“{name}” is given twice: leave one of them out\n");
-                    Error::raw(ErrorKind::ArgumentConflict, message)
-                });
-                match twice {
-                    Some(error) => return Err(error),
+                let raw = |kind, message: String| Error::raw(kind, format!("{message}\n"));
+                let given = Given::new(operation, matches)
+                    .map_err(|message| raw(ErrorKind::ValueValidation, message))?;
+                let twice = given.twice();
+                let twice = twice.map(|name| format!("“{name}” is given twice: leave one of them out"));
+                match twice.or_else(|| given.misplaced()) {
+                    Some(message) => return Err(raw(ErrorKind::ArgumentConflict, message)),
                     None => Self::Run(given),
                 }
             }
@@ -105,7 +109,10 @@ impl FromArgMatches for ApplyArguments {
 
 impl Given {
     /// Take what was given for an operation, by the command that was made of it.
-    pub(super) fn new(operation: &'static Operation, matches: &ArgMatches) -> Self {
+    ///
+    /// # Errors
+    /// What is wrong with a reference.
+    pub(super) fn new(operation: &'static Operation, matches: &ArgMatches) -> Result<Self, String> {
         let path = |name| matches.try_get_one::<PathBuf>(name).ok().flatten().cloned();
         let format = |name| matches.try_get_one::<Format>(name).ok().flatten().copied();
         let name = |name| matches.try_get_one::<String>(name).ok().flatten().cloned();
@@ -118,7 +125,11 @@ impl Given {
         let mut input = path(IN);
         match matches.try_get_one::<Origin>(IN).ok().flatten() {
             Some(Origin::File(path)) => input = Some(path.clone()),
-            Some(Origin::Reference(reference)) => {
+            Some(Origin::Reference(text)) => {
+                let interval = interval_given(&values);
+                let reference = ReferenceCurve::from_text_over(text, interval);
+                let reference = reference.map_err(|error| format!("“{text}”: {error}"))?;
+                let reference = Box::new(reference);
                 let parameters = operation.parameters.iter();
                 let takes = |it: &&Parameter| matches!(it.kind, Kind::Reference { .. });
                 let value = Value::Reference(Some(reference.clone()));
@@ -126,7 +137,7 @@ impl Given {
             }
             None => {}
         }
-        Self {
+        Ok(Self {
             operation,
             input,
             second: path(SECOND),
@@ -136,7 +147,8 @@ impl Given {
             curves: [CURVE, WITH].map(name),
             values,
             best: matches.get_flag(BEST),
-        }
+            text: matches.get_flag(TEXT),
+        })
     }
 
     /// The first parameter that has two values, by an argument of its own and with a choice.
@@ -148,6 +160,29 @@ impl Given {
             before.map(|(name, _)| *name).any(|known| known == *name)
         });
         found.map(|(_, name)| name)
+    }
+
+    /// Refuse a parameter that counts only for a word that is not chosen.
+    fn misplaced(&self) -> Option<String> {
+        let choices = self.operation.parameters.iter();
+        choices
+            .filter_map(|parameter| match parameter.kind {
+                Kind::Choice { options, default } => Some((parameter.name, options, default)),
+                _ => None,
+            })
+            .find_map(|(name, options, default)| {
+                let given = self.values.iter().find_map(|(known, value)| match value {
+                    Value::Choice(index) if *known == name => Some(*index),
+                    _ => None,
+                });
+                let chosen = options.get(given.unwrap_or(default))?;
+                let mut names = self.values.iter().map(|(name, _)| *name);
+                let misplaced = names.find(|name| {
+                    let owns = |option: &Choice| option.parameters.contains(name);
+                    options.iter().any(owns) && !owns(chosen)
+                })?;
+                Some(no_such_parameter(chosen.name, misplaced, chosen.parameters))
+            })
     }
 }
 
@@ -166,7 +201,7 @@ pub(super) fn command_of(operation: &'static Operation) -> Command {
         let argument = match operation.inputs {
             Inputs::OneOrNone => path_argument(IN, help)
                 .value_name("REFERENCE|IN")
-                .value_parser(|text: &str| Origin::read(text)),
+                .value_parser(|text: &str| Ok::<_, Infallible>(Origin::of(text))),
             _ => path_argument(IN, help),
         };
         command = command.arg(argument).arg(format_argument(
@@ -187,7 +222,10 @@ pub(super) fn command_of(operation: &'static Operation) -> Command {
         format_parser(Format::writable()),
     ));
     if has_curves {
-        let curve = "The curve; needed where the file has several";
+        let curve = match operation.inputs {
+            Inputs::OneOrNone => "The curve or reference; needed where the file has several",
+            _ => "The curve; needed where the file has several",
+        };
         command = command.arg(name_argument(CURVE, curve));
     }
     if has_other {
@@ -197,26 +235,57 @@ pub(super) fn command_of(operation: &'static Operation) -> Command {
     }
     let parameters = operation.parameters.iter();
     command = command.args(parameters.map(|it| parameter_argument(it, operation.parameters)));
+    if operation.inputs == Inputs::OneOrNone {
+        let kinds: Vec<&str> = KINDS.iter().map(|kind| kind.name).collect();
+        command = command.after_help(format!(
+            "References: {}, formula. “batten references” lists them with their parameters.",
+            kinds.join(", ")
+        ));
+    }
     let best = Arg::new(BEST).long(BEST).action(ArgAction::SetTrue);
-    command.arg(best.help("Write the best found also where what was asked for is not reached; the exit code is 1 then"))
+    let text = Arg::new(TEXT).long(TEXT).action(ArgAction::SetTrue);
+    command
+        .arg(best.help("Write the best found also where what was asked for is not reached; the exit code is 1 then"))
+        .arg(text.help("Print the report as text instead of JSON"))
+}
+
+/// The interval of a reference that the parameters ask for: only there it needs points.
+fn interval_given(values: &[(&'static str, Value)]) -> [Option<f64>; 2] {
+    ["from", "to"].map(|name| {
+        values.iter().find_map(|(known, value)| match value {
+            Value::List(numbers) if *known == name => numbers.first().copied(),
+            _ => None,
+        })
+    })
 }
 
 /// What an operation on a curve or a reference is given.
 #[derive(Clone, Debug)]
 enum Origin {
     File(PathBuf),
-    Reference(Box<ReferenceCurve>),
+    /// The text of a reference, which is read once its interval is known.
+    Reference(String),
 }
 
 impl Origin {
-    /// Read a reference if the text begins with the name of a kind; else it is a path.
-    fn read(text: &str) -> Result<Self, ReferenceTextError> {
-        if ReferenceCurve::is_text(text) {
-            ReferenceCurve::from_text(text).map(|curve| Self::Reference(Box::new(curve)))
+    /// Take a text for a reference if it begins with the name of a kind, or with another word that names no
+    /// file; else it is a path.
+    fn of(text: &str) -> Self {
+        if ReferenceCurve::is_text(text) || is_unknown_word(text) {
+            Self::Reference(text.to_owned())
         } else {
-            Ok(Self::File(PathBuf::from(text)))
+            Self::File(PathBuf::from(text))
         }
     }
+}
+
+/// Whether a text is neither a file nor a name with an extension, but a word that could be a reference
+/// misspelled.
+fn is_unknown_word(text: &str) -> bool {
+    let (word, rest) = text.split_once(':').unwrap_or((text, ""));
+    let is_word = word.chars().all(|it| it.is_alphanumeric() || it == '-') && word.len() > 1;
+    let is_reference = rest.is_empty() || rest.contains('=');
+    is_word && is_reference && !Path::new(text).exists()
 }
 
 const REFERENCE_OR_CURVES: &str = "A reference, such as conical-spiral, circle:radius=10 or formula:x=t;y=sin(t), or the file to read, or - for the standard input; its extension tells the format";

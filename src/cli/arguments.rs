@@ -88,7 +88,9 @@ enum Command {
     /// The file that is written holds everything that was read, with the changes made. Nothing is
     /// written, and the exit code is 1, if what was asked for is not reached.
     Apply(ApplyArguments),
-    /// Print the curves of a file as JSON, with full double precision
+    /// List the references that `batten apply approximate` knows, with their parameters
+    References,
+    /// Print the curves and references of a file as JSON, with full double precision
     Inspect {
         /// The file to read, or - for the standard input; its extension tells the format
         file: PathBuf,
@@ -135,6 +137,8 @@ pub(super) enum Task {
     Operations,
     /// Apply an operation.
     Apply(Application),
+    /// List the kinds of references.
+    References,
     /// Print curves in figures.
     Inspect {
         /// What is read.
@@ -196,7 +200,9 @@ impl Arguments {
                 curves: given.curves,
                 values: given.values,
                 best: given.best,
+                text: given.text,
             }),
+            Some(Command::References) => Task::References,
             Some(Command::Inspect {
                 file,
                 from_format,

@@ -55,10 +55,7 @@ impl TypedValueParser for ChoiceParser {
                     "“{part}” gives no parameter a value: write it as name=value"
                 ))
             })?;
-            let named = |parameter: &&Parameter| parameter.name == name.trim();
-            let parameter = self.all.iter().find(named);
-            let parameter =
-                parameter.ok_or_else(|| refused(format!("there is no parameter “{name}”")))?;
+            let parameter = self.parameter_of(&word, name.trim()).map_err(&refused)?;
             if assignments
                 .iter()
                 .any(|(known, _)| *known == parameter.name)
@@ -79,7 +76,26 @@ impl TypedValueParser for ChoiceParser {
 }
 
 impl ChoiceParser {
+    /// Find a parameter that counts for a word.
+    fn parameter_of(&self, word: &str, name: &str) -> Result<&'static Parameter, String> {
+        let mut options = self.options.iter();
+        let option = options.find(|option| option.name == word);
+        let known = option.map_or(&[][..], |option| option.parameters);
+        let mut all = self.all.iter();
+        let found = all.find(|it| it.name == name && known.contains(&name));
+        found.ok_or_else(|| no_such_parameter(word, name, known))
+    }
+
     fn words(&self) -> PossibleValuesParser {
         PossibleValuesParser::new(self.options.iter().map(|option| option.name))
     }
+}
+
+/// Say that a word that can be chosen has no parameter of a name, and which it has.
+pub(super) fn no_such_parameter(word: &str, name: &str, known: &[&str]) -> String {
+    let known = match known {
+        [] => "none".to_owned(),
+        known => known.join(", "),
+    };
+    format!("{word} has no parameter “{name}”: it has {known}")
 }

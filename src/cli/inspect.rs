@@ -1,4 +1,4 @@
-//! `batten inspect`: curves as JSON.
+//! `batten inspect`: curves and references as JSON.
 
 use anyhow::bail;
 use glam::DVec3;
@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::ends::Source;
 use super::feature_lists::FeatureLists;
+use super::inspected_reference::InspectedReference;
 use super::output;
 use super::progress::Progress;
 use crate::document::Curve;
@@ -20,9 +21,14 @@ const LEVELS: usize = 3;
 /// The relative error allowed in lengths.
 const LENGTH_TOLERANCE: f64 = 1e-13;
 
-/// Print the curves of a file, evaluated at some parameters.
+/// Print the curves of a file, evaluated at some parameters, and its references.
 pub(super) fn run(source: &Source, at: &[f64]) -> anyhow::Result<()> {
-    let Reading { curves, unit, .. } = source.read()?;
+    let Reading {
+        curves,
+        references,
+        unit,
+        ..
+    } = source.read()?;
     for (index, curve) in curves.iter().enumerate() {
         let last = curve.polygon.segments() as f64;
         if let Some(u) = at.iter().find(|u| !(0.0..=last).contains(*u)) {
@@ -50,7 +56,12 @@ pub(super) fn run(source: &Source, at: &[f64]) -> anyhow::Result<()> {
     let curves = curves.collect();
     drop(progress);
     let unit = unit.map(LengthUnit::symbol);
-    output::print(&json_layout::to_text(&Report { unit, curves }))
+    let references = references.iter().map(InspectedReference::of).collect();
+    output::print(&json_layout::to_text(&Report {
+        unit,
+        curves,
+        references,
+    }))
 }
 
 #[derive(Serialize)]
@@ -58,6 +69,7 @@ struct Report {
     /// The unit of all coordinates; null if the file says none.
     unit: Option<&'static str>,
     curves: Vec<Inspected>,
+    references: Vec<InspectedReference>,
 }
 
 #[derive(Serialize)]

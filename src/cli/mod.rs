@@ -9,9 +9,11 @@ mod convert;
 mod ends;
 mod feature_lists;
 mod inspect;
+mod inspected_reference;
 mod output;
 mod parsers;
 mod progress;
+mod references;
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -50,6 +52,7 @@ pub fn run(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> 
             force,
         }) => convert::convert(&source, &destination, polygon, force),
         Ok(Task::Operations) => apply::list(),
+        Ok(Task::References) => references::list(),
         Ok(Task::Apply(application)) => {
             return Request::Done(exit_code(apply::run(&application)));
         }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::editable::open;
+use super::editable::check_editable;
 use super::error::OperationError;
 use super::input::Input;
 use super::inputs::Inputs;
@@ -14,11 +14,11 @@ use super::values::Values;
 use super::whole;
 use crate::document::{Curve, Edit};
 use crate::geometry::approximation::{
-    Approximated, Asked, Placing, Spacing, approximate_between, approximate_by_steps,
+    Approximated, Asked, LevelComparison, Placing, Spacing, approximate_between, approximate_by_steps,
     approximate_to_tolerance,
 };
 use crate::geometry::references::ReferenceCurve;
-use crate::geometry::{Differentiable, FloatPolygon, Progress};
+use crate::geometry::{Differentiable, FloatPolygon, Progress, significant};
 
 /// The most vertices that can be asked for.
 const MOST: usize = 10_000;
@@ -44,10 +44,12 @@ const METHOD: Parameter = Parameter {
             Choice {
                 name: "on-curve",
                 label: "On the curve",
+                parameters: &[],
             },
             Choice {
                 name: "quasi",
                 label: "Quasi",
+                parameters: &[],
             },
         ],
         default: 1,
@@ -73,7 +75,7 @@ const FROM: Parameter = Parameter {
 const TO: Parameter = Parameter {
     name: "to",
     label: "To",
-    help: "The parameter where the curve ends",
+    help: "The parameter where the curve ends; of a periodic curve that runs once round if it is not given",
     kind: number(|_| "where the reference ends"),
 };
 
@@ -94,7 +96,7 @@ const COUNT: Parameter = Parameter {
 const TOLERANCE: Parameter = Parameter {
     name: "tolerance",
     label: "Tolerance",
-    help: "How far the curve may be off; its levels must have the features of the reference too",
+    help: "How far the curve may be from the nearest points of the reference; its levels must have the features of the reference too",
     kind: number(|_| "none"),
 };
 
@@ -107,18 +109,22 @@ const SPACING: Parameter = Parameter {
             Choice {
                 name: "automatic",
                 label: "Automatic",
+                parameters: &[],
             },
             Choice {
                 name: "parameter",
                 label: "Parameter",
+                parameters: &[],
             },
             Choice {
                 name: "arc-length",
                 label: "Arc length",
+                parameters: &[],
             },
             Choice {
                 name: "curvature",
                 label: "Curvature",
+                parameters: &[],
             },
         ],
         default: 0,
@@ -135,14 +141,14 @@ const SPACINGS: [Option<Spacing>; 4] = [
 const LEVELS: Parameter = Parameter {
     name: "levels",
     label: "Levels",
-    help: "How many levels of curvature and torsion are compared with those of the reference",
+    help: "How many levels of curvature and torsion are compared with those of the reference. What rises and falls by less than 1e-8 of a level's largest value does not count; nor, above level 1, by less than 1e-5 of what level 1 over the curve's length makes of it; nor ripples below 1e-5 of a curvature that is constant to 1e-5",
     kind: whole::between(0, crate::geometry::LEVELS, 2),
 };
 
 const FIT_ENDS: Parameter = Parameter {
     name: "fit-ends",
     label: "Exact ends",
-    help: "Bring both ends to the points and directions of the reference, moving all vertices evenly",
+    help: "Bring both ends to the points and directions of the reference, moving all vertices evenly; a periodic curve has no ends",
     kind: Kind::Switch { default: false },
 };
 
@@ -157,7 +163,7 @@ pub static OPERATION: Operation = Operation {
     ],
     check: |input| match input.curves() {
         [] => Ok(()),
-        _ => open(input, "approximated").map(drop),
+        _ => check_editable(input),
     },
     unused: |_| &[],
     run,
@@ -190,6 +196,19 @@ impl<'a> Source<'a> {
         }
     }
 
+    /// Refuse a part that a reference does not have, or with a place without a point in it.
+    fn check(&self, part: [f64; 2]) -> Result<(), OperationError> {
+        let ascends = part[0] < part[1];
+        match self {
+            Self::Reference(reference) if ascends => Ok(reference.over(part).map(drop)?),
+            _ => Ok(()),
+        }
+    }
+
+    fn is_periodic(&self) -> bool {
+        matches!(self, Self::Curve(polygon) if polygon.is_periodic())
+    }
+
     fn interval(&self) -> [f64; 2] {
         match self {
             Self::Reference(reference) => reference.interval(),
@@ -203,6 +222,7 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
     let tolerance = positive(values, &TOLERANCE)?;
     let found = approximated(&source, values, tolerance, progress)?;
     let deviation = Deviation::Measured(found.deviation.largest);
+    let marks = marks(&source, &found);
     let outcome = match source {
         Source::Reference(reference) => {
             let name = reference.form().label().to_lowercase();
@@ -219,10 +239,11 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
     };
     let mut remarks = outcome.remarks.clone();
     remarks.extend(remark_on_levels(values, &found));
+    remarks.extend(remark_on_corrections(&found));
     Ok(Outcome {
         reached: tolerance.is_none_or(|tolerance| found.meets(tolerance)),
         figures: figures(&found),
-        marks: marks(&found),
+        marks,
         equivalence: Some(found.levels),
         remarks,
         ..outcome
@@ -237,34 +258,24 @@ fn approximated(
 ) -> Result<Approximated, OperationError> {
     let curve = source.differentiable();
     let degree = values.whole(&DEGREE);
+    let count = count_given(values)?;
+    let part = Part::of(source, values, tolerance, count)?;
     let asked = Asked {
         degree,
         placing: values.choice(&METHOD, &PLACINGS),
         levels: values.whole(&LEVELS),
+        periodic: matches!(part, Part::Round(_)),
         fit_ends: values.switch(&FIT_ENDS),
     };
-    let [start, end] = source.interval();
-    let from = given(values, &FROM).unwrap_or(start);
     let offered = COUNT_OFFERED.max(degree + 1);
-    let count = given(values, &COUNT).map(|count| count as usize);
-    if let Some(count) = count.filter(|count| *count > MOST) {
-        return Err(OperationError::OutOfRange {
-            label: COUNT.label,
-            value: count.to_string(),
-            needed: format!("at most {MOST}"),
-        });
-    }
-    if let Some(step) = given(values, &STEP) {
-        for other in [&TO, &TOLERANCE] {
-            if given(values, other).is_some() {
-                let (first, second) = (STEP.label, other.label);
-                return Err(OperationError::Exclude { first, second });
-            }
+    source.check(part.interval(degree, count.unwrap_or(offered)))?;
+    let interval = match part {
+        Part::Steps(steps) => {
+            let count = count.unwrap_or(offered);
+            return Ok(approximate_by_steps(curve, steps, count, &asked)?);
         }
-        let count = count.unwrap_or(offered);
-        return Ok(approximate_by_steps(curve, [from, step], count, &asked)?);
-    }
-    let interval = [from, given(values, &TO).unwrap_or(end)];
+        Part::Between(interval) | Part::Round(interval) => interval,
+    };
     let spacing = values.choice(&SPACING, &SPACINGS);
     Ok(match (count, tolerance) {
         (None, Some(tolerance)) => {
@@ -278,25 +289,118 @@ fn approximated(
     })
 }
 
+fn count_given(values: &Values) -> Result<Option<usize>, OperationError> {
+    let count = given(values, &COUNT).map(|count| count as usize);
+    match count {
+        Some(count) if count > MOST => Err(OperationError::OutOfRange {
+            label: COUNT.label,
+            value: count.to_string(),
+            needed: format!("at most {MOST}"),
+        }),
+        count => Ok(count),
+    }
+}
+
+/// What part of the curve is approximated.
+enum Part {
+    /// Vertex i belongs to the first number + i times the second one.
+    Steps([f64; 2]),
+    /// From one parameter to another.
+    Between([f64; 2]),
+    /// Once round a periodic curve.
+    Round([f64; 2]),
+}
+
+impl Part {
+    fn of(
+        source: &Source<'_>,
+        values: &Values,
+        tolerance: Option<f64>,
+        count: Option<usize>,
+    ) -> Result<Self, OperationError> {
+        let [start, end] = source.interval();
+        let from = given(values, &FROM).unwrap_or(start);
+        let to = given(values, &TO);
+        let step = given(values, &STEP);
+        let excluded = [(&TO, to), (&TOLERANCE, tolerance)];
+        let excluded = excluded.iter().find(|(_, other)| other.is_some());
+        if let (Some(_), Some((other, _))) = (step, excluded) {
+            let (first, second) = (STEP.label, other.label);
+            return Err(OperationError::Exclude { first, second });
+        }
+        let period = source.is_periodic().then(|| end - start);
+        Ok(match (step, period) {
+            (None, None) => Self::Between([from, to.unwrap_or(end)]),
+            (None, Some(period)) => match to {
+                Some(to) if to - from != period => Self::Between([from, to]),
+                _ => Self::Round([from, from + period]),
+            },
+            // Steps that run once round make a periodic curve; others stop somewhere.
+            (Some(step), Some(period)) if is_once(step, count, period) => {
+                let degree = values.whole(&DEGREE) as f64;
+                let begin = from + 0.5 * (degree - 1.0) * step;
+                Self::Round([begin, begin + period])
+            }
+            (Some(step), _) => Self::Steps([from, step]),
+        })
+    }
+}
+
+impl Part {
+    /// From where to where a curve of so many vertices runs.
+    fn interval(&self, degree: usize, count: usize) -> [f64; 2] {
+        match *self {
+            Self::Between(interval) | Self::Round(interval) => interval,
+            Self::Steps([from, step]) => {
+                let begin = from + 0.5 * (degree as f64 - 1.0) * step;
+                [begin, begin + step * count.saturating_sub(degree) as f64]
+            }
+        }
+    }
+}
+
+/// Whether so many steps are the period, but for rounding.
+fn is_once(step: f64, count: Option<usize>, period: f64) -> bool {
+    count.is_some_and(|count| (step * count as f64 - period).abs() <= 1e-12 * period)
+}
+
 fn figures(found: &Approximated) -> Vec<Figure> {
-    let [start, end] = found.end_errors;
-    vec![
+    let mut figures = vec![
         Figure::count("vertices", "Vertices", found.polygon.vertices().len()),
         Figure::length("mean_deviation", "Mean deviation", found.deviation.mean),
-        Figure::length("start_error", "Off at the start", start),
-        Figure::length("end_error", "Off at the end", end),
-    ]
+    ];
+    // From point to point, unlike the deviation, which goes to the nearest one.
+    if let Some([start, end]) = found.end_errors {
+        figures.push(Figure::length("start_error", "Start to start", start));
+        figures.push(Figure::length("end_error", "End to end", end));
+    }
+    figures
 }
 
 /// Where the deviation is largest, and where levels first differ.
-fn marks(found: &Approximated) -> Vec<Mark> {
-    let differences = found.levels.iter().filter_map(|level| {
-        let (u, _) = level.here.get(level.first_difference()?)?;
-        Some(*u)
-    });
-    let places = std::iter::once(found.deviation.u).chain(differences);
-    let point = |u: f64| -> DVec3 { found.polygon.point(u) };
-    places.map(|u| Mark::Point(point(u))).collect()
+fn marks(source: &Source<'_>, found: &Approximated) -> Vec<Mark> {
+    let difference = |level: &LevelComparison| {
+        let (there, here) = level.side_by_side().nth(level.first_difference()?)?;
+        Some(match (there, here) {
+            (_, Some((u, _))) => found.polygon.point(u),
+            (Some((t, _)), None) => source.differentiable().derivatives(t, 0)[0],
+            (None, None) => return None,
+        })
+    };
+    let largest = found.polygon.point(found.deviation.u);
+    let differences = found.levels.iter().filter_map(difference);
+    let places: Vec<DVec3> = std::iter::once(largest).chain(differences).collect();
+    places.into_iter().map(Mark::Point).collect()
+}
+
+/// Say that quasi-interpolation diverges: its corrections grow instead of fading.
+fn remark_on_corrections(found: &Approximated) -> Option<String> {
+    let corrections = found.corrections.filter(|it| it.growth > 1.0)?;
+    Some(format!(
+        "The corrections that quasi-interpolation makes do not fade but grow, {} times at vertex {}: its vertices are not where they belong; take more vertices, a lower degree, or vertices on the curve",
+        significant(corrections.growth, 2),
+        corrections.vertex,
+    ))
 }
 
 /// Say which levels the degree leaves out.

@@ -43,18 +43,22 @@ const KIND: Parameter = Parameter {
             Choice {
                 name: "log-aesthetic",
                 label: "Log-aesthetic",
+                parameters: &["alpha"],
             },
             Choice {
                 name: "superspiral",
                 label: "Superspiral",
+                parameters: &["a", "b", "c"],
             },
             Choice {
                 name: "any",
                 label: "Any monotone",
+                parameters: &[],
             },
             Choice {
                 name: "clothoid",
                 label: "Clothoid",
+                parameters: &[],
             },
         ],
         default: 0,
@@ -337,9 +341,9 @@ fn remarks(segment: &Segment) -> Vec<String> {
         remarks.push(match curvatures_agree(segment) {
             true => "The ends ask for a circular arc: its curvature is constant, and that of a polynomial curve rises and falls".to_owned(),
             false if segment.monotone == Verdict::Disproved => {
-                "The curvature is not monotone: try another degree".to_owned()
+                "The curvature is not monotone: try another degree, or ends whose curvatures differ less".to_owned()
             }
-            false => "The curvature is not proved to be monotone: try another degree".to_owned(),
+            false => "The curvature is not proved to be monotone: try another degree, or ends whose curvatures differ less".to_owned(),
         });
     }
     remarks

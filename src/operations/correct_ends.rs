@@ -37,10 +37,12 @@ const METHOD: Parameter = Parameter {
             Choice {
                 name: "joint",
                 label: "Both ends at once",
+                parameters: &[],
             },
             Choice {
                 name: "steps",
                 label: "Step by step",
+                parameters: &[],
             },
         ],
         default: 0,
@@ -56,18 +58,22 @@ const ORDER: Parameter = Parameter {
             Choice {
                 name: "1",
                 label: "Order 1",
+                parameters: &[],
             },
             Choice {
                 name: "2",
                 label: "Order 2",
+                parameters: &[],
             },
             Choice {
                 name: "3",
                 label: "Order 3",
+                parameters: &[],
             },
             Choice {
                 name: "harmonious",
                 label: "Harmony",
+                parameters: &[],
             },
         ],
         default: 0,

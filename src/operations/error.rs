@@ -10,7 +10,7 @@ use crate::geometry::expressions::ExpressionMistake;
 use crate::geometry::fairing::bridging::BridgeError;
 use crate::geometry::fairing::harmonising::HarmonyError;
 use crate::geometry::fairing::joint_correction::CorrectionError;
-use crate::geometry::references::ReferenceTextError;
+use crate::geometry::references::{ReferenceError, ReferenceTextError};
 use crate::geometry::{End, MAX_DEGREE, PolygonError};
 
 /// Why an operation cannot run on an input, or with some values.
@@ -46,6 +46,9 @@ pub enum OperationError {
     /// The points have no fit.
     #[error(transparent)]
     Fit(#[from] FitError),
+    /// A reference has no such part.
+    #[error(transparent)]
+    Reference(#[from] ReferenceError),
     /// A reference cannot be read.
     #[error(transparent)]
     ReferenceText(#[from] ReferenceTextError),

@@ -24,7 +24,11 @@ const SAME: Choice = option("same", "Same");
 const ALL: Choice = option("all", "All");
 
 const fn option(name: &'static str, label: &'static str) -> Choice {
-    Choice { name, label }
+    Choice {
+        name,
+        label,
+        parameters: &[],
+    }
 }
 
 const KEEP: Parameter = Parameter {

@@ -20,14 +20,17 @@ const ENDS: Kind = Kind::Choice {
         Choice {
             name: "nearest",
             label: "Nearest",
+            parameters: &[],
         },
         Choice {
             name: "start",
             label: "Start",
+            parameters: &[],
         },
         Choice {
             name: "end",
             label: "End",
+            parameters: &[],
         },
     ],
     default: 0,

@@ -90,14 +90,17 @@ const POLYGON: Parameter = Parameter {
             Choice {
                 name: "float",
                 label: "Float",
+                parameters: &[],
             },
             Choice {
                 name: "bezier",
                 label: "Bézier",
+                parameters: &[],
             },
             Choice {
                 name: "both",
                 label: "Both",
+                parameters: &[],
             },
         ],
         default: 0,

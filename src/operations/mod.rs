@@ -28,6 +28,7 @@ mod outcome;
 mod parameter;
 mod report;
 mod report_json;
+mod report_text;
 mod summary;
 mod targets;
 mod value;

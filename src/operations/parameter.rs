@@ -85,6 +85,8 @@ pub struct Choice {
     pub name: &'static str,
     /// What the panel calls it.
     pub label: &'static str,
+    /// The names of those parameters of the operation that count for this word alone.
+    pub parameters: &'static [&'static str],
 }
 
 /// The numbers that a parameter allows for one input.

@@ -54,16 +54,18 @@ impl Serialize for Report {
     }
 }
 
-/// Write how a level of two curves compares: the features of both in their order, and which of them, counted
-/// from 0, is the first that differs.
+/// Write how a level of two curves compares: below which height nothing is a feature, the features of both in
+/// their order, and which of them, counted from 0, is the first that differs.
 fn level(level: &LevelComparison) -> serde_json::Value {
-    let there = level.there.iter().map(|feature| feature.name());
+    let there = level.there.iter();
+    let there = there.map(|(t, feature)| json!({ "t": t, "feature": feature.name() }));
     let here = level.here.iter();
     let here = here.map(|(u, feature)| json!({ "u": u, "feature": feature.name() }));
     json!({
         "of": if level.torsion { "torsion" } else { "curvature" },
         "level": level.level,
         "equal": level.is_equal(),
+        "least": level.least,
         "reference": there.collect::<Vec<_>>(),
         "curve": here.collect::<Vec<_>>(),
         "first_difference": level.first_difference(),

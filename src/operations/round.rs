@@ -23,10 +23,12 @@ const POLYGON: Parameter = Parameter {
             Choice {
                 name: "float",
                 label: "Float S-polygon",
+                parameters: &[],
             },
             Choice {
                 name: "clamped",
                 label: "Closed S-polygon",
+                parameters: &[],
             },
         ],
         default: 0,

@@ -14,10 +14,12 @@ pub(super) const END: Parameter = Parameter {
             Choice {
                 name: "start",
                 label: "Start",
+                parameters: &[],
             },
             Choice {
                 name: "end",
                 label: "End",
+                parameters: &[],
             },
         ],
         default: 1,

@@ -4,5 +4,6 @@
 mod common;
 
 mod fits;
+mod periodic;
 mod places;
 mod shapes;

@@ -125,3 +125,48 @@ fn a_curvature_that_no_alpha_has_is_refused_with_what_there_is() {
     assert_eq!(asked, 500.0);
     assert!(range[0] < range[1] && range[1] < asked);
 }
+
+/// How many of some pairs whose curvatures lie far apart are found, and how many of these are proved.
+fn wide_pairs(seed: u64, cases: usize) -> [usize; 2] {
+    let mut random = Random(seed);
+    let mut counts = [0; 2];
+    for case in 0..cases {
+        let growth = random.between(5.0_f64.ln(), 40.0_f64.ln());
+        let segment = TrueSegment {
+            alpha: random.between(-1.0, 1.5),
+            growth: if case % 2 == 0 { growth } else { -growth },
+            turning: random.between(30.0, 120.0).to_radians(),
+        };
+        let placing = Placing::random(&mut random);
+        let mut ends = with_curvatures(&segment, &placing);
+        let factors = if case % 2 == 0 { [1.05, 0.95] } else { [0.95, 1.05] };
+        for (curvature, factor) in ends.curvatures.iter_mut().zip(factors) {
+            *curvature = curvature.map(|it| it * factor);
+        }
+        let Ok(found) = found(&ends, FREE, 4 + case % 6) else {
+            continue;
+        };
+        let proved = found.is_reached();
+        counts[0] += 1;
+        counts[1] += usize::from(proved);
+        if !proved {
+            println!(
+                "{segment:?}, degree {}: {:?}, {:e} off of {:e}, {} segments",
+                4 + case % 6,
+                found.monotone,
+                found.deviation,
+                found.tolerance,
+                found.polygon.segments()
+            );
+        }
+    }
+    counts
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn pairs_whose_curvatures_lie_far_apart_are_proved() {
+    let [found, proved] = wide_pairs(61, 60);
+    println!("{found} found, {proved} of them proved");
+    assert_eq!(found, proved);
+}

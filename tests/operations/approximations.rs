@@ -171,8 +171,80 @@ fn what_cannot_be_is_refused() {
     );
     let periodic = Runner::example("periodic");
     let error = periodic
-        .run("approximate", &[])
+        .run("approximate", &[("fit-ends", Value::Switch(true))])
         .expect_err("refused")
         .to_string();
-    assert!(error.contains("open it first"), "{error}");
+    assert!(error.contains("a periodic curve has no ends"), "{error}");
+}
+
+#[test]
+fn a_periodic_curve_stays_periodic_unless_a_part_is_asked_for() {
+    let runner = Runner::example("periodic");
+    let period = runner.polygon().segments() as f64;
+    let list = |number: f64| Value::List(vec![number]);
+    let done = |given: &[(&'static str, Value)]| {
+        let (outcome, curves) = runner.done("approximate", given);
+        (outcome, curves[0].polygon.clone())
+    };
+    let (outcome, whole) = done(&[("count", list(60.0)), ("degree", Value::Whole(5))]);
+    assert!(whole.is_periodic() && outcome.reached);
+    assert!(outcome.figures.iter().all(|it| it.name != "start_error"));
+    let size = runner.polygon().size();
+    assert!(matches!(outcome.deviation, Deviation::Measured(off) if off < 1e-3 * size));
+    // A step that leads once round, vertex 0 at parameter 1.
+    let given = [
+        ("from", list(1.0)),
+        ("step", list(period / 60.0)),
+        ("count", list(60.0)),
+        ("method", Value::Choice(0)),
+    ];
+    let (_, by_steps) = done(&given);
+    assert!(by_steps.is_periodic());
+    let begin = by_steps.vertices()[0].distance(runner.polygon().point(1.0));
+    assert!(begin < 1e-13 * size, "{begin}");
+    for given in [
+        vec![("to", list(0.5 * period))],
+        vec![("step", list(0.1)), ("count", list(30.0))],
+    ] {
+        let (outcome, part) = done(&given);
+        assert!(!part.is_periodic());
+        assert!(outcome.figures.iter().any(|it| it.name == "start_error"));
+    }
+}
+
+#[test]
+fn the_text_sets_features_side_by_side() {
+    let operation = find("approximate").expect("it is there");
+    let given = [
+        ("reference", "conical-spiral"),
+        ("from", "0"),
+        ("step", "1"),
+        ("count", "20"),
+    ];
+    let (input, outcome) = run(&given).expect("it can run");
+    let text = Report::new(operation, &input, &outcome).text();
+    let lines: Vec<&str> = text.lines().collect();
+    let table = lines.iter().position(|line| line.starts_with("torsion level 2: differs"));
+    let table = &lines[table.expect("the level that differs")..];
+    assert!(table[1].contains("reference") && table[1].contains("curve"), "{text}");
+    let marked: Vec<&&str> = table.iter().filter(|line| line.starts_with('>')).collect();
+    assert_eq!(marked.len(), 1, "{text}");
+    assert!(marked[0].contains("none") && marked[0].contains("at u = "), "{text}");
+    assert!(text.contains("End to end: "), "{text}");
+    let given = [("reference", "ellipse:a=3,b=1"), ("count", "40"), ("levels", "1")];
+    let (input, outcome) = run(&given).expect("it can run");
+    let text = Report::new(operation, &input, &outcome).text();
+    let row = text.lines().find(|line| line.starts_with("    1 "));
+    let row = row.expect("the first feature");
+    assert!(row.contains("minimum at t = 1.57") && row.contains("minimum at u = "), "{text}");
+}
+
+#[test]
+fn the_report_says_that_corrections_grow() {
+    let given = [("reference", "circle"), ("degree", "15"), ("count", "16")];
+    let (_, outcome) = run(&given).expect("it can run");
+    let told = outcome.remarks.join(". ");
+    assert!(told.contains("do not fade but grow"), "{told}");
+    let (_, outcome) = run(&[&given[..2], &[("count", "60")]].concat()).expect("it can run");
+    assert_eq!(outcome.remarks, Vec::<String>::new());
 }

@@ -1,6 +1,6 @@
 //! References as text: what is read, what is written, and mistakes with their columns.
 
-use batten::geometry::references::{KINDS, ReferenceCurve, ReferenceForm};
+use batten::geometry::references::{KINDS, ReferenceCurve, ReferenceError, ReferenceForm};
 
 fn read(text: &str) -> ReferenceCurve {
     ReferenceCurve::from_text(text).unwrap_or_else(|error| panic!("{text}: {error}"))
@@ -146,4 +146,69 @@ fn intervals_beyond_the_curve_are_refused() {
     let beyond = "log-aesthetic:alpha=-1,lambda=0.5,from=0,to=3";
     assert_refused(beyond, 1, "t can run from");
     assert_refused("clothoid:to=1000", 1, "t = 1000 is out of range");
+}
+
+#[test]
+fn poles_of_formulas_are_noticed_wherever_they_are() {
+    let gap = |x: &str, from: f64, to: f64| {
+        let text = format!("formula:x={x};y=t;from={from};to={to}");
+        match ReferenceCurve::from_text(&text).map_err(|mistake| mistake.error) {
+            Err(ReferenceError::NotFinite { t }) => t,
+            other => panic!("{text}: {other:?}"),
+        }
+    };
+    let pi = std::f64::consts::PI;
+    for (x, from, to, place) in [
+        ("1/(t-0.3)", 0.0, 1.0, 0.3),
+        ("1/(t-1/3)", 0.0, 1.0, 1.0 / 3.0),
+        ("1/(3*t-1)^2", -7.0, 11.0, 1.0 / 3.0),
+        ("(t-0.123456)^(-2)", 0.0, 1.0, 0.123456),
+        ("tan(t)", 1.0, 2.0, 0.5 * pi),
+        ("1/sin(t)", 1.0, 5.0, pi),
+        ("exp(1/(t^2-2))", 0.0, 2.0, 2.0_f64.sqrt()),
+        ("ln(abs(t-0.7))", 0.0, 2.0, 0.7),
+        ("1/min(t-0.7, 5)", 0.1, 2.0, 0.7),
+        ("1/(atan2(t, 2)-pi/8)", 0.1, 2.0, 0.828_427_124_746_19),
+        ("1/(sin(t)+t-2)", 0.0, 2.0, 1.106_060_157_703_89),
+    ] {
+        let found = gap(x, from, to);
+        assert!((found - place).abs() <= 1e-14 * place.abs().max(1.0), "{x}: {found}");
+    }
+    // The first of several, of any coordinate.
+    assert!((gap("1/sin(5*t)", 0.1, 3.0) - 0.2 * pi).abs() < 1e-14);
+}
+
+#[test]
+fn formulas_without_poles_are_no_worse_for_the_search() {
+    for x in [
+        "1/(1+t^2)",
+        "1/(1.0001-2*t+t^2)",
+        "1/(1.1+sin(9*t)*cos(3*t))",
+        "tan(t/2)",
+        "sqrt(t+2)",
+        "ln(t-0.39999)",
+        "t^1.5+t",
+        "asin(t/3)",
+        "acos(cos(t+0.5)/2)",
+        "exp(-1/(t^2+0.01))",
+        "exp(300*t)*exp(-300*t)",
+        "ln(2+sin(t))^3",
+        "hypot(t, sin(t))*max(t, 1)",
+        "1/(atan2(t+1, 1-t)+1)",
+        "(t-0.3)^(-2)*0+1",
+    ] {
+        let text = format!("formula:x={x};y=t;from=0.4;to=2");
+        let read = ReferenceCurve::from_text(&text);
+        assert!(read.is_ok(), "{text}: {read:?}");
+    }
+}
+
+#[test]
+fn only_the_interval_that_counts_is_checked() {
+    let text = "formula:x=t;y=1/t";
+    assert!(ReferenceCurve::from_text(text).is_err());
+    let read = ReferenceCurve::from_text_over(text, [Some(1.0), Some(2.0)]);
+    assert_eq!(read.expect("a curve").interval(), [1.0, 2.0]);
+    let read = ReferenceCurve::from_text_over("circle:to=3", [Some(1.0), Some(2.0)]);
+    assert_eq!(read.expect("a curve").interval(), [1.0, 3.0]);
 }

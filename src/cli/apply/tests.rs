@@ -122,7 +122,7 @@ fn given(operation: &'static Operation, arguments: &[&str]) -> Result<Given, Str
     let arguments = [&[operation.name], arguments].concat();
     let matches = command_of(operation).try_get_matches_from(arguments);
     let matches = matches.map_err(|error| error.to_string())?;
-    Ok(Given::new(operation, &matches))
+    Given::new(operation, &matches)
 }
 
 /// Apply an operation to some curves, all as from the command line but for the files.
@@ -141,6 +141,7 @@ fn apply(
         curves: given.curves,
         values: given.values,
         best: false,
+        text: false,
     };
     let curves = curves.to_vec();
     let reading = Reading {

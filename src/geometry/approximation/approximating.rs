@@ -7,7 +7,7 @@ use super::deviation::MeasuredDeviation;
 use super::equivalence::{LevelComparison, compare_levels};
 use super::error::ApproximationError;
 use super::knots::UniformKnots;
-use super::placing::{Placing, float_polygon};
+use super::placing::{Corrections, PlacedPolygon, Placing, placed};
 use super::spacing::{Respaced, Spacing};
 use crate::geometry::differentiable::Differentiable;
 use crate::geometry::end::End;
@@ -34,9 +34,37 @@ pub struct Asked {
     pub placing: Placing,
     /// How many levels of curvature and torsion are compared.
     pub levels: usize,
+    /// Whether the part is the whole period of a periodic curve, so that the approximation is periodic too.
+    pub periodic: bool,
     /// Whether the ends are brought to the curve's points and directions, which moves all vertices as
     /// evenly as possible.
     pub fit_ends: bool,
+}
+
+impl Asked {
+    /// The knots of so many vertices for a part of a curve.
+    fn knots(&self, part: [f64; 2], count: usize) -> Result<UniformKnots, ApproximationError> {
+        match self.periodic {
+            true => UniformKnots::around(self.degree, part, count),
+            false => UniformKnots::between(self.degree, part, count),
+        }
+    }
+
+    /// The number of vertices that make so many segments.
+    fn vertices(&self, segments: usize) -> usize {
+        match self.periodic {
+            true => segments,
+            false => segments + self.degree,
+        }
+    }
+
+    /// The least number of segments that there can be.
+    fn least_segments(&self) -> usize {
+        match self.periodic {
+            true => self.degree + 1,
+            false => 1,
+        }
+    }
 }
 
 /// An approximation, and what is known of it.
@@ -48,12 +76,14 @@ pub struct Approximated {
     pub interval: [f64; 2],
     /// How far it is from the curve.
     pub deviation: MeasuredDeviation,
-    /// How far its ends are from those of the part.
-    pub end_errors: [f64; 2],
+    /// How far its ends are from those of the part, point from point; a periodic curve has none.
+    pub end_errors: Option<[f64; 2]>,
     /// The levels of both.
     pub levels: Vec<LevelComparison>,
     /// How the vertices are spaced.
     pub spacing: Spacing,
+    /// How the corrections of quasi-interpolation behave, from degree 4 on.
+    pub corrections: Option<Corrections>,
 }
 
 impl Approximated {
@@ -68,7 +98,7 @@ impl Approximated {
     }
 }
 
-/// Approximate a curve by vertices that belong to its parameters first, first + step …
+/// Approximate a curve by vertices that belong to its parameters first, first + step …: an open curve.
 ///
 /// # Errors
 /// [`ApproximationError`].
@@ -97,7 +127,7 @@ pub fn approximate_between(
 ) -> Result<Approximated, ApproximationError> {
     match spacing {
         Spacing::Parameter => {
-            let knots = UniformKnots::between(asked.degree, interval, count)?;
+            let knots = asked.knots(interval, count)?;
             Placed::uniform(curve, &knots, asked)?
                 .measured()?
                 .compared()
@@ -126,7 +156,7 @@ pub fn approximate_to_tolerance(
     progress: &Progress,
 ) -> Result<Approximated, ApproximationError> {
     // The simplest knots say at once what cannot be made at all.
-    UniformKnots::between(asked.degree, interval, asked.degree + 1)?;
+    asked.knots(interval, asked.degree + 1)?;
     let spacings = spacing.map_or(SPACINGS.to_vec(), |spacing| vec![spacing]);
     let respaced = spacings.into_iter().map(|spacing| {
         let respaced = match spacing {
@@ -163,7 +193,8 @@ struct Search<'a> {
 
 impl Search<'_> {
     fn run(&self, progress: &Progress) -> Result<Approximated, ApproximationError> {
-        let (mut too_few, mut segments, mut most) = (0, 1, MOST_SEGMENTS);
+        let least = self.asked.least_segments();
+        let (mut too_few, mut segments, mut most) = (least - 1, least, MOST_SEGMENTS);
         let mut nearest: Result<Approximated, ApproximationError> = self.best_of(segments);
         let mut found = None;
         while found.is_none() && !progress.is_cancelled() {
@@ -207,7 +238,7 @@ impl Search<'_> {
 
     /// The first spacing that reaches what is asked for with so many segments, or the nearest.
     fn best_of(&self, segments: usize) -> Result<Approximated, ApproximationError> {
-        let count = segments + self.asked.degree;
+        let count = self.asked.vertices(segments);
         let mut nearest: Option<Result<Approximated, ApproximationError>> = None;
         for spacing in &self.spacings {
             let tried = match spacing {
@@ -241,7 +272,7 @@ impl Search<'_> {
     ) -> Result<Approximated, ApproximationError> {
         let placed = match respaced {
             None => {
-                let knots = UniformKnots::between(self.asked.degree, self.interval, count)?;
+                let knots = self.asked.knots(self.interval, count)?;
                 Placed::uniform(self.curve, &knots, self.asked)?
             }
             Some(respaced) => Placed::respaced(self.curve, respaced, spacing, count, self.asked)?,
@@ -265,6 +296,7 @@ struct Placed<'a> {
     curve: &'a dyn Differentiable,
     asked: &'a Asked,
     polygon: FloatPolygon,
+    corrections: Option<Corrections>,
     spacing: Spacing,
     interval: [f64; 2],
     reach: [f64; 2],
@@ -285,11 +317,15 @@ impl<'a> Placed<'a> {
         asked: &'a Asked,
     ) -> Result<Self, ApproximationError> {
         let knots = *knots;
-        let polygon = float_polygon(curve, &knots, asked.placing)?;
+        let PlacedPolygon {
+            polygon,
+            corrections,
+        } = placed(curve, &knots, asked.placing)?;
         let placed = Self {
             curve,
             asked,
             polygon,
+            corrections,
             spacing: Spacing::Parameter,
             interval: knots.interval(),
             reach: knots.reach(),
@@ -305,15 +341,22 @@ impl<'a> Placed<'a> {
         count: usize,
         asked: &'a Asked,
     ) -> Result<Self, ApproximationError> {
-        let knots = UniformKnots::between(asked.degree, [0.0, 1.0], count)?;
-        let polygon = float_polygon(respaced, &knots, asked.placing)?;
+        let knots = asked.knots([0.0, 1.0], count)?;
+        let PlacedPolygon {
+            polygon,
+            corrections,
+        } = placed(respaced, &knots, asked.placing)?;
         let placed = Self {
             curve,
             asked,
             polygon,
+            corrections,
             spacing,
             interval: respaced.interval(),
-            reach: knots.reach().map(|v| respaced.parameter(v)),
+            reach: match knots.is_periodic() {
+                true => respaced.interval(),
+                false => knots.reach().map(|v| respaced.parameter(v)),
+            },
             parameter: Box::new(move |u| respaced.near(knots.curve_parameter(u))),
         };
         placed.with_ends()
@@ -321,6 +364,9 @@ impl<'a> Placed<'a> {
 
     /// Bring the ends to the curve's points and directions, if that is asked for.
     fn with_ends(mut self) -> Result<Self, ApproximationError> {
+        if self.asked.fit_ends && self.polygon.is_periodic() {
+            return Err(ApproximationError::NoEnds);
+        }
         if self.asked.fit_ends {
             let ends = [End::Start, End::Finish].into_iter().zip(self.interval);
             let targets = ends.map(|(end, t)| {
@@ -353,9 +399,10 @@ impl<'a> Placed<'a> {
             polygon: polygon.clone(),
             interval: self.interval,
             deviation,
-            end_errors: [error(0), error(1)],
+            end_errors: (!polygon.is_periodic()).then(|| [error(0), error(1)]),
             levels: Vec::new(),
             spacing: self.spacing,
+            corrections: self.corrections,
         };
         Ok(Measured {
             placed: self,

@@ -12,7 +12,8 @@ const SAMPLES: usize = 32;
 const SHARE: f64 = 1e-8;
 
 /// A level above the first that stays below this share of what the first would bend by if it changed within
-/// the length of the curve is a straight line: those of a clothoid are.
+/// the length of the curve is a straight line: those of a clothoid are. A first level that changes by less
+/// than this share of itself is constant, as that of a circle, and so is one that ripples by no more.
 const STRAIGHT: f64 = 1e-5;
 
 /// What a level has at a place of a curve.
@@ -44,9 +45,13 @@ pub struct LevelComparison {
     pub torsion: bool,
     /// Which level, counted from 1.
     pub level: usize,
-    /// The features of the curve that is approximated, sampled, in their order along it.
-    pub there: Vec<LevelFeature>,
-    /// The features of the approximation, with their parameters u.
+    /// What rises and falls by no more than this is no feature.
+    pub least: f64,
+    /// The features of the curve that is approximated, sampled, in their order along it, with its own
+    /// parameters t.
+    pub there: Vec<(f64, LevelFeature)>,
+    /// The features of the approximation, with their parameters u. Round a periodic curve they begin where
+    /// they agree best with the others.
     pub here: Vec<(f64, LevelFeature)>,
 }
 
@@ -64,17 +69,33 @@ impl LevelComparison {
 
     /// The number of the first feature, counted from 0, that only one of them has or that differs.
     pub fn first_difference(&self) -> Option<usize> {
+        let feature = |side: Option<(f64, LevelFeature)>| side.map(|(_, feature)| feature);
+        self.side_by_side()
+            .position(|(there, here)| feature(there) != feature(here))
+    }
+
+    /// The features of the curve that is approximated beside those of the approximation, with their
+    /// parameters t and u, as long as one of them has any.
+    pub fn side_by_side(&self) -> impl Iterator<Item = SideBySide> {
         let most = self.there.len().max(self.here.len());
-        let here = |index: usize| self.here.get(index).map(|(_, feature)| feature);
-        (0..most).find(|index| self.there.get(*index) != here(*index))
+        (0..most).map(|index| {
+            let at = |side: &[(f64, LevelFeature)]| side.get(index).copied();
+            (at(&self.there), at(&self.here))
+        })
     }
 }
+
+/// A feature of the curve that is approximated and one of the approximation.
+pub type SideBySide = (Option<(f64, LevelFeature)>, Option<(f64, LevelFeature)>);
 
 /// Compare the first levels of curvature, and in space of torsion, of an approximation with those of
 /// the curve beside it; `parameter` tells which t belongs to a given u. Levels that are not continuous at
 /// the polygon's degree are left out: level m takes 2m derivatives, of the torsion one more.
 ///
-/// Both are sampled 32 times a segment. What rises and falls by no more than rounding is no feature.
+/// Both are sampled 32 times a segment. What rises and falls by no more than rounding is no feature: by no more than
+/// 1e-8 of the level's largest value; in levels above the first by no more than 1e-5 of what the first would
+/// make of them if it changed within the curve's length; and where the first level is constant to 1e-5 of
+/// itself, by no more than ripples of that height and of the length of a segment.
 pub fn compare_levels(
     polygon: &FloatPolygon,
     curve: &dyn Differentiable,
@@ -102,6 +123,7 @@ pub fn compare_levels(
 /// The levels of both curves at the same places.
 struct Samples {
     u: Vec<f64>,
+    t: Vec<f64>,
     here: Vec<CurvatureLevels>,
     there: Vec<CurvatureLevels>,
 }
@@ -113,33 +135,38 @@ impl Samples {
         parameter: &dyn Fn(f64) -> f64,
         planar: bool,
     ) -> Self {
-        let (mut u, mut here, mut there) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut u, mut t, mut here, mut there) = (vec![], vec![], vec![], vec![]);
         for segment in 0..polygon.segments() {
             let expansion = SegmentExpansion::new(polygon, segment, planar);
-            let last = segment + 1 == polygon.segments();
+            let last = segment + 1 == polygon.segments() && !polygon.is_periodic();
             for index in 0..SAMPLES + usize::from(last) {
-                let t = index as f64 / SAMPLES as f64;
-                let place = segment as f64 + t;
+                let local = index as f64 / SAMPLES as f64;
+                let place = segment as f64 + local;
                 let values = curve.derivatives(parameter(place), LEVEL_ORDER);
                 if let Some(values) = values.first_chunk() {
                     u.push(place);
-                    here.push(expansion.curvature_levels(t, 1.0));
+                    t.push(parameter(place));
+                    here.push(expansion.curvature_levels(local, 1.0));
                     there.push(CurvatureLevels::of_derivatives(values, 1.0, planar));
                 }
             }
         }
-        Self { u, here, there }
+        Self { u, t, here, there }
     }
 
     fn compared(&self, polygon: &FloatPolygon, torsion: bool, level: usize) -> LevelComparison {
         let here = values(&self.here, torsion, level);
         let there = values(&self.there, torsion, level);
         let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, it| most.max(it.abs()));
-        let first = largest(&values(&self.there, torsion, 1));
+        let first = values(&self.there, torsion, 1);
         let length = polygon.arc_length(1e-3);
-        let natural = match level {
-            1 => 0.0,
-            _ => STRAIGHT * first / length.powi(2 * level as i32 - 2),
+        let straight = STRAIGHT * largest(&first);
+        let powers = 2 * level as i32 - 2;
+        let natural = match (is_constant(&first, straight), level) {
+            // Ripples have the length of a segment.
+            (true, _) => straight / (length / polygon.segments() as f64).powi(powers),
+            (false, 1) => 0.0,
+            (false, _) => straight / length.powi(powers),
         };
         let noise = rounding(
             polygon,
@@ -149,14 +176,24 @@ impl Samples {
             largest(&values(&self.there, false, 1)),
         );
         let least = (SHARE * largest(&there)).max(natural).max(noise);
+        let periodic = polygon.is_periodic();
+        let listed = |values: &[f64], parameters: &[f64]| {
+            let found = features(values, least, periodic).into_iter();
+            found
+                .map(|(index, feature)| (parameters[index], feature))
+                .collect::<Vec<_>>()
+        };
+        let there = listed(&there, &self.t);
+        let mut here = listed(&here, &self.u);
+        if periodic {
+            turn_to(&mut here, &there);
+        }
         LevelComparison {
             torsion,
             level,
-            there: features(&there, least).into_iter().map(|it| it.1).collect(),
-            here: features(&here, least)
-                .into_iter()
-                .map(|(index, feature)| (self.u[index], feature))
-                .collect(),
+            least,
+            there,
+            here,
         }
     }
 }
@@ -186,9 +223,42 @@ fn values(levels: &[CurvatureLevels], torsion: bool, level: usize) -> Vec<f64> {
     levels.iter().map(value).collect()
 }
 
-/// List the changes of sign and the turning points of sampled values, with the number of the sample. What
-/// does not rise or fall by more than `least` does not count.
-fn features(values: &[f64], least: f64) -> Vec<(usize, LevelFeature)> {
+/// Whether values differ by no more than `least`.
+fn is_constant(values: &[f64], least: f64) -> bool {
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    high - low <= least
+}
+
+/// Let the features round a periodic curve begin where they agree longest with others.
+fn turn_to(here: &mut [(f64, LevelFeature)], there: &[(f64, LevelFeature)]) {
+    let agreeing = |turn: usize| {
+        let turned = here.iter().cycle().skip(turn).take(here.len());
+        let pairs = turned.zip(there);
+        pairs.take_while(|(here, there)| here.1 == there.1).count()
+    };
+    // Of equal ones the first counts.
+    let best = (0..here.len()).rev().max_by_key(|turn| agreeing(*turn));
+    here.rotate_left(best.unwrap_or(0));
+}
+
+/// List the changes of sign and the turning points of sampled values, with the number of the sample; round a
+/// periodic curve the first value follows the last one. What does not rise or fall by more than `least` does
+/// not count.
+fn features(values: &[f64], least: f64, periodic: bool) -> Vec<(usize, LevelFeature)> {
+    if !periodic {
+        return features_along(values, least);
+    }
+    // Of three times round the second one counts: it knows what was before it, and what comes.
+    let count = values.len();
+    let found = features_along(&values.repeat(3), least).into_iter();
+    found
+        .filter(|(index, _)| (count..2 * count).contains(index))
+        .map(|(index, feature)| (index - count, feature))
+        .collect()
+}
+
+fn features_along(values: &[f64], least: f64) -> Vec<(usize, LevelFeature)> {
     let mut found = Vec::new();
     let numbered = values
         .iter()
@@ -244,7 +314,7 @@ mod tests {
         let values: Vec<f64> = (0..=100)
             .map(|index| (0.1 * f64::from(index)).sin())
             .collect();
-        let kinds: Vec<LevelFeature> = features(&values, 1e-9).into_iter().map(|it| it.1).collect();
+        let kinds: Vec<LevelFeature> = features(&values, 1e-9, false).into_iter().map(|it| it.1).collect();
         use LevelFeature::{Inflection, Maximum, Minimum};
         assert_eq!(
             kinds,
@@ -255,13 +325,28 @@ mod tests {
     }
 
     #[test]
+    fn round_a_periodic_curve_features_at_the_seam_count() {
+        let wave = |index: i32| (std::f64::consts::TAU * f64::from(index) / 50.0).cos();
+        let values: Vec<f64> = (0..50).map(wave).collect();
+        use LevelFeature::{Inflection, Maximum, Minimum};
+        let found = features(&values, 1e-9, true);
+        let kinds: Vec<LevelFeature> = found.iter().map(|it| it.1).collect();
+        assert_eq!(kinds, [Maximum, Inflection, Minimum, Inflection]);
+        assert_eq!(found[0].0, 0);
+        let mut turned = vec![(0.5, Minimum), (1.5, Inflection), (2.5, Maximum), (3.5, Inflection)];
+        let there: Vec<(f64, LevelFeature)> = kinds.into_iter().map(|kind| (0.0, kind)).collect();
+        turn_to(&mut turned, &there);
+        assert_eq!(turned[0], (2.5, Maximum));
+    }
+
+    #[test]
     fn what_is_only_rounding_is_no_feature() {
         let ripple = |index: i32| 1.0 + 1e-12 * f64::from(index % 3);
         let values: Vec<f64> = (0..50).map(ripple).collect();
-        assert_eq!(features(&values, 1e-9), []);
+        assert_eq!(features(&values, 1e-9, false), []);
         let rising: Vec<f64> = (0..50)
             .map(|index| f64::from(index) * 0.1 + ripple(index))
             .collect();
-        assert_eq!(features(&rising, 1e-9), []);
+        assert_eq!(features(&rising, 1e-9, false), []);
     }
 }

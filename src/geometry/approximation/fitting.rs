@@ -115,6 +115,20 @@ pub enum FitError {
         /// The number needed.
         needed: usize,
     },
+    /// There are too few vertices or points for the extrema.
+    #[error(
+        "{extrema} curvature extrema are too many for {count} {of}: the discrete curvature of a polygon has at most as many extrema as vertices less 4, so {needed} are needed"
+    )]
+    TooManyExtrema {
+        /// The number of extrema asked for.
+        extrema: usize,
+        /// The number of vertices or points.
+        count: usize,
+        /// Of which of them there are too few.
+        of: &'static str,
+        /// The least number that can hold so many.
+        needed: usize,
+    },
     /// There are more vertices than points.
     #[error(
         "{count} vertices are too many for {points} points: give at most as many vertices as points"
@@ -206,6 +220,21 @@ impl<'a> Fit<'a> {
         if let Some(count) = asked.count.filter(|count| *count > points.len()) {
             let points = points.len();
             return Err(FitError::TooManyVertices { count, points });
+        }
+        if let Some(extrema) = asked.extrema {
+            let needed = vertices_for(extrema, asked.degree);
+            let limits = [
+                (asked.count.unwrap_or(needed), "vertices"),
+                (points.len(), "points"),
+            ];
+            if let Some((count, of)) = limits.into_iter().find(|(count, _)| *count < needed) {
+                return Err(FitError::TooManyExtrema {
+                    extrema,
+                    count,
+                    of,
+                    needed,
+                });
+            }
         }
         let lengths = points.windows(2).map(|leg| leg[0].distance(leg[1]));
         let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
@@ -363,7 +392,8 @@ impl<'a> Fit<'a> {
         let mut best: Option<Fitted> = None;
         for share in shares {
             let count = (share * count as f64).round() as usize;
-            let count = count.clamp(self.asked.degree + 1, self.points.len());
+            let least = vertices_for(extrema, self.asked.degree);
+            let count = count.clamp(least, self.points.len());
             let fitted = self.with_extrema(count, extrema, enough)?;
             keep_better(&mut best, fitted);
             if best
@@ -648,6 +678,13 @@ impl<'a> Fit<'a> {
             fairness: solved.fairness,
         })
     }
+}
+
+/// The least number of vertices whose discrete curvature, a number at each inner vertex, can have so many
+/// extrema.
+fn vertices_for(extrema: usize, degree: usize) -> usize {
+    let outer = if extrema > 0 { 4 } else { 0 };
+    (extrema + outer).max(degree + 1)
 }
 
 /// Whether one fit is better than another: it reaches what was asked for, or is nearer to the points.

@@ -11,6 +11,7 @@ pub struct UniformKnots {
     first: f64,
     step: f64,
     count: usize,
+    periodic: bool,
 }
 
 impl UniformKnots {
@@ -35,6 +36,27 @@ impl UniformKnots {
             first,
             step,
             count,
+            periodic: false,
+        })
+    }
+
+    /// Let a periodic curve of `count` vertices run once round from t = `from` to t = `to`, the whole
+    /// period of another one: a segment for each vertex, and parameters are taken modulo the period.
+    ///
+    /// # Errors
+    /// As [`UniformKnots::of_vertices`].
+    pub fn around(
+        degree: usize,
+        [from, to]: [f64; 2],
+        count: usize,
+    ) -> Result<Self, ApproximationError> {
+        check_size(degree, count, true)?;
+        let step = (to - from) / count as f64;
+        let first = from - 0.5 * (degree as f64 - 1.0) * step;
+        let open = Self::of_vertices(degree, first, step, count)?;
+        Ok(Self {
+            periodic: true,
+            ..open
         })
     }
 
@@ -68,9 +90,19 @@ impl UniformKnots {
         self.step
     }
 
-    /// The parameter t that vertex i belongs to.
+    /// Whether they run round a periodic curve.
+    pub fn is_periodic(&self) -> bool {
+        self.periodic
+    }
+
+    /// The parameter t that vertex i belongs to; of a periodic curve one of the period.
     pub fn vertex_parameter(&self, index: usize) -> f64 {
-        self.first + index as f64 * self.step
+        let parameter = self.first + index as f64 * self.step;
+        if !self.periodic {
+            return parameter;
+        }
+        let [from, to] = self.interval();
+        from + (parameter - from).rem_euclid(to - from)
     }
 
     /// The parameter t that belongs to the parameter u of the curve: u = 0 is the knot in the middle
@@ -79,14 +111,20 @@ impl UniformKnots {
         self.first + (u + 0.5 * (self.degree as f64 - 1.0)) * self.step
     }
 
-    /// The parameters that the first and the last vertex belong to.
+    /// The parameters that the first and the last vertex belong to; of a periodic curve the period.
     pub fn reach(&self) -> [f64; 2] {
+        if self.periodic {
+            return self.interval();
+        }
         [0, self.count - 1].map(|index| self.vertex_parameter(index))
     }
 
     /// Where the curve begins and ends.
     pub fn interval(&self) -> [f64; 2] {
-        let segments = self.count - self.degree;
+        let segments = match self.periodic {
+            true => self.count,
+            false => self.count - self.degree,
+        };
         [0, segments].map(|u| self.curve_parameter(u as f64))
     }
 }

@@ -14,9 +14,9 @@ pub use approximating::{
     approximate_to_tolerance,
 };
 pub use deviation::MeasuredDeviation;
-pub use equivalence::{LevelComparison, LevelFeature, compare_levels};
+pub use equivalence::{LevelComparison, LevelFeature, SideBySide, compare_levels};
 pub use error::ApproximationError;
 pub use fitting::{FitAsked, FitError, Fitted, fit_points};
 pub use knots::UniformKnots;
-pub use placing::{Placing, float_polygon};
+pub use placing::{Corrections, Placing, float_polygon};
 pub use spacing::{Respaced, Spacing};

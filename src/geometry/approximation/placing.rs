@@ -24,6 +24,23 @@ pub enum Placing {
     Quasi,
 }
 
+/// How the corrections of quasi-interpolation behave at the vertex where they grow most.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Corrections {
+    /// The vertex, counted from 0.
+    pub vertex: usize,
+    /// The last correction |a_k h^{2k} C^{(2k)}| over the first one, |a_1 h² C″|. Above 1 they grow: the step
+    /// is too long for the degree, and the vertices lie anywhere.
+    pub growth: f64,
+}
+
+/// A float polygon near a curve, and what is known of its making.
+pub(super) struct PlacedPolygon {
+    pub(super) polygon: FloatPolygon,
+    /// Of quasi-interpolation, from degree 4 on, where there are two corrections or more.
+    pub(super) corrections: Option<Corrections>,
+}
+
 /// Place the vertices of a float polygon near a curve.
 ///
 /// Quasi-interpolation expands the curve at each vertex's own parameter; where the curve is not defined
@@ -38,6 +55,16 @@ pub fn float_polygon(
     knots: &UniformKnots,
     placing: Placing,
 ) -> Result<FloatPolygon, ApproximationError> {
+    Ok(placed(curve, knots, placing)?.polygon)
+}
+
+/// Place vertices as [`float_polygon`] does, and watch the corrections.
+pub(super) fn placed(
+    curve: &dyn Differentiable,
+    knots: &UniformKnots,
+    placing: Placing,
+) -> Result<PlacedPolygon, ApproximationError> {
+    let mut corrections: Option<Corrections> = None;
     let vertices: Result<Vec<DVec3>, ApproximationError> = match placing {
         Placing::OnCurve => (0..knots.count())
             .map(|index| {
@@ -51,20 +78,40 @@ pub fn float_polygon(
             let factors = greville_factors(degree, degree / 2, knots.step());
             let factors: Vec<f64> = factors.into_iter().map(|factor| factor.value()).collect();
             (0..knots.count())
-                .map(|index| blossom(curve, knots, &factors, index))
+                .map(|vertex| {
+                    let terms = blossom_terms(curve, knots, &factors, vertex)?;
+                    if let Some(growth) = growth(&terms)
+                        && corrections.is_none_or(|known| growth > known.growth)
+                    {
+                        corrections = Some(Corrections { vertex, growth });
+                    }
+                    Ok(terms.into_iter().sum())
+                })
                 .collect()
         }
     };
-    Ok(FloatPolygon::new(knots.degree(), vertices?, None, false)?)
+    let polygon = FloatPolygon::new(knots.degree(), vertices?, None, knots.is_periodic())?;
+    Ok(PlacedPolygon {
+        polygon,
+        corrections,
+    })
 }
 
-/// The blossom of the curve's Taylor polynomial at the knots of a vertex.
-fn blossom(
+/// The last correction over the first one, if there are two or more.
+fn growth(terms: &[DVec3]) -> Option<f64> {
+    let [_, first, .., last] = terms else {
+        return None;
+    };
+    Some(last.length() / first.length()).filter(|growth| growth.is_finite())
+}
+
+/// The terms of the blossom of the curve's Taylor polynomial at the knots of a vertex.
+fn blossom_terms(
     curve: &dyn Differentiable,
     knots: &UniformKnots,
     factors: &[f64],
     index: usize,
-) -> Result<DVec3, ApproximationError> {
+) -> Result<Vec<DVec3>, ApproximationError> {
     let parameter = knots.vertex_parameter(index);
     // Of the derivatives at the middle of the knots only the even ones count.
     let last = 2 * (factors.len() - 1);
@@ -79,7 +126,7 @@ fn blossom(
         }
     };
     let even = values.iter().step_by(2).zip(factors);
-    Ok(even.fold(DVec3::ZERO, |sum, (value, factor)| sum + *value * *factor))
+    Ok(even.map(|(value, factor)| *value * *factor).collect())
 }
 
 /// The derivatives of a Taylor polynomial at a distance from where it was expanded.

@@ -165,6 +165,6 @@ impl Task {
 
 /// The angle from one vector to another, by a tangent: a cosine would lose half of the digits of small
 /// angles.
-fn angle(from: DVec2, to: DVec2) -> f64 {
+pub(super) fn angle(from: DVec2, to: DVec2) -> f64 {
     from.perp_dot(to).atan2(from.dot(to))
 }

@@ -7,7 +7,7 @@ use super::error::BetweenError;
 use super::growth::ByGrowth;
 use super::parts::Parts;
 use crate::geometry::approximation::{
-    ApproximationError, MeasuredDeviation, Placing, UniformKnots, float_polygon,
+    ApproximationError, MeasuredDeviation, Placing, Respaced, Spacing, UniformKnots, float_polygon,
 };
 use crate::geometry::differentiable::Differentiable;
 use crate::geometry::end::End;
@@ -39,8 +39,9 @@ pub(super) struct Fit {
 /// Find the polygon with the fewest segments that stays within a tolerance of the true segment and
 /// has monotone curvature; without one, that which comes closest.
 ///
-/// Vertices belong to even steps of the parts' own parameter. Where no number of them does and the
-/// segment is log-aesthetic, they belong to even steps of ln ρ, which are fine where it bends sharply.
+/// Vertices belong to even steps of the parts' own parameter. Where no number of them does, they belong to even
+/// steps of ln ρ if the segment is log-aesthetic, or else of arc length and turning together: both are fine where
+/// it bends sharply.
 pub(super) fn fit(
     parts: &Parts,
     ends: &Ends,
@@ -60,17 +61,11 @@ pub(super) fn fit(
     let found = match own {
         Err(BetweenError::Cancelled) => return own,
         Ok(fit) if reached(&fit) || parts.is_arc() => return Ok(fit),
-        own => match ByGrowth::of(parts) {
-            None => own,
-            Some(grown) => {
-                let other = search.closest(&grown, 1.0, &|v| grown.arc_length(v));
-                match (own, other) {
-                    (_, Err(BetweenError::Cancelled)) => return Err(BetweenError::Cancelled),
-                    (Ok(own), Ok(other)) if other.is_better(&own, tolerance) => Ok(other),
-                    (Err(_), other) => other,
-                    (own, _) => own,
-                }
-            }
+        own => match (own, search.closest_by_bending()) {
+            (_, Err(BetweenError::Cancelled)) => return Err(BetweenError::Cancelled),
+            (Ok(own), Ok(other)) if other.is_better(&own, tolerance) => Ok(other),
+            (Err(_), other) => other,
+            (own, _) => own,
         },
     };
     let mut found = found?;
@@ -105,6 +100,16 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
+    /// Find the polygon as [`Search::closest`] does, with vertices that are close where the segment bends.
+    fn closest_by_bending(&self) -> Result<Fit, BetweenError> {
+        let parts = self.parts;
+        if let Some(grown) = ByGrowth::of(parts) {
+            return self.closest(&grown, 1.0, &|v| grown.arc_length(v));
+        }
+        let respaced = Respaced::new(parts, [0.0, parts.end()], Spacing::Curvature)?;
+        self.closest(&respaced, 1.0, &|v| respaced.near(v))
+    }
+
     /// Find the polygon with the fewest segments that does, or that comes closest, with vertices at even
     /// steps of the parameter of a curve that is the true segment from 0 to `end`; `own` tells the parts'
     /// parameter that belongs to it.

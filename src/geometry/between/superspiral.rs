@@ -7,6 +7,7 @@
 
 use glam::DVec2;
 
+use super::ends::angle;
 use super::root::root;
 use crate::geometry::differentiable::Differentiable;
 use crate::geometry::references::{
@@ -55,7 +56,7 @@ impl Superspiral {
         let leans = |begin: f64| {
             let [from, to] = [begin, begin + turning].map(|angle| spiral.derivatives(angle, 0)[0]);
             let half_way = DVec2::from_angle(begin + 0.5 * turning);
-            (to - from).truncate().angle_to(half_way)
+            angle((to - from).truncate(), half_way)
         };
         let [most, least] = BEGINS.map(leans);
         if !(least <= lean && lean <= most) {

@@ -1,8 +1,12 @@
 //! Expressions as trees, and their power series.
 
 use super::function::Function;
+use super::range::{Gap, Range};
 use super::unit::Unit;
 use crate::geometry::power_series::PowerSeries;
+
+/// The most intervals that are looked at for a place without a value: some hundred lead to a pole.
+const MOST_INTERVALS: usize = 20_000;
 
 /// An expression in t. Where something can be wrong with a part, it has the column of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,6 +54,39 @@ impl Expression {
     pub(in crate::geometry) fn value(&self) -> f64 {
         self.0.value()
     }
+
+    /// Find the first place of an interval where it has no value or no slope: intervals are halved until it
+    /// has both all over them.
+    pub(in crate::geometry) fn first_gap(&self, [from, to]: [f64; 2]) -> Option<f64> {
+        let mut left = vec![[from, to]];
+        for _ in 0..MOST_INTERVALS {
+            let [low, high] = left.pop()?;
+            let range = self.0.range(Range::new(low, high));
+            let Err(gap) = range.and_then(Range::of_coordinate) else {
+                continue;
+            };
+            let middle = low + 0.5 * (high - low);
+            if low < middle && middle < high {
+                left.extend([[middle, high], [low, middle]]);
+            } else if gap == Gap::Pole {
+                return Some(rounder(low, high));
+            } else if let Some(place) = [low, high].into_iter().find(|t| !self.has_slope(*t)) {
+                return Some(place);
+            }
+        }
+        None
+    }
+
+    fn has_slope(&self, t: f64) -> bool {
+        let series = self.series(t, 1);
+        series.coefficients().iter().all(|it| it.is_finite())
+    }
+}
+
+/// Of two neighbouring numbers the one with fewer digits.
+fn rounder(low: f64, high: f64) -> f64 {
+    let digits = |number: f64| format!("{number}").len();
+    if digits(high) < digits(low) { high } else { low }
 }
 
 impl Node {
@@ -97,5 +134,37 @@ impl Node {
 
     fn value(&self) -> f64 {
         self.series(0.0, 0).value()
+    }
+
+    /// Bound its values for t in a range.
+    fn range(&self, t: Range) -> Result<Range, Gap> {
+        match self {
+            Self::Number(number) => Ok(Range::number(*number)),
+            Self::Parameter => Ok(t),
+            Self::Negative(inner) => Ok(inner.range(t)?.negative()),
+            Self::InUnit(Unit::Degree, _, inner) => {
+                inner.range(t)?.times(Range::number(1_f64.to_radians()))
+            }
+            Self::InUnit(Unit::Radian | Unit::Length(_), _, inner) => inner.range(t),
+            Self::Call(function, _, arguments) => {
+                let arguments = arguments.iter().map(|argument| argument.range(t));
+                function.over(&arguments.collect::<Result<Vec<_>, Gap>>()?)
+            }
+            Self::Combined(operator, _, operands) => {
+                let [left, right] = &**operands;
+                let base = left.range(t)?;
+                if *operator == Operator::Power && !right.depends_on_parameter() {
+                    return base.power(right.value());
+                }
+                let other = right.range(t)?;
+                match operator {
+                    Operator::Plus => base.plus(other),
+                    Operator::Minus => base.plus(other.negative()),
+                    Operator::Times => base.times(other),
+                    Operator::Over => base.times(other.inverse()?),
+                    Operator::Power => other.times(base.ln()?)?.rising(f64::exp),
+                }
+            }
+        }
     }
 }

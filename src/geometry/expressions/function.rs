@@ -1,6 +1,7 @@
 //! The functions that expressions can name.
 
 use super::degrees::{sin_cos_of_degrees, tan_of_degrees};
+use super::range::{Gap, Range};
 use crate::geometry::power_series::PowerSeries;
 
 /// A function that expressions can name.
@@ -33,9 +34,12 @@ pub(super) enum FunctionKind {
 
 #[derive(Clone, Copy)]
 enum Body {
-    One(fn(&PowerSeries) -> PowerSeries),
-    Two(fn(&PowerSeries, &PowerSeries) -> PowerSeries),
+    One(OfOne<PowerSeries>, fn(Range) -> Result<Range, Gap>),
+    Two(OfTwo<PowerSeries>, fn(Range, Range) -> Result<Range, Gap>),
 }
+
+type OfOne<T> = fn(&T) -> T;
+type OfTwo<T> = fn(&T, &T) -> T;
 
 /// The functions that there are.
 pub(super) const FUNCTIONS: &[Function] = &[
@@ -43,54 +47,59 @@ pub(super) const FUNCTIONS: &[Function] = &[
         "sin",
         FunctionKind::OfAngle(|degrees| sin_cos_of_degrees(degrees).0),
         |f| f.sin_cos().0,
+        Range::sin,
     ),
     one(
         "cos",
         FunctionKind::OfAngle(|degrees| sin_cos_of_degrees(degrees).1),
         |f| f.sin_cos().1,
+        Range::cos,
     ),
     one(
         "tan",
         FunctionKind::OfAngle(tan_of_degrees),
         PowerSeries::tan,
+        Range::tan,
     ),
-    one("asin", FunctionKind::ToAngle, PowerSeries::asin),
-    one("acos", FunctionKind::ToAngle, PowerSeries::acos),
-    one("atan", FunctionKind::ToAngle, PowerSeries::atan),
-    one("sinh", FunctionKind::Plain, |f| f.sinh_cosh().0),
-    one("cosh", FunctionKind::Plain, |f| f.sinh_cosh().1),
-    one("tanh", FunctionKind::Plain, PowerSeries::tanh),
-    one("exp", FunctionKind::Plain, PowerSeries::exp),
-    one("ln", FunctionKind::Plain, PowerSeries::ln),
-    one("sqrt", FunctionKind::Root, |f| f.power(0.5)),
-    one("abs", FunctionKind::Same, PowerSeries::abs),
+    one("asin", FunctionKind::ToAngle, PowerSeries::asin, Range::asin),
+    one("acos", FunctionKind::ToAngle, PowerSeries::acos, Range::acos),
+    one("atan", FunctionKind::ToAngle, PowerSeries::atan, |f| f.rising(f64::atan)),
+    one("sinh", FunctionKind::Plain, |f| f.sinh_cosh().0, |f| f.rising(f64::sinh)),
+    one("cosh", FunctionKind::Plain, |f| f.sinh_cosh().1, Range::cosh),
+    one("tanh", FunctionKind::Plain, PowerSeries::tanh, |f| f.rising(f64::tanh)),
+    one("exp", FunctionKind::Plain, PowerSeries::exp, |f| f.rising(f64::exp)),
+    one("ln", FunctionKind::Plain, PowerSeries::ln, Range::ln),
+    one("sqrt", FunctionKind::Root, |f| f.power(0.5), |f| f.power(0.5)),
+    one("abs", FunctionKind::Same, PowerSeries::abs, |f| Ok(f.abs())),
     two("min", FunctionKind::Same, |f, g| {
         if f.value() <= g.value() { f } else { g }.clone()
-    }),
+    }, |f, g| Ok(f.lower(g))),
     two("max", FunctionKind::Same, |f, g| {
         if f.value() >= g.value() { f } else { g }.clone()
-    }),
+    }, |f, g| Ok(f.upper(g))),
     two("hypot", FunctionKind::Same, |f, g| {
         (&(f * f) + &(g * g)).power(0.5)
-    }),
-    two("atan2", FunctionKind::Direction, PowerSeries::direction),
+    }, |f, g| f.power(2.0)?.plus(g.power(2.0)?)?.power(0.5)),
+    two("atan2", FunctionKind::Direction, PowerSeries::direction, Range::direction),
 ];
 
 const fn one(
     name: &'static str,
     kind: FunctionKind,
-    of: fn(&PowerSeries) -> PowerSeries,
+    of: OfOne<PowerSeries>,
+    over: fn(Range) -> Result<Range, Gap>,
 ) -> Function {
-    let of = Body::One(of);
+    let of = Body::One(of, over);
     Function { name, kind, of }
 }
 
 const fn two(
     name: &'static str,
     kind: FunctionKind,
-    of: fn(&PowerSeries, &PowerSeries) -> PowerSeries,
+    of: OfTwo<PowerSeries>,
+    over: fn(Range, Range) -> Result<Range, Gap>,
 ) -> Function {
-    let of = Body::Two(of);
+    let of = Body::Two(of, over);
     Function { name, kind, of }
 }
 
@@ -104,17 +113,29 @@ impl Function {
     /// How many arguments it has.
     pub(super) fn arguments(self) -> usize {
         match self.of {
-            Body::One(_) => 1,
-            Body::Two(_) => 2,
+            Body::One(..) => 1,
+            Body::Two(..) => 2,
         }
     }
 
     /// Its power series, of those of its arguments; no number if they are not as many as it has.
     pub(super) fn of(self, arguments: &[PowerSeries]) -> PowerSeries {
         match (self.of, arguments) {
-            (Body::One(of), [f]) => of(f),
-            (Body::Two(of), [f, g]) => of(f, g),
+            (Body::One(of, _), [f]) => of(f),
+            (Body::Two(of, _), [f, g]) => of(f, g),
             _ => PowerSeries::constant(f64::NAN, 0),
+        }
+    }
+
+    /// Bound its values over ranges of its arguments.
+    ///
+    /// # Errors
+    /// [`Gap`] where it may have none, and if the arguments are not as many as it has.
+    pub(super) fn over(self, arguments: &[Range]) -> Result<Range, Gap> {
+        match (self.of, arguments) {
+            (Body::One(_, over), [f]) => over(*f),
+            (Body::Two(_, over), [f, g]) => over(*f, *g),
+            _ => Err(Gap::Pole),
         }
     }
 

@@ -11,6 +11,7 @@ mod expression;
 mod function;
 mod measure;
 mod number_context;
+mod range;
 mod reading;
 mod unit;
 

@@ -100,6 +100,16 @@ impl<T: Scalar> Arena<T> {
         }
     }
 
+    /// Take a polynomial by its coefficients in plain Bernstein form, with error bounds.
+    pub(super) fn plain(&mut self, values: &[f64], bounds: &[f64]) -> Polynomial {
+        let result = self.push(values.len() - 1);
+        for (index, (value, bound)) in result.range().zip(values.iter().zip(bounds)) {
+            self.values[index] = T::from_wide(DoubleDouble::from(*value));
+            self.errors[index] = inflated(*bound);
+        }
+        result
+    }
+
     /// Convert the control values of one segment of a uniform B-spline, given with error
     /// bounds, to Bernstein form.
     pub(super) fn convert(&mut self, controls: &[DoubleDouble], bounds: &[f64]) -> Polynomial {

@@ -39,6 +39,7 @@ mod feature;
 mod floating;
 mod isolation;
 mod numerators;
+mod power_velocity;
 mod ray_forecast;
 mod refinement;
 mod ring;
@@ -58,6 +59,7 @@ pub use certain_digits::certain_text;
 pub use feature::{
     Cusp, Extremum, ExtremumKind, Features, Quantity, Root, Trend, TrendPiece, Undecided, Verdict,
 };
+pub(super) use power_velocity::PowerVelocity;
 pub(super) use ray_forecast::RayForecast;
 pub use segment_features::{LocalCusp, SegmentFeatures, SegmentProver};
 pub use sign_piece::{Sign, SignPiece};

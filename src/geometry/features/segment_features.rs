@@ -56,7 +56,7 @@ pub struct LocalCusp {
 #[derive(Debug)]
 pub struct SegmentProver {
     planar: bool,
-    quick: Arena<f64>,
+    pub(super) quick: Arena<f64>,
     precise: Arena<DoubleDouble>,
 }
 

@@ -97,8 +97,9 @@ impl Atlas {
     ///
     /// As κ(u + 1) = κ(u) / s on a float polygon, one segment tells of all: from degree 3 on κ is
     /// continuous at the knots. At degree 2 it jumps there, and there are two segments to prove if
-    /// the curve has several. Of planar Bézier curves the closed form is the proof:
-    /// [`Configuration::bezier_extremum`].
+    /// the curve has several. Of planar Bézier curves the closed form is the proof,
+    /// [`Configuration::bezier_extremum`]; in space the derivative of the curvature has a closed form too, whose
+    /// signs are proved.
     pub fn verdict(&self, turn: f64, ratio: f64, prover: &mut SegmentProver) -> Verdict {
         let configuration = Configuration {
             start: DVec3::ZERO,
@@ -113,7 +114,14 @@ impl Atlas {
                 let extremum = configuration.bezier_extremum().filter(|_| self.legs > 1);
                 return extremum.map_or(Verdict::Proved, |_| Verdict::Disproved);
             }
-            Format::Bezier => self.legs,
+            Format::Bezier => {
+                let velocity = configuration.bezier_velocity(self.legs);
+                match prover.power_velocity(&velocity) {
+                    // The float polygon nearest to the curve tells, with more digits.
+                    Verdict::Undecided => self.legs,
+                    verdict => return verdict,
+                }
+            }
             Format::Float { degree } => {
                 let segments = if degree == 2 { 2 } else { 1 };
                 self.legs.min(degree + segments - 1)

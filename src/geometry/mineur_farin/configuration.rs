@@ -5,6 +5,7 @@ use glam::{DMat3, DVec3};
 use crate::geometry::bezier_polygon::BezierPolygon;
 use crate::geometry::conversion::Approximation;
 use crate::geometry::error::PolygonError;
+use crate::geometry::features::PowerVelocity;
 use crate::geometry::float_polygon::FloatPolygon;
 
 /// Directions count as parallel to the z axis if the sine of the angle between them is not above
@@ -191,6 +192,23 @@ impl Configuration {
         let inside = ratio * cosine < 1.0 && ratio > cosine;
         let speed = 1.0 - 2.0 * ratio * cosine + ratio * ratio;
         inside.then(|| (1.0 - ratio * cosine) / speed)
+    }
+
+    /// Tell how the velocity of the Bézier curve on so many legs turns. The rotation M of a leg to the next one
+    /// turns by θ about the binormal after turning by the torsion angle τ about the leg: as a quaternion
+    /// (sin τ/2 cos θ/2, sin τ/2 sin θ/2, cos τ/2 sin θ/2, cos τ/2 cos θ/2), in the frame of the leg.
+    pub(super) fn bezier_velocity(&self, legs: usize) -> PowerVelocity {
+        let [turn, torsion] = [self.turn, self.torsion].map(|angle| (0.5 * angle).sin_cos());
+        let along = torsion.0 * turn.1;
+        let across = turn.0;
+        let cosine = torsion.1 * turn.1;
+        PowerVelocity {
+            along: along * along,
+            across: across * across,
+            cosine: cosine * cosine,
+            ratio: self.ratio,
+            degree: legs,
+        }
     }
 
     /// The unit vector that is normal to the first two legs, so that a positive angle turns to the

@@ -64,6 +64,11 @@ impl ReferenceCurve {
             let [from, to] = domain;
             return Err(ReferenceError::OutsideDomain { t, from, to });
         }
+        if let ReferenceForm::Formula(formula) = &form
+            && let Some(t) = formula.first_gap([from, to])
+        {
+            return Err(ReferenceError::NotFinite { t });
+        }
         let mut curve = Self {
             form,
             interval: [from, to],
@@ -98,6 +103,14 @@ impl ReferenceCurve {
     /// Where it lies.
     pub fn placement(&self) -> &Placement {
         &self.placement
+    }
+
+    /// Draw another part of it.
+    ///
+    /// # Errors
+    /// As [`ReferenceCurve::new`].
+    pub fn over(&self, interval: [f64; 2]) -> Result<Self, ReferenceError> {
+        Self::new(self.form.clone(), interval, self.placement)
     }
 
     /// Put it elsewhere.

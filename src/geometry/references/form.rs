@@ -64,6 +64,15 @@ impl AnalyticForm {
 }
 
 impl ReferenceForm {
+    /// What the command line calls it.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Analytic(form) => form.kind.name,
+            Self::Formula(_) => "formula",
+            Self::Points(_) => "points",
+        }
+    }
+
     /// What menus and lists call it.
     pub fn label(&self) -> &'static str {
         match self {

@@ -46,6 +46,14 @@ impl Formula {
         [Some(&self.x.text), Some(&self.y.text), z]
     }
 
+    /// Find the first place of an interval where a coordinate has no value or no slope.
+    pub(super) fn first_gap(&self, interval: [f64; 2]) -> Option<f64> {
+        let coordinates = [Some(&self.x), Some(&self.y), self.z.as_ref()];
+        let gaps = coordinates.into_iter().flatten();
+        let gaps = gaps.filter_map(|it| it.expression.first_gap(interval));
+        gaps.min_by(f64::total_cmp)
+    }
+
     /// Expand the coordinates about t.
     pub(super) fn series(&self, t: f64, order: usize) -> [PowerSeries; 3] {
         let of = |coordinate: &Coordinate| coordinate.expression.series(t, order);

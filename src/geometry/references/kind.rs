@@ -72,6 +72,11 @@ impl ReferenceKind {
     pub fn defaults(&self) -> Vec<f64> {
         self.parameters.iter().map(|it| it.default).collect()
     }
+
+    /// The interval of t that is drawn if nothing is given.
+    pub fn default_interval(&self) -> [f64; 2] {
+        (self.interval)(&self.defaults())
+    }
 }
 
 impl ReferenceParameter {

@@ -35,6 +35,18 @@ impl ReferenceCurve {
     /// # Errors
     /// [`ReferenceTextError`] names the column where the mistake begins.
     pub fn from_text(text: &str) -> Result<Self, ReferenceTextError> {
+        Self::from_text_over(text, [None; 2])
+    }
+
+    /// Read a reference as [`ReferenceCurve::from_text`] does; ends of the interval that the text does not
+    /// give are the `other` ones, where there are any.
+    ///
+    /// # Errors
+    /// As [`ReferenceCurve::from_text`].
+    pub fn from_text_over(
+        text: &str,
+        other: [Option<f64>; 2],
+    ) -> Result<Self, ReferenceTextError> {
         let whole = Part::whole(text);
         let (name, rest) = whole.split_once(':');
         let name = name.trimmed();
@@ -53,7 +65,7 @@ impl ReferenceCurve {
             analytic(kind, &assignments(',')?)?
         };
         let default = form.default_interval();
-        let [from, to] = [0, 1].map(|end: usize| interval[end].unwrap_or(default[end]));
+        let [from, to] = [0, 1].map(|end: usize| interval[end].or(other[end]).unwrap_or(default[end]));
         Self::new(form, [from, to], Placement::default()).map_err(|error| whole.error(error))
     }
 }

@@ -1,0 +1,70 @@
+//! References as `batten inspect` prints them.
+
+use serde::Serialize;
+use serde_json::{Map, Value, json};
+
+use crate::document::Reference;
+use crate::geometry::references::ReferenceForm;
+
+/// What is printed of a reference.
+#[derive(Serialize)]
+pub(super) struct InspectedReference {
+    name: String,
+    kind: &'static str,
+    /// As the command line reads it; points have no text.
+    text: Option<String>,
+    /// Numbers by their names, or formulas by their coordinates.
+    parameters: Map<String, Value>,
+    /// Points as they are placed, if it is a list of them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    points: Option<Vec<[f64; 3]>>,
+    interval: [f64; 2],
+    placement: Placement,
+}
+
+/// A rotation about the origin, then a scale, then a translation.
+#[derive(Serialize)]
+struct Placement {
+    /// The quaternion x, y, z, w.
+    rotation: [f64; 4],
+    scale: f64,
+    translation: [f64; 3],
+}
+
+impl InspectedReference {
+    /// Take what there is to print.
+    pub(super) fn of(reference: &Reference) -> Self {
+        let curve = &reference.curve;
+        let placement = curve.placement();
+        let points = reference.points();
+        Self {
+            name: reference.name.clone(),
+            kind: curve.form().name(),
+            text: points.is_none().then(|| curve.to_string()),
+            parameters: parameters(curve.form()),
+            points: points.map(|points| points.iter().map(|it| it.to_array()).collect()),
+            interval: curve.interval(),
+            placement: Placement {
+                rotation: placement.rotation().to_array(),
+                scale: placement.scale(),
+                translation: placement.translation().to_array(),
+            },
+        }
+    }
+}
+
+fn parameters(form: &ReferenceForm) -> Map<String, Value> {
+    match form {
+        ReferenceForm::Analytic(form) => {
+            let parameters = form.kind().parameters.iter().zip(form.values());
+            let named = parameters.map(|(it, value)| (it.name.to_owned(), json!(value)));
+            named.collect()
+        }
+        ReferenceForm::Formula(formula) => {
+            let texts = ["x", "y", "z"].into_iter().zip(formula.texts());
+            let given = texts.filter_map(|(name, text)| Some((name.to_owned(), json!(text?))));
+            given.collect()
+        }
+        ReferenceForm::Points(_) => Map::new(),
+    }
+}
