@@ -101,11 +101,11 @@ impl<T: Scalar> Arena<T> {
     }
 
     /// Take a polynomial by its coefficients in plain Bernstein form, with error bounds.
-    pub(super) fn plain(&mut self, values: &[f64], bounds: &[f64]) -> Polynomial {
+    pub(super) fn plain(&mut self, values: &[DoubleDouble], bounds: &[f64]) -> Polynomial {
         let result = self.push(values.len() - 1);
         for (index, (value, bound)) in result.range().zip(values.iter().zip(bounds)) {
-            self.values[index] = T::from_wide(DoubleDouble::from(*value));
-            self.errors[index] = inflated(*bound);
+            self.values[index] = T::from_wide(*value);
+            self.errors[index] = inflated(bound + T::conversion_error(*value));
         }
         result
     }

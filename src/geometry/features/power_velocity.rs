@@ -14,27 +14,29 @@
 //!
 //! a polynomial of degree 4n − 5.
 
+use super::arena::{Arena, Polynomial};
 use super::feature::Verdict;
-use super::isolation::isolate;
+use super::isolation::{Doubt, isolate};
 use super::ring::Ring;
+use super::scalar::Scalar;
 use super::segment_features::SegmentProver;
-use super::sign_piece::Sign;
+use super::sign_piece::{Sign, SignPiece};
+use crate::geometry::expansion::DoubleDouble;
 
 /// How far from 0 and 1 the square of the cosine must be, so that q has no zero.
 const CLEAR: f64 = 1e-12;
 
-/// What rounding the coefficients of P and q may add to each, relative to its size.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// What the arithmetic of wide numbers adds to what the coefficients of P and q are made of, relative to their
+/// size.
+const ROUNDING: f64 = f64::EPSILON * f64::EPSILON * 64.0;
 
-/// Hold a velocity of which the direction and the size turn with a power.
+/// Hold a velocity of which the direction and the size turn with a power. The doubles given count as exact.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::geometry) struct PowerVelocity {
-    /// The square a of the part along the axis.
+    /// The square of the part of the unit quaternion of R along the first leg: a, but for a factor of both.
     pub(in crate::geometry) along: f64,
-    /// The square b of the part across it.
+    /// The square of its part across that leg, b; with the square w of its real part all three sum up to 1.
     pub(in crate::geometry) across: f64,
-    /// The square w of the cosine of half the angle that M rotates by.
-    pub(in crate::geometry) cosine: f64,
     /// The factor s > 0 that M stretches by.
     pub(in crate::geometry) ratio: f64,
     /// The degree n of the curve.
@@ -42,69 +44,105 @@ pub(in crate::geometry) struct PowerVelocity {
 }
 
 impl SegmentProver {
-    /// Prove whether the curvature for t in \[0, 1\] is monotone; what rounding leaves in doubt, and curves of
-    /// less than degree 3, straight and planar ones, are undecided.
+    /// Prove whether the curvature for t in \[0, 1\] is monotone; what twice the digits leave in doubt, and curves
+    /// of less than degree 3, straight and planar ones, are undecided.
     pub(in crate::geometry) fn power_velocity(&mut self, velocity: &PowerVelocity) -> Verdict {
-        let PowerVelocity {
-            along,
-            across,
-            cosine,
-            ratio,
-            degree,
-        } = *velocity;
-        let turns = cosine > CLEAR && cosine < 1.0 - CLEAR && across > 0.0 && along > 0.0;
-        if !turns || degree < 3 {
+        let cosine = velocity.cosine().high();
+        let turns = cosine > CLEAR && cosine < 1.0 - CLEAR;
+        if !turns || velocity.degree < 3 || !(velocity.across > 0.0 && velocity.along > 0.0) {
             return Verdict::Undecided;
         }
-        let arena = &mut self.quick;
-        arena.clear();
-        let power = degree - 2;
-        let sizes = [1.0, ratio, ratio * ratio].map(|size| size / ratio.max(1.0).powi(2));
-        let bounds = sizes.map(|size| ROUNDING * size);
-        let linear = [sizes[0], sizes[1] * (2.0 * cosine - 1.0), sizes[2]];
-        let mut constant = |number: f64| arena.plain(&[number], &[ROUNDING * number]);
-        let weights = [constant(across * cosine), constant(along), constant(across)];
-        let one = arena.plain(&[1.0], &[0.0]);
-        // q and P, their slopes and powers up to m + 1.
-        let bases = [linear, sizes].map(|coefficients| {
-            let plain = arena.plain(&coefficients, &bounds);
-            let slope = arena.derivative(plain);
-            let [base, slope] = [plain, slope].map(|it| arena.scale(it));
-            let mut powers = vec![one];
-            for index in 0..=power {
-                let next = arena.sum_of_products(&[(1, &powers[index], &base)]);
-                powers.push(next);
-            }
-            (base, slope, powers)
-        });
-        let [(square, square_slope, squares), (_, flat_slope, flats)] = &bases;
-        let [bent, flat, round] = &weights;
-        let numerator = arena.sum_of_products(&[(1, bent, &squares[power]), (1, flat, &flats[power])]);
-        let denominator =
-            arena.sum_of_products(&[(1, flat, &flats[power + 1]), (1, round, &squares[power + 1])]);
-        let [bent, flat_change, round] = [(bent, square_slope), (flat, flat_slope), (round, square_slope)]
-            .map(|(weight, slope)| arena.sum_of_products(&[(1, weight, slope)]));
-        // D₁′ / m and D₂′ / (m + 1).
-        let below = power - 1;
-        let numerator_slope =
-            arena.sum_of_products(&[(1, &bent, &squares[below]), (1, &flat_change, &flats[below])]);
-        let denominator_slope =
-            arena.sum_of_products(&[(1, &flat_change, &flats[power]), (1, &round, &squares[power])]);
-        let rising =
-            arena.sum_of_products(&[(1, square_slope, &numerator), (1, square, &numerator_slope)]);
-        let whole = arena.sum_of_products(&[(1, square, &numerator)]);
-        let power = power as i32;
-        let slope = arena.sum_of_products(&[
-            (power, &rising, &denominator),
-            (-3 * (power + 1), &whole, &denominator_slope),
-        ]);
-        let mut pieces = Vec::new();
-        match isolate(arena, slope, &mut pieces) {
+        let pieces = velocity.signs(&mut self.quick);
+        let pieces = pieces.or_else(|_| velocity.signs(&mut self.precise));
+        match pieces {
             Err(_) => Verdict::Undecided,
-            Ok(()) => match pieces.iter().any(|it| matches!(it.sign, Sign::Root { .. })) {
+            Ok(pieces) => match pieces.iter().any(|it| matches!(it.sign, Sign::Root { .. })) {
                 true => Verdict::Disproved,
                 false => Verdict::Proved,
             },
         }
+    }
+}
+
+/// A square, its slope, and its powers from 0 to m + 1.
+struct Powers {
+    square: Polynomial,
+    slope: Polynomial,
+    powers: Vec<Polynomial>,
+}
+
+impl PowerVelocity {
+    /// The square w of the cosine of half the angle of R.
+    fn cosine(&self) -> DoubleDouble {
+        DoubleDouble::difference(1.0, self.along) + -DoubleDouble::from(self.across)
+    }
+
+    /// Find the signs of the derivative of the curvature.
+    fn signs<T: Scalar>(&self, arena: &mut Arena<T>) -> Result<Vec<SignPiece>, Doubt> {
+        arena.clear();
+        let slope = self.curvature_slope(arena);
+        let mut pieces = Vec::new();
+        isolate(arena, slope, &mut pieces)?;
+        Ok(pieces)
+    }
+
+    /// Multiply out the polynomial that has the signs of the derivative of the curvature.
+    fn curvature_slope<T: Scalar>(&self, arena: &mut Arena<T>) -> Polynomial {
+        let m = self.degree - 2;
+        let [across, along] = [self.across, self.along].map(DoubleDouble::from);
+        let mut constant = |number: DoubleDouble| {
+            arena.plain(&[number], &[ROUNDING * number.high()])
+        };
+        let [bent, flat, round] = [across * self.cosine(), along, across].map(&mut constant);
+        // q has the coefficients 1, s cos φ and s², P has 1, s and s².
+        let ratio = DoubleDouble::from(self.ratio);
+        let cosine = self.cosine() + self.cosine() + DoubleDouble::from(-1.0);
+        let ends = [DoubleDouble::from(1.0), DoubleDouble::product(self.ratio, self.ratio)];
+        let sizes = [ends[0], ratio, ends[1]];
+        let q = powers(arena, [ends[0], ratio * cosine, ends[1]], sizes, m);
+        let p = powers(arena, sizes, sizes, m);
+        let mut sum = |terms: &[(i32, &Polynomial, &Polynomial)]| arena.sum_of_products(terms);
+        let numerator = sum(&[(1, &bent, &q.powers[m]), (1, &flat, &p.powers[m])]);
+        let denominator = sum(&[(1, &flat, &p.powers[m + 1]), (1, &round, &q.powers[m + 1])]);
+        let bent = sum(&[(1, &bent, &q.slope)]);
+        let flat = sum(&[(1, &flat, &p.slope)]);
+        let round = sum(&[(1, &round, &q.slope)]);
+        // D₁′ / m and D₂′ / (m + 1).
+        let numerator_slope = sum(&[(1, &bent, &q.powers[m - 1]), (1, &flat, &p.powers[m - 1])]);
+        let denominator_slope = sum(&[(1, &flat, &p.powers[m]), (1, &round, &q.powers[m])]);
+        let rising = sum(&[(1, &q.slope, &numerator), (1, &q.square, &numerator_slope)]);
+        let whole = sum(&[(1, &q.square, &numerator)]);
+        let m = m as i32;
+        sum(&[
+            (m, &rising, &denominator),
+            (-3 * (m + 1), &whole, &denominator_slope),
+        ])
+    }
+}
+
+/// Multiply a square, given by its Bernstein coefficients, which are rounded in units of `sizes`, up to its power
+/// m + 1. A power of two brings the largest size to 1.
+fn powers<T: Scalar>(
+    arena: &mut Arena<T>,
+    square: [DoubleDouble; 3],
+    sizes: [DoubleDouble; 3],
+    m: usize,
+) -> Powers {
+    let largest = sizes[2].high().max(1.0);
+    let unit = (-largest.log2().ceil()).exp2();
+    let square = square.map(|coefficient| coefficient.scaled(unit));
+    let bounds = sizes.map(|size| ROUNDING * size.high() * unit);
+    let plain = arena.plain(&square, &bounds);
+    let slope = arena.derivative(plain);
+    let [square, slope] = [plain, slope].map(|polynomial| arena.scale(polynomial));
+    let mut powers = vec![arena.plain(&[DoubleDouble::from(1.0)], &[0.0])];
+    for index in 0..=m {
+        let next = arena.sum_of_products(&[(1, &powers[index], &square)]);
+        powers.push(next);
+    }
+    Powers {
+        square,
+        slope,
+        powers,
     }
 }

@@ -57,7 +57,7 @@ pub struct LocalCusp {
 pub struct SegmentProver {
     planar: bool,
     pub(super) quick: Arena<f64>,
-    precise: Arena<DoubleDouble>,
+    pub(super) precise: Arena<DoubleDouble>,
 }
 
 impl SegmentFeatures {

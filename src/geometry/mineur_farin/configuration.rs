@@ -199,13 +199,9 @@ impl Configuration {
     /// (sin τ/2 cos θ/2, sin τ/2 sin θ/2, cos τ/2 sin θ/2, cos τ/2 cos θ/2), in the frame of the leg.
     pub(super) fn bezier_velocity(&self, legs: usize) -> PowerVelocity {
         let [turn, torsion] = [self.turn, self.torsion].map(|angle| (0.5 * angle).sin_cos());
-        let along = torsion.0 * turn.1;
-        let across = turn.0;
-        let cosine = torsion.1 * turn.1;
         PowerVelocity {
-            along: along * along,
-            across: across * across,
-            cosine: cosine * cosine,
+            along: (torsion.0 * turn.1).powi(2),
+            across: turn.0.powi(2),
             ratio: self.ratio,
             degree: legs,
         }
