@@ -362,13 +362,18 @@ fn sampled_trends(points: &[DVec3], least: f64) -> [bool; 2] {
     let curvature = |t: f64| {
         let mut row = points.to_vec();
         while row.len() > 3 {
-            row = row.windows(2).map(|pair| pair[0].lerp(pair[1], t)).collect();
+            row = row
+                .windows(2)
+                .map(|pair| pair[0].lerp(pair[1], t))
+                .collect();
         }
         let legs = [row[1] - row[0], row[2] - row[1]];
         let velocity = legs[0].lerp(legs[1], t);
         velocity.cross(legs[1] - legs[0]).length() / velocity.length().powi(3)
     };
-    let values: Vec<f64> = (0..=400).map(|index| curvature(f64::from(index) / 400.0)).collect();
+    let values: Vec<f64> = (0..=400)
+        .map(|index| curvature(f64::from(index) / 400.0))
+        .collect();
     let change = |sign: f64| {
         let mut steps = values.windows(2);
         steps.any(|pair| sign * (pair[1] - pair[0]) > least * pair[0])

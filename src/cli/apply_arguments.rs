@@ -91,7 +91,8 @@ impl FromArgMatches for ApplyArguments {
                 let given = Given::new(operation, matches)
                     .map_err(|message| raw(ErrorKind::ValueValidation, message))?;
                 let twice = given.twice();
-                let twice = twice.map(|name| format!("“{name}” is given twice: leave one of them out"));
+                let twice =
+                    twice.map(|name| format!("“{name}” is given twice: leave one of them out"));
                 match twice.or_else(|| given.misplaced()) {
                     Some(message) => return Err(raw(ErrorKind::ArgumentConflict, message)),
                     None => Self::Run(given),

@@ -14,8 +14,8 @@ use super::values::Values;
 use super::whole;
 use crate::document::{Curve, Edit};
 use crate::geometry::approximation::{
-    Approximated, Asked, LevelComparison, Placing, Spacing, approximate_between, approximate_by_steps,
-    approximate_to_tolerance,
+    Approximated, Asked, LevelComparison, Placing, Spacing, approximate_between,
+    approximate_by_steps, approximate_to_tolerance,
 };
 use crate::geometry::references::ReferenceCurve;
 use crate::geometry::{Differentiable, FloatPolygon, Progress, significant};

@@ -36,7 +36,7 @@ fn level_ui(ui: &mut Ui, level: &LevelComparison) {
         Row::Heading,
     );
     for index in 0..level.there.len().max(level.here.len()) {
-        let there = level.there.get(index).map(|it| it.name().to_owned());
+        let there = level.there.get(index).map(|(_, it)| it.name().to_owned());
         let here = level.here.get(index);
         let here = here.map(|(u, feature)| told("u", *u, *feature));
         let row = match difference {

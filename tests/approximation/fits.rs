@@ -226,7 +226,12 @@ fn points_that_make_no_curve_are_refused() {
 #[test]
 fn extrema_that_a_polygon_cannot_hold_are_refused_with_the_number_that_can() {
     let mut random = Random(0xf18);
-    let (points, _) = noisy("formula:x=t;y=sin(t);from=0.3;to=22", 200, 0.01, &mut random);
+    let (points, _) = noisy(
+        "formula:x=t;y=sin(t);from=0.3;to=22",
+        200,
+        0.01,
+        &mut random,
+    );
     let fit = |count: Option<usize>, extrema: usize| {
         let asked = FitAsked {
             count,
@@ -242,10 +247,18 @@ fn extrema_that_a_polygon_cannot_hold_are_refused_with_the_number_that_can() {
         needed: 11,
     };
     assert_eq!(fit(Some(10), 7), Err(few));
-    assert!(fit(None, 197).is_err_and(|error| error.to_string().contains("197 curvature extrema are too many for 200 points")));
+    assert!(fit(None, 197).is_err_and(|error| {
+        error
+            .to_string()
+            .contains("197 curvature extrema are too many for 200 points")
+    }));
     // Without a number as many are taken as hold them.
     let found = fit(None, 7).expect("a curve");
-    assert!(found.reached && found.extrema == 7, "{} extrema", found.extrema);
+    assert!(
+        found.reached && found.extrema == 7,
+        "{} extrema",
+        found.extrema
+    );
 }
 
 /// Points once round a long ellipse of which one seed or another was hard to fit.
@@ -266,7 +279,12 @@ fn long_ellipses_are_fitted_within_the_noise_whatever_the_seed() {
         let proved = Features::new(&found.polygon).curvature_extrema.len();
         worst = worst.max(found.rms / off);
         if !found.reached || proved != 4 || found.rms > BY_NOISE * off {
-            missed.push((seed, proved, found.polygon.vertices().len(), found.rms / off));
+            missed.push((
+                seed,
+                proved,
+                found.polygon.vertices().len(),
+                found.rms / off,
+            ));
         }
     }
     println!("worst {worst:.4} of the noise");

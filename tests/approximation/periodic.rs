@@ -45,7 +45,11 @@ fn they_stay_periodic_and_begin_where_they_are_asked_to() {
             assert!(found.polygon.is_periodic());
             assert_eq!(found.polygon.vertices().len(), 40);
             assert_eq!(found.end_errors, None);
-            assert!(found.deviation.largest < 1e-3, "{spacing:?} {:?}", found.deviation);
+            assert!(
+                found.deviation.largest < 1e-3,
+                "{spacing:?} {:?}",
+                found.deviation
+            );
             let begin = found.polygon.point(0.0);
             assert_points_near("begin", begin, oval.point(from), 1e-4, 30.0);
         }
@@ -128,8 +132,7 @@ fn ripples_on_a_curvature_that_is_constant_do_not_count() {
         ..ASKED
     };
     let near = |count: usize| {
-        let found =
-            approximate_between(&circle, [0.0, 6.0], count, Spacing::Parameter, &asked);
+        let found = approximate_between(&circle, [0.0, 6.0], count, Spacing::Parameter, &asked);
         found.expect("a curve")
     };
     assert!(near(30).is_equivalent(), "{:?}", near(30).levels);
@@ -147,9 +150,12 @@ fn corrections_that_grow_are_noticed() {
         ..ASKED
     };
     let growth = |count: usize| {
-        let found =
-            approximate_between(&circle, [0.0, 6.0], count, Spacing::Parameter, &asked);
-        found.expect("a curve").corrections.expect("a high degree").growth
+        let found = approximate_between(&circle, [0.0, 6.0], count, Spacing::Parameter, &asked);
+        found
+            .expect("a curve")
+            .corrections
+            .expect("a high degree")
+            .growth
     };
     // On a circle the last of the corrections over the first is a_7 h^12 / a_1 with h = 6 / segments.
     assert!(growth(16) > 1.0, "{}", growth(16));

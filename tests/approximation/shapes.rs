@@ -197,7 +197,9 @@ fn ends_are_exact_if_asked() {
         };
         let found = approximate_by_steps(&spiral, [0.0, 1.0], 20, &asked).expect("a curve");
         assert!(
-            found.end_errors.is_some_and(|errors| errors.into_iter().all(|error| error < 1e-12)),
+            found
+                .end_errors
+                .is_some_and(|errors| errors.into_iter().all(|error| error < 1e-12)),
             "{:?}",
             found.end_errors
         );

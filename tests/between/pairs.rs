@@ -139,7 +139,11 @@ fn wide_pairs(seed: u64, cases: usize) -> [usize; 2] {
         };
         let placing = Placing::random(&mut random);
         let mut ends = with_curvatures(&segment, &placing);
-        let factors = if case % 2 == 0 { [1.05, 0.95] } else { [0.95, 1.05] };
+        let factors = if case % 2 == 0 {
+            [1.05, 0.95]
+        } else {
+            [0.95, 1.05]
+        };
         for (curvature, factor) in ends.curvatures.iter_mut().zip(factors) {
             *curvature = curvature.map(|it| it * factor);
         }

@@ -725,13 +725,13 @@ fn a_reference_is_approximated_in_place_of_a_file() {
 #[test]
 fn references_of_a_project_are_approximated_and_inspected() {
     let project = json!({"format": "batten", "version": 2,
-        "curves": [{"name": "line", "degree": 1, "vertices": [[0, 0], [0, 4]]}],
-        "references": [
-            {"name": "round", "kind": "circle", "values": {"radius": 2}, "interval": [0, 3],
-             "scale": 2, "translation": [1, 0, 0]},
-            {"name": "wave", "formula": {"x": "t", "y": "sin(t)"}, "interval": [0, 6]},
-            {"name": "scan", "points": [[0, 0], [1, 2]]},
-        ]});
+    "curves": [{"name": "line", "degree": 1, "vertices": [[0, 0], [0, 4]]}],
+    "references": [
+        {"name": "round", "kind": "circle", "values": {"radius": 2}, "interval": [0, 3],
+         "scale": 2, "translation": [1, 0, 0]},
+        {"name": "wave", "formula": {"x": "t", "y": "sin(t)"}, "interval": [0, 6]},
+        {"name": "scan", "points": [[0, 0], [1, 2]]},
+    ]});
     let folder = Folder::new().with("in.batten", project.to_string());
     let arguments = ["approximate", "in.batten", "out.batten", "--degree", "5"];
     let named = |name: &'static str| [&arguments[..], &["--curve", name]].concat();
@@ -740,7 +740,10 @@ fn references_of_a_project_are_approximated_and_inspected() {
     let curves = curves(&folder, "out.batten");
     assert_eq!(curves.as_array().unwrap().len(), 2);
     let start = numbers(&curves[1]["ends"]["start"]["point"]);
-    assert!((start[0] - 5.0).abs() < 1e-4 && start[1].abs() < 1e-4, "{start:?}");
+    assert!(
+        (start[0] - 5.0).abs() < 1e-4 && start[1].abs() < 1e-4,
+        "{start:?}"
+    );
     let refused = |arguments: &[&str], words: &str| {
         folder.refused(&[&["apply"], arguments].concat(), words);
     };
@@ -762,7 +765,10 @@ fn references_of_a_project_are_approximated_and_inspected() {
         "placement": {"rotation": [0.0, 0.0, 0.0, 1.0], "scale": 2.0, "translation": [1.0, 0.0, 0.0]}});
     assert_eq!(inspected[0], round);
     assert_eq!(inspected[1]["parameters"], json!({"x": "t", "y": "sin(t)"}));
-    assert_eq!(inspected[2]["points"], json!([[0.0, 0.0, 0.0], [1.0, 2.0, 0.0]]));
+    assert_eq!(
+        inspected[2]["points"],
+        json!([[0.0, 0.0, 0.0], [1.0, 2.0, 0.0]])
+    );
     assert_eq!(inspected[2]["text"], Value::Null);
     // The only item needs no name.
     let only = json!({"format": "batten", "version": 2, "curves": [],
@@ -775,11 +781,23 @@ fn references_of_a_project_are_approximated_and_inspected() {
 fn references_are_listed_and_unknown_ones_named() {
     let folder = Folder::new();
     let (list, _) = folder.done(&["references"]);
-    for line in ["circle  ", "  radius=1", "superspiral  ", "  a=0.5 ", "formula  "] {
-        assert!(list.lines().any(|it| it.starts_with(line)), "{line}: {list}");
+    for line in [
+        "circle  ",
+        "  radius=1",
+        "superspiral  ",
+        "  a=0.5 ",
+        "formula  ",
+    ] {
+        assert!(
+            list.lines().any(|it| it.starts_with(line)),
+            "{line}: {list}"
+        );
     }
     let (help, _) = folder.done(&["apply", "approximate", "--help"]);
-    assert!(help.contains("References: circle, ") && help.contains("“batten references”"), "{help}");
+    assert!(
+        help.contains("References: circle, ") && help.contains("“batten references”"),
+        "{help}"
+    );
     for word in ["cirle", "cirle:radius=3", "spiral:a=1"] {
         let arguments = ["apply", "approximate", word, "out.batten"];
         folder.misused(&arguments, "the references are circle, ");
@@ -793,7 +811,10 @@ fn the_report_can_be_read_as_text() {
     let folder = Folder::new();
     let arguments = ["apply", "approximate", "clothoid", "out.batten", "--text"];
     let (out, _) = folder.done(&arguments);
-    assert!(out.starts_with("Approximate: ") && out.contains("curvature level 1: "), "{out}");
+    assert!(
+        out.starts_with("Approximate: ") && out.contains("curvature level 1: "),
+        "{out}"
+    );
 }
 
 #[test]
@@ -801,11 +822,23 @@ fn a_reference_is_checked_only_where_it_is_used() {
     let folder = Folder::new();
     let formula = ["approximate", "formula:x=t;y=1/(t-0.3)", "out.batten"];
     let inside = [&["apply"], &formula[..]].concat();
-    folder.misused(&inside, "the curve has no point, or no direction, at t = 0.3: ");
+    folder.misused(
+        &inside,
+        "the curve has no point, or no direction, at t = 0.3: ",
+    );
     let part = ["--from", "1", "--to", "2", "--degree", "5"];
-    assert_eq!(report(&folder, &[&formula[..], &part].concat())["reached"], true);
+    assert_eq!(
+        report(&folder, &[&formula[..], &part].concat())["reached"],
+        true
+    );
     // The interval of the text does not count either, where another one is used.
-    let wider = ["approximate", "formula:x=t;y=1/(t-0.3);from=1;to=2", "out.batten", "--from", "0"];
+    let wider = [
+        "approximate",
+        "formula:x=t;y=1/(t-0.3);from=1;to=2",
+        "out.batten",
+        "--from",
+        "0",
+    ];
     folder.refused(
         &[&["apply"], &wider[..]].concat(),
         "approximate: the curve has no point, or no direction, at t = 0.3: give an interval without this place with the reference, such as from=1 and to=2",

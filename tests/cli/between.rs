@@ -100,10 +100,22 @@ fn a_kind_with_values_that_are_none_is_refused() {
     for (kind, words) in [
         ("spiral", "[possible values: log-aesthetic, "),
         ("log-aesthetic:alpha=-1,alpha=1", "“alpha” is given twice"),
-        ("log-aesthetic:beta=1", "log-aesthetic has no parameter “beta”: it has alpha"),
-        ("superspiral:alpha=1", "superspiral has no parameter “alpha”: it has a, b, c"),
-        ("log-aesthetic:degree=4", "log-aesthetic has no parameter “degree”"),
-        ("clothoid:alpha=1", "clothoid has no parameter “alpha”: it has none"),
+        (
+            "log-aesthetic:beta=1",
+            "log-aesthetic has no parameter “beta”: it has alpha",
+        ),
+        (
+            "superspiral:alpha=1",
+            "superspiral has no parameter “alpha”: it has a, b, c",
+        ),
+        (
+            "log-aesthetic:degree=4",
+            "log-aesthetic has no parameter “degree”",
+        ),
+        (
+            "clothoid:alpha=1",
+            "clothoid has no parameter “alpha”: it has none",
+        ),
         (
             "log-aesthetic:alpha",
             "“alpha” gives no parameter a value: write it as name=value",
@@ -113,8 +125,14 @@ fn a_kind_with_values_that_are_none_is_refused() {
         folder.misused(&arguments(&["--kind", kind]), words);
     }
     let of_another = ["--kind", "superspiral", "--alpha", "1"];
-    folder.misused(&arguments(&of_another), "superspiral has no parameter “alpha”");
-    folder.misused(&arguments(&["--a", "1"]), "log-aesthetic has no parameter “a”");
+    folder.misused(
+        &arguments(&of_another),
+        "superspiral has no parameter “alpha”",
+    );
+    folder.misused(
+        &arguments(&["--a", "1"]),
+        "log-aesthetic has no parameter “a”",
+    );
     let twice = ["--kind", "log-aesthetic:alpha=1", "--alpha", "2"];
     folder.misused(&arguments(&twice), "“alpha” is given twice");
 }

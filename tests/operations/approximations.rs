@@ -224,19 +224,34 @@ fn the_text_sets_features_side_by_side() {
     let (input, outcome) = run(&given).expect("it can run");
     let text = Report::new(operation, &input, &outcome).text();
     let lines: Vec<&str> = text.lines().collect();
-    let table = lines.iter().position(|line| line.starts_with("torsion level 2: differs"));
+    let table = lines
+        .iter()
+        .position(|line| line.starts_with("torsion level 2: differs"));
     let table = &lines[table.expect("the level that differs")..];
-    assert!(table[1].contains("reference") && table[1].contains("curve"), "{text}");
+    assert!(
+        table[1].contains("reference") && table[1].contains("curve"),
+        "{text}"
+    );
     let marked: Vec<&&str> = table.iter().filter(|line| line.starts_with('>')).collect();
     assert_eq!(marked.len(), 1, "{text}");
-    assert!(marked[0].contains("none") && marked[0].contains("at u = "), "{text}");
+    assert!(
+        marked[0].contains("none") && marked[0].contains("at u = "),
+        "{text}"
+    );
     assert!(text.contains("End to end: "), "{text}");
-    let given = [("reference", "ellipse:a=3,b=1"), ("count", "40"), ("levels", "1")];
+    let given = [
+        ("reference", "ellipse:a=3,b=1"),
+        ("count", "40"),
+        ("levels", "1"),
+    ];
     let (input, outcome) = run(&given).expect("it can run");
     let text = Report::new(operation, &input, &outcome).text();
     let row = text.lines().find(|line| line.starts_with("    1 "));
     let row = row.expect("the first feature");
-    assert!(row.contains("minimum at t = 1.57") && row.contains("minimum at u = "), "{text}");
+    assert!(
+        row.contains("minimum at t = 1.57") && row.contains("minimum at u = "),
+        "{text}"
+    );
 }
 
 #[test]

@@ -172,7 +172,10 @@ fn poles_of_formulas_are_noticed_wherever_they_are() {
         ("1/(sin(t)+t-2)", 0.0, 2.0, 1.106_060_157_703_89),
     ] {
         let found = gap(x, from, to);
-        assert!((found - place).abs() <= 1e-14 * place.abs().max(1.0), "{x}: {found}");
+        assert!(
+            (found - place).abs() <= 1e-14 * place.abs().max(1.0),
+            "{x}: {found}"
+        );
     }
     // The first of several, of any coordinate.
     assert!((gap("1/sin(5*t)", 0.1, 3.0) - 0.2 * pi).abs() < 1e-14);

@@ -314,7 +314,10 @@ mod tests {
         let values: Vec<f64> = (0..=100)
             .map(|index| (0.1 * f64::from(index)).sin())
             .collect();
-        let kinds: Vec<LevelFeature> = features(&values, 1e-9, false).into_iter().map(|it| it.1).collect();
+        let kinds: Vec<LevelFeature> = features(&values, 1e-9, false)
+            .into_iter()
+            .map(|it| it.1)
+            .collect();
         use LevelFeature::{Inflection, Maximum, Minimum};
         assert_eq!(
             kinds,
@@ -333,7 +336,12 @@ mod tests {
         let kinds: Vec<LevelFeature> = found.iter().map(|it| it.1).collect();
         assert_eq!(kinds, [Maximum, Inflection, Minimum, Inflection]);
         assert_eq!(found[0].0, 0);
-        let mut turned = vec![(0.5, Minimum), (1.5, Inflection), (2.5, Maximum), (3.5, Inflection)];
+        let mut turned = vec![
+            (0.5, Minimum),
+            (1.5, Inflection),
+            (2.5, Maximum),
+            (3.5, Inflection),
+        ];
         let there: Vec<(f64, LevelFeature)> = kinds.into_iter().map(|kind| (0.0, kind)).collect();
         turn_to(&mut turned, &there);
         assert_eq!(turned[0], (2.5, Maximum));

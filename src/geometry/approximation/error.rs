@@ -41,7 +41,9 @@ pub enum ApproximationError {
         parameter: f64,
     },
     /// A periodic curve has no ends.
-    #[error("a periodic curve has no ends that could be made exact: leave exact ends out, or choose a part of the curve")]
+    #[error(
+        "a periodic curve has no ends that could be made exact: leave exact ends out, or choose a part of the curve"
+    )]
     NoEnds,
     /// The ends cannot be brought to the curve's.
     #[error(transparent)]

@@ -86,7 +86,11 @@ impl Expression {
 /// Of two neighbouring numbers the one with fewer digits.
 fn rounder(low: f64, high: f64) -> f64 {
     let digits = |number: f64| format!("{number}").len();
-    if digits(high) < digits(low) { high } else { low }
+    if digits(high) < digits(low) {
+        high
+    } else {
+        low
+    }
 }
 
 impl Node {

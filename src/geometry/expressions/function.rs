@@ -61,26 +61,71 @@ pub(super) const FUNCTIONS: &[Function] = &[
         PowerSeries::tan,
         Range::tan,
     ),
-    one("asin", FunctionKind::ToAngle, PowerSeries::asin, Range::asin),
-    one("acos", FunctionKind::ToAngle, PowerSeries::acos, Range::acos),
-    one("atan", FunctionKind::ToAngle, PowerSeries::atan, |f| f.rising(f64::atan)),
-    one("sinh", FunctionKind::Plain, |f| f.sinh_cosh().0, |f| f.rising(f64::sinh)),
-    one("cosh", FunctionKind::Plain, |f| f.sinh_cosh().1, Range::cosh),
-    one("tanh", FunctionKind::Plain, PowerSeries::tanh, |f| f.rising(f64::tanh)),
-    one("exp", FunctionKind::Plain, PowerSeries::exp, |f| f.rising(f64::exp)),
+    one(
+        "asin",
+        FunctionKind::ToAngle,
+        PowerSeries::asin,
+        Range::asin,
+    ),
+    one(
+        "acos",
+        FunctionKind::ToAngle,
+        PowerSeries::acos,
+        Range::acos,
+    ),
+    one("atan", FunctionKind::ToAngle, PowerSeries::atan, |f| {
+        f.rising(f64::atan)
+    }),
+    one(
+        "sinh",
+        FunctionKind::Plain,
+        |f| f.sinh_cosh().0,
+        |f| f.rising(f64::sinh),
+    ),
+    one(
+        "cosh",
+        FunctionKind::Plain,
+        |f| f.sinh_cosh().1,
+        Range::cosh,
+    ),
+    one("tanh", FunctionKind::Plain, PowerSeries::tanh, |f| {
+        f.rising(f64::tanh)
+    }),
+    one("exp", FunctionKind::Plain, PowerSeries::exp, |f| {
+        f.rising(f64::exp)
+    }),
     one("ln", FunctionKind::Plain, PowerSeries::ln, Range::ln),
-    one("sqrt", FunctionKind::Root, |f| f.power(0.5), |f| f.power(0.5)),
+    one(
+        "sqrt",
+        FunctionKind::Root,
+        |f| f.power(0.5),
+        |f| f.power(0.5),
+    ),
     one("abs", FunctionKind::Same, PowerSeries::abs, |f| Ok(f.abs())),
-    two("min", FunctionKind::Same, |f, g| {
-        if f.value() <= g.value() { f } else { g }.clone()
-    }, |f, g| Ok(f.lower(g))),
-    two("max", FunctionKind::Same, |f, g| {
-        if f.value() >= g.value() { f } else { g }.clone()
-    }, |f, g| Ok(f.upper(g))),
-    two("hypot", FunctionKind::Same, |f, g| {
-        (&(f * f) + &(g * g)).power(0.5)
-    }, |f, g| f.power(2.0)?.plus(g.power(2.0)?)?.power(0.5)),
-    two("atan2", FunctionKind::Direction, PowerSeries::direction, Range::direction),
+    two(
+        "min",
+        FunctionKind::Same,
+        |f, g| if f.value() <= g.value() { f } else { g }.clone(),
+        |f, g| Ok(f.lower(g)),
+    ),
+    two(
+        "max",
+        FunctionKind::Same,
+        |f, g| if f.value() >= g.value() { f } else { g }.clone(),
+        |f, g| Ok(f.upper(g)),
+    ),
+    two(
+        "hypot",
+        FunctionKind::Same,
+        |f, g| (&(f * f) + &(g * g)).power(0.5),
+        |f, g| f.power(2.0)?.plus(g.power(2.0)?)?.power(0.5),
+    ),
+    two(
+        "atan2",
+        FunctionKind::Direction,
+        PowerSeries::direction,
+        Range::direction,
+    ),
 ];
 
 const fn one(

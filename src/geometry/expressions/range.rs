@@ -137,8 +137,16 @@ impl Range {
             let turns = ((self.low - slack - place) / TAU).ceil();
             place + turns * TAU <= self.high + slack
         };
-        let low = if has(-FRAC_PI_2) { -1.0 } else { ends[0].min(ends[1]) };
-        let high = if has(PI - FRAC_PI_2) { 1.0 } else { ends[0].max(ends[1]) };
+        let low = if has(-FRAC_PI_2) {
+            -1.0
+        } else {
+            ends[0].min(ends[1])
+        };
+        let high = if has(PI - FRAC_PI_2) {
+            1.0
+        } else {
+            ends[0].max(ends[1])
+        };
         Self::rounded(low, high)
     }
 
@@ -230,7 +238,9 @@ mod tests {
                         assert!(range.low <= value && value <= range.high, "{low} {width}");
                     }
                     // And not much more.
-                    assert!(width > 0.0 || range.high - range.low <= 1e-9 * (1.0 + range.high.abs()));
+                    assert!(
+                        width > 0.0 || range.high - range.low <= 1e-9 * (1.0 + range.high.abs())
+                    );
                 }
             }
         }

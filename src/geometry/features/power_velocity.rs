@@ -90,14 +90,16 @@ impl PowerVelocity {
     fn curvature_slope<T: Scalar>(&self, arena: &mut Arena<T>) -> Polynomial {
         let m = self.degree - 2;
         let [across, along] = [self.across, self.along].map(DoubleDouble::from);
-        let mut constant = |number: DoubleDouble| {
-            arena.plain(&[number], &[ROUNDING * number.high()])
-        };
+        let mut constant =
+            |number: DoubleDouble| arena.plain(&[number], &[ROUNDING * number.high()]);
         let [bent, flat, round] = [across * self.cosine(), along, across].map(&mut constant);
         // q has the coefficients 1, s cos φ and s², P has 1, s and s².
         let ratio = DoubleDouble::from(self.ratio);
         let cosine = self.cosine() + self.cosine() + DoubleDouble::from(-1.0);
-        let ends = [DoubleDouble::from(1.0), DoubleDouble::product(self.ratio, self.ratio)];
+        let ends = [
+            DoubleDouble::from(1.0),
+            DoubleDouble::product(self.ratio, self.ratio),
+        ];
         let sizes = [ends[0], ratio, ends[1]];
         let q = powers(arena, [ends[0], ratio * cosine, ends[1]], sizes, m);
         let p = powers(arena, sizes, sizes, m);

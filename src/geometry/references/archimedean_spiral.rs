@@ -10,7 +10,22 @@ pub static KIND: ReferenceKind = ReferenceKind {
     name: "archimedean-spiral",
     label: "Archimedean spiral",
     help: "(a + bt) (cos t, sin t): its windings lie 2πb apart",
-    parameters: &[ReferenceParameter { name: "a", label: "Start a", help: "The radius at t = 0", default: 1.0, limits: ANY },ReferenceParameter { name: "b", label: "Growth b", help: "How fast the radius grows by the angle", default: 0.2, limits: ANY },],
+    parameters: &[
+        ReferenceParameter {
+            name: "a",
+            label: "Start a",
+            help: "The radius at t = 0",
+            default: 1.0,
+            limits: ANY,
+        },
+        ReferenceParameter {
+            name: "b",
+            label: "Growth b",
+            help: "How fast the radius grows by the angle",
+            default: 0.2,
+            limits: ANY,
+        },
+    ],
     planar: true,
     interval: |_| [0.0, 2.0 * TAU],
     domain: |_| EVERYWHERE,

@@ -10,7 +10,22 @@ pub static KIND: ReferenceKind = ReferenceKind {
     name: "ellipse",
     label: "Ellipse",
     help: "(a cos t, b sin t)",
-    parameters: &[ReferenceParameter { name: "a", label: "Half axis a", help: "Half the axis along x", default: 2.0, limits: SIZE },ReferenceParameter { name: "b", label: "Half axis b", help: "Half the axis along y", default: 1.0, limits: SIZE },],
+    parameters: &[
+        ReferenceParameter {
+            name: "a",
+            label: "Half axis a",
+            help: "Half the axis along x",
+            default: 2.0,
+            limits: SIZE,
+        },
+        ReferenceParameter {
+            name: "b",
+            label: "Half axis b",
+            help: "Half the axis along y",
+            default: 1.0,
+            limits: SIZE,
+        },
+    ],
     planar: true,
     interval: |_| [0.0, TAU],
     domain: |_| EVERYWHERE,

@@ -10,7 +10,22 @@ pub static KIND: ReferenceKind = ReferenceKind {
     name: "helix",
     label: "Helix",
     help: "(r cos t, r sin t, p t/2π): curvature and torsion are constant",
-    parameters: &[ReferenceParameter { name: "radius", label: "Radius", help: "The radius r of the cylinder", default: 1.0, limits: SIZE },ReferenceParameter { name: "pitch", label: "Pitch", help: "How far p it rises in a turn", default: 1.0, limits: ANY },],
+    parameters: &[
+        ReferenceParameter {
+            name: "radius",
+            label: "Radius",
+            help: "The radius r of the cylinder",
+            default: 1.0,
+            limits: SIZE,
+        },
+        ReferenceParameter {
+            name: "pitch",
+            label: "Pitch",
+            help: "How far p it rises in a turn",
+            default: 1.0,
+            limits: ANY,
+        },
+    ],
     planar: false,
     interval: |_| [0.0, 2.0 * TAU],
     domain: |_| EVERYWHERE,

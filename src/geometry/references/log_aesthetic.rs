@@ -50,7 +50,10 @@ fn domain(values: &[f64]) -> [f64; 2] {
         let farthest = length(alpha, lambda, turning);
         let singular = -1.0 / (lambda * alpha);
         // Where the direction never turns so far the curve ends at the singularity, if anywhere.
-        match (farthest.is_nan(), singular.is_finite() && singular * turning > 0.0) {
+        match (
+            farthest.is_nan(),
+            singular.is_finite() && singular * turning > 0.0,
+        ) {
             (false, true) if singular.abs() < farthest.abs() => singular,
             (false, _) => farthest,
             (true, true) => singular,

@@ -10,7 +10,22 @@ pub static KIND: ReferenceKind = ReferenceKind {
     name: "logarithmic-spiral",
     label: "Logarithmic spiral",
     help: "a e^(bt) (cos t, sin t): turned, it is itself in another size",
-    parameters: &[ReferenceParameter { name: "a", label: "Size a", help: "The distance from the pole at t = 0", default: 1.0, limits: SIZE },ReferenceParameter { name: "b", label: "Growth b", help: "How fast the logarithm of the radius grows by the angle", default: 0.2, limits: ANY },],
+    parameters: &[
+        ReferenceParameter {
+            name: "a",
+            label: "Size a",
+            help: "The distance from the pole at t = 0",
+            default: 1.0,
+            limits: SIZE,
+        },
+        ReferenceParameter {
+            name: "b",
+            label: "Growth b",
+            help: "How fast the logarithm of the radius grows by the angle",
+            default: 0.2,
+            limits: ANY,
+        },
+    ],
     planar: true,
     interval: |_| [0.0, TAU],
     domain: |_| EVERYWHERE,

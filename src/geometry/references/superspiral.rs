@@ -88,7 +88,8 @@ thread_local! {
 /// Expand the spiral; outside of [`DOMAIN`] nothing is a number.
 fn series(values: &[f64], psi: f64, order: usize) -> [PowerSeries; 3] {
     if !(DOMAIN[0]..=DOMAIN[1]).contains(&psi) {
-        return [f64::NAN; 3].map(|nowhere| PowerSeries::by_recurrence(nowhere, order, |_, _| nowhere));
+        return [f64::NAN; 3]
+            .map(|nowhere| PowerSeries::by_recurrence(nowhere, order, |_, _| nowhere));
     }
     let radius = Radius {
         a: values[0],
@@ -154,7 +155,11 @@ impl Spiral {
         } else {
             &mut self.ahead
         };
-        while psi.abs() > 0.0 && pieces.last().is_none_or(|last| sign * (psi - last.span[1]) > 0.0) {
+        while psi.abs() > 0.0
+            && pieces
+                .last()
+                .is_none_or(|last| sign * (psi - last.span[1]) > 0.0)
+        {
             let piece = self.radius.piece(sign, pieces.last());
             pieces.push(piece);
         }

@@ -43,10 +43,7 @@ impl ReferenceCurve {
     ///
     /// # Errors
     /// As [`ReferenceCurve::from_text`].
-    pub fn from_text_over(
-        text: &str,
-        other: [Option<f64>; 2],
-    ) -> Result<Self, ReferenceTextError> {
+    pub fn from_text_over(text: &str, other: [Option<f64>; 2]) -> Result<Self, ReferenceTextError> {
         let whole = Part::whole(text);
         let (name, rest) = whole.split_once(':');
         let name = name.trimmed();
@@ -65,7 +62,8 @@ impl ReferenceCurve {
             analytic(kind, &assignments(',')?)?
         };
         let default = form.default_interval();
-        let [from, to] = [0, 1].map(|end: usize| interval[end].or(other[end]).unwrap_or(default[end]));
+        let [from, to] =
+            [0, 1].map(|end: usize| interval[end].or(other[end]).unwrap_or(default[end]));
         Self::new(form, [from, to], Placement::default()).map_err(|error| whole.error(error))
     }
 }
