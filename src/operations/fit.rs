@@ -4,7 +4,7 @@ use super::amount::Amount;
 use super::error::OperationError;
 use super::input::Input;
 use super::inputs::Inputs;
-use super::lists::{count, given, number, positive};
+use super::lists::{count, given_count, number, positive};
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Mark, Outcome};
 use super::parameter::{Kind, Parameter};
@@ -64,7 +64,7 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
     let asked = FitAsked {
         degree: values.whole(&DEGREE),
         count: vertices(input, values)?,
-        extrema: given(values, &EXTREMA).map(|count| count as usize),
+        extrema: given_count(values, &EXTREMA),
         tolerance: positive(values, &TOLERANCE)?,
     };
     let found = match fit_points(input.points(), &asked, progress) {
@@ -88,13 +88,13 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
 /// The number of vertices asked for, at most as many as there are points.
 fn vertices(input: &Input, values: &Values) -> Result<Option<usize>, OperationError> {
     let most = input.points().len();
-    match given(values, &COUNT) {
-        Some(count) if count > most as f64 => Err(OperationError::OutOfRange {
+    match given_count(values, &COUNT) {
+        Some(count) if count > most => Err(OperationError::OutOfRange {
             label: COUNT.label,
             value: count.to_string(),
             needed: format!("at most {most}, the number of points,"),
         }),
-        count => Ok(count.map(|count| count as usize)),
+        count => Ok(count),
     }
 }
 

@@ -4,7 +4,7 @@ use super::editable::{check_editable, editable};
 use super::error::OperationError;
 use super::input::Input;
 use super::inputs::Inputs;
-use super::lists::{LOCKED, Meaning, count, count_in_space, given, locked, number};
+use super::lists::{LOCKED, Meaning, count, count_in_space, given, given_count, locked, number};
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Mark, Outcome};
 use super::parameter::{Choice, Kind, Parameter, Unit};
@@ -146,7 +146,7 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
         [from, to] => Some([from, to]),
         _ => None,
     };
-    let asked = |parameter| given(values, parameter).map(|count| count as usize);
+    let asked = |parameter| given_count(values, parameter);
     let locked = locked(curve, values)?;
     let most = given(values, &MAX_DEVIATION);
     if let Some(value) = most.filter(|most| *most < 0.0) {

@@ -101,6 +101,11 @@ pub(super) fn given(values: &Values, parameter: &Parameter) -> Option<f64> {
     values.list(parameter).first().copied()
 }
 
+/// The whole number of a list of one, if it is given.
+pub(super) fn given_count(values: &Values, parameter: &Parameter) -> Option<usize> {
+    given(values, parameter).map(|count| count as usize)
+}
+
 /// The number of a list of one, if it is given.
 ///
 /// # Errors

@@ -124,13 +124,7 @@ pub fn correct_jointly(
     disturbance: Disturbance,
     locked: &[usize],
 ) -> Result<JointCorrection, CorrectionError> {
-    check(polygon, targets)?;
-    let correction = Correction {
-        polygon,
-        targets,
-        disturbance,
-        locked,
-    };
+    let correction = Correction::checked(polygon, targets, disturbance, locked)?;
     let free = correction.solve(Speed::Free);
     match free {
         // A backward tangent is half a turn away from its target, so the target counts as missed.
@@ -151,33 +145,13 @@ pub fn correct_hastily(
     disturbance: Disturbance,
     locked: &[usize],
 ) -> Result<JointCorrection, CorrectionError> {
-    check(polygon, targets)?;
-    let correction = Correction {
-        polygon,
-        targets,
-        disturbance,
-        locked,
-    };
+    let correction = Correction::checked(polygon, targets, disturbance, locked)?;
     let problem = correction.problem(targets, Speed::Free);
     let found = correction.finish(&problem, problem.before(), HASTY_STEPS)?;
     if points_forward(&found.polygon, targets) {
         Ok(found)
     } else {
         Err(not_solvable(&problem, found.residual))
-    }
-}
-
-/// Refuse a polygon without ends, and targets without a direction.
-fn check(polygon: &FloatPolygon, targets: &[(End, EndTarget)]) -> Result<(), CorrectionError> {
-    if polygon.is_periodic() {
-        return Err(CorrectionError::Periodic);
-    }
-    let is_zero =
-        |vector: Option<DVec3>| vector.is_some_and(|vector| vector::direction(vector).is_none());
-    let zero = |target: &EndTarget| is_zero(target.direction) || is_zero(target.normal);
-    match targets.iter().find(|(_, target)| zero(target)) {
-        Some((end, _)) => Err(CorrectionError::NoDirection { end: *end }),
-        None => Ok(()),
     }
 }
 
@@ -210,7 +184,32 @@ struct Correction<'a> {
     locked: &'a [usize],
 }
 
-impl Correction<'_> {
+impl<'a> Correction<'a> {
+    /// Describe a correction; refuse a polygon without ends, and targets without a direction.
+    fn checked(
+        polygon: &'a FloatPolygon,
+        targets: &'a [(End, EndTarget)],
+        disturbance: Disturbance,
+        locked: &'a [usize],
+    ) -> Result<Self, CorrectionError> {
+        if polygon.is_periodic() {
+            return Err(CorrectionError::Periodic);
+        }
+        let is_zero = |vector: Option<DVec3>| {
+            vector.is_some_and(|vector| vector::direction(vector).is_none())
+        };
+        let zero = |target: &EndTarget| is_zero(target.direction) || is_zero(target.normal);
+        match targets.iter().find(|(_, target)| zero(target)) {
+            Some((end, _)) => Err(CorrectionError::NoDirection { end: *end }),
+            None => Ok(Self {
+                polygon,
+                targets,
+                disturbance,
+                locked,
+            }),
+        }
+    }
+
     fn solve(&self, speed: Speed) -> Result<JointCorrection, CorrectionError> {
         let problem = self.problem(self.targets, speed);
         let direct = self.finish(&problem, problem.before(), problem::MOST_STEPS);
