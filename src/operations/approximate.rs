@@ -200,7 +200,7 @@ impl<'a> Source<'a> {
     fn check(&self, part: [f64; 2]) -> Result<(), OperationError> {
         let ascends = part[0] < part[1];
         match self {
-            Self::Reference(reference) if ascends => Ok(reference.over(part).map(drop)?),
+            Self::Reference(reference) if ascends => Ok(reference.over(part)?.check_points()?),
             _ => Ok(()),
         }
     }

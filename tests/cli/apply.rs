@@ -822,10 +822,8 @@ fn a_reference_is_checked_only_where_it_is_used() {
     let folder = Folder::new();
     let formula = ["approximate", "formula:x=t;y=1/(t-0.3)", "out.batten"];
     let inside = [&["apply"], &formula[..]].concat();
-    folder.misused(
-        &inside,
-        "the curve has no point, or no direction, at t = 0.3: ",
-    );
+    let place = "approximate: the curve has no point, or no direction, at t = 0.3: give an interval without this place with the reference, such as from=1 and to=2";
+    folder.refused(&inside, place);
     let part = ["--from", "1", "--to", "2", "--degree", "5"];
     assert_eq!(
         report(&folder, &[&formula[..], &part].concat())["reached"],
@@ -839,8 +837,5 @@ fn a_reference_is_checked_only_where_it_is_used() {
         "--from",
         "0",
     ];
-    folder.refused(
-        &[&["apply"], &wider[..]].concat(),
-        "approximate: the curve has no point, or no direction, at t = 0.3: give an interval without this place with the reference, such as from=1 and to=2",
-    );
+    folder.refused(&[&["apply"], &wider[..]].concat(), place);
 }

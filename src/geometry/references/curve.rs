@@ -64,11 +64,6 @@ impl ReferenceCurve {
             let [from, to] = domain;
             return Err(ReferenceError::OutsideDomain { t, from, to });
         }
-        if let ReferenceForm::Formula(formula) = &form
-            && let Some(t) = formula.first_gap([from, to])
-        {
-            return Err(ReferenceError::NotFinite { t });
-        }
         let mut curve = Self {
             form,
             interval: [from, to],
@@ -103,6 +98,19 @@ impl ReferenceCurve {
     /// Where it lies.
     pub fn placement(&self) -> &Placement {
         &self.placement
+    }
+
+    /// Refuse a formula that has no point or no slope somewhere in the interval, as at a pole: wherever that is,
+    /// between samples too. Such a formula can be drawn, with gaps, but no curve without gaps follows it.
+    ///
+    /// # Errors
+    /// [`ReferenceError::NotFinite`] with the first such place.
+    pub fn check_points(&self) -> Result<(), ReferenceError> {
+        let gap = match &self.form {
+            ReferenceForm::Formula(formula) => formula.first_gap(self.interval),
+            _ => None,
+        };
+        gap.map_or(Ok(()), |t| Err(ReferenceError::NotFinite { t }))
     }
 
     /// Draw another part of it.
