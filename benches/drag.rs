@@ -17,7 +17,6 @@ use std::time::{Duration, Instant};
 
 use batten::document::{Curve, Document};
 use batten::editor::{Button, Command, Editor, Input, Layer, PlotKind};
-use batten::geometry::FloatPolygon;
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use glam::DVec2;
 use wavy::wavy;

@@ -146,6 +146,8 @@ pub fn mark_closer(
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::FRAC_PI_2;
+
     use super::*;
     use crate::geometry::references::ReferenceCurve;
 
@@ -184,7 +186,7 @@ mod tests {
         check("formula:x=t;y=1/(t-0.3)^3;from=-1;to=1.1", &[0.3]);
         check(
             "formula:x=t;y=tan(t);from=-4;to=5.1",
-            &[-1.5708, 1.5708, 4.7124],
+            &[-FRAC_PI_2, FRAC_PI_2, 3.0 * FRAC_PI_2],
         );
         check("formula:x=1/(t-1);y=t/(t-1);from=-1;to=3.1", &[1.0]);
     }

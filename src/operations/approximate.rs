@@ -327,7 +327,7 @@ impl Part {
             let (first, second) = (STEP.label, other.label);
             return Err(OperationError::Exclude { first, second });
         }
-        let period = source.is_periodic().then(|| end - start);
+        let period = source.is_periodic().then_some(end - start);
         Ok(match (step, period) {
             (None, None) => Self::Between([from, to.unwrap_or(end)]),
             (None, Some(period)) => match to {

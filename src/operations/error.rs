@@ -110,7 +110,7 @@ pub enum OperationError {
         /// "is" or "are".
         verb: &'static str,
         /// What is wrong, with its column in the text.
-        mistake: ExpressionMistake,
+        mistake: Box<ExpressionMistake>,
     },
     /// A value of a parameter that a planar curve has no use for.
     #[error("{label}: only a curve in space has this, and the curve lies in the plane z = 0")]

@@ -380,7 +380,7 @@ impl Parameter {
                 label: self.label,
                 needed: self.range_words(),
                 verb: self.verb(),
-                mistake: mistake.shifted(before),
+                mistake: Box::new(mistake.shifted(before)),
             })
     }
 

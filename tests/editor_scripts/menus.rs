@@ -48,9 +48,9 @@ fn a_vertex_that_is_not_selected_is_selected_first() {
 fn a_leg_selects_its_two_vertices() {
     let mut script = Script::example("s-curve");
     let legs = script.polygon().vertices().len() - 1;
-    let found = (0..legs).find_map(|leg| {
-        let at = 0.5 * (script.at_vertex(leg) + script.at_vertex(leg + 1));
-        (ask(&mut script, at) == Some(MenuSubject::Leg)).then_some(leg)
+    let found = (0..legs).find(|leg| {
+        let at = 0.5 * (script.at_vertex(*leg) + script.at_vertex(leg + 1));
+        ask(&mut script, at) == Some(MenuSubject::Leg)
     });
     let leg = found.expect("a leg that is free in its middle");
     assert_eq!(script.selected(), [leg, leg + 1]);

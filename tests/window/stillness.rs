@@ -111,7 +111,7 @@ fn drag_still<T>(
 
 /// A window with curves that have long names.
 fn window_of_curves(count: usize, size: [f32; 2]) -> Window {
-    let curves = (0..count).map(|index| Curve::new(&format!("{LONG} {index}"), wave(8, 3)));
+    let curves = (0..count).map(|index| Curve::new(format!("{LONG} {index}"), wave(8, 3)));
     let editor = Editor::with_document(Document::from_curves(curves));
     open_window_with(editor, size[0], size[1])
 }

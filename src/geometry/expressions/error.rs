@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use super::function::function_names;
+
 /// A reason why an expression means nothing.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ExpressionError {
@@ -15,15 +17,14 @@ pub enum ExpressionError {
     },
     /// A name that means nothing.
     #[error(
-        "“{name}” means nothing here: there are {known} and, followed by a parenthesis, {functions}"
+        "“{name}” means nothing here: there are {known} and, followed by a parenthesis, {}",
+        function_names().join(", ")
     )]
     UnknownName {
         /// The name given.
         name: String,
         /// The names that there are.
         known: &'static str,
-        /// The functions that there are.
-        functions: String,
     },
     /// What stands after a number is no unit.
     #[error("“{name}” is no unit here: write {units}, or * to multiply")]

@@ -42,7 +42,7 @@ type OfOne<T> = fn(&T) -> T;
 type OfTwo<T> = fn(&T, &T) -> T;
 
 /// The functions that there are.
-pub(super) const FUNCTIONS: &[Function] = &[
+const FUNCTIONS: &[Function] = &[
     one(
         "sin",
         FunctionKind::OfAngle(|degrees| sin_cos_of_degrees(degrees).0),
@@ -146,6 +146,11 @@ const fn two(
 ) -> Function {
     let of = Body::Two(of, over);
     Function { name, kind, of }
+}
+
+/// List the names of the functions that there are.
+pub(super) fn function_names() -> Vec<&'static str> {
+    FUNCTIONS.iter().map(|function| function.name).collect()
 }
 
 impl Function {

@@ -7,7 +7,7 @@ use pest::pratt_parser::{Assoc, Op, PrattParser};
 
 use super::error::{ExpressionError, ExpressionMistake};
 use super::expression::{Expression, Node, Operator};
-use super::function::{FUNCTIONS, Function};
+use super::function::{Function, function_names};
 use super::unit::Unit;
 
 /// The most characters of an expression: trees of it are not too deep to walk.
@@ -209,11 +209,9 @@ impl<'a> Reader<'a> {
     }
 
     fn unknown_name(&self, name: &str) -> ExpressionError {
-        let functions: Vec<&str> = FUNCTIONS.iter().map(|function| function.name).collect();
         ExpressionError::UnknownName {
             name: name.to_owned(),
             known: self.sort.names,
-            functions: functions.join(", "),
         }
     }
 
@@ -248,6 +246,6 @@ impl<'a> Reader<'a> {
 /// Whether a name that means nothing yet may become one that does.
 pub(super) fn begins_name(name: &str) -> bool {
     let names = NUMBERS.iter().map(|(name, _)| *name);
-    let mut names = names.chain(FUNCTIONS.iter().map(|function| function.name));
+    let mut names = names.chain(function_names());
     names.any(|known| known.starts_with(name))
 }

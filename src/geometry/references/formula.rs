@@ -16,7 +16,7 @@ pub struct Formula {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Coordinate {
     pub(super) text: String,
-    pub(super) expression: Expression,
+    pub(super) expression: Box<Expression>,
 }
 
 impl Formula {
@@ -67,7 +67,7 @@ impl Coordinate {
     pub(super) fn read(text: &str) -> Result<Self, ReferenceTextError> {
         Ok(Self {
             text: text.to_owned(),
-            expression: Expression::read(text)?,
+            expression: Box::new(Expression::read(text)?),
         })
     }
 }

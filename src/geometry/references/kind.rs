@@ -80,7 +80,7 @@ impl ReferenceKind {
 }
 
 impl ReferenceParameter {
-    /// What it measures: what can have any [size](SIZE) is a length.
+    /// What it measures: what can have any size is a length.
     pub fn quantity(&self) -> Quantity {
         match self.limits == SIZE {
             true => Quantity::Length,
