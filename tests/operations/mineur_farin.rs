@@ -168,7 +168,7 @@ fn handles_give_back_their_values() {
                 ("first-leg", Value::List(leg.clone())),
             ];
             let outcome = run(&given).expect("a curve");
-            assert_eq!(outcome.handles.len(), 3);
+            assert_eq!(outcome.handles.len(), 4);
             for handle in &outcome.handles {
                 for (name, value) in handle.values(handle.at) {
                     let (_, expected) = given

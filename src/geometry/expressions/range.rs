@@ -1,5 +1,7 @@
 //! Ranges of expressions over intervals: where a formula has values everywhere, proved.
 
+use std::f64::consts::FRAC_PI_2;
+
 use crate::geometry::control_polygon::MAX_MAGNITUDE;
 
 /// Hold the numbers that an expression can have over an interval: those between two, with room for
@@ -30,6 +32,11 @@ impl Range {
     /// One number.
     pub(super) fn number(number: f64) -> Self {
         Self::new(number, number)
+    }
+
+    /// π/2, which lies between two numbers.
+    fn quarter_turn() -> Self {
+        Self::new(FRAC_PI_2.next_down(), FRAC_PI_2.next_up())
     }
 
     /// Leave room for the rounding of what was computed; what is beyond all numbers is a pole.
@@ -126,7 +133,7 @@ impl Range {
 
     /// The sine: −1 to 1 where the range is wider than a quarter turn with a turning point in it.
     pub(super) fn sin(self) -> Found {
-        use std::f64::consts::{FRAC_PI_2, PI, TAU};
+        use std::f64::consts::{PI, TAU};
         if self.high - self.low >= TAU {
             return Ok(Self::new(-1.0, 1.0));
         }
@@ -152,7 +159,7 @@ impl Range {
 
     /// The cosine.
     pub(super) fn cos(self) -> Found {
-        self.plus(Self::number(std::f64::consts::FRAC_PI_2))?.sin()
+        self.plus(Self::quarter_turn())?.sin()
     }
 
     /// The tangent: no pole lies where the cosine has one sign.
@@ -175,13 +182,15 @@ impl Range {
 
     /// The angle of the vector (x, y), which jumps where y = 0 and x < 0.
     pub(super) fn direction(y: Self, x: Self) -> Found {
-        use std::f64::consts::FRAC_PI_2;
         if x.low > 0.0 {
             return y.times(x.inverse()?)?.rising(f64::atan);
         }
-        let quarter = if y.low > 0.0 { FRAC_PI_2 } else { -FRAC_PI_2 };
+        let quarter = match y.low > 0.0 {
+            true => Self::quarter_turn(),
+            false => Self::quarter_turn().negative(),
+        };
         let off = x.times(y.inverse()?)?.rising(f64::atan)?;
-        Self::number(quarter).plus(off.negative())
+        quarter.plus(off.negative())
     }
 
     /// The hyperbolic cosine.
@@ -201,8 +210,7 @@ impl Range {
 
     /// The arc cosine.
     pub(super) fn acos(self) -> Found {
-        let from_quarter = Self::number(std::f64::consts::FRAC_PI_2);
-        from_quarter.plus(self.asin()?.negative())
+        Self::quarter_turn().plus(self.asin()?.negative())
     }
 }
 
@@ -235,7 +243,10 @@ mod tests {
                     held += 1;
                     for step in 0..=32 {
                         let value = of(low + width * f64::from(step) / 32.0);
-                        assert!(range.low <= value && value <= range.high, "{low} {width}");
+                        assert!(
+                            range.low <= value && value <= range.high,
+                            "{low} {width}: {value:e} in {range:?}"
+                        );
                     }
                     // And not much more.
                     assert!(

@@ -32,5 +32,5 @@ fn series(values: &[f64], s: f64, order: usize) -> [PowerSeries; 3] {
     let angle = |s: f64| 0.5 * (s / values[0]).powi(2);
     let relative = PowerSeries::parameter(s, order).times(1.0 / values[0]);
     let expansion = (&relative * &relative).times(0.5);
-    unit_speed(s, order, angle, &expansion)
+    unit_speed((KIND.name, values), s, order, angle, &expansion)
 }

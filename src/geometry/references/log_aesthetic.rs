@@ -74,7 +74,7 @@ fn series(values: &[f64], s: f64, order: usize) -> [PowerSeries; 3] {
         -lambda * (1.0 + alpha * k) * curvature[k as usize] / ((k + 1.0) * base)
     });
     let expansion = curvature.antiderivative(direction(s), order);
-    unit_speed(s, order, direction, &expansion)
+    unit_speed((KIND.name, values), s, order, direction, &expansion)
 }
 
 /// The direction angle θ at arc length s; not a number beyond the singularity.

@@ -32,7 +32,7 @@ fn series(values: &[f64], t: f64, order: usize) -> [PowerSeries; 3] {
         // Quadrature never asks for u = 0.
         [-2.0 * half * half / u, u.sin() / u]
     };
-    let [cosine, sine] = integrated(t, [t, 1.0], relative);
+    let [cosine, sine] = integrated((KIND.name, &[]), t, |u| u, relative);
     let angle = PowerSeries::parameter(t, order);
     let (sines, cosines) = angle.sin_cos();
     let (rise, run) = (&sines / &angle, &cosines / &angle);
