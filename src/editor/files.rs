@@ -128,7 +128,7 @@ impl Editor {
     pub(in crate::editor) fn open_elsewhere(&self) -> String {
         let path = self.workspace.path();
         match path.filter(|path| self.autosaving.is_open_elsewhere(path)) {
-            Some(_) => "Another window has this file open: what is saved last counts".to_owned(),
+            Some(_) => "Another window has this file open: the last save wins".to_owned(),
             None => String::new(),
         }
     }

@@ -96,7 +96,7 @@ const COUNT: Parameter = Parameter {
 const TOLERANCE: Parameter = Parameter {
     name: "tolerance",
     label: "Tolerance",
-    help: "How far the curve may be from the nearest points of the reference; its levels must have the features of the reference too",
+    help: "How far the curve may be from the nearest points of the reference, and its ends from those of the part; its levels must have the features of the reference too",
     kind: number(|_| "none"),
 };
 

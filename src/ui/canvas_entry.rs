@@ -229,7 +229,7 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor) {
                 settings.degree = Some(degree);
                 editor.set_draw_settings(settings);
             }
-            None => inspector::set_degree(editor, degree),
+            None => inspector::set_degree(editor, degree as f64),
         }
     }
 }

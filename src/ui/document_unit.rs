@@ -29,6 +29,14 @@ pub fn curvature(context: &Context, text: String) -> String {
     }
 }
 
+/// What one unit, and several, are called.
+pub fn names(context: &Context) -> [&'static str; 2] {
+    match get(context) {
+        Some(unit) => [unit.symbol(); 2],
+        None => ["unit", "units"],
+    }
+}
+
 /// The document's unit.
 pub fn get(context: &Context) -> Option<LengthUnit> {
     context.data(|data| data.get_temp(id())).flatten()

@@ -49,8 +49,11 @@ fn rows_ui(ui: &mut Ui, report: &FeatureReport, own: Option<f64>) -> Option<f64>
     let area = ScrollArea::vertical()
         .id_salt("features")
         .auto_shrink([false, false]);
+    // Room for the bar is always kept, so that no row moves when it appears.
+    let width = ui.available_width() - ui.spacing().scroll.allocated_width();
     let mut chosen = None;
     area.show_rows(ui, ROW, report.rows.len(), |ui, range| {
+        ui.set_max_width(width);
         for row in report.rows.get(range).unwrap_or_default() {
             if row_ui(ui, row, report.sampled, own == Some(row.middle)).clicked() {
                 chosen = Some(row.middle);
@@ -220,14 +223,15 @@ fn row_ui(ui: &mut Ui, row: &FeatureRow, sampled: bool, is_chosen: bool) -> Resp
         format!("{name} {}", figure(at))
     };
     let mut left = rect.with_min_x(rect.left() + 6.0 * STEP);
-    left.max.x -= if high - low > WIDE { 24.0 } else { 35.0 } * STEP;
-    widgets::label_in(ui, left, &name, tokens.text);
+    left.max.x -= if high - low > WIDE { 24.0 } else { 38.0 } * STEP;
+    let short = name.replace("maximum", "max").replace("minimum", "min");
+    widgets::label_in(ui, left, &short, tokens.text);
     let inner = rect.with_max_x(rect.right() - STEP);
     let is_wide = row.value.is_none() && high - low > WIDE;
     let place = if is_wide {
         inner
     } else {
-        inner.with_max_x(inner.right() - 17.0 * STEP)
+        inner.with_max_x(inner.right() - 20.0 * STEP)
     };
     widgets::number_in(ui, place, &u, tokens.text);
     let value = row.value.map_or(String::new(), |bounds| {

@@ -142,14 +142,14 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor, curve: &Curve) {
         .tooltip("The polygon stays, the curve follows it more closely")
         .enabled(degree > 1);
     if lower.show(ui).clicked() {
-        set_degree(editor, degree - 1);
+        set_degree(editor, degree as f64 - 1.0);
     }
     let field = NumberField::new("Degree", degree as f64, degree.to_string())
         .width(48.0)
         .range(1.0..=most as f64)
         .typed_only();
     if let FieldEvent::Typed(value) = field.show(ui).1 {
-        set_degree(editor, value.round() as usize);
+        set_degree(editor, value);
     }
     let raise = format!("Reinterpret as degree {}", degree + 1);
     let raise = IconButton::new(Icon::Plus, &raise)
@@ -158,13 +158,18 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor, curve: &Curve) {
         )
         .enabled(degree < MAX_DEGREE);
     if raise.show(ui).clicked() {
-        set_degree(editor, degree + 1);
+        set_degree(editor, degree as f64 + 1.0);
     }
 }
 
 /// Give the active curve another degree; the polygon stays.
-pub fn set_degree(editor: &mut Editor, degree: usize) {
-    let values = [("degree", Value::Whole(degree))];
+pub fn set_degree(editor: &mut Editor, degree: f64) {
+    // The operation refuses what is no whole number.
+    let degree = match degree.fract() == 0.0 {
+        true => Value::Whole(degree as usize),
+        false => Value::Real(degree),
+    };
+    let values = [("degree", degree)];
     told(editor.apply_operation(&reinterpret_degree::OPERATION, &values));
 }
 

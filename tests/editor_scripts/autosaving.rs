@@ -407,7 +407,7 @@ fn a_second_window_on_a_file_says_so() {
     let mut first = desk.window();
     first.editor.save(&path).expect("a file");
     desk.pass(0, &mut first);
-    let line = "Another window has this file open: what is saved last counts";
+    let line = "Another window has this file open: the last save wins";
 
     let mut second = desk.window();
     second

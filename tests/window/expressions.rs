@@ -81,7 +81,7 @@ fn a_mistake_is_told_at_the_field_with_its_column_and_changes_nothing() {
     // What may still become a number is not marked before Enter.
     click(&mut window, "vertex 1 x");
     write(&mut window, "2*sq");
-    assert!(window.query_by_label_contains("Column").is_none());
+    assert!(window.query_by_label_contains("Column 3:").is_none());
     // Left, the old number stays, and the remark tells what was typed.
     click(&mut window, "Canvas");
     window.get_by_label_contains("“2*sq”, column 3: “sq” means nothing here");

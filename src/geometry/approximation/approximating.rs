@@ -92,9 +92,15 @@ impl Approximated {
         self.levels.iter().all(LevelComparison::is_equal)
     }
 
-    /// Whether it is as near as a tolerance asks for, and has the shape.
+    /// Whether it is as near as a tolerance asks for, its ends too, and has the shape.
     pub fn meets(&self, tolerance: f64) -> bool {
-        self.deviation.largest <= tolerance && self.is_equivalent()
+        self.distance() <= tolerance && self.is_equivalent()
+    }
+
+    /// How far it is off: beside the curve, or at an end along it.
+    fn distance(&self) -> f64 {
+        let ends = self.end_errors.into_iter().flatten();
+        ends.fold(self.deviation.largest, f64::max)
     }
 }
 
@@ -208,7 +214,7 @@ impl Search<'_> {
                 continue;
             }
             if let Ok(tried) = tried {
-                if tried.deviation.largest <= self.tolerance {
+                if tried.distance() <= self.tolerance {
                     most = most.min((FOR_SHAPE * segments).min(MOST_SEGMENTS));
                 }
                 nearest = match nearest {
@@ -279,7 +285,7 @@ impl Search<'_> {
         };
         let measured = placed.measured()?;
         // Levels take time, and are asked for only where the place is right.
-        if measured.found.deviation.largest <= self.tolerance {
+        if measured.found.distance() <= self.tolerance {
             measured.compared()
         } else {
             Ok(measured.found)
@@ -288,7 +294,7 @@ impl Search<'_> {
 }
 
 fn nearer(tried: &Approximated, known: &Approximated) -> bool {
-    tried.deviation.largest < known.deviation.largest
+    tried.distance() < known.distance()
 }
 
 /// A polygon, placed but not measured.

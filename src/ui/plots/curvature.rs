@@ -7,14 +7,15 @@ use glam::DVec2;
 use super::dots::Dots;
 use super::drawing::*;
 use super::frame::{padded, within_reason};
+use super::level_names::across_name;
 use super::marks::{self, behind, features};
 use super::pane::Pane;
 use super::ticks::Scale;
 use super::{Plots, area, is_held, peaks};
 use crate::analysis::LevelPlot;
 use crate::editor::{Editor, PlotFeature, PlotScene};
-use crate::ui::figures;
 use crate::ui::theme::Tokens;
+use crate::ui::{document_unit, figures};
 
 /// How far beyond the rest of the curve a peak may reach and still be shown, in units of the
 /// extent of the rest.
@@ -70,12 +71,11 @@ impl Plots {
             dots.position(|(index, _)| *index == vertex)
         });
         let dots = Dots::new(&series, &pane, hovered_dot);
-        let names = [
-            across_name(normalised),
-            upwards_name(scene.planar, normalised),
-        ];
+        let [unit, units] = document_unit::names(ui.ctx());
+        let across = across_name(normalised, units);
+        let upwards = upwards_name(scene.planar, normalised, unit);
         let axes = Axes {
-            names,
+            names: [&across, &upwards],
             scale: Scale::Even,
             numbered: [0.0, length],
         };
@@ -185,19 +185,11 @@ fn wanted(scene: &PlotScene) -> ((DVec2, DVec2), Option<(f64, f64)>) {
     ((low, high), cut)
 }
 
-fn across_name(normalised: bool) -> &'static str {
+fn upwards_name(planar: bool, normalised: bool, unit: &str) -> String {
+    let name = if planar { "signed κ" } else { "κ" };
     match normalised {
-        true => "share of the arc length",
-        false => "arc length (units)",
-    }
-}
-
-fn upwards_name(planar: bool, normalised: bool) -> &'static str {
-    match (planar, normalised) {
-        (true, false) => "signed κ (1/unit)",
-        (false, false) => "κ (1/unit)",
-        (true, true) => "signed κ, length 1",
-        (false, true) => "κ, length 1",
+        true => format!("{name}, length 1"),
+        false => format!("{name} (1/{unit})"),
     }
 }
 

@@ -37,12 +37,20 @@ pub fn explanation(plot: LevelPlot) -> String {
     }
 }
 
+/// What the horizontal axis is called.
+pub fn across_name(normalised: bool, units: &str) -> String {
+    match normalised {
+        true => "share of the arc length".to_owned(),
+        false => format!("arc length ({units})"),
+    }
+}
+
 /// What the vertical axis is called.
-pub fn axis_name(plot: LevelPlot, normalised: bool) -> String {
+pub fn axis_name(plot: LevelPlot, normalised: bool, unit: &str) -> String {
     let unit = match (plot, normalised) {
-        (_, true) => ", length 1",
-        (LevelPlot::Torsion(1), _) => " (1/unit)",
-        _ => "",
+        (_, true) => ", length 1".to_owned(),
+        (LevelPlot::Torsion(1), _) => format!(" (1/{unit})"),
+        _ => String::new(),
     };
     match plot {
         LevelPlot::Curvature(level) => format!("κ level {level}{unit}"),

@@ -6,16 +6,16 @@ use glam::DVec2;
 
 use super::drawing::*;
 use super::frame::{most_of, padded, within_reason};
-use super::level_names::axis_name;
+use super::level_names::{across_name, axis_name};
 use super::marks::{self, behind, features};
 use super::pane::Pane;
 use super::ticks::Scale;
 use super::{Plots, area, is_held, peaks};
 use crate::analysis::LevelPlot;
 use crate::editor::{Editor, PlotFeature};
-use crate::ui::figures;
 use crate::ui::theme::{STEP, Tokens};
 use crate::ui::widgets;
+use crate::ui::{document_unit, figures};
 
 /// Where the bar leaves less room than the first of these, in points, the switch has a short name, and
 /// than the second there is none.
@@ -104,14 +104,14 @@ impl Plots {
         let bounds = frame.settle(whole.unwrap_or(padded(wanted)), held);
         let area = area(ui);
         let pane = Pane::within(area.size(), bounds);
-        let across = match (is_graph, normalised) {
-            (true, _) => "radius of curvature ρ (units)",
-            (_, true) => "share of the arc length",
-            _ => "arc length (units)",
+        let [unit, units] = document_unit::names(ui.ctx());
+        let across = match is_graph {
+            true => format!("radius of curvature ρ ({units})"),
+            false => across_name(normalised, units),
         };
-        let upwards = axis_name(which, normalised);
+        let upwards = axis_name(which, normalised, unit);
         let axes = Axes {
-            names: [across, &upwards],
+            names: [&across, &upwards],
             scale: match is_graph {
                 true => Scale::Logarithmic,
                 false => Scale::Even,
