@@ -242,6 +242,7 @@ impl Player {
             Command::Redo => Done::Redo,
             Command::Delete => Done::Delete,
             Command::DeleteCurve => Done::DeleteCurve,
+            Command::ConvertUnit(_) => Done::Convert,
             Command::Operation(operation) if operation.inputs == Inputs::Two => Done::Join,
             _ => Done::Other,
         };

@@ -98,7 +98,7 @@ pub fn check_view(window: &Window) -> Result<(), String> {
 }
 
 /// Hidden and locked curves and locked vertices keep their shape and locked curves stay; only deleting
-/// or joining curves takes one away.
+/// or joining curves takes one away. Another unit of length rescales them all.
 pub fn check_protected(before: &Snapshot, after: &Snapshot, done: Done) -> Result<(), String> {
     for (id, old) in before.curves() {
         let named = &old.named.0;
@@ -108,6 +108,7 @@ pub fn check_protected(before: &Snapshot, after: &Snapshot, done: Done) -> Resul
                 return Err(format!("“{named}” was deleted with its vertices"));
             }
             None => {}
+            Some(_) if done == Done::Convert => {}
             Some(new) => check_kept(old, new, after.follows(*id))?,
         }
     }

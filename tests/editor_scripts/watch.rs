@@ -29,6 +29,8 @@ pub enum Done {
     DeleteCurve,
     /// An operation on two curves was begun, which may make one of them.
     Join,
+    /// All lengths were converted to another unit: those of what is locked or hidden, too.
+    Convert,
     /// Another document may have been opened.
     Replace,
     /// The operation that was applied last got another value.
