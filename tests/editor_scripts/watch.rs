@@ -133,7 +133,11 @@ impl Watch {
                 None if self.trying => self.states[self.at].bits.clone(),
                 None => self.shown.bits.clone(),
             };
-            check_protected(&before, &shown.bits, done)?;
+            // What a joining operation shows may come while a key is pressed that does nothing.
+            let may_join =
+                matches!(done, Done::Transform | Done::Repeat) && window.trial().is_some_and(joins);
+            let made = if may_join { Done::Join } else { done };
+            check_protected(&before, &shown.bits, made)?;
         }
         self.follow(window, done, &shown)?;
         if matches!(done, Done::Nothing | Done::Look) && shown.bits != self.shown.bits {
