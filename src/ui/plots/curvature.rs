@@ -8,7 +8,6 @@ use super::dots::Dots;
 use super::drawing::*;
 use super::frame::{padded, within_reason};
 use super::level_names::across_name;
-use super::marks::{self, behind, features};
 use super::pane::Pane;
 use super::ticks::Scale;
 use super::{Plots, area, is_held, peaks};
@@ -124,29 +123,13 @@ impl Plots {
             }
             hovered_x(plot)
         });
-        let transform = &shown.transform;
-        let painter = ui.painter_at(*transform.frame());
-        painter.set(back, behind(scene, transform, tokens));
-        let pointer = shown.response.hover_pos();
-        let near = features(&painter, scene, transform, pointer, tokens);
-        marks::legend(&painter, scene, transform.frame(), tokens);
-        self.navigation
-            .navigate(ui, &shown.response, area, transform, &mut frame);
-        // What a glyph stands for is marked exactly there.
-        let hovered = match near.and_then(|index| scene.features.get(index)) {
-            Some(feature) => Some(feature.at.x),
-            None => shown.inner,
-        };
+        let hovered = self.marked(ui, scene, &shown, (back, area), &mut frame);
         let beyond = hovered.filter(|x| !(0.0..=length).contains(x));
         let vertex = beyond.and_then(|x| nearest_dot(scene, x));
         let along = hovered.filter(|x| (0.0..=length).contains(x));
         let along = along.map(|x| x * whole / length);
         self.levels
             .insert((LevelPlot::Curvature(1), normalised), frame);
-        if self.near != near {
-            self.near = near;
-            ui.ctx().request_repaint();
-        }
         self.look_closely(ui, editor, &bounds, whole / length);
         if let Some(along) = along {
             editor.view_mut().hover_length(along);

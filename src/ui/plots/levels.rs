@@ -7,7 +7,6 @@ use glam::DVec2;
 use super::drawing::*;
 use super::frame::{most_of, padded, within_reason};
 use super::level_names::{across_name, axis_name};
-use super::marks::{self, behind, features};
 use super::pane::Pane;
 use super::ticks::Scale;
 use super::{Plots, area, is_held, peaks};
@@ -141,26 +140,11 @@ impl Plots {
             }
             hovered_x(plot)
         });
-        let transform = &shown.transform;
-        let painter = ui.painter_at(*transform.frame());
-        painter.set(back, behind(scene, transform, tokens));
-        let pointer = shown.response.hover_pos();
-        let near = features(&painter, scene, transform, pointer, tokens);
-        marks::legend(&painter, scene, transform.frame(), tokens);
-        self.navigation
-            .navigate(ui, &shown.response, area, transform, &mut frame);
-        let hovered = match near.and_then(|index| scene.features.get(index)) {
-            Some(feature) => Some(feature.at.x),
-            None => shown.inner,
-        };
+        let hovered = self.marked(ui, scene, &shown, (back, area), &mut frame);
         let along = hovered
             .filter(|x| !is_graph && (0.0..=extent).contains(x))
             .map(|x| x * length / extent);
         self.levels.insert((which, normalised), frame);
-        if self.near != near {
-            self.near = near;
-            ui.ctx().request_repaint();
-        }
         if !is_graph {
             self.look_closely(ui, editor, &bounds, length / extent);
         }

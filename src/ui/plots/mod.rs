@@ -17,16 +17,17 @@ pub use compare::choice_ui as compare_choice_ui;
 
 use std::collections::HashMap;
 
+use eframe::egui::layers::ShapeIdx;
 use eframe::egui::{Button, Rect, Ui};
-use egui_plot::PlotBounds;
+use egui_plot::{PlotBounds, PlotResponse};
 use lucide_icons::Icon;
 
 use super::figures;
-use super::theme::STEP;
+use super::theme::{STEP, Tokens};
 use super::widgets::{self, IconButton};
 use crate::analysis::{Flow, LevelPlot};
 use crate::document::CurveId;
-use crate::editor::{Editor, PlotKind};
+use crate::editor::{Editor, PlotKind, PlotScene};
 use crate::geometry::LEVELS;
 use crate::ui::action::Action;
 use crate::ui::keyboard::shortcut_text;
@@ -126,6 +127,36 @@ fn close_part(known: Option<[f64; 2]>, [from, to]: [f64; 2], length: f64) -> Opt
 fn area(ui: &Ui) -> Rect {
     let whole = ui.available_rect_before_wrap();
     whole.with_max_x((whole.right() - RIGHT).max(whole.left()))
+}
+
+impl Plots {
+    /// Mark on a plot that was drawn what the canvas marks, `back` behind its lines, and let it be zoomed and
+    /// panned in its area. Returns where it is hovered.
+    fn marked(
+        &mut self,
+        ui: &Ui,
+        scene: &PlotScene,
+        shown: &PlotResponse<Option<f64>>,
+        (back, area): (ShapeIdx, Rect),
+        frame: &mut Frame,
+    ) -> Option<f64> {
+        let tokens = Tokens::of(ui);
+        let transform = &shown.transform;
+        let painter = ui.painter_at(*transform.frame());
+        painter.set(back, marks::behind(scene, transform, tokens));
+        let pointer = shown.response.hover_pos();
+        let near = marks::features(&painter, scene, transform, pointer, tokens);
+        marks::legend(&painter, scene, transform.frame(), tokens);
+        self.navigation
+            .navigate(ui, &shown.response, area, transform, frame);
+        if self.near != near {
+            self.near = near;
+            ui.ctx().request_repaint();
+        }
+        // What a glyph stands for is marked exactly there.
+        let feature = near.and_then(|index| scene.features.get(index));
+        feature.map_or(shown.inner, |feature| Some(feature.at.x))
+    }
 }
 
 /// Say how far peaks reach that the plot cuts off.

@@ -196,12 +196,8 @@ impl AddVertexTool {
 
 impl DrawingTool for AddVertexTool {
     fn leg(&self, context: &Context) -> (Option<DVec3>, Option<DVec3>) {
-        leg(self.adding.as_ref(), self.locks, context).unwrap_or_else(|| {
-            match self.planned(context) {
-                Some((adding, vertex)) => (Some(adding.base), Some(vertex)),
-                None => (None, None),
-            }
-        })
+        dragged_leg(self.adding.as_ref(), self.locks, context)
+            .unwrap_or_else(|| planned_leg(self.planned(context)))
     }
 
     fn locks(&self) -> LegLocks {
@@ -226,8 +222,15 @@ impl DrawingTool for AddVertexTool {
     }
 }
 
+/// The leg of a vertex that would be set now.
+fn planned_leg(planned: Option<(Adding, DVec3)>) -> (Option<DVec3>, Option<DVec3>) {
+    planned
+        .map(|(adding, vertex)| (adding.base, vertex))
+        .unzip()
+}
+
 /// The leg of a vertex that is dragged.
-fn leg(
+fn dragged_leg(
     adding: Option<&Adding>,
     locks: LegLocks,
     context: &Context,
@@ -345,12 +348,8 @@ impl InsertTool {
 
 impl DrawingTool for InsertTool {
     fn leg(&self, context: &Context) -> (Option<DVec3>, Option<DVec3>) {
-        leg(self.adding.as_ref(), self.locks, context).unwrap_or_else(|| {
-            match self.planned(context) {
-                Some((adding, vertex)) => (Some(adding.base), Some(vertex)),
-                None => (None, None),
-            }
-        })
+        dragged_leg(self.adding.as_ref(), self.locks, context)
+            .unwrap_or_else(|| planned_leg(self.planned(context)))
     }
 
     fn locks(&self) -> LegLocks {
