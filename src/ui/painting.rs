@@ -34,6 +34,9 @@ const SQUARE: f32 = 3.5;
 /// More points of a list than this are marked by smaller discs.
 const CROWD: usize = 200;
 
+/// How strong the evolute is beside the curve: it runs over all of the canvas.
+const EVOLUTE_STRENGTH: f32 = 0.7;
+
 /// An evolute smaller than this, in points, is marked by a disc.
 const SMALL_EVOLUTE: f32 = 4.0;
 
@@ -86,7 +89,10 @@ impl Brush<'_> {
         let tokens = self.tokens;
         self.hairs(&curve.teeth, fade(tokens.comb_teeth));
         self.chain(&curve.comb, Stroke::new(1.0, fade(tokens.comb)));
-        self.evolute(&curve.evolute, fade(tokens.evolute));
+        self.evolute(
+            &curve.evolute,
+            fade(tokens.evolute).gamma_multiply(EVOLUTE_STRENGTH),
+        );
         self.dashed_legs(&curve.clamped, Stroke::new(1.0, fade(tokens.clamped)));
         self.legs(&curve.float, Stroke::new(1.25, fade(tokens.float)));
     }

@@ -11,8 +11,12 @@ use crate::geometry::features::{
     Extremum, ExtremumKind, Features, Quantity, Root, Trend, TrendPiece, Verdict,
 };
 
-/// Marks nearer together than this, in screen points, are thinned out.
-const MARK_SPACING: f64 = 9.0;
+/// How far marks stay apart, in screen points: so far where few would touch, and farther where they
+/// would cover most of the curve.
+const MARK_SPACING: [f64; 2] = [9.0, 36.0];
+
+/// So many marks never count as a crowd.
+const FEW_MARKS: usize = 8;
 
 /// A kind of feature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -237,25 +241,60 @@ pub struct FeatureMark {
     pub u: f64,
 }
 
-/// Append the marks of features that are visible, unless they crowd.
+/// Append the marks of features that are visible, as far as they do not crowd.
 pub fn append_marks(
     report: &FeatureReport,
     orientation: &Orientation,
     view: &ViewBox,
     out: &mut Vec<FeatureMark>,
 ) {
+    let marks = report.rows.iter().map(|row| FeatureMark {
+        kind: row.kind,
+        at: orientation.flatten(row.point),
+        u: row.middle,
+    });
+    let is_visible =
+        |mark: &FeatureMark| mark.at.cmpge(view.low).all() && mark.at.cmple(view.high).all();
+    let visible = marks.filter(is_visible);
+    let places: Vec<DVec2> = visible.clone().map(|mark| mark.at).collect();
+    let apart = mark_spacing(&places, view.pixel);
     let mut kept: Option<DVec2> = None;
-    for row in &report.rows {
-        let at = orientation.flatten(row.point);
-        let is_visible = at.cmpge(view.low).all() && at.cmple(view.high).all();
-        let apart = kept.is_none_or(|kept| kept.distance(at) >= MARK_SPACING * view.pixel);
-        if is_visible && apart {
-            kept = Some(at);
-            out.push(FeatureMark {
-                kind: row.kind,
-                at,
-                u: row.middle,
-            });
+    for mark in visible {
+        if kept.is_none_or(|kept| kept.distance(mark.at) >= apart) {
+            kept = Some(mark.at);
+            out.push(mark);
         }
+    }
+}
+
+/// How far marks at these places stay apart, when a screen point is a `pixel` long.
+fn mark_spacing(places: &[DVec2], pixel: f64) -> f64 {
+    let [close, wide] = MARK_SPACING.map(|spacing| spacing * pixel);
+    let lengths = places.array_windows().map(|[a, b]| a.distance(*b));
+    let covered = close * places.len() as f64;
+    let crowded = places.len() > FEW_MARKS && covered > 0.5 * lengths.sum::<f64>();
+    if crowded { wide } else { close }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// So many places along a line 600 points long.
+    fn line(count: usize) -> Vec<DVec2> {
+        let place = |index: usize| DVec2::new(600.0 * index as f64 / (count - 1) as f64, 0.0);
+        (0..count).map(place).collect()
+    }
+
+    #[test]
+    fn marks_that_would_hide_the_curve_stay_far_apart() {
+        let [close, wide] = MARK_SPACING;
+        assert_eq!(mark_spacing(&line(30), 1.0), close);
+        assert_eq!(mark_spacing(&line(40), 1.0), wide);
+        // Nearer, the same marks do not crowd.
+        assert_eq!(mark_spacing(&line(40), 0.5), 0.5 * close);
+        let few = [DVec2::ZERO; FEW_MARKS];
+        assert_eq!(mark_spacing(&few, 1.0), close);
+        assert_eq!(mark_spacing(&[], 1.0), close);
     }
 }
