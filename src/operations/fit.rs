@@ -11,7 +11,10 @@ use super::parameter::{Kind, Parameter};
 use super::values::Values;
 use crate::document::{Curve, Edit};
 use crate::geometry::approximation::{FitAsked, FitError, Fitted, fit_points};
-use crate::geometry::{MAX_DEGREE, Progress, counted};
+use crate::geometry::{MAX_DEGREE, Progress, counted, significant};
+
+/// A fit is far off if the nearest one with as many vertices is nearer by this factor.
+const FAR: f64 = 1.3;
 
 const DEGREE: Parameter = Parameter {
     name: "degree",
@@ -78,10 +81,10 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
     Ok(Outcome {
         reached: found.reached,
         edits: vec![Edit::Add(Box::new(Curve::new(name, found.polygon.clone())))],
-        figures: figures(&found),
-        remarks: remark(&asked, &found).into_iter().collect(),
+        figures: figures(&asked, &found),
+        remarks: remarks(&asked, &found),
         marks: marks.map(|point| Mark::Point(*point)).collect(),
-        ..Outcome::unchanged(Deviation::Measured(found.largest))
+        ..Outcome::unchanged(Deviation::FromPoints(found.largest))
     })
 }
 
@@ -98,21 +101,52 @@ fn vertices(input: &Input, values: &Values) -> Result<Option<usize>, OperationEr
     }
 }
 
-fn figures(found: &Fitted) -> Vec<Figure> {
-    vec![
+fn figures(asked: &FitAsked, found: &Fitted) -> Vec<Figure> {
+    let any = asked.extrema.map(|_| {
+        let label = "RMS with any number of extrema";
+        Figure::length("rms_of_any", label, found.rms_of_any)
+    });
+    let before = [
         Figure::count("vertices", "Vertices", found.polygon.vertices().len()),
         Figure::count("extrema", "Curvature extrema", found.extrema),
         Figure::length("rms", "Off on average (RMS)", found.rms),
+    ];
+    let behind = [
         Figure::count("outliers", "Outliers", found.outliers.len()),
         Figure::indices("outlying_points", "Outlying points", &found.outliers),
         Figure::number("fairness", "Fairness weight", found.fairness),
-    ]
+    ];
+    before.into_iter().chain(any).chain(behind).collect()
 }
 
-fn remark(asked: &FitAsked, found: &Fitted) -> Option<String> {
-    let extrema = asked.extrema.filter(|extrema| *extrema != found.extrema)?;
-    let has = counted(found.extrema, "curvature extremum", "curvature extrema");
-    Some(format!(
-        "The curve has {has}, {extrema} asked for: give it more vertices, or ask for another number"
-    ))
+/// What is to say beside the figures: counts and tolerances that are missed, and a fit that is far off.
+fn remarks(asked: &FitAsked, found: &Fitted) -> Vec<String> {
+    let mut remarks = Vec::new();
+    let vertices = found.polygon.vertices().len();
+    if let Some(extrema) = asked.extrema.filter(|extrema| *extrema != found.extrema) {
+        let has = counted(found.extrema, "curvature extremum", "curvature extrema");
+        remarks.push(format!(
+            "The curve has {has}, {extrema} asked for: give it more vertices, or ask for another number"
+        ));
+    } else if found.rms > FAR * found.rms_of_any {
+        let [rms, any] = [found.rms, found.rms_of_any].map(|length| significant(length, 3));
+        remarks.push(format!(
+            "With any number of extrema {vertices} vertices come nearer to the points: RMS {any}, not {rms}. Give the curve more vertices, or ask for another number of extrema"
+        ));
+    }
+    if let Some(tolerance) = asked
+        .tolerance
+        .filter(|tolerance| found.largest > *tolerance)
+    {
+        let [largest, tolerance] = [found.largest, tolerance].map(|length| significant(length, 3));
+        let more = if asked.count.is_some() {
+            "give it more vertices, or allow more"
+        } else {
+            "allow more, or another number of extrema"
+        };
+        remarks.push(format!(
+            "One point is {largest} off the curve, the tolerance is {tolerance}: {more}"
+        ));
+    }
+    remarks
 }

@@ -51,6 +51,8 @@ pub enum Deviation {
     AtMost(f64),
     /// Its largest distance from what it stands for is this: measured, to 1e-3 of itself.
     Measured(f64),
+    /// The largest distance of the points that it was drawn through is this, outliers aside.
+    FromPoints(f64),
     /// It is another curve; the distance is not measured.
     Unmeasured,
 }
@@ -74,6 +76,9 @@ impl Deviation {
             | (Self::AtMost(a), Self::Measured(b)) => Self::Measured(a.max(b)),
             (Self::Exact, other) => other,
             (this, Self::Exact) => this,
+            (Self::FromPoints(length), _) | (_, Self::FromPoints(length)) => {
+                Self::FromPoints(length)
+            }
         }
     }
 }

@@ -22,7 +22,9 @@ impl Serialize for Report {
         map.serialize_entry("residual", &self.residual)?;
         let deviation = match self.deviation {
             Deviation::Exact => Some(0.0),
-            Deviation::AtMost(length) | Deviation::Measured(length) => Some(length),
+            Deviation::AtMost(length)
+            | Deviation::Measured(length)
+            | Deviation::FromPoints(length) => Some(length),
             Deviation::Unmeasured => None,
         };
         map.serialize_entry("deviation", &deviation)?;

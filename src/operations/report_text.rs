@@ -14,7 +14,9 @@ impl Report {
     /// compared a table of the features of both curves, the first that differs marked by `>`.
     pub fn text(&self) -> String {
         let mut lines = vec![self.summary()];
-        lines.extend(self.figures.iter().map(figure_line));
+        let is_empty = |figure: &&Figure| matches!(&figure.value, Value::Indices(indices) if indices.is_empty());
+        let figures = self.figures.iter();
+        lines.extend(figures.filter(|it| !is_empty(it)).map(figure_line));
         for level in self.equivalence.iter().flatten() {
             lines.extend(level_lines(level));
         }

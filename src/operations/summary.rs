@@ -26,6 +26,9 @@ impl Report {
                 Deviation::Measured(length) => {
                     parts.push(format!("off the true curve by {}", significant(length, 3)));
                 }
+                Deviation::FromPoints(length) => {
+                    parts.push(format!("off the points by {}", significant(length, 3)));
+                }
                 Deviation::Unmeasured => {}
             }
         }

@@ -77,7 +77,7 @@ fn figures_of(report: &Report) -> Vec<(&'static str, String)> {
         Deviation::Exact => Some("none, exact".to_owned()),
         Deviation::AtMost(0.0) => Some("none".to_owned()),
         Deviation::AtMost(bound) => Some(format!("at most {}", rounded_up(bound))),
-        Deviation::Measured(measured) => Some(length(measured)),
+        Deviation::Measured(measured) | Deviation::FromPoints(measured) => Some(length(measured)),
         Deviation::Unmeasured => Some("another curve, not measured".to_owned()),
     };
     rows.extend(deviation.map(|deviation| ("Deviation", deviation)));

@@ -199,7 +199,7 @@ fn points_that_make_no_curve_are_refused() {
         same,
         Err(FitError::TooFewPoints {
             found: 1,
-            needed: 6
+            degree: 5
         })
     );
     assert!(matches!(

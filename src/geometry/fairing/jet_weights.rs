@@ -22,6 +22,11 @@ impl JetWeights {
     /// Compute the weights at a parameter u.
     pub(super) fn at(polygon: &FloatPolygon, u: f64) -> Self {
         let (segment, t) = polygon.locate(u);
+        Self::of_segment(polygon, segment, t)
+    }
+
+    /// Compute the weights at a local parameter t of a segment, at its ends too.
+    pub(super) fn of_segment(polygon: &FloatPolygon, segment: usize, t: f64) -> Self {
         let degree = polygon.degree();
         let count = polygon.vertices().len();
         let weight = |index: usize| polygon.weight(segment + index);

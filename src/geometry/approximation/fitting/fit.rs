@@ -1,0 +1,283 @@
+//! What a fit is to be like, and how it is found.
+
+use std::cmp::{Ordering, Reverse};
+
+use glam::DVec3;
+
+use super::error::FitError;
+use super::outliers::leave_out_outliers;
+use super::point_list::PointList;
+use super::smoothing::{Smoothed, Smoothing};
+use super::vertex_count::{ROUNDING, best_count};
+use crate::geometry::control_polygon::check_size;
+use crate::geometry::fairing::near_points::Points;
+use crate::geometry::fairing::point_fit::{extrema_of, nearest_with_extrema};
+use crate::geometry::features::Features;
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::progress::Progress;
+
+/// Errors that grow by less than this factor hardly grow.
+const HARDLY: f64 = 1.05;
+
+/// Of the points at least this share tells the noise, however many vertices there are.
+const TELLING: f64 = 0.1;
+
+/// Distances are measured in no less than this share of the points' size.
+const LEAST_NOISE: f64 = 1e-7;
+
+/// The factor between the first numbers of vertices that are tried for extrema; it grows by itself each time.
+const MORE: f64 = 1.25;
+
+/// What a fit is to be like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FitAsked {
+    /// The degree.
+    pub degree: usize,
+    /// The number of vertices; `None` for as many as the points or the tolerance call for.
+    pub count: Option<usize>,
+    /// The number of curvature extrema; `None` for any.
+    pub extrema: Option<usize>,
+    /// How far points may be from the curve, outliers aside.
+    pub tolerance: Option<f64>,
+}
+
+/// A fit, and what is known of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fitted {
+    /// The float polygon.
+    pub polygon: FloatPolygon,
+    /// Whether what was asked for is reached: extrema, proved, and the tolerance.
+    pub reached: bool,
+    /// The number of curvature extrema, proved.
+    pub extrema: usize,
+    /// The root of the mean squared distance of the points, outliers aside.
+    pub rms: f64,
+    /// The same of the nearest fit with as many vertices and any number of extrema.
+    pub rms_of_any: f64,
+    /// The largest distance, outliers aside.
+    pub largest: f64,
+    /// The numbers of the points that do not count, from 0.
+    pub outliers: Vec<usize>,
+    /// The fairness weight, by points a vertex.
+    pub fairness: f64,
+}
+
+/// Fit a curve to points that follow each other along it.
+///
+/// Minimises Σ |C(uᵢ) − pᵢ|² + λ Σ |Δ³P|² over all points but the outliers. The parameters begin as chord
+/// lengths and become those of the nearest points. Outliers are found once, against a curve with a vertex
+/// for every few points: they are far from it, and stand out from their neighbours. Without a number of
+/// vertices the one is taken that explains the points best for its size (Bayes' information criterion),
+/// or, where no extrema are asked for, the smallest that keeps the tolerance. Extrema asked for are
+/// conditions on the sign of the curvature's slope: λ is the largest that leaves the errors as they are, and
+/// the curve is the nearest found whose curvature rises and falls so often, proved; without a number of
+/// vertices more are tried until its errors are about those of the noise.
+///
+/// # Errors
+/// [`FitError`].
+pub fn fit_points(
+    points: &[DVec3],
+    asked: &FitAsked,
+    progress: &Progress,
+) -> Result<Fitted, FitError> {
+    check(points, asked)?;
+    let mut list = PointList::new(points);
+    leave_out_outliers(&mut list, asked.degree, progress)?;
+    progress.set_done(0.1);
+    let fit = Fit {
+        list: &list,
+        asked,
+        progress,
+        smoothing: Smoothing::new(&list, asked.degree, progress),
+    };
+    match (asked.extrema, asked.tolerance) {
+        (Some(extrema), _) => fit.best_with_extrema(extrema),
+        (None, Some(tolerance)) => fit.fairest(tolerance),
+        (None, None) => fit.plain(fit.smoothing.least(fit.count(None)?)?),
+    }
+}
+
+/// Check that there can be such a fit.
+fn check(points: &[DVec3], asked: &FitAsked) -> Result<(), FitError> {
+    let degree = asked.degree;
+    check_size(degree, asked.count.unwrap_or(degree + 1), false)?;
+    let differing = points.windows(2).filter(|pair| pair[0] != pair[1]);
+    let found = differing.count() + usize::from(!points.is_empty());
+    if found < degree + 1 {
+        return Err(FitError::TooFewPoints { found, degree });
+    }
+    if let Some(count) = asked.count.filter(|count| *count > points.len()) {
+        let points = points.len();
+        return Err(FitError::TooManyVertices { count, points });
+    }
+    let Some(extrema) = asked.extrema else {
+        return Ok(());
+    };
+    let needed = vertices_for(extrema, degree);
+    let limits = [
+        (asked.count.unwrap_or(needed), "vertices"),
+        (points.len(), "points"),
+    ];
+    match limits.into_iter().find(|(count, _)| *count < needed) {
+        None => Ok(()),
+        Some((count, of)) => Err(FitError::TooManyExtrema {
+            extrema,
+            count,
+            of,
+            needed,
+        }),
+    }
+}
+
+/// The least number of vertices whose discrete curvature, a number at each inner vertex, can have so many
+/// extrema.
+fn vertices_for(extrema: usize, degree: usize) -> usize {
+    let outer = if extrema > 0 { 4 } else { 0 };
+    (extrema + outer).max(degree + 1)
+}
+
+struct Fit<'a> {
+    list: &'a PointList<'a>,
+    asked: &'a FitAsked,
+    progress: &'a Progress,
+    smoothing: Smoothing<'a>,
+}
+
+impl Fit<'_> {
+    /// The number of vertices asked for, or else the best.
+    fn count(&self, tolerance: Option<f64>) -> Result<usize, FitError> {
+        let best = || best_count(self.list, &self.smoothing, self.asked.degree, tolerance);
+        self.asked.count.map_or_else(best, Ok)
+    }
+
+    /// The curve with the largest fairness weight that keeps the tolerance.
+    fn fairest(&self, tolerance: f64) -> Result<Fitted, FitError> {
+        let count = self.count(Some(tolerance))?;
+        let keeps = |smoothed: &Smoothed| smoothed.errors[1] <= tolerance;
+        let mut found = self.smoothing.while_passing(count, keeps)?;
+        match found.pop() {
+            Some(fairest) => self.plain(fairest),
+            None => self.plain(self.smoothing.least(count)?),
+        }
+    }
+
+    /// The fit with so many extrema that is nearest to the points: with the number of vertices given, or the
+    /// least number from the best on with which it is about as near as noise allows.
+    fn best_with_extrema(&self, extrema: usize) -> Result<Fitted, FitError> {
+        let least = vertices_for(extrema, self.asked.degree);
+        let mut count = self.count(None)?.max(least);
+        let most = self.asked.count.unwrap_or(self.list.points.len());
+        let enough = self.enough(&self.smoothing.least(count)?);
+        let (first, mut more) = (count as f64, MORE);
+        let mut best: Option<Fitted> = None;
+        loop {
+            let found = self.with_extrema(count, extrema, enough)?;
+            keep_better(&mut best, found, extrema);
+            if count >= most || is_near(best.as_ref(), enough) {
+                break;
+            }
+            count = ((more * count as f64) as usize).clamp(count + 1, most);
+            more *= MORE;
+            let done = (count as f64 / first).ln() / (most as f64 / first).ln();
+            self.progress.set_done(0.1 + 0.9 * done);
+        }
+        let (found, degree) = (self.list.counting(), self.asked.degree);
+        best.ok_or(FitError::TooFewPoints { found, degree })
+    }
+
+    /// Errors that are about those of the noise: each vertex takes a share of it out of the errors.
+    fn enough(&self, least: &Smoothed) -> f64 {
+        let count = least.near.polygon.vertices().len() as f64;
+        let left = 1.0 - count / self.list.counting() as f64;
+        HARDLY * least.errors[0] / left.max(TELLING).sqrt() + ROUNDING * self.list.size
+    }
+
+    /// The fit with so many vertices and extrema that is nearest to the points, from the fairest curve that
+    /// is about as near as noise allows, and where that is not enough from the one nearest to them.
+    fn with_extrema(&self, count: usize, extrema: usize, enough: f64) -> Result<Fitted, FitError> {
+        let least = self.smoothing.least(count)?;
+        let most = self.enough(&least);
+        let passes = |smoothed: &Smoothed| smoothed.errors[0] <= most;
+        let mut starts = self.smoothing.while_passing(count, passes)?;
+        let fairest = starts
+            .pop()
+            .filter(|fairest| fairest.fairness > least.fairness);
+        let rms_of_any = least.errors[0];
+        let mut best = None;
+        for start in fairest.into_iter().chain([least]) {
+            let from = start.near.clone();
+            let fairness = start.fairness;
+            let noise = start.errors[0].max(LEAST_NOISE * self.list.size);
+            keep_better(&mut best, self.finished(start, rms_of_any)?, extrema);
+            if is_near(best.as_ref(), enough) {
+                break;
+            }
+            let points = Points {
+                points: self.list.points,
+                counts: &self.list.counts,
+                fairness: self.smoothing.weight(count, fairness),
+                noise,
+            };
+            if let Some(near) = nearest_with_extrema(&points, &from, extrema, self.progress)? {
+                let found = Smoothed::new(self.list, near, fairness);
+                keep_better(&mut best, self.finished(found, rms_of_any)?, extrema);
+            }
+            if is_near(best.as_ref(), enough) {
+                break;
+            }
+        }
+        let (found, degree) = (self.list.counting(), self.asked.degree);
+        best.ok_or(FitError::TooFewPoints { found, degree })
+    }
+
+    /// Prove and measure a fit on which there are no conditions.
+    fn plain(&self, smoothed: Smoothed) -> Result<Fitted, FitError> {
+        let rms = smoothed.errors[0];
+        self.finished(smoothed, rms)
+    }
+
+    /// Prove and measure a fit.
+    fn finished(&self, smoothed: Smoothed, rms_of_any: f64) -> Result<Fitted, FitError> {
+        let polygon = smoothed.near.polygon;
+        let features = Features::proved(&polygon, |_| !self.progress.is_cancelled());
+        let extrema = extrema_of(&features.ok_or(FitError::Cancelled)?);
+        let [rms, largest] = smoothed.errors;
+        let asked = self.asked;
+        let right = asked.extrema.is_none_or(|asked| asked == extrema);
+        let near = asked.tolerance.is_none_or(|tolerance| largest <= tolerance);
+        let outliers = self.list.counts.iter().enumerate();
+        let outliers = outliers.filter(|(_, counts)| !**counts);
+        Ok(Fitted {
+            polygon,
+            reached: right && near,
+            extrema,
+            rms,
+            rms_of_any,
+            largest,
+            outliers: outliers.map(|(index, _)| index).collect(),
+            fairness: smoothed.fairness,
+        })
+    }
+}
+
+/// Whether a fit is what was asked for, and near enough.
+fn is_near(fitted: Option<&Fitted>, enough: f64) -> bool {
+    fitted.is_some_and(|fitted| fitted.reached && fitted.rms <= enough)
+}
+
+/// Keep the better of two fits: it reaches what was asked for, or its number of extrema is nearer to the one
+/// asked for, or it is nearer to the points.
+fn keep_better(best: &mut Option<Fitted>, fitted: Fitted, extrema: usize) {
+    let rank = |fitted: &Fitted| {
+        let apart = fitted.extrema.abs_diff(extrema);
+        (fitted.reached, Reverse(apart))
+    };
+    let is_better = |known: &Fitted| match rank(&fitted).cmp(&rank(known)) {
+        Ordering::Greater => true,
+        Ordering::Less => false,
+        Ordering::Equal => fitted.rms < known.rms,
+    };
+    if best.as_ref().is_none_or(is_better) {
+        *best = Some(fitted);
+    }
+}

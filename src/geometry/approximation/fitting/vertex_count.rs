@@ -1,0 +1,39 @@
+//! How many vertices points call for.
+
+use super::error::FitError;
+use super::point_list::PointList;
+use super::smoothing::Smoothing;
+
+/// Errors below this share of the points' size are rounding.
+pub(super) const ROUNDING: f64 = 1e-12;
+
+/// Find the number of vertices that explains the points best for its size (Bayes' information criterion:
+/// Schwarz, 1978), or the least that keeps a tolerance; where none does, the best.
+pub(super) fn best_count(
+    list: &PointList,
+    smoothing: &Smoothing,
+    degree: usize,
+    tolerance: Option<f64>,
+) -> Result<usize, FitError> {
+    let (most, axes) = (list.points.len(), if list.planar { 1.0 } else { 2.0 });
+    let mut count = degree + 1;
+    let mut best = (f64::INFINITY, count);
+    loop {
+        let [rms, largest] = smoothing.least(count)?.errors;
+        if tolerance.is_some_and(|tolerance| largest <= tolerance) {
+            return Ok(count);
+        }
+        // Each point tells its distance across the curve, in as many directions as there are.
+        let told = axes * list.counting() as f64;
+        let variance = rms.max(ROUNDING * list.size).powi(2);
+        let criterion = told * variance.ln() + axes * count as f64 * told.ln();
+        if criterion < best.0 {
+            best = (criterion, count);
+        }
+        // A good way beyond the best nothing better comes.
+        if count >= most || (count > 2 * best.1 + 8 && tolerance.is_none()) {
+            return Ok(best.1);
+        }
+        count = (count + count.div_ceil(6)).min(most);
+    }
+}

@@ -1,0 +1,138 @@
+//! How a sequence is best divided into runs that rise and fall by turns.
+
+/// The sequence is thinned out to about so many numbers, and to so many a run where there are many runs.
+const ENOUGH: usize = 300;
+const ENOUGH_A_RUN: usize = 4;
+
+/// A division of a sequence into runs.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Runs {
+    /// For every number whether its run rises.
+    pub(super) rises: Vec<bool>,
+    /// The sum of the squares by which the sequence misses the nearest one that rises and falls so.
+    pub(super) missed: f64,
+}
+
+/// Find the two best divisions into runs that rise and fall by turns, with so many turns between
+/// them: the one that begins rising and the one that begins falling, the better one first.
+///
+/// What the nearest monotone sequence of a run misses is found by pooling neighbours that are out of
+/// order (Ayer and others, 1955), the best ends of runs by dynamic programming.
+pub(super) fn best_runs(values: &[f64], turns: usize) -> [Runs; 2] {
+    let enough = ENOUGH.max(ENOUGH_A_RUN * (turns + 1));
+    let step = values.len().div_ceil(enough).max(1);
+    let thinned: Vec<f64> = values.iter().step_by(step).copied().collect();
+    let missed = [true, false].map(|rises| missed_by_runs(&thinned, rises));
+    let mut found = [true, false].map(|begins_rising| {
+        let (ends, missed) = best_ends(&missed, thinned.len(), turns, begins_rising);
+        let run_of = |index: usize| ends.partition_point(|end| *end <= index / step);
+        let rises = (0..values.len()).map(|index| begins_rising == (run_of(index) % 2 == 0));
+        Runs {
+            rises: rises.collect(),
+            missed,
+        }
+    });
+    found.sort_by(|a, b| a.missed.total_cmp(&b.missed));
+    found
+}
+
+/// For every first number of a run, and every number of its members, what the nearest rising (or
+/// falling) sequence misses.
+fn missed_by_runs(values: &[f64], rises: bool) -> Vec<Vec<f64>> {
+    let sign = if rises { 1.0 } else { -1.0 };
+    let from = |first: usize| {
+        // Pools of neighbours: their number, sum and sum of squares.
+        let mut pools: Vec<[f64; 3]> = Vec::new();
+        let spread = |pool: &[f64; 3]| (pool[2] - pool[1] * pool[1] / pool[0]).max(0.0);
+        let mut missed = 0.0;
+        let grown = values[first..].iter().map(|value| {
+            let value = sign * value;
+            let mut last = [1.0, value, value * value];
+            while let Some(before) = pools.last().copied() {
+                if before[1] * last[0] < last[1] * before[0] {
+                    break;
+                }
+                pools.pop();
+                missed -= spread(&before);
+                for (sum, part) in last.iter_mut().zip(before) {
+                    *sum += part;
+                }
+            }
+            // What a pool of several misses stands in the sum; one alone misses nothing.
+            missed += spread(&last);
+            missed = missed.max(0.0);
+            pools.push(last);
+            missed
+        });
+        grown.collect()
+    };
+    (0..values.len()).map(from).collect()
+}
+
+/// The ends of the first runs, the next one's first number each, and what all runs miss together.
+fn best_ends(
+    missed: &[Vec<Vec<f64>>; 2],
+    count: usize,
+    turns: usize,
+    begins_rising: bool,
+) -> (Vec<usize>, f64) {
+    let run = |number: usize, first: usize, end: usize| {
+        let rises = begins_rising == (number % 2 == 0);
+        missed[usize::from(!rises)][first]
+            .get((end - first).wrapping_sub(1))
+            .copied()
+            .unwrap_or_default()
+    };
+    // What the runs up to each end miss, and where the last of them begins.
+    let mut best: Vec<f64> = (0..=count).map(|end| run(0, 0, end)).collect();
+    let mut begins: Vec<Vec<usize>> = Vec::new();
+    for number in 1..=turns {
+        let last = |end: usize| {
+            let splits = (number..end).map(|first| (first, best[first] + run(number, first, end)));
+            let least = splits.min_by(|a, b| a.1.total_cmp(&b.1));
+            least.unwrap_or((end, f64::INFINITY))
+        };
+        let found: Vec<(usize, f64)> = (0..=count).map(last).collect();
+        best = found.iter().map(|(_, missed)| *missed).collect();
+        begins.push(found.iter().map(|(first, _)| *first).collect());
+    }
+    let mut ends = Vec::new();
+    let mut end = count;
+    for begins in begins.iter().rev() {
+        end = begins[end];
+        ends.push(end);
+    }
+    ends.reverse();
+    (ends, best[count])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_end_at_the_largest_turns() {
+        // A ripple of 0.2 on a way up to 5 and down again.
+        let values = [0.0, 1.0, 0.8, 2.0, 3.0, 5.0, 4.0, 3.0, 3.2, 1.0, 0.0];
+        let [up, down] = best_runs(&values, 1);
+        let rising = up.rises.iter().filter(|rises| **rises).count();
+        assert!(up.rises[0] && (5..=6).contains(&rising), "{up:?}");
+        // Each ripple pools two numbers that are 0.2 apart.
+        assert!((up.missed - 2.0 * 2.0 * 0.1 * 0.1).abs() < 1e-12, "{up:?}");
+        assert!(!down.rises[0] && down.missed > up.missed);
+        let [all, _] = best_runs(&values, 5);
+        assert!(all.missed < 1e-12, "{all:?}");
+    }
+
+    #[test]
+    fn without_turns_all_rises_or_all_falls() {
+        let values = [3.0, 2.0, 2.5, 1.0];
+        let [falls, rises] = best_runs(&values, 0);
+        assert!(falls.rises.iter().all(|rises| !rises));
+        assert!(rises.rises.iter().all(|rises| *rises));
+        assert!(
+            (falls.missed - 2.0 * 0.25 * 0.25).abs() < 1e-12,
+            "{falls:?}"
+        );
+    }
+}
