@@ -145,7 +145,6 @@ fn slope([first, second, third]: [DualVector; 3], planar: bool) -> Dual {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::differentiable::Differentiable;
 
     #[test]
     fn slopes_are_those_of_the_curvature_and_gradients_agree_with_differences() {
