@@ -33,6 +33,7 @@ mod refresh;
 mod sample_chain;
 pub(in crate::editor) mod scene;
 mod shown;
+mod sleeve;
 #[allow(clippy::module_inception)]
 mod view;
 pub(in crate::editor) mod viewport;

@@ -5,6 +5,12 @@
 
 use glam::DVec2;
 
+use crate::editor::view::sleeve::Sleeve;
+
+/// How far lines may pass points of a chain that are left out, as a share of the spacing below which points
+/// are not told apart: at most 1/32 of a screen point.
+const FLAT: f64 = 1.0 / 16.0;
+
 /// What is visible: a box in the view plane and the size of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ViewBox {
@@ -120,7 +126,7 @@ pub const GAP: DVec2 = DVec2::NAN;
 /// What an outline's points were made for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OutlineKey {
-    /// The level of detail; `None` keeps every point of the source.
+    /// The level of detail; `None` keeps no points, only the box around them.
     pub level: Option<i32>,
     /// Whatever else the points depend on, such as the comb's scale.
     pub shape: u64,
@@ -150,8 +156,13 @@ impl Outline {
         self.key = Some(key);
         self.bounds = Bounds::EMPTY;
         self.points.clear();
-        let spacing = key.level.map_or(0.0, |level| 2f64.powi(level));
-        thin(source(), spacing, &mut self.points, &mut self.bounds);
+        match key.level {
+            Some(level) => {
+                let spacing = 2f64.powi(level);
+                thin(source(), spacing, &mut self.points, &mut self.bounds);
+            }
+            None => source().for_each(|point| self.bounds.add(point)),
+        }
     }
 
     /// The box around the points.
@@ -196,37 +207,62 @@ pub fn append_gap(out: &mut Vec<DVec2>) {
     }
 }
 
-/// Copy a chain, leaving out points nearer than `spacing` to the last one kept; the ends of the
-/// chain and of each of its pieces stay.
+/// Copy a chain, leaving out points nearer than `spacing` to the one before, and those that a line without
+/// them passes within a small share of it; the ends of the chain and of each of its pieces stay.
 pub fn thin(
     source: impl Iterator<Item = DVec2>,
     spacing: f64,
     out: &mut Vec<DVec2>,
     bounds: &mut Bounds,
 ) {
-    let squared = spacing * spacing;
-    let mut kept = GAP;
+    let (squared, tolerance) = (spacing * spacing, FLAT * spacing);
+    // The line from the last point kept, and to where it goes so far.
+    let mut line: Option<(Sleeve, DVec2)> = None;
     let mut skipped: Option<DVec2> = None;
     for point in source {
         if point.is_nan() {
-            out.extend(skipped.take());
+            finish(&mut line, &mut skipped, out);
             // A gap at the very beginning counts: what came before must not be joined.
             if out.last().is_none_or(|last| !last.is_nan()) {
                 out.push(GAP);
             }
-            kept = GAP;
             continue;
         }
         bounds.add(point);
-        if kept.is_nan() || point.distance_squared(kept) >= squared {
+        let Some((sleeve, to)) = &mut line else {
             out.push(point);
-            kept = point;
-            skipped = None;
-        } else {
+            line = Some((Sleeve::new(point, tolerance), point));
+            continue;
+        };
+        if point.distance_squared(*to) < squared {
             skipped = Some(point);
+            continue;
         }
+        for from in [*to, point] {
+            if sleeve.add(point) {
+                break;
+            }
+            keep(from, out);
+            *sleeve = Sleeve::new(from, tolerance);
+        }
+        *to = point;
+        skipped = None;
     }
-    out.extend(skipped);
+    finish(&mut line, &mut skipped, out);
+}
+
+/// Keep the last points of a piece.
+fn finish(line: &mut Option<(Sleeve, DVec2)>, skipped: &mut Option<DVec2>, out: &mut Vec<DVec2>) {
+    if let Some((_, to)) = line.take() {
+        keep(to, out);
+    }
+    out.extend(skipped.take());
+}
+
+fn keep(point: DVec2, out: &mut Vec<DVec2>) {
+    if out.last() != Some(&point) {
+        out.push(point);
+    }
 }
 
 #[cfg(test)]
@@ -250,6 +286,7 @@ mod tests {
             0.5,
             &[at(0.0), at(1.0), at(1.1)],
         );
+        check_thin(&[at(0.0), at(0.1)], 0.5, &[at(0.0), at(0.1)]);
         check_thin(
             &[at(0.0), at(0.1), GAP, GAP, at(0.2), at(0.9)],
             0.5,
@@ -257,5 +294,34 @@ mod tests {
         );
         check_thin(&[GAP, GAP], 0.5, &[GAP]);
         check_thin(&[GAP, at(0.0)], 0.5, &[GAP, at(0.0)]);
+    }
+
+    #[test]
+    fn thinned_chains_stay_within_a_share_of_the_spacing() {
+        let wave = |index: usize| {
+            let angle = 1e-3 * index as f64;
+            (50.0 + 30.0 * (3.0 * angle).sin()) * DVec2::from_angle(angle)
+        };
+        let chain: Vec<DVec2> = (0..=6000).map(wave).collect();
+        let (mut points, mut bounds) = (Vec::new(), Bounds::EMPTY);
+        thin(chain.iter().copied(), 0.1, &mut points, &mut bounds);
+        assert!(points.len() < 400, "{}", points.len());
+        let off = |at: &DVec2| {
+            let distances = points.windows(2).map(|pair| {
+                let along = pair[1] - pair[0];
+                let share = (*at - pair[0]).dot(along) / along.length_squared();
+                at.distance(pair[0] + share.clamp(0.0, 1.0) * along)
+            });
+            distances.fold(f64::INFINITY, f64::min)
+        };
+        let worst = chain.iter().map(off).fold(0.0, f64::max);
+        assert!(worst <= 1.01 * FLAT * 0.1, "{worst}");
+        assert!(worst > 0.5 * FLAT * 0.1, "{worst}");
+    }
+
+    #[test]
+    fn thinning_keeps_points_that_are_too_far_to_measure() {
+        let chain = [DVec2::ZERO, DVec2::splat(1e200), DVec2::ONE, DVec2::ZERO];
+        check_thin(&chain, 0.1, &chain);
     }
 }
