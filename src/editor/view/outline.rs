@@ -299,10 +299,10 @@ mod tests {
     #[test]
     fn thinned_chains_stay_within_a_share_of_the_spacing() {
         let wave = |index: usize| {
-            let angle = 1e-3 * index as f64;
-            (50.0 + 30.0 * (3.0 * angle).sin()) * DVec2::from_angle(angle)
+            let angle = 1e-4 * index as f64;
+            (500.0 + 300.0 * (3.0 * angle).sin()) * DVec2::from_angle(angle)
         };
-        let chain: Vec<DVec2> = (0..=6000).map(wave).collect();
+        let chain: Vec<DVec2> = (0..=10_000).map(wave).collect();
         let (mut points, mut bounds) = (Vec::new(), Bounds::EMPTY);
         thin(chain.iter().copied(), 0.1, &mut points, &mut bounds);
         assert!(points.len() < 400, "{}", points.len());
