@@ -62,9 +62,19 @@ impl Folder {
     }
 }
 
+/// What is printed, and what is printed as error but for lines that tell how far a computation has come: they
+/// appear where it takes longer than a second, as it may under load.
 pub fn texts(output: &Output) -> (String, String) {
     let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
-    (text(&output.stdout), text(&output.stderr))
+    let is_progress = |line: &&str| {
+        let told = line.strip_prefix("batten: ");
+        told.is_some_and(|told| told.starts_with("proving features: ") || told.ends_with(" %\n"))
+    };
+    let errors = text(&output.stderr);
+    let errors = errors
+        .split_inclusive('\n')
+        .filter(|line| !is_progress(line));
+    (text(&output.stdout), errors.collect())
 }
 
 pub fn data(name: &str) -> Value {
