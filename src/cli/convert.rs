@@ -45,10 +45,7 @@ pub(super) fn convert(
 /// # Errors
 /// If the destination cannot be written.
 pub(super) fn example(example: &Example, destination: &Destination) -> anyhow::Result<()> {
-    let reading = Reading {
-        curves: example.curves()?,
-        ..Reading::default()
-    };
+    let reading = example.read()?;
     destination.write(exported(&reading, destination, None)?.0)
 }
 

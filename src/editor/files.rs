@@ -167,8 +167,8 @@ impl Editor {
 
     fn replace_by_example(&mut self, index: usize) -> Reply {
         let example = EXAMPLES.get(index).ok_or("There is no such example")?;
-        let curves = example.curves().map_err(|error| error.to_string())?;
-        self.replace(Document::from_curves(curves), None);
+        let reading = example.read().map_err(|error| error.to_string())?;
+        self.replace(reading.into_document()?, None);
         let (title, description) = (example.title, example.description);
         Ok(Note::told(format!("{title}: {description}")))
     }

@@ -105,7 +105,7 @@ mod tests {
     use crate::io::examples::EXAMPLES;
 
     fn document() -> Document {
-        Document::from_curves(EXAMPLES[0].curves().expect("an example"))
+        Document::from_curves(EXAMPLES[0].read().expect("an example").curves)
     }
 
     fn origin() -> Origin {

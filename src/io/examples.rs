@@ -2,7 +2,7 @@
 
 use super::error::ReadError;
 use super::project;
-use crate::document::Curve;
+use super::reading::Reading;
 
 /// An example: a project that is part of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,7 +60,7 @@ pub const EXAMPLES: [Example; 8] = [
     Example {
         name: "hull",
         title: "Waterline",
-        description: "Half the waterline of a hull 8.4 m long, in millimetres: fine entry, full midbody and a transom, with one curvature extremum.",
+        description: "Half the waterline of a hull 8.4 m long: fine entry, full midbody and a transom, with one curvature extremum.",
         text: include_str!("../../assets/examples/hull.batten"),
     },
     Example {
@@ -77,24 +77,24 @@ impl Example {
         EXAMPLES.into_iter().find(|example| example.name == name)
     }
 
-    /// Read the example's curves.
+    /// Read the example.
     ///
     /// # Errors
     /// None for the examples there are: a test reads them all.
-    pub fn curves(&self) -> Result<Vec<Curve>, ReadError> {
-        Ok(project::read(self.text.as_bytes())?.curves)
+    pub fn read(&self) -> Result<Reading, ReadError> {
+        project::read(self.text.as_bytes())
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::Extras;
+    use crate::document::{Curve, Extras};
     use crate::geometry::circle_comparison::regular_polygon;
     use crate::geometry::{FloatPolygon, PolygonKind};
 
     fn polygon(name: &str) -> FloatPolygon {
-        let mut curves = Example::find(name).unwrap().curves().unwrap();
+        let mut curves = Example::find(name).unwrap().read().unwrap().curves;
         assert_eq!(curves.len(), 1, "{name}");
         assert_eq!(curves[0].name, name);
         curves.remove(0).polygon
@@ -201,13 +201,13 @@ mod tests {
     #[test]
     fn the_examples_are_written_as_projects_are() {
         for example in EXAMPLES {
-            let curves = example.curves().unwrap();
-            let curves: Vec<&Curve> = curves.iter().collect();
+            let reading = example.read().unwrap();
+            let curves: Vec<&Curve> = reading.curves.iter().collect();
             let written = project::write(
                 &curves,
                 &[],
                 &[],
-                (None, &Extras::default()),
+                (reading.unit, &Extras::default()),
                 PolygonKind::Float,
             )
             .bytes;

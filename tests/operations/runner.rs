@@ -17,7 +17,7 @@ pub struct Runner {
 impl Runner {
     pub fn example(name: &str) -> Self {
         let example = Example::find(name).expect("an example");
-        Self::curves(example.curves().expect("curves"))
+        Self::curves(example.read().expect("an example").curves)
     }
 
     pub fn of(polygon: FloatPolygon) -> Self {
