@@ -86,7 +86,7 @@ enum Command {
     /// Apply an operation to a curve of a file, and print what it did as JSON
     ///
     /// The file that is written holds everything that was read, with the changes made. Nothing is
-    /// written, and the exit code is 1, if what was asked for is not reached.
+    /// written, and the exit status is 1, if what was asked for is not reached.
     Apply(ApplyArguments),
     /// List the references that `batten apply approximate` knows, with their parameters
     References,
@@ -139,7 +139,7 @@ pub(super) enum Task {
     Apply(Application),
     /// List the kinds of references.
     References,
-    /// Print curves in figures.
+    /// Print curves and references in numbers.
     Inspect {
         /// What is read.
         source: Source,

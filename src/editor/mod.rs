@@ -7,6 +7,7 @@ mod commands;
 mod comparing;
 mod file_watch;
 mod files;
+mod foreseeing;
 mod guides;
 mod hand;
 mod measuring;
@@ -56,6 +57,7 @@ use crate::io::examples::{EXAMPLES, FIRST};
 use autosaving::Autosaving;
 use comparing::Comparing;
 use file_watch::FileWatch;
+use foreseeing::Foreseeing;
 use guides::Guides;
 use hand::gesture::Gesture;
 use hand::tools::Tools;
@@ -76,6 +78,7 @@ pub struct Editor {
     proving: Proving,
     measuring: Measuring,
     comparing: Comparing,
+    foreseeing: Foreseeing,
     guides: Guides,
     autosaving: Autosaving,
     recoverable: Vec<Recoverable>,
@@ -112,6 +115,7 @@ impl Editor {
         self.proving = Proving::background(wake.clone());
         self.measuring = Measuring::background(wake.clone());
         self.comparing = Comparing::background(wake.clone());
+        self.foreseeing = Foreseeing::background(wake.clone());
         self.guides = Guides::background(wake.clone());
         self.autosaving.run_in_background(wake.clone());
         self.file_watch = FileWatch::background(wake.clone());

@@ -228,7 +228,10 @@ impl Editor {
         }
     }
 
-    fn input_of(&self, operation: &Operation) -> Result<Input, OperationError> {
+    pub(in crate::editor) fn input_of(
+        &self,
+        operation: &Operation,
+    ) -> Result<Input, OperationError> {
         let selection = &self.hand.selection;
         let active = selection.active();
         let active = active.filter(|id| self.document().curve(*id).is_some());

@@ -2,8 +2,9 @@
 //! buttons and the command palette all read it.
 
 use crate::editor::{Command, Editor, Key, Modifiers, Shortcut};
-use crate::geometry::PolygonKind;
+use crate::geometry::{PolygonKind, rounded_up};
 use crate::io::examples::EXAMPLES;
+use crate::operations::Deviation;
 use crate::ui::shell::Shell;
 
 /// Something that the user can ask for by name.
@@ -37,12 +38,16 @@ pub enum Action {
     Copy,
     /// Add what was copied.
     Paste,
+    /// Type another name for the active curve in its row of the list.
+    Rename,
     /// Switch between the dark and the light theme.
     ToggleTheme,
     /// Show or hide the plots.
     TogglePlots,
     /// Show all of the plot in front again.
     FitPlot,
+    /// Plot the curve scaled to length 1, or as it is.
+    NormaliseLength,
     /// Find an action by its name.
     Palette,
     /// Explain the paper's figures, with their curves.
@@ -73,12 +78,13 @@ impl Action {
         ];
         all.extend(PolygonKind::ALL.map(Self::ExportCsv));
         all.extend((0..EXAMPLES.len()).map(Self::OpenExample));
-        all.extend([Self::Quit, Self::Cut, Self::Copy, Self::Paste]);
+        all.extend([Self::Quit, Self::Cut, Self::Copy, Self::Paste, Self::Rename]);
         all.extend(Command::all().into_iter().map(Self::Command));
         all.extend([
             Self::ToggleTheme,
             Self::TogglePlots,
             Self::FitPlot,
+            Self::NormaliseLength,
             Self::Palette,
             Self::Paper,
             Self::Keys,
@@ -106,9 +112,11 @@ impl Action {
             Self::Cut => "Cut",
             Self::Copy => "Copy",
             Self::Paste => "Paste",
+            Self::Rename => "Rename curve",
             Self::ToggleTheme => "Light theme",
             Self::TogglePlots => "Plots",
             Self::FitPlot => "Fit plot",
+            Self::NormaliseLength => "Normalise length",
             Self::Palette => "Find a command…",
             Self::Paper => "The paper",
             Self::Keys => "Keys and mouse",
@@ -131,6 +139,7 @@ impl Action {
     pub fn label_now(self, editor: &Editor) -> String {
         match self {
             Self::Command(command) => editor.label(command),
+            Self::Rename if editor.active_reference_id().is_some() => "Rename reference".to_owned(),
             _ => self.label(),
         }
     }
@@ -139,7 +148,7 @@ impl Action {
     pub fn tooltip(self) -> String {
         let tooltip = match self {
             Self::Command(command) => return command.tooltip(),
-            Self::New => "Begin an empty document",
+            Self::New => "Create an empty document",
             Self::Open => "Open a .batten project or a CSV table",
             Self::OpenExample(index) => EXAMPLES
                 .get(index)
@@ -147,7 +156,7 @@ impl Action {
             Self::Import => "Add the curves of a file to this document",
             Self::Save => "Save the document to its file",
             Self::SaveAs => "Save the document to another file",
-            Self::Reload => "Open the document's file again, as it is on the disk",
+            Self::Reload => "Open the document's file again, as it is on disk",
             Self::ExportDxf => {
                 "Write curves and polygons as DXF: clamped splines, and both S-polygons on layers of their own"
             }
@@ -156,12 +165,18 @@ impl Action {
             Self::Cut => "Copy the selected vertices and delete them",
             Self::Copy => "Copy the active curve, or only its selected vertices",
             Self::Paste => "Add what was copied as a curve of its own",
+            Self::Rename => {
+                "Type another name in the list of curves; a double-click on a row does the same"
+            }
             Self::ToggleTheme => "Switch between the dark and the light theme",
             Self::TogglePlots => "Show or hide the plots under the canvas",
             Self::FitPlot => {
-                "Show the whole plot again after zooming with the wheel or moving it; a double click does the same"
+                "Show the whole plot again after zooming or panning it; a double-click does the same"
             }
-            Self::Palette => "Find a command by typing a part of its name",
+            Self::NormaliseLength => {
+                "Plot the curve scaled to length 1, over shares of its length: curves of different sizes can be compared"
+            }
+            Self::Palette => "Find a command by typing part of its name",
             Self::Paper => {
                 "Open the figures and tables of the paper behind Batten as documents, with explanations"
             }
@@ -185,6 +200,7 @@ impl Action {
             Self::Cut => Shortcut::ctrl('x'),
             Self::Copy => Shortcut::ctrl('c'),
             Self::Paste => Shortcut::ctrl('v'),
+            Self::Rename => Shortcut::plain(Key::Function(2)),
             Self::ToggleTheme => Shortcut::plain(Key::Function(9)),
             Self::TogglePlots => Shortcut::plain(Key::Function(8)),
             Self::FitPlot => Shortcut {
@@ -196,6 +212,7 @@ impl Action {
             Self::OpenExample(_)
             | Self::ExportCsv(_)
             | Self::Reload
+            | Self::NormaliseLength
             | Self::Paper
             | Self::About => return None,
         })
@@ -207,7 +224,7 @@ impl Action {
             Self::Command(command) => editor.is_enabled(command),
             Self::ExportDxf | Self::ExportCsv(_) => !editor.document().is_empty(),
             Self::Reload => editor.workspace().path().is_some(),
-            Self::Cut | Self::Copy => editor.active().is_some(),
+            Self::Cut | Self::Copy | Self::Rename => editor.active().is_some(),
             _ => true,
         }
     }
@@ -226,12 +243,38 @@ impl Action {
         }
     }
 
+    /// How far the action would move the active curve, as far as that is known: "exact" or "± 0.28".
+    pub fn foreseen(self, editor: &Editor) -> Option<String> {
+        let Self::Command(Command::Operation(operation)) = self else {
+            return None;
+        };
+        match editor.foreseen(operation)? {
+            Deviation::Exact | Deviation::AtMost(0.0) => Some("exact".to_owned()),
+            Deviation::AtMost(bound) => {
+                let unit = editor.document().unit();
+                let unit = unit.map_or(String::new(), |unit| format!(" {}", unit.symbol()));
+                Some(format!("± {}{unit}", rounded_up(bound)))
+            }
+            Deviation::Measured(_) | Deviation::FromPoints(_) | Deviation::Unmeasured => None,
+        }
+    }
+
+    /// What a screen reader calls the action now.
+    pub fn name_now(self, editor: &Editor) -> String {
+        let label = self.label_now(editor);
+        match self.foreseen(editor) {
+            Some(foreseen) => format!("{label} {foreseen}"),
+            None => label,
+        }
+    }
+
     /// Whether a switch is on; `None` for actions that are no switches.
     pub fn is_checked(self, editor: &Editor, shell: &Shell) -> Option<bool> {
         match self {
             Self::Command(command) => editor.is_checked(command),
             Self::ToggleTheme => Some(!shell.dark),
             Self::TogglePlots => Some(shell.plots),
+            Self::NormaliseLength => Some(shell.normalised),
             _ => None,
         }
     }

@@ -137,6 +137,9 @@ impl App {
         self.editor.refresh();
         self.editor.view_mut().hover_nothing();
         self.editor.view_mut().show_harmony(false);
+        if keyboard::is_covered(&context) || self.palette.is_open() {
+            self.editor.foresee();
+        }
         self.panels_ui(ui);
         self.overlays_ui(&context);
         let actions = std::mem::take(&mut self.actions);
@@ -179,7 +182,6 @@ impl App {
         if context.input(|input| input.key_pressed(egui::Key::F6)) {
             move_keyboard(context);
         }
-        self.side.take_keys(context, &self.editor);
         self.entry.take_keys(context, &self.editor, &self.canvas);
         if keyboard::asks_for_menu(context) {
             self.editor.ask_for_menu_of_selection();
@@ -228,7 +230,14 @@ impl App {
             });
         let status = Panel::bottom("status").frame(bar(12, 0)).resizable(false);
         status.exact_size(status_bar::HEIGHT).show(ui, |ui| {
-            status_bar_ui(ui, &mut self.editor, &self.shell, &mut self.actions);
+            let hint = self.plots.hint(ui.ctx());
+            let hint = hint.map_or_else(|| self.editor.hint(), str::to_owned);
+            status_bar_ui(
+                ui,
+                &mut self.editor,
+                &self.shell,
+                (&hint, &mut self.actions),
+            );
         });
         let rail = Panel::left("tools").frame(bar(4, 4)).resizable(false);
         rail.exact_size(tool_rail::WIDTH).show(ui, |ui| {
@@ -261,6 +270,7 @@ impl App {
         let frame = Frame::NONE
             .fill(tokens.panel)
             .inner_margin(Margin::symmetric(8, 0));
+        self.plots.set_normalised(self.shell.normalised);
         if !self.shell.plots {
             self.editor.view_mut().show_plot(None);
             let bar = Panel::bottom("plots folded").frame(frame).resizable(false);
@@ -359,6 +369,7 @@ impl App {
             Action::ExportCsv(polygon) => self.ask_export(context, Format::Csv, polygon),
             Action::Cut => copy(context, self.editor.cut()),
             Action::Copy => copy(context, self.editor.copy()),
+            Action::Rename => self.side.rename_active(context, &self.editor),
             Action::Paste => context.send_viewport_cmd(ViewportCommand::RequestPaste),
             Action::ToggleTheme => {
                 self.shell.dark = !self.shell.dark;
@@ -366,6 +377,7 @@ impl App {
             }
             Action::TogglePlots => self.shell.plots = !self.shell.plots,
             Action::FitPlot => self.plots.fit(),
+            Action::NormaliseLength => self.shell.normalised = !self.shell.normalised,
             Action::Palette => self.palette.open(),
             Action::Keys => self.dialog = Some(Dialog::Keys),
             Action::About => self.dialog = Some(Dialog::About),

@@ -135,6 +135,7 @@ fn entries(subject: MenuSubject, editor: &Editor) -> Vec<Entry> {
                 changing.filter(|it| it.inputs != Inputs::None && it.inputs != Inputs::Points);
             vec![
                 command(Command::Duplicate),
+                Entry::Action(Action::Rename),
                 command(Command::DeleteCurve),
                 Entry::Action(Action::Copy),
                 Divider,
@@ -157,6 +158,7 @@ fn entries(subject: MenuSubject, editor: &Editor) -> Vec<Entry> {
                 .is_some_and(|reference| reference.points().is_some());
             vec![
                 command(Command::Duplicate),
+                Entry::Action(Action::Rename),
                 command(Command::DeleteCurve),
                 Entry::Action(Action::Copy),
                 Divider,
@@ -194,7 +196,22 @@ fn entries(subject: MenuSubject, editor: &Editor) -> Vec<Entry> {
             Entry::Submenu("Layers", Layer::ALL.map(layer).into()),
             command(Command::ToggleSnapping),
         ],
+        MenuSubject::Feature => vec![
+            command(Command::GoToFeature),
+            Divider,
+            layer(Layer::Features),
+            command(Command::ToggleBands),
+            command(Command::ToggleKeeping),
+            Divider,
+            operation(&operations::split::OPERATION),
+            operation(&operations::trim::OPERATION),
+            operation(&operations::harmonise::OPERATION),
+        ],
         MenuSubject::Plot => vec![
+            Entry::Action(Action::FitPlot),
+            Entry::Action(Action::NormaliseLength),
+            Entry::Compare,
+            Divider,
             layer(Layer::Features),
             layer(Layer::Comb),
             command(Command::ResetComb),

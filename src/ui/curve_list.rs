@@ -3,8 +3,8 @@
 use eframe::egui::text::{CCursor, CCursorRange};
 use eframe::egui::text_edit::TextEditState;
 use eframe::egui::{
-    Align2, Color32, Context, CursorIcon, Id, Key, Modifiers, Rect, Response, Role, ScrollArea,
-    Sense, Stroke, StrokeKind, TextEdit, Ui, UiBuilder, Vec2, WidgetInfo, vec2,
+    Align2, Color32, Context, CursorIcon, Id, Key, Rect, Response, Role, ScrollArea, Sense, Stroke,
+    StrokeKind, TextEdit, Ui, UiBuilder, Vec2, WidgetInfo, vec2,
 };
 use lucide_icons::Icon;
 
@@ -21,8 +21,6 @@ pub struct CurveList {
     renaming: Option<Renaming>,
     /// The active curve or reference whose row was brought into sight.
     in_sight: Option<CurveId>,
-    /// Where the list was in the last frame.
-    rect: Option<Rect>,
 }
 
 struct Renaming {
@@ -48,19 +46,9 @@ enum Asked {
 }
 
 impl CurveList {
-    /// Take the key that is the list's while the pointer is on it: F2 renames the active curve.
-    pub fn take_keys(&mut self, context: &Context, editor: &Editor) {
-        let pointer = context.pointer_hover_pos();
-        let is_here = self
-            .rect
-            .zip(pointer)
-            .is_some_and(|(rect, at)| rect.contains(at));
-        let is_free = keyboard::typing(context) == Typing::Nothing;
-        if !is_here || !is_free || keyboard::is_covered(context) {
-            return;
-        }
-        let is_asked = context.input_mut(|input| input.consume_key(Modifiers::NONE, Key::F2));
-        if let Some(active) = editor.active().filter(|_| is_asked) {
+    /// Open the field for another name of the active curve or reference.
+    pub fn rename_active(&mut self, context: &Context, editor: &Editor) {
+        if let Some(active) = editor.active() {
             self.begin_renaming(context, editor, active);
         }
     }
@@ -76,7 +64,6 @@ impl CurveList {
             return;
         }
         let mut asked = None;
-        self.rect = Some(ui.available_rect_before_wrap());
         // Room for the bar is always kept.
         let width = ui.available_width() - ui.spacing().scroll.allocated_width();
         ScrollArea::vertical()
@@ -168,6 +155,9 @@ impl CurveList {
             .desired_width(rect.width());
         let response = ui.put(rect, field).accessible_name("Curve name");
         keyboard::claim(ui.ctx(), field_id(), Typing::Text, rect);
+        if renaming.is_new {
+            ui.scroll_to_rect(rect, None);
+        }
         if std::mem::take(&mut renaming.is_new) || !response.lost_focus() {
             return None;
         }

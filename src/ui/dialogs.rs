@@ -1,12 +1,12 @@
 //! The few things that stop everything else: unsaved changes, a file that has changed, the list of
 //! keys, about.
 
-use eframe::egui::{Context, Id, Key, Label, Modal, RichText, ScrollArea, Ui, vec2};
+use eframe::egui::{Context, Id, Key, Modal, Ui};
 
-use super::action::Action;
 use super::file_dialogs::AfterDiscard;
-use super::theme::{STEP, Tokens};
-use super::{keyboard, widgets};
+use super::key_list::key_list_ui;
+use super::theme::STEP;
+use super::widgets;
 use crate::document::quoted;
 use crate::editor::Editor;
 
@@ -123,86 +123,9 @@ fn name_of(editor: &Editor) -> String {
     })
 }
 
-/// What the mouse does, beside the keys that the table of commands lists.
-const MOUSE: [(&str, &str); 24] = [
-    ("Wheel, pinch", "Zoom to the pointer"),
-    ("Middle button, Space and drag", "Pan"),
-    ("Right button and drag", "Orbit"),
-    ("Right click, menu key", "Menu of what is there"),
-    ("Double-click on empty canvas", "Fit all"),
-    ("Click, Shift and click", "Select, add to the selection"),
-    ("Drag on empty canvas", "Select by a box"),
-    ("Drag a vertex", "Move the selection"),
-    (
-        "Shift while dragging",
-        "Lock to an axis, or to steps of 15°",
-    ),
-    ("X, Y, Z while dragging", "Lock to X, Y, Z"),
-    ("Ctrl while dragging", "Toggle snapping"),
-    ("K while dragging", "Toggle keeping features"),
-    ("Alt", "Hold to compare with the state before"),
-    ("Arrows; with Shift, Ctrl", "Nudge; nudge ×10, ×0.1"),
-    ("Tab", "Cycle overlapping"),
-    ("Wheel, drag on a plot", "Zoom to the pointer, pan"),
-    ("Shift and wheel on a plot", "Zoom along the curve alone"),
-    ("F6", "Focus panels"),
-    ("Enter, Shift and Enter", "Table: confirm and go down, up"),
-    ("Tab, Shift and Tab", "Table: confirm and go right, left"),
-    ("Arrows, Page Up, Page Down", "Table: go to another cell"),
-    ("Digit, sign, letter", "Table: replace the number"),
-    ("Space, double-click", "Table: edit the number"),
-    ("Esc", "Table: cancel the edit; leave"),
-];
-
-/// The width of a column of keys, and of the keys in it.
-const COLUMN: [f32; 2] = [340.0, 132.0];
-
 fn keys_ui(ui: &mut Ui) -> Option<Decision> {
-    let window = ui.ctx().content_rect().size();
-    let columns = ((window.x - 120.0) / COLUMN[0]).floor().clamp(1.0, 3.0);
-    ui.set_width(columns * COLUMN[0]);
-    ui.strong("Keys and mouse");
-    let height = (window.y - 180.0).clamp(120.0, 640.0);
-    // Without a least height the list would grow by a little each frame.
-    let area = ScrollArea::vertical()
-        .auto_shrink([false, true])
-        .max_height(height)
-        .min_scrolled_height(height);
-    area.show(ui, |ui| {
-        let commands = Action::all().into_iter().filter_map(|command| {
-            let keys = keyboard::shortcut_text(command.shortcut()?);
-            Some((keys, command.label()))
-        });
-        let mouse = MOUSE.map(|(keys, what)| (keys.to_owned(), what.to_owned()));
-        let rows: Vec<(String, String)> = mouse.into_iter().chain(commands).collect();
-        let long = rows.len().div_ceil(columns as usize);
-        ui.horizontal_top(|ui| {
-            ui.spacing_mut().item_spacing.x = 0.0;
-            for column in rows.chunks(long) {
-                ui.vertical(|ui| column_ui(ui, column));
-            }
-        });
-    });
+    key_list_ui(ui);
     close_ui(ui)
-}
-
-fn column_ui(ui: &mut Ui, rows: &[(String, String)]) {
-    let [width, left] = COLUMN;
-    let right = width - left - 6.0 * STEP;
-    ui.set_width(width);
-    let tokens = Tokens::of(ui);
-    for (keys, what) in rows {
-        ui.horizontal_top(|ui| {
-            ui.spacing_mut().item_spacing.x = 2.0 * STEP;
-            let keys = RichText::new(keys).color(tokens.strong_text);
-            for (text, width) in [(keys, left), (RichText::new(what), right)] {
-                ui.allocate_ui(vec2(width, 0.0), |ui| {
-                    ui.set_width(width);
-                    ui.add(Label::new(text).wrap());
-                });
-            }
-        });
-    }
 }
 
 fn about_ui(ui: &mut Ui) -> Option<Decision> {

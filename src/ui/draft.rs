@@ -63,7 +63,7 @@ impl Accepted {
         let (low, high) = (figures::exact(*range.start()), figures::exact(*range.end()));
         let reason = match (range.start().is_finite(), *range.end() < f64::MAX) {
             (true, true) => format!("Only numbers from {low} to {high}"),
-            (true, false) => format!("Only numbers from {low} on"),
+            (true, false) => format!("Only numbers from {low} up"),
             _ => format!("Only numbers up to {high}"),
         };
         Err(Fault::from(reason))
@@ -295,7 +295,7 @@ mod tests {
         );
         let expected = "Only numbers from 0 to 17".to_owned();
         assert_eq!(read("9*2", &accepted(0.0..=17.0)), Err(expected));
-        let expected = "Only numbers from 0 on".to_owned();
+        let expected = "Only numbers from 0 up".to_owned();
         assert_eq!(read("-1", &accepted(0.0..=f64::MAX)), Err(expected));
     }
 

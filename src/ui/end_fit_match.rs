@@ -103,10 +103,10 @@ fn matched_ui(ui: &mut Ui, report: &MatchReport) -> Option<EndFitAction> {
     figure_pairs(
         ui,
         &[
-            ("G0 left", plain(missing.vector.length())),
-            ("G1 left", angle_text(missing.angle)),
-            ("G2 left", plain(missing.curvature)),
-            ("G3 left", plain(missing.slope)),
+            ("G0 error", plain(missing.vector.length())),
+            ("G1 error", angle_text(missing.angle)),
+            ("G2 error", plain(missing.curvature)),
+            ("G3 error", plain(missing.slope)),
         ],
     );
     asked

@@ -11,6 +11,7 @@ use super::end_fit_steps::{
     angle_text, field_width, figure_pairs, indented, remark_ui, step_button, step_ui,
 };
 use super::figures::range;
+use super::message::sentence;
 use super::number_field::{FieldEvent, NumberField};
 use super::theme::{ROW, STEP, Tokens};
 use super::widgets::IconButton;
@@ -83,7 +84,7 @@ impl Panel<'_> {
         self.ends_ui(ui);
         self.target_ui(ui);
         if let Some(refusal) = &self.report.refusal {
-            widgets::note(ui, refusal);
+            widgets::note(ui, &sentence(refusal));
         }
         ui.add_space(STEP);
         self.shape_ui(ui);

@@ -66,8 +66,6 @@ fn rows(before: &[FeatureCounts], after: &[FeatureCounts]) -> Vec<(&'static str,
             rows.push((name, [listed(before), listed(after)]));
         }
     }
-    let verdicts = |counts: &[FeatureCounts]| joined(counts, |c| verdict(c.monotone).to_owned());
-    rows.push(("Monotone", [verdicts(before), verdicts(after)]));
     for (name, text) in HARMONY {
         let has = |counts: &FeatureCounts| text(&counts.harmony).is_some();
         if before.iter().chain(after).any(has) {
@@ -139,6 +137,28 @@ fn joined(counts: &[FeatureCounts], text: impl Fn(&FeatureCounts) -> String) -> 
     } else {
         texts.join(", ")
     }
+}
+
+/// Show whether the curvature is proved to be monotone, before and afterwards, in one row.
+pub fn monotone_ui(ui: &mut Ui, trial: &Trial) {
+    let Some((features, current)) = trial.features() else {
+        widgets::figure_row(ui, "Monotone", "proving…");
+        return;
+    };
+    let verdicts = |counts: &[FeatureCounts]| joined(counts, |c| verdict(c.monotone).to_owned());
+    let [before, after] = [&features.before, &features.after].map(|counts| verdicts(counts));
+    let text = match features.before.is_empty() || before == after {
+        true => after.clone(),
+        false => format!("{before} · now {after}"),
+    };
+    ui.scope(|ui| {
+        if !current && !trial.is_pending() {
+            ui.multiply_opacity(OUTDATED);
+        }
+        let row = widgets::figure_row(ui, "Monotone", &text);
+        let told = format!("Monotone: {before} before, {after} after");
+        row.widget_info(|| WidgetInfo::labeled(Role::Label, true, told.clone()));
+    });
 }
 
 /// One row of figures in two columns: what was, and what is.

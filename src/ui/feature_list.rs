@@ -12,7 +12,7 @@ use super::feature_marks::glyph;
 use super::legend::legend_ui;
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
 use super::{figures, icons, widgets};
-use crate::editor::{Editor, FeatureKind, FeatureReport, FeatureRow};
+use crate::editor::{Editor, FeatureKind, FeatureReport, FeatureRow, MenuSubject};
 use crate::geometry::counted;
 use crate::geometry::features::{Verdict, certain_text};
 
@@ -37,30 +37,49 @@ pub fn feature_list_ui(ui: &mut Ui, editor: &mut Editor) {
             proving_ui(ui, editor);
         }
     });
-    let chosen = report.and_then(|report| rows_ui(ui, report, editor.chosen_feature()));
-    if let Some(u) = chosen {
-        editor.choose_feature(u);
-        editor.go_to(u);
+    let chosen = editor.chosen_feature();
+    match report.and_then(|report| rows_ui(ui, report, chosen)) {
+        Some(Asked::Go(u)) => {
+            editor.choose_feature(u);
+            editor.go_to(u);
+        }
+        Some(Asked::Menu(u)) => {
+            if chosen != Some(u) {
+                editor.choose_feature(u);
+            }
+            editor.ask_for_menu(MenuSubject::Feature);
+        }
+        None => {}
     }
 }
 
-/// Show the features; returns the parameter of the one that is chosen.
-fn rows_ui(ui: &mut Ui, report: &FeatureReport, own: Option<f64>) -> Option<f64> {
+/// What is asked for of the feature at a parameter.
+enum Asked {
+    Go(f64),
+    Menu(f64),
+}
+
+/// Show the features; returns what is asked for of one.
+fn rows_ui(ui: &mut Ui, report: &FeatureReport, own: Option<f64>) -> Option<Asked> {
     let area = ScrollArea::vertical()
         .id_salt("features")
         .auto_shrink([false, false]);
     // Room for the bar is always kept, so that no row moves when it appears.
     let width = ui.available_width() - ui.spacing().scroll.allocated_width();
-    let mut chosen = None;
+    let mut asked = None;
     area.show_rows(ui, ROW, report.rows.len(), |ui, range| {
         ui.set_max_width(width);
         for row in report.rows.get(range).unwrap_or_default() {
-            if row_ui(ui, row, report.sampled, own == Some(row.middle)).clicked() {
-                chosen = Some(row.middle);
+            let response = row_ui(ui, row, report.sampled, own == Some(row.middle));
+            if response.clicked() {
+                asked = Some(Asked::Go(row.middle));
+            }
+            if response.secondary_clicked() {
+                asked = Some(Asked::Menu(row.middle));
             }
         }
     });
-    chosen
+    asked
 }
 
 fn verdict_ui(ui: &mut Ui, report: &FeatureReport) {
@@ -105,30 +124,65 @@ fn verdict(report: &FeatureReport) -> (Icon, String) {
                 true => Icon::CircleQuestionMark,
                 false => Icon::Check,
             };
-            let inflections = inflections(report).map(|text| format!(" · {text}"));
-            let text = format!(
-                "Curvature {kind}: proved{}",
-                inflections.unwrap_or_default()
-            );
-            (icon, text)
+            let verdict = format!("Curvature {kind}: proved");
+            let Others { inflections, rest } = others(report);
+            let parts = [verdict].into_iter().chain(inflections).chain(rest);
+            (icon, parts.collect::<Vec<String>>().join(" · "))
         }
     }
 }
 
-/// Count the features of a planar curve: "2 inflections · 4 extrema".
+/// Count all features that the list has: "2 inflections · 4 extrema".
 fn counts(report: &FeatureReport) -> String {
+    let Others { inflections, rest } = others(report);
     let extrema = report.count(&[FeatureKind::CurvatureMaximum, FeatureKind::CurvatureMinimum]);
-    // Where curvature is proved not to be monotone there is an extremum, even if none was counted.
-    let least = usize::from(report.monotone == Verdict::Disproved);
-    let extrema = counted(extrema.max(least), "extremum", "extrema");
-    let counts = inflections(report).into_iter().chain([extrema]);
-    counts.collect::<Vec<String>>().join(" · ")
+    // Where curvature is proved not to be monotone there is an extremum, even if none was counted; it may be
+    // a cusp.
+    let is_disproved = report.monotone == Verdict::Disproved;
+    let has_cusps = report.count(&[FeatureKind::Cusp]) > 0;
+    let least = usize::from(is_disproved && !has_cusps);
+    let names = match report.count(&TORSION) {
+        0 => ["extremum", "extrema"],
+        _ => ["κ extremum", "κ extrema"],
+    };
+    let [one, several] = names;
+    let extrema = match extrema.max(least) {
+        0 if inflections.is_some() || !rest.is_empty() => None,
+        count => Some(counted(count, one, several)),
+    };
+    let parts = inflections.into_iter().chain(extrema).chain(rest);
+    parts.collect::<Vec<String>>().join(" · ")
 }
 
-/// Count the inflections, if there are any.
-fn inflections(report: &FeatureReport) -> Option<String> {
-    let count = report.count(&[FeatureKind::Inflection]);
-    (count > 0).then(|| counted(count, "inflection", "inflections"))
+/// What the torsion of a curve in space has.
+const TORSION: [FeatureKind; 3] = [
+    FeatureKind::TorsionMaximum,
+    FeatureKind::TorsionMinimum,
+    FeatureKind::TorsionZero,
+];
+
+/// Features that are no extrema of the curvature, counted: what stands before those, and what after.
+struct Others {
+    inflections: Option<String>,
+    rest: Vec<String>,
+}
+
+/// Count what is no extremum of the curvature: inflections, and what stands after the extrema.
+fn others(report: &FeatureReport) -> Others {
+    let said = |kinds: &[FeatureKind], one: &str, several: &str| {
+        let count = report.count(kinds);
+        (count > 0).then(|| counted(count, one, several))
+    };
+    let [maximum, minimum, zero] = TORSION;
+    let rest = [
+        said(&[maximum, minimum], "τ extremum", "τ extrema"),
+        said(&[zero], "τ zero", "τ zeros"),
+        said(&[FeatureKind::Cusp], "cusp", "cusps"),
+    ];
+    Others {
+        inflections: said(&[FeatureKind::Inflection], "inflection", "inflections"),
+        rest: rest.into_iter().flatten().collect(),
+    }
 }
 
 fn colour_of(icon: Icon, tokens: &Tokens) -> Color32 {
@@ -171,10 +225,10 @@ pub fn chip_ui(ui: &mut Ui, editor: &mut Editor) -> Option<Response> {
     let undecided = report.count(&[FeatureKind::Undecided]);
     let remark = match (report.sampled, undecided) {
         (true, _) => "Features of references are sampled, not proved.".to_owned(),
-        (false, 0) => "Proved for the numbers as they are.".to_owned(),
+        (false, 0) => "Proved exactly for this polygon, not sampled.".to_owned(),
         (false, count) => format!(
-            "Proved for the numbers as they are, but for {}.",
-            counted(count, "undecided piece", "undecided pieces")
+            "Proved exactly for this polygon, not sampled, except {} in the list.",
+            counted(count, "undecided place", "undecided places")
         ),
     };
     Some(response.on_hover_ui(|ui| legend_ui(ui, &remark)))

@@ -52,6 +52,7 @@ pub fn of_action(action: Action) -> Option<Icon> {
         Action::Cut => Icon::Scissors,
         Action::Copy => Icon::Copy,
         Action::Paste => Icon::ClipboardPaste,
+        Action::Rename => Icon::TextCursorInput,
         Action::ToggleTheme => Icon::SunMoon,
         Action::TogglePlots => Icon::ChartSpline,
         Action::FitPlot => Icon::Maximize,

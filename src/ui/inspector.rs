@@ -1,12 +1,14 @@
 //! The inspector: everything of the active curve, in numbers.
 
 use eframe::egui::{
-    Align2, Button, Color32, Key, Rect, RichText, Sense, Stroke, TextEdit, Ui, Vec2, vec2,
+    Align2, Button, Color32, Key, Rect, RichText, Sense, Stroke, TextBuffer, TextEdit, Ui, Vec2,
+    vec2,
 };
 use lucide_icons::Icon;
 
 use super::curve_list::swatch_in;
 use super::distance_panel::distance_ui;
+use super::document_panel::document_ui;
 use super::formula_fields::FormulaFields;
 use super::harmony_list::harmony_list_ui;
 use super::keyboard::{self, Typing};
@@ -38,11 +40,7 @@ impl Inspector {
         }
         let found = active.and_then(|id| Some((id, editor.document().curve(id)?.clone())));
         let Some((id, curve)) = found else {
-            widgets::note(
-                ui,
-                "Select a curve to see its degree, properties and features.",
-            );
-            return;
+            return document_ui(ui, editor);
         };
         // Fields of their own for each curve: what is typed into one is for no other.
         ui.push_id(id, |ui| self.curve_ui(ui, editor, id, &curve));
@@ -116,11 +114,27 @@ impl Inspector {
     fn name_ui(&mut self, ui: &mut Ui, editor: &mut Editor, id: CurveId, name: &str) {
         let typed = self.name.take().filter(|(owner, _)| *owner == id);
         let mut text = typed.map_or_else(|| name.to_owned(), |(_, text)| text);
-        let field = TextEdit::singleline(&mut text)
+        let field_id = ui.make_persistent_id("name");
+        let is_typed = ui.memory(|memory| memory.has_focus(field_id));
+        let room = ui.available_width() - 2.0 * STEP;
+        let mut is_cut = false;
+        let mut cut_short = |ui: &Ui, text: &dyn TextBuffer, _: f32| {
+            let galley = widgets::cut_short(ui, text.as_str(), room, Tokens::of(ui).text);
+            is_cut = galley.elided;
+            galley
+        };
+        let mut field = TextEdit::singleline(&mut text)
+            .id(field_id)
             .desired_width(f32::INFINITY)
             .align(Align2::LEFT_CENTER)
             .min_size(vec2(0.0, ROW));
-        let response = ui.add(field).accessible_name("Name");
+        if !is_typed {
+            field = field.layouter(&mut cut_short);
+        }
+        let mut response = ui.add(field).accessible_name("Name");
+        if is_cut {
+            response = response.on_hover_text(name);
+        }
         keyboard::claim(ui.ctx(), response.id, Typing::Text, response.rect);
         if response.lost_focus() {
             let called_off = ui.input(|input| input.key_pressed(Key::Escape));

@@ -311,6 +311,8 @@ fn belongs_to(typing: Typing, shortcut: Shortcut) -> bool {
         Typing::Text => &['z', 'y', 'x', 'c', 'v', 'a'],
     };
     match shortcut.key {
+        // Another name could be begun while one is typed.
+        Key::Function(2) => typing == Typing::Text,
         Key::Function(_) => false,
         Key::Character(letter) if shortcut.modifiers.ctrl => edits.contains(&letter),
         _ => !shortcut.modifiers.ctrl,

@@ -5,6 +5,7 @@ use eframe::egui::{Button, MenuBar, Response, Ui, vec2};
 use super::action::Action;
 use super::feature_list::chip_ui;
 use super::menu_item::{WIDTH, blank, item_ui};
+use super::plots::others;
 use super::shell::Shell;
 use super::unit_menu::units_ui;
 use super::widgets;
@@ -26,6 +27,8 @@ pub enum Entry {
     References,
     /// The document's unit, in a menu of its own.
     Units,
+    /// The curves and references to compare the active one with, in a menu of their own.
+    Compare,
     /// Other lines, in a menu of their own with this title.
     Submenu(&'static str, Vec<Entry>),
 }
@@ -75,16 +78,32 @@ pub fn entries_ui(
             Entry::References => references_ui(ui, commands),
             Entry::Units => document_unit_ui(ui, editor, shell, commands),
             Entry::Examples => examples_ui(ui, editor, shell, commands),
+            Entry::Compare => {
+                let others = others(editor).into_iter().map(|(id, _)| Some(id));
+                let compare = [None].into_iter().chain(others).map(Command::Compare);
+                let entries = compare.map(command).collect();
+                submenu_ui(ui, editor, shell, ("Compare with", entries), commands);
+            }
             Entry::Submenu(title, entries) => {
-                let response = ui.menu_button((blank(), title), |ui| {
-                    ui.set_min_width(WIDTH);
-                    entries_ui(ui, editor, shell, entries, commands);
-                });
-                response.response.accessible_name(title);
+                submenu_ui(ui, editor, shell, (title, entries), commands);
             }
         }
     }
     first
+}
+
+fn submenu_ui(
+    ui: &mut Ui,
+    editor: &Editor,
+    shell: &Shell,
+    (title, entries): (&str, Vec<Entry>),
+    commands: &mut Vec<Action>,
+) {
+    let response = ui.menu_button((blank(), title), |ui| {
+        ui.set_min_width(WIDTH);
+        entries_ui(ui, editor, shell, entries, commands);
+    });
+    response.response.accessible_name(title);
 }
 
 fn menus() -> [(&'static str, Vec<Entry>); 6] {
@@ -126,6 +145,7 @@ fn menus() -> [(&'static str, Vec<Entry>); 6] {
         Entry::References,
         Divider,
         command(Command::Duplicate),
+        Item(Action::Rename),
         command(Command::DeleteCurve),
         Divider,
         command(Command::TogglePeriodic),
@@ -155,6 +175,9 @@ fn menus() -> [(&'static str, Vec<Entry>); 6] {
         Divider,
         Item(Action::TogglePlots),
         Item(Action::FitPlot),
+        Item(Action::NormaliseLength),
+        Entry::Compare,
+        Divider,
         Item(Action::ToggleTheme),
     ]);
     let tools = ToolKind::ALL

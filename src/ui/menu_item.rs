@@ -27,15 +27,14 @@ pub fn item_ui(
     } else {
         blank()
     };
-    let mut button = Button::new((mark, label.clone())).min_size(vec2(WIDTH, 0.0));
-    if let Some(shortcut) = action.shortcut() {
-        let keys =
-            RichText::new(keyboard::shortcut_text(shortcut)).color(Tokens::of(ui).faint_text);
-        button = button.shortcut_text(keys);
+    let mut button = Button::new((mark, label)).min_size(vec2(WIDTH, 0.0));
+    if let Some(beside) = beside(action, editor) {
+        let beside = RichText::new(beside).color(Tokens::of(ui).faint_text);
+        button = button.shortcut_text(beside);
     }
     let response = ui
         .add_enabled(action.is_enabled(editor), button)
-        .accessible_name(&label);
+        .accessible_name(action.name_now(editor));
     let tooltip = action.tooltip_now(editor);
     let response = response
         .on_hover_text(&tooltip)
@@ -45,6 +44,12 @@ pub fn item_ui(
         ui.close();
     }
     response
+}
+
+/// What stands at the right of an action: its key, or how far a change of degree would move the curve.
+pub fn beside(action: Action, editor: &Editor) -> Option<String> {
+    let key = action.shortcut().map(keyboard::shortcut_text);
+    key.or_else(|| action.foreseen(editor))
 }
 
 /// A place as wide as a check mark, so that labels line up.

@@ -12,6 +12,17 @@ use crate::editor::{Command, Editor};
 /// The widest that a message gets before it wraps.
 const WIDTH: f32 = 460.0;
 
+/// Begin a text with a capital: those of the command line do not. Names of files stay.
+pub fn sentence(text: &str) -> String {
+    let first = text.split(' ').next().unwrap_or_default();
+    let is_word = first.chars().all(char::is_alphabetic);
+    let mut letters = text.chars();
+    match letters.next().filter(|_| is_word) {
+        Some(letter) => letter.to_uppercase().chain(letters).collect(),
+        None => text.to_owned(),
+    }
+}
+
 /// Show the message, if there is one, until it is dismissed or something else is done.
 pub fn message_ui(
     context: &Context,
@@ -52,7 +63,7 @@ pub fn message_ui(
                     let offers = message.offers_undo || message.offers_reload;
                     let buttons = if offers { 32.0 } else { 18.0 };
                     ui.set_max_width(width - buttons * STEP);
-                    let text = RichText::new(&message.text).color(tokens.text);
+                    let text = RichText::new(sentence(&message.text)).color(tokens.text);
                     ui.add(Label::new(text).wrap().selectable(true));
                 });
                 if message.offers_undo && ui.small_button("Undo").clicked() {
@@ -72,5 +83,24 @@ pub fn message_ui(
     });
     if dismissed.inner {
         editor.dismiss_message();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::sentence;
+
+    #[test]
+    fn messages_begin_with_a_capital_and_files_keep_their_names() {
+        for (text, expected) in [
+            ("the degree is 1 already", "The degree is 1 already"),
+            ("hull.batten: no such file", "hull.batten: no such file"),
+            ("/tmp/hull: no such file", "/tmp/hull: no such file"),
+            ("“a” is locked", "“a” is locked"),
+            ("2 curves exported", "2 curves exported"),
+            ("", ""),
+        ] {
+            assert_eq!(sentence(text), expected);
+        }
     }
 }

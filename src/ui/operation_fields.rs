@@ -18,9 +18,6 @@ const LABEL: f32 = 72.0;
 /// The most of a row that its caption takes.
 const MOST_LABEL: f32 = 0.5;
 
-/// The most options that stand side by side as buttons.
-const MOST_BUTTONS: usize = 4;
-
 /// The width of a field for a number.
 const FIELD: f32 = 120.0;
 
@@ -252,15 +249,14 @@ fn hint_of(trial: &Trial, parameter: &Parameter) -> &'static str {
     }
 }
 
-/// A row of buttons of which one is pressed; those that do not fit stand below. Many options are a
-/// list that opens.
+/// A row of buttons of which one is pressed; options that do not fit into it are a list that opens.
 fn choice_ui(ui: &mut Ui, label: &str, options: &'static [Choice], chosen: usize) -> Option<Value> {
     let mut clicked = None;
-    if options.len() > MOST_BUTTONS {
+    if !fits_as_buttons(ui, options) {
         let now = options.get(chosen).map_or("", |option| option.label);
         let list = ComboBox::from_id_salt(label)
             .selected_text(now)
-            .width(FIELD);
+            .width(FIELD.max(ui.available_width()));
         let list = list.show_ui(ui, |ui| {
             for (index, option) in options.iter().enumerate() {
                 let row = ui.selectable_label(index == chosen, option.label);
@@ -273,7 +269,7 @@ fn choice_ui(ui: &mut Ui, label: &str, options: &'static [Choice], chosen: usize
         list.response.widget_info(info);
         return clicked;
     }
-    ui.horizontal_wrapped(|ui| {
+    ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing = Vec2::splat(STEP);
         for (index, option) in options.iter().enumerate() {
             let button = Button::selectable(index == chosen, option.label);
@@ -283,6 +279,14 @@ fn choice_ui(ui: &mut Ui, label: &str, options: &'static [Choice], chosen: usize
         }
     });
     clicked
+}
+
+/// Whether options fit side by side into the row.
+fn fits_as_buttons(ui: &Ui, options: &[Choice]) -> bool {
+    let padding = 2.0 * ui.spacing().button_padding.x + STEP;
+    let widths = options.iter();
+    let widths = widths.map(|option| text_width(ui, option.label) + padding);
+    widths.sum::<f32>() - STEP <= ui.available_width()
 }
 
 /// A number as its field shows it.

@@ -1,21 +1,18 @@
 //! The operation panel: the parameters of the operation that is tried out, and what it does.
 
-use eframe::egui::{Frame, Panel, ProgressBar, ScrollArea, Ui, vec2};
+use eframe::egui::{Frame, Panel, ProgressBar, Ui, vec2};
 use lucide_icons::Icon;
 
 use super::atlas::{self, AtlasView};
 use super::operation_fields::{self, OperationFields, Refused};
-use super::operation_report::{ReportView, error_ui, failure};
+use super::operation_report::{ReportView, error_ui, failure, summary_ui};
 use super::theme::STEP;
 use super::widgets::{self, IconButton};
 use crate::editor::{Editor, Trial, told};
 use crate::operations::{Atlas, Parameter, Value};
 
-/// The most of the panel's height that fields take.
-const FIELDS: f32 = 0.5;
-
-/// The height of the place for what is wrong, and of the buttons' below it.
-const FOOT: [f32; 2] = [9.0 * STEP, 9.0 * STEP];
+/// The heights of the places for the summary, for what is wrong and for the buttons, one below the other.
+const FOOT: [f32; 3] = [16.0 * STEP, 9.0 * STEP, 9.0 * STEP];
 
 /// The panel's own state.
 #[derive(Default)]
@@ -36,8 +33,8 @@ enum Asked {
 }
 
 impl OperationPanel {
-    /// Show the panel of the operation that is tried out, or was applied last: fields that scroll if there
-    /// are many, below them what it came to, and the buttons in a place of their own.
+    /// Show the panel of the operation that is tried out, or was applied last: its fields and below them what
+    /// it came to, which scroll together, and what matters most of it with the buttons in a place of their own.
     pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor) {
         let Some(trial) = editor.trial() else {
             *self = Self::default();
@@ -48,12 +45,10 @@ impl OperationPanel {
         let mut asked = Vec::from_iter(heading_ui(ui, trial));
         let foot = self.foot_ui(ui, trial, editor.operation_progress());
         ui.add_space(STEP);
-        asked.extend(self.fields_ui(ui, trial));
-        // A click on a button also leaves a field: what was typed there counts first.
-        asked.extend(foot);
-        ui.separator();
         let mut shows_atlas = false;
         widgets::scrolling(ui, trial.operation().name, |ui| {
+            asked.extend(self.fields_ui(ui, trial));
+            ui.separator();
             if let Some(atlas) = &atlas {
                 let view = &mut self.atlas;
                 let shown =
@@ -64,6 +59,8 @@ impl OperationPanel {
             }
             self.report.show(ui, trial);
         });
+        // A click on a button also leaves a field: what was typed there counts first.
+        asked.extend(foot);
         editor.view_mut().show_atlas(shows_atlas);
         for asked in asked {
             self.take(asked, editor, &told_before);
@@ -118,13 +115,21 @@ impl OperationPanel {
         }
     }
 
-    /// At the lower edge, whatever stands above: why nothing comes of the values, and the buttons.
+    /// At the lower edge, whatever stands above: the summary, why nothing comes of the values, and the buttons.
     fn foot_ui(&self, ui: &mut Ui, trial: &Trial, progress: Option<f64>) -> Option<Asked> {
-        let [wrong, buttons] = FOOT;
+        let [summary, wrong, buttons] = FOOT;
         let height = if trial.is_applied() { 0.0 } else { buttons };
         let panel = Panel::bottom("operation foot").resizable(false);
-        let panel = panel.frame(Frame::NONE).exact_size(wrong + height);
+        let panel = panel
+            .frame(Frame::NONE)
+            .exact_size(summary + wrong + height);
         let asked = panel.show(ui, |ui| {
+            ui.spacing_mut().item_spacing.y = 0.0;
+            ui.allocate_ui(vec2(ui.available_width(), summary), |ui| {
+                ui.set_height(summary);
+                ui.add_space(STEP);
+                summary_ui(ui, trial);
+            });
             ui.allocate_ui(vec2(ui.available_width(), wrong), |ui| {
                 ui.set_height(wrong);
                 // What is wrong in a field stands below that.
@@ -141,22 +146,13 @@ impl OperationPanel {
     }
 
     fn fields_ui(&mut self, ui: &mut Ui, trial: &Trial) -> Vec<Asked> {
-        let area = ScrollArea::vertical()
-            .id_salt((trial.operation().name, "fields"))
-            .max_height(FIELDS * ui.available_height())
-            .auto_shrink([false, true]);
-        let width = ui.available_width() - ui.spacing().scroll.allocated_width();
-        let shown = area.show(ui, |ui| {
-            ui.set_max_width(width);
-            let operation = trial.operation();
-            let parameters = operation.parameters_for(trial.input(), trial.values());
-            let asked = parameters.filter_map(|parameter| {
-                let set = self.fields.show(ui, trial, parameter);
-                set.map(|set| Asked::Field(parameter, set))
-            });
-            asked.collect()
+        let operation = trial.operation();
+        let parameters = operation.parameters_for(trial.input(), trial.values());
+        let asked = parameters.filter_map(|parameter| {
+            let set = self.fields.show(ui, trial, parameter);
+            set.map(|set| Asked::Field(parameter, set))
         });
-        shown.inner
+        asked.collect()
     }
 }
 

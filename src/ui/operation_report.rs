@@ -3,8 +3,9 @@
 use eframe::egui::text::LayoutJob;
 use eframe::egui::{Label, TextStyle, Ui};
 
-use super::feature_comparison::{Comparison, OUTDATED};
+use super::feature_comparison::{Comparison, OUTDATED, monotone_ui};
 use super::level_comparison::level_comparisons_ui;
+use super::message::sentence;
 use super::steady_rows::SteadyRows;
 use super::theme::Tokens;
 use super::{figures, widgets};
@@ -61,36 +62,69 @@ impl ReportView {
 /// Say why nothing comes of the values, or not all that was asked for.
 pub fn failure(trial: &Trial) -> Option<String> {
     match trial.run()? {
-        Err(error) => Some(error.to_string()),
+        Err(error) => Some(sentence(&error.to_string())),
         Ok(run) if run.report.reached => None,
         Ok(run) if run.report.useful => Some("Not reached: this is the best found".to_owned()),
         Ok(_) => Some("Not reached: nothing will change".to_owned()),
     }
 }
 
-/// The figures by their names.
+/// Show what matters most of what the operation came to: how far the curve moves, and its vertices, and whether its
+/// curvature is monotone. Its rows are always the same.
+pub fn summary_ui(ui: &mut Ui, trial: &Trial) {
+    let Some(run) = trial.run() else {
+        return;
+    };
+    let report = run.as_ref().ok().map(|run| &run.report);
+    let dash = || "–".to_owned();
+    ui.scope(|ui| {
+        if trial.is_pending() {
+            ui.multiply_opacity(OUTDATED);
+        }
+        let deviation = report.and_then(deviation);
+        widgets::figure_row(ui, "Deviation", &deviation.unwrap_or_else(dash));
+        let largest = report.and_then(largest_move);
+        widgets::figure_row(ui, "Largest move", &largest.unwrap_or_else(dash));
+        match report.filter(|report| report.useful) {
+            Some(_) => monotone_ui(ui, trial),
+            None => drop(widgets::figure_row(ui, "Monotone", &dash())),
+        }
+    });
+}
+
+/// How far the curve moves, in words.
+fn deviation(report: &Report) -> Option<String> {
+    Some(match report.deviation {
+        _ if !report.useful => return None,
+        Deviation::Exact => "none, exact".to_owned(),
+        Deviation::AtMost(0.0) => "none".to_owned(),
+        Deviation::AtMost(bound) => format!("at most {}", rounded_up(bound)),
+        Deviation::Measured(measured) | Deviation::FromPoints(measured) => length(measured),
+        Deviation::Unmeasured => "another curve, not measured".to_owned(),
+    })
+}
+
+/// How far the vertex moves that moves most, in words.
+fn largest_move(report: &Report) -> Option<String> {
+    let largest = report.largest_move?;
+    Some(match largest.distance {
+        0.0 => "none".to_owned(),
+        distance => format!("{} at vertex {}", length(distance), largest.vertex),
+    })
+}
+
+fn length(value: f64) -> String {
+    figures::significant(value, 4)
+}
+
+/// The figures beside those of the summary, by their names.
 fn figures_of(report: &Report) -> Vec<(&'static str, String)> {
     let mut rows = Vec::new();
-    let length = |value: f64| figures::significant(value, 4);
-    let deviation = match report.deviation {
-        _ if !report.useful => None,
-        Deviation::Exact => Some("none, exact".to_owned()),
-        Deviation::AtMost(0.0) => Some("none".to_owned()),
-        Deviation::AtMost(bound) => Some(format!("at most {}", rounded_up(bound))),
-        Deviation::Measured(measured) | Deviation::FromPoints(measured) => Some(length(measured)),
-        Deviation::Unmeasured => Some("another curve, not measured".to_owned()),
-    };
-    rows.extend(deviation.map(|deviation| ("Deviation", deviation)));
     rows.extend(
         report
             .residual
             .map(|residual| ("Residual", length(residual))),
     );
-    let largest = report.largest_move.map(|largest| match largest.distance {
-        0.0 => "none".to_owned(),
-        distance => format!("{} at vertex {}", length(distance), largest.vertex),
-    });
-    rows.extend(largest.map(|largest| ("Largest move", largest)));
     let figures = report.figures.iter();
     rows.extend(figures.map(|figure| (figure.label, figure_text(figure))));
     rows

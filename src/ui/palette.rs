@@ -8,8 +8,9 @@ use nucleo_matcher::pattern::{CaseMatching, Normalization, Pattern};
 use nucleo_matcher::{Config, Matcher, Utf32Str};
 
 use super::action::Action;
+use super::menu_item::beside;
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
-use super::{icons, keyboard, widgets};
+use super::{icons, widgets};
 use crate::editor::Editor;
 
 const WIDTH: f32 = 440.0;
@@ -185,14 +186,14 @@ fn row_ui(ui: &mut Ui, editor: &Editor, action: Action, chosen: bool) -> eframe:
         &label,
         colour,
     );
-    if let Some(shortcut) = action.shortcut() {
-        let text = keyboard::shortcut_text(shortcut);
+    if let Some(text) = beside(action, editor) {
         let at = inner.right_center();
         let font = theme::small_font();
         ui.painter()
             .text(at, Align2::RIGHT_CENTER, text, font, tokens.faint_text);
     }
-    response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, enabled, chosen, &label));
+    let name = action.name_now(editor);
+    response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, enabled, chosen, &name));
     response.on_hover_text(action.tooltip_now(editor))
 }
 

@@ -10,6 +10,8 @@ pub struct Shell {
     pub(super) plots: bool,
     /// Whether the plot in front is that of harmony.
     pub(super) harmony: bool,
+    /// Whether plots show curves scaled to length 1.
+    pub(super) normalised: bool,
     /// The layers that are hidden, by their place in the list.
     pub(super) hidden: Option<Vec<usize>>,
     /// How far an arrow key moves the selection; none is as the editor begins.
@@ -24,6 +26,7 @@ impl Default for Shell {
             dark: true,
             plots: true,
             harmony: false,
+            normalised: false,
             hidden: None,
             nudge_step: None,
             bands: true,

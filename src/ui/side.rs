@@ -78,9 +78,9 @@ impl Side {
         });
     }
 
-    /// Take the keys that are the panel's own.
-    pub fn take_keys(&mut self, context: &Context, editor: &Editor) {
-        self.curves.take_keys(context, editor);
+    /// Open the field for another name of the active curve or reference.
+    pub fn rename_active(&mut self, context: &Context, editor: &Editor) {
+        self.curves.rename_active(context, editor);
     }
 
     /// A task that begins comes to the front. An operation that was applied stays where it was tried out.

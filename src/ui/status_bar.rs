@@ -23,8 +23,13 @@ const GAP: f32 = 4.0 * STEP;
 /// The cells that give way where there is too little room, the first one first.
 const GIVING_WAY: [&str; 3] = ["u", "t", "κ"];
 
-/// Show the bar.
-pub fn status_bar_ui(ui: &mut Ui, editor: &mut Editor, shell: &Shell, actions: &mut Vec<Action>) {
+/// Show the bar; `hint` says what the mouse will do now.
+pub fn status_bar_ui(
+    ui: &mut Ui,
+    editor: &mut Editor,
+    shell: &Shell,
+    (hint, actions): (&str, &mut Vec<Action>),
+) {
     let readout = editor.readout();
     let width = ui.available_width();
     widgets::at_right(ui, |ui| {
@@ -38,7 +43,7 @@ pub fn status_bar_ui(ui: &mut Ui, editor: &mut Editor, shell: &Shell, actions: &
         ui.with_layout(
             eframe::egui::Layout::left_to_right(eframe::egui::Align::Center),
             |ui| {
-                let hint = RichText::new(editor.hint()).color(Tokens::of(ui).text);
+                let hint = RichText::new(hint).color(Tokens::of(ui).text);
                 ui.add(Label::new(hint).truncate());
             },
         );

@@ -377,6 +377,8 @@ fn style(dark: bool) -> Style {
         // Beside the contents, never over their numbers.
         floating_allocated_width: 12.0,
         bar_outer_margin: 2.0,
+        // At rest it tells that there is more to see.
+        dormant_handle_opacity: 0.4,
         ..ScrollStyle::floating()
     };
     style.interaction.selectable_labels = false;

@@ -1,9 +1,11 @@
 //! Small pieces that the panels share.
 
+use std::sync::Arc;
+
 use eframe::egui::{
-    self, Align, Align2, Color32, InnerResponse, Layout, Rect, RectAlign, Response, RichText, Role,
-    ScrollArea, Sense, Stroke, StrokeKind, Tooltip, Ui, UiBuilder, Vec2, WidgetInfo,
-    text::LayoutJob,
+    self, Align, Align2, Color32, Galley, InnerResponse, Layout, Rect, RectAlign, Response,
+    RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, Tooltip, Ui, UiBuilder, Vec2,
+    WidgetInfo, text::LayoutJob,
 };
 use lucide_icons::Icon;
 
@@ -102,11 +104,11 @@ pub fn focus_ring(ui: &Ui, rect: Rect) {
 }
 
 /// A caption that is cut short where there is too little room; all of it is told on hovering.
-pub fn remark(ui: &mut Ui, text: &str) {
+pub fn remark(ui: &mut Ui, text: &str) -> Response {
     let text = RichText::new(text)
         .font(theme::small_font())
         .color(Tokens::of(ui).faint_text);
-    ui.add(egui::Label::new(text).truncate());
+    ui.add(egui::Label::new(text).truncate())
 }
 
 /// A caption in small, faint type.
@@ -219,16 +221,21 @@ pub fn fact_row(ui: &mut Ui, name: &str, fact: &str) {
 /// Write a text at the left of a box. Where there is too little room it ends with an ellipsis; tells
 /// whether it does.
 pub fn label_in(ui: &Ui, rect: Rect, text: &str, colour: Color32) -> bool {
-    let font = egui::TextStyle::Body.resolve(ui.style());
-    let mut job = LayoutJob::simple_singleline(text.to_owned(), font, colour);
-    job.wrap.max_width = rect.width();
-    job.wrap.max_rows = 1;
-    job.wrap.break_anywhere = true;
-    let galley = ui.painter().layout_job(job);
+    let galley = cut_short(ui, text, rect.width(), colour);
     let is_cut = galley.elided;
     let at = rect.left_center() - Vec2::new(0.0, 0.5 * galley.size().y);
     ui.painter_at(rect).galley(at, galley, colour);
     is_cut
+}
+
+/// Lay a text out in one line, which ends with an ellipsis where there is too little room.
+pub fn cut_short(ui: &Ui, text: &str, width: f32, colour: Color32) -> Arc<Galley> {
+    let font = egui::TextStyle::Body.resolve(ui.style());
+    let mut job = LayoutJob::simple_singleline(text.to_owned(), font, colour);
+    job.wrap.max_width = width;
+    job.wrap.max_rows = 1;
+    job.wrap.break_anywhere = true;
+    ui.painter().layout_job(job)
 }
 
 /// Show a tooltip at the right of what is hovered, whether it is enabled or not.

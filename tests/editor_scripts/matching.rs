@@ -539,7 +539,7 @@ fn the_osculating_circle_of_a_target_is_dragged() {
     assert!((target(&script).curvature.expect("a curvature") + 0.25).abs() < 1e-3);
     assert_eq!(
         script.editor.workspace().history().undo_label(),
-        Some("Curve target of start")
+        Some("Change target curvature of start")
     );
     script.command(Command::Undo);
     assert_eq!(target(&script), before);

@@ -38,7 +38,7 @@ fn a_message_about_a_deletion_undoes_it() {
 #[test]
 fn a_badge_leads_back_from_a_stray_turn_of_the_view() {
     let mut window = open_window();
-    assert!(window.query_by_label("Orbited · F2").is_none());
+    assert!(window.query_by_label("Orbited · F3").is_none());
     let canvas = window.state().canvas_rect().expect("the canvas was shown");
     let from = canvas.center();
     window.hover_at(from);
@@ -56,12 +56,12 @@ fn a_badge_leads_back_from_a_stray_turn_of_the_view() {
         window.state().editor().view().viewport().orientation,
         Orientation::XY
     );
-    click(&mut window, "Orbited · F2");
+    click(&mut window, "Orbited · F3");
     assert_eq!(
         window.state().editor().view().viewport().orientation,
         Orientation::XY
     );
-    assert!(window.query_by_label("Orbited · F2").is_none());
+    assert!(window.query_by_label("Orbited · F3").is_none());
 }
 
 #[test]
@@ -129,7 +129,7 @@ fn the_chip_counts_and_holds_the_legend() {
     window.get_by_label("Verdict").hover();
     window.run_steps(60);
     for meaning in [
-        "Proved for the numbers as they are.",
+        "Proved exactly for this polygon, not sampled.",
         "Curvature rises",
         "Curvature falls",
         "Curvature maximum",
@@ -163,7 +163,7 @@ fn the_view_has_a_name_and_the_status_bar_tells_the_model() {
     window.get_by_label("Seen from: Top");
     assert_eq!(hovered(&mut window), expected);
     assert!(!tells_z(&window), "planar and seen from above");
-    press(&mut window, Modifiers::NONE, Key::F5);
+    press(&mut window, Modifiers::NONE, Key::F7);
     window.get_by_label("Seen from: Isometric");
     assert!(tells_z(&window));
 }

@@ -9,6 +9,7 @@ mod files;
 mod generating;
 mod hand;
 mod harmony;
+mod inspecting;
 mod locking;
 mod matching;
 mod menus;

@@ -203,3 +203,24 @@ fn hovering_a_feature_in_the_plot_marks_it_exactly() {
     }
     assert!(exactly >= 4, "{exactly}: {feature:?}");
 }
+
+#[test]
+fn the_status_bar_says_what_the_mouse_does_to_the_plot() {
+    let mut window = open_window();
+    let says = |window: &Window| {
+        let hints = window.query_all_by_label_contains("Wheel zooms to the pointer");
+        hints.count() > 0
+    };
+    let at = on_plot(&window, 0.5);
+    window.hover_at(at);
+    window.run();
+    assert!(says(&window));
+    let canvas = window.state().canvas_rect().expect("the canvas was shown");
+    window.hover_at(canvas.center());
+    window.run();
+    assert!(!says(&window));
+    press(&mut window, Modifiers::NONE, Key::F8);
+    window.hover_at(at);
+    window.run();
+    assert!(!says(&window), "there is no plot");
+}

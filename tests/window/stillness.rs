@@ -269,8 +269,9 @@ fn a_curve_is_renamed_in_its_row_and_keys_are_its_names() {
     assert_eq!(name(&window), "dx4 k");
     assert_eq!(window.state().editor().hand().tool(), ToolKind::Select);
 
-    // F2 is the list's while the pointer is on it.
-    window.hover_at(at);
+    // F2 renames wherever the pointer is, but for a field of text.
+    let canvas = window.state().canvas_rect().expect("a canvas");
+    window.hover_at(canvas.center());
     window.run();
     let view = window.state().editor().view().viewport().orientation;
     press(&mut window, Modifiers::NONE, Key::F2);
@@ -283,6 +284,10 @@ fn a_curve_is_renamed_in_its_row_and_keys_are_its_names() {
     window.run();
     enter(&mut window);
     assert_eq!(name(&window), "bow");
+    click(&mut window, "Name");
+    press(&mut window, Modifiers::NONE, Key::F2);
+    assert!(window.query_by_label("Curve name").is_none());
+    press(&mut window, Modifiers::NONE, Key::Escape);
     let turned = window.state().editor().view().viewport().orientation;
     assert_eq!(turned, view);
 }

@@ -1,5 +1,6 @@
 //! The table of commands: menus, keys, buttons and the command palette all read it.
 
+use crate::document::CurveId;
 use crate::editor::hand::following::Follow;
 use crate::editor::hand::input::{Key, Modifiers};
 use crate::editor::hand::tools::ToolKind;
@@ -56,6 +57,10 @@ pub enum Command {
     View(NamedView),
     /// Give the comb a legible scale.
     ResetComb,
+    /// Go to the feature that is chosen in the list.
+    GoToFeature,
+    /// Compare the active curve with another curve or reference in every plot, or with none.
+    Compare(Option<CurveId>),
     /// Show or hide a layer.
     ToggleLayer(Layer),
     /// Show the bands of rising and falling curvature on the canvas, or only under the plot.
@@ -116,6 +121,8 @@ impl Command {
                 | Self::ZoomOut
                 | Self::View(_)
                 | Self::ResetComb
+                | Self::GoToFeature
+                | Self::Compare(_)
                 | Self::ToggleLayer(_)
                 | Self::ToggleBands
                 | Self::ToggleSnapping
@@ -130,7 +137,7 @@ impl Command {
         [None].into_iter().chain(units).map(Self::SetUnit)
     }
 
-    /// List every command there is, in the order in which the palette offers them.
+    /// List every command there is but those for one curve of a document, in the order in which the palette offers them.
     pub fn all() -> Vec<Self> {
         let mut all = vec![
             Self::Undo,
@@ -152,7 +159,7 @@ impl Command {
         all.push(Self::AddFormula);
         all.extend([Self::Fit, Self::FitAll, Self::ZoomIn, Self::ZoomOut]);
         all.extend(NamedView::ALL.map(Self::View));
-        all.push(Self::ResetComb);
+        all.extend([Self::ResetComb, Self::GoToFeature, Self::Compare(None)]);
         all.extend(Layer::ALL.map(Self::ToggleLayer));
         all.push(Self::ToggleBands);
         all.extend([Self::ToggleSnapping, Self::ToggleKeeping]);
@@ -189,6 +196,9 @@ impl Command {
             Self::ZoomOut => "Zoom out",
             Self::View(view) => view.label(),
             Self::ResetComb => "Reset comb scale",
+            Self::GoToFeature => "Go to feature",
+            Self::Compare(None) => "Compare with nothing",
+            Self::Compare(Some(_)) => "Compare with another curve",
             Self::ToggleLayer(layer) => layer.label(),
             Self::ToggleBands => "Feature bands on the canvas",
             Self::ToggleSnapping => "Snapping",
@@ -232,6 +242,9 @@ impl Command {
             Self::ZoomOut => "Show more of the model",
             Self::View(_) => "See the model from this side; drag with the right button to orbit",
             Self::ResetComb => "Scale the curvature comb to a readable size",
+            Self::GoToFeature => "Show the surroundings of the feature that is chosen in the list",
+            Self::Compare(None) => "Show the plots of the active curve alone",
+            Self::Compare(Some(_)) => "Show the plots of this curve beside those of the active one",
             Self::ToggleLayer(Layer::SafeRegion) => {
                 "Show or hide where the selected vertex may go without adding a curvature extremum or an inflection"
             }
@@ -272,7 +285,9 @@ impl Command {
             Self::FitAll => plain(Key::Character('h')),
             Self::ZoomIn => plain(Key::Character('+')),
             Self::ZoomOut => plain(Key::Character('-')),
-            Self::View(view) => plain(Key::Function(2 + view as u8)),
+            // F2 renames and F6 focuses panels, as elsewhere.
+            Self::View(NamedView::Isometric) => plain(Key::Function(7)),
+            Self::View(view) => plain(Key::Function(3 + view as u8)),
             Self::ToggleLayer(layer) => plain(Key::Character(char::from(b'1' + layer as u8))),
             Self::ToggleSnapping => plain(Key::Character('g')),
             Self::Follow(Follow::InHarmony) => plain(Key::Character('n')),

@@ -66,6 +66,8 @@ impl Editor {
                 let before = self.document().unit();
                 before.is_some_and(|before| before != unit)
             }
+            Command::GoToFeature => self.chosen_feature().is_some(),
+            Command::Compare(other) => active && other.is_none_or(|id| self.can_compare(id)),
             // What is dragged is dragged in the plane that is seen.
             Command::View(_) => !self.hand.is_dragging(),
             _ => true,
@@ -77,6 +79,10 @@ impl Editor {
         let curve = self.active_curve().map(|(_, curve)| curve);
         match command {
             Command::ToggleLayer(layer) => Some(self.layers().shows(layer)),
+            Command::Compare(other) => {
+                let compared = self.view.compared().filter(|id| self.can_compare(*id));
+                Some(compared == other)
+            }
             Command::ToggleBands => Some(self.view.shows_bands()),
             Command::ToggleSnapping => Some(self.hand.snapping),
             Command::Follow(follow) => Some(self.hand.following.follow == Some(follow)),
@@ -120,11 +126,17 @@ impl Editor {
             return command.label().replace("curve", "reference");
         }
         match command {
+            Command::Compare(Some(id)) => self.document().name(id).map(str::to_owned),
             Command::Undo => self.undo_label().map(named),
             Command::Redo => self.workspace.history().redo_label().map(named),
             _ => None,
         }
         .unwrap_or_else(|| command.label())
+    }
+
+    /// Whether there is such a curve or reference beside the active one.
+    fn can_compare(&self, id: CurveId) -> bool {
+        self.active() != Some(id) && self.document().name(id).is_some()
     }
 
     pub(in crate::editor) fn active_curve(&self) -> Option<(CurveId, Arc<Curve>)> {
@@ -200,6 +212,12 @@ impl Editor {
             Command::FitAll => self.fit_all(),
             Command::View(view) => self.set_orientation(view.orientation()),
             Command::ResetComb => self.reset_comb(),
+            Command::GoToFeature => {
+                if let Some(u) = self.chosen_feature() {
+                    self.go_to(u);
+                }
+            }
+            Command::Compare(other) => self.view.compare(other),
             Command::ToggleLayer(layer) => self.toggle_layer(layer),
             Command::ToggleBands => self.view.show_bands(!self.view.shows_bands()),
             Command::ToggleSnapping => self.hand.snapping = !self.hand.snapping,

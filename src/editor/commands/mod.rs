@@ -4,6 +4,7 @@ mod clipboard;
 pub(in crate::editor) mod command;
 mod deleting;
 mod execute;
+mod foreseen;
 mod locking;
 pub(in crate::editor) mod polygon_edits;
 mod references;

@@ -90,7 +90,7 @@ impl Editor {
             return "Drag to pan".into();
         }
         if self.hand.gestures.is_orbiting() {
-            return "Drag to orbit; F2, F3, F4 look along the axes".into();
+            return "Drag to orbit; F3, F4, F5 look along the axes".into();
         }
         if self.drags_handle() {
             return "Drag; Shift constrains, Esc puts the handle back".into();

@@ -17,6 +17,8 @@ pub enum MenuSubject {
     Reference,
     /// What lies at no curve.
     Canvas,
+    /// A feature of the active curve or reference, in the list.
+    Feature,
     /// The plot of the active curve.
     Plot,
 }

@@ -113,7 +113,7 @@ impl Editor {
     }
 
     /// The active curve without what is tried out on it.
-    fn settled_active(&self) -> Option<Arc<Curve>> {
+    pub(in crate::editor) fn settled_active(&self) -> Option<Arc<Curve>> {
         let active = self.hand.selection.active()?;
         self.workspace.settled().curve(active).cloned()
     }

@@ -6,23 +6,19 @@ use crate::document::CurveId;
 use crate::editor::Editor;
 use crate::ui::widgets;
 
-/// The least and the greatest width of the choice: in a bar with less room it is left out.
+/// The least and the greatest width of the choice.
 const WIDTH: [f32; 2] = [56.0, 120.0];
 
 /// The room that the bar keeps beside the choice.
 const BESIDE: f32 = 64.0;
 
-/// Where the bar leaves less room than this, in points, the caption is left out.
+/// Where the bar leaves less room than this, in points, the choice is left to the plot's menu.
 const NARROW: f32 = 320.0;
 
-/// Show the choice with a caption at its left where there is room.
+/// Show the choice with a caption at its left, where there is room.
 pub fn compare_ui(ui: &mut Ui, editor: &mut Editor) {
-    if ui.available_width() < WIDTH[0] + BESIDE {
-        return;
-    }
-    let narrow = ui.available_width() < NARROW;
-    choice_ui(ui, editor, "Curve to compare with");
-    if !narrow {
+    if ui.available_width() >= NARROW {
+        choice_ui(ui, editor, "Curve to compare with");
         widgets::caption(ui, "Compare with");
     }
 }
@@ -55,7 +51,7 @@ pub fn choice_ui(ui: &mut Ui, editor: &mut Editor, name: &str) {
 }
 
 /// The curves and references beside the active one, with their names.
-fn others(editor: &Editor) -> Vec<(CurveId, String)> {
+pub fn others(editor: &Editor) -> Vec<(CurveId, String)> {
     let document = editor.document();
     let curves = document
         .curves()

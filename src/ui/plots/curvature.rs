@@ -38,9 +38,9 @@ const ROUNDING: f64 = 1e-9;
 /// Say what the dots are, and what the shaded flanks hold.
 fn legend(flank: f64) -> &'static str {
     if flank > 0.0 {
-        "Dots: discrete curvature of the float S-polygon; arrows: beyond the plot; shaded: vertices beyond the ends, evenly spaced"
+        "Dots: discrete curvature; one for each vertex of the float S-polygon; arrows: beyond the plot; shaded: vertices beyond the ends, evenly spaced"
     } else {
-        "Dots: discrete curvature of the float S-polygon; arrows: beyond the plot"
+        "Dots: discrete curvature; one for each vertex of the float S-polygon; arrows: beyond the plot"
     }
 }
 
@@ -76,6 +76,7 @@ impl Plots {
         let axes = Axes {
             names: [&across, &upwards],
             scale: Scale::Even,
+            least: if scene.planar { f64::MIN } else { 0.0 },
             numbered: [0.0, length],
         };
         let near = self.near.and_then(|index| scene.features.get(index));

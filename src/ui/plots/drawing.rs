@@ -29,6 +29,8 @@ const SLACK: f64 = 1e-9;
 pub struct Axes<'a> {
     pub names: [&'a str; 2],
     pub scale: Scale,
+    /// The least number upwards: below it there are no values.
+    pub least: f64,
     /// The range of the horizontal axis in which ticks have numbers.
     pub numbered: [f64; 2],
 }
@@ -36,6 +38,7 @@ pub struct Axes<'a> {
 /// A plot that shows the bounds it is given; whoever shows it moves them.
 pub fn plot<'a>(id: &'a str, axes: &Axes<'a>, pane: &Pane, tokens: &Tokens) -> Plot<'a> {
     let (scale, size, [first, last]) = (axes.scale, pane.size, axes.numbered);
+    let least = axes.least;
     let slack = SLACK * (last - first);
     let numbered = first - slack..=last + slack;
     let font = theme::small_font();
@@ -54,7 +57,10 @@ pub fn plot<'a>(id: &'a str, axes: &Axes<'a>, pane: &Pane, tokens: &Tokens) -> P
         .tick_label_font(font)
         .tick_label_color(tokens.faint_text)
         .min_thickness(LEFT)
-        .formatter(move |mark, range| upwards_number(scale, mark, range, size.y));
+        .formatter(move |mark, range| match mark.value < least {
+            true => String::new(),
+            false => upwards_number(scale, mark, range, size.y),
+        });
     Plot::new(id)
         .allow_drag(false)
         .allow_zoom(false)

@@ -72,6 +72,7 @@ impl Plots {
                 flow: *flow,
                 scene,
                 pane,
+                last: count - 1.0,
                 spacing: 1.0 / pane.point().x as f32,
                 tokens,
             };
@@ -142,6 +143,8 @@ struct Strip<'a> {
     flow: Flow,
     scene: &'a PlotScene,
     pane: Pane,
+    /// The number of the last vertex.
+    last: f64,
     /// How far two vertices are apart, in points.
     spacing: f32,
     tokens: &'static Tokens,
@@ -151,10 +154,16 @@ impl Strip<'_> {
     /// Show the strip; returns the abscissa under the pointer.
     fn show(&self, ui: &mut Ui, size: Vec2, with_axis: bool) -> PlotResponse<Option<f64>> {
         let (flow, tokens) = (self.flow, self.tokens);
+        let is_signed = match flow {
+            Flow::Legs => false,
+            Flow::Turns | Flow::Curvatures => self.scene.planar,
+            Flow::TorsionAngles => true,
+        };
         let axes = Axes {
             names: [if with_axis { "vertex" } else { "" }, ""],
             scale: Scale::Even,
-            numbered: [0.0, f64::MAX],
+            least: if is_signed { f64::MIN } else { 0.0 },
+            numbered: [0.0, self.last],
         };
         let plot = plot(name(flow), &axes, &self.pane, tokens)
             .width(size.x)

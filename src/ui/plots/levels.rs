@@ -12,53 +12,46 @@ use super::ticks::Scale;
 use super::{Plots, area, is_held, peaks};
 use crate::analysis::LevelPlot;
 use crate::editor::{Editor, PlotFeature};
+use crate::ui::action::Action;
 use crate::ui::theme::{STEP, Tokens};
 use crate::ui::widgets;
 use crate::ui::{document_unit, figures};
 
-/// Where the bar leaves less room than the first of these, in points, the switch has a short name, and
-/// than the second there is none.
-const NARROW: [f32; 2] = [150.0, 48.0];
+/// Where the bar leaves less room than this, in points, the switch is left to the plot's menu.
+const SWITCH: f32 = 150.0;
+
+/// Where the bar leaves less room than this, in points, nothing of a remark could be read.
+const REMARK: f32 = 120.0;
 
 /// How far beyond the others a peak may reach and still be shown, in units of their extent.
 const TALLEST: f64 = 4.0;
 
 impl Plots {
-    /// What the bar says of a plot of levels: the switch that normalises, and what is cut off.
-    pub(super) fn level_bar_ui(&mut self, ui: &mut Ui, plot: LevelPlot) {
-        if plot == LevelPlot::Logarithmic {
-            widgets::remark(ui, &self.remark);
-            return;
-        }
-        let remark = std::mem::take(&mut self.remark);
-        self.normalised_ui(ui, &remark);
-        self.remark = remark;
-    }
-
-    /// What the bar says of the plot of the curvature.
-    pub(super) fn curvature_bar_ui(&mut self, ui: &mut Ui) {
-        let legend = std::mem::take(&mut self.legend);
-        self.normalised_ui(ui, &legend);
-        self.legend = legend;
-    }
-
-    /// The switch that scales the curve to length 1, and a remark beside it.
-    pub(super) fn normalised_ui(&mut self, ui: &mut Ui, remark: &str) {
-        if ui.available_width() < NARROW[1] {
+    /// The switch that scales the curve to length 1, and a remark beside it, where there is room.
+    pub(super) fn normalised_ui(&self, ui: &mut Ui, remark: &str, commands: &mut Vec<Action>) {
+        if ui.available_width() < SWITCH {
             return;
         }
         ui.spacing_mut().item_spacing.x = 2.0 * STEP;
-        let tooltip = "Show the levels of the curve scaled to length 1, over shares of its length";
-        let name = "Normalise length";
-        let text = if ui.available_width() < NARROW[0] {
-            "1/L"
-        } else {
-            name
-        };
-        ui.add(Checkbox::new(&mut self.normalised, text))
-            .accessible_name(name)
-            .on_hover_text(tooltip);
-        widgets::remark(ui, remark);
+        let action = Action::NormaliseLength;
+        let mut normalised = self.normalised;
+        let switch = ui.add(Checkbox::new(&mut normalised, action.label()));
+        if switch.on_hover_text(action.tooltip()).clicked() {
+            commands.push(action);
+        }
+        Self::remark_ui(ui, remark);
+    }
+
+    /// Show a remark where there is room: what stands before its first semicolon, and on hovering all of it.
+    pub(super) fn remark_ui(ui: &mut Ui, remark: &str) {
+        if ui.available_width() < REMARK {
+            return;
+        }
+        let short = remark.split(';').next().unwrap_or_default();
+        let shown = widgets::remark(ui, short);
+        if short != remark {
+            shown.on_hover_text(remark);
+        }
     }
 
     pub(super) fn levels_ui(&mut self, ui: &mut Ui, editor: &mut Editor, which: LevelPlot) {
@@ -115,6 +108,7 @@ impl Plots {
                 true => Scale::Logarithmic,
                 false => Scale::Even,
             },
+            least: f64::MIN,
             numbered: match is_graph {
                 true => [f64::MIN, f64::MAX],
                 false => [0.0, extent],

@@ -13,12 +13,12 @@ mod navigation;
 mod pane;
 mod ticks;
 
-pub use compare::choice_ui as compare_choice_ui;
+pub use compare::{choice_ui as compare_choice_ui, others};
 
 use std::collections::HashMap;
 
 use eframe::egui::layers::ShapeIdx;
-use eframe::egui::{Button, Rect, Ui};
+use eframe::egui::{Button, Context, Rect, Ui};
 use egui_plot::{PlotBounds, PlotResponse};
 use lucide_icons::Icon;
 
@@ -27,10 +27,10 @@ use super::theme::{STEP, Tokens};
 use super::widgets::{self, IconButton};
 use crate::analysis::{Flow, LevelPlot};
 use crate::document::CurveId;
-use crate::editor::{Editor, PlotKind, PlotScene};
+use crate::editor::{Editor, MenuSubject, PlotKind, PlotScene};
 use crate::geometry::LEVELS;
 use crate::ui::action::Action;
-use crate::ui::keyboard::shortcut_text;
+use crate::ui::keyboard::{is_covered, shortcut_text};
 use compare::compare_ui;
 use frame::Frame;
 use level_names::{explanation, tab_name};
@@ -92,6 +92,8 @@ pub struct Plots {
     /// The feature whose glyph the pointer is near, by its place in the plot's list.
     near: Option<usize>,
     navigation: Navigation,
+    /// Where the plot in front was in the last frame, without its bar.
+    rect: Option<Rect>,
     /// Whose plots they are.
     shown_of: Option<CurveId>,
 }
@@ -122,6 +124,9 @@ fn close_part(known: Option<[f64; 2]>, [from, to]: [f64; 2], length: f64) -> Opt
     let part = || [(from - extent).max(0.0), (to + extent).min(length)];
     known.filter(does).or_else(|| Some(part()))
 }
+
+/// What the mouse does to a plot.
+const HINT: &str = "Wheel zooms to the pointer, drag pans, double-click fits; right-click for more";
 
 /// The area of a plot with its numbers.
 fn area(ui: &Ui) -> Rect {
@@ -199,6 +204,18 @@ impl Plots {
         }
     }
 
+    /// Say whether plots show curves scaled to length 1.
+    pub fn set_normalised(&mut self, normalised: bool) {
+        self.normalised = normalised;
+    }
+
+    /// What the mouse does to the plot that it is over.
+    pub fn hint(&self, context: &Context) -> Option<&'static str> {
+        let pointer = context.pointer_hover_pos()?;
+        let is_over = self.rect?.contains(pointer) && !is_covered(context);
+        is_over.then_some(HINT)
+    }
+
     /// Say whether fingers on a touchpad turn the wheel: they move a plot.
     pub fn set_fingers(&mut self, fingers: bool) {
         self.navigation.fingers = fingers;
@@ -260,6 +277,9 @@ impl Plots {
         commands: &mut Vec<Action>,
     ) {
         let is_reference = editor.active_reference_id().is_some();
+        if !shown {
+            self.rect = None;
+        }
         ui.horizontal_centered(|ui| {
             ui.spacing_mut().item_spacing.x = STEP;
             let tabs = self.tabs(editor);
@@ -296,13 +316,18 @@ impl Plots {
                     if fit.enabled(self.is_moved()).show(ui).clicked() {
                         commands.push(Action::FitPlot);
                     }
+                    let more = IconButton::new(Icon::Ellipsis, "Plot menu");
+                    if more.show(ui).clicked() {
+                        editor.ask_for_menu(MenuSubject::Plot);
+                    }
                     compare_ui(ui, editor);
                 }
                 match self.tab {
                     _ if !shown => {}
-                    Tab::Curvature if is_reference => self.normalised_ui(ui, ""),
-                    Tab::Curvature => self.curvature_bar_ui(ui),
-                    Tab::Levels(plot) => self.level_bar_ui(ui, plot),
+                    Tab::Curvature if is_reference => self.normalised_ui(ui, "", commands),
+                    Tab::Curvature => self.normalised_ui(ui, &self.legend, commands),
+                    Tab::Levels(LevelPlot::Logarithmic) => Self::remark_ui(ui, &self.remark),
+                    Tab::Levels(_) => self.normalised_ui(ui, &self.remark, commands),
                     Tab::Harmony => {}
                 }
             });
@@ -329,6 +354,7 @@ impl Plots {
 
     /// Show the plots of the tab in front.
     pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor) {
+        self.rect = None;
         if editor.active().is_none() {
             widgets::note(ui, "Select a curve to see its plots.");
             // The panel keeps its height.
@@ -348,6 +374,7 @@ impl Plots {
             ui.take_available_space();
             return;
         }
+        self.rect = Some(ui.available_rect_before_wrap());
         self.follow_active(editor);
         let kind = self.kind();
         if editor.view().plot() != Some(kind) {

@@ -142,21 +142,23 @@ fn close_marks([low, high]: [f64; 2], least: f64) -> Vec<GridMark> {
 }
 
 /// Write a number with the digits that tell multiples of `step` apart: plainly, or with an exponent
-/// where the largest of them is very large, or all are very small.
+/// where the largest of them is very large, or all are very small: all with the same one.
 pub fn number(value: f64, step: f64, largest: f64) -> String {
     if !(value.abs() >= SLACK * step) {
         return "0".to_owned();
     }
     let lowest = (step.log10() + SLACK).floor() as i32;
-    let highest = (value.abs().log10() + SLACK).floor() as i32;
     let plain =
         largest < 1e6 && (-lowest <= DECIMALS || largest >= 0.01 && -lowest <= 2 * DECIMALS);
-    let digits = (highest - lowest).clamp(0, 15) as usize;
     if plain {
-        format!("{value:.*}", (-lowest).max(0) as usize)
-    } else {
-        format!("{value:.digits$e}")
+        return format!("{value:.*}", (-lowest).max(0) as usize);
     }
+    // All numbers of an axis have the exponent of the largest.
+    let exponent = (largest.max(value.abs()).log10() + SLACK).floor() as i32;
+    let digits = (exponent - lowest).clamp(0, 15) as usize;
+    // One power could be beyond the range of numbers.
+    let [first, second] = [exponent / 2, exponent - exponent / 2].map(|half| 10f64.powi(-half));
+    format!("{:.digits$}e{exponent}", value * first * second)
 }
 
 /// Write the number whose logarithm is given, with the digits that tell its neighbours apart.
@@ -212,6 +214,8 @@ mod tests {
                 "0.11200", "0.11202", "0.11204", "0.11206", "0.11208", "0.11210"
             ]
         );
+        let small = ["0", "0.2e-4", "0.4e-4", "0.6e-4", "0.8e-4", "1.0e-4"];
+        assert_eq!(even(0.0, 1.1e-4), small);
         assert_eq!(even(0.0, 4e-9), ["0", "1e-9", "2e-9", "3e-9", "4e-9"]);
         assert_eq!(
             even(-2.2e-5, 2.2e-5),
@@ -221,7 +225,7 @@ mod tests {
             even(0.0, 2e-3),
             ["0", "0.0005", "0.0010", "0.0015", "0.0020"]
         );
-        assert_eq!(even(0.0, 2e7), ["0", "5e6", "1.0e7", "1.5e7", "2.0e7"]);
+        assert_eq!(even(0.0, 2e7), ["0", "0.5e7", "1.0e7", "1.5e7", "2.0e7"]);
     }
 
     #[test]

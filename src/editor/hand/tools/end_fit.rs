@@ -277,8 +277,8 @@ impl EndFitTool {
                 let offset = target - origin;
                 (State::Target { offset }, format!("Move target of {name}"))
             }
-            Some(Handle::Direction) => (State::Direction, format!("Turn target of {name}")),
-            Some(Handle::Circle) => (State::Circle, format!("Curve target of {name}")),
+            Some(Handle::Direction) => (State::Direction, format!("Rotate target of {name}")),
+            Some(Handle::Circle) => (State::Circle, format!("Change target curvature of {name}")),
             Some(Handle::Body) => {
                 let state = State::Body {
                     origin,

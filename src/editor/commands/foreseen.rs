@@ -1,0 +1,33 @@
+//! What commands would do, told beforehand.
+
+use crate::editor::Editor;
+use crate::editor::foreseeing::Begun;
+use crate::operations::{Deviation, Operation, elevate_degree, reduce_degree};
+
+/// The operations whose deviation is told before they are done.
+static FORESEEN: [&Operation; 2] = [&elevate_degree::OPERATION, &reduce_degree::OPERATION];
+
+impl Editor {
+    /// See to it that [`Editor::foreseen`] will know the active curve: asked for while something shows it.
+    pub fn foresee(&mut self) {
+        self.foreseeing.receive();
+        let curve = self.settled_active();
+        let Some(curve) = curve.filter(|curve| !self.foreseeing.is_about(curve)) else {
+            return;
+        };
+        let begun = FORESEEN.into_iter().filter_map(|operation| {
+            let input = self.input_of(operation).ok()?;
+            let values = operation.values(&input, []).ok()?;
+            Some((operation, input, values))
+        });
+        let begun: Vec<Begun> = begun.collect();
+        self.foreseeing.ask(curve, begun, &mut self.patience);
+    }
+
+    /// How far an operation would move the active curve with the values that it begins with. `None` if that
+    /// is not known, not yet, or the operation cannot be done.
+    pub fn foreseen(&self, operation: &Operation) -> Option<Deviation> {
+        let curve = self.settled_active()?;
+        self.foreseeing.deviation(&curve, operation)
+    }
+}

@@ -1,0 +1,44 @@
+//! The document's own properties, where nothing of it is selected.
+
+use eframe::egui::{ComboBox, Ui};
+
+use super::widgets;
+use crate::editor::{Command, Editor, told};
+
+/// Show what belongs to the document as a whole: its unit, and how much it holds.
+pub fn document_ui(ui: &mut Ui, editor: &mut Editor) {
+    ui.strong("Document");
+    let unit = Command::SetUnit(None);
+    let row = widgets::form_row(ui, "Unit", |ui| unit_ui(ui, editor));
+    row.response.on_hover_text(unit.tooltip());
+    let document = editor.document();
+    let counts = [
+        ("Curves", document.curves().len()),
+        ("References", document.references().len()),
+    ];
+    for (name, count) in counts {
+        widgets::figure_row(ui, name, &count.to_string());
+    }
+    widgets::note(
+        ui,
+        "Draw or select a curve to see its degree, properties and features.",
+    );
+}
+
+fn unit_ui(ui: &mut Ui, editor: &mut Editor) {
+    let now = editor.document().unit();
+    let name = |command: Command| match command {
+        Command::SetUnit(Some(unit)) => unit.name(),
+        _ => "none",
+    };
+    let choice = ComboBox::from_id_salt("document unit").selected_text(name(Command::SetUnit(now)));
+    let choice = choice.show_ui(ui, |ui| {
+        for command in Command::units() {
+            let is_on = command == Command::SetUnit(now);
+            if ui.selectable_label(is_on, name(command)).clicked() {
+                told(editor.execute(command));
+            }
+        }
+    });
+    choice.response.accessible_name("Document unit");
+}
