@@ -1,5 +1,9 @@
 //! Two curves made one by a bridge between them.
 
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+
 use super::bridge::{self, BRIDGE, figures, joint, marks};
 use super::editable::open_of;
 use super::error::OperationError;
@@ -36,13 +40,16 @@ const ENDS: Kind = Kind::Choice {
     default: 0,
 };
 
+/// Distances that differ by no more than this share are alike, and so are angles that differ by no more.
+const AS_CLOSE: f64 = 1e-9;
+
 /// The meanings of the options of [`ENDS`].
 const MEANINGS: [Option<End>; 3] = [None, Some(End::Start), Some(End::Finish)];
 
 const FIRST_END: Parameter = Parameter {
     name: "first-end",
     label: "End of the first",
-    help: "The end of the first curve that is joined; the nearest is that of the two ends that lie closest to each other",
+    help: "The end of the first curve that is joined; the nearest is that of the two ends that lie closest to each other, and of pairs as close that of the two ends that point at each other",
     kind: ENDS,
 };
 
@@ -129,7 +136,8 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
     let mut outcome = Outcome::unchanged(deviation);
     outcome.edits = composite.edits();
     outcome.renumbered = true;
-    outcome.figures = figures(&found);
+    outcome.figures = vec![Figure::ends("joined", "Joined", ends)];
+    outcome.figures.extend(figures(&found));
     if moves {
         let farthest = composite.farthest_move();
         let figure = Figure::length("second_move", "Largest move of the second", farthest);
@@ -142,19 +150,54 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
     Ok(outcome)
 }
 
-/// The ends that are joined: those that are given, and of the others those that lie closest.
+/// The ends that are joined: those that are given, and of the others those that lie closest. Of pairs as
+/// close the two that point at each other best are joined, and of those the pair that turns no curve round.
 fn nearest(polygons: [&FloatPolygon; 2], given: [Option<End>; 2]) -> [End; 2] {
     let options = given.map(|end| end.map_or(End::BOTH.to_vec(), |end| vec![end]));
     let pairs = options[0]
         .iter()
         .rev()
         .flat_map(|first| options[1].iter().map(move |second| [*first, *second]));
-    let distance = |ends: &[End; 2]| {
-        let [a, b] = [0, 1].map(|part: usize| polygons[part].end_jet(ends[part]).point);
-        a.distance(b)
-    };
-    let closest = pairs.min_by(|a, b| distance(a).total_cmp(&distance(b)));
-    closest.unwrap_or([End::Finish, End::Start])
+    let gaps: Vec<([End; 2], Gap)> = pairs.map(|ends| (ends, Gap::of(polygons, ends))).collect();
+    let distances = gaps.iter().map(|(_, gap)| gap.distance);
+    let least = distances.fold(f64::INFINITY, f64::min);
+    let size = polygons.map(|polygon| polygon.size()).into_iter();
+    let as_close = least * (1.0 + AS_CLOSE) + f64::EPSILON * size.fold(0.0, f64::max);
+    let closest = gaps.into_iter().filter(|(_, gap)| gap.distance <= as_close);
+    // Turnings that differ by rounding are alike.
+    let turning = |gap: &Gap| (gap.turning / AS_CLOSE).round();
+    let best = closest.min_by(|(_, a), (_, b)| turning(a).total_cmp(&turning(b)));
+    best.map_or([End::Finish, End::Start], |(ends, _)| ends)
+}
+
+/// What lies between two ends.
+struct Gap {
+    distance: f64,
+    /// How far the straight way from one to the other turns where it leaves and where it arrives, in radians.
+    turning: f64,
+}
+
+impl Gap {
+    fn of(polygons: [&FloatPolygon; 2], ends: [End; 2]) -> Self {
+        let jets = [0, 1].map(|part: usize| polygons[part].end_jet(ends[part]));
+        let way = jets[1].point - jets[0].point;
+        // Out of the first curve, and into the second.
+        let tangents = [0, 1].map(|part: usize| {
+            let follows = (ends[part] == End::Finish) == (part == 0);
+            let tangent = jets[part].tangent().unwrap_or(DVec3::ZERO);
+            if follows { tangent } else { -tangent }
+        });
+        let [out, into] = tangents;
+        let turning = match way == DVec3::ZERO {
+            true => out.angle_between(into),
+            false => out.angle_between(way) + way.angle_between(into),
+        };
+        Self {
+            distance: way.length(),
+            // An end without a direction points nowhere.
+            turning: if turning.is_finite() { turning } else { TAU },
+        }
+    }
 }
 
 /// How the second curve lies in the composite.

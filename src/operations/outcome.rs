@@ -9,7 +9,7 @@ use super::parameter::Unit;
 use super::value::Value;
 use crate::document::{Curve, CurveId, Document, Edit, EditError};
 use crate::geometry::approximation::LevelComparison;
-use crate::geometry::{Approximation, FloatPolygon};
+use crate::geometry::{Approximation, End, FloatPolygon};
 
 /// Hold what an operation comes to.
 #[derive(Clone, Debug, PartialEq)]
@@ -133,6 +133,16 @@ impl Figure {
             name,
             label,
             value: Value::Indices(indices.to_vec()),
+            unit: Unit::None,
+        }
+    }
+
+    /// Tell an end of a first curve and one of a second.
+    pub(super) fn ends(name: &'static str, label: &'static str, ends: [End; 2]) -> Self {
+        Self {
+            name,
+            label,
+            value: Value::Ends(ends),
             unit: Unit::None,
         }
     }

@@ -241,6 +241,7 @@ impl Parameter {
             }
             (_, Value::List(numbers)) => joined(numbers.iter().map(shown)),
             (_, Value::Indices(indices)) => joined(indices.iter().map(usize::to_string)),
+            (_, Value::Ends(ends)) => joined(ends.iter().map(|end| end.name().to_owned())),
         }
     }
 
@@ -393,6 +394,7 @@ impl Parameter {
             | Value::Switch(_)
             | Value::List(_)
             | Value::Indices(_)
+            | Value::Ends(_)
             | Value::Reference(_) => return Ok(()),
         };
         if limits.contains(&number) {

@@ -41,6 +41,9 @@ impl Serialize for Report {
                 Value::Switch(on) => json!(on),
                 Value::List(numbers) => json!(numbers),
                 Value::Indices(indices) => json!(indices),
+                Value::Ends([first, second]) => {
+                    json!({ "first": first.name(), "second": second.name() })
+                }
                 Value::Reference(reference) => {
                     json!(reference.as_ref().map(|reference| reference.to_string()))
                 }

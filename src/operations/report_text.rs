@@ -31,6 +31,13 @@ fn figure_line(figure: &Figure) -> String {
         Value::Switch(on) => if *on { "on" } else { "off" }.to_owned(),
         Value::List(numbers) => joined(numbers.iter().map(|it| significant(*it, 6))),
         Value::Indices(indices) => joined(indices.iter().map(usize::to_string)),
+        Value::Ends([first, second]) => {
+            format!(
+                "{} of the first and {} of the second",
+                first.name(),
+                second.name()
+            )
+        }
         Value::Reference(reference) => {
             let text = reference.as_ref().map(|reference| reference.to_string());
             text.unwrap_or_default()

@@ -1,5 +1,6 @@
 //! A value of a parameter, or a figure.
 
+use crate::geometry::End;
 use crate::geometry::references::ReferenceCurve;
 
 /// A value of a parameter.
@@ -17,6 +18,8 @@ pub enum Value {
     List(Vec<f64>),
     /// The numbers of some things, counted from 0; only figures have them.
     Indices(Vec<usize>),
+    /// An end of a first curve and one of a second; only figures have them.
+    Ends([End; 2]),
     /// A reference, or none.
     Reference(Option<Box<ReferenceCurve>>),
 }

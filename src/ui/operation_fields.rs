@@ -298,6 +298,7 @@ fn shown_number(value: &Value, unit: Unit) -> f64 {
         | Value::Switch(_)
         | Value::List(_)
         | Value::Indices(_)
+        | Value::Ends(_)
         | Value::Reference(_) => 0.0,
     }
 }

@@ -146,6 +146,7 @@ fn figure_text(figure: &Figure) -> String {
             let indices = indices.iter().map(usize::to_string);
             indices.collect::<Vec<_>>().join(", ")
         }
+        Value::Ends([first, second]) => format!("{} and {}", first.name(), second.name()),
         Value::Reference(reference) => {
             let text = reference.as_ref().map(|reference| reference.to_string());
             text.unwrap_or_default()

@@ -372,6 +372,10 @@ fn two_curves_are_joined_from_one_file_or_two() {
         (&report["bridge"], &report["reached"]),
         (&json!(4), &json!(true))
     );
+    assert_eq!(
+        report["joined"],
+        json!({ "first": "end", "second": "start" })
+    );
     let two = [
         "apply",
         "join",

@@ -5,7 +5,7 @@ use batten::geometry::end_correction::EndTarget;
 use batten::geometry::{Continuity, End, FloatPolygon, Progress};
 use batten::operations::{Input, Outcome, Report, Value};
 use glam::DVec3;
-use serde_json::Value as Json;
+use serde_json::{Value as Json, json};
 
 use crate::runner::{Runner, operation};
 
@@ -105,6 +105,13 @@ fn the_report_tells_the_bridge_and_that_nothing_else_moved() {
     assert_eq!(json["reached"], true);
     assert_eq!(json["deviation"], 0.0);
     assert_eq!(json["bridge"], 8);
+    assert_eq!(json["joined"], json!({ "first": "end", "second": "start" }));
+    let told = "Joined: end of the first and start of the second";
+    assert!(
+        report.text().lines().any(|line| line == told),
+        "{}",
+        report.text()
+    );
     assert!(json["largest_jump"].as_f64().expect("a number") < 1e-14);
     assert!(json["bridge_extrema"].is_u64() && json["bridge_inflections"] == 0);
     let names = |key: &str| -> Vec<String> {
@@ -237,4 +244,37 @@ fn a_curve_that_is_closed_keeps_its_vertices_and_has_no_ends() {
     assert!(refused.starts_with("Bridge vertices: 1000000000 is out of range"));
     let periodic = Runner::example("periodic").refused("close", &[]);
     assert!(periodic.contains("periodic"), "{periodic}");
+}
+
+/// A straight line from one point to another.
+fn line(name: &str, from: [f64; 2], to: [f64; 2]) -> Curve {
+    let [from, to] = [from, to].map(|[x, y]| DVec3::new(x, y, 0.0));
+    let vertices = (-1..=6).map(|index| from.lerp(to, f64::from(index) / 5.0));
+    let polygon = FloatPolygon::new(3, vertices.collect(), None, false).expect("a polygon");
+    Curve::new(name, polygon)
+}
+
+#[test]
+fn of_ends_as_near_those_are_joined_that_point_at_each_other() {
+    let first = line("first", [0.0, 0.0], [5.0, 0.0]);
+    for (second, ends) in [
+        // Nearest alone decides.
+        (line("second", [7.0, 1.0], [12.0, 1.0]), ["end", "start"]),
+        (line("second", [12.0, 1.0], [7.0, 1.0]), ["end", "end"]),
+        (line("second", [-2.0, 1.0], [-7.0, 1.0]), ["start", "start"]),
+        (line("second", [-7.0, 1.0], [-2.0, 1.0]), ["start", "end"]),
+        // Side by side, at the same distance: neither turns round.
+        (line("second", [5.0, 2.0], [0.0, 2.0]), ["end", "start"]),
+        // A rail that is tilted at its ends alone: both ends are 3 off, and the start of the second points on.
+        (line("second", [5.0, 3.0], [5.0, 9.0]), ["end", "start"]),
+        // 3 from both ends of the first, along it and across it.
+        (line("second", [8.0, 0.0], [-0.0, 3.0]), ["end", "start"]),
+        (line("second", [5.0, 3.0], [-3.0, 0.0]), ["start", "end"]),
+    ] {
+        let document = Document::from_curves([first.clone(), second.clone()]);
+        let (_, _, report) = join(&document, &[("bridge", Value::List(vec![4.0]))]);
+        let json: Json = serde_json::to_value(&report).expect("a report");
+        let expected = json!({ "first": ends[0], "second": ends[1] });
+        assert_eq!(json["joined"], expected, "{:?}", second.polygon);
+    }
 }
