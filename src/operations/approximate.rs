@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::alternatives::remark_on_alternatives;
 use super::editable::check_editable;
 use super::error::OperationError;
 use super::input::Input;
@@ -14,8 +15,8 @@ use super::values::Values;
 use super::whole;
 use crate::document::{Curve, Edit};
 use crate::geometry::approximation::{
-    Approximated, Asked, LevelComparison, Placing, Spacing, approximate_between,
-    approximate_by_steps, approximate_to_tolerance,
+    Approximated, Asked, Goal, LevelComparison, MOST_SEGMENTS, Placing, Spacing,
+    approximate_between, approximate_by_steps, approximate_to_tolerance,
 };
 use crate::geometry::references::ReferenceCurve;
 use crate::geometry::{Differentiable, FloatPolygon, Progress, significant};
@@ -220,7 +221,7 @@ impl<'a> Source<'a> {
 fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
     let source = Source::of(input, values)?;
     let tolerance = positive(values, &TOLERANCE)?;
-    let found = approximated(&source, values, tolerance, progress)?;
+    let (found, alternatives) = approximated(&source, values, tolerance, progress)?;
     let deviation = Deviation::Measured(found.deviation.largest);
     let marks = marks(&source, &found);
     let outcome = match source {
@@ -238,6 +239,7 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
         }
     };
     let mut remarks = outcome.remarks.clone();
+    remarks.extend(alternatives);
     remarks.extend(remark_on_levels(values, &found));
     remarks.extend(remark_on_corrections(&found));
     Ok(Outcome {
@@ -250,12 +252,13 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
     })
 }
 
+/// Approximate as asked; where a tolerance is not reached with a remark on what would do.
 fn approximated(
     source: &Source<'_>,
     values: &Values,
     tolerance: Option<f64>,
     progress: &Progress,
-) -> Result<Approximated, OperationError> {
+) -> Result<(Approximated, Option<String>), OperationError> {
     let curve = source.differentiable();
     let degree = values.whole(&DEGREE);
     let count = count_given(values)?;
@@ -272,19 +275,29 @@ fn approximated(
     let interval = match part {
         Part::Steps(steps) => {
             let count = count.unwrap_or(offered);
-            return Ok(approximate_by_steps(curve, steps, count, &asked)?);
+            return Ok((approximate_by_steps(curve, steps, count, &asked)?, None));
         }
         Part::Between(interval) | Part::Round(interval) => interval,
     };
     let spacing = values.choice(&SPACING, &SPACINGS);
     Ok(match (count, tolerance) {
         (None, Some(tolerance)) => {
-            approximate_to_tolerance(curve, interval, tolerance, spacing, &asked, progress)?
+            let goal = Goal {
+                tolerance,
+                spacing,
+                most_segments: MOST_SEGMENTS,
+            };
+            let found = approximate_to_tolerance(curve, interval, &goal, &asked, progress)?;
+            let remark = remark_on_alternatives(curve, interval, &goal, &asked, &found, progress);
+            (found, remark)
         }
         _ => {
             let spacing = spacing.unwrap_or(Spacing::Parameter);
             let count = count.unwrap_or(offered);
-            approximate_between(curve, interval, count, spacing, &asked)?
+            (
+                approximate_between(curve, interval, count, spacing, &asked)?,
+                None,
+            )
         }
     })
 }

@@ -8,6 +8,7 @@
 //! A new operation is a file here that exports a `pub static OPERATION`, and a line in the
 //! table below.
 
+mod alternatives;
 mod amount;
 mod atlas;
 mod bridge;

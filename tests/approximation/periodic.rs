@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use batten::geometry::approximation::{
-    Approximated, ApproximationError, Asked, LevelFeature, Placing, Spacing, approximate_between,
-    approximate_to_tolerance,
+    Approximated, ApproximationError, Asked, Goal, LevelFeature, MOST_SEGMENTS, Placing, Spacing,
+    approximate_between, approximate_to_tolerance,
 };
 use batten::geometry::references::ReferenceCurve;
 use batten::geometry::{FloatPolygon, Progress};
@@ -100,7 +100,12 @@ fn extrema_at_the_seam_count_on_both() {
 #[test]
 fn a_tolerance_is_reached_by_as_few_vertices_as_it_takes() {
     let (oval, progress) = (oval(), Progress::default());
-    let found = approximate_to_tolerance(&oval, [0.0, 12.0], 1e-6, None, &ASKED, &progress);
+    let goal = Goal {
+        tolerance: 1e-6,
+        spacing: None,
+        most_segments: MOST_SEGMENTS,
+    };
+    let found = approximate_to_tolerance(&oval, [0.0, 12.0], &goal, &ASKED, &progress);
     let found = found.expect("a curve");
     assert!(found.meets(1e-6) && found.polygon.is_periodic());
     let count = found.polygon.vertices().len();

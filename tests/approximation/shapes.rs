@@ -1,8 +1,8 @@
 //! Shape equivalence, spacings and tolerances.
 
 use batten::geometry::approximation::{
-    Approximated, Asked, LevelFeature, Placing, Respaced, Spacing, approximate_between,
-    approximate_by_steps, approximate_to_tolerance,
+    Approximated, Asked, Goal, LevelFeature, MOST_FOR_SHAPE, MOST_SEGMENTS, Placing, Respaced,
+    Spacing, approximate_between, approximate_by_steps, approximate_to_tolerance,
 };
 use batten::geometry::references::ReferenceCurve;
 use batten::geometry::{Differentiable, End, Progress};
@@ -20,6 +20,14 @@ const SHAPE: Asked = Asked {
 
 fn curve(text: &str) -> ReferenceCurve {
     ReferenceCurve::from_text(text).expect("a reference")
+}
+
+fn goal(tolerance: f64) -> Goal {
+    Goal {
+        tolerance,
+        spacing: None,
+        most_segments: MOST_SEGMENTS,
+    }
 }
 
 /// Which levels are equal: those of the curvature, then those of the torsion.
@@ -172,7 +180,7 @@ fn a_tolerance_and_the_shape_are_reached_by_as_few_vertices_as_it_takes() {
         let curve = curve(text);
         let (progress, asked) = (Progress::default(), SHAPE);
         let interval = curve.interval();
-        let found = approximate_to_tolerance(&curve, interval, tolerance, None, &asked, &progress)
+        let found = approximate_to_tolerance(&curve, interval, &goal(tolerance), &asked, &progress)
             .expect("a curve");
         assert!(found.meets(tolerance), "{text}: {found:?}");
         let count = found.polygon.vertices().len();
@@ -184,6 +192,54 @@ fn a_tolerance_and_the_shape_are_reached_by_as_few_vertices_as_it_takes() {
             }
         }
     }
+}
+
+/// The ripple of a cubic near a helix is h²κ/8 high, h the step by the angle: it fades below 1e-5 of κ from about
+/// 1400 segments on, whatever deviation is asked for.
+#[test]
+fn what_a_small_tolerance_reaches_a_larger_one_does_too() {
+    let helix = curve("helix:to=2*pi");
+    let asked = Asked {
+        degree: 3,
+        levels: 1,
+        ..SHAPE
+    };
+    let counts = [1e-3, 1e-6].map(|tolerance| {
+        let goal = Goal {
+            spacing: Some(Spacing::Parameter),
+            ..goal(tolerance)
+        };
+        let progress = Progress::default();
+        let found = approximate_to_tolerance(&helix, helix.interval(), &goal, &asked, &progress);
+        let found = found.expect("a curve");
+        assert!(found.meets(tolerance), "{tolerance}: {:?}", found.levels);
+        found.polygon.segments()
+    });
+    assert_eq!(counts[0], counts[1]);
+    let step = std::f64::consts::TAU / counts[0] as f64;
+    assert_near("ripple", step * step / 8.0, 1e-5, 0.02, 1e-5);
+}
+
+#[test]
+fn of_shapes_that_are_missed_the_one_with_most_equal_levels_and_fewest_vertices_counts() {
+    let spiral = curve("archimedean-spiral:to=2*pi");
+    let asked = Asked { degree: 5, ..SHAPE };
+    let goal = Goal {
+        most_segments: 96,
+        ..goal(1e-4)
+    };
+    let progress = Progress::default();
+    let found = approximate_to_tolerance(&spiral, spiral.interval(), &goal, &asked, &progress);
+    let found = found.expect("a curve");
+    assert_eq!(equal(&found), [(false, 1, true), (false, 2, false)]);
+    assert!(found.distance() <= 1e-4 && !found.meets(1e-4));
+    // Far fewer than were tried.
+    assert!(
+        found.polygon.segments() < 48,
+        "{}",
+        found.polygon.segments()
+    );
+    assert!(MOST_FOR_SHAPE > goal.most_segments);
 }
 
 #[test]

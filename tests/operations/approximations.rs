@@ -263,3 +263,60 @@ fn the_report_says_that_corrections_grow() {
     let (_, outcome) = run(&[&given[..2], &[("count", "60")]].concat()).expect("it can run");
     assert_eq!(outcome.remarks, Vec::<String>::new());
 }
+
+/// The number of vertices that a remark says `what` takes.
+fn count_told(told: &str, what: &str) -> usize {
+    let (_, rest) = told
+        .split_once(&format!("{what} reaches the tolerance with "))
+        .unwrap_or_else(|| panic!("{told}"));
+    let (count, _) = rest.split_once(" vertices").expect("a count");
+    count.parse().expect("a number")
+}
+
+#[test]
+fn what_reaches_a_tolerance_better_is_told() {
+    // The second level of a quintic ripples round a spiral until there are very many segments.
+    let given = [
+        ("reference", "archimedean-spiral:to=2*pi"),
+        ("degree", "5"),
+        ("tolerance", "1e-4"),
+        ("spacing", "parameter"),
+    ];
+    let (input, outcome) = run(&given).expect("it can run");
+    let told = outcome.remarks.join(". ");
+    assert!(outcome.reached, "{told}");
+    let many = curve(&input, &outcome).polygon.segments();
+    assert!(
+        told.contains(&format!("{many} segments are many: ")),
+        "{told}"
+    );
+    // What is said to do does.
+    for (what, instead) in [("levels 1", ("levels", "1")), ("degree 6", ("degree", "6"))] {
+        let count = count_told(&told, what);
+        assert!(10 * count < many, "{told}");
+        let others = given.iter().filter(|(name, _)| *name != instead.0);
+        let instead: Vec<(&str, &str)> = others.copied().chain([instead]).collect();
+        let (input, outcome) = run(&instead).expect("it can run");
+        assert!(outcome.reached);
+        assert_eq!(curve(&input, &outcome).polygon.vertices().len(), count);
+        assert!(outcome.remarks.iter().all(|it| !it.contains("many")));
+    }
+}
+
+#[test]
+fn a_tolerance_that_is_missed_names_what_fails() {
+    // A corner that is nearly sharp has no shape that a quintic could have.
+    let given = [
+        ("reference", "formula:x=t;y=sqrt((t-0.5)^2+1e-12)"),
+        ("degree", "5"),
+        ("tolerance", "1e-9"),
+        ("spacing", "parameter"),
+    ];
+    let (_, outcome) = run(&given).expect("it can run");
+    let told = outcome.remarks.join(". ");
+    assert!(!outcome.reached && outcome.is_useful());
+    assert!(
+        told.contains("The nearest of degree 5 is off by "),
+        "{told}"
+    );
+}

@@ -19,8 +19,12 @@ use crate::geometry::progress::Progress;
 /// The most segments that are tried for a tolerance.
 pub const MOST_SEGMENTS: usize = 4096;
 
-/// Once the deviation is small enough, up to so many times as many segments are tried for the shape.
-const FOR_SHAPE: usize = 16;
+/// Once the deviation is small enough, up to so many segments are tried for the shape, however many the deviation
+/// took: what is reached for a small tolerance is reached for a larger one too.
+pub const MOST_FOR_SHAPE: usize = 2048;
+
+/// The least number of segments is found exactly below this number, and above it to one part in so many.
+const FINE: usize = 128;
 
 /// The spacings that are tried for a tolerance, the simplest first.
 const SPACINGS: [Spacing; 3] = [Spacing::Parameter, Spacing::ArcLength, Spacing::Curvature];
@@ -67,6 +71,17 @@ impl Asked {
     }
 }
 
+/// What an approximation is to reach, and by what means.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Goal {
+    /// How far the curve may be off, its ends too.
+    pub tolerance: f64,
+    /// How the vertices are spaced; the best of all spacings without one.
+    pub spacing: Option<Spacing>,
+    /// The most segments that are tried.
+    pub most_segments: usize,
+}
+
 /// An approximation, and what is known of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Approximated {
@@ -89,7 +104,7 @@ pub struct Approximated {
 impl Approximated {
     /// Whether all levels that were compared have the same features.
     pub fn is_equivalent(&self) -> bool {
-        self.levels.iter().all(LevelComparison::is_equal)
+        self.first_difference().is_none()
     }
 
     /// Whether it is as near as a tolerance asks for, its ends too, and has the shape.
@@ -97,8 +112,17 @@ impl Approximated {
         self.distance() <= tolerance && self.is_equivalent()
     }
 
+    fn equal_levels(&self) -> usize {
+        self.levels.iter().filter(|level| level.is_equal()).count()
+    }
+
+    /// The first level that differs, if the levels were compared.
+    pub fn first_difference(&self) -> Option<&LevelComparison> {
+        self.levels.iter().find(|level| !level.is_equal())
+    }
+
     /// How far it is off: beside the curve, or at an end along it.
-    fn distance(&self) -> f64 {
+    pub fn distance(&self) -> f64 {
         let ends = self.end_errors.into_iter().flatten();
         ends.fold(self.deviation.largest, f64::max)
     }
@@ -148,22 +172,25 @@ pub fn approximate_between(
 }
 
 /// Approximate the part of a curve between two of its parameters so that the deviation is at most a
-/// tolerance and all levels compared have the curve's features, by as few vertices as it takes, of the
-/// `spacing` given or of the best one. Where nothing reaches both the nearest that was found comes back.
+/// tolerance and all levels compared have the curve's features, by as few vertices as it takes; where that is more
+/// than a hundred, by up to 1 % more. Where nothing
+/// reaches both, what comes back is the nearest that was found, or of those that are near enough the one with
+/// the most levels that are equal, and of these the one with the fewest vertices.
 ///
 /// # Errors
 /// [`ApproximationError`] if no number of vertices makes an approximation.
 pub fn approximate_to_tolerance(
     curve: &dyn Differentiable,
     interval: [f64; 2],
-    tolerance: f64,
-    spacing: Option<Spacing>,
+    goal: &Goal,
     asked: &Asked,
     progress: &Progress,
 ) -> Result<Approximated, ApproximationError> {
     // The simplest knots say at once what cannot be made at all.
     asked.knots(interval, asked.degree + 1)?;
-    let spacings = spacing.map_or(SPACINGS.to_vec(), |spacing| vec![spacing]);
+    let spacings = goal
+        .spacing
+        .map_or(SPACINGS.to_vec(), |spacing| vec![spacing]);
     let respaced = spacings.into_iter().map(|spacing| {
         let respaced = match spacing {
             Spacing::Parameter => None,
@@ -174,12 +201,12 @@ pub fn approximate_to_tolerance(
     let search = Search {
         curve,
         interval,
-        tolerance,
+        goal,
         asked,
         spacings: respaced.collect(),
     };
     let found = search.run(progress)?;
-    if found.meets(tolerance) {
+    if found.distance() <= goal.tolerance {
         return Ok(found);
     }
     // What is too far away was not compared yet.
@@ -191,7 +218,7 @@ pub fn approximate_to_tolerance(
 struct Search<'a> {
     curve: &'a dyn Differentiable,
     interval: [f64; 2],
-    tolerance: f64,
+    goal: &'a Goal,
     asked: &'a Asked,
     /// A curve that stops somewhere has no arc length to go by; its own parameter is left then.
     spacings: Vec<Result<(Spacing, Option<Respaced<'a>>), ApproximationError>>,
@@ -200,41 +227,44 @@ struct Search<'a> {
 impl Search<'_> {
     fn run(&self, progress: &Progress) -> Result<Approximated, ApproximationError> {
         let least = self.asked.least_segments();
-        let (mut too_few, mut segments, mut most) = (least - 1, least, MOST_SEGMENTS);
-        let mut nearest: Result<Approximated, ApproximationError> = self.best_of(segments);
+        let most_tried = self.goal.most_segments.max(least);
+        let (mut too_few, mut segments, mut most) = (least - 1, least, most_tried);
+        let mut best: Option<Result<Approximated, ApproximationError>> = None;
         let mut found = None;
         while found.is_none() && !progress.is_cancelled() {
             progress.set_done(0.5 * segments as f64 / most as f64);
             let tried = self.best_of(segments);
-            if tried
-                .as_ref()
-                .is_ok_and(|tried| tried.meets(self.tolerance))
-            {
+            let distance = tried.as_ref().map(Approximated::distance);
+            let is_near = distance.is_ok_and(|distance| distance <= self.goal.tolerance);
+            if is_near && tried.as_ref().is_ok_and(Approximated::is_equivalent) {
                 found = tried.ok();
                 continue;
             }
-            if let Ok(tried) = tried {
-                if tried.distance() <= self.tolerance {
-                    most = most.min((FOR_SHAPE * segments).min(MOST_SEGMENTS));
-                }
-                nearest = match nearest {
-                    Ok(nearest) if !nearer(&tried, &nearest) => Ok(nearest),
-                    _ => Ok(tried),
-                };
+            best = Some(self.better(best, tried));
+            if is_near {
+                most = most.min(MOST_FOR_SHAPE.max(segments));
             }
             if segments == most {
-                return nearest;
+                break;
             }
             too_few = segments;
-            segments = (segments + segments.div_ceil(2)).min(most);
+            // The shape takes many more.
+            let more = if is_near {
+                segments
+            } else {
+                segments.div_ceil(2)
+            };
+            segments = (segments + more).min(most);
         }
         let Some(mut found) = found else {
-            return nearest;
+            return best.unwrap_or_else(|| self.best_of(least));
         };
-        while segments - too_few > 1 && !progress.is_cancelled() {
+        while segments - too_few > 1 + segments / FINE && !progress.is_cancelled() {
             let middle = too_few + (segments - too_few) / 2;
             match self.best_of(middle) {
-                Ok(tried) if tried.meets(self.tolerance) => (found, segments) = (tried, middle),
+                Ok(tried) if tried.meets(self.goal.tolerance) => {
+                    (found, segments) = (tried, middle);
+                }
                 _ => too_few = middle,
             }
             progress.set_done(1.0 - 0.5 / (segments - too_few) as f64);
@@ -245,7 +275,7 @@ impl Search<'_> {
     /// The first spacing that reaches what is asked for with so many segments, or the nearest.
     fn best_of(&self, segments: usize) -> Result<Approximated, ApproximationError> {
         let count = self.asked.vertices(segments);
-        let mut nearest: Option<Result<Approximated, ApproximationError>> = None;
+        let mut best: Option<Result<Approximated, ApproximationError>> = None;
         for spacing in &self.spacings {
             let tried = match spacing {
                 Ok((spacing, respaced)) => self.tried(*spacing, respaced.as_ref(), count),
@@ -253,21 +283,36 @@ impl Search<'_> {
             };
             if tried
                 .as_ref()
-                .is_ok_and(|tried| tried.meets(self.tolerance))
+                .is_ok_and(|tried| tried.meets(self.goal.tolerance))
             {
                 return tried;
             }
-            nearest = match (nearest, tried) {
-                (None, tried) => Some(tried),
-                (Some(Err(_)), Ok(tried)) => Some(Ok(tried)),
-                (Some(Ok(known)), Ok(tried)) if nearer(&tried, &known) => Some(Ok(tried)),
-                (known, _) => known,
-            };
+            best = Some(self.better(best, tried));
         }
-        nearest.unwrap_or_else(|| {
+        best.unwrap_or_else(|| {
             let parameter = self.interval[0];
             Err(ApproximationError::NoPoint { parameter })
         })
+    }
+
+    /// The better of what is known and what was tried: what is near enough and has more equal levels, and
+    /// else what is nearer. Of equal ones that counts which is known.
+    fn better(
+        &self,
+        known: Option<Result<Approximated, ApproximationError>>,
+        tried: Result<Approximated, ApproximationError>,
+    ) -> Result<Approximated, ApproximationError> {
+        let (known, tried) = match (known, tried) {
+            (None, tried) | (Some(Err(_)), tried @ Ok(_)) => return tried,
+            (Some(known), Err(_)) => return known,
+            (Some(Ok(known)), Ok(tried)) => (known, tried),
+        };
+        let tolerance = self.goal.tolerance;
+        let is_better = match (known.distance() <= tolerance, tried.distance() <= tolerance) {
+            (true, true) => tried.equal_levels() > known.equal_levels(),
+            _ => tried.distance() < known.distance(),
+        };
+        Ok(if is_better { tried } else { known })
     }
 
     fn tried(
@@ -285,16 +330,12 @@ impl Search<'_> {
         };
         let measured = placed.measured()?;
         // Levels take time, and are asked for only where the place is right.
-        if measured.found.distance() <= self.tolerance {
+        if measured.found.distance() <= self.goal.tolerance {
             measured.compared()
         } else {
             Ok(measured.found)
         }
     }
-}
-
-fn nearer(tried: &Approximated, known: &Approximated) -> bool {
-    tried.distance() < known.distance()
 }
 
 /// A polygon, placed but not measured.

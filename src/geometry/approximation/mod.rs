@@ -10,8 +10,8 @@ mod placing;
 mod spacing;
 
 pub use approximating::{
-    Approximated, Asked, MOST_SEGMENTS, approximate_between, approximate_by_steps,
-    approximate_to_tolerance,
+    Approximated, Asked, Goal, MOST_FOR_SHAPE, MOST_SEGMENTS, approximate_between,
+    approximate_by_steps, approximate_to_tolerance,
 };
 pub use deviation::MeasuredDeviation;
 pub use equivalence::{LevelComparison, LevelFeature, SideBySide, compare_levels};
