@@ -101,6 +101,7 @@ impl CurveSamples {
         for (piece, samples) in self.samples.chunks_mut(size).enumerate() {
             leaps::mark(curve, piece, samples);
         }
+        leaps::shorten(&mut self.samples, size);
         let revision = Revision::new();
         for block in 0..self.blocks.len() {
             self.blocks[block] = self.summary(block, revision);
@@ -170,7 +171,12 @@ impl CurveSamples {
         block * BLOCK..((block + 1) * BLOCK).min(self.pieces)
     }
 
-    /// Measure the arc length: to plotting accuracy, not the exact figure.
+    /// Whether the curve leaps nowhere.
+    pub fn is_continuous(&self) -> bool {
+        self.samples.iter().all(|sample| !sample.leaps)
+    }
+
+    /// Measure the arc length, without leaps and the far ways to and from them: to plotting accuracy, not the exact figure.
     pub fn length(&self) -> f64 {
         self.blocks.iter().map(|block| block.length).sum()
     }

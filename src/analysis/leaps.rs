@@ -16,6 +16,9 @@ const SHRUNK: f64 = 1e-3;
 /// follows the curve.
 const ALONG: f64 = 0.5;
 
+/// Steps that are so many times as long as half of all steps lead far away.
+const FAR: f64 = 16.0;
+
 /// A chord may be so many times as long as the step at the greater of the speeds at its ends, or the
 /// inverse of this share at the lesser one.
 const LONGER: f64 = 2.0;
@@ -120,6 +123,41 @@ pub fn mark(curve: &dyn ParametricCurve, piece: usize, samples: &mut [Sample]) {
         if !sample.point.is_finite() {
             sample.point = DVec3::NAN;
         }
+    }
+}
+
+/// Measure no arc length over the far ways of a curve to a leap and from it either, lest a plot show nothing else:
+/// over steps that are many times as long as half of all steps are. `size` is the number of samples of a piece.
+pub fn shorten(samples: &mut [Sample], size: usize) {
+    let is_first = |index: usize| index % size == 0;
+    let mut steps: Vec<f64> = (0..samples.len())
+        .map(|index| match is_first(index) {
+            true => 0.0,
+            false => samples[index].arc_length - samples[index - 1].arc_length,
+        })
+        .collect();
+    let inner = (0..samples.len()).filter(|index| !is_first(*index) && !samples[*index].leaps);
+    let mut sorted: Vec<f64> = inner.map(|index| steps[index]).collect();
+    sorted.sort_by(f64::total_cmp);
+    let Some(median) = sorted.get(sorted.len() / 2) else {
+        return;
+    };
+    let longest = FAR * median;
+    let leaping: Vec<usize> = (0..samples.len())
+        .filter(|index| samples[*index].leaps)
+        .collect();
+    for leap in leaping {
+        let is_far = |index: &usize| is_first(*index) || steps[*index] > longest;
+        let before: Vec<usize> = (0..leap).rev().take_while(is_far).collect();
+        let after: Vec<usize> = (leap + 1..samples.len()).take_while(is_far).collect();
+        for index in before.into_iter().chain(after) {
+            steps[index] = 0.0;
+        }
+    }
+    let mut length = 0.0;
+    for (index, (sample, step)) in samples.iter_mut().zip(&steps).enumerate() {
+        length = if is_first(index) { 0.0 } else { length + step };
+        sample.arc_length = length;
     }
 }
 

@@ -124,6 +124,7 @@ mod tests {
     use glam::{DQuat, DVec3};
 
     use super::*;
+    use crate::analysis::SampledKind;
     use crate::geometry::references::ReferenceCurve;
 
     /// Roundings of a placement, in units of what is placed.
@@ -173,5 +174,53 @@ mod tests {
                 }
             }
         }
+    }
+
+    fn analysed(text: &str) -> ReferenceAnalysis {
+        let curve = ReferenceCurve::from_text(text).unwrap();
+        ReferenceAnalysis::new(Arc::new(Reference::new("a", curve)))
+    }
+
+    #[test]
+    fn features_are_where_exact_derivatives_put_them_and_cusps_are_none_of_them() {
+        use SampledKind::{Cusp, Inflection, Maximum, Minimum};
+        for (text, expected) in [
+            ("formula:x=t;y=(t-1.5)^2;from=0;to=4", &[(Maximum, 1.5)][..]),
+            (
+                "formula:x=t;y=t^3;from=-1;to=0.2",
+                &[(Minimum, -(1.0_f64 / 45.0).powf(0.25)), (Inflection, 0.0)],
+            ),
+            ("formula:x=t^2;y=t^3;from=-1;to=1.3", &[(Cusp, 0.0)]),
+            (
+                "ellipse:a=3,b=1,from=0.5,to=4",
+                &[(Minimum, 0.5 * PI), (Maximum, PI)],
+            ),
+        ] {
+            let analysis = analysed(text);
+            let curve = &analysis.reference().curve;
+            let features = analysis.features().iter();
+            let found: Vec<(SampledKind, f64)> = features
+                .map(|it| (it.kind, curve.parameter(it.u)))
+                .collect();
+            assert_eq!(found.len(), expected.len(), "{text}: {found:?}");
+            for ((kind, t), (expected, place)) in found.iter().zip(expected) {
+                assert_eq!(kind, expected, "{text}");
+                assert!((t - place).abs() < 1e-12, "{text}: {t} {place}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_far_ways_to_a_pole_do_not_squeeze_plots() {
+        let analysis = analysed("formula:x=t;y=1/t;from=-1;to=1.1");
+        let samples = analysis.sampled().samples;
+        assert!(!samples.is_continuous());
+        // Up to where the curve is about 16 times as long as elsewhere: a few units, not thousands.
+        assert!(
+            (1.0..40.0).contains(&samples.length()),
+            "{}",
+            samples.length()
+        );
+        assert!(analysed("circle").sampled().samples.is_continuous());
     }
 }

@@ -1,16 +1,14 @@
 //! Features of a curve that no polygon makes: found among samples, not proved.
 
 use super::curve_samples::SampledCurve;
+use crate::geometry::sampled_cusps;
 
 /// What rounding may make of a sampled curvature, in units of the largest one: smaller ups and
 /// downs are none.
 const ROUNDING: f64 = 1e-9;
 
-/// The golden section.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
-
-/// Steps of a search in one dimension: each leaves at most 0.618 of an interval of two samples.
-const STEPS: usize = 40;
+/// Steps of a bisection between two samples: to the last digit.
+const HALVINGS: usize = 60;
 
 /// A kind of sampled feature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,6 +19,8 @@ pub enum SampledKind {
     Maximum,
     /// The curvature is least.
     Minimum,
+    /// The curve stops, C′ = 0, and has no curvature.
+    Cusp,
 }
 
 /// A feature that samples show.
@@ -30,24 +30,47 @@ pub struct SampledFeature {
     pub kind: SampledKind,
     /// Where it is.
     pub u: f64,
-    /// The curvature there: signed of a planar curve.
+    /// The curvature there: signed of a planar curve; not a number at a cusp.
     pub curvature: f64,
 }
 
-/// List the inflections and the extrema of the curvature within a curve that its samples show, in
-/// the order of u. An extremum must stand out from the samples around it by more than rounding.
+/// List the inflections and the extrema of the curvature within a curve that its samples show, and its cusps, in
+/// the order of u. An extremum must stand out from the samples around it by more than rounding; a cusp, near which
+/// the curvature grows beyond all bounds, is none.
 pub(super) fn sampled_features(sampled: SampledCurve<'_>) -> Vec<SampledFeature> {
-    let points = curvatures(sampled);
-    let largest = points.iter().map(|(_, value)| value.abs());
+    let cusps = sampled_cusps(sampled.curve);
+    let runs = runs(curvatures(sampled), &cusps, sampled);
+    let largest = runs.iter().flatten().map(|(_, value)| value.abs());
     let noise = ROUNDING * largest.fold(0.0, f64::max);
-    let mut features = extrema(&points, noise, sampled);
-    if sampled.samples.is_planar() {
-        features.extend(inflections(&points, noise, sampled));
+    let mut features: Vec<SampledFeature> = Vec::new();
+    for run in &runs {
+        features.extend(extrema(run, noise, sampled));
+        if sampled.samples.is_planar() {
+            features.extend(inflections(run, noise, sampled));
+        }
     }
     // Through infinity the curvature may change its sign, but the curve has no point there.
     features.retain(|feature| !leaps_at(sampled, feature.u));
+    features.extend(cusps.into_iter().map(|u| SampledFeature {
+        kind: SampledKind::Cusp,
+        u,
+        curvature: f64::NAN,
+    }));
     features.sort_by(|a, b| a.u.total_cmp(&b.u));
     features
+}
+
+/// The samples between the cusps: those within a step of one count for nothing.
+fn runs(points: Vec<(f64, f64)>, cusps: &[f64], sampled: SampledCurve<'_>) -> Vec<Vec<(f64, f64)>> {
+    let step = 1.0 / sampled.samples.steps() as f64;
+    let mut runs = vec![Vec::new(); cusps.len() + 1];
+    for (u, value) in points {
+        let run = cusps.partition_point(|cusp| *cusp < u);
+        if cusps.iter().all(|cusp| (u - cusp).abs() > step) {
+            runs[run].push((u, value));
+        }
+    }
+    runs
 }
 
 /// Whether the curve leaps in the step between two samples that holds u.
@@ -117,7 +140,8 @@ fn extrema(points: &[(f64, f64)], noise: f64, sampled: SampledCurve<'_>) -> Vec<
     features
 }
 
-/// Find an extremum between the neighbours of a sample by golden sections.
+/// Find an extremum between the neighbours of a sample: where the slope of the curvature, an exact derivative,
+/// changes its sign.
 fn extremum(
     kind: SampledKind,
     points: &[(f64, f64)],
@@ -125,25 +149,30 @@ fn extremum(
     sampled: SampledCurve<'_>,
 ) -> Option<SampledFeature> {
     let (before, after) = (points.get(index.checked_sub(1)?)?, points.get(index + 1)?);
+    let planar = sampled.samples.is_planar();
     let sign = if kind == SampledKind::Maximum {
         1.0
     } else {
         -1.0
     };
-    let height = |u: f64| sign * curvature_at(sampled, u);
-    let (mut from, mut to) = (before.0, after.0);
-    for _ in 0..STEPS {
-        let inner = GOLDEN * (to - from);
-        let (left, right) = (to - inner, from + inner);
-        if height(left) < height(right) {
-            from = left;
-        } else {
-            to = right;
-        }
-    }
-    let u = 0.5 * (from + to);
+    let u = bisected([before.0, after.0], |u| {
+        sign * sampled.curve.jet(u).curvature_slope(planar)
+    });
     let curvature = curvature_at(sampled, u);
     Some(SampledFeature { kind, u, curvature })
+}
+
+/// Find where what is positive at the first of two parameters is so no longer.
+fn bisected([mut from, mut to]: [f64; 2], value: impl Fn(f64) -> f64) -> f64 {
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (from + to);
+        if value(middle) > 0.0 {
+            from = middle;
+        } else {
+            to = middle;
+        }
+    }
+    0.5 * (from + to)
 }
 
 /// Find where the curvature changes its sign, by bisection between samples of different signs.
@@ -155,21 +184,12 @@ fn inflections(
     let signed = points.iter().filter(|(_, value)| value.abs() > noise);
     let signed: Vec<&(f64, f64)> = signed.collect();
     let changes = signed.windows(2).filter(|pair| pair[0].1 * pair[1].1 < 0.0);
-    let bisected = changes.map(|pair| {
-        let (mut from, mut to) = (pair[0].0, pair[1].0);
-        for _ in 0..STEPS {
-            let middle = 0.5 * (from + to);
-            if curvature_at(sampled, middle) * pair[0].1 > 0.0 {
-                from = middle;
-            } else {
-                to = middle;
-            }
-        }
-        SampledFeature {
-            kind: SampledKind::Inflection,
-            u: 0.5 * (from + to),
-            curvature: 0.0,
-        }
+    let found = changes.map(|pair| SampledFeature {
+        kind: SampledKind::Inflection,
+        u: bisected([pair[0].0, pair[1].0], |u| {
+            pair[0].1.signum() * curvature_at(sampled, u)
+        }),
+        curvature: 0.0,
     });
-    bisected.collect()
+    found.collect()
 }

@@ -1,8 +1,11 @@
 //! References as `batten inspect` prints them.
 
+use std::sync::Arc;
+
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
+use crate::analysis::{ReferenceAnalysis, SampledFeature, SampledKind};
 use crate::document::Reference;
 use crate::geometry::references::ReferenceForm;
 
@@ -20,6 +23,23 @@ pub(super) struct InspectedReference {
     points: Option<Vec<[f64; 3]>>,
     interval: [f64; 2],
     placement: Placement,
+    features: SampledFeatures,
+}
+
+/// What samples show of a smooth curve, by its parameter t: nothing is proved.
+#[derive(Serialize)]
+struct SampledFeatures {
+    sampled: bool,
+    inflections: Vec<f64>,
+    curvature_extrema: Vec<SampledExtremum>,
+    cusps: Vec<f64>,
+}
+
+#[derive(Serialize)]
+struct SampledExtremum {
+    t: f64,
+    kind: &'static str,
+    curvature: f64,
 }
 
 /// A rotation about the origin, then a scale, then a translation.
@@ -49,6 +69,37 @@ impl InspectedReference {
                 scale: placement.scale(),
                 translation: placement.translation().to_array(),
             },
+            features: SampledFeatures::of(reference),
+        }
+    }
+}
+
+impl SampledFeatures {
+    fn of(reference: &Reference) -> Self {
+        let analysis = ReferenceAnalysis::new(Arc::new(reference.clone()));
+        let at = |feature: &SampledFeature| reference.curve.parameter(feature.u);
+        let places = |kind: SampledKind| {
+            let features = analysis.features().iter();
+            let found = features.filter(|feature| feature.kind == kind).map(at);
+            found.collect()
+        };
+        let extremum = |feature: &SampledFeature| {
+            let kind = match feature.kind {
+                SampledKind::Maximum => "max",
+                SampledKind::Minimum => "min",
+                SampledKind::Inflection | SampledKind::Cusp => return None,
+            };
+            Some(SampledExtremum {
+                t: at(feature),
+                kind,
+                curvature: feature.curvature,
+            })
+        };
+        Self {
+            sampled: true,
+            inflections: places(SampledKind::Inflection),
+            curvature_extrema: analysis.features().iter().filter_map(extremum).collect(),
+            cusps: places(SampledKind::Cusp),
         }
     }
 }

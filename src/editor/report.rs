@@ -38,8 +38,8 @@ pub struct Readout {
 pub struct ReferenceReport {
     /// Whether it is planar.
     pub planar: bool,
-    /// The arc length, to plotting accuracy.
-    pub length: f64,
+    /// The arc length, to plotting accuracy; `None` if the curve runs through infinity or jumps.
+    pub length: Option<f64>,
     /// The smallest and largest curvature among the samples.
     pub curvature: Option<Range>,
 }

@@ -172,7 +172,9 @@ pub fn figures_ui(ui: &mut Ui, reference: &Reference, report: &ReferenceReport) 
         "Kind",
         &format!("{kind}, {}", reference.curve.form().label().to_lowercase()),
     );
-    let length = document_unit::length(ui.ctx(), figures::significant(report.length, 8));
+    let length = report.length.map(|length| figures::significant(length, 8));
+    let length = length.map(|length| document_unit::length(ui.ctx(), length));
+    let length = length.unwrap_or_else(|| "none: it has a gap".to_owned());
     widgets::figure_row(ui, "Length", &length);
     if reference.curve.form().is_smooth() {
         let plain = |value: f64| figures::significant(value, 6);

@@ -125,6 +125,7 @@ impl FeatureReport {
                 SampledKind::Inflection => (FeatureKind::Inflection, None),
                 SampledKind::Maximum => (FeatureKind::CurvatureMaximum, Some(feature.curvature)),
                 SampledKind::Minimum => (FeatureKind::CurvatureMinimum, Some(feature.curvature)),
+                SampledKind::Cusp => (FeatureKind::Cusp, None),
             };
             FeatureRow {
                 kind,

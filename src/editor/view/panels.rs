@@ -81,7 +81,7 @@ impl Editor {
         let samples = self.analyses.reference(self.active()?)?.sampled().samples;
         Some(ReferenceReport {
             planar: samples.is_planar(),
-            length: samples.length(),
+            length: samples.is_continuous().then(|| samples.length()),
             curvature: samples.curvature(),
         })
     }

@@ -17,6 +17,9 @@ const SAMPLES: usize = 256;
 /// A piece may turn by about so much.
 const PIECE_TURNING: f64 = std::f64::consts::FRAC_PI_4;
 
+/// What moves by no more than this share of its coordinates over the whole interval stands still.
+const STANDING: f64 = 8.0 * f64::EPSILON;
+
 /// The numbers of pieces of a smooth curve.
 const PIECES: std::ops::RangeInclusive<usize> = 8..=1024;
 
@@ -38,8 +41,9 @@ impl ReferenceCurve {
     /// interval: point i stands at t = i.
     ///
     /// # Errors
-    /// [`ReferenceError::EmptyInterval`], [`ReferenceError::OutsideDomain`], and
-    /// [`ReferenceError::NotFinite`] if points or directions of the curve leave the range of numbers.
+    /// [`ReferenceError::EmptyInterval`], [`ReferenceError::OutsideDomain`],
+    /// [`ReferenceError::NotFinite`] if points or directions of the curve leave the range of numbers, and
+    /// [`ReferenceError::OnePoint`] if it does not move.
     pub fn new(
         form: ReferenceForm,
         [from, to]: [f64; 2],
@@ -70,7 +74,9 @@ impl ReferenceCurve {
             placement,
             pieces: 1,
         };
-        let turning = curve.sampled_turning()?;
+        let Some(turning) = curve.sampled_turning()? else {
+            return Err(ReferenceError::OnePoint);
+        };
         let pieces = (turning / PIECE_TURNING).ceil() as usize;
         curve.pieces = pieces.clamp(*PIECES.start(), *PIECES.end());
         Ok(curve)
@@ -146,11 +152,12 @@ impl ReferenceCurve {
         values
     }
 
-    /// Sum up the angles between the directions at even parameters.
-    fn sampled_turning(&self) -> Result<f64, ReferenceError> {
+    /// Sum up the angles between the directions at even parameters; `None` if the curve moves nowhere by more
+    /// than rounding.
+    fn sampled_turning(&self) -> Result<Option<f64>, ReferenceError> {
         let [from, to] = self.interval;
         let mut last: Option<DVec3> = None;
-        let mut turning = 0.0;
+        let (mut turning, mut moves) = (0.0, false);
         for index in 0..=SAMPLES {
             let share = index as f64 / SAMPLES as f64;
             let t = from * (1.0 - share) + to * share;
@@ -160,13 +167,15 @@ impl ReferenceCurve {
             if !values.iter().all(finite) {
                 return Err(ReferenceError::NotFinite { t });
             }
+            let farthest = values[0].abs().max_element();
+            moves |= values[1].abs().max_element() * (to - from) > STANDING * farthest;
             // At a cusp the direction before counts.
             if let Some(direction) = vector::direction(values[1]) {
                 turning += last.map_or(0.0, |last| last.angle_between(direction));
                 last = Some(direction);
             }
         }
-        Ok(turning)
+        Ok(moves.then_some(turning))
     }
 }
 

@@ -108,6 +108,9 @@ pub enum ReferenceError {
         /// Where.
         t: f64,
     },
+    /// The curve is a single point.
+    #[error("the formulas give one point, the same for every t: let x or y depend on t")]
+    OnePoint,
     /// The placement is no motion with a scale.
     #[error(
         "a placement needs a rotation, a scale from 1e-30 to 1e30 and a translation of finite numbers"
