@@ -96,7 +96,7 @@ fn curvature_and_torsion_levels() {
                 assert_levels_near(&what, &torsion, &expected["torsion"]);
             }
             let slope = number(&expected["curvature_per_arclength"]);
-            assert_near(&what, found.curvature_slope, slope, LEVELS, slope.abs());
+            assert_near(&what, found.curvature_slopes[0], slope, LEVELS, slope.abs());
         }
     }
 }

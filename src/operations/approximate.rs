@@ -19,7 +19,7 @@ use crate::geometry::approximation::{
     approximate_between, approximate_by_steps, approximate_to_tolerance,
 };
 use crate::geometry::references::ReferenceCurve;
-use crate::geometry::{Differentiable, FloatPolygon, Progress, significant};
+use crate::geometry::{Differentiable, FloatPolygon, Progress, sampled_cusps, significant};
 
 /// The most vertices that can be asked for.
 const MOST: usize = 10_000;
@@ -206,6 +206,23 @@ impl<'a> Source<'a> {
         }
     }
 
+    /// The parameters between two others at which it stops, as samples show.
+    fn cusps(&self, [from, to]: [f64; 2]) -> Vec<f64> {
+        match self {
+            Self::Reference(reference) => match reference.over([from, to]) {
+                Ok(part) => {
+                    let cusps = sampled_cusps(&part).into_iter();
+                    cusps.map(|u| part.parameter(u)).collect()
+                }
+                Err(_) => Vec::new(),
+            },
+            Self::Curve(polygon) => {
+                let cusps = sampled_cusps(*polygon).into_iter();
+                cusps.filter(|u| (from..=to).contains(u)).collect()
+            }
+        }
+    }
+
     fn is_periodic(&self) -> bool {
         matches!(self, Self::Curve(polygon) if polygon.is_periodic())
     }
@@ -221,7 +238,12 @@ impl<'a> Source<'a> {
 fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
     let source = Source::of(input, values)?;
     let tolerance = positive(values, &TOLERANCE)?;
-    let (found, alternatives) = approximated(&source, values, tolerance, progress)?;
+    let placing = values.choice(&METHOD, &PLACINGS);
+    let (found, alternatives) = approximated(&source, values, placing, tolerance, progress)?;
+    let nearer = match placing {
+        Placing::OnCurve => by_quasi_interpolation(&source, values, &found),
+        Placing::Quasi => None,
+    };
     let deviation = Deviation::Measured(found.deviation.largest);
     let marks = marks(&source, &found);
     let outcome = match source {
@@ -242,6 +264,8 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
     remarks.extend(alternatives);
     remarks.extend(remark_on_levels(values, &found));
     remarks.extend(remark_on_corrections(&found));
+    remarks.extend(remark_on_cusps(&source, found.interval));
+    remarks.extend(remark_on_quasi(&found, nearer));
     Ok(Outcome {
         reached: tolerance.is_none_or(|tolerance| found.meets(tolerance)),
         figures: figures(&found),
@@ -256,6 +280,7 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
 fn approximated(
     source: &Source<'_>,
     values: &Values,
+    placing: Placing,
     tolerance: Option<f64>,
     progress: &Progress,
 ) -> Result<(Approximated, Option<String>), OperationError> {
@@ -265,7 +290,7 @@ fn approximated(
     let part = Part::of(source, values, tolerance, count)?;
     let asked = Asked {
         degree,
-        placing: values.choice(&METHOD, &PLACINGS),
+        placing,
         levels: values.whole(&LEVELS),
         periodic: matches!(part, Part::Round(_)),
         fit_ends: values.switch(&FIT_ENDS),
@@ -300,6 +325,25 @@ fn approximated(
             )
         }
     })
+}
+
+/// How far as many vertices by quasi-interpolation would be off, where levels are not compared; `None` where there
+/// are none.
+fn by_quasi_interpolation(
+    source: &Source<'_>,
+    values: &Values,
+    found: &Approximated,
+) -> Option<f64> {
+    let asked = Asked {
+        degree: found.polygon.degree(),
+        placing: Placing::Quasi,
+        levels: 0,
+        periodic: found.polygon.is_periodic(),
+        fit_ends: values.switch(&FIT_ENDS),
+    };
+    let (count, curve) = (found.polygon.vertices().len(), source.differentiable());
+    let quasi = approximate_between(curve, found.interval, count, found.spacing, &asked);
+    Some(quasi.ok()?.distance())
 }
 
 fn count_given(values: &Values) -> Result<Option<usize>, OperationError> {
@@ -412,6 +456,31 @@ fn remark_on_corrections(found: &Approximated) -> Option<String> {
         "The corrections that quasi-interpolation makes do not fade but grow, {} times at vertex {}: its vertices are not where they belong; take more vertices, a lower degree, or vertices on the curve",
         significant(corrections.growth, 2),
         corrections.vertex,
+    ))
+}
+
+/// Say that quasi-interpolation would be nearer, if it is by more than a factor of 2.
+fn remark_on_quasi(found: &Approximated, quasi: Option<f64>) -> Option<String> {
+    let (own, quasi) = (found.distance(), quasi?);
+    (2.0 * quasi < own).then(|| {
+        format!(
+            "With vertices on the curve it is {} off: that keeps the shape, not the place. Method quasi would be {} off",
+            significant(own, 3),
+            significant(quasi, 3)
+        )
+    })
+}
+
+/// Say where the curve stops: the rule for cusps.
+fn remark_on_cusps(source: &Source<'_>, interval: [f64; 2]) -> Option<String> {
+    let cusps = source.cusps(interval);
+    let first = significant(*cusps.first()?, 5);
+    let (what, place) = match cusps.len() {
+        1 => ("a cusp".to_owned(), "it"),
+        count => (format!("{count} cusps, the first"), "them"),
+    };
+    Some(format!(
+        "What is approximated has {what} at {first}: it has no curvature there, levels are compared beside {place}, and vertices can be spaced by its parameter only"
     ))
 }
 

@@ -71,6 +71,7 @@ fn level(level: &LevelComparison) -> serde_json::Value {
         "level": level.level,
         "equal": level.is_equal(),
         "least": level.least,
+        "sampled": true,
         "reference": there.collect::<Vec<_>>(),
         "curve": here.collect::<Vec<_>>(),
         "first_difference": level.first_difference(),

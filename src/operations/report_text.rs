@@ -59,7 +59,7 @@ fn level_lines(level: &LevelComparison) -> Vec<String> {
     };
     let counts = significant(level.least, 2);
     let mut lines = vec![format!(
-        "{}: {verdict} (changes below {counts} do not count)",
+        "{}: {verdict} (sampled; changes below {counts} do not count)",
         level.name()
     )];
     if level.there.is_empty() && level.here.is_empty() {

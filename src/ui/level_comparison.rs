@@ -35,10 +35,9 @@ fn level_ui(ui: &mut Ui, level: &LevelComparison) {
         ["reference".into(), "curve".into()],
         Row::Heading,
     );
-    for index in 0..level.there.len().max(level.here.len()) {
-        let there = level.there.get(index).map(|(_, it)| it.name().to_owned());
-        let here = level.here.get(index);
-        let here = here.map(|(u, feature)| told("u", *u, *feature));
+    for (index, (there, here)) in level.side_by_side().enumerate() {
+        let there = there.map(|(t, feature)| told("t", t, feature));
+        let here = here.map(|(u, feature)| told("u", u, feature));
         let row = match difference {
             Some(first) if first == index => Row::Difference,
             _ => Row::Feature,

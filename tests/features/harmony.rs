@@ -69,7 +69,7 @@ fn by_simpson(polygon: &FloatPolygon) -> [f64; 3] {
             let weight = factor / (3.0 * STEPS as f64) * polygon.segment_jet(segment, t).speed();
             sums[0] += weight;
             sums[1] += weight * levels.curvature[0].powi(2);
-            sums[2] += weight * levels.curvature_slope.powi(2);
+            sums[2] += weight * levels.curvature_slopes[0].powi(2);
         }
     }
     let length = sums[0];

@@ -131,7 +131,7 @@ proptest! {
         // κ and τ themselves scale with the inverse length, dκ/ds with its square.
         let unscaled = original.segment_curvature_levels(2, t, 1.0);
         prop_assert_eq!(found.curvature[0] * scale, unscaled.curvature[0]);
-        prop_assert_eq!(found.curvature_slope * scale * scale, unscaled.curvature_slope);
+        prop_assert_eq!(found.curvature_slopes[0] * scale * scale, unscaled.curvature_slopes[0]);
         prop_assert_eq!(
             (torsion(&found)[0] * scale).to_bits(),
             torsion(&unscaled)[0].to_bits()
@@ -157,7 +157,7 @@ proptest! {
         check(&found.curvature, &expected.curvature, &size, sign, LEVELS)?;
         let size = sizes(&original, 1, 1.0, torsion);
         check(&torsion(&found), &torsion(&expected), &size, 1.0, LEVELS)?;
-        let (found, expected) = (found.curvature_slope, -sign * expected.curvature_slope);
+        let (found, expected) = (found.curvature_slopes[0], -sign * expected.curvature_slopes[0]);
         prop_assert!((found - expected).abs() <= ROUNDING * expected.abs().max(1.0));
     }
 

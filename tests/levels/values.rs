@@ -128,7 +128,13 @@ fn the_parabola_of_every_degree_in_closed_form() {
             let bend = (480.0 * x * x - 24.0) / q.powf(4.5);
             let closed = [2.0 / q.powf(1.5), bend / (1.0 + slope * slope).powf(1.5)];
             assert_within(&what, &found.curvature, &closed, ROUNDED_VERTICES);
-            assert_near(&what, found.curvature_slope, slope, ROUNDED_VERTICES, 1.0);
+            assert_near(
+                &what,
+                found.curvature_slopes[0],
+                slope,
+                ROUNDED_VERTICES,
+                1.0,
+            );
             let all = numbers(&expected["curvature"]);
             if degree == 2 {
                 // Its vertices are exact.
@@ -192,7 +198,7 @@ fn a_circle_has_one_constant_level_and_zeros() {
                 };
                 let curvature = scaled(found.curvature);
                 assert_within(&what, &curvature, &[1.0, 0.0, 0.0, 0.0], ROUNDED_VERTICES);
-                let slope = found.curvature_slope / inverse.powi(2);
+                let slope = found.curvature_slopes[0] / inverse.powi(2);
                 assert_near(&what, slope, 0.0, ROUNDED_VERTICES, 1.0);
                 assert_eq!(found.torsion.is_some(), in_space);
                 let torsion = scaled(found.torsion.unwrap_or_default());
@@ -234,7 +240,13 @@ fn mineur_farin_spirals_in_closed_form() {
             let what = format!("degree {degree} at {t}");
             let expected = [curvature, bend / (1.0 + slope * slope).powf(1.5)];
             assert_within(&what, &found.curvature, &expected, ROUNDED_VERTICES);
-            assert_near(&what, found.curvature_slope, slope, ROUNDED_VERTICES, 1.0);
+            assert_near(
+                &what,
+                found.curvature_slopes[0],
+                slope,
+                ROUNDED_VERTICES,
+                1.0,
+            );
             let (across, up) = found.logarithmic().expect("on the graph");
             assert_near(&what, across, -curvature.log10(), ROUNDED_VERTICES, 1.0);
             let expected = (curvature / slope.abs()).log10();
@@ -350,7 +362,13 @@ fn helices_and_conical_spirals() {
         ROUNDED_VERTICES,
     );
     assert_within("spiral", &torsion, &[-0.75, 11.0 / 32.0], ROUNDED_VERTICES);
-    assert_near("spiral", found.curvature_slope, 0.0, ROUNDED_VERTICES, 1.0);
+    assert_near(
+        "spiral",
+        found.curvature_slopes[0],
+        0.0,
+        ROUNDED_VERTICES,
+        1.0,
+    );
 }
 
 fn all(levels: &CurvatureLevels) -> Vec<f64> {
@@ -368,7 +386,7 @@ fn a_point_has_no_levels() {
             all(&levels).iter().all(|level| level.is_nan()),
             "{levels:?}"
         );
-        assert!(levels.curvature_slope.is_nan());
+        assert!(levels.curvature_slopes[0].is_nan());
         assert_eq!(levels.logarithmic(), None);
     }
 }
@@ -396,7 +414,7 @@ fn straight_lines_have_levels_of_zero_and_no_torsion() {
             let polygon = polygon.expect("a valid polygon");
             let levels = polygon.curvature_levels(1.0, 1.0);
             assert_eq!(levels.curvature, [0.0; 4]);
-            assert_eq!(levels.curvature_slope, 0.0);
+            assert_eq!(levels.curvature_slopes[0], 0.0);
             assert_eq!(levels.torsion.is_some(), direction.z != 0.0);
             assert!(levels.torsion.iter().flatten().all(|level| level.is_nan()));
             assert_eq!(levels.logarithmic(), None);
@@ -425,7 +443,7 @@ fn an_inflection_in_space_is_a_kink_of_the_curvature() {
         &[0.0; 2],
         ROUNDED_VERTICES,
     );
-    assert_near("planar", levels.curvature_slope, 6.0, LEVELS, 6.0);
+    assert_near("planar", levels.curvature_slopes[0], 6.0, LEVELS, 6.0);
 }
 
 #[test]

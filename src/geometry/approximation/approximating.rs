@@ -4,7 +4,7 @@
 use glam::DVec3;
 
 use super::deviation::MeasuredDeviation;
-use super::equivalence::{LevelComparison, compare_levels};
+use super::equivalence::{LevelComparison, compare_levels, compare_levels_at_samples};
 use super::error::ApproximationError;
 use super::knots::UniformKnots;
 use super::placing::{Corrections, PlacedPolygon, Placing, placed};
@@ -139,9 +139,9 @@ pub fn approximate_by_steps(
     asked: &Asked,
 ) -> Result<Approximated, ApproximationError> {
     let knots = UniformKnots::of_vertices(asked.degree, first, step, count)?;
-    Placed::uniform(curve, &knots, asked)?
+    Ok(Placed::uniform(curve, &knots, asked)?
         .measured()?
-        .compared()
+        .compared())
 }
 
 /// Approximate the part of a curve between two of its parameters by so many vertices.
@@ -158,15 +158,14 @@ pub fn approximate_between(
     match spacing {
         Spacing::Parameter => {
             let knots = asked.knots(interval, count)?;
-            Placed::uniform(curve, &knots, asked)?
+            Ok(Placed::uniform(curve, &knots, asked)?
                 .measured()?
-                .compared()
+                .compared())
         }
         _ => {
             let respaced = Respaced::new(curve, interval, spacing)?;
-            Placed::respaced(curve, &respaced, spacing, count, asked)?
-                .measured()?
-                .compared()
+            let placed = Placed::respaced(curve, &respaced, spacing, count, asked)?;
+            Ok(placed.measured()?.compared())
         }
     }
 }
@@ -206,10 +205,7 @@ pub fn approximate_to_tolerance(
         spacings: respaced.collect(),
     };
     let found = search.run(progress)?;
-    if found.distance() <= goal.tolerance {
-        return Ok(found);
-    }
-    // What is too far away was not compared yet.
+    // What is too far away was not compared yet, nor are places of features refined.
     let count = found.polygon.vertices().len();
     approximate_between(curve, interval, count, found.spacing, asked)
 }
@@ -331,7 +327,7 @@ impl Search<'_> {
         let measured = placed.measured()?;
         // Levels take time, and are asked for only where the place is right.
         if measured.found.distance() <= self.goal.tolerance {
-            measured.compared()
+            Ok(measured.compared_by(compare_levels_at_samples))
         } else {
             Ok(measured.found)
         }
@@ -458,8 +454,16 @@ impl<'a> Placed<'a> {
     }
 }
 
+/// How levels are compared.
+type Compare =
+    fn(&FloatPolygon, &dyn Differentiable, &dyn Fn(f64) -> f64, usize) -> Vec<LevelComparison>;
+
 impl Measured<'_> {
-    fn compared(self) -> Result<Approximated, ApproximationError> {
+    fn compared(self) -> Approximated {
+        self.compared_by(compare_levels)
+    }
+
+    fn compared_by(self, compare: Compare) -> Approximated {
         let Placed {
             curve,
             asked,
@@ -467,9 +471,9 @@ impl Measured<'_> {
             parameter,
             ..
         } = self.placed;
-        Ok(Approximated {
-            levels: compare_levels(&polygon, curve, &*parameter, asked.levels),
+        Approximated {
+            levels: compare(&polygon, curve, &*parameter, asked.levels),
             ..self.found
-        })
+        }
     }
 }

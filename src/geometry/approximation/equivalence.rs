@@ -1,6 +1,8 @@
 //! Shape equivalence (paper, section 5): whether two curves have the same inflections, maxima and minima,
 //! in number and order, in each level of curvature and torsion.
 
+use glam::DVec3;
+
 use crate::geometry::differentiable::Differentiable;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::levels::{CurvatureLevels, LEVEL_ORDER, LEVELS, SegmentExpansion};
@@ -88,6 +90,9 @@ impl LevelComparison {
 /// A feature of the curve that is approximated and one of the approximation.
 pub type SideBySide = (Option<(f64, LevelFeature)>, Option<(f64, LevelFeature)>);
 
+/// Halvings of the step between two samples that holds a feature: to the last digit.
+const HALVINGS: usize = 50;
+
 /// Compare the first levels of curvature, and in space of torsion, of an approximation with those of
 /// the curve beside it; `parameter` tells which t belongs to a given u. Levels that are not continuous at
 /// the polygon's degree are left out: level m takes 2m derivatives, of the torsion one more.
@@ -95,12 +100,40 @@ pub type SideBySide = (Option<(f64, LevelFeature)>, Option<(f64, LevelFeature)>)
 /// Both are sampled 32 times a segment. What rises and falls by no more than rounding is no feature: by no more than
 /// 1e-8 of the level's largest value; in levels above the first by no more than 1e-5 of what the first would
 /// make of them if it changed within the curve's length; and where the first level is constant to 1e-5 of
-/// itself, by no more than ripples of that height and of the length of a segment.
+/// itself, by no more than ripples of that height and of the length of a segment. Between the samples the places of
+/// changes of sign are found by bisection, those of turning points too, by the exact slopes, up to level 3.
 pub fn compare_levels(
     polygon: &FloatPolygon,
     curve: &dyn Differentiable,
     parameter: &dyn Fn(f64) -> f64,
     levels: usize,
+) -> Vec<LevelComparison> {
+    compared(polygon, curve, parameter, levels, Places::Refined)
+}
+
+/// Compare levels as [`compare_levels`] does; places are those of samples, which is quicker.
+pub(super) fn compare_levels_at_samples(
+    polygon: &FloatPolygon,
+    curve: &dyn Differentiable,
+    parameter: &dyn Fn(f64) -> f64,
+    levels: usize,
+) -> Vec<LevelComparison> {
+    compared(polygon, curve, parameter, levels, Places::Samples)
+}
+
+/// How exactly places are told.
+#[derive(Clone, Copy, PartialEq)]
+enum Places {
+    Samples,
+    Refined,
+}
+
+fn compared(
+    polygon: &FloatPolygon,
+    curve: &dyn Differentiable,
+    parameter: &dyn Fn(f64) -> f64,
+    levels: usize,
+    places: Places,
 ) -> Vec<LevelComparison> {
     let planar = polygon.is_planar();
     let samples = Samples::new(polygon, curve, parameter, planar);
@@ -113,7 +146,7 @@ pub fn compare_levels(
         for level in 1..=levels.min(LEVELS) {
             let order = 2 * level + usize::from(torsion);
             if order <= continuous {
-                compared.push(samples.compared(polygon, torsion, level));
+                compared.push(samples.compared(polygon, curve, torsion, level, places));
             }
         }
     }
@@ -154,7 +187,14 @@ impl Samples {
         Self { u, t, here, there }
     }
 
-    fn compared(&self, polygon: &FloatPolygon, torsion: bool, level: usize) -> LevelComparison {
+    fn compared(
+        &self,
+        polygon: &FloatPolygon,
+        curve: &dyn Differentiable,
+        torsion: bool,
+        level: usize,
+        places: Places,
+    ) -> LevelComparison {
         let here = values(&self.here, torsion, level);
         let there = values(&self.there, torsion, level);
         let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, it| most.max(it.abs()));
@@ -177,14 +217,31 @@ impl Samples {
         );
         let least = (SHARE * largest(&there)).max(natural).max(noise);
         let periodic = polygon.is_periodic();
-        let listed = |values: &[f64], parameters: &[f64]| {
+        let planar = polygon.is_planar();
+        let side = |values: &[f64], parameters: &[f64], at: &dyn Fn(f64) -> CurvatureLevels| {
             let found = features(values, least, periodic).into_iter();
-            found
-                .map(|(index, feature)| (parameters[index], feature))
-                .collect::<Vec<_>>()
+            let placed = found.map(|(index, feature)| {
+                let place = match places {
+                    Places::Samples => parameters[index],
+                    Places::Refined => refined(values, parameters, (index, feature), &|place| {
+                        let levels = at(place);
+                        (
+                            value(&levels, torsion, level),
+                            slope(&levels, torsion, level),
+                        )
+                    }),
+                };
+                (place, feature)
+            });
+            placed.collect::<Vec<_>>()
         };
-        let there = listed(&there, &self.t);
-        let mut here = listed(&here, &self.u);
+        let there = side(&there, &self.t, &|t| {
+            let derivatives = curve.derivatives(t, LEVEL_ORDER);
+            let derivatives = derivatives.first_chunk().copied();
+            let derivatives = derivatives.unwrap_or([DVec3::NAN; LEVEL_ORDER + 1]);
+            CurvatureLevels::of_derivatives(&derivatives, 1.0, planar)
+        });
+        let mut here = side(&here, &self.u, &|u| polygon.curvature_levels(u, 1.0));
         if periodic {
             turn_to(&mut here, &there);
         }
@@ -216,11 +273,69 @@ fn rounding(
 }
 
 fn values(levels: &[CurvatureLevels], torsion: bool, level: usize) -> Vec<f64> {
-    let value = |it: &CurvatureLevels| match (torsion, it.torsion) {
+    let values = levels.iter().map(|it| value(it, torsion, level));
+    values.collect()
+}
+
+fn value(levels: &CurvatureLevels, torsion: bool, level: usize) -> f64 {
+    match (torsion, levels.torsion) {
         (true, Some(torsion)) => torsion[level - 1],
-        _ => it.curvature[level - 1],
+        _ => levels.curvature[level - 1],
+    }
+}
+
+/// The slope of a level; the last one's is not known.
+fn slope(levels: &CurvatureLevels, torsion: bool, level: usize) -> Option<f64> {
+    let slopes = match (torsion, levels.torsion_slopes) {
+        (true, Some(slopes)) => slopes,
+        _ => levels.curvature_slopes,
     };
-    levels.iter().map(value).collect()
+    slopes.get(level - 1).copied()
+}
+
+/// Find the place of a feature between the samples beside it, by the value and the slope at a parameter. The
+/// sample's own place stays where there is nothing to go by.
+fn refined(
+    values: &[f64],
+    parameters: &[f64],
+    (index, feature): (usize, LevelFeature),
+    at: &dyn Fn(f64) -> (f64, Option<f64>),
+) -> f64 {
+    let own = parameters[index];
+    let bracket = match feature {
+        LevelFeature::Inflection => {
+            let earlier = values[..index].iter();
+            let before = earlier.rev().position(|it| it * values[index] < 0.0);
+            before.map(|steps| [index - steps - 1, index - steps])
+        }
+        _ => index.checked_sub(1).map(|before| [before, index + 1]),
+    };
+    let bracket = bracket.filter(|[_, after]| *after < parameters.len());
+    let Some([mut low, mut high]) = bracket.map(|it| it.map(|index| parameters[index])) else {
+        return own;
+    };
+    let rising = |place: f64| {
+        let (value, slope) = at(place);
+        match feature {
+            LevelFeature::Inflection => Some(value),
+            _ => slope,
+        }
+    };
+    let (Some(first), Some(last)) = (rising(low), rising(high)) else {
+        return own;
+    };
+    if !(first * last < 0.0) {
+        return own;
+    }
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if rising(middle).is_some_and(|it| it * first > 0.0) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
 }
 
 /// Whether values differ by no more than `least`.

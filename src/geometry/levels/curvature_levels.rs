@@ -43,10 +43,12 @@ pub struct CurvatureLevels {
     /// Levels 1 to 4 of the curvature: signed (left turns are positive) if the curve lies in the
     /// plane z = 0, else level 1 is ≥ 0. Level 1 is per unit of length.
     pub curvature: [f64; LEVELS],
-    /// The derivative of the curvature by arc length, dκ/ds.
-    pub curvature_slope: f64,
+    /// The derivatives of levels 1 to 3 of the curvature by arc length; the first is dκ/ds.
+    pub curvature_slopes: [f64; LEVELS - 1],
     /// Levels 1 to 4 of the torsion; `None` if the curve lies in the plane z = 0.
     pub torsion: Option<[f64; LEVELS]>,
+    /// The derivatives of levels 1 to 3 of the torsion by arc length.
+    pub torsion_slopes: Option<[f64; LEVELS - 1]>,
 }
 
 impl CurvatureLevels {
@@ -74,7 +76,7 @@ impl CurvatureLevels {
 
     /// Find the point of the logarithmic curvature graph: X = log ρ, Y = log |ρ ds/dρ|.
     pub fn logarithmic(&self) -> Option<(f64, f64)> {
-        logarithmic_point(self.curvature[0], self.curvature_slope)
+        logarithmic_point(self.curvature[0], self.curvature_slopes[0])
     }
 }
 
@@ -177,18 +179,21 @@ struct ArcLength {
 
 impl ArcLength {
     /// Compute the derivative of a level by arc length.
-    fn slope(&self, level: &Level<FIRST>) -> f64 {
+    fn slope<const LENGTH: usize>(&self, level: &Level<LENGTH>) -> f64 {
         let slope = level.series.0[1] * self.rate.value();
         times_power_of_two(slope, level.exponent - self.unit)
     }
 
-    /// Compute the levels that begin with `first`.
+    /// Compute the levels that begin with `first`, and the slopes of all but the last.
     #[inline(always)]
-    fn levels(&self, first: Level<FIRST>) -> [f64; LEVELS] {
+    fn levels(&self, first: Level<FIRST>) -> ([f64; LEVELS], [f64; LEVELS - 1]) {
         let second = self.next::<7, 6, 5>(&first);
         let third = self.next::<5, 4, 3>(&second);
         let fourth = self.next::<3, 2, 1>(&third);
-        [first.value(), second.value(), third.value(), fourth.value()]
+        (
+            [first.value(), second.value(), third.value(), fourth.value()],
+            [self.slope(&first), self.slope(&second), self.slope(&third)],
+        )
     }
 
     /// Compute the level after g: g″/(1 + g′²)^{3/2}.
@@ -223,10 +228,12 @@ fn planar_levels(motion: &Motion<PLANAR>) -> CurvatureLevels {
         series: turning * rate * rate * rate,
         exponent: -unit,
     };
+    let (curvature, curvature_slopes) = arc_length.levels(curvature);
     CurvatureLevels {
-        curvature: arc_length.levels(curvature),
-        curvature_slope: arc_length.slope(&curvature),
+        curvature,
+        curvature_slopes,
         torsion: None,
+        torsion_slopes: None,
     }
 }
 
@@ -261,10 +268,13 @@ fn spatial_levels(motion: &Motion<SPATIAL>) -> CurvatureLevels {
         series: dot(&binormal, &change) * inverse * inverse,
         exponent: -size - unit,
     };
+    let (curvature, curvature_slopes) = arc_length.levels(curvature);
+    let (torsion, torsion_slopes) = arc_length.levels(torsion);
     CurvatureLevels {
-        curvature: arc_length.levels(curvature),
-        curvature_slope: arc_length.slope(&curvature),
-        torsion: Some(arc_length.levels(torsion)),
+        curvature,
+        curvature_slopes,
+        torsion: Some(torsion),
+        torsion_slopes: Some(torsion_slopes),
     }
 }
 
