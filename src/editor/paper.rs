@@ -191,11 +191,7 @@ impl Editor {
         let (tool, view) = page.tool_and_view();
         self.use_tool(tool);
         self.execute(Command::View(view))?;
-        // Of figure 2 the float polygon of the Bézier curve is far larger than both curves.
-        self.execute(match page {
-            PaperPage::Typical => Command::Fit,
-            _ => Command::FitAll,
-        })?;
+        self.execute(Command::FitAll)?;
         Ok(Note::silent())
     }
 }

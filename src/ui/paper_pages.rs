@@ -117,7 +117,7 @@ impl PaperPages {
         note(
             ui,
             "The vertices lie on a circle of radius 10, the curve on one of radius 8.918: a float \
-             S-polygon keeps the shape but draws it in.",
+             S-polygon keeps the shape but makes it smaller.",
         );
     }
 
@@ -256,7 +256,7 @@ impl PaperPages {
             ui,
             "The paper approximates the conical spiral x = 2 + s sin s, y = 2 + s cos s, z = s by a curve of \
              degree 8: the vertices of its float S-polygon are 20 points of the spiral, one unit of s \
-             apart. That keeps the shape but not the place: each turn of the polygon is drawn in.",
+             apart. That keeps the shape but not the place: the curve is smaller than the polygon's turns.",
         );
         text(
             ui,

@@ -4,7 +4,7 @@ use batten::editor::{Command, Editor, PaperPage, ToolKind, spiral_deviations};
 use batten::geometry::features::{Features, Quantity};
 use batten::geometry::{End, FloatPolygon, RoundingTest, Shortening};
 use batten::operations::Value;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::script::Script;
 
@@ -133,6 +133,21 @@ fn figure_2_has_a_monotone_curve_and_one_that_is_not() {
     let script = opened(PaperPage::Typical);
     let counts: Vec<usize> = polygons(&script.editor).iter().map(extrema).collect();
     assert_eq!(counts, [0, 1]);
+    // The Bézier curve's float polygon lies far away; both curves and the polygon that they share are well seen.
+    let viewport = script.editor.view().viewport();
+    let [shared, bezier] = polygons(&script.editor).try_into().expect("two curves");
+    let seen = |point: DVec3| viewport.to_screen(viewport.flatten(point));
+    let corners: Vec<DVec2> = shared.vertices().iter().copied().map(seen).collect();
+    let end = seen(bezier.point(1.0));
+    for place in corners.iter().chain([&end]) {
+        let is_inside =
+            place.cmpge(DVec2::ZERO).all() && place.cmple(DVec2::new(1000.0, 700.0)).all();
+        assert!(is_inside, "{place}");
+    }
+    let height = corners.iter().fold(0.0_f64, |most, place| {
+        most.max((place.y - corners[0].y).abs())
+    });
+    assert!(height > 300.0, "{height}");
 }
 
 #[test]

@@ -6,7 +6,7 @@ use batten::editor::{
     ReferenceChange, ToolKind, Transformation,
 };
 use batten::geometry::references::{
-    AnalyticForm, ReferenceCurve, ReferenceError, ReferenceForm, find,
+    AnalyticForm, Placement, ReferenceCurve, ReferenceError, ReferenceForm, find,
 };
 use batten::geometry::{Continuity, End, ParametricCurve, figure};
 use glam::{DQuat, DVec2, DVec3};
@@ -84,10 +84,11 @@ fn a_new_reference_is_active_named_and_seen_and_one_step() {
     script.command(Command::AddReference(find("circle").expect("a kind")));
     let second = script.curve();
     assert_eq!(reference(&script, second).name, "circle 2");
-    // A new one is as large as the view asks for.
+    // It is where its formula puts it, in units of the document.
+    assert_eq!(*curve(&script, second).placement(), Placement::default());
     let [right, left] = [0.0, 0.5].map(|share| seen(&script, second, share));
-    let extent = (right.x - left.x).abs();
-    assert!((140.0..700.0).contains(&extent), "{extent}");
+    let scale = script.editor.view().viewport().scale;
+    assert!(((right.x - left.x) / scale - 2.0).abs() < 1e-9);
     script.command(Command::Undo);
     script.command(Command::Undo);
     assert_eq!(script.editor.document().references().len(), 0);
@@ -97,18 +98,24 @@ fn a_new_reference_is_active_named_and_seen_and_one_step() {
 }
 
 #[test]
-fn a_reference_that_would_be_a_speck_is_placed_in_the_middle() {
-    let mut script = Script::example("arc");
-    for _ in 0..30 {
-        script.command(Command::ZoomOut);
-    }
-    script.command(Command::AddReference(find("circle").expect("a kind")));
-    let id = script.curve();
-    let box_of = |shares: [f64; 2]| shares.map(|share| seen(&script, id, share));
-    let [right, left] = box_of([0.0, 0.5]);
-    let extent = (right.x - left.x).abs();
-    assert!((100.0..400.0).contains(&extent), "{extent}");
-    assert!((0.5 * (right + left)).distance(DVec2::new(500.0, 350.0)) < 1.0);
+fn a_reference_that_would_be_a_speck_or_out_of_sight_is_gone_to() {
+    let zoomed = |command| {
+        let mut script = Script::example("arc");
+        for _ in 0..30 {
+            script.command(command);
+        }
+        script.command(Command::AddReference(find("circle").expect("a kind")));
+        let id = script.curve();
+        let [right, left] = [0.0, 0.5].map(|share| seen(&script, id, share));
+        assert_eq!(*curve(&script, id).placement(), Placement::default());
+        ((right.x - left.x).abs(), 0.5 * (right + left))
+    };
+    let (extent, middle) = zoomed(Command::ZoomOut);
+    assert!((200.0..700.0).contains(&extent), "{extent}");
+    assert!(middle.distance(DVec2::new(500.0, 350.0)) < 1.0, "{middle}");
+    let (extent, middle) = zoomed(Command::ZoomIn);
+    assert!((30.0..700.0).contains(&extent), "{extent}");
+    assert!(middle.cmpge(DVec2::ZERO).all() && middle.cmple(DVec2::new(1000.0, 700.0)).all());
 }
 
 #[test]
@@ -594,7 +601,7 @@ fn the_sampled_features_of_an_inner_curve_are_where_they_are() {
         panic!("{:?}", features.rows);
     };
     assert_eq!(row.kind, FeatureKind::Inflection);
-    assert!(row.u[0].abs() <= 1e-6, "{row:?}");
+    assert!(row.u[0].abs() <= 1e-12, "{row:?}");
 }
 
 #[test]

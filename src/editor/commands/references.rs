@@ -2,29 +2,18 @@
 
 use std::f64::consts::TAU;
 
-use glam::{DQuat, DVec2, DVec3};
+use glam::{DQuat, DVec3};
 
 use crate::document::{CurveId, Edit, Reference};
 use crate::editor::Editor;
 use crate::editor::reply::{Note, Refusal, Reply};
-use crate::editor::view::outline::Bounds;
-use crate::geometry::ParametricCurve;
 use crate::geometry::references::{
     AnalyticForm, Formula, Placement, ReferenceCurve, ReferenceError, ReferenceForm, ReferenceKind,
 };
 use crate::io::Reading;
 
-/// A new reference is placed elsewhere if less than this share of the view's smaller side shows it.
-const SMALLEST: f64 = 0.25;
-
-/// The share of the view's smaller side that a reference gets then, about.
-const SHARE: f64 = 0.4;
-
 /// The formulas that a new curve begins with.
 const FORMULAS: [&str; 2] = ["t", "sin(t)"];
-
-/// Points by which the extent of a new reference is found.
-const SAMPLES: usize = 64;
 
 /// A change of a reference.
 #[derive(Clone, Debug, PartialEq)]
@@ -141,15 +130,15 @@ impl Editor {
         self.add_reference_curve("Formula", curve.map_err(|error| error.to_string())?)
     }
 
-    /// Add a reference of a kind, with its defaults, where it can be seen, and make it active.
+    /// Add a reference of a kind, with its defaults, and make it active.
     pub(in crate::editor) fn add_reference(&mut self, kind: &'static ReferenceKind) -> Reply {
         let form = AnalyticForm::new(kind, kind.defaults()).map_err(|error| error.to_string())?;
         let curve = ReferenceCurve::of(ReferenceForm::Analytic(form));
         self.add_reference_curve(kind.label, curve.map_err(|error| error.to_string())?)
     }
 
+    /// Add a reference where its formula puts it, in units of the document; the view follows if it would not be seen.
     fn add_reference_curve(&mut self, label: &str, curve: ReferenceCurve) -> Reply {
-        let curve = self.placed_in_sight(curve);
         let name = self.document().free_name(&label.to_lowercase());
         let references = vec![Reference::new(name, curve)];
         let added = Reading {
@@ -157,76 +146,14 @@ impl Editor {
             ..Reading::default()
         };
         self.add("Add reference", added)?;
+        if let Some(id) = self.active_reference_id() {
+            self.bring_into_sight(id);
+        }
         Ok(Note::silent())
-    }
-
-    /// Leave a new reference where its formula puts it if it is well seen there; otherwise put it in
-    /// the middle of the view, at a scale of 1, 2 or 5 times a power of ten.
-    fn placed_in_sight(&self, curve: ReferenceCurve) -> ReferenceCurve {
-        let view = self.view.viewport.view_box();
-        let smaller = (view.high - view.low).min_element();
-        let bounds = self.bounds_of_new(&curve);
-        let extent = (bounds.high - bounds.low).max_element();
-        let is_inside = bounds.low.cmpge(view.low).all() && bounds.high.cmple(view.high).all();
-        let usable = smaller > 0.0 && smaller.is_finite() && extent > 0.0;
-        if self.document().is_empty() || !usable || (is_inside && extent >= SMALLEST * smaller) {
-            return curve;
-        }
-        let scale = rounded_scale(SHARE * smaller / extent);
-        let middle = 0.5 * (bounds.low + bounds.high);
-        let shift = self
-            .view
-            .viewport
-            .orientation
-            .lift(0.5 * (view.low + view.high) - scale * middle);
-        let shift = if curve.is_planar() {
-            DVec3::new(shift.x, shift.y, 0.0)
-        } else {
-            shift
-        };
-        match Placement::new(DQuat::IDENTITY, scale, shift) {
-            Ok(placement) => curve.placed(placement),
-            Err(_) => curve,
-        }
-    }
-
-    fn bounds_of_new(&self, curve: &ReferenceCurve) -> Bounds {
-        let mut bounds = Bounds::EMPTY;
-        for sample in 0..=SAMPLES {
-            let u = curve.pieces() as f64 * sample as f64 / SAMPLES as f64;
-            let seen: DVec2 = self.view.viewport.flatten(curve.jet(u).point);
-            bounds.add(seen);
-        }
-        bounds
     }
 
     /// The active reference, if it is one.
     pub fn active_reference_id(&self) -> Option<CurveId> {
         self.active_reference().map(|(id, _)| id)
-    }
-}
-
-/// The largest of 1, 2 and 5 times a power of ten that is no larger than a factor.
-fn rounded_scale(factor: f64) -> f64 {
-    let power = 10f64.powf(factor.log10().floor());
-    let share = factor / power;
-    let step = match share {
-        _ if share >= 5.0 => 5.0,
-        _ if share >= 2.0 => 2.0,
-        _ => 1.0,
-    };
-    step * power
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn scales_are_round() {
-        for (factor, expected) in [(1.0, 1.0), (7.3, 5.0), (0.034, 0.02), (199.0, 100.0)] {
-            let found = rounded_scale(factor);
-            assert!((found / expected - 1.0).abs() < 1e-12, "{factor}: {found}");
-        }
     }
 }

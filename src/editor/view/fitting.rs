@@ -12,6 +12,12 @@ const COMB_HEIGHT: f64 = 0.35;
 /// The teeth that the comb of a long curve has after a reset, about.
 const TEETH: usize = 256;
 
+/// A float polygon that is so many times as large as its curve is left out of a fitted view.
+const FAR_POLYGON: f64 = 8.0;
+
+/// What is smaller than this share of the view's smaller side is a speck.
+const SPECK: f64 = 0.05;
+
 /// How far beside curve and polygon a fitted view follows the comb, in units of their extent.
 const COMB_REACH: f64 = 1.0;
 
@@ -40,6 +46,19 @@ impl Editor {
         });
         if hidden {
             self.fit_all();
+        }
+    }
+
+    /// Fit everything into the canvas if a new curve lies beyond what is visible; where it would be a speck then,
+    /// or is one already, fit it alone.
+    pub(in crate::editor) fn bring_into_sight(&mut self, new: CurveId) {
+        self.bring_into_view(&[new]);
+        let bounds = self.bounds_of(new);
+        let view = self.view.viewport.view_box();
+        let (extent, side) = (bounds.high - bounds.low, view.high - view.low);
+        if extent.max_element() < SPECK * side.min_element() {
+            self.view.viewport = self.view.viewport.fitted(&bounds);
+            self.view.target = self.middle();
         }
     }
 
@@ -91,8 +110,16 @@ impl Editor {
             return Bounds::EMPTY;
         };
         let mut bounds = outlined.curve.bounds();
+        if layers.shows(Layer::Clamped) {
+            bounds.unite(&outlined.clamped.bounds());
+        }
         if layers.shows(Layer::Float) {
-            bounds.unite(&outlined.float.bounds());
+            let float = outlined.float.bounds();
+            let extent = |bounds: &Bounds| (bounds.high - bounds.low).max_element();
+            // The float polygon of a Bézier curve may lie far away: the curve must not become a speck.
+            if extent(&float) <= FAR_POLYGON * extent(&bounds) {
+                bounds.unite(&float);
+            }
         }
         if layers.shows(Layer::Comb) && is_active {
             // Long teeth are cut off: the curve must not become a speck.
