@@ -8,6 +8,7 @@ use std::time::Duration;
 use anyhow::{Context, anyhow, bail};
 use glam::DVec3;
 
+use super::apply_arguments::misused;
 use super::ends::{Destination, Source};
 use super::output;
 use super::progress::Progress as Line;
@@ -15,6 +16,9 @@ use crate::document::{Curve, CurveId, Document, Edit, quoted};
 use crate::geometry::Progress;
 use crate::io::{Reading, json_layout};
 use crate::operations::{ALL, Input, Inputs, Operation, OperationError, Outcome, Report, Value};
+
+/// The exit code of arguments that cannot be used.
+const MISUSED: u8 = 2;
 
 /// How often a long operation is asked how far it has come.
 const PAUSE: Duration = Duration::from_millis(100);
@@ -52,7 +56,8 @@ pub(super) fn list() -> anyhow::Result<()> {
 
 /// Apply an operation, write the document, and print the report: to the standard error if
 /// the document goes to the standard output. The exit code is 1, and nothing but the best found, if
-/// that is wanted, is written, if what was asked for is not reached.
+/// that is wanted, is written, if what was asked for is not reached; it is 2, with the usage, if the arguments alone
+/// are at fault.
 ///
 /// # Errors
 /// If the source cannot be read, the operation cannot run, or the destination cannot be written;
@@ -60,8 +65,15 @@ pub(super) fn list() -> anyhow::Result<()> {
 pub(super) fn run(application: &Application) -> anyhow::Result<ExitCode> {
     let format = application.destination.format()?;
     let input = application.input()?;
-    let done = application.applied(&input);
-    let (outcome, report) = done.with_context(|| application.place())?;
+    let (outcome, report) = match application.applied(&input) {
+        Ok(done) => done,
+        Err(error) if application.is_misused(&error) => {
+            let usage = misused(application.operation, &error.to_string());
+            output::usage(&usage.render().to_string());
+            return Ok(ExitCode::from(MISUSED));
+        }
+        Err(error) => return Err(error).with_context(|| application.place()),
+    };
     if outcome.reached || application.best {
         let document = outcome.applied_to(input.document())?;
         let export = format.write_document(&document, None);
@@ -88,6 +100,13 @@ pub(super) fn run(application: &Application) -> anyhow::Result<ExitCode> {
 }
 
 impl Application {
+    /// Whether the arguments alone are at fault, whatever a file holds: nothing was read, or two parameters exclude
+    /// each other.
+    fn is_misused(&self, error: &OperationError) -> bool {
+        let excludes = matches!(error, OperationError::Exclude { .. });
+        excludes || (self.source.is_none() && *error != OperationError::Cancelled)
+    }
+
     /// What messages name as the place of an error.
     fn place(&self) -> String {
         match &self.source {

@@ -87,14 +87,16 @@ impl FromArgMatches for ApplyArguments {
         let chosen = chosen.and_then(|(name, matches)| Some((find(name)?, matches)));
         Ok(match chosen {
             Some((operation, matches)) => {
-                let raw = |kind, message: String| Error::raw(kind, format!("{message}\n"));
-                let given = Given::new(operation, matches)
-                    .map_err(|message| raw(ErrorKind::ValueValidation, message))?;
+                let refused = |message: String| Err(misused(operation, &message));
+                let given = match Given::new(operation, matches) {
+                    Ok(given) => given,
+                    Err(message) => return refused(message),
+                };
                 let twice = given.twice();
                 let twice =
                     twice.map(|name| format!("“{name}” is given twice: leave one of them out"));
                 match twice.or_else(|| given.misplaced()) {
-                    Some(message) => return Err(raw(ErrorKind::ArgumentConflict, message)),
+                    Some(message) => return refused(message),
                     None => Self::Run(given),
                 }
             }
@@ -185,6 +187,12 @@ impl Given {
                 Some(no_such_parameter(chosen.name, misplaced, chosen.parameters))
             })
     }
+}
+
+/// Say what is wrong with the arguments of an operation, with its usage.
+pub(super) fn misused(operation: &'static Operation, message: &str) -> Error {
+    let command = command_of(operation).bin_name(format!("batten apply {}", operation.name));
+    command.clone().error(ErrorKind::ValueValidation, message)
 }
 
 /// Describe an operation as a command.

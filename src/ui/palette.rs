@@ -212,8 +212,9 @@ fn matches(typed: &str) -> Vec<Action> {
             let label = action.label();
             let words = action.words();
             let score = pattern.score(Utf32Str::new(&words, &mut buffer), &mut matcher)?;
-            // Of two that match as well, the shorter name is meant.
-            Some(((std::cmp::Reverse(score), label.len()), action))
+            // Of two that match as well, what works on the document is meant, then the shorter name.
+            let is_example = matches!(action, Action::OpenExample(_));
+            Some(((std::cmp::Reverse(score), is_example, label.len()), action))
         })
         .collect();
     scored.sort_by_key(|(rank, _)| *rank);

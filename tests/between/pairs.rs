@@ -182,3 +182,41 @@ fn pairs_whose_curvatures_lie_far_apart_are_proved() {
     let unproved = 1;
     assert!(found >= 58 && found - proved <= unproved);
 }
+
+#[test]
+fn a_curvature_of_the_other_sign_is_refused_as_such() {
+    let turns_left = [DVec2::from_angle(-0.6), DVec2::from_angle(0.4)];
+    // With an inflection only a clothoid is left, which turns right where it starts here.
+    let turns_right = [DVec2::from_angle(0.7), DVec2::from_angle(0.1)];
+    for (directions, kind, asked) in [
+        (turns_left, FREE, -0.5),
+        (
+            turns_left,
+            SegmentKind::LogAesthetic { alpha: Some(-1.0) },
+            -0.5,
+        ),
+        (
+            turns_left,
+            SegmentKind::LogAesthetic { alpha: Some(0.3) },
+            -0.5,
+        ),
+        (turns_right, FREE, 0.5),
+    ] {
+        let ends = Ends {
+            points: [DVec2::ZERO, DVec2::X],
+            directions,
+            curvatures: [Some(asked), None],
+        };
+        let error = found(&ends, kind, 5).expect_err("the other sign");
+        assert_eq!(
+            error,
+            BetweenError::OtherTurn {
+                end: "start",
+                asked
+            }
+        );
+        let side = if asked < 0.0 { "right" } else { "left" };
+        let said = format!("at the start is that of a turn to the {side}, and between these ends");
+        assert!(error.to_string().contains(&said), "{error}");
+    }
+}

@@ -220,9 +220,9 @@ fn a_mineur_farin_curve_is_made_of_its_parameters_alone() {
     assert_eq!(curves(&folder, "out.batten").as_array().unwrap().len(), 2);
     let in_space = figure_2("float", &["--torsion", "-20"]);
     assert_eq!(in_space["features_after"][0]["torsion_zeros"], 0);
-    folder.refused(
+    folder.misused(
         &["apply", "mineur-farin", "out.batten", "--legs", "3"],
-        "mineur-farin: 4 vertices are too few: an open curve of degree 5 needs at least 6",
+        "4 vertices are too few: an open curve of degree 5 needs at least 6",
     );
 }
 
@@ -766,9 +766,23 @@ fn references_of_a_project_are_approximated_and_inspected() {
     let inspected = folder.inspect(&["in.batten"])["references"].clone();
     let round = json!({"name": "round", "kind": "circle", "text": "circle:radius=2,from=0,to=3",
         "parameters": {"radius": 2.0}, "interval": [0.0, 3.0],
-        "placement": {"rotation": [0.0, 0.0, 0.0, 1.0], "scale": 2.0, "translation": [1.0, 0.0, 0.0]}});
+        "placement": {"rotation": [0.0, 0.0, 0.0, 1.0], "scale": 2.0, "translation": [1.0, 0.0, 0.0]},
+        "features": {"sampled": true, "inflections": [], "curvature_extrema": [], "cusps": []}});
     assert_eq!(inspected[0], round);
     assert_eq!(inspected[1]["parameters"], json!({"x": "t", "y": "sin(t)"}));
+    let features = &inspected[1]["features"];
+    let near = |found: &Value, expected: f64| (found.as_f64().unwrap() - expected).abs() < 1e-12;
+    let pi = std::f64::consts::PI;
+    assert!(near(&features["inflections"][0], pi), "{features}");
+    let extrema = features["curvature_extrema"].as_array().unwrap();
+    assert_eq!(extrema.len(), 2, "{features}");
+    for (extremum, kind, place) in [
+        (&extrema[0], "min", 0.5 * pi),
+        (&extrema[1], "max", 1.5 * pi),
+    ] {
+        assert_eq!(extremum["kind"], kind);
+        assert!(near(&extremum["t"], place), "{features}");
+    }
     assert_eq!(
         inspected[2]["points"],
         json!([[0.0, 0.0, 0.0], [1.0, 2.0, 0.0]])
@@ -826,8 +840,14 @@ fn a_reference_is_checked_only_where_it_is_used() {
     let folder = Folder::new();
     let formula = ["approximate", "formula:x=t;y=1/(t-0.3)", "out.batten"];
     let inside = [&["apply"], &formula[..]].concat();
-    let place = "approximate: the curve has no point, or no direction, at t = 0.3: give an interval without this place with the reference, such as from=1 and to=2";
-    folder.refused(&inside, place);
+    let place = "the curve has no point, or no direction, at t = 0.3: give an interval without this place with the reference, such as from=1 and to=2";
+    folder.misused(&inside, place);
+    // A pole that is a sample, and one that is none, are told alike.
+    let sampled = ["apply", "approximate", "formula:x=t;y=1/t", "out.batten"];
+    folder.misused(
+        &sampled,
+        "the curve has no point, or no direction, at t = 0: ",
+    );
     let part = ["--from", "1", "--to", "2", "--degree", "5"];
     assert_eq!(
         report(&folder, &[&formula[..], &part].concat())["reached"],
@@ -841,5 +861,96 @@ fn a_reference_is_checked_only_where_it_is_used() {
         "--from",
         "0",
     ];
-    folder.refused(&[&["apply"], &wider[..]].concat(), place);
+    folder.misused(&[&["apply"], &wider[..]].concat(), place);
+}
+
+#[test]
+fn what_the_arguments_alone_get_wrong_is_told_with_the_usage_of_the_operation() {
+    let folder = Folder::new();
+    for (arguments, expected) in [
+        (
+            &["approximate", "cirle", "out.batten"][..],
+            "the references are circle, ",
+        ),
+        (
+            &["approximate", "circle:radius=1/0", "out.batten"],
+            "“1/0” divides by zero",
+        ),
+        (
+            &["approximate", "circle:radius=sqrt(-1)", "out.batten"],
+            "“sqrt(-1)” is not a real number",
+        ),
+        (
+            &["approximate", "circle:radius=10^400", "out.batten"],
+            "“10^400” is too large",
+        ),
+        (
+            &["approximate", "formula:x=1;y=2", "out.batten"],
+            "the formulas give one point",
+        ),
+        (
+            &["approximate", "circle", "out.batten", "--tolerance", "0"],
+            "Tolerance: 0 is out of range",
+        ),
+        (
+            &[
+                "approximate",
+                "circle",
+                "out.batten",
+                "--step",
+                "1",
+                "--to",
+                "2",
+            ],
+            "Step and To cannot both be given",
+        ),
+        (
+            &["between", "out.batten", "--from", "1,1", "--to", "1,1"],
+            "both ends are at the same point",
+        ),
+    ] {
+        let arguments = [&["apply"], arguments].concat();
+        folder.misused(&arguments, expected);
+        let (_, told) = texts(&folder.run(&arguments));
+        let usage = format!("Usage: batten apply {} ", arguments[1]);
+        assert!(told.contains(&usage), "{told}");
+    }
+    assert!(!folder.path("out.batten").exists());
+    // What a file must tell first is not.
+    folder.refused(
+        &["apply", "approximate", "none.batten", "out.batten"],
+        "none.batten: cannot read the file: No such file or directory (os error 2)",
+    );
+}
+
+#[test]
+fn a_cusp_is_said_in_the_report_and_places_are_exact() {
+    let folder = Folder::new();
+    let cusp = [
+        "approximate",
+        "formula:x=(t-0.25)^2;y=(t-0.25)^3",
+        "a.batten",
+        "--count",
+        "40",
+    ];
+    let found = report(&folder, &cusp);
+    let told = found["remarks"].to_string();
+    assert!(
+        told.contains("has a cusp at 0.25000: it has no curvature there"),
+        "{told}"
+    );
+    // κ of the parabola y = (t − 1.5)² is largest at t = 1.5, to the last digits.
+    let parabola = [
+        "approximate",
+        "formula:x=t;y=(t-1.5)^2;from=0;to=4",
+        "b.batten",
+        "--degree",
+        "7",
+    ];
+    let found = report(&folder, &parabola);
+    let first = &found["equivalence"][0];
+    assert_eq!(first["sampled"], true);
+    assert_eq!(first["reference"][0]["feature"], "maximum");
+    let t = first["reference"][0]["t"].as_f64().unwrap();
+    assert!((t - 1.5).abs() < 1e-12, "{t}");
 }

@@ -320,3 +320,22 @@ fn a_tolerance_that_is_missed_names_what_fails() {
         "{told}"
     );
 }
+
+#[test]
+fn vertices_on_the_curve_are_told_how_far_quasi_interpolation_would_be_off() {
+    let given = [
+        ("reference", "conical-spiral"),
+        ("from", "0"),
+        ("step", "1"),
+        ("count", "20"),
+        ("method", "on-curve"),
+    ];
+    let (_, outcome) = run(&given).expect("it can run");
+    let told = outcome.remarks.join(". ");
+    let expected = "With vertices on the curve it is 4.90 off: that keeps the shape, not the place. Method quasi would be 0.00";
+    assert!(told.contains(expected), "{told}");
+    // A straight line has no place to lose.
+    let given = [("reference", "formula:x=t;y=2*t"), ("method", "on-curve")];
+    let (_, outcome) = run(&given).expect("it can run");
+    assert_eq!(outcome.remarks, Vec::<String>::new());
+}

@@ -251,3 +251,30 @@ fn the_atlas_is_that_of_the_format_and_sets_angle_and_ratio() {
     };
     assert!((angle + 0.3).abs() < 1e-14);
 }
+
+#[test]
+fn a_bezier_curve_whose_float_polygon_loses_digits_says_by_how_much() {
+    let given = |legs| {
+        vec![
+            ("legs", Value::Whole(legs)),
+            ("ratio", Value::Real(1.1)),
+            ("angle", Value::Real(10.0_f64.to_radians())),
+            ("polygon", BEZIER),
+        ]
+    };
+    let told = |legs| {
+        let report = report(&given(legs));
+        // The panel and the command line show the same remarks, and the same deviation.
+        let Deviation::AtMost(off) = report.deviation else {
+            return (report.text(), 0.0);
+        };
+        (report.text(), off)
+    };
+    let (text, off) = told(22);
+    let said = "At degree 22 doubles cannot hold the float S-polygon of the Bézier curve: the curve is off by up to ";
+    assert!(text.contains(said), "{text}");
+    assert!(off > 0.0 && off.is_finite(), "{off}");
+    let (text, off) = told(5);
+    assert!(!text.contains("doubles cannot hold"), "{text}");
+    assert!(off < 1e-12, "{off}");
+}

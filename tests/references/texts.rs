@@ -71,8 +71,8 @@ fn mistakes_name_their_columns() {
         17,
         "“x” is no unit here: write deg or rad, or * to multiply",
     );
-    assert_refused("circle:radius=inf", 15, "“inf” is no number");
-    assert_refused("circle:radius=1/0", 15, "“1/0” is no number");
+    assert_refused("circle:radius=inf", 15, "“inf” is too large");
+    assert_refused("circle:radius=1/0", 15, "“1/0” divides by zero");
     assert_refused("circle:radius=2*t", 15, "“2*t” depends on t");
     assert_refused("circle:radius=-2", 15, "Radius: -2 is out of range");
     assert_refused("circle:radius=1,radius=2", 17, "“radius” is given twice");
@@ -106,7 +106,18 @@ fn mistakes_in_formulas_name_their_columns() {
     assert_refused("formula:x=t;y=3+sinn(t)", 17, "“sinn” means nothing here");
     assert_refused("formula:x=t;y=3·u", 17, "“u” means nothing here");
     assert_refused("formula:x=t;y=sin t", 15, "followed by a parenthesis, sin");
-    assert_refused("formula:x=t;y=1e999", 15, "“1e999” is no number");
+    for point in [
+        "formula:x=1;y=2",
+        "formula:x=t-t;y=2*pi",
+        "formula:x=1;y=cos(t)^2+sin(t)^2",
+    ] {
+        assert_refused(
+            point,
+            1,
+            "the formulas give one point, the same for every t",
+        );
+    }
+    assert_refused("formula:x=t;y=1e999", 15, "“1e999” is too large");
     assert_refused(
         "formula:x=t;y=ln(t);from=-1;to=1",
         1,

@@ -67,7 +67,7 @@ fn a_mistake_is_told_at_the_field_with_its_column_and_changes_nothing() {
             "1+12mm",
             "Column 5: the document has no unit to convert “mm” to",
         ),
-        ("1/0", "Column 1: “1/0” is no number"),
+        ("1/0", "Column 1: “1/0” divides by zero"),
         (
             "2*(3",
             "Column 5: expected an operator or a closing parenthesis, found the end",

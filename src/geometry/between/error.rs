@@ -51,12 +51,20 @@ pub enum BetweenError {
         angle: f64,
     },
     /// There is a segment, and it has another curvature.
-    #[error("the curvature at the {end} would be {}, and {} is asked for: leave α or the curvature free, or give both ends a curvature", significant(*.found, 6), significant(*.asked, 6))]
+    #[error("the curvature at the {end} would be {}, and {} is asked for: leave this curvature free, or α if it is given, or give both ends a curvature", significant(*.found, 6), significant(*.asked, 6))]
     OtherCurvature {
         /// The end.
         end: &'static str,
         /// What the segment has.
         found: f64,
+        /// What is asked for.
+        asked: f64,
+    },
+    /// The curvature that is asked for turns the other way.
+    #[error("the curvature {} at the {end} is that of a turn to the {}, and between these ends every such segment turns to the {} there: give it the other sign, or turn a direction", significant(*.asked, 6), side(*.asked), side(-.asked))]
+    OtherTurn {
+        /// The end.
+        end: &'static str,
         /// What is asked for.
         asked: f64,
     },
@@ -119,6 +127,10 @@ fn chord_angles(angles: [f64; 2]) -> String {
     } else {
         format!("{low}° to {high}°")
     }
+}
+
+fn side(curvature: f64) -> &'static str {
+    if curvature > 0.0 { "left" } else { "right" }
 }
 
 fn degrees(radians: f64) -> String {

@@ -39,8 +39,7 @@ pub(super) fn log_aesthetic_parts(task: &Task, alpha: Option<f64>) -> Result<Par
     let convex = task.is_convex();
     if !convex && alpha.is_some_and(|alpha| alpha != CLOTHOID) {
         let alpha = alpha.unwrap_or(CLOTHOID);
-        let kind = name(alpha);
-        return Err(BetweenError::Inflection { kind });
+        return Err(inflection(task, name(alpha)));
     }
     let single = match (alpha, task.curvatures) {
         (None, [Some(curvature), _]) if convex => with_curvature(task, 0, curvature),
@@ -63,7 +62,7 @@ pub(super) fn superspiral_parts(task: &Task, values: [f64; 3]) -> Result<Parts, 
     }
     let kind = || format!("the superspiral {a}, {b}, {c}");
     if !task.is_convex() {
-        return Err(BetweenError::Inflection { kind: kind() });
+        return Err(inflection(task, kind()));
     }
     // Its curvature rises, so its chord leans towards the start; the other way round it falls.
     let reversed = task.lean() > 0.0;
@@ -132,10 +131,10 @@ fn with_curvature(task: &Task, end: usize, curvature: f64) -> Result<Single, Bet
         Err(Some(range)) => {
             let mut range = range.map(|it| task.curvature(it));
             range.sort_by(f64::total_cmp);
-            Err(BetweenError::CurvatureOutOfReach {
-                end: ENDS[end],
-                asked: task.curvature(curvature),
-                range,
+            let (end, asked) = (ENDS[end], task.curvature(curvature));
+            Err(match range.iter().all(|it| it * asked < 0.0) {
+                true => BetweenError::OtherTurn { end, asked },
+                false => BetweenError::CurvatureOutOfReach { end, asked, range },
             })
         }
         Err(None) => single(task, LOGARITHMIC),
@@ -205,6 +204,20 @@ fn check_nested(task: &Task, [first, last]: [f64; 2]) -> Result<(), BetweenError
     })
 }
 
+/// Refuse ends that ask for an inflection: by a curvature that turns the other way, if the directions do not.
+fn inflection(task: &Task, kind: String) -> BetweenError {
+    let turned = |curvature: &Option<f64>| curvature.is_some_and(|curvature| curvature < 0.0);
+    let place = task.curvatures.iter().position(turned);
+    let bends = task.angles.into_iter().all(|angle| angle > 0.0);
+    match place.filter(|_| bends) {
+        Some(place) => BetweenError::OtherTurn {
+            end: ENDS[place],
+            asked: task.curvature(task.curvatures[place].unwrap_or_default()),
+        },
+        None => BetweenError::Inflection { kind },
+    }
+}
+
 fn out_of_reach(task: &Task, kind: String, reach: [f64; 2]) -> BetweenError {
     BetweenError::OutOfReach {
         kind,
@@ -223,7 +236,10 @@ fn check_curvatures(task: &Task, found: [f64; 2]) -> Result<(), BetweenError> {
     let asked = task.curvatures.map(|it| it.map(|it| task.curvature(it)));
     for ((end, found), asked) in ENDS.into_iter().zip(found).zip(asked) {
         if let Some(asked) = asked.filter(|asked| !((found - asked).abs() <= SAME * asked.abs())) {
-            return Err(BetweenError::OtherCurvature { end, found, asked });
+            return Err(match found * asked < 0.0 {
+                true => BetweenError::OtherTurn { end, asked },
+                false => BetweenError::OtherCurvature { end, found, asked },
+            });
         }
     }
     Ok(())

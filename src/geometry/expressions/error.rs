@@ -61,11 +61,13 @@ pub enum ExpressionError {
     /// Quantities that cannot be added, subtracted or compared.
     #[error("{} and {} do not go together: give both the same kind of unit", .0[0], .0[1])]
     Mixed([&'static str; 2]),
-    /// A number is none, or too large to be one.
-    #[error("“{text}” is no number")]
+    /// What is given comes to no finite real number.
+    #[error("“{text}” {}", .reason.words())]
     NotANumber {
         /// What is given.
         text: String,
+        /// Why it does not.
+        reason: NoNumber,
     },
     /// There is no value before that could be changed.
     #[error("there is no value to change: leave “{operator}” out")]
@@ -78,6 +80,36 @@ pub enum ExpressionError {
         "the expression is too long: at most 1000 characters, and 50 parentheses within each other, can be read"
     )]
     TooLong,
+}
+
+/// Why something comes to no finite real number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoNumber {
+    /// A divisor is 0.
+    DivisionByZero,
+    /// As the square root of a negative number.
+    NotReal,
+    /// It is infinite, or beyond the range of numbers.
+    TooLarge,
+}
+
+impl NoNumber {
+    /// Tell why a value is not finite that an expression comes to.
+    pub(in crate::geometry) fn of(value: f64, divides_by_zero: bool) -> Self {
+        match value.is_nan() {
+            _ if divides_by_zero => Self::DivisionByZero,
+            true => Self::NotReal,
+            false => Self::TooLarge,
+        }
+    }
+
+    fn words(self) -> &'static str {
+        match self {
+            Self::DivisionByZero => "divides by zero",
+            Self::NotReal => "is not a real number",
+            Self::TooLarge => "is too large: numbers up to 1e308 can be used",
+        }
+    }
 }
 
 /// A mistake in an expression.

@@ -55,6 +55,11 @@ impl Expression {
         self.0.value()
     }
 
+    /// Whether an expression without t divides by zero.
+    pub(in crate::geometry) fn divides_by_zero(&self) -> bool {
+        self.0.divides_by_zero()
+    }
+
     /// Find the first place of an interval where it has no value or no slope: intervals are halved until it
     /// has both all over them.
     pub(in crate::geometry) fn first_gap(&self, [from, to]: [f64; 2]) -> Option<f64> {
@@ -138,6 +143,23 @@ impl Node {
 
     fn value(&self) -> f64 {
         self.series(0.0, 0).value()
+    }
+
+    fn divides_by_zero(&self) -> bool {
+        match self {
+            Self::Number(_) | Self::Parameter => false,
+            Self::Negative(inner) | Self::InUnit(_, _, inner) => inner.divides_by_zero(),
+            Self::Call(_, _, arguments) => arguments.iter().any(Self::divides_by_zero),
+            Self::Combined(operator, _, operands) => {
+                let [left, right] = &**operands;
+                let divides = match operator {
+                    Operator::Over => right.value() == 0.0,
+                    Operator::Power => left.value() == 0.0 && right.value() < 0.0,
+                    _ => false,
+                };
+                divides || operands.iter().any(Self::divides_by_zero)
+            }
+        }
     }
 
     /// Bound its values for t in a range.

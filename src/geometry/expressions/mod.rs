@@ -17,7 +17,7 @@ mod unit;
 
 pub use brackets::parts;
 pub use degrees::sin_cos_of_degrees;
-pub use error::{ExpressionError, ExpressionMistake};
+pub use error::{ExpressionError, ExpressionMistake, NoNumber};
 pub(in crate::geometry) use expression::Expression;
 pub use number_context::{NumberContext, Quantity};
 pub use unit::LengthUnit;

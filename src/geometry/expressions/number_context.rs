@@ -1,7 +1,7 @@
 //! Numbers as people type them.
 
 use super::brackets::with_decimal_points;
-use super::error::{ExpressionError, ExpressionMistake};
+use super::error::{ExpressionError, ExpressionMistake, NoNumber};
 use super::expression::Expression;
 use super::measure::{Conventions, Dimension};
 use super::reading::begins_name;
@@ -89,7 +89,11 @@ impl NumberContext {
             Change::Multiply => before * number,
             Change::Divide => before / number,
         };
-        finite(value, text)
+        finite(
+            value,
+            text,
+            matches!(change, Change::Divide) && number == 0.0,
+        )
     }
 
     /// Whether a text that is no number may become one when more is typed at its end.
@@ -143,18 +147,19 @@ impl NumberContext {
             Quantity::Parameter => found.radians(),
             _ => found.number,
         };
-        finite(value, text)
+        finite(value, text, expression.divides_by_zero())
     }
 }
 
 /// Check that a text comes to a finite number.
-fn finite(value: f64, text: &str) -> Result<f64, ExpressionMistake> {
+fn finite(value: f64, text: &str, divides_by_zero: bool) -> Result<f64, ExpressionMistake> {
     if value.is_finite() {
         return Ok(value);
     }
     let start = text.len() - text.trim_start().len();
     let error = ExpressionError::NotANumber {
         text: text.trim().to_owned(),
+        reason: NoNumber::of(value, divides_by_zero),
     };
     Err(ExpressionMistake::at(text, start, error))
 }
@@ -260,7 +265,7 @@ mod tests {
         ];
         assert_read(Quantity::Length, &changes);
         assert_refused(Quantity::Length, "*=2mm", 3, "a length is given");
-        assert_refused(Quantity::Length, "/=0", 1, "“/=0” is no number");
+        assert_refused(Quantity::Length, "/=0", 1, "“/=0” divides by zero");
         assert_refused(Quantity::Length, " += 2x", 6, "“x” is no unit");
         let fresh = NumberContext {
             before: None,
@@ -306,8 +311,10 @@ mod tests {
         );
         assert_refused(Number, "cos(3,5)", 1, "cos needs one argument, not 2");
         assert_refused(Number, "1+max(3)", 3, "max needs two arguments");
-        assert_refused(Number, "1/0", 1, "“1/0” is no number");
-        assert_refused(Number, "sqrt(-1)", 1, "is no number");
+        assert_refused(Number, "1/0", 1, "“1/0” divides by zero");
+        assert_refused(Number, "sqrt(-1)", 1, "is not a real number");
+        assert_refused(Number, "10^400", 1, "is too large");
+        assert_refused(Number, "2+0^(0-1)", 1, "divides by zero");
         assert_refused(Number, "(1+2", 5, "a closing parenthesis");
         assert_refused(
             Number,

@@ -5,7 +5,7 @@ use pest::error::{ErrorVariant, InputLocation};
 use pest::iterators::{Pair, Pairs};
 use pest::pratt_parser::{Assoc, Op, PrattParser};
 
-use super::error::{ExpressionError, ExpressionMistake};
+use super::error::{ExpressionError, ExpressionMistake, NoNumber};
 use super::expression::{Expression, Node, Operator};
 use super::function::{Function, function_names};
 use super::unit::Unit;
@@ -159,7 +159,8 @@ impl<'a> Reader<'a> {
             Rule::number => {
                 let number = word.parse().ok().filter(|it: &f64| it.is_finite());
                 let text = word.to_owned();
-                let refused = || self.refused(&part, ExpressionError::NotANumber { text });
+                let reason = NoNumber::TooLarge;
+                let refused = || self.refused(&part, ExpressionError::NotANumber { text, reason });
                 number.map(Node::Number).ok_or_else(refused)
             }
             Rule::name if word == PARAMETER && self.sort.is_formula => Ok(Node::Parameter),

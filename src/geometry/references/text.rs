@@ -9,7 +9,7 @@ use super::formula::{Coordinate, Formula};
 use super::kind::ReferenceKind;
 use super::placement::Placement;
 use super::{KINDS, find};
-use crate::geometry::expressions::{self, Expression, ExpressionError};
+use crate::geometry::expressions::{self, Expression, ExpressionError, NoNumber};
 
 /// What stands before formulas.
 const FORMULA: &str = "formula";
@@ -244,7 +244,8 @@ impl<'a> Part<'a> {
 
     fn number(&self) -> Result<f64, ReferenceTextError> {
         let text = || self.text.to_owned();
-        let number = match self.text.parse() {
+        let mut divides_by_zero = false;
+        let number: f64 = match self.text.parse() {
             Ok(number) => number,
             Err(_) => {
                 let read = Expression::read(self.text);
@@ -252,13 +253,16 @@ impl<'a> Part<'a> {
                 if expression.depends_on_parameter() {
                     return Err(self.error(ReferenceError::NotConstant { text: text() }));
                 }
+                divides_by_zero = expression.divides_by_zero();
                 expression.value()
             }
         };
-        let refused = || self.error(ExpressionError::NotANumber { text: text() }.into());
-        Some(number)
-            .filter(|it: &f64| it.is_finite())
-            .ok_or_else(refused)
+        if number.is_finite() {
+            return Ok(number);
+        }
+        let reason = NoNumber::of(number, divides_by_zero);
+        let text = text();
+        Err(self.error(ExpressionError::NotANumber { text, reason }.into()))
     }
 }
 
