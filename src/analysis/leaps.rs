@@ -130,9 +130,17 @@ pub fn mark(curve: &dyn ParametricCurve, piece: usize, samples: &mut [Sample]) {
 /// over steps that are many times as long as half of all steps are. `size` is the number of samples of a piece.
 pub fn shorten(samples: &mut [Sample], size: usize) {
     let is_first = |index: usize| index % size == 0;
+    // Behind a leap what was measured from the piece's start has lost its digits; there chords count.
+    let broken: Vec<bool> = samples
+        .chunks(size)
+        .map(|piece| piece.iter().any(|sample| sample.leaps))
+        .collect();
     let mut steps: Vec<f64> = (0..samples.len())
-        .map(|index| match is_first(index) {
+        .map(|index| match is_first(index) || samples[index].leaps {
             true => 0.0,
+            false if broken[index / size] => {
+                samples[index].point.distance(samples[index - 1].point)
+            }
             false => samples[index].arc_length - samples[index - 1].arc_length,
         })
         .collect();

@@ -183,6 +183,8 @@ impl Editor {
         let references = document.references().map(|(id, _)| id);
         let compared = references.chain(document.ids());
         let compared = compared.into_iter().find(|id| Some(*id) != active);
+        // A whole is not compared with its parts.
+        let compared = compared.filter(|_| page != PaperPage::Composite);
         self.replace(document, None);
         if let Some(active) = active {
             self.activate(active);

@@ -343,7 +343,7 @@ fn by_quasi_interpolation(
     };
     let (count, curve) = (found.polygon.vertices().len(), source.differentiable());
     let quasi = approximate_between(curve, found.interval, count, found.spacing, &asked);
-    Some(quasi.ok()?.distance())
+    Some(quasi.ok()?.deviation.largest)
 }
 
 fn count_given(values: &Values) -> Result<Option<usize>, OperationError> {
@@ -461,7 +461,7 @@ fn remark_on_corrections(found: &Approximated) -> Option<String> {
 
 /// Say that quasi-interpolation would be nearer, if it is by more than a factor of 2.
 fn remark_on_quasi(found: &Approximated, quasi: Option<f64>) -> Option<String> {
-    let (own, quasi) = (found.distance(), quasi?);
+    let (own, quasi) = (found.deviation.largest, quasi?);
     (2.0 * quasi < own).then(|| {
         format!(
             "With vertices on the curve it is {} off: that keeps the shape, not the place. Method quasi would be {} off",
