@@ -320,8 +320,13 @@ mod tests {
     }
 
     #[test]
-    fn thinning_keeps_points_that_are_too_far_to_measure() {
-        let chain = [DVec2::ZERO, DVec2::splat(1e200), DVec2::ONE, DVec2::ZERO];
-        check_thin(&chain, 0.1, &chain);
+    fn what_follows_a_point_too_far_to_measure_keeps_its_shape() {
+        for far in [1e16, 1e200] {
+            let bend = [DVec2::new(3.0, 9.0), DVec2::ONE, DVec2::X, DVec2::ZERO];
+            let chain = [&[DVec2::splat(far)], bend.as_slice()].concat();
+            check_thin(&chain, 0.1, &chain);
+            let back: Vec<DVec2> = chain.iter().rev().copied().collect();
+            check_thin(&back, 0.1, &back);
+        }
     }
 }
