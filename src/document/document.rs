@@ -1,5 +1,6 @@
 //! A document: an ordered list of curves, and one of references.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::curve::{Curve, CurveId};
@@ -37,6 +38,24 @@ impl Document {
     pub fn with_references(mut self, references: impl IntoIterator<Item = Reference>) -> Self {
         for reference in references {
             self.push_reference(reference);
+        }
+        self
+    }
+
+    /// Give the curves, then the references, the numbers that they had when the document was saved: their
+    /// colours follow them. Numbers that are not one for each, or not distinct, are passed over.
+    pub fn with_numbers(mut self, numbers: &[u64]) -> Self {
+        let distinct: BTreeSet<u64> = numbers.iter().copied().collect();
+        let fit = distinct.len() == self.curves.len() + self.references.len()
+            && distinct.len() == numbers.len();
+        let next = distinct.last().and_then(|last| last.checked_add(1));
+        if let (true, Some(next)) = (fit, next) {
+            let curves = self.curves.iter_mut().map(|(id, _)| id);
+            let ids = curves.chain(self.references.iter_mut().map(|(id, _)| id));
+            for (id, number) in ids.zip(numbers) {
+                *id = CurveId(*number);
+            }
+            self.next = next;
         }
         self
     }

@@ -8,7 +8,7 @@ use super::format::Format;
 use super::loss::Export;
 use super::reading::Reading;
 use super::{dxf, project, table};
-use crate::document::{Curve, Document, Extras, Reference};
+use crate::document::{Curve, CurveId, Document, Extras, Reference};
 use crate::geometry::PolygonKind;
 
 impl Format {
@@ -43,7 +43,7 @@ impl Format {
         let mut export = match self {
             Self::Batten => {
                 let kind = polygon.unwrap_or_default();
-                project::write(&curves, &[], &[], (None, extras), kind)
+                project::write(&curves, &[], &[], (None, &[], extras), kind)
             }
             Self::Csv => table::write(&curves, &[], None, polygon.unwrap_or_default())?,
             Self::Dxf => dxf::write(&curves, None, polygon)?,
@@ -66,9 +66,13 @@ impl Format {
         let references: Vec<&Reference> = document.references().map(|(_, it)| &**it).collect();
         let (matches, extras) = (FileMatch::all(document), document.extras());
         let unit = document.unit();
+        let numbers: Vec<u64> = document.all_ids().map(CurveId::number).collect();
         let kind = polygon.unwrap_or_default();
         let mut export = match self {
-            Self::Batten => project::write(&curves, &references, &matches, (unit, extras), kind),
+            Self::Batten => {
+                let about = (unit, numbers.as_slice(), extras);
+                project::write(&curves, &references, &matches, about, kind)
+            }
             Self::Csv => table::write(&curves, &references, unit, kind)?,
             Self::Dxf => {
                 let mut export = dxf::write(&curves, unit, polygon)?;

@@ -207,7 +207,7 @@ mod tests {
                 &curves,
                 &[],
                 &[],
-                (reading.unit, &Extras::default()),
+                (reading.unit, &[], &Extras::default()),
                 PolygonKind::Float,
             )
             .bytes;

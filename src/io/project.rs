@@ -9,8 +9,10 @@
 //! Each version has types of its own, so that a change of the curves in memory cannot change
 //! what old files mean. A project is written in the first version that holds all of it, so that
 //! older programs read what they can read: version 2 adds `locked_vertices` to a curve,
-//! `curvature`, `normal` and `slope` to a target, and `matches`, `references` and the `unit` of length ("mm", "cm",
-//! "m" or "in"; left out if there is none) to the project.
+//! `curvature`, `normal` and `slope` to a target, and `matches`, `references`, the `unit` of length ("mm", "cm",
+//! "m" or "in"; left out if there is none) and `numbers` to the project. These number its curves, then its references,
+//! in the order in which they were made: the next colour of the palette goes by them. Without them they are counted
+//! from 0.
 
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -57,28 +59,36 @@ pub fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
 }
 
 /// Write a project with each curve held by one of its polygons; by the float polygon nothing is
-/// lost. `matches` are those between the curves and references, `unit` and `extras` those of the project.
+/// lost. `matches` are those between the curves and references, `unit`, `numbers` and `extras` those of the project.
 pub fn write(
     curves: &[&Curve],
     references: &[&Reference],
     matches: &[FileMatch],
-    (unit, extras): (Option<LengthUnit>, &Extras),
+    (unit, numbers, extras): (Option<LengthUnit>, &[u64], &Extras),
     kind: PolygonKind,
 ) -> Export {
     let mut losses = LossReport::new(Format::Batten);
+    let numbers = if is_counted(numbers) { &[] } else { numbers };
     let needs_version_2 = unit.is_some()
+        || !numbers.is_empty()
         || !matches.is_empty()
         || !references.is_empty()
         || curves.iter().any(|curve| needs_version_2(curve));
     let bytes = if needs_version_2 {
         let content = (curves, references, matches);
-        let project = project_v2::Project::from_content(content, (unit, extras), kind, &mut losses);
+        let project =
+            project_v2::Project::from_content(content, (unit, numbers, extras), kind, &mut losses);
         json_layout::to_text(&project).into_bytes()
     } else {
         let project = project_v1::Project::from_curves(curves, extras, kind, &mut losses);
         json_layout::to_text(&project).into_bytes()
     };
     Export { bytes, losses }
+}
+
+/// Whether numbers count from 0.
+fn is_counted(numbers: &[u64]) -> bool {
+    (0..).zip(numbers).all(|(place, number)| place == *number)
 }
 
 /// Whether a curve has something that version 1 cannot hold.

@@ -94,6 +94,7 @@ pub(super) fn read_curves(
         references,
         matches,
         unit: None,
+        numbers: Vec::new(),
         extras,
         remarks,
     };

@@ -1,5 +1,5 @@
 //! Version 2 of the project file: locked vertices, targets with curvature, osculating plane and
-//! slope of curvature, matches of ends, references, and the unit of length.
+//! slope of curvature, matches of ends, references, the unit of length, and numbers of curves and references.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -43,6 +43,9 @@ pub(super) struct ProjectV2 {
     references: Vec<Object<FileReference>>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     matches: Vec<Object<Match>>,
+    /// The numbers of the curves, then of the references.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    numbers: Vec<Number>,
 }
 
 #[derive(Deserialize, Serialize)]
@@ -145,7 +148,7 @@ impl Project {
     /// project that are not known.
     pub(super) fn from_content(
         (curves, references, matches): (&[&Curve], &[&Reference], &[FileMatch]),
-        (unit, extras): (Option<LengthUnit>, &Extras),
+        (unit, numbers, extras): (Option<LengthUnit>, &[u64], &Extras),
         kind: PolygonKind,
         losses: &mut LossReport,
     ) -> Self {
@@ -165,6 +168,7 @@ impl Project {
                 curves: curves.collect(),
                 references: references.collect(),
                 matches: matches.iter().map(|it| Object::new(it.into())).collect(),
+                numbers: numbers.iter().map(|it| Number(*it as usize)).collect(),
             },
             extras: extras.clone(),
         }
@@ -173,6 +177,7 @@ impl Project {
     /// Check the content and make curves of it.
     pub(super) fn into_reading(self) -> Result<Reading, ReadError> {
         let unit = self.value.unit.map(|unit| unit.0);
+        let numbers = self.value.numbers.iter().map(|it| it.0 as u64).collect();
         let curves = self.value.curves.into_iter();
         let curves = curves.map(|Object { value, extras }| FileCurve {
             extras,
@@ -192,7 +197,11 @@ impl Project {
         });
         let references: Vec<Reference> = references.collect::<Result<_, ReadError>>()?;
         let reading = read_curves(curves, references, (matches, unknown), self.extras)?;
-        Ok(Reading { unit, ..reading })
+        Ok(Reading {
+            unit,
+            numbers,
+            ..reading
+        })
     }
 }
 

@@ -22,6 +22,8 @@ pub struct Reading {
     pub matches: Vec<FileMatch>,
     /// The unit of length, if the file says one.
     pub unit: Option<LengthUnit>,
+    /// The numbers of the curves, then of the references, if a project says them.
+    pub numbers: Vec<u64>,
     /// What a project says of itself that this program does not know.
     pub extras: Extras,
     /// What the reader should tell its user.
@@ -102,6 +104,7 @@ impl Reading {
     pub fn into_document(self) -> Result<Document, EditError> {
         let document = Document::from_curves(self.curves)
             .with_references(self.references)
+            .with_numbers(&self.numbers)
             .with_unit(self.unit)
             .with_extras(self.extras);
         let curves: Vec<CurveId> = document.ids().collect();

@@ -59,7 +59,7 @@ pub struct Tokens {
     /// The curve.
     pub curve: Color32,
     /// The colours of the curves and references of a document, one after the other: the first is the curve's.
-    /// All are apart for the colour-blind.
+    /// All are apart from each other, from the float S-polygon and from the comb, for the colour-blind too.
     pub items: [Color32; 8],
     /// Pieces of the curve on which curvature is proved to rise.
     pub rising: Color32,
@@ -138,13 +138,13 @@ static DARK: Tokens = Tokens {
     curve: rgb(0xF4F6FA),
     items: [
         rgb(0xF4F6FA),
-        rgb(0x3EABFF),
-        rgb(0xDA360E),
-        rgb(0x48FCA6),
-        rgb(0xB05698),
-        rgb(0x4A5CE0),
-        rgb(0xE4D000),
-        rgb(0x828C62),
+        rgb(0xB3FF98),
+        rgb(0x9C5D93),
+        rgb(0xAFA464),
+        rgb(0xFEB5FF),
+        rgb(0x06825D),
+        rgb(0x99B7A8),
+        rgb(0x647B00),
     ],
     rising: rgb(0x34D399),
     falling: rgb(0x38BDF8),
@@ -182,13 +182,13 @@ static LIGHT: Tokens = Tokens {
     curve: rgb(0x14161A),
     items: [
         rgb(0x14161A),
-        rgb(0x028DF5),
-        rgb(0xE16517),
-        rgb(0x136E7B),
-        rgb(0x902B3E),
-        rgb(0x1C2582),
-        rgb(0x818D52),
-        rgb(0x613C00),
+        rgb(0xD95654),
+        rgb(0x713C5B),
+        rgb(0x501500),
+        rgb(0xB271BA),
+        rgb(0x3E005B),
+        rgb(0x838A8E),
+        rgb(0x555A00),
     ],
     rising: rgb(0x0E9F6E),
     falling: rgb(0x0369A1),
@@ -482,6 +482,20 @@ mod tests {
                     for b in &tokens.items[index + 1..] {
                         let distance = distance(seen(eye, *a), seen(eye, *b));
                         assert!(distance > 20.0, "{a:?} and {b:?}: {distance}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_colours_of_curves_are_apart_from_those_of_polygon_and_comb() {
+        for tokens in [&DARK, &LIGHT] {
+            for (eye, least) in EYES.iter().zip([36.0, 20.0, 20.0, 20.0]) {
+                for a in tokens.items {
+                    for b in [tokens.float, tokens.comb] {
+                        let distance = distance(seen(eye, a), seen(eye, b));
+                        assert!(distance > least, "{a:?} and {b:?}: {distance}");
                     }
                 }
             }

@@ -1,7 +1,7 @@
 //! References in project files: what is kept of them, and what is refused.
 
 use super::*;
-use crate::document::{Colour, Document, EndMatch, MatchPlace};
+use crate::document::{Colour, CurveId, Document, Edit, EndMatch, MatchPlace};
 use crate::geometry::references::{
     AnalyticForm, KINDS, Placement, PointList, ReferenceCurve, ReferenceForm,
 };
@@ -218,4 +218,39 @@ fn other_formats_tell_that_references_are_not_exported() {
         let expected = format!("“round”: references aren't stored in the {name}");
         assert!(told.contains(&expected), "{told}");
     }
+}
+
+#[test]
+fn the_numbers_of_curves_and_references_come_back() {
+    let line = |name: &str| {
+        let vertices = vec![DVec3::ZERO, DVec3::X];
+        Curve::new(name, FloatPolygon::new(1, vertices, None, false).unwrap())
+    };
+    let numbers = |document: &Document| {
+        let ids = document.all_ids();
+        ids.map(CurveId::number).collect::<Vec<u64>>()
+    };
+    let mut document = Document::from_curves([line("a"), line("b"), line("c")]);
+    let list = PointList::new(vec![DVec3::ZERO, DVec3::X]).unwrap();
+    let list = ReferenceCurve::of(ReferenceForm::Points(list)).unwrap();
+    document = document.with_references([Reference::new("d", list)]);
+    let text = |document: &Document| {
+        let export = Format::Batten.write_document(document, None).unwrap();
+        String::from_utf8(export.bytes).unwrap()
+    };
+    assert!(!text(&document).contains("numbers"), "they count from 0");
+    let first = document.ids().next().unwrap();
+    document.apply(Edit::Remove(first)).unwrap();
+    let written = text(&document);
+    assert!(written.contains("\"numbers\": [1, 2, 3]"), "{written}");
+    let back = back(&document);
+    assert_eq!(numbers(&back), [1, 2, 3]);
+    assert_eq!(back.next_id().number(), 4);
+    // What does not fit has no effect.
+    for wrong in ["[1, 2]", "[1, 1, 2]", "[1, 2, 1e300]", "[]"] {
+        let text = written.replace("[1, 2, 3]", wrong);
+        let counted = read(text.as_bytes()).unwrap().into_document().unwrap();
+        assert_eq!(numbers(&counted), [0, 1, 2], "{wrong}");
+    }
+    assert!(read(written.replace("[1, 2, 3]", "[1, 2, 0.5]").as_bytes()).is_err());
 }

@@ -27,7 +27,7 @@ fn text_of(curves: &[&Curve]) -> String {
             curves,
             &[],
             &[],
-            (None, &Extras::default()),
+            (None, &[], &Extras::default()),
             PolygonKind::Float,
         )
         .bytes,

@@ -45,7 +45,7 @@ fn unknown_keys_are_written_again_to_the_letter() {
         &curves,
         &[],
         &[],
-        (None, &reading.extras),
+        (None, &[], &reading.extras),
         PolygonKind::Float,
     );
     assert!(written.losses.is_empty(), "{}", written.losses);
