@@ -197,6 +197,16 @@ impl History {
         result
     }
 
+    /// Put another document in this one's place, as one step: it counts as saved. What a preview shows is gone.
+    pub fn replace(&mut self, label: impl Into<String>, document: Document) {
+        self.abort();
+        self.begin(label);
+        self.saved = document.clone();
+        self.document = document;
+        self.unsaved = false;
+        self.commit();
+    }
+
     /// Take back the last step, or abort the running preview. Returns its label.
     pub fn undo(&mut self) -> Option<String> {
         if let Some(Preview { step, .. }) = self.preview.take() {

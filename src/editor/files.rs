@@ -41,6 +41,15 @@ impl Editor {
         self.tell(reply)
     }
 
+    /// Read the document's file again, as one step that can be undone. The reply is told.
+    ///
+    /// # Errors
+    /// [`Refusal`] if there is none, or it cannot be read; nothing is changed then.
+    pub fn reload(&mut self) -> Reply {
+        let reply = self.read_again();
+        self.tell(reply)
+    }
+
     /// Add the curves of some files to the document, as one step. The reply is told.
     ///
     /// # Errors
@@ -163,6 +172,22 @@ impl Editor {
             text += "\nUnknown keys are kept when you save.";
         }
         Ok(Note::told(with_lines(text, &self.open_elsewhere())))
+    }
+
+    fn read_again(&mut self) -> Reply {
+        let path = self
+            .workspace
+            .path()
+            .ok_or("The document has no file yet")?;
+        let path = path.to_owned();
+        let (mut reading, fingerprint) = disk::read_with_fingerprint(&path)?;
+        let remarks = std::mem::take(&mut reading.remarks);
+        let document = reading.into_document()?;
+        self.interrupt();
+        self.workspace.reload(document, fingerprint);
+        self.document_changed();
+        let text = format!("Reloaded from {}", shown_path(&path));
+        Ok(Note::done(with_lines(text, &remarks)))
     }
 
     fn replace_by_example(&mut self, index: usize) -> Reply {

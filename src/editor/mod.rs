@@ -198,19 +198,6 @@ impl Editor {
         self.message = None;
     }
 
-    /// Tell how large the canvas is, in screen points. The first time everything is fitted into
-    /// it; afterwards the middle of the view stays where it is.
-    pub fn set_canvas_size(&mut self, size: DVec2) {
-        if !(size.min_element() >= 1.0) {
-            return;
-        }
-        self.view.viewport.size = size;
-        if !self.view.placed {
-            self.view.placed = true;
-            self.fit_all();
-        }
-    }
-
     /// Which layers are shown now.
     pub fn layers(&self) -> Layers {
         let mut layers = self.view.layers;

@@ -1,5 +1,6 @@
 //! What an earlier session has left unsaved, and a look at it.
 
+use std::path::PathBuf;
 use std::time::SystemTime;
 
 use glam::{DVec2, DVec3};
@@ -54,6 +55,13 @@ impl Recoverable {
             recoverable.id = id;
         }
         found
+    }
+
+    /// The folder of the sessions that it was found in.
+    pub fn folder(&self) -> PathBuf {
+        let autosave = self.session.path();
+        let folder = autosave.ancestors().nth(2);
+        folder.unwrap_or(&autosave).to_owned()
     }
 
     fn new(session: AbandonedSession) -> Self {

@@ -60,6 +60,14 @@ impl Workspace {
         };
     }
 
+    /// Put what the document's file holds now in its place, as one step.
+    pub fn reload(&mut self, document: Document, fingerprint: Fingerprint) {
+        self.interrupt();
+        self.revision += 1;
+        self.fingerprint = Some(fingerprint);
+        self.history.replace("Reload", document);
+    }
+
     /// The document, with what is being tried out.
     pub fn document(&self) -> &Document {
         self.history.document()

@@ -48,6 +48,8 @@ pub enum Action {
     FitPlot,
     /// Plot the curve scaled to length 1, or as it is.
     NormaliseLength,
+    /// Set how far an arrow key moves the selection.
+    NudgeStep,
     /// Find an action by its name.
     Palette,
     /// Explain the paper's figures, with their curves.
@@ -85,6 +87,7 @@ impl Action {
             Self::TogglePlots,
             Self::FitPlot,
             Self::NormaliseLength,
+            Self::NudgeStep,
             Self::Palette,
             Self::Paper,
             Self::Keys,
@@ -117,6 +120,7 @@ impl Action {
             Self::TogglePlots => "Plots",
             Self::FitPlot => "Fit plot",
             Self::NormaliseLength => "Normalise length",
+            Self::NudgeStep => "Nudge step…",
             Self::Palette => "Find a command…",
             Self::Paper => "The paper",
             Self::Keys => "Keys and mouse",
@@ -156,7 +160,9 @@ impl Action {
             Self::Import => "Add the curves of a file to this document",
             Self::Save => "Save the document to its file",
             Self::SaveAs => "Save the document to another file",
-            Self::Reload => "Open the document's file again, as it is on disk",
+            Self::Reload => {
+                "Read the document's file again, as it is on disk; Undo brings the changes made here back"
+            }
             Self::ExportDxf => {
                 "Write curves and polygons as DXF: clamped splines, and both S-polygons on layers of their own"
             }
@@ -176,6 +182,7 @@ impl Action {
             Self::NormaliseLength => {
                 "Plot the curve scaled to length 1, over shares of its length: curves of different sizes can be compared"
             }
+            Self::NudgeStep => "Set how far an arrow key moves the selection",
             Self::Palette => "Find a command by typing part of its name",
             Self::Paper => {
                 "Open the figures and tables of the paper behind Batten as documents, with explanations"
@@ -213,6 +220,7 @@ impl Action {
             | Self::ExportCsv(_)
             | Self::Reload
             | Self::NormaliseLength
+            | Self::NudgeStep
             | Self::Paper
             | Self::About => return None,
         })

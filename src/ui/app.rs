@@ -27,7 +27,7 @@ use super::signals::Signals;
 use super::status_bar::{self, status_bar_ui};
 use super::theme::{self, Tokens};
 use super::tool_rail::{self, tool_rail_ui};
-use super::{canvas, overlays, widgets};
+use super::{canvas, overlays, unit_menu, widgets};
 use crate::editor::{Command, Editor, Export, Layer, MenuSubject, Refusal, ToolKind, told};
 use crate::geometry::PolygonKind;
 use crate::io::Format;
@@ -360,11 +360,7 @@ impl App {
             Action::Import => self.files.ask(context, Purpose::Import, self.folder()),
             Action::Save => self.save_own(context, None),
             Action::SaveAs => self.ask_save(context, None),
-            Action::Reload => {
-                if let Some(path) = self.editor.workspace().path().map(Path::to_owned) {
-                    self.confirm(context, AfterDiscard::OpenFile(path));
-                }
-            }
+            Action::Reload => told(self.editor.reload()),
             Action::ExportDxf => self.ask_export(context, Format::Dxf, PolygonKind::Float),
             Action::ExportCsv(polygon) => self.ask_export(context, Format::Csv, polygon),
             Action::Cut => copy(context, self.editor.cut()),
@@ -378,6 +374,7 @@ impl App {
             Action::TogglePlots => self.shell.plots = !self.shell.plots,
             Action::FitPlot => self.plots.fit(),
             Action::NormaliseLength => self.shell.normalised = !self.shell.normalised,
+            Action::NudgeStep => unit_menu::open(context),
             Action::Palette => self.palette.open(),
             Action::Keys => self.dialog = Some(Dialog::Keys),
             Action::About => self.dialog = Some(Dialog::About),
@@ -454,11 +451,7 @@ impl App {
             Decision::Save(after) => self.save_own(context, Some(after)),
             Decision::SaveAs(after) => self.ask_save(context, after),
             Decision::Overwrite(after) => self.overwrite(context, after),
-            Decision::Reload => {
-                if let Some(path) = self.editor.workspace().path().map(Path::to_owned) {
-                    told(self.editor.open(&[path]));
-                }
-            }
+            Decision::Reload => told(self.editor.reload()),
         }
     }
 

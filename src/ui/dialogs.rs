@@ -87,7 +87,9 @@ fn changed_ui(ui: &mut Ui, after: &Option<AfterDiscard>, editor: &Editor) -> Opt
     ui.strong("The file has changed on disk");
     let name = name_of(editor);
     let what = match editor.workspace().is_modified() {
-        true => "Reloading loses the changes made here, overwriting those made there.",
+        true => {
+            "Reloading replaces the changes made here, and Undo brings them back; overwriting loses those made there."
+        }
         false => "Overwriting loses the changes made there.",
     };
     widgets::note(

@@ -33,7 +33,8 @@ impl Plugin for KeyOrder {
             end = press;
         }
         let is_free = keyboard::typing(context) == Typing::Nothing;
-        end = end_of_pass(events.get(..end).unwrap_or_default(), is_free);
+        let held = context.input(|input| input.keys_down.iter().copied().collect::<Vec<Key>>());
+        end = end_of_pass(events.get(..end).unwrap_or_default(), is_free, &held);
         self.waiting = events.split_off(end);
         drop_repeats(&events, &mut self.waiting);
         input.events = events;
@@ -53,9 +54,9 @@ fn presses_beside(event: &Event, field: Rect) -> bool {
 }
 
 /// How many of the events belong to this pass. Where nothing is typed into, letters are commands:
-/// one may take a tool to which the digits after it belong.
-fn end_of_pass(events: &[Event], is_free: bool) -> usize {
-    let takes_tool = |event: &Event| is_free && is_letter(event);
+/// one may take a tool to which the digits after it belong. A letter that was held before only repeats.
+fn end_of_pass(events: &[Event], is_free: bool, held: &[Key]) -> usize {
+    let takes_tool = |event: &Event| is_free && letter(event).is_some_and(|it| !held.contains(&it));
     let moved = events
         .iter()
         .position(|it| moves_keyboard(it) || takes_tool(it));
@@ -71,15 +72,17 @@ fn end_of_pass(events: &[Event], is_free: bool) -> usize {
     next.map_or(events.len(), |(place, _)| place)
 }
 
-fn is_letter(event: &Event) -> bool {
+/// The letter that an event presses.
+fn letter(event: &Event) -> Option<Key> {
     let Event::Key {
         key, pressed: true, ..
     } = event
     else {
-        return false;
+        return None;
     };
     let name = key.name();
-    name.len() == 1 && name.chars().all(|letter| letter.is_ascii_alphabetic())
+    let is_letter = name.len() == 1 && name.chars().all(|letter| letter.is_ascii_alphabetic());
+    is_letter.then_some(*key)
 }
 
 /// Whether an event may give the keyboard to another widget, or to another cell of a table.
@@ -151,9 +154,17 @@ mod tests {
             text("2"),
             key(Key::Enter, true),
         ];
-        assert_eq!(end_of_pass(&events, false), 3);
-        assert_eq!(end_of_pass(&events[..3], false), 3);
-        assert_eq!(end_of_pass(&events[3..], false), 2);
+        assert_eq!(end_of_pass(&events, false, &[]), 3);
+        assert_eq!(end_of_pass(&events[..3], false, &[]), 3);
+        assert_eq!(end_of_pass(&events[3..], false, &[]), 2);
+    }
+
+    #[test]
+    fn a_letter_that_is_held_lets_nothing_wait() {
+        let press = || [key(Key::X, true), Event::Text("x".to_owned())];
+        let events: Vec<Event> = [press(), press(), press()].into_iter().flatten().collect();
+        assert_eq!(end_of_pass(&events, true, &[Key::X]), 6);
+        assert_eq!(end_of_pass(&events, true, &[Key::Y]), 2);
     }
 
     #[test]
@@ -166,8 +177,8 @@ mod tests {
             key(Key::Num5, true),
             text("5"),
         ];
-        assert_eq!(end_of_pass(&events, true), 3);
-        assert_eq!(end_of_pass(&events, false), 5);
+        assert_eq!(end_of_pass(&events, true, &[]), 3);
+        assert_eq!(end_of_pass(&events, false, &[]), 5);
     }
 
     #[test]

@@ -3,8 +3,8 @@
 use std::time::SystemTime;
 
 use eframe::egui::{
-    Align2, Context, Id, Label, Pos2, Rect, RichText, ScrollArea, Sense, Shape, Stroke, Ui, Vec2,
-    Window, vec2,
+    Align, Align2, Context, Id, Label, Layout, Pos2, Rect, RichText, ScrollArea, Sense, Shape,
+    Stroke, Ui, Vec2, Window, vec2,
 };
 use glam::DVec2;
 
@@ -38,13 +38,20 @@ pub fn recovery_ui(context: &Context, canvas: Rect, all: &[Recoverable]) -> Opti
     if all.is_empty() {
         return None;
     }
+    let id = Id::unique("recovered documents");
     let window = Window::new("Recovered documents")
-        .id(Id::unique("recovered documents"))
+        .id(id)
         .frame(widgets::dialog_frame(&context.global_style()))
         .pivot(Align2::CENTER_CENTER)
         .default_pos(canvas.center())
         .title_bar(false)
         .resizable(false);
+    // It stays where it was put, until the canvas gets another size.
+    let last = context.data_mut(|data| std::mem::replace(data.get_temp_mut_or(id, canvas), canvas));
+    let window = match last == canvas {
+        true => window,
+        false => window.current_pos(canvas.center()),
+    };
     let shown = window.show(context, |ui| {
         ui.set_width(WIDTH);
         ui.spacing_mut().item_spacing.y = 2.0 * STEP;
@@ -61,13 +68,27 @@ pub fn recovery_ui(context: &Context, canvas: Rect, all: &[Recoverable]) -> Opti
             widgets::at_right(ui, |ui| {
                 let button = ui
                     .button("Later")
-                    .on_hover_text("Offer these at the next start");
+                    .on_hover_text("Offer these at the next start (Esc)");
                 later = button.clicked().then_some(Choice::Later);
+                folder_ui(ui, all);
             });
         });
         chosen.inner.or(later)
     });
     shown?.inner?
+}
+
+/// Where the documents are kept, in the room that is left.
+fn folder_ui(ui: &mut Ui, all: &[Recoverable]) {
+    let Some(folder) = all.first().map(Recoverable::folder) else {
+        return;
+    };
+    let text = format!("In {}", folder.display());
+    let text = RichText::new(text).color(Tokens::of(ui).faint_text);
+    let room = vec2(ui.available_width(), ui.available_height());
+    ui.allocate_ui_with_layout(room, Layout::left_to_right(Align::Center), |ui| {
+        ui.add(Label::new(text).truncate());
+    });
 }
 
 fn row_ui(ui: &mut Ui, recoverable: &Recoverable) -> Option<Choice> {

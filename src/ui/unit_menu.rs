@@ -1,7 +1,8 @@
 //! The document's unit of length and the step of the arrow keys, in a menu.
 
 use eframe::egui::{
-    Align2, Popup, PopupCloseBehavior, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo,
+    Align2, Context, Id, Popup, PopupCloseBehavior, Response, Role, Sense, Stroke, Ui, Vec2,
+    WidgetInfo,
 };
 
 use super::action::Action;
@@ -37,10 +38,21 @@ pub fn units_ui(ui: &mut Ui, editor: &Editor, shell: &Shell, actions: &mut Vec<A
     }
 }
 
+/// Open the menu of the status bar, with the nudge step.
+pub fn open(context: &Context) {
+    Popup::open_id(context, popup_id());
+}
+
+fn popup_id() -> Id {
+    Id::unique("unit menu")
+}
+
 /// Show the document's unit in the status bar: a press opens its menu, with the nudge step.
 pub fn unit_cell_ui(ui: &mut Ui, editor: &mut Editor, shell: &Shell, actions: &mut Vec<Action>) {
     let response = cell_ui(ui, editor.document().unit());
-    let popup = Popup::menu(&response).close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    let popup = Popup::menu(&response)
+        .id(popup_id())
+        .close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     popup.show(|ui| {
         ui.set_width(POPUP);
         units_ui(ui, editor, shell, actions);

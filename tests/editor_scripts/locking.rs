@@ -51,17 +51,12 @@ fn the_selected_vertices_are_locked_and_unlocked_by_one_key() {
     // As long as one of the selected is free, all are locked.
     script.click(script.at_vertex(2));
     script.click_with(Modifiers::SHIFT, script.at_vertex(3));
-    assert_eq!(
-        script.editor.is_checked(Command::ToggleVerticesLocked),
-        Some(false)
-    );
+    let label = |script: &Script| script.editor.label(Command::ToggleVerticesLocked);
+    assert_eq!(label(&script), "Lock vertices");
     script.command(LOCK);
     assert_eq!(locks(&script), [2, 3, 4]);
     assert_eq!(script.message(), "2 vertices locked");
-    assert_eq!(
-        script.editor.is_checked(Command::ToggleVerticesLocked),
-        Some(true)
-    );
+    assert_eq!(label(&script), "Unlock vertices");
     script.command(LOCK);
     assert_eq!(locks(&script), [4]);
     assert_eq!(script.message(), "2 vertices unlocked");

@@ -22,7 +22,7 @@ fn a_vertex_is_locked_in_its_row_and_its_numbers_can_only_be_read() {
     assert_eq!(curve(&window).polygon, before);
     assert!(
         window
-            .query_by_label_contains("vertex 2 of “curve” is locked")
+            .query_by_label_contains("Vertex 2 of “curve” is locked")
             .is_some()
     );
     let at = window.get_by_label("vertex 2 y").rect().center();
@@ -42,7 +42,7 @@ fn the_menu_locks_what_is_selected() {
     let mut window = window_of(vec![wave(6, 3)]);
     show_vertices(&mut window);
     click(&mut window, "vertex 1");
-    choose(&mut window, &["Edit", "Vertices locked"]);
+    choose(&mut window, &["Edit", "Lock vertices"]);
     let locked: Vec<usize> = curve(&window).locked_vertices.iter().collect();
     assert_eq!(locked, [1]);
 }

@@ -73,11 +73,11 @@ fn a_vertex_is_locked_and_deleted_by_its_menu() {
         .vertices()
         .collect();
     assert_eq!(selected.len(), 1);
-    pick(&mut window, "Vertices locked");
+    pick(&mut window, "Lock vertices");
     assert!(curve(&window).locked_vertices.contains(5));
     assert!(!has(&window, "Delete vertices"), "the menu is closed");
     right_click(&mut window, at);
-    pick(&mut window, "Vertices locked");
+    pick(&mut window, "Unlock vertices");
     right_click(&mut window, at);
     pick(&mut window, "Delete vertices");
     assert_eq!(vertices(&window), count - 1);

@@ -194,9 +194,15 @@ fn a_changed_file_is_noticed_when_the_window_gets_the_keyboard() {
     window.event(Event::WindowFocused(true));
     window.run();
     window.get_by_label_contains("Another program has changed “hull.batten”");
+    let own = curve(&window);
     click(&mut window, "Reload");
-    // There are changes here, too.
-    click(&mut window, "Discard");
+    assert_eq!(curve(&window).polygon.degree(), 8);
+    assert!(!is_modified(&window));
+    // Changes that were made here come back.
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(curve(&window), own);
+    assert!(is_modified(&window));
+    press(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     assert_eq!(curve(&window).polygon.degree(), 8);
     assert!(!is_modified(&window));
 }
@@ -212,4 +218,32 @@ fn the_frame_wakes_for_an_autosave_and_otherwise_rests() {
     let delay = window.output().viewport_output.values().next();
     let delay = delay.expect("a viewport").repaint_delay;
     assert!(delay <= Duration::from_secs(30), "{delay:?}");
+}
+
+#[test]
+fn escape_leaves_recovered_documents_for_later_and_their_folder_is_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    crash(folder.path(), None);
+    let mut window = open_with(arc(), folder.path());
+    let kept = folder.path().join("sessions");
+    window.get_by_label(&format!("In {}", kept.display()));
+    press(&mut window, Modifiers::NONE, Key::D);
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(is_offered(&window), "Esc left the tool");
+    let centre = |window: &Window| {
+        let later = window.get_by_label("Later").rect();
+        let canvas = window.state().canvas_rect().expect("a canvas");
+        later.center() - canvas.center()
+    };
+    let before = centre(&window);
+    window.set_size(Vec2::new(1800.0, 1100.0));
+    window.run();
+    assert!(
+        (centre(&window) - before).length() < 2.0,
+        "in the middle again"
+    );
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(!is_offered(&window));
+    drop(window);
+    assert_eq!(sessions(folder.path()).abandoned().len(), 1);
 }

@@ -178,7 +178,7 @@ impl Command {
             Self::DeleteCurve => "Delete curve",
             Self::SelectAll => "Select all",
             Self::SelectNone => "Deselect all",
-            Self::ToggleVerticesLocked => "Vertices locked",
+            Self::ToggleVerticesLocked => "Lock vertices",
             Self::TogglePeriodic => "Periodic",
             Self::Operation(operation) if operation.parameters.is_empty() => operation.label,
             // What asks for more before anything is done.

@@ -90,7 +90,6 @@ impl Editor {
             Command::Tool(tool) => Some(self.hand.tool() == tool),
             Command::Operation(operation) => Some(self.is_tried(operation)),
             Command::View(view) => Some(self.view.viewport.orientation == view.orientation()),
-            Command::ToggleVerticesLocked => Some(self.is_selection_locked()),
             Command::SetUnit(unit) => Some(self.document().unit() == unit),
             Command::TogglePeriodic => Some(curve.is_some_and(|c| c.polygon.is_periodic())),
             Command::ToggleVisible => {
@@ -129,6 +128,7 @@ impl Editor {
             Command::Compare(Some(id)) => self.document().name(id).map(str::to_owned),
             Command::Undo => self.undo_label().map(named),
             Command::Redo => self.workspace.history().redo_label().map(named),
+            Command::ToggleVerticesLocked => Some(self.locking_label().to_owned()),
             _ => None,
         }
         .unwrap_or_else(|| command.label())

@@ -38,8 +38,13 @@ impl Editor {
         Ok(Note::done(format!("{count} {done}")))
     }
 
+    /// What the command does now that locks or unlocks the selected vertices.
+    pub(in crate::editor) fn locking_label(&self) -> &'static str {
+        label(!self.is_selection_locked())
+    }
+
     /// Whether vertices are selected and all of them are locked.
-    pub(in crate::editor) fn is_selection_locked(&self) -> bool {
+    fn is_selection_locked(&self) -> bool {
         let selection = &self.hand.selection;
         let mut vertices = selection.vertices();
         let is_locked = |(curve, vertex)| {

@@ -50,6 +50,13 @@ impl Editor {
             {
                 return;
             }
+            Input::Key(Key::Escape)
+                if self.hand.tool() == ToolKind::Select
+                    && !self.hand.is_holding()
+                    && !self.recoverable.is_empty() =>
+            {
+                return self.leave_recoverable();
+            }
             Input::Key(Key::Enter) if self.is_trying() => return told(self.apply_trial()),
             _ => {}
         }

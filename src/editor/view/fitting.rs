@@ -1,10 +1,13 @@
 //! Fitting what is shown into the canvas, with a comb of legible size.
 
+use glam::DVec2;
+
 use crate::document::CurveId;
 use crate::editor::Editor;
 use crate::editor::view::comb::CombSettings;
 use crate::editor::view::layers::Layer;
 use crate::editor::view::outline::Bounds;
+use crate::editor::view::viewport::Viewport;
 
 /// The height of the comb after a reset, as a share of the smaller side of the curve's box.
 const COMB_HEIGHT: f64 = 0.35;
@@ -25,6 +28,28 @@ impl Editor {
     /// Fit everything into the canvas, and give the comb a legible scale.
     pub(in crate::editor) fn fit_all(&mut self) {
         self.reset_comb();
+        self.show_all();
+    }
+
+    /// Tell how large the canvas is, in screen points. As long as the view shows everything as it was fitted, it
+    /// is fitted again; afterwards the middle of the view stays where it is.
+    pub fn set_canvas_size(&mut self, size: DVec2) {
+        if !(size.min_element() >= 1.0) {
+            return;
+        }
+        let is_fitted = self.view.fitted == Some(self.fitted_now());
+        self.view.viewport.size = size;
+        if !self.view.placed {
+            self.view.placed = true;
+            self.fit_all();
+        } else if is_fitted && !self.hand.is_holding() {
+            self.analyse();
+            self.show_all();
+        }
+    }
+
+    /// Fit everything into the canvas, and remember that nothing has changed since.
+    fn show_all(&mut self) {
         let mut bounds = Bounds::EMPTY;
         let document = self.document();
         let shown = document.all_ids().filter(|id| document.is_visible(*id));
@@ -34,6 +59,12 @@ impl Editor {
         }
         self.view.viewport = self.view.viewport.fitted(&bounds);
         self.view.target = self.middle();
+        self.view.fitted = Some(self.fitted_now());
+    }
+
+    /// The view and the state of the document that it shows.
+    fn fitted_now(&self) -> (Viewport, u64) {
+        (self.view.viewport, self.workspace.revision())
     }
 
     /// Fit everything into the canvas if one of some curves lies beyond what is visible.

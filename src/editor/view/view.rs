@@ -24,6 +24,8 @@ pub struct View {
     pub(in crate::editor) target: DVec3,
     /// Whether the canvas has been given its size and the document fitted into it.
     pub(in crate::editor) placed: bool,
+    /// The view that last showed everything, and the revision of the document then.
+    pub(in crate::editor) fitted: Option<(Viewport, u64)>,
     pub(in crate::editor) layers: Layers,
     /// Whether bands are left to the plot.
     bands_only_plotted: bool,
