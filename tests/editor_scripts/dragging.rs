@@ -1,6 +1,6 @@
 //! What is told and drawn while something is dragged: the readout, what it snaps to, the axis it keeps to.
 
-use batten::document::{Curve, Document};
+use batten::document::{Curve, Document, Edit};
 use batten::editor::{Command, ToolKind};
 use batten::editor::{DragReadout, Editor, HoverScene, Input, Key, Mark, Modifiers, NamedView};
 use batten::geometry::FloatPolygon;
@@ -93,10 +93,10 @@ fn a_drag_names_what_it_snaps_to() {
     let end = polygon.end_jet(batten::geometry::End::Start).point;
     let crossing = DVec3::new(10.0, -4.0, 0.0);
     let targets = [
-        (script.at_vertex_of(other, 2), "vertex 2"),
-        (seen(&script, end), "start"),
-        (seen(&script, crossing), "grid"),
-        (seen(&script, DVec3::ZERO), "origin"),
+        (script.at_vertex_of(other, 2), "Vertex 2"),
+        (seen(&script, end), "Start"),
+        (seen(&script, crossing), "Grid"),
+        (seen(&script, DVec3::ZERO), "Origin"),
     ];
     script.press(at);
     for (place, name) in targets {
@@ -126,7 +126,7 @@ fn drawing_names_what_a_click_would_snap_to() {
         names.collect::<Vec<String>>()
     };
     script.move_to(at + DVec2::new(3.0, -2.0));
-    assert_eq!(names(&mut script), ["vertex 3"]);
+    assert_eq!(names(&mut script), ["Vertex 3"]);
     script.input(Input::Modifiers(Modifiers::CTRL));
     assert_eq!(names(&mut script), Vec::<String>::new(), "without snapping");
 }
@@ -212,4 +212,52 @@ fn views_have_names() {
     assert_eq!(named, ["Top", "Front", "Right", "Isometric"]);
     script.editor.orbit(DVec2::new(7.0, 3.0));
     assert_eq!(name(&script), "Orbit");
+}
+
+#[test]
+fn nudges_by_decimals_leave_no_rounding() {
+    let mut script = two();
+    script.click(script.at_vertex(1));
+    let before = script.polygon().vertex(1);
+    script.editor.set_nudge_step(0.01);
+    let decimal = |number: f64| format!("{number:.2}").parse::<f64>().expect("a number");
+    for step in 1..=300 {
+        script.key(Key::Right);
+        script.key(Key::Down);
+        let by = 0.01 * f64::from(step);
+        let expected = [decimal(2.17 + by), decimal(1.33 - by)];
+        let now = script.polygon().vertex(1);
+        assert_eq!(now.truncate().to_array(), expected);
+    }
+    for _ in 0..300 {
+        script.key(Key::Left);
+        script.key(Key::Up);
+    }
+    assert_eq!(script.polygon().vertex(1), before);
+}
+
+#[test]
+fn a_drag_seen_at_an_angle_snaps_to_the_grid_on_the_ground() {
+    let mut script = two();
+    script.command(Command::ToggleSnapping);
+    script.command(Command::View(NamedView::Isometric));
+    let viewport = *script.editor.view().viewport();
+    let crossing = DVec3::new(10.0, -4.0, 0.0);
+    let seen = viewport.to_screen(viewport.flatten(crossing));
+    script.press(script.at_vertex(3));
+    script.move_to(seen + DVec2::new(2.0, -1.0));
+    assert_eq!(readout(&mut script).expect("a readout").remarks, ["Grid"]);
+    script.release(seen + DVec2::new(2.0, -1.0));
+    let off = script.polygon().vertex(3).distance(crossing);
+    assert!(off < 1e-12 * crossing.length(), "{off}");
+    // What does not lie on the ground only seems to meet it.
+    let curve = script.curve();
+    let raised = DVec3::new(3.0, 1.0, 2.0);
+    let moves = vec![(0, raised)];
+    let edit = Edit::MoveVertices { curve, moves };
+    script.editor.apply("Raise", vec![edit]).expect("an edit");
+    script.press(script.at_vertex(0));
+    script.move_to(seen + DVec2::new(2.0, -1.0));
+    let remarks = readout(&mut script).expect("a readout").remarks;
+    assert!(!remarks.contains(&"Grid".to_owned()), "{remarks:?}");
 }

@@ -1,5 +1,6 @@
 //! What the hand holds and does: the tool, its gesture, the selection, and the keys that are held.
 
+mod clean_step;
 mod cycle;
 mod dispatch;
 mod drawing_plane;

@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 
 use crate::document::{CurveId, Document, MatchPlace};
 use crate::editor::hand::selection::VertexId;
-use crate::editor::view::grid::grid_steps;
+use crate::editor::view::grid::{grid_steps, ground_steps};
 use crate::editor::view::hit::REACH;
 use crate::editor::view::viewport::Viewport;
 use crate::geometry::End;
@@ -23,6 +23,8 @@ pub struct Carried {
     pub target: Option<(CurveId, End)>,
     /// The reference.
     pub reference: Option<CurveId>,
+    /// Whether it does not lie on the ground, whose grid it only seems to meet where the view is turned.
+    pub is_off_ground: bool,
 }
 
 /// What a dragged place snaps to.
@@ -104,30 +106,39 @@ enum Snapped {
 impl Snapped {
     fn name(self, document: &Document) -> String {
         match self {
-            Self::Vertex(index) => format!("vertex {index}"),
-            Self::End(end) => end.name().to_owned(),
-            Self::Target(end) => format!("target of the {}", end.name()),
+            Self::Vertex(index) => format!("Vertex {index}"),
+            Self::End(End::Start) => "Start".to_owned(),
+            Self::End(End::Finish) => "End".to_owned(),
+            Self::Target(end) => format!("Target of the {}", end.name()),
             Self::Reference(id) => reference_name(id, document),
-            Self::Origin => "origin".to_owned(),
+            Self::Origin => "Origin".to_owned(),
         }
     }
 }
 
 /// What a snap to a reference is called.
 pub fn reference_name(id: CurveId, document: &Document) -> String {
-    format!("reference {}", document.name(id).unwrap_or_default())
+    format!("Reference {}", document.name(id).unwrap_or_default())
 }
 
-/// Find the crossing of the grid's minor lines that a place of the view plane snaps to, if one is near.
+/// Find the crossing of the grid's minor lines that a place of the view plane snaps to, if one is near: of the grid in
+/// the view plane, or of that on the ground where the view is turned against the model.
 pub fn snap_to_grid(place: DVec2, viewport: &Viewport) -> Option<Snap> {
-    // Only a view along an axis of the model shows the grid.
-    viewport.orientation.axes()?;
-    let (minor, _) = grid_steps(viewport);
-    let crossing = (place / minor).round() * minor;
-    let near = crossing.distance(place) <= GRID_REACH * viewport.pixel();
-    (near && crossing.is_finite()).then(|| Snap {
-        point: viewport.grounded(crossing),
-        name: "grid".to_owned(),
+    let point = match viewport.orientation.axes() {
+        Some(_) => {
+            let (minor, _) = grid_steps(viewport);
+            viewport.grounded((place / minor).round() * minor)
+        }
+        None => {
+            let (minor, _) = ground_steps(viewport)?;
+            let ground = viewport.grounded(place).truncate();
+            ((ground / minor).round() * minor).extend(0.0)
+        }
+    };
+    let near = viewport.flatten(point).distance(place) <= GRID_REACH * viewport.pixel();
+    (near && point.is_finite()).then(|| Snap {
+        point,
+        name: "Grid".to_owned(),
     })
 }
 

@@ -39,22 +39,34 @@ pub struct GroundGrid {
     pub strength: f32,
 }
 
+/// The minor and major steps of the grid on the ground, if it is seen in a view that is turned against the model.
+pub fn ground_steps(viewport: &Viewport) -> Option<(f64, f64)> {
+    let [right, up] = [DVec3::X, DVec3::Y].map(|axis| viewport.flatten(axis));
+    let slant = right.perp_dot(up).abs();
+    // Lines must not crowd in the direction in which they are seen closest together.
+    let closest = slant / right.length().max(up.length());
+    let steps = || {
+        grid_steps(&Viewport {
+            scale: viewport.scale * closest,
+            ..*viewport
+        })
+    };
+    (ground_strength(slant) > 0.0).then(steps)
+}
+
+fn ground_strength(slant: f64) -> f32 {
+    let [least, full] = GROUND_SEEN;
+    ((slant - least) / (full - least)).clamp(0.0, 1.0) as f32
+}
+
 /// Make the grid on the ground for a view that is turned against the model.
 pub fn ground_grid(viewport: &Viewport) -> GroundGrid {
     let mut grid = GroundGrid::default();
-    let [right, up] = [DVec3::X, DVec3::Y].map(|axis| viewport.flatten(axis));
-    let slant = right.perp_dot(up).abs();
-    let [least, full] = GROUND_SEEN;
-    grid.strength = ((slant - least) / (full - least)).clamp(0.0, 1.0) as f32;
-    if grid.strength == 0.0 {
+    let Some((minor, major)) = ground_steps(viewport) else {
         return grid;
-    }
-    // Lines must not crowd in the direction in which they are seen closest together.
-    let closest = slant / right.length().max(up.length());
-    let (minor, major) = grid_steps(&Viewport {
-        scale: viewport.scale * closest,
-        ..*viewport
-    });
+    };
+    let [right, up] = [DVec3::X, DVec3::Y].map(|axis| viewport.flatten(axis));
+    grid.strength = ground_strength(right.perp_dot(up).abs());
     let ground = |place: DVec2| {
         let across = place.perp_dot(up) / right.perp_dot(up);
         let along = right.perp_dot(place) / right.perp_dot(up);

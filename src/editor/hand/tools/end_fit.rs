@@ -6,7 +6,7 @@ use super::end_fit_drags::{
     drag_body, drag_circle, drag_direction, drag_ring, drag_target, is_near, missing_angle,
 };
 use super::end_fit_subject::{Handle, Subject};
-use super::tool::{Context, Cursor, Effect, Tool, followers_label};
+use super::tool::{Context, Cursor, Effect, Tool, followers_label, named_snap};
 use crate::document::{Edit, EndMatch, MatchPlace};
 use crate::editor::hand::end_fit::{
     EndFitAction, EndFitSettings, LastAction, nearest_other_end, other_ends,
@@ -153,12 +153,16 @@ impl Tool for EndFitTool {
             State::Body {
                 snapped: Some(place),
                 ..
-            } => vec![Mark::Snap(*place)],
+            } => named_snap(
+                *place,
+                format!("Target of the {}", self.settings.end.name()),
+            )
+            .into(),
             _ if self.follows(context) => {
                 let label = context.pointer.and_then(|at| followers_label(at, context));
-                label.into_iter().collect()
+                label.into_iter().chain(self.snap_marks(context)).collect()
             }
-            _ => Vec::new(),
+            _ => self.snap_marks(context),
         }
     }
 
@@ -208,6 +212,18 @@ impl EndFitTool {
     /// Whether the end follows the target that is dragged.
     fn follows(&self, context: &Context) -> bool {
         self.drags_target() && context.following.follows_targets()
+    }
+
+    /// What a target that is dragged snaps to.
+    fn snap_marks(&self, context: &Context) -> Vec<Mark> {
+        let (State::Target { offset }, false, Some(at)) =
+            (&self.state, context.modifiers.shift, context.pointer)
+        else {
+            return Vec::new();
+        };
+        let subject = Subject::of(context, self.settings.end, false);
+        let marks = subject.map(|subject| context.snap_marks(at + *offset, &subject.carried()));
+        marks.unwrap_or_default()
     }
 
     fn click(&mut self, place: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {

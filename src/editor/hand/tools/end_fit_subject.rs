@@ -166,6 +166,7 @@ impl<'a> Subject<'a> {
             vertices: all.map(|index| (self.id, index)).collect(),
             target: Some((self.id, self.end)),
             reference: None,
+            is_off_ground: !self.is_planar(),
         }
     }
 

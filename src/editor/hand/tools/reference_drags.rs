@@ -4,6 +4,7 @@ use glam::{DQuat, DVec2, DVec3};
 
 use super::tool::{Context, Effect};
 use crate::document::{CurveId, Document, Edit, Reference};
+use crate::editor::hand::clean_step::stepped;
 use crate::editor::hand::snapping::{Carried, Snap, by_fifteen_degrees};
 use crate::editor::view::hit::{CurveHit, REACH};
 use crate::editor::view::scene::{DragReadout, Mark};
@@ -276,7 +277,7 @@ pub fn nudged(by: DVec2, context: &Context) -> Option<Edit> {
     let (id, reference) = editable(context)?;
     let curve = &reference.curve;
     let now = curve.placement();
-    let to = now.translation() + context.movement(by, curve.is_planar());
+    let to = stepped(now.translation(), context.movement(by, curve.is_planar()));
     let placement = Placement::new(now.rotation(), now.scale(), to).ok()?;
     Some(Edit::SetReference {
         reference: id,

@@ -7,6 +7,7 @@ use glam::{DVec2, DVec3};
 use super::reference_drags::{Frame, ReferenceDrag, nudged};
 use super::tool::{Context, Cursor, Effect, Look, Tool, move_edits};
 use crate::document::{CurveId, Document, EditError};
+use crate::editor::hand::clean_step::stepped;
 use crate::editor::hand::following::Follow;
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
@@ -127,7 +128,11 @@ struct MovingClamped {
 impl MovingClamped {
     fn drag(&mut self, place: DVec2, context: &Context) -> Effect {
         let seen = context.viewport.flatten(self.held);
-        let (by, snap) = context.movement_to(self.origin, seen, place, &Carried::default());
+        let carried = Carried {
+            is_off_ground: !self.planar,
+            ..Carried::default()
+        };
+        let (by, snap) = context.movement_to(self.origin, seen, place, &carried);
         (self.by, self.snap) = (by, snap);
         let to = self.held + context.movement(by, self.planar);
         move_clamped(self.vertex, to, context)
@@ -436,14 +441,16 @@ impl SelectTool {
         context: &Context,
     ) -> Vec<Effect> {
         let vertices = context.places(taken.iter().copied());
+        let planar = context.planar_curves(&vertices);
         self.state = State::Moving(Moving {
             origin: context.model(place),
             held,
             carried: Carried {
                 vertices: taken.into_iter().collect(),
+                is_off_ground: !planar.contains(&grip.0),
                 ..Carried::default()
             },
-            planar: context.planar_curves(&vertices),
+            planar,
             vertices,
             snap: None,
             grip,
@@ -581,7 +588,7 @@ fn nudge(key: Key, context: &Context) -> Vec<Effect> {
     let label = format!("Nudge {}", counted(vertices.len(), "vertex", "vertices"));
     let places = vertices.iter().map(|(id, at)| {
         let by = context.movement(direction * step, planar.contains(&id.0));
-        (*id, *at + by)
+        (*id, stepped(*at, by))
     });
     let staying = context.staying().map(Effect::Say);
     let nudge = Effect::Apply(label, move_edits(places));

@@ -231,9 +231,23 @@ impl Context<'_> {
             let point = snapping::snap_to_point(place, self.before, carried, self.viewport);
             point
                 .or_else(|| self.on_reference(place, carried))
-                .or_else(|| snapping::snap_to_grid(place, self.viewport))
+                .or_else(|| self.on_grid(place, carried))
         };
         snaps.then(near).flatten()
+    }
+
+    /// The crossing of the grid near a place of the view plane, as far as what is carried along can lie on it.
+    fn on_grid(&self, place: DVec2, carried: &Carried) -> Option<Snap> {
+        let is_turned = self.viewport.orientation.axes().is_none();
+        let grid = || snapping::snap_to_grid(place, self.viewport);
+        (!(carried.is_off_ground && is_turned)).then(grid).flatten()
+    }
+
+    /// Mark and name what a place of the view plane snaps to, if anything.
+    pub fn snap_marks(&self, place: DVec2, carried: &Carried) -> Vec<Mark> {
+        let snap = self.snap(place, carried);
+        let marks = snap.map(|snap| named_snap(self.viewport.flatten(snap.point), snap.name));
+        marks.into_iter().flatten().collect()
     }
 
     /// The point of a reference that is seen near a place of the view plane.
@@ -295,6 +309,11 @@ impl Context<'_> {
         };
         vertices.into_iter().filter_map(place).collect()
     }
+}
+
+/// Mark a place that something snapped to, with its name.
+pub(super) fn named_snap(at: DVec2, name: String) -> [Mark; 2] {
+    [Mark::Snap(at), Mark::Name(at, name)]
 }
 
 /// Say beside a pointer of the view plane how the neighbours of what is dragged follow, if they do.
