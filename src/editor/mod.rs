@@ -44,9 +44,9 @@ pub use trial::{Run, Trial};
 pub use view::{
     Bounds, ChainOutlines, ClampedMark, CombSettings, CurveOutlines, CurveScene, DragReadout,
     EndFitMarks, FeatureKind, FeatureMark, FeatureReport, FeatureRow, GAP, GroundGrid, GuideLabel,
-    GuideScene, HoverScene, Layer, Layers, Legs, LossArrow, Mark, NamedView, Orientation,
-    PieceTrend, PlotBand, PlotFeature, PlotKind, PlotScene, ProposalScene, REACH, Scene,
-    VertexMark, View, ViewBox, Viewport, grid_steps, ground_grid, view_name,
+    GuideScene, HoverScene, Layer, Layers, Legs, LossArrow, Mark, MeasuredFigure, NamedView,
+    Orientation, PieceTrend, PlotBand, PlotFeature, PlotKind, PlotScene, ProposalScene, REACH,
+    Scene, VertexMark, View, ViewBox, Viewport, grid_steps, ground_grid, view_name,
 };
 pub use worker::{Outcome, Worker};
 pub use workspace::{Interruption, PreviewId, Workspace};

@@ -71,4 +71,7 @@ pub use progress::Progress;
 pub use rounding_test::{RoundingTest, Shortening};
 pub use sampled_cusps::sampled_cusps;
 pub use sampler::{BATCH_ORDER, Batch, Sampler};
-pub use wording::{counted, figure, noun, rounded_up, significant};
+pub use wording::{
+    SMALL, coordinate, counted, figure, noun, rounded_up, significant, to_resolution,
+    without_negative_zero,
+};

@@ -10,6 +10,12 @@ pub fn noun<'a>(count: usize, one: &'a str, many: &'a str) -> &'a str {
     if count == 1 { one } else { many }
 }
 
+/// The most characters a number is written plainly with.
+const LONGEST: usize = 14;
+
+/// Numbers below this are written with an exponent.
+pub const SMALL: f64 = 1e-4;
+
 /// Write a figure for reading: seven significant digits.
 pub fn figure(value: f64) -> String {
     significant(value, 7)
@@ -37,6 +43,58 @@ pub fn significant(value: f64, digits: usize) -> String {
             }
             _ => text,
         }
+    }
+}
+
+/// Write a coordinate where a screen point spans `pixel`: to a hundredth of that.
+pub fn coordinate(value: f64, pixel: f64) -> String {
+    to_resolution(value, 0.01 * pixel.max(1e-300))
+}
+
+/// Write a number with as many decimals as `resolution` needs, so that neighbours line up:
+/// the resolution is the smallest difference that matters. Numbers too long for that lose
+/// decimals first, and are then written with an exponent.
+pub fn to_resolution(value: f64, resolution: f64) -> String {
+    if !value.is_finite() {
+        return "–".to_owned();
+    }
+    let is_coarse = value.abs() >= 1e6 && resolution >= value.abs() * 1e-3;
+    let before_point = value.abs().max(1.0).log10() as usize + 3;
+    if is_coarse || before_point > LONGEST {
+        return significant(value, 6);
+    }
+    let needed = decimals(resolution);
+    let decimals = needed.min(LONGEST - before_point);
+    if needed > 9 && decimals < needed && value.abs() < 1.0 {
+        return significant(value, 6);
+    }
+    let text = without_negative_zero(format!("{value:.decimals$}"));
+    let zeros = text
+        .bytes()
+        .take_while(|byte| b"-0.".contains(byte))
+        .count();
+    if value.abs() < SMALL && zeros < text.len() {
+        // 1e-9, not 0.000000001.
+        return significant(value, text.len() - zeros);
+    }
+    text
+}
+
+/// The number of decimals that tell values apart that differ by `resolution`.
+fn decimals(resolution: f64) -> usize {
+    if resolution > 0.0 && resolution.is_finite() {
+        (-resolution.log10()).ceil().clamp(0.0, 15.0) as usize
+    } else {
+        6
+    }
+}
+
+/// Take the sign from a zero.
+pub fn without_negative_zero(text: String) -> String {
+    let is_zero = text.bytes().all(|byte| matches!(byte, b'-' | b'0' | b'.'));
+    match text.strip_prefix('-') {
+        Some(rest) if is_zero => rest.to_owned(),
+        _ => text,
     }
 }
 

@@ -13,9 +13,9 @@ use super::number_field::{FieldEvent, NumberField};
 use super::theme::{self, ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
 use super::{figures, inspector};
-use crate::editor::{Editor, Entry, EntryError, LegLocks};
+use crate::editor::{Editor, Entry, EntryError, Input, Key as EditorKey, LegLocks};
 use crate::geometry::MAX_DEGREE;
-use crate::geometry::expressions::Quantity;
+use crate::geometry::expressions::{LengthUnit, Quantity};
 
 /// What texts begin with that are numbers or points.
 const BEGINNINGS: [char; 5] = ['-', '−', '.', '@', '('];
@@ -24,6 +24,7 @@ const BEGINNINGS: [char; 5] = ['-', '−', '.', '@', '('];
 const FIELD: f32 = 208.0;
 const CAPTION: f32 = 48.0;
 const FIGURE: f32 = 76.0;
+const SO_FAR: f32 = 56.0;
 
 /// The field for what is typed, which the canvas's digits go to.
 #[derive(Debug, Default)]
@@ -140,6 +141,8 @@ impl CanvasEntry {
     fn enter(&mut self, ui: &Ui, editor: &mut Editor) {
         let is_empty = self.text.trim().is_empty();
         let entered = if is_empty {
+            // As on the canvas: it ends what is drawn.
+            editor.input(Input::Key(EditorKey::Enter));
             Ok(())
         } else {
             editor.enter(&self.text)
@@ -184,14 +187,15 @@ fn caption_ui(ui: &mut Ui, caption: &str) {
 /// Degree, length and angle of what is drawn.
 fn leg_ui(ui: &mut Ui, editor: &mut Editor) {
     degree_ui(ui, editor);
-    ui.add_space(2.0 * STEP);
     let Some(locks) = editor.leg_locks() else {
         return;
     };
     let leg = editor.leg();
     let pixel = editor.view().viewport().pixel();
     let length = leg.map(|leg| leg.length);
-    let shown = |value| figures::to_resolution(value, 0.1 * pixel);
+    let unit = editor.document().unit().map(LengthUnit::symbol);
+    let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+    let shown = |value| figures::to_resolution(value, 0.1 * pixel) + &unit;
     let length = figure_ui(
         ui,
         ("Length", "leg length", Quantity::Length),
@@ -231,6 +235,12 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor) {
             }
             None => inspector::set_degree(editor, degree as f64),
         }
+    }
+    // What it has so far stands in a place of its own, so that nothing moves.
+    let (_, rect) = ui.allocate_space(vec2(SO_FAR, ROW));
+    if let Some(degree) = editor.degree_so_far() {
+        let text = format!("{degree} so far");
+        widgets::label_in(ui, rect, &text, Tokens::of(ui).faint_text);
     }
 }
 

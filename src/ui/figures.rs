@@ -1,51 +1,7 @@
 //! Numbers as the screen shows them.
 
 use crate::geometry::Range;
-pub use crate::geometry::significant;
-
-/// The most characters a number is written plainly with.
-const LONGEST: usize = 14;
-
-/// Numbers below this are written with an exponent.
-pub const SMALL: f64 = 1e-4;
-
-/// Write a number with as many decimals as `resolution` needs, so that neighbours line up:
-/// the resolution is the smallest difference that matters. Numbers too long for that lose
-/// decimals first, and are then written with an exponent.
-pub fn to_resolution(value: f64, resolution: f64) -> String {
-    if !value.is_finite() {
-        return "–".to_owned();
-    }
-    let is_coarse = value.abs() >= 1e6 && resolution >= value.abs() * 1e-3;
-    let before_point = value.abs().max(1.0).log10() as usize + 3;
-    if is_coarse || before_point > LONGEST {
-        return significant(value, 6);
-    }
-    let needed = decimals(resolution);
-    let decimals = needed.min(LONGEST - before_point);
-    if needed > 9 && decimals < needed && value.abs() < 1.0 {
-        return significant(value, 6);
-    }
-    let text = without_negative_zero(format!("{value:.decimals$}"));
-    let zeros = text
-        .bytes()
-        .take_while(|byte| b"-0.".contains(byte))
-        .count();
-    if value.abs() < SMALL && zeros < text.len() {
-        // 1e-9, not 0.000000001.
-        return significant(value, text.len() - zeros);
-    }
-    text
-}
-
-/// The number of decimals that tell values apart that differ by `resolution`.
-pub fn decimals(resolution: f64) -> usize {
-    if resolution > 0.0 && resolution.is_finite() {
-        (-resolution.log10()).ceil().clamp(0.0, 15.0) as usize
-    } else {
-        6
-    }
-}
+pub use crate::geometry::{SMALL, coordinate, significant, to_resolution, without_negative_zero};
 
 /// Write an angle given in radians as degrees.
 pub fn degrees(radians: f64, decimals: usize) -> String {
@@ -90,14 +46,6 @@ pub fn range(range: Option<Range>, text: impl Fn(f64) -> String) -> String {
         || "–".to_owned(),
         |range| format!("{} … {}", text(range.low), text(range.high)),
     )
-}
-
-fn without_negative_zero(text: String) -> String {
-    let is_zero = text.bytes().all(|byte| matches!(byte, b'-' | b'0' | b'.'));
-    match text.strip_prefix('-') {
-        Some(rest) if is_zero => rest.to_owned(),
-        _ => text,
-    }
 }
 
 #[cfg(test)]

@@ -7,6 +7,9 @@ use super::theme::{self, RADIUS, STEP, Tokens};
 /// How far a tooltip stays from the point that it speaks of.
 const CLEARANCE: f32 = 14.0;
 
+/// How little a text's plate lets through.
+const PLATE: f32 = 0.85;
+
 /// The size of a line of text.
 pub fn size(painter: &Painter, text: &str, font: FontId) -> Vec2 {
     painter
@@ -14,7 +17,7 @@ pub fn size(painter: &Painter, text: &str, font: FontId) -> Vec2 {
         .size()
 }
 
-/// Write a text with a halo in the canvas's colour, so that lines under it don't disturb.
+/// Write a text on a plate in the canvas's colour, so that lines under it don't disturb.
 pub fn paint(
     painter: &Painter,
     at: Pos2,
@@ -26,35 +29,38 @@ pub fn paint(
 ) {
     let galley = painter.layout_no_wrap(text.to_owned(), font, colour);
     let rect = align.anchor_size(at, galley.size());
-    let halo = tokens.background;
-    for offset in [
-        vec2(-1.0, 0.0),
-        vec2(1.0, 0.0),
-        vec2(0.0, -1.0),
-        vec2(0.0, 1.0),
-        vec2(-1.0, -1.0),
-        vec2(1.0, 1.0),
-        vec2(-1.0, 1.0),
-        vec2(1.0, -1.0),
-    ] {
-        painter.galley_with_override_text_color(rect.min + offset, galley.clone(), halo);
-    }
+    let plate = tokens.background.gamma_multiply(PLATE);
+    painter.rect_filled(rect.expand2(vec2(0.75 * STEP, 0.25 * STEP)), RADIUS, plate);
     painter.galley(rect.min, galley, colour);
 }
 
-/// Show some lines in a box beside a point: within the canvas, and never over the point.
-pub fn tooltip(painter: &Painter, canvas: Rect, point: Pos2, text: &str, tokens: &Tokens) {
+/// Show some lines in a box beside a point: within the canvas, never over the point, and over as few of some
+/// `others` as can be.
+pub fn tooltip(
+    painter: &Painter,
+    (canvas, others): (Rect, &[Pos2]),
+    point: Pos2,
+    text: &str,
+    tokens: &Tokens,
+) {
+    let place = |size| beside(canvas.shrink(STEP), point, size, others);
+    lines_in_box(painter, text, tokens, place);
+}
+
+/// Show some lines in a box, which a function places by its size.
+fn lines_in_box(painter: &Painter, text: &str, tokens: &Tokens, place: impl Fn(Vec2) -> Rect) {
     let galley = painter.layout_no_wrap(text.to_owned(), theme::number_font(), tokens.text);
     let padding = vec2(2.0 * STEP, 1.5 * STEP);
-    let rect = beside(canvas.shrink(STEP), point, galley.size() + 2.0 * padding);
-    painter.rect(
-        rect,
-        RADIUS,
-        tokens.panel,
-        Stroke::new(1.0, tokens.outline),
-        StrokeKind::Outside,
-    );
+    let rect = place(galley.size() + 2.0 * padding);
+    let outline = Stroke::new(1.0, tokens.outline);
+    painter.rect(rect, RADIUS, tokens.panel, outline, StrokeKind::Outside);
     painter.galley(rect.min + padding, galley, tokens.text);
+}
+
+/// How many of some points a box covers, or nearly so.
+fn covered(rect: &Rect, points: &[Pos2]) -> usize {
+    let near = rect.expand(STEP);
+    points.iter().filter(|point| near.contains(**point)).count()
 }
 
 /// Name what is at a point, in small type below it.
@@ -67,37 +73,39 @@ pub fn name(painter: &Painter, canvas: Rect, point: Pos2, text: &str, tokens: &T
     paint(painter, at, Align2::LEFT_TOP, text, font, colour, tokens);
 }
 
-/// Show some lines in a box beside a point that moves along `way`: behind it, where it comes from.
+/// Show some lines in a box beside a point that moves along `way`: behind it, where it comes from, and over as
+/// few of some `others` as can be.
 pub fn behind(
     painter: &Painter,
-    canvas: Rect,
+    (canvas, others): (Rect, &[Pos2]),
     (point, way): (Pos2, Vec2),
     text: &str,
     tokens: &Tokens,
 ) {
-    let galley = painter.layout_no_wrap(text.to_owned(), theme::number_font(), tokens.text);
-    let padding = vec2(2.0 * STEP, 1.5 * STEP);
-    let size = galley.size() + 2.0 * padding;
-    let rect = place_behind(canvas.shrink(STEP), point, way, size);
-    let outline = Stroke::new(1.0, tokens.outline);
-    painter.rect(rect, RADIUS, tokens.panel, outline, StrokeKind::Outside);
-    painter.galley(rect.min + padding, galley, tokens.text);
+    let place = |size| place_behind(canvas.shrink(STEP), (point, way), size, others);
+    lines_in_box(painter, text, tokens, place);
 }
 
-/// Find a box of some size behind a point that moves along `way`; near the canvas's edge on one of its other
-/// sides, where there is room.
-fn place_behind(canvas: Rect, point: Pos2, way: Vec2, size: Vec2) -> Rect {
+/// Find a box of some size behind a point that moves along `way`, where it covers as few of some `others` as can be;
+/// near the canvas's edge on one of its other sides, where there is room.
+fn place_behind(canvas: Rect, (point, way): (Pos2, Vec2), size: Vec2, others: &[Pos2]) -> Rect {
     let back = match way == Vec2::ZERO {
         true => vec2(0.0, -1.0),
         false => -way.normalized(),
     };
-    let sides = [back, back.rot90(), -back.rot90(), -back];
-    let boxes = sides.map(|side| {
-        let rect = outside(point, side, size);
-        moved_into(canvas, rect)
-    });
-    let is_clear = |rect: &&Rect| !rect.expand(0.5 * CLEARANCE).contains(point);
-    boxes.iter().find(is_clear).copied().unwrap_or(boxes[0])
+    let (left, right) = (back.rot90(), -back.rot90());
+    let boxed = |side: Vec2| moved_into(canvas, outside(point, side, size));
+    let is_clear = |rect: &Rect| !rect.expand(0.5 * CLEARANCE).contains(point);
+    let best = |sides: &[Vec2]| {
+        let boxes = sides.iter().map(|side| boxed(*side)).filter(is_clear);
+        boxes.min_by_key(|rect| covered(rect, others))
+    };
+    let halfway = [back + left, back + right].map(Vec2::normalized);
+    let behind = best(&[back, halfway[0], halfway[1]]);
+    let behind = behind.filter(|rect| covered(rect, others) == 0);
+    let around = || best(&[back, halfway[0], halfway[1], left, right]);
+    let ahead = || best(&[-back]);
+    behind.or_else(around).or_else(ahead).unwrap_or(boxed(back))
 }
 
 /// Find a box of some size on one side of a point.
@@ -114,16 +122,17 @@ fn moved_into(canvas: Rect, rect: Rect) -> Rect {
 }
 
 /// Find a box of some size beside a point: right of it and above if there is room, otherwise on
-/// another side.
-fn beside(canvas: Rect, point: Pos2, size: Vec2) -> Rect {
+/// another side, or where it covers the fewest of some `others`.
+fn beside(canvas: Rect, point: Pos2, size: Vec2, others: &[Pos2]) -> Rect {
     let right = point.x + CLEARANCE;
     let left = point.x - CLEARANCE - size.x;
     let above = point.y - CLEARANCE - size.y;
     let below = point.y + CLEARANCE;
     let corners = [(right, above), (left, above), (right, below), (left, below)];
     let boxes = corners.map(|(x, y)| Rect::from_min_size(Pos2::new(x, y), size));
-    if let Some(free) = boxes.into_iter().find(|rect| canvas.contains_rect(*rect)) {
-        return free;
+    let free = boxes.into_iter().filter(|rect| canvas.contains_rect(*rect));
+    if let Some(best) = free.min_by_key(|rect| covered(rect, others)) {
+        return best;
     }
     // Near a short edge: keep to a side of the point and slide along it.
     let x = if right + size.x <= canvas.right() {
@@ -148,15 +157,41 @@ mod tests {
         for step in 0..24 {
             let way = Vec2::angled(step as f32);
             let point = pos2(300.0, 200.0);
-            let rect = place_behind(canvas, point, way, size);
+            let rect = place_behind(canvas, (point, way), size, &[]);
             assert!((rect.center() - point).dot(way) < 0.0, "{way:?}: {rect:?}");
             let ahead = (0..200).map(|far| point + way * far as f32);
             assert!(ahead.into_iter().all(|place| !rect.contains(place)));
             for corner in [pos2(3.0, 2.0), pos2(598.0, 3.0), pos2(2.0, 397.0)] {
-                let rect = place_behind(canvas, corner, way, size);
+                let rect = place_behind(canvas, (corner, way), size, &[]);
                 assert!(canvas.contains_rect(rect) && !rect.contains(corner));
             }
         }
+    }
+
+    #[test]
+    fn texts_stand_beside_a_curve_that_passes() {
+        let canvas = Rect::from_min_size(pos2(0.0, 0.0), vec2(900.0, 700.0));
+        let (point, size) = (pos2(450.0, 350.0), vec2(150.0, 50.0));
+        for step in 0..48 {
+            let along = Vec2::angled(step as f32 * 0.13);
+            let curve = (-300..=300).map(|far| point + along * far as f32);
+            let curve: Vec<Pos2> = curve.collect();
+            // The point is dragged across the curve, to either side, or along it.
+            for way in [along.rot90(), -along.rot90()] {
+                let rect = place_behind(canvas, (point, way), size, &curve);
+                assert_eq!(covered(&rect, &curve), 0, "{way:?}: {rect:?}");
+                assert!((rect.center() - point).dot(way) < 1.0);
+            }
+            let rect = place_behind(canvas, (point, along), size, &curve);
+            assert!((rect.center() - point).dot(along) < 1.0);
+            let behind = covered(&outside(point, -along, size), &curve);
+            assert!(covered(&rect, &curve) < behind.max(1));
+        }
+        let diagonal: Vec<Pos2> = (0..300)
+            .map(|far| point + vec2(1.0, -1.0) * far as f32)
+            .collect();
+        let rect = beside(canvas, point, size, &diagonal);
+        assert_eq!(covered(&rect, &diagonal), 0);
     }
 
     #[test]
@@ -166,7 +201,7 @@ mod tests {
         for x in 0..=12 {
             for y in 0..=8 {
                 let point = canvas.min + vec2(50.0 * x as f32, 50.0 * y as f32);
-                let rect = beside(canvas, point, size);
+                let rect = beside(canvas, point, size, &[]);
                 assert!(canvas.contains_rect(rect), "{point:?}: {rect:?}");
                 assert!(!rect.contains(point), "{point:?}: {rect:?}");
             }

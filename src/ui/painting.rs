@@ -11,7 +11,8 @@ use super::brush::Brush;
 use super::theme;
 use super::vertex_columns::Column;
 use super::{end_marks, feature_marks, guides, labels, proposal, transform_marks};
-use crate::editor::{CurveScene, DragReadout, HoverScene, Mark, Scene, VertexMark};
+use crate::editor::{CurveScene, DragReadout, HoverScene, Mark, MeasuredFigure, Scene, VertexMark};
+use crate::geometry::coordinate;
 
 /// Half the length of the tick across a joint, in points.
 const TICK: f32 = 5.0;
@@ -24,6 +25,9 @@ const BAND_STRENGTH: f32 = 0.4;
 
 /// The radius of a vertex's disc.
 const DISC: f32 = 4.0;
+
+/// The share of its size that the disc of a vertex of an inactive curve has.
+const INACTIVE_DISC: f32 = 0.5;
 
 /// The radius of a selected vertex's disc, and of the ring round it.
 const SELECTED: [f32; 2] = [5.0, 8.0];
@@ -46,6 +50,9 @@ const EXTREME: f32 = 9.0;
 /// The radius of an operation's handle.
 const HANDLE: f32 = 6.5;
 
+/// Points of a ruler that texts are kept clear of.
+const RULER_STEPS: u32 = 64;
+
 /// How faint the curve is as it was.
 const GHOST: f32 = 0.35;
 
@@ -60,10 +67,14 @@ pub fn paint(brush: &Brush<'_>, scene: &Scene) {
     brush.legs(&scene.ghost_polygon, ghostly(1.0, float));
     brush.chain(&scene.ghost, ghostly(1.5, curve));
     for curve in others.iter().chain(&active) {
+        brush.bands(curve);
+        brush.vertices(curve);
+    }
+    for curve in others.iter().chain(&active) {
         brush.curve(curve);
     }
     for curve in others.iter().chain(&active) {
-        brush.handles(curve);
+        brush.marked(curve);
     }
     for marks in &scene.ends {
         end_marks::paint(brush, marks);
@@ -74,12 +85,30 @@ pub fn paint(brush: &Brush<'_>, scene: &Scene) {
 /// Paint what belongs to the hand: marks of the tool and what is hovered.
 pub fn paint_hand(brush: &Brush<'_>, scene: &Scene) {
     proposal::paint(brush, &scene.proposal);
+    let others = kept_clear(brush, scene);
     for mark in &scene.marks {
-        brush.mark(mark);
+        brush.mark(mark, &others);
     }
     if let Some(hover) = &scene.hover {
-        brush.hover(hover);
+        brush.hover(hover, &others);
     }
+}
+
+/// What boxes of text are to keep clear of: points of the active curve and of rulers.
+fn kept_clear(brush: &Brush<'_>, scene: &Scene) -> Vec<Pos2> {
+    if scene.hover.is_none() && scene.marks.is_empty() {
+        return Vec::new();
+    }
+    let active = scene.curves.iter().filter(|curve| curve.active);
+    let curve = active.flat_map(|curve| &curve.curve);
+    let mut points: Vec<Pos2> = curve.filter_map(|at| brush.screen.point(*at)).collect();
+    for mark in &scene.marks {
+        if let Mark::Ruler([from, to]) = mark {
+            let steps = (0..=RULER_STEPS).map(|step| f64::from(step) / f64::from(RULER_STEPS));
+            points.extend(steps.filter_map(|share| brush.screen.point(from.lerp(*to, share))));
+        }
+    }
+    points
 }
 
 impl Brush<'_> {
@@ -94,7 +123,8 @@ impl Brush<'_> {
             fade(tokens.evolute).gamma_multiply(EVOLUTE_STRENGTH),
         );
         self.dashed_legs(&curve.clamped, Stroke::new(1.0, fade(tokens.clamped)));
-        self.legs(&curve.float, Stroke::new(1.25, fade(tokens.float)));
+        let float = if curve.active { 1.25 } else { 1.0 };
+        self.legs(&curve.float, Stroke::new(float, fade(tokens.float)));
     }
 
     /// The evolute of an arc of nearly constant curvature is hardly more than a point: it gets a
@@ -108,6 +138,16 @@ impl Brush<'_> {
             }
             self.painter
                 .add(Shape::line(line, Stroke::new(1.0, colour)));
+        }
+    }
+
+    /// What the curvature does, in bands that the curve lies on and keeps its own colour.
+    fn bands(&self, curve: &CurveScene) {
+        let tokens = self.tokens;
+        let trends = [tokens.rising, tokens.falling, tokens.undecided];
+        for (chain, trend) in curve.pieces.iter().zip(trends) {
+            let colour = trend.gamma_multiply(BAND_STRENGTH);
+            self.chain(chain, Stroke::new(BAND, colour));
         }
     }
 
@@ -132,14 +172,6 @@ impl Brush<'_> {
         };
         let colour = own.unwrap_or_else(next).gamma_multiply(strength);
         let width = if curve.active { 2.0 } else { 1.5 };
-        let trends = [tokens.rising, tokens.falling, tokens.undecided];
-        for (chain, trend) in curve.pieces.iter().zip(trends) {
-            // Bands under the curve, which keeps its own colour.
-            self.chain(
-                chain,
-                Stroke::new(BAND, trend.gamma_multiply(BAND_STRENGTH)),
-            );
-        }
         self.chain(&curve.curve, Stroke::new(width, colour));
         let tick = Stroke::new(1.5, fade(self.tokens.joints));
         for [point, normal] in &curve.joints {
@@ -177,7 +209,8 @@ impl Brush<'_> {
         }
     }
 
-    fn handles(&self, curve: &CurveScene) {
+    /// The vertices of both polygons, under the curve: where they crowd it is the curve that is seen.
+    fn vertices(&self, curve: &CurveScene) {
         let fade = fading(curve);
         for vertex in &curve.clamped_vertices {
             if let Some(at) = self.screen.point(vertex.at) {
@@ -190,7 +223,17 @@ impl Brush<'_> {
             }
         }
         let colour = fade(self.tokens.float);
-        for vertex in &curve.vertices {
+        let size = if curve.active { 1.0 } else { INACTIVE_DISC };
+        for vertex in curve.vertices.iter().filter(|vertex| !is_marked(vertex)) {
+            let size = size * vertex.size;
+            self.vertex(&VertexMark { size, ..*vertex }, colour, curve.locked);
+        }
+    }
+
+    /// Selected and locked vertices and features, on the curve.
+    fn marked(&self, curve: &CurveScene) {
+        let colour = fading(curve)(self.tokens.float);
+        for vertex in curve.vertices.iter().filter(|vertex| is_marked(vertex)) {
             self.vertex(vertex, colour, curve.locked);
         }
         for mark in &curve.features {
@@ -271,7 +314,7 @@ impl Brush<'_> {
         }
     }
 
-    fn mark(&self, mark: &Mark) {
+    fn mark(&self, mark: &Mark, others: &[Pos2]) {
         let tokens = self.tokens;
         let accent = Stroke::new(1.5, tokens.accent);
         match mark {
@@ -285,21 +328,12 @@ impl Brush<'_> {
                 }
             }
             Mark::Pivot(at) => self.pivot(*at),
-            Mark::Arm([pivot, handle]) => {
-                if let Some(line) = self.screen.segment([*pivot, *handle]) {
-                    self.painter
-                        .line_segment(line, Stroke::new(1.0, tokens.accent));
-                }
-                if let Some(at) = self.screen.point(*handle) {
-                    self.painter.circle(at, 6.0, tokens.background, accent);
-                }
-            }
             Mark::Ring {
                 centre,
                 handle,
                 swept,
             } => transform_marks::ring(self, *centre, *handle, *swept),
-            Mark::Corners(corners) => transform_marks::corners(self, corners),
+            Mark::Corners { corners, sides } => transform_marks::corners(self, corners, sides),
             Mark::Frame { corners, arm } => self.frame(corners, *arm),
             Mark::Snap(at) => {
                 if let Some(at) = self.screen.point(*at) {
@@ -320,26 +354,37 @@ impl Brush<'_> {
                     self.painter.line_segment(line, stroke);
                 }
             }
-            Mark::Drag(readout) => self.drag_readout(readout),
+            Mark::Measured(at, figures) => {
+                let pixel = 1.0 / self.screen.scale();
+                let line =
+                    |figure: &MeasuredFigure| figure.text(|length| coordinate(length, pixel));
+                let lines: Vec<String> = figures.iter().map(line).collect();
+                self.text_beside(*at, &lines.join("\n"), others);
+            }
+            Mark::Drag(readout) => self.drag_readout(readout, others),
             Mark::Extreme { at, text } => self.extreme(*at, text),
             Mark::Handle { at, marked } => self.handle(*at, *marked),
-            Mark::Label(at, text) => {
-                if let Some(at) = self.screen.point(*at) {
-                    labels::tooltip(self.painter, self.rect, at, text, tokens);
-                }
-            }
+            Mark::Label(at, text) => self.text_beside(*at, text, others),
+        }
+    }
+
+    /// Show some lines beside a place.
+    fn text_beside(&self, at: DVec2, text: &str, others: &[Pos2]) {
+        if let Some(at) = self.screen.point(at) {
+            labels::tooltip(self.painter, (self.rect, others), at, text, self.tokens);
         }
     }
 
     /// Tell what a drag did, on the other side of where it goes.
-    fn drag_readout(&self, readout: &DragReadout) {
+    fn drag_readout(&self, readout: &DragReadout, others: &[Pos2]) {
         let Some(at) = self.screen.point(readout.at) else {
             return;
         };
         let pixel = 1.0 / self.screen.scale();
         let text = drag_text(readout, pixel);
         let way = vec2(readout.way.x as f32, -readout.way.y as f32);
-        labels::behind(self.painter, self.rect, (at, way), &text, self.tokens);
+        let around = (self.rect, others);
+        labels::behind(self.painter, around, (at, way), &text, self.tokens);
     }
 
     /// The frame of a reference: squares scale, the disc above rotates.
@@ -422,7 +467,7 @@ impl Brush<'_> {
         }
     }
 
-    fn hover(&self, hover: &HoverScene) {
+    fn hover(&self, hover: &HoverScene, others: &[Pos2]) {
         let tokens = self.tokens;
         let ring = Stroke::new(1.5, tokens.accent);
         match hover {
@@ -434,7 +479,7 @@ impl Brush<'_> {
                     }
                     self.painter.circle_stroke(at, 8.0, ring);
                     if !text.is_empty() {
-                        labels::tooltip(self.painter, self.rect, at, text, tokens);
+                        labels::tooltip(self.painter, (self.rect, others), at, text, tokens);
                     }
                 }
             }
@@ -452,7 +497,7 @@ impl Brush<'_> {
                 }
                 if let Some(at) = self.screen.point(*at) {
                     self.painter.circle(at, 4.0, tokens.background, ring);
-                    labels::tooltip(self.painter, self.rect, at, text, tokens);
+                    labels::tooltip(self.painter, (self.rect, others), at, text, tokens);
                 }
             }
         }
@@ -505,12 +550,17 @@ fn drag_text(readout: &DragReadout, pixel: f64) -> String {
         .join("\n")
 }
 
+/// Whether a vertex is more than a disc of its polygon.
+fn is_marked(vertex: &VertexMark) -> bool {
+    vertex.selected || vertex.locked
+}
+
 /// How a curve steps back: inactive ones most, locked ones too.
 fn fading(curve: &CurveScene) -> impl Fn(Color32) -> Color32 {
     let strength = match (curve.active, curve.locked) {
         (true, false) => 1.0,
         (true, true) => 0.65,
-        (false, _) => 0.4,
+        (false, _) => 0.3,
     };
     move |colour| {
         if strength < 1.0 {

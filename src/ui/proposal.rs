@@ -3,6 +3,7 @@
 use eframe::egui::Stroke;
 
 use super::brush::Brush;
+use super::theme;
 use crate::editor::ProposalScene;
 
 /// How faint its polygons are.
@@ -14,5 +15,7 @@ pub fn paint(brush: &Brush<'_>, proposal: &ProposalScene) {
     let faint = |colour: eframe::egui::Color32| Stroke::new(1.0, colour.gamma_multiply(FAINT));
     brush.dashed_legs(&proposal.clamped, faint(tokens.clamped));
     brush.legs(&proposal.float, faint(tokens.float));
-    brush.chain(&proposal.curve, Stroke::new(1.5, tokens.curve));
+    let next = || proposal.id.map_or(tokens.curve, |id| tokens.of_curve(id));
+    let colour = proposal.colour.map_or_else(next, theme::of_document);
+    brush.chain(&proposal.curve, Stroke::new(1.5, colour));
 }

@@ -8,8 +8,9 @@ use super::brush::Brush;
 /// The side of square handles.
 const SQUARE: f32 = 9.0;
 
-/// The radius of round handles.
+/// The radius of round handles, and of those at sides.
 const DISC: f32 = 6.0;
+const SIDE: f32 = 4.5;
 
 /// How faint lines and what is swept are.
 const LINE: f32 = 0.6;
@@ -53,14 +54,20 @@ pub fn ring(brush: &Brush<'_>, centre: DVec2, handle: DVec2, swept: f64) {
     brush.painter.circle(end, DISC, fill, outline);
 }
 
-/// Paint a box with its corners, which are handles.
-pub fn corners(brush: &Brush<'_>, corners: &[DVec2; 4]) {
+/// Paint a box with its corners and the handles of its sides.
+pub fn corners(brush: &Brush<'_>, corners: &[DVec2; 4], handles: &[DVec2]) {
     let line = Stroke::new(1.0, brush.tokens.accent.gamma_multiply(LINE));
     let sides = corners.iter().zip(corners.iter().cycle().skip(1));
     for side in sides.filter_map(|(from, to)| brush.screen.segment([*from, *to])) {
         brush.painter.line_segment(side, line);
     }
     let (fill, outline) = handle_colours(brush);
+    for at in handles
+        .iter()
+        .filter_map(|handle| brush.screen.point(*handle))
+    {
+        brush.painter.circle(at, SIDE, fill, outline);
+    }
     for at in corners
         .iter()
         .filter_map(|corner| brush.screen.point(*corner))

@@ -94,10 +94,7 @@ impl Column {
     /// changes when it is dragged by one point.
     pub fn shown(self, value: f64, pixel: f64) -> (String, f64) {
         match self {
-            Self::Axis(_) => (
-                figures::to_resolution(value, 0.01 * pixel.max(1e-300)),
-                pixel,
-            ),
+            Self::Axis(_) => (figures::coordinate(value, pixel), pixel),
             Self::Weight => (figures::to_resolution(value, 1e-5), 0.01),
         }
     }

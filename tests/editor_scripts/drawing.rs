@@ -109,7 +109,7 @@ fn the_first_curve_that_is_drawn_is_fitted_with_a_comb_of_its_own() {
 /// The distance that the measure tool tells.
 fn told(script: &Script) -> f64 {
     let hint = script.editor.hint();
-    let first = hint.split_whitespace().next().expect("a figure");
+    let first = hint.split_whitespace().nth(1).expect("a figure");
     first.parse().expect("a number")
 }
 
@@ -122,7 +122,7 @@ fn a_measurement_stays_true_from_another_side() {
     let hint = script.editor.hint();
     let expected = DVec2::new(300.0, 150.0) / script.editor.view().viewport().scale;
     assert!((told(&script) - expected.length()).abs() < 1e-5);
-    assert!(hint.contains(" dx ") && hint.contains(" dy "), "{hint}");
+    assert!(hint.contains(" Δx ") && hint.contains(" Δy "), "{hint}");
     for view in NamedView::ALL {
         script.command(Command::View(view));
         assert_eq!(script.editor.hint(), hint);
@@ -150,7 +150,7 @@ fn between_vertices_in_space_the_distance_is_that_in_space() {
         script.editor.hint()
     );
     assert!(
-        script.editor.hint().contains(" dz "),
+        script.editor.hint().contains(" Δz "),
         "{}",
         script.editor.hint()
     );

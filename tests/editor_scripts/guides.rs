@@ -248,7 +248,7 @@ fn the_moves_that_lose_a_chosen_feature_are_shown_and_do_lose_it() {
             check_arrows(&script.polygon(), &guides);
             if guides.arrows.is_empty() {
                 let text = &guides.labels[0].text;
-                assert!(text.starts_with("no move of one vertex found"), "{text}");
+                assert!(text.starts_with("No move of one vertex found"), "{text}");
             } else {
                 lost.push((name, row.kind));
             }

@@ -1,7 +1,7 @@
 //! Measuring: what it snaps to, arc lengths, and how long a measurement stays.
 
 use batten::editor::{Command, Key, Mark, NamedView, ToolKind};
-use batten::geometry::{End, FloatPolygon, arc_length_between};
+use batten::geometry::{End, FloatPolygon, arc_length_between, significant};
 use glam::{DVec2, DVec3};
 
 use super::script::Script;
@@ -12,7 +12,12 @@ const DIGIT: f64 = 0.5e-7;
 /// The figures that are written at the ruler.
 fn written(script: &mut Script) -> Option<String> {
     let label = script.scene().marks.iter().find_map(|mark| match mark {
-        Mark::Label(_, text) => Some(text.clone()),
+        Mark::Measured(_, figures) => {
+            let lines = figures
+                .iter()
+                .map(|it| it.text(|length| significant(length, 8)));
+            Some(lines.collect::<Vec<String>>().join("\n"))
+        }
         _ => None,
     });
     let is_ruled = script
@@ -57,14 +62,14 @@ fn between_both_ends_the_arc_is_the_whole_curve() {
             // A little beside them: ends attract.
             let text = measure(&mut script, from + DVec2::new(2.0, -2.0), to);
             let polygon = script.polygon();
-            let [found] = numbers(&text, "arc")[..] else {
+            let [found] = numbers(&text, "Arc")[..] else {
                 panic!("{text}");
             };
             let whole = polygon.arc_length(1e-13);
             assert!((found - whole).abs() <= DIGIT * whole, "{name}: {text}");
             let chord = polygon.end_jet(End::Finish).point - polygon.end_jet(End::Start).point;
-            assert!((numbers(&text, "dx")[0] - chord.x).abs() <= DIGIT * whole);
-            assert!((numbers(&text, "dy")[0] - chord.y).abs() <= DIGIT * whole);
+            assert!((numbers(&text, "Δx")[0] - chord.x).abs() <= DIGIT * whole);
+            assert!((numbers(&text, "Δy")[0] - chord.y).abs() <= DIGIT * whole);
         }
     }
 }
@@ -76,7 +81,7 @@ fn between_two_points_of_a_periodic_curve_there_are_two_arcs() {
     let [u, v] = [1.25, 4.5].map(|u| polygon.jet(u).point);
     let (from, to) = (seen(&script, u), seen(&script, v));
     let text = measure(&mut script, from, to);
-    let found = numbers(&text, "arc");
+    let found = numbers(&text, "Arc");
     let whole = polygon.arc_length(1e-13);
     assert_eq!(found.len(), 2, "{text}");
     assert!(
@@ -126,9 +131,9 @@ fn vertices_attract_and_beside_curves_there_is_no_arc() {
         to - DVec2::splat(2.0),
     );
     let leg = script.polygon().vertex(3) - script.polygon().vertex(1);
-    assert!((numbers(&text, "dx")[0] - leg.x).abs() <= DIGIT * leg.length());
-    assert!((numbers(&text, "dy")[0] - leg.y).abs() <= DIGIT * leg.length());
-    assert!(!text.contains("arc"), "{text}");
+    assert!((numbers(&text, "Δx")[0] - leg.x).abs() <= DIGIT * leg.length());
+    assert!((numbers(&text, "Δy")[0] - leg.y).abs() <= DIGIT * leg.length());
+    assert!(!text.contains("Arc"), "{text}");
     // A hidden curve attracts nothing.
     script.command(Command::ToggleVisible);
     let at = script.at_vertex(2) + DVec2::new(2.3, 1.7);
@@ -138,7 +143,7 @@ fn vertices_attract_and_beside_curves_there_is_no_arc() {
     assert!(!script.scene().marks.iter().any(snaps));
     let ends = End::BOTH.map(|end| end_of(&script, end));
     let text = measure(&mut script, ends[0], ends[1]);
-    assert!(!text.contains("arc"), "{text}");
+    assert!(!text.contains("Arc"), "{text}");
 }
 
 #[test]
@@ -163,7 +168,7 @@ fn a_measurement_stays_until_it_is_dismissed_or_another_is_begun() {
     script.click(from);
     script.move_to(DVec2::new(300.0, 300.0));
     let text = written(&mut script).expect("the next measurement");
-    assert!(!text.contains("arc"), "{text}");
+    assert!(!text.contains("Arc"), "{text}");
     script.key(Key::Escape);
     assert_eq!(written(&mut script), None);
     script.key(Key::Escape);
@@ -182,14 +187,14 @@ fn the_arc_follows_a_curve_that_changes_between_its_points() {
     let ends = |polygon: &FloatPolygon| End::BOTH.map(|end| polygon.end_jet(end).point);
     assert_eq!(ends(&polygon), ends(&script.polygon()));
     let text = written(&mut script).expect("it stays");
-    let found = numbers(&text, "arc")[0];
+    let found = numbers(&text, "Arc")[0];
     let whole = script.polygon().arc_length(1e-13);
     assert!((found / whole - 1.0).abs() < 1e-4, "{text} against {whole}");
-    assert!((found - numbers(&first, "arc")[0]).abs() > 1e-3 * whole);
+    assert!((found - numbers(&first, "Arc")[0]).abs() > 1e-3 * whole);
     // Once an end has moved there is no arc between the points any more.
     script.drag_vertex(0, DVec2::new(-30.0, 20.0));
     let text = written(&mut script).expect("it stays");
-    assert!(!text.contains("arc"), "{text}");
+    assert!(!text.contains("Arc"), "{text}");
     script.command(Command::Undo);
     script.command(Command::Undo);
     assert_eq!(script.polygon(), polygon);

@@ -1,6 +1,6 @@
 //! Rotating and scaling the selection.
 
-use batten::editor::{Modifiers, ToolKind, Transformation};
+use batten::editor::{Command, Input, Mark, Modifiers, NamedView, ToolKind, Transformation};
 use batten::geometry::FloatPolygon;
 use glam::DVec2;
 
@@ -105,4 +105,120 @@ fn typed_figures_rotate_and_scale_as_dragging_does() {
         "{}",
         script.message()
     );
+}
+
+/// Press, and move on without releasing.
+fn hold(script: &mut Script, from: DVec2, to: DVec2) {
+    script.press(from);
+    script.move_to(0.5 * (from + to));
+    script.move_to(to);
+}
+
+#[test]
+fn a_typed_number_is_shown_and_takes_the_place_of_a_drag() {
+    let mut script = Script::example("s-curve");
+    let before = script.polygon();
+    script.tool(ToolKind::Scale);
+    let pivot = script.editor.pivot().expect("a pivot");
+    let scaled = |by: f64| {
+        let vertices = before.vertices().iter();
+        let scaled = vertices.map(|vertex| pivot + by * (vertex.truncate() - pivot));
+        scaled.collect::<Vec<DVec2>>()
+    };
+    let check = |script: &Script, by: f64| {
+        let polygon = script.polygon();
+        for (vertex, expected) in polygon.vertices().iter().zip(scaled(by)) {
+            assert!(vertex.truncate().distance(expected) < 1e-12 * before.size());
+        }
+    };
+    // In mid-drag: the drag goes, and what the pointer does no longer counts.
+    let centre = 0.5 * script.editor.view().viewport().size;
+    script.input(Input::Moved { at: centre });
+    hold(
+        &mut script,
+        centre + DVec2::new(200.0, 0.0),
+        centre + DVec2::new(300.0, 0.0),
+    );
+    assert_ne!(script.polygon(), before);
+    assert!(script.editor.type_entry("2"));
+    check(&script, 2.0);
+    script.input(Input::Moved {
+        at: centre + DVec2::new(350.0, 0.0),
+    });
+    check(&script, 2.0);
+    assert!(!script.editor.type_entry("2"), "nothing new");
+    script.editor.type_entry("2.5");
+    check(&script, 2.5);
+    // What cannot be read yet shows nothing.
+    script.editor.type_entry("2.5*");
+    assert_eq!(script.polygon(), before);
+    script.editor.type_entry("2.5*2");
+    check(&script, 5.0);
+    script.editor.type_entry("");
+    assert_eq!(script.polygon(), before);
+    assert_eq!(script.editor.workspace().history().undo_steps(), 0);
+    script.editor.type_entry("3");
+    script.editor.enter("3").expect("a factor");
+    check(&script, 3.0);
+    assert_eq!(script.editor.workspace().history().undo_steps(), 1);
+    script.editor.type_entry("");
+    check(&script, 3.0);
+}
+
+#[test]
+fn a_handle_at_a_side_scales_one_axis_and_a_corner_both() {
+    for (axis, view) in [
+        (0, NamedView::Xy),
+        (1, NamedView::Xy),
+        (0, NamedView::Isometric),
+        (1, NamedView::Isometric),
+    ] {
+        let mut script = Script::example("s-curve");
+        script
+            .editor
+            .execute(Command::View(view))
+            .expect("another view");
+        let before = script.polygon();
+        script.tool(ToolKind::Scale);
+        script.editor.refresh();
+        let sides = script.editor.view().scene().marks.iter();
+        let mut sides = sides.filter_map(|mark| match mark {
+            Mark::Corners { sides, .. } => Some(sides.clone()),
+            _ => None,
+        });
+        let handle = sides.next().expect("a box")[2 * axis];
+        let viewport = *script.editor.view().viewport();
+        let pivot = script.editor.pivot().expect("a pivot");
+        let places = [handle, pivot + 3.0 * (handle - pivot)];
+        let [from, to] = places.map(|place| viewport.to_screen(place));
+        let fixed = viewport.grounded(pivot);
+        script.drag(from, to);
+        for (vertex, was) in script.polygon().vertices().iter().zip(before.vertices()) {
+            let mut expected = *was;
+            expected[axis] = fixed[axis] + 3.0 * (was[axis] - fixed[axis]);
+            let off = vertex.distance(expected);
+            assert!(off < 1e-9 * before.size(), "{axis} {view:?}: {off}");
+        }
+        assert_eq!(script.editor.workspace().history().undo_steps(), 1);
+    }
+}
+
+#[test]
+fn a_pivot_that_is_dragged_names_what_it_snaps_to() {
+    let mut script = Script::example("s-curve");
+    script
+        .editor
+        .execute(Command::ToggleSnapping)
+        .expect("snapping");
+    script.tool(ToolKind::Rotate);
+    let pivot = script.editor.pivot().expect("a pivot");
+    let from = script.editor.view().viewport().to_screen(pivot);
+    let to = script.at_vertex(2) + DVec2::new(4.0, 3.0);
+    hold(&mut script, from, to);
+    script.editor.refresh();
+    let marks = &script.editor.view().scene().marks;
+    let named = marks
+        .iter()
+        .any(|mark| matches!(mark, Mark::Name(_, name) if name == "Vertex 2"));
+    assert!(named, "{marks:?}");
 }

@@ -77,7 +77,7 @@ fn hovering_tells_of_vertices_and_of_the_curve() {
     let mut script = Script::example("arc");
     script.move_to(script.at_vertex(6));
     match script.scene().hover.clone() {
-        Some(HoverScene::Vertex { text, .. }) => assert!(text.starts_with("vertex 6\n"), "{text}"),
+        Some(HoverScene::Vertex { text, .. }) => assert!(text.starts_with("Vertex 6\n"), "{text}"),
         other => panic!("{other:?}"),
     }
     let middle = script.polygon().point(0.5).truncate();

@@ -153,3 +153,57 @@ fn a_typed_angle_rotates() {
     press(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(curve(&window).polygon, before);
 }
+
+#[test]
+fn a_typed_factor_is_shown_before_it_is_entered() {
+    let mut window = open_window();
+    let before = curve(&window).polygon;
+    type_keys(&mut window, "s2");
+    let shown = curve(&window).polygon;
+    let leg = |polygon: &batten::geometry::FloatPolygon| polygon.vertex(1) - polygon.vertex(0);
+    assert!((leg(&shown) - 2.0 * leg(&before)).length() < 1e-12 * before.size());
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert_eq!(curve(&window).polygon, before, "Esc takes it back");
+    type_keys(&mut window, "3");
+    assert!((leg(&curve(&window).polygon) - 3.0 * leg(&before)).length() < 1e-12 * before.size());
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    let entered = curve(&window).polygon;
+    assert!((leg(&entered) - 3.0 * leg(&before)).length() < 1e-12 * before.size());
+    assert_eq!(
+        window.state().editor().workspace().history().undo_steps(),
+        1
+    );
+}
+
+#[test]
+fn the_degree_so_far_and_the_unit_are_told_and_an_empty_enter_leaves() {
+    let mut window = open_window();
+    let convert = ["Edit", "Document unit", "Document unit: millimetres"];
+    choose(&mut window, &convert);
+    press(&mut window, Modifiers::NONE, Key::D);
+    let canvas = window.state().canvas_rect().expect("a canvas");
+    for by in [vec2(-200.0, 0.0), vec2(-80.0, -90.0), vec2(60.0, 40.0)] {
+        let at = canvas.center() + by;
+        window.drag_at(at);
+        window.step();
+        window.drop_at(at);
+        window.run();
+    }
+    window.hover_at(canvas.center() + vec2(150.0, -60.0));
+    window.run();
+    let drawn = window.state().editor().drawn_degree();
+    assert_eq!(drawn, Some(9), "that of the active curve");
+    window.get_by_label("3 so far");
+    let length = window
+        .get_by_label("leg length")
+        .value()
+        .unwrap_or_default();
+    assert!(length.ends_with(" mm"), "{length}");
+    let proposal = &window.state().editor().view().scene().proposal;
+    let next = window.state().editor().document().next_id();
+    assert_eq!(proposal.id, Some(next), "in the colour of the next curve");
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    click(&mut window, "typed point");
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    assert_eq!(window.state().editor().hand().tool(), ToolKind::Select);
+}

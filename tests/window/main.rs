@@ -2,6 +2,7 @@
 #![cfg(feature = "gui")]
 
 mod canvas;
+mod crowds;
 mod drawing;
 mod expressions;
 mod fields;

@@ -38,6 +38,11 @@ impl DrawingPlane {
         self.names
     }
 
+    /// The direction of an axis, 0 or 1.
+    pub fn axis(&self, axis: usize) -> DVec3 {
+        self.lift(DVec2::AXES.get(axis).copied().unwrap_or_default())
+    }
+
     /// The vector of space with two coordinates of the plane.
     pub fn lift(&self, by: DVec2) -> DVec3 {
         by.x * self.axes[0] + by.y * self.axes[1]

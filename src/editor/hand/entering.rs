@@ -33,9 +33,20 @@ impl Editor {
         }
     }
 
-    /// Show the vertex that a text would set as far as it is a point, otherwise the one at the pointer.
-    /// Returns whether that is another one than before.
+    /// Show what a text would do as far as it can be read: the vertex that it would set, or the rotation or scaling.
+    /// Without one that is the vertex at the pointer, or nothing. Returns whether that is something else than before.
     pub fn type_entry(&mut self, text: &str) -> bool {
+        if let Some(Entry::Angle | Entry::Factor) = self.entry() {
+            let typed = self.typed_transformation(text).ok();
+            // A drag and what is typed would say different things: the drag goes as soon as typing begins.
+            let interrupts = !text.is_empty() && self.hand.is_dragging();
+            let shows = self
+                .hand
+                .tools
+                .transform()
+                .is_some_and(|tool| tool.shows_typed());
+            return (shows || typed.is_some() || interrupts) && self.type_transformation(typed);
+        }
         let is_point = matches!(self.entry(), Some(Entry::Point(_)));
         let typed = TypedPoint::read(text, self.document().unit())
             .ok()
@@ -52,15 +63,28 @@ impl Editor {
         let unit = self.document().unit();
         match self.entry() {
             Some(Entry::Point(_)) => self.enter_point(TypedPoint::read(text, unit)?),
-            Some(Entry::Angle) => {
-                let angle = read_number(text, Quantity::Angle, unit)?.to_radians();
-                self.enter_transformation(Transformation::Rotate(angle))
-            }
-            Some(Entry::Factor) => {
-                let factor = read_number(text, Quantity::Number, unit)?;
-                self.enter_transformation(Transformation::Scale(factor))
+            Some(Entry::Angle | Entry::Factor) => {
+                let transformation = self.typed_transformation(text)?;
+                self.type_transformation(None);
+                self.enter_transformation(transformation)
             }
             None => Ok(()),
+        }
+    }
+
+    /// The rotation or the scaling that a text says.
+    fn typed_transformation(&self, text: &str) -> Result<Transformation, EntryError> {
+        let unit = self.document().unit();
+        match self.entry() {
+            Some(Entry::Angle) => {
+                let angle = read_number(text, Quantity::Angle, unit)?;
+                Ok(Transformation::Rotate(angle.to_radians()))
+            }
+            _ => Ok(Transformation::Scale(read_number(
+                text,
+                Quantity::Number,
+                unit,
+            )?)),
         }
     }
 
@@ -138,6 +162,12 @@ impl Editor {
         let active = || Some(self.active_curve()?.1.polygon.degree());
         self.hand.tools.drawing()?;
         proposed.or_else(active)
+    }
+
+    /// The degree of the curve that a click would make, if that is another one because there are too few vertices.
+    pub fn degree_so_far(&self) -> Option<usize> {
+        let degree = self.proposal()?.degree();
+        (Some(degree) != self.drawn_degree()).then_some(degree)
     }
 
     /// The polygon that there would be if the vertex was set now that is drawn.

@@ -22,6 +22,24 @@ impl Editor {
         }
     }
 
+    /// Show what a typed angle or factor does, or take that back; a drag that goes on ends. Returns whether that
+    /// changes anything.
+    pub(in crate::editor) fn type_transformation(&mut self, typed: Option<Transformation>) -> bool {
+        self.analyse();
+        let mut tools = std::mem::take(&mut self.hand.tools);
+        let effects = tools
+            .transform_mut()
+            .map(|tool| tool.type_number(typed, &self.context()));
+        self.hand.tools = tools;
+        let effects = effects.unwrap_or_default();
+        let changes = !effects.is_empty();
+        if changes {
+            self.hand.gestures.reset();
+            self.take_effects(effects, false);
+        }
+        changes
+    }
+
     /// Rotate or scale what is selected, or the active curve or reference, about the pivot, as one step. The
     /// reply is told.
     ///
@@ -34,10 +52,7 @@ impl Editor {
             return self.tell(Err(tools::NOTHING_TO_TRANSFORM.into()));
         };
         let taken = Transformed::of(&context);
-        let label = match transformation {
-            Transformation::Rotate(_) => format!("Rotate {}", taken.noun()),
-            Transformation::Scale(_) => format!("Scale {}", taken.noun()),
-        };
+        let label = taken.label(transformation);
         let edits = match taken.edits(transformation, pivot, context.viewport) {
             Ok(edits) => edits,
             Err(error) => return self.tell(Err(Refusal(error.to_string()))),

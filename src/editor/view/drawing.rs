@@ -268,6 +268,11 @@ impl Editor {
         if let Some(polygon) = self.proposal() {
             let (orientation, layers) = (self.view.viewport.orientation, self.layers());
             let (proposed, scene) = (&mut self.view.proposed, &mut scene.proposal);
+            let changed = self.hand.selection.active();
+            let changed = changed.filter(|_| self.hand.tool() != ToolKind::Draw);
+            let document = self.workspace.document();
+            scene.id = Some(changed.unwrap_or(document.next_id()));
+            scene.colour = changed.and_then(|id| document.curve(id)?.colour);
             proposed.draw(polygon, orientation, layers, view, scene);
         }
     }

@@ -131,12 +131,12 @@ impl Editor {
             match regions.answer() {
                 Some(Err(reason)) => {
                     let at = curve.polygon.vertex(*vertex).truncate();
-                    let text = format!("no safe region: {reason}");
+                    let text = format!("No safe region: {reason}");
                     scene.labels.push(self.guide_label(at, DVec2::Y, text));
                 }
                 _ if regions.has_failed() => {
                     let at = curve.polygon.vertex(*vertex).truncate();
-                    let text = "the safe region could not be found: please report this curve";
+                    let text = "The safe region could not be found: please report this curve";
                     scene
                         .labels
                         .push(self.guide_label(at, DVec2::Y, text.to_owned()));
@@ -156,9 +156,9 @@ impl Editor {
                 Some(Ok(found)) => Ok(found.as_slice()),
                 Some(Err(reason)) => Err(reason.to_string()),
                 None if losses.has_failed() => {
-                    Err("moves could not be found: please report this curve".to_owned())
+                    Err("Moves could not be found: please report this curve".to_owned())
                 }
-                None => Err("looking for the shortest move that loses this…".to_owned()),
+                None => Err("Looking for the shortest move that loses this…".to_owned()),
             };
             self.draw_losses(feature, found, scene);
         }
@@ -191,7 +191,7 @@ impl Editor {
             let middle = (run.first + run.length / 2) % rays.len();
             let text = match run.rise {
                 Some(rise) => rise.text(),
-                None => format!("nothing added within {}", significant(region.limit, DIGITS)),
+                None => format!("Nothing added within {}", significant(region.limit, DIGITS)),
             };
             let label = self.guide_label(corners[middle], rays[middle].direction, text);
             scene.labels.push(label);
@@ -222,7 +222,7 @@ impl Editor {
         if moves.is_empty() {
             let limits = losses.iter().map(|loss| loss.limit);
             let text = format!(
-                "no move of one vertex found within {} that loses this",
+                "No move of one vertex found within {} that loses this",
                 significant(limits.fold(0.0, f64::max), DIGITS)
             );
             scene.labels.push(self.guide_label(at, DVec2::Y, text));
@@ -237,7 +237,7 @@ impl Editor {
                 is_shortest: rank == 0,
             });
             if rank < MOVE_LABELS {
-                let text = format!("vertex {}: {}", loss.vertex, significant(*distance, DIGITS));
+                let text = format!("Vertex {}: {}", loss.vertex, significant(*distance, DIGITS));
                 let outwards = (to - from).normalize_or(DVec2::Y);
                 scene.labels.push(self.guide_label(to, outwards, text));
             }

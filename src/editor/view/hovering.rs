@@ -9,7 +9,7 @@ use crate::document::CurveId;
 use crate::editor::Editor;
 use crate::editor::hand::tools::ToolKind;
 use crate::editor::view::scene::HoverScene;
-use crate::geometry::{Jet, figure, significant};
+use crate::geometry::{Jet, coordinate, figure, significant};
 
 /// Chords in half of the osculating circle.
 const CIRCLE_STEPS: i32 = 64;
@@ -84,19 +84,20 @@ impl Editor {
     fn vertex_hover(&self, (id, index): (CurveId, usize)) -> Option<HoverScene> {
         let curve = self.document().curve(id).filter(|curve| curve.visible)?;
         let vertex = *curve.polygon.vertices().get(index)?;
+        let written = |value| coordinate(value, self.view.viewport.pixel());
         let mut text = format!(
-            "vertex {index}\nx {}\ny {}",
-            figure(vertex.x),
-            figure(vertex.y)
+            "Vertex {index}\nx {}\ny {}",
+            written(vertex.x),
+            written(vertex.y)
         );
         if vertex.z != 0.0 {
-            text += &format!("\nz {}", figure(vertex.z));
+            text += &format!("\nz {}", written(vertex.z));
         }
         if let Some(weights) = curve.polygon.weights() {
             text += &format!("\nw {}", figure(*weights.get(index)?));
         }
         if curve.locked_vertices.contains(index) {
-            text += "\nlocked";
+            text += "\nLocked";
         }
         if self.hand.selection.active() != Some(id) {
             text = format!("{}\n{text}", curve.name);
@@ -111,13 +112,14 @@ impl Editor {
     fn clamped_hover(&self, id: CurveId, index: usize) -> Option<HoverScene> {
         let analysis = self.analyses.get(id)?;
         let vertex = *analysis.clamped().vertices().get(index)?;
+        let written = |value| coordinate(value, self.view.viewport.pixel());
         let mut text = format!(
-            "closed vertex {index}\nx {}\ny {}",
-            figure(vertex.x),
-            figure(vertex.y)
+            "Closed vertex {index}\nx {}\ny {}",
+            written(vertex.x),
+            written(vertex.y)
         );
         if !analysis.is_planar() {
-            text += &format!("\nz {}", figure(vertex.z));
+            text += &format!("\nz {}", written(vertex.z));
         }
         let polygon = &analysis.curve().polygon;
         if let Some(times) = polygon.clamped_vertex_amplification(index) {
@@ -146,13 +148,14 @@ impl Editor {
             Some(it) => format!("t {:.4}", it.reference().curve.parameter(u)),
             None => format!("u {u:.4}"),
         };
+        let written = |value| coordinate(value, self.view.viewport.pixel());
         let mut lines = vec![
             parameter,
-            format!("x {}", figure(jet.point.x)),
-            format!("y {}", figure(jet.point.y)),
+            format!("x {}", written(jet.point.x)),
+            format!("y {}", written(jet.point.y)),
         ];
         if !planar {
-            lines.push(format!("z {}", figure(jet.point.z)));
+            lines.push(format!("z {}", written(jet.point.z)));
         }
         if is_smooth {
             lines.push(format!("κ {}", figure(curvature)));

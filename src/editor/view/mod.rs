@@ -52,7 +52,8 @@ pub use orientation::Orientation;
 pub use outline::{Bounds, GAP, ViewBox};
 pub use plot_scene::{PlotBand, PlotFeature, PlotKind, PlotScene};
 pub use scene::{
-    ClampedMark, CurveScene, DragReadout, HoverScene, Legs, Mark, ProposalScene, Scene, VertexMark,
+    ClampedMark, CurveScene, DragReadout, HoverScene, Legs, Mark, MeasuredFigure, ProposalScene,
+    Scene, VertexMark,
 };
 pub use view::View;
 pub use viewport::Viewport;

@@ -33,6 +33,10 @@ pub struct Scene {
 /// The curve that a click would make, with its polygons; empty if it would make none.
 #[derive(Clone, Debug, Default)]
 pub struct ProposalScene {
+    /// The curve that it is, or will be.
+    pub id: Option<CurveId>,
+    /// Its own colour.
+    pub colour: Option<Colour>,
     /// The closed S-polygon's legs, without those that lie on the float one's.
     pub clamped: Legs,
     /// The float S-polygon's legs.
@@ -155,14 +159,14 @@ pub enum Mark {
     Guide([DVec2; 2]),
     /// A line that measures.
     Ruler([DVec2; 2]),
+    /// What is measured, beside a place.
+    Measured(DVec2, Vec<MeasuredFigure>),
     /// A box that selects, by opposite corners.
     SelectionBox([DVec2; 2]),
     /// A vertex that a click would add.
     NewVertex(DVec2),
     /// The pivot of a rotation or scaling.
     Pivot(DVec2),
-    /// The handle that rotates or scales, on its arm from the pivot.
-    Arm([DVec2; 2]),
     /// The ring that rotates about a pivot.
     Ring {
         /// The pivot.
@@ -172,8 +176,13 @@ pub enum Mark {
         /// By how much it has turned to come there, in radians.
         swept: f64,
     },
-    /// The box that scales, by its corners, which are handles.
-    Corners([DVec2; 4]),
+    /// The box that scales, by its corners, which are handles, and those that scale along one axis.
+    Corners {
+        /// The corners.
+        corners: [DVec2; 4],
+        /// The handles for one axis each.
+        sides: Vec<DVec2>,
+    },
     /// The frame of a reference.
     Frame {
         /// Its corners, handles that scale.
@@ -210,6 +219,32 @@ pub enum Mark {
     },
     /// A short text at a place.
     Label(DVec2, String),
+}
+
+/// A figure of a measurement.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasuredFigure {
+    /// What it is.
+    pub name: &'static str,
+    /// Its value, in units of the model or in degrees; two where a periodic curve may be followed either way.
+    pub values: Vec<f64>,
+    /// Whether it is an angle.
+    pub is_angle: bool,
+    /// Whether it is known only to plotting accuracy.
+    pub is_about: bool,
+}
+
+impl MeasuredFigure {
+    /// Say the figure, with lengths as they are to be written.
+    pub fn text(&self, length: impl Fn(f64) -> String) -> String {
+        let value = |value: &f64| match self.is_angle {
+            true => format!("{value:.3}°"),
+            false => length(*value),
+        };
+        let values: Vec<String> = self.values.iter().map(value).collect();
+        let about = if self.is_about { "≈ " } else { "" };
+        format!("{} {about}{}", self.name, values.join(" or "))
+    }
 }
 
 /// How far a point was dragged, and where it is.

@@ -9,7 +9,7 @@ use crate::document::{Curve, CurveId, Document, MatchPlace, Reference};
 use crate::editor::hand::gesture::{Gesture, is_hasty_click};
 use crate::editor::hand::input::Key;
 use crate::editor::hand::snapping::{Carried, along_axis, snap_to_grid, snap_to_point};
-use crate::editor::view::scene::Mark;
+use crate::editor::view::scene::{Mark, MeasuredFigure};
 use crate::geometry::{End, arc_length_between, significant};
 
 /// To what part of itself an arc length is found.
@@ -196,22 +196,22 @@ impl MeasureTool {
         free(grid.map_or_else(|| view.grounded(at), |snap| snap.point))
     }
 
-    /// What is measured now, in lines of figures, with the two points.
-    fn line(&self, context: &Context) -> Option<(DVec3, DVec3, Vec<String>)> {
+    /// What is measured now, with the two points.
+    fn figures(&self, context: &Context) -> Option<(DVec3, DVec3, Vec<MeasuredFigure>)> {
         match &self.state {
             State::Idle => None,
             State::From { from, .. } => {
                 let to = self.place(context.pointer?, context);
-                let mut lines = figures(from.point, to.point);
+                let mut figures = figures(from.point, to.point);
                 let arc = common(from, &to);
                 let arc = arc.and_then(|(id, parameters)| about(id, parameters, context));
-                lines.extend(arc);
-                Some((from.point, to.point, lines))
+                figures.extend(arc);
+                Some((from.point, to.point, figures))
             }
             State::Between(measured) => {
-                let mut lines = figures(measured.from, measured.to);
-                lines.extend(measured.arc_line(context));
-                Some((measured.from, measured.to, lines))
+                let mut figures = figures(measured.from, measured.to);
+                figures.extend(measured.arc(context));
+                Some((measured.from, measured.to, figures))
             }
         }
     }
@@ -236,10 +236,10 @@ impl MeasureTool {
 
 impl Measured {
     /// The arc length; to plotting accuracy once the curve has changed, as long as both points lie on it.
-    fn arc_line(&self, context: &Context) -> Option<String> {
+    fn arc(&self, context: &Context) -> Option<MeasuredFigure> {
         let arc = self.arc.as_ref()?;
         if arc.shape.is_in(arc.id, context.document) {
-            return Some(format!("arc {}", joined(&arc.lengths, DIGITS)));
+            return Some(arc_length(arc.lengths.clone(), false));
         }
         let curve = context.document.shape(arc.id)?;
         let ends = arc.parameters.into_iter().zip([self.from, self.to]);
@@ -254,7 +254,7 @@ impl Measured {
 }
 
 /// The arc length to plotting accuracy.
-fn about(id: CurveId, [u, v]: [f64; 2], context: &Context) -> Option<String> {
+fn about(id: CurveId, [u, v]: [f64; 2], context: &Context) -> Option<MeasuredFigure> {
     let sampled = context.hits.analyses.sampled(id)?;
     let one_way = (sampled.length_at(u) - sampled.length_at(v)).abs();
     let other_way = sampled.samples.length() - one_way;
@@ -262,32 +262,59 @@ fn about(id: CurveId, [u, v]: [f64; 2], context: &Context) -> Option<String> {
         true => vec![one_way.min(other_way), one_way.max(other_way)],
         false => vec![one_way],
     };
-    Some(format!("arc ≈ {}", joined(&lengths, PLOTTED_DIGITS)))
+    Some(arc_length(lengths, true))
 }
 
-fn joined(lengths: &[f64], digits: usize) -> String {
-    let lengths = lengths.iter().map(|length| significant(*length, digits));
-    lengths.collect::<Vec<String>>().join(" or ")
+fn arc_length(values: Vec<f64>, is_about: bool) -> MeasuredFigure {
+    MeasuredFigure {
+        name: "Arc length",
+        values,
+        is_angle: false,
+        is_about,
+    }
 }
 
-/// Say a distance in space and its parts and, within a plane of two axes, its direction, a line each.
-fn figures(from: DVec3, to: DVec3) -> Vec<String> {
-    const NAMES: [&str; 3] = ["x", "y", "z"];
+/// A distance in space and its parts and, within a plane of two axes, its direction.
+fn figures(from: DVec3, to: DVec3) -> Vec<MeasuredFigure> {
+    const NAMES: [&str; 3] = ["Δx", "Δy", "Δz"];
+    let figure = |name: &'static str, value: f64, is_angle: bool| MeasuredFigure {
+        name,
+        values: vec![value],
+        is_angle,
+        is_about: false,
+    };
     let rounding = ROUNDING * from.abs().max(to.abs());
     let span = DVec3::select((to - from).abs().cmple(rounding), DVec3::ZERO, to - from);
-    let part = |axis: usize| format!("d{} {}", NAMES[axis], significant(span[axis], DIGITS));
-    let mut lines = vec![significant(span.length(), DIGITS)];
+    let part = |axis: usize| figure(NAMES[axis], span[axis], false);
+    let mut figures = vec![figure("Distance", span.length(), false)];
     // The plane z = 0 first: it is where planar curves are.
     match [2, 1, 0].into_iter().find(|normal| span[*normal] == 0.0) {
         Some(normal) => {
             let [across, along] = [[1, 2], [0, 2], [0, 1]][normal];
             let angle = DVec2::new(span[across], span[along]).to_angle();
-            lines.extend([part(across), part(along)]);
-            lines.push(format!("{:.3}°", angle.to_degrees()));
+            figures.extend([part(across), part(along)]);
+            figures.push(figure("Angle", angle.to_degrees(), true));
         }
-        None => lines.extend([0, 1, 2].map(part)),
+        None => figures.extend([0, 1, 2].map(part)),
     }
-    lines
+    figures
+}
+
+/// Say figures in full, in one line.
+fn told(figures: &[MeasuredFigure]) -> String {
+    let text = |figure: &MeasuredFigure| {
+        let digits = if figure.is_about {
+            PLOTTED_DIGITS
+        } else {
+            DIGITS
+        };
+        figure.text(|value| significant(value, digits))
+    };
+    figures
+        .iter()
+        .map(text)
+        .collect::<Vec<String>>()
+        .join("   ")
 }
 
 impl Tool for MeasureTool {
@@ -321,12 +348,12 @@ impl Tool for MeasureTool {
     }
 
     fn hint(&self, context: &Context) -> String {
-        match (&self.state, self.line(context)) {
-            (State::From { .. }, Some((_, _, lines))) => {
-                format!("{}   Shift locks to an axis", lines.join("   "))
+        match (&self.state, self.figures(context)) {
+            (State::From { .. }, Some((_, _, figures))) => {
+                format!("{}   Shift locks to an axis", told(&figures))
             }
-            (State::Between(_), Some((_, _, lines))) => {
-                format!("{}   Esc removes it", lines.join("   "))
+            (State::Between(_), Some((_, _, figures))) => {
+                format!("{}   Esc removes it", told(&figures))
             }
             _ => "Click two points, or drag, to measure between them; Esc ends".into(),
         }
@@ -347,13 +374,13 @@ impl Tool for MeasureTool {
             let place = view.flatten(self.place(at, context).point);
             (place != at).then_some(Mark::Snap(place))
         };
-        let Some((from, to, lines)) = self.line(context) else {
+        let Some((from, to, figures)) = self.figures(context) else {
             return snapped().into_iter().collect();
         };
         let [from, to] = [from, to].map(|point| view.flatten(point));
         let ruler = [
             Mark::Ruler([from, to]),
-            Mark::Label(0.5 * (from + to), lines.join("\n")),
+            Mark::Measured(0.5 * (from + to), figures),
         ];
         let snap = snapped().filter(|_| !self.has_measured());
         ruler.into_iter().chain(snap).collect()

@@ -45,13 +45,20 @@ enum State {
     MovingPivot {
         before: Option<DVec2>,
     },
-    Turning {
-        pivot: DVec2,
-        origin: DVec2,
-        taken: Box<Transformed>,
-        now: DVec2,
-        label: String,
-    },
+    Turning(Box<Turning>),
+    /// What is typed is shown.
+    Typed(Action),
+}
+
+/// A drag that rotates or scales.
+#[derive(Clone, Debug)]
+struct Turning {
+    pivot: DVec2,
+    origin: DVec2,
+    /// The axis along which alone it scales, 0 or 1 of the plane that is drawn in.
+    axis: Option<usize>,
+    taken: Transformed,
+    now: DVec2,
 }
 
 impl TransformTool {
@@ -88,31 +95,79 @@ impl TransformTool {
             self.state = State::MovingPivot { before: self.pivot };
             return Vec::new();
         }
-        let verb = match self.transform {
-            Transform::Rotate => "Rotate",
-            Transform::Scale => "Scale",
-        };
-        let label = format!("{verb} {}", taken.noun());
+        let label = taken.label(self.resting());
         let origin = context.model(place);
-        self.state = State::Turning {
+        let axis = self.sides(pivot, &taken, context).into_iter();
+        let mut axis =
+            axis.filter(|(_, at)| context.viewport.to_screen(*at).distance(place) <= REACH);
+        let axis = axis.next().map(|(axis, _)| axis);
+        self.state = State::Turning(Box::new(Turning {
             pivot,
             origin,
-            taken: Box::new(taken),
+            axis,
+            taken,
             now: origin,
-            label: String::new(),
-        };
+        }));
         vec![Effect::Begin(label)]
     }
 
-    /// What the drag from `origin` to `now` does, with a label of it.
-    fn action(
-        &self,
-        pivot: DVec2,
-        origin: DVec2,
-        now: DVec2,
-        context: &Context,
-    ) -> (Action, String) {
-        let (from, to) = (origin - pivot, now - pivot);
+    /// What changes nothing.
+    fn resting(&self) -> Action {
+        match self.transform {
+            Transform::Rotate => Action::Rotate(0.0),
+            Transform::Scale => Action::Scale(1.0),
+        }
+    }
+
+    /// The handles that scale along one axis, with the axis.
+    fn sides(&self, pivot: DVec2, taken: &Transformed, context: &Context) -> Vec<(usize, DVec2)> {
+        if self.transform == Transform::Rotate || !taken.can_stretch() {
+            return Vec::new();
+        }
+        let reach = HALF_BOX * context.viewport.pixel();
+        let side = |axis: usize| {
+            let by = reach * seen_axis(axis, context)?;
+            Some([(axis, pivot + by), (axis, pivot - by)])
+        };
+        [0, 1].into_iter().filter_map(side).flatten().collect()
+    }
+
+    /// Whether what is typed is shown.
+    pub fn shows_typed(&self) -> bool {
+        matches!(self.state, State::Typed(_))
+    }
+
+    /// Show what a typed number does, or take that back. It takes the place of a drag.
+    pub fn type_number(&mut self, typed: Option<Action>, context: &Context) -> Vec<Effect> {
+        let state = std::mem::take(&mut self.state);
+        let mut effects = match (state, typed) {
+            (State::Typed(shown), Some(typed)) if shown == typed => {
+                self.state = State::Typed(shown);
+                return Vec::new();
+            }
+            (State::Idle, _) => Vec::new(),
+            (State::MovingPivot { before }, _) => {
+                self.pivot = before;
+                Vec::new()
+            }
+            (State::Turning(_) | State::Typed(_), _) => vec![Effect::Abort],
+        };
+        let Some((typed, pivot)) = typed.zip(self.pivot(context)) else {
+            return effects;
+        };
+        let taken = Transformed::of(context);
+        effects.push(Effect::Begin(taken.label(typed)));
+        effects.push(match taken.edits(typed, pivot, context.viewport) {
+            Ok(edits) => Effect::Preview(edits),
+            Err(error) => Effect::Say(error.to_string()),
+        });
+        self.state = State::Typed(typed);
+        effects
+    }
+
+    /// What the drag does, with a label of it.
+    fn action(&self, turning: &Turning, context: &Context) -> (Action, String) {
+        let (from, to) = (turning.origin - turning.pivot, turning.now - turning.pivot);
         match self.transform {
             Transform::Rotate => {
                 let free = from.angle_to(to);
@@ -123,17 +178,38 @@ impl TransformTool {
                 };
                 (Action::Rotate(angle), format!("{:.2}°", angle.to_degrees()))
             }
-            Transform::Scale => {
-                let free = to.length() / from.length();
-                let factor = if context.modifiers.shift {
-                    (free * 10.0).round().max(1.0) / 10.0
-                } else {
-                    free
-                };
-                (Action::Scale(factor), format!("× {factor:.3}"))
-            }
+            Transform::Scale => match turning.axis {
+                Some(axis) => {
+                    let along = seen_axis(axis, context).unwrap_or(DVec2::X);
+                    let free = to.dot(along) / from.dot(along);
+                    let factor = match context.modifiers.shift {
+                        true => (free * 10.0).round() / 10.0,
+                        false => free,
+                    };
+                    let names = context.drawing_plane().names();
+                    let name = names.get(axis).copied().unwrap_or_default();
+                    (
+                        Action::Stretch(axis, factor),
+                        format!("{name} × {factor:.3}"),
+                    )
+                }
+                None => {
+                    let free = to.length() / from.length();
+                    let factor = match context.modifiers.shift {
+                        true => (free * 10.0).round().max(1.0) / 10.0,
+                        false => free,
+                    };
+                    (Action::Scale(factor), format!("× {factor:.3}"))
+                }
+            },
         }
     }
+}
+
+/// The direction in which an axis of the plane that is drawn in is seen.
+fn seen_axis(axis: usize, context: &Context) -> Option<DVec2> {
+    let direction = context.drawing_plane().axis(axis);
+    context.viewport.flatten(direction).try_normalize()
 }
 
 /// Make the reference under a place the active one.
@@ -168,35 +244,26 @@ impl Tool for TransformTool {
                 self.pivot = before;
                 Vec::new()
             }
-            (
-                State::Turning {
-                    pivot,
-                    origin,
-                    taken,
-                    ..
-                },
-                Gesture::Drag(place),
-            ) => {
-                let now = context.model(place);
-                let (action, label) = self.action(pivot, origin, now, context);
-                let effect = match taken.edits(action, pivot, context.viewport) {
+            (State::Turning(mut turning), Gesture::Drag(place)) => {
+                turning.now = context.model(place);
+                let (action, _) = self.action(&turning, context);
+                let edits = turning.taken.edits(action, turning.pivot, context.viewport);
+                self.state = State::Turning(turning);
+                vec![match edits {
                     Ok(edits) => Effect::Preview(edits),
                     Err(error) => Effect::Say(error.to_string()),
-                };
-                self.state = State::Turning {
-                    pivot,
-                    origin,
-                    taken,
-                    now,
-                    label,
-                };
-                vec![effect]
+                }]
             }
-            (State::Turning { .. }, Gesture::DragEnd(_)) => {
+            (State::Turning(_), Gesture::DragEnd(_)) => {
                 let staying = context.staying().map(Effect::Say);
                 [Effect::Commit].into_iter().chain(staying).collect()
             }
-            (State::Turning { .. }, Gesture::Cancel) => vec![Effect::Abort],
+            (State::Turning(_), Gesture::Cancel) => vec![Effect::Abort],
+            // What was typed and not entered goes.
+            (State::Typed(_), gesture) => {
+                let effects = self.gesture(gesture, context);
+                [Effect::Abort].into_iter().chain(effects).collect()
+            }
             (State::MovingPivot { .. }, Gesture::DragEnd(_)) => Vec::new(),
             (state, _) => {
                 self.state = state;
@@ -211,7 +278,7 @@ impl Tool for TransformTool {
             Transform::Scale => "scale",
         };
         match self.state {
-            State::Turning { .. } => {
+            State::Turning(_) => {
                 let steps = match self.transform {
                     Transform::Rotate => "15°",
                     Transform::Scale => "tenths",
@@ -224,59 +291,95 @@ impl Tool for TransformTool {
             State::Idle if Transformed::of(context).is_empty() => {
                 format!("Select vertices or a curve to {verb}; Esc ends")
             }
+            State::Typed(_) => "Enter applies what is typed, Esc takes it back".into(),
             State::Idle => {
+                let one_axis = match self.transform {
+                    Transform::Rotate => "",
+                    Transform::Scale => ", a round handle for one axis",
+                };
                 format!(
-                    "Drag to {verb} about the pivot; drag the pivot itself to move it, double-click to centre it; Esc ends"
+                    "Drag to {verb} about the pivot{one_axis}, or type a number; drag the pivot itself to move it, double-click to centre it; Esc ends"
                 )
             }
         }
     }
 
     fn marks(&self, context: &Context) -> Vec<Mark> {
-        let State::Turning {
-            pivot,
-            origin,
-            now,
-            label,
-            ..
-        } = &self.state
-        else {
-            let pivot = self.pivot(context);
-            let still = match self.transform {
-                Transform::Rotate => Action::Rotate(0.0),
-                Transform::Scale => Action::Scale(1.0),
+        if let State::Turning(turning) = &self.state {
+            let (pivot, origin) = (turning.pivot, turning.origin);
+            let (action, label) = self.action(turning, context);
+            let from = (origin - pivot).to_angle();
+            let arm = match action {
+                Action::Rotate(angle) => DVec2::from_angle(angle).rotate(origin - pivot),
+                _ => turning.now - pivot,
             };
-            let marks = pivot.map(|pivot| [gizmo(pivot, 0.0, still, context), Mark::Pivot(pivot)]);
-            return marks.into_iter().flatten().collect();
+            return vec![
+                self.gizmo(pivot, from, action, &turning.taken, context),
+                Mark::Guide([pivot, origin]),
+                Mark::Guide([pivot, pivot + arm]),
+                Mark::Pivot(pivot),
+                Mark::Label(turning.now, label),
+            ];
+        }
+        let action = match &self.state {
+            State::Typed(typed) => *typed,
+            _ => self.resting(),
         };
-        let (action, _) = self.action(*pivot, *origin, *now, context);
-        vec![
-            gizmo(*pivot, (*origin - *pivot).to_angle(), action, context),
-            Mark::Guide([*pivot, *origin]),
-            Mark::Arm([*pivot, *now]),
-            Mark::Pivot(*pivot),
-            Mark::Label(*now, label.clone()),
-        ]
+        let pivot = self.pivot(context);
+        let marks = pivot.map(|pivot| {
+            let taken = Transformed::of(context);
+            [
+                self.gizmo(pivot, 0.0, action, &taken, context),
+                Mark::Pivot(pivot),
+            ]
+        });
+        let snap = match self.state {
+            State::MovingPivot { .. } => context.pointer,
+            _ => None,
+        };
+        let snap = snap.map(|at| context.snap_marks(at, &Carried::default()));
+        let marks = marks.into_iter().flatten();
+        marks.chain(snap.into_iter().flatten()).collect()
     }
 }
 
-/// The ring of a rotation that began at an angle, or the box of a scaling.
-fn gizmo(pivot: DVec2, from: f64, action: Action, context: &Context) -> Mark {
-    let pixel = context.viewport.pixel();
-    match action {
-        Action::Rotate(swept) => Mark::Ring {
-            centre: pivot,
-            handle: pivot + RING * pixel * DVec2::from_angle(from + swept),
-            swept,
-        },
-        Action::Scale(factor) => {
-            let corner = |x, y| pivot + HALF_BOX * pixel * factor * DVec2::new(x, y);
-            Mark::Corners([
+impl TransformTool {
+    /// The ring of a rotation that began at an angle, or the box of a scaling.
+    fn gizmo(
+        &self,
+        pivot: DVec2,
+        from: f64,
+        action: Action,
+        taken: &Transformed,
+        context: &Context,
+    ) -> Mark {
+        let pixel = context.viewport.pixel();
+        let factors = match action {
+            Action::Rotate(swept) => {
+                return Mark::Ring {
+                    centre: pivot,
+                    handle: pivot + RING * pixel * DVec2::from_angle(from + swept),
+                    swept,
+                };
+            }
+            Action::Scale(factor) => DVec2::splat(factor),
+            Action::Stretch(axis, factor) => {
+                let mut factors = DVec2::ONE;
+                factors[axis] = factor;
+                factors
+            }
+        };
+        let corner = |x, y| pivot + HALF_BOX * pixel * factors * DVec2::new(x, y);
+        let sides = self.sides(pivot, taken, context).into_iter();
+        let scaled = |(axis, at): (usize, DVec2)| pivot + factors[axis] * (at - pivot);
+        Mark::Corners {
+            corners: [
                 corner(1.0, 1.0),
                 corner(-1.0, 1.0),
                 corner(-1.0, -1.0),
                 corner(1.0, -1.0),
-            ])
+            ],
+            sides: sides.map(scaled).collect(),
         }
     }
 }

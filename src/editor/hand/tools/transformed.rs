@@ -4,6 +4,7 @@ use glam::{DQuat, DVec2, DVec3};
 
 use super::tool::{Context, move_edits};
 use crate::document::{CurveId, Edit};
+use crate::editor::hand::drawing_plane::DrawingPlane;
 use crate::editor::hand::selection::VertexId;
 use crate::editor::view::outline::Bounds;
 use crate::editor::view::viewport::Viewport;
@@ -17,6 +18,8 @@ pub enum Action {
     Rotate(f64),
     /// Scale by a factor, in all directions.
     Scale(f64),
+    /// Scale by a factor along one axis (0 or 1) of the plane that is drawn in.
+    Stretch(usize, f64),
 }
 
 impl Action {
@@ -32,6 +35,11 @@ impl Action {
             Self::Scale(factor) => {
                 let pivot = viewport.grounded(pivot);
                 pivot + factor * (vertex - pivot)
+            }
+            Self::Stretch(axis, factor) => {
+                let direction = DrawingPlane::of(viewport).axis(axis);
+                let along = direction.dot(vertex - viewport.grounded(pivot));
+                vertex + (factor - 1.0) * along * direction
             }
         }
     }
@@ -62,6 +70,11 @@ impl Transformed {
         self.vertices.is_empty() && self.reference.is_none()
     }
 
+    /// Whether it can be scaled along one axis: a reference keeps its shape.
+    pub fn can_stretch(&self) -> bool {
+        self.reference.is_none()
+    }
+
     /// The middle of what is taken as it is seen, if there is anything.
     pub fn middle(&self, context: &Context) -> Option<DVec2> {
         let mut bounds = Bounds::EMPTY;
@@ -76,12 +89,17 @@ impl Transformed {
         (!bounds.is_empty()).then(|| 0.5 * (bounds.low + bounds.high))
     }
 
-    /// Say what is taken, as a step of undo names it.
-    pub fn noun(&self) -> String {
-        match self.reference {
+    /// Name the step of undo that a transformation of it is.
+    pub fn label(&self, action: Action) -> String {
+        let verb = match action {
+            Action::Rotate(_) => "Rotate",
+            Action::Scale(_) | Action::Stretch(..) => "Scale",
+        };
+        let noun = match self.reference {
             Some(_) => "reference".to_owned(),
             None => counted(self.vertices.len(), "vertex", "vertices"),
-        }
+        };
+        format!("{verb} {noun}")
     }
 
     /// The edits that transform it about a pivot of the view plane.
@@ -122,6 +140,8 @@ fn placed(
             let turn = DQuat::from_axis_angle(orientation.towards(), angle);
             before.rotated_about(pivot, turn)
         }
-        Action::Scale(factor) => before.scaled_about(viewport.grounded(pivot), factor),
+        Action::Scale(factor) | Action::Stretch(_, factor) => {
+            before.scaled_about(viewport.grounded(pivot), factor)
+        }
     }
 }
