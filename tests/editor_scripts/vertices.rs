@@ -109,7 +109,7 @@ fn measuring_says_the_distance_and_changes_nothing() {
     script.drag(DVec2::new(100.0, 100.0), DVec2::new(400.0, 500.0));
     let length = 500.0 * script.editor.view().viewport().pixel();
     let hint = script.editor.hint();
-    let first = hint.split_whitespace().next();
+    let first = hint.split_whitespace().nth(1);
     let told: f64 = first.and_then(|it| it.parse().ok()).expect("a figure");
     // Eight digits are told.
     assert!((told - length).abs() <= 0.5e-7 * length, "{hint}");

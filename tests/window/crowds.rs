@@ -73,9 +73,12 @@ fn the_curve_lies_on_discs_and_under_what_is_selected() {
     window.event(Event::PointerGone);
     window.run();
     let curve_at = line(&window, CURVE);
-    let above = discs(&window, FLOAT).into_iter();
-    let above: Vec<_> = above.filter(|(place, _)| *place > curve_at).collect();
-    assert_eq!(above.len(), 1, "the selected vertex");
+    let (under, above): (Vec<_>, Vec<_>) = discs(&window, FLOAT)
+        .into_iter()
+        .partition(|(place, _)| *place < curve_at);
+    assert_eq!(under.len(), plain.len() - 1, "all but the selected vertex");
+    let largest = |discs: &[(usize, f32)]| discs.iter().fold(0.0, |most, it| it.1.max(most));
+    assert!(largest(&above) > largest(&under));
 }
 
 #[test]

@@ -193,7 +193,7 @@ fn the_degree_so_far_and_the_unit_are_told_and_an_empty_enter_leaves() {
     window.run();
     let drawn = window.state().editor().drawn_degree();
     assert_eq!(drawn, Some(9), "that of the active curve");
-    window.get_by_label("3 so far");
+    assert_eq!(window.state().editor().degree_so_far(), Some(3));
     let length = window
         .get_by_label("leg length")
         .value()
