@@ -1,28 +1,15 @@
-//! The document's own properties, where nothing of it is selected.
+//! The document's own properties, in the inspector.
 
 use eframe::egui::{ComboBox, Ui};
 
 use super::widgets;
 use crate::editor::{Command, Editor, told};
 
-/// Show what belongs to the document as a whole: its unit, and how much it holds.
+/// Show what belongs to the document as a whole: its unit.
 pub fn document_ui(ui: &mut Ui, editor: &mut Editor) {
-    ui.strong("Document");
     let unit = Command::SetUnit(None);
     let row = widgets::form_row(ui, "Unit", |ui| unit_ui(ui, editor));
     row.response.on_hover_text(unit.tooltip());
-    let document = editor.document();
-    let counts = [
-        ("Curves", document.curves().len()),
-        ("References", document.references().len()),
-    ];
-    for (name, count) in counts {
-        widgets::figure_row(ui, name, &count.to_string());
-    }
-    widgets::note(
-        ui,
-        "Draw or select a curve to see its degree, properties and features.",
-    );
 }
 
 fn unit_ui(ui: &mut Ui, editor: &mut Editor) {

@@ -40,7 +40,11 @@ impl Inspector {
         }
         let found = active.and_then(|id| Some((id, editor.document().curve(id)?.clone())));
         let Some((id, curve)) = found else {
-            return document_ui(ui, editor);
+            widgets::note(
+                ui,
+                "Draw or select a curve to see its degree, properties and features.",
+            );
+            return document_section_ui(ui, editor, true);
         };
         // Fields of their own for each curve: what is typed into one is for no other.
         ui.push_id(id, |ui| self.curve_ui(ui, editor, id, &curve));
@@ -50,6 +54,8 @@ impl Inspector {
             }
             distance_ui(ui, editor);
         });
+        document_section_ui(ui, editor, false);
+        // Its sentences come and go: nothing stands below them.
         widgets::section(ui, "Harmony", false, |ui| harmony_list_ui(ui, editor));
     }
 
@@ -94,6 +100,7 @@ impl Inspector {
             }
             distance_ui(ui, editor);
         });
+        document_section_ui(ui, editor, false);
     }
 
     fn curve_ui(&mut self, ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
@@ -145,6 +152,14 @@ impl Inspector {
             self.name = Some((id, text));
         }
     }
+}
+
+/// The document's properties beside those of what is active; without that they are `open` at first.
+fn document_section_ui(ui: &mut Ui, editor: &mut Editor, open: bool) {
+    let id = if open { "empty" } else { "beside" };
+    ui.push_id(id, |ui| {
+        widgets::section(ui, "Document", open, |ui| document_ui(ui, editor));
+    });
 }
 
 fn degree_ui(ui: &mut Ui, editor: &mut Editor, curve: &Curve) {

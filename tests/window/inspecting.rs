@@ -12,7 +12,7 @@ use glam::DVec3;
 use crate::hand::*;
 
 #[test]
-fn where_nothing_is_selected_the_documents_unit_is_set() {
+fn the_documents_unit_is_set_in_the_inspector() {
     let mut window = open_window();
     choose(&mut window, &["File", "New"]);
     click(&mut window, "Document unit");
@@ -22,6 +22,14 @@ fn where_nothing_is_selected_the_documents_unit_is_set() {
     window.get_by_label("Unit cm");
     press(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(window.state().editor().document().unit(), None);
+
+    // Beside a curve it has a section of its own.
+    choose(&mut window, &["File", "Examples", "S-curve"]);
+    click(&mut window, "Document");
+    click(&mut window, "Document unit");
+    click(&mut window, "inches");
+    let unit = window.state().editor().document().unit();
+    assert_eq!(unit, Some(LengthUnit::Inch));
 }
 
 #[test]

@@ -208,7 +208,7 @@ fn hovering_a_feature_in_the_plot_marks_it_exactly() {
 fn the_status_bar_says_what_the_mouse_does_to_the_plot() {
     let mut window = open_window();
     let says = |window: &Window| {
-        let hints = window.query_all_by_label_contains("Wheel zooms to the pointer");
+        let hints = window.query_all_by_label_contains("Wheel zooms, drag pans");
         hints.count() > 0
     };
     let at = on_plot(&window, 0.5);

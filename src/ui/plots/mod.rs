@@ -126,7 +126,7 @@ fn close_part(known: Option<[f64; 2]>, [from, to]: [f64; 2], length: f64) -> Opt
 }
 
 /// What the mouse does to a plot.
-const HINT: &str = "Wheel zooms to the pointer, drag pans, double-click fits; right-click for more";
+const HINT: &str = "Wheel zooms, drag pans, double-click fits; right-click for more";
 
 /// The area of a plot with its numbers.
 fn area(ui: &Ui) -> Rect {
