@@ -9,11 +9,11 @@ use glam::DVec3;
 use crate::common::Random;
 
 /// How much larger than the noise the errors of a fit may be.
-const BY_NOISE: f64 = 1.2;
+pub const BY_NOISE: f64 = 1.2;
 
 /// Points of a reference over its interval, off by normal noise in both directions, and the root of the
 /// mean square of what they are off across the curve.
-fn noisy(text: &str, count: usize, noise: f64, random: &mut Random) -> (Vec<DVec3>, f64) {
+pub fn noisy(text: &str, count: usize, noise: f64, random: &mut Random) -> (Vec<DVec3>, f64) {
     let curve = ReferenceCurve::from_text(text).expect("a reference");
     let [from, to] = curve.interval();
     let mut sum = 0.0;

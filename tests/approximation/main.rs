@@ -4,6 +4,7 @@
 mod common;
 
 mod fits;
+mod fits_with_extrema;
 mod periodic;
 mod places;
 mod shapes;

@@ -8,6 +8,7 @@ mod between;
 mod degrees;
 mod descriptions;
 mod ends;
+mod fits;
 mod harmony;
 mod joining;
 mod locks;

@@ -13,7 +13,7 @@ use crate::geometry::nearest::refined_parameter;
 pub(in crate::geometry) const FAIR_ORDER: usize = 3;
 
 /// The weight by which points hold the curve along itself.
-const ALONG: f64 = 0.01;
+const ALONG: f64 = 0.2;
 
 /// A curve near points that follow each other along it.
 #[derive(Clone, Debug, PartialEq)]

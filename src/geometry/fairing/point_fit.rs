@@ -117,11 +117,13 @@ impl PointFit<'_> {
         if !self.measure(&near, 0) {
             return Ok(None);
         }
+        self.weight = self.first_weight(&near.polygon);
         for _ in 0..ROUNDS {
             if self.progress.is_cancelled() {
                 return Ok(None);
             }
-            near = self.descend(near)?;
+            let settled;
+            (near, settled) = self.descend(near)?;
             let is_stuck = self.damping >= MOST_DAMPING;
             self.damping = self.damping.min(MOST_DAMPING / DAMPING);
             stuck = if is_stuck { stuck + 1 } else { 0 };
@@ -147,9 +149,19 @@ impl PointFit<'_> {
                 break;
             }
             self.move_turns();
-            self.weight = (self.weight * GROWTH).min(LAST);
+            if settled {
+                self.weight = (self.weight * GROWTH).min(LAST);
+            }
         }
         Ok(best.map(|(_, near)| near))
+    }
+
+    /// The weight that fits the mean size of the slopes: less where they are noise, more where the curve is smooth.
+    fn first_weight(&self, polygon: &FloatPolygon) -> f64 {
+        let slopes = self.signs.iter();
+        let slopes = slopes.map(|sign| sign.slope(polygon.vertices(), self.planar).0.abs());
+        let mean = slopes.sum::<f64>() / self.signs.len() as f64;
+        mean.recip().clamp(FIRST, LAST)
     }
 
     /// Take what presses as the multipliers. Returns whether all slopes have their signs.
@@ -163,12 +175,12 @@ impl PointFit<'_> {
         holds
     }
 
-    /// Step down while that brings something.
-    fn descend(&mut self, mut near: NearPoints) -> Result<NearPoints, PolygonError> {
+    /// Step down while that brings something. Returns also whether it no longer does.
+    fn descend(&mut self, mut near: NearPoints) -> Result<(NearPoints, bool), PolygonError> {
         let mut value = self.value(&near);
         for _ in 0..STEPS {
             let Some((gradient, factors)) = self.squares(&near).factor() else {
-                break;
+                return Ok((near, true));
             };
             let downhill = factors.solution();
             let terms = gradient.iter().zip(&downhill);
@@ -188,14 +200,14 @@ impl PointFit<'_> {
                 let settled = value - reached <= SETTLED[0] * value;
                 (near, value) = (moved, reached);
                 if settled {
-                    break;
+                    return Ok((near, true));
                 }
             }
             if self.damping >= MOST_DAMPING {
-                break;
+                return Ok((near, true));
             }
         }
-        Ok(near)
+        Ok((near, false))
     }
 
     fn value(&self, near: &NearPoints) -> f64 {

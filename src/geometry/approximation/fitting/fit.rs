@@ -10,7 +10,7 @@ use super::point_list::PointList;
 use super::smoothing::{Smoothed, Smoothing};
 use super::vertex_count::{ROUNDING, best_count};
 use crate::geometry::control_polygon::check_size;
-use crate::geometry::fairing::near_points::Points;
+use crate::geometry::fairing::near_points::{NearPoints, Points};
 use crate::geometry::fairing::point_fit::{extrema_of, nearest_with_extrema};
 use crate::geometry::features::Features;
 use crate::geometry::float_polygon::FloatPolygon;
@@ -27,6 +27,9 @@ const LEAST_NOISE: f64 = 1e-7;
 
 /// The factor between the first numbers of vertices that are tried for extrema; it grows by itself each time.
 const MORE: f64 = 1.25;
+
+/// The points of a curve, by segments or vertices, by which it gets another number of vertices.
+const SAMPLES: usize = 4;
 
 /// What a fit is to be like.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -161,28 +164,55 @@ impl Fit<'_> {
         }
     }
 
-    /// The fit with so many extrema that is nearest to the points: with the number of vertices given, or the
-    /// least number from the best on with which it is about as near as noise allows.
+    /// The fit with so many extrema that is nearest to the points, with the number of vertices given or the
+    /// least from the best on with which it is about as near as noise allows.
     fn best_with_extrema(&self, extrema: usize) -> Result<Fitted, FitError> {
         let least = vertices_for(extrema, self.asked.degree);
-        let mut count = self.count(None)?.max(least);
-        let most = self.asked.count.unwrap_or(self.list.points.len());
+        let natural = best_count(self.list, &self.smoothing, self.asked.degree, None)?.max(least);
+        match self.asked.count {
+            Some(count) => self.best_of_count(count, natural, extrema),
+            None => self.best_of_many(natural, extrema),
+        }
+    }
+
+    /// The nearest with so many vertices; where that is not near, also from the one with the natural number.
+    fn best_of_count(
+        &self,
+        count: usize,
+        natural: usize,
+        extrema: usize,
+    ) -> Result<Fitted, FitError> {
         let enough = self.enough(&self.smoothing.least(count)?);
-        let (first, mut more) = (count as f64, MORE);
-        let mut best: Option<Fitted> = None;
-        loop {
-            let found = self.with_extrema(count, extrema, enough)?;
-            keep_better(&mut best, found, extrema);
-            if count >= most || is_near(best.as_ref(), enough) {
-                break;
-            }
+        let found = self.with_extrema(count, extrema, enough, None)?;
+        if count == natural || found.is_near(enough) {
+            return Ok(found);
+        }
+        self.progress.set_done(0.4);
+        let known = self.with_extrema(natural, extrema, enough, None)?;
+        self.progress.set_done(0.7);
+        if known.extrema != extrema {
+            return Ok(found);
+        }
+        let again = self.with_extrema(count, extrema, enough, Some(&known.polygon))?;
+        Ok(found.or(again, extrema))
+    }
+
+    /// The nearest with ever more vertices until it is near.
+    fn best_of_many(&self, natural: usize, extrema: usize) -> Result<Fitted, FitError> {
+        let most = self.list.points.len();
+        let enough = self.enough(&self.smoothing.least(natural)?);
+        let mut best = self.with_extrema(natural, extrema, enough, None)?;
+        let (mut count, mut more) = (natural, MORE);
+        while count < most && !best.is_near(enough) {
+            let done = (count as f64 / natural as f64).ln() / (most as f64 / natural as f64).ln();
+            self.progress.set_done(0.1 + 0.9 * done);
             count = ((more * count as f64) as usize).clamp(count + 1, most);
             more *= MORE;
-            let done = (count as f64 / first).ln() / (most as f64 / first).ln();
-            self.progress.set_done(0.1 + 0.9 * done);
+            let known = Some(&best.polygon).filter(|_| best.extrema == extrema);
+            let found = self.with_extrema(count, extrema, enough, known)?;
+            best = best.or(found, extrema);
         }
-        let (found, degree) = (self.list.counting(), self.asked.degree);
-        best.ok_or(FitError::TooFewPoints { found, degree })
+        Ok(best)
     }
 
     /// Errors that are about those of the noise: each vertex takes a share of it out of the errors.
@@ -192,42 +222,70 @@ impl Fit<'_> {
         HARDLY * least.errors[0] / left.max(TELLING).sqrt() + ROUNDING * self.list.size
     }
 
-    /// The fit with so many vertices and extrema that is nearest to the points, from the fairest curve that
-    /// is about as near as noise allows, and where that is not enough from the one nearest to them.
-    fn with_extrema(&self, count: usize, extrema: usize, enough: f64) -> Result<Fitted, FitError> {
+    /// The fit with so many vertices and extrema that is nearest to the points: from a known one with another
+    /// number of vertices, from the fairest curve that is about as near as noise allows, and from the one
+    /// nearest to the points, until one is near enough.
+    fn with_extrema(
+        &self,
+        count: usize,
+        extrema: usize,
+        enough: f64,
+        known: Option<&FloatPolygon>,
+    ) -> Result<Fitted, FitError> {
         let least = self.smoothing.least(count)?;
-        let most = self.enough(&least);
-        let passes = |smoothed: &Smoothed| smoothed.errors[0] <= most;
-        let mut starts = self.smoothing.while_passing(count, passes)?;
-        let fairest = starts
-            .pop()
-            .filter(|fairest| fairest.fairness > least.fairness);
+        let noise = self.enough(&least);
+        let passes = |smoothed: &Smoothed| smoothed.errors[0] <= noise;
+        let fairest = self.smoothing.while_passing(count, passes)?.pop();
+        let fairness = fairest.as_ref().map_or(least.fairness, |it| it.fairness);
+        let known = known
+            .map(|known| self.resampled(known, count))
+            .transpose()?;
+        let known = known.map(|near| Smoothed::new(self.list, near, fairness));
         let rms_of_any = least.errors[0];
-        let mut best = None;
-        for start in fairest.into_iter().chain([least]) {
-            let from = start.near.clone();
-            let fairness = start.fairness;
-            let noise = start.errors[0].max(LEAST_NOISE * self.list.size);
-            keep_better(&mut best, self.finished(start, rms_of_any)?, extrema);
-            if is_near(best.as_ref(), enough) {
+        let mut best = self.finished(least.clone(), rms_of_any)?;
+        let fairest = fairest.filter(|_| fairness > least.fairness);
+        for start in known.into_iter().chain(fairest).chain([least]) {
+            let (from, fairness) = (start.near.clone(), start.fairness);
+            best = best.or(self.finished(start, rms_of_any)?, extrema);
+            if best.is_near(enough) {
                 break;
             }
             let points = Points {
                 points: self.list.points,
                 counts: &self.list.counts,
                 fairness: self.smoothing.weight(count, fairness),
-                noise,
+                noise: noise.max(LEAST_NOISE * self.list.size),
             };
             if let Some(near) = nearest_with_extrema(&points, &from, extrema, self.progress)? {
                 let found = Smoothed::new(self.list, near, fairness);
-                keep_better(&mut best, self.finished(found, rms_of_any)?, extrema);
+                best = best.or(self.finished(found, rms_of_any)?, extrema);
             }
-            if is_near(best.as_ref(), enough) {
+            if best.is_near(enough) {
                 break;
             }
         }
-        let (found, degree) = (self.list.counting(), self.asked.degree);
-        best.ok_or(FitError::TooFewPoints { found, degree })
+        Ok(best)
+    }
+
+    /// Nearly the same curve with another number of vertices, with parameters in proportion.
+    fn resampled(&self, known: &FloatPolygon, count: usize) -> Result<NearPoints, FitError> {
+        let end = known.segments() as f64;
+        let samples = SAMPLES * known.segments().max(count);
+        let shares = (0..=samples).map(|sample| sample as f64 / samples as f64);
+        let shares: Vec<f64> = shares.collect();
+        let samples: Vec<DVec3> = shares
+            .iter()
+            .map(|share| known.point(share * end))
+            .collect();
+        let mut list = PointList::new(&samples);
+        list.shares = shares;
+        let smoothing = Smoothing::new(&list, self.asked.degree, self.progress);
+        let polygon = smoothing.least(count)?.near.polygon;
+        let places: Vec<f64> = self.list.shares.iter().map(|share| share * end).collect();
+        let known = NearPoints::new(known.clone(), self.list.points, &places);
+        let share = polygon.segments() as f64 / end;
+        let places: Vec<f64> = known.places.iter().map(|u| share * u).collect();
+        Ok(NearPoints::new(polygon, self.list.points, &places))
     }
 
     /// Prove and measure a fit on which there are no conditions.
@@ -260,24 +318,20 @@ impl Fit<'_> {
     }
 }
 
-/// Whether a fit is what was asked for, and near enough.
-fn is_near(fitted: Option<&Fitted>, enough: f64) -> bool {
-    fitted.is_some_and(|fitted| fitted.reached && fitted.rms <= enough)
-}
+impl Fitted {
+    /// Whether it is what was asked for, and near enough.
+    fn is_near(&self, enough: f64) -> bool {
+        self.reached && self.rms <= enough
+    }
 
-/// Keep the better of two fits: it reaches what was asked for, or its number of extrema is nearer to the one
-/// asked for, or it is nearer to the points.
-fn keep_better(best: &mut Option<Fitted>, fitted: Fitted, extrema: usize) {
-    let rank = |fitted: &Fitted| {
-        let apart = fitted.extrema.abs_diff(extrema);
-        (fitted.reached, Reverse(apart))
-    };
-    let is_better = |known: &Fitted| match rank(&fitted).cmp(&rank(known)) {
-        Ordering::Greater => true,
-        Ordering::Less => false,
-        Ordering::Equal => fitted.rms < known.rms,
-    };
-    if best.as_ref().is_none_or(is_better) {
-        *best = Some(fitted);
+    /// The better of two: it reaches what was asked for, or its number of extrema is nearer to the one asked
+    /// for, or it is nearer to the points.
+    fn or(self, other: Self, extrema: usize) -> Self {
+        let rank = |fitted: &Self| (fitted.reached, Reverse(fitted.extrema.abs_diff(extrema)));
+        match rank(&other).cmp(&rank(&self)) {
+            Ordering::Greater => other,
+            Ordering::Equal if other.rms < self.rms => other,
+            _ => self,
+        }
     }
 }
