@@ -294,7 +294,8 @@ impl PaperPages {
             ui,
             "The paper says that curvature and torsion agree up to the second level. With steps of 1 the \
              curvature does; level 2 of the torsion has one more maximum and minimum, in both \
-             ways. With steps of ½ all of level 2 agrees. The paper gives no distance.",
+             ways. With steps of ½ all of level 2 agrees. The paper gives no distance. The inspector tells a little \
+             more: it measures to the part of the spiral that is drawn, whose end the curve just passes.",
         );
         asked
     }
@@ -390,8 +391,9 @@ fn typical_ui(ui: &mut Ui) {
     text(
         ui,
         "A Mineur–Farin polygon turns by the same angle at every vertex, and its legs grow by the same \
-         ratio. Here the angle is 90° and the ratio 2. Taken as Bézier polygon and as float S-polygon, \
-         the same five points give two curves.",
+         ratio. Here the angle is 90° and the ratio 2. The same five points \
+         are the Bézier polygon of one curve and the float S-polygon of the other. The faint lines beyond \
+         belong to the float S-polygon of the Bézier curve, which is far larger.",
     );
     text(
         ui,
@@ -402,7 +404,7 @@ fn typical_ui(ui: &mut Ui) {
         ui,
         "A Bézier curve on such a polygon is monotone exactly if s cos θ ≥ 1 or s ≤ cos θ, s the ratio and \
          θ the angle. A B-spline is far more often, not always: with s = 2 and 90° not at degree 3. So \
-         Batten proves it for each curve: see the chip at the top right.",
+         Batten proves it for each curve: choose one in the list and see the chip at the top right.",
     );
     note(
         ui,

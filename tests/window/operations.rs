@@ -360,3 +360,18 @@ fn a_list_counts_while_it_is_typed() {
     assert!((curved(&window) - 0.25).abs() < 1e-9, "{}", curved(&window));
     assert_eq!(steps(&window), 0);
 }
+
+#[test]
+fn a_name_that_an_example_has_too_begins_the_operation() {
+    let (window, _) = trying("Mineur");
+    let trial = window.state().editor().trial().expect("an operation");
+    assert_eq!(trial.operation().name, "mineur-farin");
+}
+
+#[test]
+fn features_of_both_curves_are_told_with_their_parameters() {
+    let (window, _) = trying("Approximate");
+    let rows = window.query_all_by_label_contains("curvature level 1: ");
+    assert!(rows.count() > 1);
+    assert!(window.query_all_by_label_contains(" at t = ").count() > 0);
+}
