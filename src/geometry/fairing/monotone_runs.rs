@@ -77,7 +77,7 @@ fn best_ends(
     begins_rising: bool,
 ) -> (Vec<usize>, f64) {
     let run = |number: usize, first: usize, end: usize| {
-        let rises = begins_rising == (number % 2 == 0);
+        let rises = begins_rising == number.is_multiple_of(2);
         missed[usize::from(!rises)][first]
             .get((end - first).wrapping_sub(1))
             .copied()
