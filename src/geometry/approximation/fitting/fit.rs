@@ -55,7 +55,7 @@ pub struct Fitted {
     pub extrema: usize,
     /// The root of the mean squared distance of the points, outliers aside.
     pub rms: f64,
-    /// The same of the nearest fit with as many vertices and any number of extrema.
+    /// The same of the nearest fit found with as many vertices and any number of extrema.
     pub rms_of_any: f64,
     /// The largest distance, outliers aside.
     pub largest: f64,
@@ -310,7 +310,7 @@ impl Fit<'_> {
             reached: right && near,
             extrema,
             rms,
-            rms_of_any,
+            rms_of_any: rms_of_any.min(rms),
             largest,
             outliers: outliers.map(|(index, _)| index).collect(),
             fairness: smoothed.fairness,
