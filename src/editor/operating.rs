@@ -330,7 +330,7 @@ impl Editor {
                 .filter(|trial| trial.operation().inputs == Inputs::OneOrNone);
             let followed = followed.and_then(Trial::curve);
             self.view.compared = reference.or(followed).or(self.view.compared);
-            self.bring_into_view(&made);
+            self.bring_into_sight(&made);
         }
     }
 

@@ -205,19 +205,17 @@ impl Panel<'_> {
             ui.spacing_mut().item_spacing.x = STEP;
             match (direction, self.report.target_angle) {
                 (_, Some(angle)) => self.angle_ui(ui, angle),
-                // Three components fill the row.
-                (Some(direction), None) => return self.components_ui(ui, direction, width),
-                (None, None) => {}
+                (Some(direction), None) => self.components_ui(ui, direction, width),
+                (None, None) => {
+                    widgets::caption(ui, "free");
+                }
             }
+        });
+        // Beside the field there is no room for them at the panel's usual width.
+        widgets::form_row(ui, "", |ui| {
             self.turn_round_ui(ui);
             self.fixed_ui(ui);
         });
-        if direction.is_some() && !self.report.planar {
-            widgets::form_row(ui, "", |ui| {
-                self.turn_round_ui(ui);
-                self.fixed_ui(ui);
-            });
-        }
     }
 
     fn turn_round_ui(&mut self, ui: &mut Ui) {
@@ -313,15 +311,15 @@ impl Panel<'_> {
             }
             let d = report.difference;
             let plain = |value: f64| figures::significant(value, 6);
-            let mut pairs = vec![("dx", plain(d.x)), ("dy", plain(d.y))];
+            let mut pairs = vec![("Δx", plain(d.x)), ("Δy", plain(d.y))];
             if !report.planar {
-                pairs.push(("dz", plain(d.z)));
+                pairs.push(("Δz", plain(d.z)));
             }
             pairs.push(("Length", plain(d.length())));
             pairs.push(("Angle", angle_text(report.angle)));
             if let (Some(target), Some(missing)) = (report.target, report.missing) {
                 let asked = [
-                    ("dκ", target.curvature.map(|_| plain(missing.curvature))),
+                    ("Δκ", target.curvature.map(|_| plain(missing.curvature))),
                     ("Plane", target.normal.map(|_| angle_text(missing.plane))),
                     ("Slope", target.slope.map(|_| plain(missing.slope))),
                 ];

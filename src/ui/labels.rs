@@ -4,6 +4,9 @@ use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, StrokeK
 
 use super::theme::{self, RADIUS, STEP, Tokens};
 
+/// The longest line of a box, in points: longer ones, such as long names, are broken.
+const WIDEST: f32 = 260.0;
+
 /// How far a tooltip stays from the point that it speaks of.
 const CLEARANCE: f32 = 14.0;
 
@@ -49,7 +52,8 @@ pub fn tooltip(
 
 /// Show some lines in a box, which a function places by its size.
 fn lines_in_box(painter: &Painter, text: &str, tokens: &Tokens, place: impl Fn(Vec2) -> Rect) {
-    let galley = painter.layout_no_wrap(text.to_owned(), theme::number_font(), tokens.text);
+    let font = theme::number_font();
+    let galley = painter.layout(text.to_owned(), font, tokens.text, WIDEST);
     let padding = vec2(2.0 * STEP, 1.5 * STEP);
     let rect = place(galley.size() + 2.0 * padding);
     let outline = Stroke::new(1.0, tokens.outline);

@@ -63,6 +63,30 @@ fn marks(script: &mut Script) -> Vec<bool> {
 }
 
 #[test]
+fn a_curve_that_would_be_a_speck_is_gone_to_with_a_comb_of_its_size() {
+    let tried_beside = |name, command| {
+        let mut script = Script::example(name);
+        script.command(command);
+        let before = (
+            *script.editor.view().viewport(),
+            script.editor.view().comb(),
+        );
+        script.try_out(NAME).expect("it can run");
+        (script, before)
+    };
+    // Ten units beside a hull of 8 400.
+    let (script, (view, comb)) = tried_beside("hull", Command::FitAll);
+    let apart = at_handle(&script, 0).distance(at_handle(&script, 3));
+    assert!(apart > 150.0, "{apart}");
+    assert!(script.editor.view().viewport().scale > 10.0 * view.scale);
+    assert!(script.editor.view().comb().scale < 1e-2 * comb.scale);
+    // What is seen well stays where it is.
+    let (script, (view, comb)) = tried_beside("arc", Command::ZoomOut);
+    assert_eq!(*script.editor.view().viewport(), view);
+    assert_eq!(script.editor.view().comb(), comb);
+}
+
+#[test]
 fn the_curve_that_is_made_is_active_and_in_view_while_it_is_tried_out() {
     let mut script = Script::example("s-curve");
     let (own, before) = (script.curve(), script.editor.document().clone());

@@ -291,3 +291,21 @@ fn a_curve_is_renamed_in_its_row_and_keys_are_its_names() {
     let turned = window.state().editor().view().viewport().orientation;
     assert_eq!(turned, view);
 }
+
+#[test]
+fn everything_about_an_end_fits_into_the_panel() {
+    for size in [[1000.0, 1100.0], [1480.0, 1100.0]] {
+        let mut window = window_of_curves(2, size);
+        press(&mut window, Modifiers::NONE, Key::E);
+        click(&mut window, "Use current end");
+        let tab = window.get_by_label("Tool").rect();
+        for name in [
+            "Lock direction",
+            "Translate terminal vertices",
+            "Rotate terminal vertices",
+        ] {
+            let control = window.get_by_label(name).rect();
+            assert!(control.right() <= tab.right(), "{name}: {control}, {tab}");
+        }
+    }
+}

@@ -147,7 +147,7 @@ impl Editor {
         };
         self.add("Add reference", added)?;
         if let Some(id) = self.active_reference_id() {
-            self.bring_into_sight(id);
+            self.bring_into_sight(&[id]);
         }
         Ok(Note::silent())
     }

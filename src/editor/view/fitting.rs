@@ -19,7 +19,7 @@ const TEETH: usize = 256;
 const FAR_POLYGON: f64 = 8.0;
 
 /// What is smaller than this share of the view's smaller side is a speck.
-const SPECK: f64 = 0.05;
+const SPECK: f64 = 0.15;
 
 /// How far beside curve and polygon a fitted view follows the comb, in units of their extent.
 const COMB_REACH: f64 = 1.0;
@@ -80,16 +80,23 @@ impl Editor {
         }
     }
 
-    /// Fit everything into the canvas if a new curve lies beyond what is visible; where it would be a speck then,
-    /// or is one already, fit it alone.
-    pub(in crate::editor) fn bring_into_sight(&mut self, new: CurveId) {
-        self.bring_into_view(&[new]);
-        let bounds = self.bounds_of(new);
+    /// Fit everything into the canvas if one of some new curves lies beyond what is visible; where they would be a
+    /// speck then, or are one already, fit them alone, with a legible comb.
+    pub(in crate::editor) fn bring_into_sight(&mut self, new: &[CurveId]) {
+        self.bring_into_view(new);
+        let comb = self.view.comb;
+        self.reset_comb();
+        let mut bounds = Bounds::EMPTY;
+        for id in new {
+            bounds.unite(&self.bounds_of(*id));
+        }
         let view = self.view.viewport.view_box();
         let (extent, side) = (bounds.high - bounds.low, view.high - view.low);
         if extent.max_element() < SPECK * side.min_element() {
             self.view.viewport = self.view.viewport.fitted(&bounds);
             self.view.target = self.middle();
+        } else {
+            self.view.comb = comb;
         }
     }
 
