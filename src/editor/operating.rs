@@ -322,12 +322,12 @@ impl Editor {
             self.view.compared = other.copied();
         }
         if is_new {
-            let before = self.trial().and_then(|trial| trial.selection.active());
-            let reference = before.filter(|id| self.document().reference(*id).is_some());
-            // What approximates a curve is compared with it.
-            let followed = self
-                .trial()
-                .filter(|trial| trial.operation().inputs == Inputs::OneOrNone);
+            // What follows a curve or a reference is compared with it.
+            let followed = self.trial().filter(|trial| {
+                matches!(trial.operation().inputs, Inputs::OneOrNone | Inputs::Points)
+            });
+            let active = followed.and_then(|trial| trial.selection.active());
+            let reference = active.filter(|id| self.document().reference(*id).is_some());
             let followed = followed.and_then(Trial::curve);
             self.view.compared = reference.or(followed).or(self.view.compared);
             self.bring_into_sight(&made);

@@ -58,6 +58,12 @@ impl Report {
         Some(figures.find(|figure| figure.name == name)?.value.clone())
     }
 
+    /// Find the first level in which an approximation has another shape than what it follows.
+    pub fn differing_level(&self) -> Option<&LevelComparison> {
+        let mut levels = self.equivalence.iter().flatten();
+        levels.find(|level| !level.is_equal())
+    }
+
     /// Tell at once what an operation did, without features.
     pub fn new(operation: &Operation, input: &Input, outcome: &Outcome) -> Self {
         Self {

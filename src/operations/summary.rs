@@ -32,8 +32,7 @@ impl Report {
                 Deviation::Unmeasured => {}
             }
         }
-        let mut differing = self.equivalence.iter().flatten();
-        if let Some(level) = differing.find(|level| !level.is_equal()) {
+        if let Some(level) = self.differing_level() {
             parts.push(format!("another shape: {} differs", level.name()));
         }
         if let Some(residual) = self.residual {

@@ -69,8 +69,8 @@ pub fn failure(trial: &Trial) -> Option<String> {
     }
 }
 
-/// Show what matters most of what the operation came to: how far the curve moves, and its vertices, and whether its
-/// curvature is monotone. Its rows are always the same.
+/// Show what matters most of what the operation came to: how far the curve moves, and its vertices, or whether it
+/// has the shape of what it follows; and whether its curvature is monotone. There are always as many rows.
 pub fn summary_ui(ui: &mut Ui, trial: &Trial) {
     let Some(run) = trial.run() else {
         return;
@@ -83,8 +83,12 @@ pub fn summary_ui(ui: &mut Ui, trial: &Trial) {
         }
         let deviation = report.and_then(deviation);
         widgets::figure_row(ui, "Deviation", &deviation.unwrap_or_else(dash));
-        let largest = report.and_then(largest_move);
-        widgets::figure_row(ui, "Largest move", &largest.unwrap_or_else(dash));
+        if let Some(report) = report.filter(|report| report.equivalence.is_some()) {
+            widgets::figure_row(ui, "Shape", &shape(report));
+        } else {
+            let largest = report.and_then(largest_move);
+            widgets::figure_row(ui, "Largest move", &largest.unwrap_or_else(dash));
+        }
         match report.filter(|report| report.useful) {
             Some(_) => monotone_ui(ui, trial),
             None => drop(widgets::figure_row(ui, "Monotone", &dash())),
@@ -111,6 +115,15 @@ fn largest_move(report: &Report) -> Option<String> {
         0.0 => "none".to_owned(),
         distance => format!("{} at vertex {}", length(distance), largest.vertex),
     })
+}
+
+/// Whether the curve has the shape of what it follows, in words.
+fn shape(report: &Report) -> String {
+    let differing = report.differing_level();
+    differing.map_or_else(
+        || "the same at all levels".to_owned(),
+        |level| format!("{} differs", level.name()),
+    )
 }
 
 fn length(value: f64) -> String {

@@ -126,7 +126,7 @@ impl PaperPages {
             ui,
             "The paper cuts the coordinates of one vertex of the closed S-polygon, the second, to three \
              digits after the decimal point. The curve is no arc any more, and the float S-polygon \
-             that belongs to it flies apart.",
+             that belongs to it flies apart. Drag the slider to 3 to see it.",
         );
         let available = editor.has_shortened();
         ui.add_enabled_ui(available, |ui| self.digits_ui(ui, editor));
@@ -215,8 +215,8 @@ impl PaperPages {
         });
         text(
             ui,
-            "From degree 3 on each degree makes the B-spline about ten times rounder, and the Bézier \
-             curve hardly at all.",
+            "Each degree makes the B-spline rounder, from degree 3 on about ten times on average, and the \
+             Bézier curve hardly at all.",
         );
         note(
             ui,
@@ -398,7 +398,7 @@ fn typical_ui(ui: &mut Ui) {
     text(
         ui,
         "The plot below shows the curvature of both. The Bézier curve has a maximum at t = 0.2. The \
-         curvature of the B-spline only falls, by half with every segment: κ(u + 1) = κ(u)/2.",
+         curvature of the B-spline only falls, to half along its one segment: κ(u + 1) = κ(u)/2.",
     );
     note(
         ui,
@@ -423,13 +423,14 @@ fn composite_ui(ui: &mut Ui) {
     text(
         ui,
         "Here a clothoid and a logarithmic spiral, both log-aesthetic and of degree 5, are joined by five \
-         vertices. The spiral was moved, as a rigid body, to where the polygon is most harmonious; the \
-         rest of both parts stays as it was, to the bit.",
+         vertices. The spiral was moved, as a rigid body, to where the polygon is most harmonious. Nothing \
+         else of the two parts has changed, but where the bridge reaches.",
     );
     text(
         ui,
         "Hide the composite curve to see the two parts. Look at the curvature plot: it falls all along, \
-         which is proved, and you cannot tell where the joints are. The Harmony plot shows the legs, \
+         which is proved, first along the straight line of the clothoid, then along the spiral, and has no \
+         corner in between. The Harmony plot shows the legs, \
          angles and discrete curvature of all vertices, those of the bridge included.",
     );
     note(
