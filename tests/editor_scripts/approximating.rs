@@ -92,3 +92,18 @@ fn points_that_are_active_are_fitted() {
     assert_eq!(script.editor.document().len(), 0);
     assert!(script.editor.document().reference(scan).is_some());
 }
+
+#[test]
+fn only_what_follows_a_reference_is_compared_with_the_active_one() {
+    for (name, is_compared) in [
+        ("between", false),
+        ("mineur-farin", false),
+        ("approximate", true),
+    ] {
+        let mut script = spiral();
+        let reference = script.curve();
+        script.try_out(name).expect("it can run");
+        let compared = script.editor.view().compared();
+        assert_eq!(compared == Some(reference), is_compared, "{name}");
+    }
+}
