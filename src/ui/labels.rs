@@ -5,7 +5,7 @@ use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, StrokeK
 use super::theme::{self, RADIUS, STEP, Tokens};
 
 /// The longest line of a box, in points: longer ones, such as long names, are broken.
-const WIDEST: f32 = 260.0;
+const WIDEST: f32 = 320.0;
 
 /// How far a tooltip stays from the point that it speaks of.
 const CLEARANCE: f32 = 14.0;
