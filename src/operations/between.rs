@@ -337,9 +337,11 @@ fn remarks(segment: &Segment) -> Vec<String> {
             significant(segment.tolerance, 3)
         ));
     }
-    if segment.monotone != Verdict::Proved {
+    if segment.arc && segment.monotone != Verdict::Proved {
+        remarks.push("The ends ask for a circular arc: its curvature is constant, and that of the curve, which is polynomial, wobbles slightly about it".to_owned());
+    } else if segment.monotone != Verdict::Proved {
         remarks.push(match curvatures_agree(segment) {
-            true => "The ends ask for a circular arc: its curvature is constant, and that of a polynomial curve rises and falls".to_owned(),
+            true => "The ends ask almost for a circular arc: its curvature hardly changes, and that of a polynomial curve rises and falls".to_owned(),
             false if segment.monotone == Verdict::Disproved => {
                 "The curvature is not monotone: try another degree, or ends whose curvatures differ less".to_owned()
             }

@@ -1,5 +1,6 @@
 //! Where there is a segment, where there is none, and what is said then.
 
+use batten::geometry::End;
 use batten::geometry::between::{BetweenError, Ends, SegmentKind};
 use glam::DVec2;
 
@@ -135,11 +136,73 @@ fn a_straight_segment_is_straight() {
 }
 
 #[test]
-fn an_arc_is_no_curve_of_monotone_curvature_and_said_to_be_none() {
-    let segment = found(&on_chord(30.0, 30.0), CLOTHOID, 5).expect("an arc");
-    assert!(!segment.is_reached());
-    assert!(off(&segment, &on_chord(30.0, 30.0)) <= crate::EXACT);
-    assert!(segment.deviation <= segment.tolerance);
+fn any_monotone_curve_is_found_where_a_log_aesthetic_segment_is() {
+    let ends = |directions: [[f64; 2]; 2], curvatures| Ends {
+        points: [DVec2::ZERO, DVec2::new(10.0, 0.0)],
+        directions: directions.map(DVec2::from),
+        curvatures,
+    };
+    // Harmonising does not reach these.
+    for (ends, inflections, degree) in [
+        (
+            ends([[1.0, 1.0], [2.0, -1.0]], [Some(-0.3), Some(0.1)]),
+            1,
+            5,
+        ),
+        (ends([[-1.0, 0.2], [-1.0, -0.1]], [None; 2]), 0, 5),
+        (ends([[-1.0, 0.2], [-1.0, 0.1]], [None; 2]), 1, 7),
+    ] {
+        let segment = found(&ends, SegmentKind::AnyMonotone, degree).expect("a curve");
+        check(&segment, &ends, inflections);
+    }
+}
+
+#[test]
+fn a_stronger_curvature_where_the_angle_to_the_chord_is_smaller_is_refused() {
+    // Circles of curvature one inside the other: only the angles tell.
+    for kind in [CLOTHOID, SegmentKind::AnyMonotone] {
+        let mut ends = Ends {
+            points: [DVec2::ZERO, DVec2::new(10.0, 0.0)],
+            directions: [DVec2::new(1.0, 1.0), DVec2::new(2.0, -1.0)],
+            curvatures: [Some(-0.1), Some(-0.3)],
+        };
+        let error = found(&ends, kind, 5).expect_err("no such curve");
+        let BetweenError::OtherLean { angles, curvatures } = error else {
+            panic!("{error}");
+        };
+        assert!((angles[0].to_degrees() - 45.0).abs() <= 1e-12);
+        assert!((angles[1].tan() - 0.5).abs() <= 1e-12);
+        let [first, last] = curvatures;
+        assert!((first + 0.1).abs() <= 1e-15 && (last + 0.3).abs() <= 1e-15);
+        ends.curvatures = [Some(-0.25), Some(-0.06)];
+        check(&found(&ends, kind, 5).expect("a curve"), &ends, 0);
+    }
+}
+
+#[test]
+fn the_ends_of_an_arc_are_joined_by_the_arc() {
+    let bend = Some(2.0 * 30.0_f64.to_radians().sin());
+    for (kind, curvatures) in [
+        (CLOTHOID, [None; 2]),
+        (CLOTHOID, [bend; 2]),
+        (SegmentKind::AnyMonotone, [None; 2]),
+        (SegmentKind::AnyMonotone, [bend; 2]),
+    ] {
+        let curvatures = curvatures.map(|it: Option<f64>| it.map(|it| -it));
+        let ends = Ends {
+            directions: on_chord(-30.0, -30.0).directions,
+            curvatures,
+            ..on_chord(30.0, 30.0)
+        };
+        let segment = found(&ends, kind, 5).expect("an arc");
+        assert!(segment.arc && segment.is_reached());
+        assert!(off(&segment, &ends) <= crate::EXACT);
+        let bends = segment.polygon.end_jet(End::Start).signed_curvature();
+        assert!((bends + 1.0).abs() <= NEARLY, "{bends}");
+        let angle = 30.0_f64.to_radians();
+        let apart = (segment.length - angle / angle.sin()).abs();
+        assert!(apart <= segment.tolerance, "{apart}");
+    }
 }
 
 #[test]

@@ -13,6 +13,10 @@ const LENGTHS: RangeInclusive<f64> = 1e-100..=1e100;
 /// Angles, in radians, that rounding leaves between directions that are the same.
 const ROUNDING: f64 = 1e-14;
 
+/// How far a curvature may be off the one asked for, relative to it, and be met: correcting the ends
+/// does the rest.
+pub(super) const SAME: f64 = 1e-9;
+
 /// Hold the two ends that a segment runs between, in the plane z = 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ends {
@@ -114,6 +118,16 @@ impl Task {
         let bends = self.curvatures.into_iter().flatten();
         let follow = self.angles.into_iter().all(|it| it.abs() <= ROUNDING);
         follow && bends.into_iter().all(|it| it == 0.0)
+    }
+
+    /// Whether the ends are those of a circular arc but for rounding: the angles to the chord are equal, and
+    /// no curvature or that of the arc is asked for.
+    pub(super) fn is_arc(&self) -> bool {
+        let given = self.curvatures.into_iter().flatten();
+        let arc = 2.0 * (0.5 * self.turning()).sin();
+        self.lean().abs() <= ROUNDING
+            && arc > 0.0
+            && given.into_iter().all(|it| (it - arc).abs() <= SAME * arc)
     }
 
     /// The length of the chord.

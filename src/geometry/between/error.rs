@@ -88,6 +88,14 @@ pub enum BetweenError {
         /// The radii of curvature.
         radii: [f64; 2],
     },
+    /// No curve with monotone curvature has these curvatures with these angles to the chord.
+    #[error("no curve with monotone curvature joins these ends without turning round once more: its angle to the chord is larger where its curvature is stronger (Vogt), and here it is {}° at the start, with curvature {}, and {}° at the end, with curvature {}: give the end with the larger angle the stronger curvature, or turn a direction", degrees(.angles[0]), significant(.curvatures[0], 6), degrees(.angles[1]), significant(.curvatures[1], 6))]
+    OtherLean {
+        /// The angles to the chord at the start and at the end, in radians.
+        angles: [f64; 2],
+        /// The curvatures there.
+        curvatures: [f64; 2],
+    },
     /// No segments that meet were found.
     #[error(
         "there are no log-aesthetic segments with {alpha} between these ends that have these curvatures: try another α, or any monotone curve"

@@ -6,10 +6,12 @@ use glam::DVec3;
 
 use super::ends::{Ends, Task};
 use super::error::BetweenError;
-use super::polygon::{Fit, exact_ends, quasi};
+use super::existence::check_existence;
+use super::polygon::{Fit, exact_ends, fit, quasi};
+use super::solving::log_aesthetic_parts;
 use crate::geometry::differentiable::Differentiable;
 use crate::geometry::fairing::harmonising::{Harmonised, Harmony, HarmonyError, Held, harmonise};
-use crate::geometry::features::Features;
+use crate::geometry::features::{Features, Verdict};
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
 
@@ -19,9 +21,48 @@ const LONGEST: f64 = 3.0;
 /// The numbers of segments that are tried.
 const COUNTS: [usize; 3] = [16, 24, 40];
 
+/// The α of the log-aesthetic segments that are tried where harmonising does not do: that of the curvatures
+/// or the clothoid's, with pairs and chains of them, then those of spirals.
+const ALPHAS: [Option<f64>; 4] = [None, Some(1.0), Some(0.0), Some(2.0)];
+
 /// Find a polygon with exact ends and monotone curvature, without an inflection unless the ends ask
-/// for one; without one, that which comes closest.
+/// for one. Where harmonising finds none, one that follows a log-aesthetic segment does, if there is one;
+/// without one, that which comes closest. `tolerance` tells how near it is by the segment's length.
 pub(super) fn monotone(
+    task: &Task,
+    ends: &Ends,
+    degree: usize,
+    tolerance: &dyn Fn(f64) -> f64,
+    progress: &Progress,
+) -> Result<Fit, BetweenError> {
+    check_existence(task)?;
+    let own = best_harmonised(task, ends, degree, progress);
+    match own {
+        Err(BetweenError::Cancelled) => return own,
+        Ok(fit) if fit.monotone == Verdict::Proved => return Ok(fit),
+        _ => {}
+    }
+    for alpha in ALPHAS {
+        let parts = log_aesthetic_parts(task, alpha);
+        let found =
+            parts.and_then(|parts| fit(&parts, ends, degree, tolerance(parts.length()), progress));
+        match found {
+            Err(BetweenError::Cancelled) => return found,
+            // It is a monotone curve of its own, whatever it is near to.
+            Ok(found) if found.monotone == Verdict::Proved => {
+                return Ok(Fit {
+                    deviation: 0.0,
+                    ..found
+                });
+            }
+            _ => {}
+        }
+    }
+    own
+}
+
+/// Find the harmonised polygon that has monotone curvature, or the first one.
+fn best_harmonised(
     task: &Task,
     ends: &Ends,
     degree: usize,

@@ -8,6 +8,7 @@
 mod clothoid;
 mod ends;
 mod error;
+mod existence;
 mod growth;
 mod harmonised;
 mod log_aesthetic;

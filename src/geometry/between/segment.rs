@@ -44,7 +44,7 @@ pub struct Segment {
     /// The float polygon. Its ends are exact but for rounding.
     pub polygon: FloatPolygon,
     /// The true segment, in one part or two that meet with one curvature; none for any monotone curve,
-    /// which is its own.
+    /// which is its own, unless it is an arc.
     pub parts: Vec<Part>,
     /// What is left of points, directions and curvatures asked for, as a length.
     pub residual: f64,
@@ -56,20 +56,24 @@ pub struct Segment {
     pub length: f64,
     /// Whether the curvature is proved to be monotone.
     pub monotone: Verdict,
+    /// Whether the true segment is a circular arc: its curvature is constant, and that of the polygon's curve
+    /// is so only nearly.
+    pub arc: bool,
     /// Whether both directions follow the chord, so that it is straight but for rounding.
     pub straight: bool,
 }
 
 impl Segment {
-    /// Whether it stays within the tolerance and is proved to have monotone curvature.
+    /// Whether it stays within the tolerance and is proved to have monotone curvature, or follows an arc.
     pub fn is_reached(&self) -> bool {
-        self.deviation <= self.tolerance && self.monotone == Verdict::Proved
+        self.deviation <= self.tolerance && (self.arc || self.monotone == Verdict::Proved)
     }
 }
 
 /// Find a segment of a kind between two ends, as a float polygon of a degree from 3 on: with the fewest
 /// segments, of a fixed series of numbers, with which it stays within `tolerance` of the true segment
 /// (1e-6 of that segment's length if none is given) and has monotone curvature, proved.
+/// Between the ends of a circular arc it follows the arc.
 ///
 /// The vertices quasi-interpolate the true segment at equal steps of arc length, superspirals of
 /// the direction angle, and log-aesthetic segments that bend too sharply for that of ln ρ; then both ends are made exact by the least disturbance.
@@ -91,6 +95,8 @@ pub fn between(
     let parts = match kind {
         SegmentKind::LogAesthetic { alpha } => Some(log_aesthetic_parts(&task, alpha)?),
         SegmentKind::Superspiral { values } => Some(superspiral_parts(&task, values)?),
+        // No other curve has the ends of an arc.
+        SegmentKind::AnyMonotone if task.is_arc() => log_aesthetic_parts(&task, None).ok(),
         SegmentKind::AnyMonotone => None,
     };
     let allowed = |length: f64| tolerance.unwrap_or(SHARE_OF_LENGTH * length);
@@ -101,11 +107,12 @@ pub fn between(
         monotone,
     } = match &parts {
         Some(parts) => fit(parts, ends, degree, allowed(parts.length()), progress)?,
-        None => monotone(&task, ends, degree, progress)?,
+        None => monotone(&task, ends, degree, &allowed, progress)?,
     };
     let length = polygon.arc_length(LENGTH);
     let tolerance = allowed(parts.as_ref().map_or(length, Parts::length));
     Ok(Segment {
+        arc: parts.as_ref().is_some_and(Parts::is_arc),
         parts: parts.map_or_else(Vec::new, |parts| parts.into_parts()),
         residual,
         deviation,
@@ -138,6 +145,7 @@ fn straight(ends: &Ends, degree: usize, tolerance: Option<f64>) -> Result<Segmen
         deviation: 0.0,
         tolerance: tolerance.unwrap_or(SHARE_OF_LENGTH * length),
         length,
+        arc: false,
         straight: true,
     })
 }

@@ -3,8 +3,9 @@
 use glam::DVec2;
 
 use super::clothoid::Clothoid;
-use super::ends::Task;
+use super::ends::{SAME, Task};
 use super::error::BetweenError;
+use super::existence::check_existence;
 use super::log_aesthetic::LogAesthetic;
 use super::pair::{Chain, clothoids, log_aesthetic_pair};
 use super::parts::{Part, Parts};
@@ -13,10 +14,6 @@ use crate::geometry::differentiable::Differentiable;
 use crate::geometry::references::{
     AnalyticForm, Placement, ReferenceCurve, ReferenceForm, clothoid, log_aesthetic,
 };
-
-/// How far a curvature may be off the one asked for, relative to it, and be met: correcting the ends
-/// does the rest.
-const SAME: f64 = 1e-9;
 
 /// Clothoids whose curvature changes by more than this factor, or its sign, are drawn from their
 /// inflection.
@@ -42,6 +39,8 @@ pub(super) fn log_aesthetic_parts(task: &Task, alpha: Option<f64>) -> Result<Par
         return Err(inflection(task, name(alpha)));
     }
     let single = match (alpha, task.curvatures) {
+        // All α have the arc.
+        (None, _) if task.is_arc() => single(task, CLOTHOID),
         (None, [Some(curvature), _]) if convex => with_curvature(task, 0, curvature),
         (None, [None, Some(curvature)]) if convex => with_curvature(task, 1, curvature),
         (alpha, _) => single(task, alpha.unwrap_or(CLOTHOID)),
@@ -143,7 +142,7 @@ fn with_curvature(task: &Task, end: usize, curvature: f64) -> Result<Single, Bet
 
 /// Find two segments for two curvatures.
 fn pair(task: &Task, alpha: Option<f64>, curvatures: [f64; 2]) -> Result<Parts, BetweenError> {
-    check_nested(task, curvatures)?;
+    check_existence(task)?;
     if task.is_convex()
         && let Some(Chain { segments, points }) = log_aesthetic_pair(task, alpha, curvatures)
     {
@@ -174,34 +173,6 @@ fn chained<S>(
         .map(|(segment, span)| part(task, segment, span))
         .collect();
     Ok(Parts::new(parts?))
-}
-
-/// Refuse curvatures whose circles do not lie as those of a curve with monotone curvature do, by
-/// Kneser's theorem: one inside the other, and where the curvature changes its sign beside each other.
-fn check_nested(task: &Task, [first, last]: [f64; 2]) -> Result<(), BetweenError> {
-    if first == 0.0 || last == 0.0 {
-        return Ok(());
-    }
-    let radii = [first.recip(), last.recip()];
-    let [start, end] = [-task.angles[0], task.angles[1]].map(DVec2::from_angle);
-    let centres = [radii[0] * start.perp(), DVec2::X + radii[1] * end.perp()];
-    let distance = centres[0].distance(centres[1]);
-    let turns = first * last > 0.0;
-    // With signed radii both are one comparison.
-    let apart = (radii[0] - radii[1]).abs();
-    if if turns {
-        distance < apart
-    } else {
-        distance > apart
-    } {
-        return Ok(());
-    }
-    let size = task.chord();
-    Err(BetweenError::NotNested {
-        turns,
-        distance: size * distance,
-        radii: radii.map(|radius| size * radius.abs()),
-    })
 }
 
 /// Refuse ends that ask for an inflection: by a curvature that turns the other way, if the directions do not.
