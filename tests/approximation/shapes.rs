@@ -147,6 +147,44 @@ fn arc_length_as_parameter_has_speed_1() {
 }
 
 #[test]
+fn arc_length_goes_on_beyond_the_part_as_far_as_the_curve() {
+    // The length of Nielsen's spiral from t = 1/2 on is ln 2t.
+    let spiral = curve("nielsen-spiral");
+    let respaced = Respaced::new(&spiral, [0.5, 10.0], Spacing::ArcLength).expect("a curve");
+    for index in -25..=31 {
+        let v = f64::from(index) / 10.0;
+        let t = 0.5 * 20.0_f64.powf(v);
+        assert_near("parameter", respaced.parameter(v), t, 1e-12, t);
+    }
+    // It is known to t = 2000 π.
+    assert!(respaced.parameter(4.0).is_nan());
+    let superspiral = curve("superspiral");
+    let respaced = Respaced::new(&superspiral, [0.0, 6.0], Spacing::Curvature).expect("a curve");
+    assert!(respaced.parameter(-20.0).is_nan());
+}
+
+/// With few segments vertices by arc length belong far outside of the part.
+#[test]
+fn tolerances_are_reached_by_arc_length_where_it_grows_by_the_logarithm() {
+    let spiral = curve("nielsen-spiral");
+    let asked = Asked {
+        degree: 6,
+        levels: 0,
+        ..SHAPE
+    };
+    let goal = Goal {
+        spacing: Some(Spacing::ArcLength),
+        ..goal(1e-4)
+    };
+    let found = approximate_to_tolerance(&spiral, [0.5, 2.0], &goal, &asked, &Progress::default());
+    let found = found.expect("a curve");
+    assert!(
+        found.meets(1e-4) && found.polygon.segments() < 20,
+        "{found:?}"
+    );
+}
+
+#[test]
 fn spacing_by_curvature_is_finer_where_the_curve_bends() {
     let ellipse = curve("ellipse:a=5,b=1");
     let respaced = Respaced::new(&ellipse, [0.0, 3.0], Spacing::Curvature).expect("a curve");

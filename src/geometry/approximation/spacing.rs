@@ -11,8 +11,11 @@ use crate::geometry::quadrature::quadrature;
 /// Steps of the table by which parameters are found.
 const STEPS: usize = 128;
 
-/// Newton's steps from there: far more than quadratic convergence takes.
-const NEWTON_STEPS: usize = 20;
+/// Newton's steps from there, whole ones and shortened ones: far more than it takes where the curve goes on.
+const NEWTON_STEPS: usize = 100;
+
+/// What the measure may err in the end, as a share of the whole: rounding where steps still go to and fro.
+const ROUNDING: f64 = 1e-12;
 
 /// How even steps of the new parameter run along the curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,9 +73,7 @@ impl<'a> Respaced<'a> {
         let mut measure = 0.0;
         respaced.table.push((from, 0.0));
         for step in 0..STEPS {
-            let [more] = quadrature(place(step), place(step + 1), &|t| {
-                [respaced.weight(t, 0).value()]
-            });
+            let more = respaced.measure(place(step), place(step + 1));
             if !(more > 0.0 && more.is_finite()) {
                 let parameter = place(step);
                 return Err(ApproximationError::NoDirection { parameter });
@@ -83,22 +84,55 @@ impl<'a> Respaced<'a> {
         Ok(respaced)
     }
 
-    /// The parameter t that belongs to v; beyond \[0, 1\] the curve is continued.
+    /// The parameter t that belongs to v; beyond \[0, 1\] the curve is continued. Not a number where it does not
+    /// go on so far.
     pub fn parameter(&self, v: f64) -> f64 {
         let (_, total) = self.table[STEPS];
         let wanted = v * total;
         let above = self.table.partition_point(|(_, measure)| *measure < wanted);
         let (start, below) = self.table[above.saturating_sub(1)];
+        let mut low = if above == 0 { f64::NEG_INFINITY } else { start };
+        let mut high = self.table.get(above).map_or(f64::INFINITY, |it| it.0);
         let mut t = self.near(v);
+        let mut measured = below + self.measure(start, t);
+        let mut share = 1.0;
         for _ in 0..NEWTON_STEPS {
-            let [more] = quadrature(start, t, &|t| [self.weight(t, 0).value()]);
-            let step = (wanted - below - more) / self.weight(t, 0).value();
-            t += step;
-            if !(step.abs() > 2.0 * f64::EPSILON * t.abs()) {
-                break;
+            let missing = wanted - measured;
+            if missing.abs() <= f64::EPSILON * wanted.abs() {
+                return t;
             }
+            (low, high) = if missing > 0.0 { (t, high) } else { (low, t) };
+            let step = share * missing / self.weight(t, 0).value();
+            let is_between = low < t + step && t + step < high;
+            let has_ends = (high - low).is_finite();
+            let next = match has_ends && !is_between {
+                true => 0.5 * (low + high),
+                false => t + step,
+            };
+            let more = self.measure(t, next);
+            // Beyond the part a whole step could lead out of the curve where the measure grows otherwise than here.
+            let expected = share * missing;
+            if !has_ends && !((more - expected).abs() <= 0.5 * expected.abs()) {
+                share *= 0.5;
+                continue;
+            }
+            let moved = (next - t).abs();
+            t = next;
+            if !(moved > 2.0 * f64::EPSILON * t.abs()) {
+                return t;
+            }
+            measured += more;
+            share = (2.0 * share).min(1.0);
         }
-        t
+        // Within the part the ends close in on t, however roughly quadrature measures sharp bends.
+        let is_there = (high - low).is_finite() || (wanted - measured).abs() <= ROUNDING * total;
+        if is_there { t } else { f64::NAN }
+    }
+
+    /// How much the measure grows from one parameter to another.
+    fn measure(&self, from: f64, to: f64) -> f64 {
+        let [more] = quadrature(from, to, &|t| [self.weight(t, 0).value()]);
+        more
     }
 
     /// The parameters t between which the curve is measured.

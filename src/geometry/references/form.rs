@@ -57,8 +57,12 @@ impl AnalyticForm {
         &self.values
     }
 
-    /// The point at t and its derivatives by t.
+    /// The point at t and its derivatives by t; outside of the kind's domain nothing is a number.
     pub(super) fn derivatives(&self, t: f64, order: usize) -> Vec<DVec3> {
+        let [from, to] = (self.kind.domain)(&self.values);
+        if !(from..=to).contains(&t) {
+            return vec![DVec3::NAN; order + 1];
+        }
         PowerSeries::derivatives((self.kind.series)(&self.values, t, order).each_ref())
     }
 }

@@ -85,12 +85,8 @@ thread_local! {
     static LAST: RefCell<Option<Spiral>> = const { RefCell::new(None) };
 }
 
-/// Expand the spiral; outside of [`DOMAIN`] nothing is a number.
+/// Expand the spiral.
 fn series(values: &[f64], psi: f64, order: usize) -> [PowerSeries; 3] {
-    if !(DOMAIN[0]..=DOMAIN[1]).contains(&psi) {
-        return [f64::NAN; 3]
-            .map(|nowhere| PowerSeries::by_recurrence(nowhere, order, |_, _| nowhere));
-    }
     let radius = Radius {
         a: values[0],
         b: values[1],
