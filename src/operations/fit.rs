@@ -139,10 +139,10 @@ fn remarks(asked: &FitAsked, found: &Fitted) -> Vec<String> {
         .filter(|tolerance| found.largest > *tolerance)
     {
         let [largest, tolerance] = [found.largest, tolerance].map(|length| significant(length, 3));
-        let more = if asked.count.is_some() {
-            "give it more vertices, or allow more"
-        } else {
-            "allow more, or another number of extrema"
+        let more = match (asked.count, asked.extrema) {
+            (Some(_), _) => "give it more vertices, or allow more",
+            (None, Some(_)) => "allow more, or another number of extrema",
+            (None, None) => "allow more",
         };
         remarks.push(format!(
             "One point is {largest} off the curve, the tolerance is {tolerance}: {more}"

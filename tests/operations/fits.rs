@@ -87,3 +87,26 @@ fn too_few_points_are_refused_with_the_number_that_the_degree_needs() {
         "4 different points are too few for a curve of degree 5: at least 6 points that differ from the one before are needed, or a lower degree"
     );
 }
+
+#[test]
+fn a_tolerance_that_nothing_keeps_is_missed_by_as_little_as_was_tried() {
+    let mut points = wave(60);
+    for (index, point) in points.iter_mut().enumerate() {
+        point.y += 0.1 * (2.4 * (index * index) as f64).sin();
+    }
+    let tolerance = ("tolerance", 1e-17);
+    let off = |given: &[(&'static str, f64)]| {
+        let found = report(points.clone(), given).expect("a fit");
+        assert!(!found.reached, "{found:?}");
+        let Deviation::FromPoints(off) = found.deviation else {
+            panic!("{:?}", found.deviation);
+        };
+        (off, found.remarks)
+    };
+    let (nearest, remarks) = off(&[tolerance]);
+    for count in [6, 7, 9, 11, 13, 16, 19, 23, 27, 32, 38, 45, 53, 60] {
+        let (other, _) = off(&[tolerance, ("count", f64::from(count))]);
+        assert!(nearest <= other, "{count}: {nearest} {other}");
+    }
+    assert!(!remarks.join(" ").contains("extrema"), "{remarks:?}");
+}

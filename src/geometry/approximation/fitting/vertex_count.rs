@@ -8,7 +8,7 @@ use super::smoothing::Smoothing;
 pub(super) const ROUNDING: f64 = 1e-12;
 
 /// Find the number of vertices that explains the points best for its size (Bayes' information criterion:
-/// Schwarz, 1978), or the least that keeps a tolerance; where none does, the best.
+/// Schwarz, 1978), or the least that keeps a tolerance; where none does, the one that comes nearest to it.
 pub(super) fn best_count(
     list: &PointList,
     smoothing: &Smoothing,
@@ -26,7 +26,10 @@ pub(super) fn best_count(
         // Each point tells its distance across the curve, in as many directions as there are.
         let told = axes * list.counting() as f64;
         let variance = rms.max(ROUNDING * list.size).powi(2);
-        let criterion = told * variance.ln() + axes * count as f64 * told.ln();
+        let criterion = match tolerance {
+            Some(_) => largest,
+            None => told * variance.ln() + axes * count as f64 * told.ln(),
+        };
         if criterion < best.0 {
             best = (criterion, count);
         }
