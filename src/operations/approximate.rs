@@ -15,7 +15,7 @@ use super::values::Values;
 use super::whole;
 use crate::document::{Curve, Edit};
 use crate::geometry::approximation::{
-    Approximated, Asked, Goal, LevelComparison, MOST_SEGMENTS, Placing, Spacing,
+    Approximated, Asked, Goal, LevelComparison, MOST_SEGMENTS, Placing, Spacing, Watched,
     approximate_between, approximate_by_steps, approximate_to_tolerance,
 };
 use crate::geometry::references::ReferenceCurve;
@@ -26,6 +26,9 @@ const MOST: usize = 10_000;
 
 /// The number of vertices if none is given, if the degree allows it.
 const COUNT_OFFERED: usize = 20;
+
+/// If none is given the number is doubled while the corrections of quasi-interpolation grow, so many times at most.
+const DOUBLINGS: usize = 5;
 
 const REFERENCE: Parameter = Parameter {
     name: "reference",
@@ -91,7 +94,7 @@ const COUNT: Parameter = Parameter {
     name: "count",
     label: "Vertices",
     help: "The number of vertices",
-    kind: count(|_| "from the tolerance, or 20 without one"),
+    kind: count(|_| "from the tolerance; without one 20, up to 640 while corrections grow"),
 };
 
 const TOLERANCE: Parameter = Parameter {
@@ -239,9 +242,14 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
     let source = Source::of(input, values)?;
     let tolerance = positive(values, &TOLERANCE)?;
     let placing = values.choice(&METHOD, &PLACINGS);
-    let (found, alternatives) = approximated(&source, values, placing, tolerance, progress)?;
+    let curve = Watched::new(source.differentiable(), progress);
+    let found = approximated(&source, &curve, values, placing, tolerance, progress);
+    if progress.is_cancelled() {
+        return Err(OperationError::Cancelled);
+    }
+    let (found, alternatives) = found?;
     let nearer = match placing {
-        Placing::OnCurve => by_quasi_interpolation(&source, values, &found),
+        Placing::OnCurve => by_quasi_interpolation(&curve, values, &found),
         Placing::Quasi => None,
     };
     let deviation = Deviation::Measured(found.deviation.largest);
@@ -279,12 +287,12 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
 /// Approximate as asked; where a tolerance is not reached with a remark on what would do.
 fn approximated(
     source: &Source<'_>,
+    curve: &dyn Differentiable,
     values: &Values,
     placing: Placing,
     tolerance: Option<f64>,
     progress: &Progress,
 ) -> Result<(Approximated, Option<String>), OperationError> {
-    let curve = source.differentiable();
     let degree = values.whole(&DEGREE);
     let count = count_given(values)?;
     let part = Part::of(source, values, tolerance, count)?;
@@ -318,19 +326,28 @@ fn approximated(
         }
         _ => {
             let spacing = spacing.unwrap_or(Spacing::Parameter);
-            let count = count.unwrap_or(offered);
-            (
-                approximate_between(curve, interval, count, spacing, &asked)?,
-                None,
-            )
+            let by =
+                |count, asked: &Asked| approximate_between(curve, interval, count, spacing, asked);
+            let count = count.unwrap_or_else(|| {
+                let plain = Asked { levels: 0, ..asked };
+                let mut counts = (0..DOUBLINGS).map(|doublings| offered << doublings);
+                let fades = counts.find(|count| by(*count, &plain).is_ok_and(|it| !diverges(&it)));
+                fades.unwrap_or(offered << DOUBLINGS)
+            });
+            (by(count, &asked)?, None)
         }
     })
+}
+
+/// Whether the corrections of quasi-interpolation grow instead of fading.
+fn diverges(found: &Approximated) -> bool {
+    found.corrections.is_some_and(|it| it.growth > 1.0)
 }
 
 /// How far as many vertices by quasi-interpolation would be off, where levels are not compared; `None` where there
 /// are none.
 fn by_quasi_interpolation(
-    source: &Source<'_>,
+    curve: &dyn Differentiable,
     values: &Values,
     found: &Approximated,
 ) -> Option<f64> {
@@ -341,7 +358,7 @@ fn by_quasi_interpolation(
         periodic: found.polygon.is_periodic(),
         fit_ends: values.switch(&FIT_ENDS),
     };
-    let (count, curve) = (found.polygon.vertices().len(), source.differentiable());
+    let count = found.polygon.vertices().len();
     let quasi = approximate_between(curve, found.interval, count, found.spacing, &asked);
     Some(quasi.ok()?.deviation.largest)
 }
@@ -451,7 +468,7 @@ fn marks(source: &Source<'_>, found: &Approximated) -> Vec<Mark> {
 
 /// Say that quasi-interpolation diverges: its corrections grow instead of fading.
 fn remark_on_corrections(found: &Approximated) -> Option<String> {
-    let corrections = found.corrections.filter(|it| it.growth > 1.0)?;
+    let corrections = found.corrections.filter(|_| diverges(found))?;
     Some(format!(
         "The corrections that quasi-interpolation makes do not fade but grow, {} times at vertex {}: its vertices are not where they belong; take more vertices, a lower degree, or vertices on the curve",
         significant(corrections.growth, 2),

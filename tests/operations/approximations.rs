@@ -1,5 +1,8 @@
 //! Approximations of references and curves.
 
+use std::thread;
+use std::time::{Duration, Instant};
+
 use batten::document::{Curve, Document};
 use batten::geometry::references::ReferenceCurve;
 use batten::geometry::{FloatPolygon, Progress};
@@ -8,8 +11,18 @@ use serde_json::json;
 
 use super::runner::Runner;
 
+/// How soon a computation that is cancelled ends, at the latest: on its own it takes a minute or more.
+const SOON: Duration = Duration::from_secs(5);
+
 /// Run it on nothing but its parameters, as they are typed.
 fn run(given: &[(&str, &str)]) -> Result<(Input, Outcome), OperationError> {
+    run_watched(given, &Progress::default())
+}
+
+fn run_watched(
+    given: &[(&str, &str)],
+    progress: &Progress,
+) -> Result<(Input, Outcome), OperationError> {
     let operation = find("approximate").expect("it is there");
     let input = Input::new(&Document::default(), [])?;
     let read = |(name, text): &(&'static str, &str)| {
@@ -27,7 +40,7 @@ fn run(given: &[(&str, &str)]) -> Result<(Input, Outcome), OperationError> {
         .collect();
     let given: Result<Vec<(&str, Value)>, OperationError> = given.iter().map(read).collect();
     let values = operation.values(&input, given?)?;
-    let outcome = operation.run(&input, &values, &Progress::default())?;
+    let outcome = operation.run(&input, &values, progress)?;
     Ok((input, outcome))
 }
 
@@ -338,4 +351,53 @@ fn vertices_on_the_curve_are_told_how_far_quasi_interpolation_would_be_off() {
     let given = [("reference", "formula:x=t;y=2*t"), ("method", "on-curve")];
     let (_, outcome) = run(&given).expect("it can run");
     assert_eq!(outcome.remarks, Vec::<String>::new());
+}
+
+#[test]
+fn what_is_cancelled_ends_soon() {
+    let search = [
+        ("reference", "formula:x=sin(100*t);y=cos(t)"),
+        ("degree", "5"),
+        ("from", "0"),
+        ("to", "6"),
+        ("tolerance", "1e-3"),
+    ];
+    let many = [
+        ("reference", "formula:x=sin(100*t);y=cos(t);to=6"),
+        ("count", "10000"),
+        ("spacing", "curvature"),
+    ];
+    for given in [&search[..], &many[..]] {
+        let progress = Progress::default();
+        let other = progress.clone();
+        let cancelling = thread::spawn(move || {
+            thread::sleep(Duration::from_millis(300));
+            other.cancel();
+            Instant::now()
+        });
+        let found = run_watched(given, &progress);
+        let ended = Instant::now();
+        assert_eq!(found.err(), Some(OperationError::Cancelled));
+        let cancelled = cancelling.join().expect("a thread that does not panic");
+        let late = ended.saturating_duration_since(cancelled);
+        assert!(late < SOON, "{given:?}: {late:?}");
+    }
+}
+
+/// With 20 vertices of degree 8 Nielsen's spiral would be 2e7 off.
+#[test]
+fn without_a_number_there_are_as_many_vertices_as_let_corrections_fade() {
+    let (input, outcome) = run(&[("reference", "nielsen-spiral")]).expect("it can run");
+    let count = curve(&input, &outcome).polygon.vertices().len();
+    assert!([40, 80, 160, 320].contains(&count), "{count}");
+    let Deviation::Measured(deviation) = outcome.deviation else {
+        panic!("{:?}", outcome.deviation);
+    };
+    assert!(deviation < 1e-3, "{deviation}");
+    let grow = |outcome: &Outcome| outcome.remarks.iter().any(|it| it.contains("grow"));
+    assert!(!grow(&outcome), "{:?}", outcome.remarks);
+    let typed = [("reference", "nielsen-spiral"), ("count", "20")];
+    let (input, outcome) = run(&typed).expect("it can run");
+    assert_eq!(curve(&input, &outcome).polygon.vertices().len(), 20);
+    assert!(grow(&outcome), "{:?}", outcome.remarks);
 }

@@ -8,6 +8,7 @@ mod fitting;
 mod knots;
 mod placing;
 mod spacing;
+mod watched;
 
 pub use approximating::{
     Approximated, Asked, Goal, MOST_FOR_SHAPE, MOST_SEGMENTS, approximate_between,
@@ -20,3 +21,4 @@ pub use fitting::{FitAsked, FitError, Fitted, fit_points};
 pub use knots::UniformKnots;
 pub use placing::{Corrections, Placing, float_polygon};
 pub use spacing::{Respaced, Spacing};
+pub use watched::Watched;
