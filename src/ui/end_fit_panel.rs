@@ -150,6 +150,7 @@ impl Panel<'_> {
             {
                 self.ask(EndFitAction::ClearTarget);
             }
+            self.turn_round_ui(ui);
         });
         if let Some(action) = match_ui(ui, report) {
             self.ask(action);
@@ -205,17 +206,15 @@ impl Panel<'_> {
             ui.spacing_mut().item_spacing.x = STEP;
             match (direction, self.report.target_angle) {
                 (_, Some(angle)) => self.angle_ui(ui, angle),
-                (Some(direction), None) => self.components_ui(ui, direction, width),
-                (None, None) => {
-                    widgets::caption(ui, "free");
-                }
+                // Three components fill the row.
+                (Some(direction), None) => return self.components_ui(ui, direction, width),
+                (None, None) => {}
             }
-        });
-        // Beside the field there is no room for them at the panel's usual width.
-        widgets::form_row(ui, "", |ui| {
-            self.turn_round_ui(ui);
             self.fixed_ui(ui);
         });
+        if direction.is_some() && !self.report.planar {
+            widgets::form_row(ui, "", |ui| self.fixed_ui(ui));
+        }
     }
 
     fn turn_round_ui(&mut self, ui: &mut Ui) {
