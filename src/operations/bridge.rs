@@ -12,7 +12,7 @@ use crate::geometry::fairing::bridging::{BridgeError, Bridged, MAX_BRIDGE, large
 pub(super) const BRIDGE: Parameter = Parameter {
     name: "bridge",
     label: "Bridge vertices",
-    help: "How many vertices the bridge has; automatic takes the number that makes legs and turning angles most even, with few curvature extrema and inflections",
+    help: "How many vertices the bridge has; automatic takes the number that makes legs and turning angles most even, with few curvature extrema and inflections and without a long way round",
     kind: count(|_| "automatic"),
 };
 

@@ -246,3 +246,41 @@ fn what_cannot_be_joined_is_refused() {
         Err(BridgeError::Cancelled)
     );
 }
+
+/// The integral of the squared curvature over a curve's length.
+fn bending_energy(polygon: &FloatPolygon) -> f64 {
+    let steps = 64;
+    let places = (0..polygon.segments() * steps).map(|place| {
+        let t = ((place % steps) as f64 + 0.5) / steps as f64;
+        let jet = polygon.segment_jet(place / steps, t);
+        jet.signed_curvature().powi(2) * jet.first.length() / steps as f64
+    });
+    places.sum()
+}
+
+#[test]
+fn a_wide_gap_is_bridged_without_a_long_way_round() {
+    // Both arcs end at their crests and run to the right: many vertices would dive deep between them.
+    let arc = |degree: usize, centre: f64, axes: [f64; 2], from: f64| {
+        let vertices = (0..degree + 6).map(|index| {
+            let angle = (from - 8.0 * index as f64).to_radians();
+            DVec3::new(centre + axes[0] * angle.cos(), axes[1] * angle.sin(), 0.0)
+        });
+        FloatPolygon::new(degree, vertices.collect(), None, false).expect("an arc")
+    };
+    for degree in 3..=9 {
+        let begin = 90.0 + 8.0 * (degree + 5) as f64;
+        let first = arc(degree, 0.0, [5.0, 6.5], begin);
+        let second = arc(degree, 13.0, [3.0, 6.2], 90.0);
+        let found = joined(&first, &second, &FIXED);
+        let few = Bridge {
+            vertices: Some(6),
+            ..FIXED
+        };
+        let few = bending_energy(&joined(&first, &second, &few).polygon);
+        let energy = bending_energy(&found.polygon);
+        println!("{degree}: {} {energy} {few}", found.bridge.len());
+        assert!(energy < 1.5 * few, "degree {degree}: {energy} {few}");
+        assert!(found.bridge.len() <= 20, "degree {degree}");
+    }
+}

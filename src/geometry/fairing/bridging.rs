@@ -97,7 +97,8 @@ pub enum BridgeError {
 /// Where the number of vertices is not given, parts that share their n vertices there, as after a
 /// cut, need none. Else numbers about as large as that of the legs that fit into the gap are tried:
 /// the most even bridge wins: with the smallest sum of the largest second differences of legs, turning
-/// and torsion angles, times 1 + the features that it shows; where the second part moves, the one with
+/// and torsion angles, times 1 + the features that it shows, the number of its legs, and the square of
+/// 1 + its bending energy times its length; where the second part moves, the one with
 /// the fewest features, then the fewest vertices. The logarithms of weights go on as a cubic.
 ///
 /// # Errors
@@ -468,7 +469,8 @@ impl Search<'_> {
 
 /// How uneven a bridge is: the largest second differences of the logarithms of its legs, of its
 /// turning angles and, in space, of its torsion angles, and those of the legs beside it, times 1 + the
-/// features that it shows.
+/// features that it shows, times the number of its legs, times the square of 1 + the [`bending`], so that
+/// many vertices on a long way round lose.
 fn unevenness(polygon: &FloatPolygon, bridge: &Range<usize>) -> Result<f64, PolygonError> {
     let (beside, _) = around(polygon, bridge)?;
     let flow = VertexFlow::of(&beside);
@@ -479,7 +481,21 @@ fn unevenness(polygon: &FloatPolygon, bridge: &Range<usize>) -> Result<f64, Poly
         differences.fold(0.0_f64, |most, (_, difference)| most.max(difference.abs()))
     });
     let features = features(polygon, bridge)?;
-    Ok((1 + features) as f64 * largest.sum::<f64>())
+    // Finer legs have smaller differences however they run.
+    let legs = (bridge.len() + 1) as f64;
+    let detour = 1.0 + bending(&flow);
+    Ok((1 + features) as f64 * largest.sum::<f64>() * legs * detour * detour)
+}
+
+/// The discrete bending energy of legs times their length, which no change of size changes:
+/// Σ ℓᵢ · Σ 2δᵢ² / (ℓᵢ₋₁ + ℓᵢ), with the turning angles δᵢ.
+fn bending(flow: &VertexFlow) -> f64 {
+    let legs = flow.legs.values();
+    let pairs = legs.windows(2).map(|pair| pair.iter().sum::<f64>());
+    let corners = pairs.zip(flow.turns.values());
+    let corners = corners.filter(|(pair, _)| *pair > 0.0);
+    let energy: f64 = corners.map(|(pair, turn)| 2.0 * turn * turn / pair).sum();
+    energy * legs.iter().sum::<f64>()
 }
 
 /// How many features are seen in what depends on a bridge.
