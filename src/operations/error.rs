@@ -55,6 +55,11 @@ pub enum OperationError {
     /// Points were given to what needs a smooth curve.
     #[error("points have no derivatives, so they cannot be approximated: fit a curve to them")]
     PointsOnly,
+    /// A curve was to be joined with itself.
+    #[error(
+        "both curves are the same: close the curve to join its two ends, or move one copy away"
+    )]
+    JoinedWithItself,
     /// Two parameters exclude each other.
     #[error("{first} and {second} cannot both be given")]
     Exclude {

@@ -100,6 +100,11 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
     if moves {
         second.check_vertices_unlocked(second.locked_vertices.iter())?;
     }
+    // A copy that may move goes on from the curve.
+    let same = first.polygon == second.polygon || first.polygon == second.polygon.reversed();
+    if same && !moves {
+        return Err(OperationError::JoinedWithItself);
+    }
     let given = [&FIRST_END, &SECOND_END].map(|end| values.choice(end, &MEANINGS));
     let ends = nearest([&first.polygon, &second.polygon], given);
     let changed = second.polygon.with_degree(first.polygon.degree())?;

@@ -278,3 +278,22 @@ fn of_ends_as_near_those_are_joined_that_point_at_each_other() {
         assert_eq!(json["joined"], expected, "{:?}", second.polygon);
     }
 }
+
+#[test]
+fn a_curve_is_not_joined_with_itself() {
+    let first = arc("first", 4, 0.0, 60.0);
+    let refusal = |second: FloatPolygon, given: &[(&str, Value)]| {
+        let document = Document::from_curves([first.clone(), Curve::new("second", second)]);
+        let input = Input::new(&document, document.ids()).expect("two curves");
+        let join = operation("join");
+        let values = join.values(&input, given.iter().cloned()).expect("values");
+        join.run(&input, &values, &Progress::default()).err()
+    };
+    for copy in [first.polygon.clone(), first.polygon.reversed()] {
+        let refused = refusal(copy.clone(), &[]).expect("refused").to_string();
+        assert!(refused.contains("close the curve"), "{refused}");
+        // A copy that moves goes on from the curve.
+        let moving = [("move-second", Value::Switch(true))];
+        assert_eq!(refusal(copy, &moving), None);
+    }
+}
