@@ -104,7 +104,8 @@ fn every_operation_is_listed_has_help_and_reports_by_one_schema() {
         assert_eq!(help.contains("--curve <NAME>"), chooses, "{name}: {help}");
         let read = match name {
             "mineur-farin" | "between" => &[name, "out.batten"][..],
-            "join" => &[name, &file, &file, "out.batten"],
+            // A copy goes on from its curve where it may move.
+            "join" => &[name, &file, &file, "out.batten", "--move-second"],
             _ => &[name, &file, "out.batten"],
         };
         let report = report(&folder, read);
