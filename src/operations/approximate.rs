@@ -394,7 +394,7 @@ impl Part {
         let [start, end] = source.interval();
         let from = given(values, &FROM).unwrap_or(start);
         let to = given(values, &TO);
-        let step = given(values, &STEP);
+        let step = positive(values, &STEP)?;
         let excluded = [(&TO, to), (&TOLERANCE, tolerance)];
         let excluded = excluded.iter().find(|(_, other)| other.is_some());
         if let (Some(_), Some((other, _))) = (step, excluded) {

@@ -164,6 +164,10 @@ fn what_cannot_be_is_refused() {
         "Step and Tolerance cannot",
     );
     refused(
+        &[("reference", "circle"), ("step", "0")],
+        "Step: 0 is out of range",
+    );
+    refused(
         &[("reference", "circle"), ("tolerance", "0")],
         "Tolerance: 0 is out of range",
     );
