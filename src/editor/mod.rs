@@ -19,6 +19,7 @@ mod recoverable;
 mod recovering;
 mod reply;
 mod report;
+mod selection;
 mod trial;
 mod view;
 mod worker;
@@ -33,13 +34,14 @@ pub use commands::{Command, ReferenceChange, Shortcut};
 pub use files::with_extension;
 pub use hand::{
     Button, Cursor, DrawSettings, EndFitAction, EndFitReport, Entry, EntryError, Follow, Following,
-    Hand, Input, Key, Leg, LegLocks, MatchReport, MenuRequest, MenuSubject, Modifiers, Selection,
-    ToolKind, Transformation, VertexId,
+    Hand, Input, Key, Leg, LegLocks, MatchReport, MenuRequest, MenuSubject, Modifiers, ToolKind,
+    Transformation,
 };
 pub use paper::{PaperError, PaperPage, spiral_deviations};
 pub use recoverable::{Recoverable, RecoverableDocument};
 pub use reply::{Message, Note, Refusal, Reply, told};
 pub use report::{CurveReport, Export, Readout, ReferenceReport};
+pub use selection::{Selection, VertexId};
 pub use trial::{Run, Trial};
 pub use view::{
     Bounds, ChainOutlines, ClampedMark, CombSettings, CurveOutlines, CurveScene, DragReadout,

@@ -6,9 +6,9 @@ use glam::DVec3;
 
 use crate::document::{Curve, CurveId, Document, Edit};
 use crate::editor::Editor;
-use crate::editor::hand::selection::Selection;
 use crate::editor::hand::tools::ToolKind;
 use crate::editor::reply::{Message, Note, Refusal, Reply, told};
+use crate::editor::selection::Selection;
 use crate::editor::trial::{Run, Stage, Told, Trial, What};
 use crate::editor::view::scene::Mark;
 use crate::editor::worker::Outcome as Answer;

@@ -2,7 +2,7 @@
 
 use crate::document::CurveId;
 use crate::editor::hand::handle_drag::HandleDrag;
-use crate::editor::hand::selection::Selection;
+use crate::editor::selection::Selection;
 use crate::editor::worker::Worker;
 use crate::editor::workspace::PreviewId;
 use crate::geometry::Progress;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use crate::document::{Curve, CurveId, Document, Edit, EditError};
-use crate::editor::hand::selection::VertexId;
+use crate::editor::selection::VertexId;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::fairing::following::{Moved, follow_in_harmony, follow_softly, follow_target};
 use crate::geometry::fairing::joint_correction::CorrectionError;

@@ -6,9 +6,9 @@ use crate::editor::hand::gesture::GestureMachine;
 use crate::editor::hand::input::Modifiers;
 use crate::editor::hand::keeping::Keeping;
 use crate::editor::hand::menu_request::MenuRequest;
-use crate::editor::hand::selection::Selection;
 use crate::editor::hand::tools::{ToolKind, Tools};
 use crate::editor::hand::typed_point::TypedPoint;
+use crate::editor::selection::Selection;
 
 /// How far an arrow key moves the selection, in units of the model.
 #[derive(Clone, Copy, Debug, PartialEq)]

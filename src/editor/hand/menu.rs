@@ -5,7 +5,7 @@ use glam::DVec2;
 use crate::document::CurveId;
 use crate::editor::Editor;
 use crate::editor::hand::menu_request::{MenuRequest, MenuSubject};
-use crate::editor::hand::selection::VertexId;
+use crate::editor::selection::VertexId;
 use crate::editor::view::hit::REACH;
 use crate::geometry::End;
 

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use glam::{DVec2, DVec3};
 
 use crate::document::{CurveId, Document, MatchPlace};
-use crate::editor::hand::selection::VertexId;
+use crate::editor::selection::VertexId;
 use crate::editor::view::grid::{grid_steps, ground_steps};
 use crate::editor::view::hit::REACH;
 use crate::editor::view::viewport::Viewport;

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use crate::analysis::AnalysisCache;
 use crate::document::{Curve, CurveId, Document};
-use crate::editor::hand::selection::{Selection, VertexId};
+use crate::editor::selection::{Selection, VertexId};
 use crate::editor::view::comb::CombSettings;
 use crate::editor::view::density::{self, SeenChain};
 use crate::editor::view::feature_report::{FeatureReport, FeatureRow};

@@ -5,7 +5,7 @@ use glam::{DQuat, DVec2, DVec3};
 use super::tool::{Context, move_edits};
 use crate::document::{CurveId, Edit};
 use crate::editor::hand::drawing_plane::DrawingPlane;
-use crate::editor::hand::selection::VertexId;
+use crate::editor::selection::VertexId;
 use crate::editor::view::outline::Bounds;
 use crate::editor::view::viewport::Viewport;
 use crate::geometry::counted;
