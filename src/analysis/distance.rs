@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use crate::document::{Curve, Reference};
 use crate::geometry::approximation::MeasuredDeviation;
-use crate::geometry::{Differentiable, FloatPolygon};
+use crate::geometry::{Differentiable, FloatPolygon, Progress};
 
 /// What a curve is measured against.
 #[derive(Clone, Debug)]
@@ -45,16 +45,16 @@ impl Measured {
 
 impl Distance {
     /// Measure how far a curve is from what it is compared with; how far points are from the curve, if that is
-    /// a list of points. `None` where the other one has no points.
-    pub fn measure(polygon: &FloatPolygon, other: &Measured) -> Option<Self> {
+    /// a list of points. `None` where the other one has no points, and after a cancellation.
+    pub fn measure(polygon: &FloatPolygon, other: &Measured, progress: &Progress) -> Option<Self> {
         match other {
             Measured::Curve(other) => {
                 let end = other.polygon.segments() as f64;
-                Self::between(polygon, &other.polygon, [0.0, end])
+                Self::between(polygon, &other.polygon, [0.0, end], progress)
             }
             Measured::Reference(other) => match other.points() {
-                Some(points) => Self::of_points(polygon, &points),
-                None => Self::between(polygon, &other.curve, other.curve.interval()),
+                Some(points) => Self::of_points(polygon, &points, progress),
+                None => Self::between(polygon, &other.curve, other.curve.interval(), progress),
             },
         }
     }
@@ -62,11 +62,15 @@ impl Distance {
     fn between(
         polygon: &FloatPolygon,
         other: &dyn Differentiable,
-        [from, to]: [f64; 2],
+        reach: [f64; 2],
+        progress: &Progress,
     ) -> Option<Self> {
+        let [from, to] = reach;
         let segments = polygon.segments() as f64;
         let beside = |u: f64| from + (to - from) * u / segments;
-        let found = MeasuredDeviation::measure(polygon, other, &beside, [from, to]).ok()?;
+        let found =
+            MeasuredDeviation::measure_cancellably(polygon, other, &beside, reach, progress)
+                .ok()?;
         Some(Self {
             largest: found.largest,
             mean: found.mean,
@@ -76,9 +80,11 @@ impl Distance {
         })
     }
 
-    fn of_points(polygon: &FloatPolygon, points: &[DVec3]) -> Option<Self> {
-        let nearest = points.iter().map(|point| polygon.nearest(*point));
-        let nearest: Vec<_> = nearest.collect();
+    fn of_points(polygon: &FloatPolygon, points: &[DVec3], progress: &Progress) -> Option<Self> {
+        let nearest = points
+            .iter()
+            .map(|point| (!progress.is_cancelled()).then(|| polygon.nearest(*point)));
+        let nearest: Vec<_> = nearest.collect::<Option<_>>()?;
         let sum: f64 = nearest.iter().map(|nearest| nearest.distance).sum();
         let places = nearest.iter().zip(points).enumerate();
         let (index, (found, point)) =
@@ -90,5 +96,22 @@ impl Distance {
             t: index as f64,
             places: [found.point, *point],
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cancelled_measurement_has_no_distance() {
+        let line =
+            |y: f64| FloatPolygon::planar(2, &[(0.0, y), (1.0, y), (2.0, y)]).expect("a polygon");
+        let other = Measured::Curve(Arc::new(Curve::new("line".to_owned(), line(1.0))));
+        let progress = Progress::default();
+        let measured = Distance::measure(&line(0.0), &other, &progress);
+        assert!(measured.is_some_and(|distance| distance.largest == 1.0));
+        progress.cancel();
+        assert_eq!(Distance::measure(&line(0.0), &other, &progress), None);
     }
 }

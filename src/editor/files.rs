@@ -116,19 +116,24 @@ impl Editor {
     /// keyboard again. A change is told once, by a later frame.
     pub fn look_at_file(&mut self) {
         if let Some(path) = self.workspace.path() {
-            self.file_watch.look_at(path.to_owned());
+            let path = path.to_owned();
+            let look = path.clone();
+            let job = move |_: &_| disk::fingerprint(&look);
+            self.file_watch.start(path, job, None);
         }
     }
 
     /// Tell of a change of the document's file that was seen since the last frame.
     pub(in crate::editor) fn tell_file_change(&mut self) {
-        let Some(seen) = self.file_watch.take() else {
+        self.file_watch.receive();
+        let Some(path) = self.file_watch.request().cloned() else {
             return;
         };
-        let is_own = self.workspace.path() == Some(&seen.path);
-        let name = seen.path.file_name().unwrap_or_default().to_string_lossy();
-        let text = format!("Another program has changed {}", quoted(&name));
-        if is_own && self.is_other(seen.fingerprint) && self.file_watch.note(seen) {
+        let is_own = self.workspace.path() == Some(&path);
+        let found = self.file_watch.take_result().filter(|_| is_own);
+        if found.is_some_and(|found| self.workspace.note_file(found)) {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            let text = format!("Another program has changed {}", quoted(&name));
             self.message = Some(Message::file_changed(text));
         }
     }

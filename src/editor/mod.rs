@@ -1,35 +1,26 @@
 //! The application without a window, in three parts: the workspace (what is worked on), the view
 //! (how it is seen) and the hand (what works on it). Nothing in here knows of egui.
 
-mod autosaving;
 mod changing;
 mod commands;
-mod comparing;
-mod file_watch;
 mod files;
-mod foreseeing;
-mod guides;
 mod hand;
-mod measuring;
+mod jobs;
 mod operating;
 mod paper;
-mod patience;
-mod proving;
-mod recoverable;
 mod recovering;
 mod reply;
 mod report;
 mod selection;
 mod trial;
 mod view;
-mod worker;
 mod workspace;
 
+use std::path::PathBuf;
 use std::time::Duration;
 
 use glam::DVec2;
 
-pub use autosaving::Autosaver;
 pub use commands::{Command, ReferenceChange, Shortcut};
 pub use files::with_extension;
 pub use hand::{
@@ -37,8 +28,8 @@ pub use hand::{
     Hand, Input, Key, Leg, LegLocks, MatchReport, MenuRequest, MenuSubject, Modifiers, ToolKind,
     Transformation,
 };
+pub use jobs::{Autosaver, Recoverable, RecoverableDocument};
 pub use paper::{PaperError, PaperPage, spiral_deviations};
-pub use recoverable::{Recoverable, RecoverableDocument};
 pub use reply::{Message, Note, Refusal, Reply, told};
 pub use report::{CurveReport, Export, Readout, ReferenceReport};
 pub use selection::{Selection, VertexId};
@@ -50,22 +41,22 @@ pub use view::{
     Orientation, PieceTrend, PlotBand, PlotFeature, PlotKind, PlotScene, ProposalScene, REACH,
     Scene, VertexMark, View, ViewBox, Viewport, grid_steps, ground_grid, view_name,
 };
-pub use worker::{Outcome, Worker};
 pub use workspace::{Interruption, PreviewId, Workspace};
 
 use crate::analysis::AnalysisCache;
 use crate::document::{CurveId, Document, Edit, quoted};
+use crate::io::Fingerprint;
 use crate::io::examples::{EXAMPLES, FIRST};
-use autosaving::Autosaving;
-use comparing::Comparing;
-use file_watch::FileWatch;
-use foreseeing::Foreseeing;
-use guides::Guides;
 use hand::gesture::Gesture;
 use hand::tools::Tools;
-use measuring::Measuring;
-use patience::Patience;
-use proving::Proving;
+use jobs::Client;
+use jobs::autosaving::Autosaving;
+use jobs::comparing::Comparing;
+use jobs::foreseeing::Foreseeing;
+use jobs::guides::Guides;
+use jobs::measuring::Measuring;
+use jobs::patience::Patience;
+use jobs::proving::Proving;
 use trial::Operations;
 
 /// Hold the running application: what is worked on, how it is seen, and what works on it.
@@ -84,7 +75,8 @@ pub struct Editor {
     guides: Guides,
     autosaving: Autosaving,
     recoverable: Vec<Recoverable>,
-    file_watch: FileWatch,
+    /// Looks at the document's file for changes by other programs.
+    file_watch: Client<PathBuf, Fingerprint>,
     message: Option<Message>,
 }
 
@@ -120,7 +112,7 @@ impl Editor {
         self.foreseeing = Foreseeing::background(wake.clone());
         self.guides = Guides::background(wake.clone());
         self.autosaving.run_in_background(wake.clone());
-        self.file_watch = FileWatch::background(wake.clone());
+        self.file_watch = Client::background("file", wake.clone());
         self.operations = Operations::background(wake);
     }
 

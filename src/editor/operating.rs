@@ -9,9 +9,8 @@ use crate::editor::Editor;
 use crate::editor::hand::tools::ToolKind;
 use crate::editor::reply::{Message, Note, Refusal, Reply, told};
 use crate::editor::selection::Selection;
-use crate::editor::trial::{Run, Stage, Told, Trial, What};
+use crate::editor::trial::{JobResult, Operations, Run, Stage, Trial};
 use crate::editor::view::scene::Mark;
-use crate::editor::worker::Outcome as Answer;
 use crate::editor::workspace::Interruption;
 use crate::geometry::Progress;
 use crate::operations::{self, FeatureComparison, Input, Inputs, Operation, OperationError, Value};
@@ -54,7 +53,7 @@ impl Editor {
 
     /// The share of the work that is done, while the worker is busy with the operation.
     pub fn operation_progress(&self) -> Option<f64> {
-        Some(self.operations.worker.progress()?.done())
+        self.operations.client.progress()
     }
 
     /// Why an operation cannot be begun now, if it cannot.
@@ -137,7 +136,7 @@ impl Editor {
         if tries {
             self.workspace.abort();
         }
-        self.operations.worker.cancel();
+        self.operations.client.forget();
         self.hand.tools.end_fit.awaited = None;
         // What a drag or a field has taken back has nothing to restore any more.
         if let Some(trial) = self.operations.trial.take()
@@ -223,9 +222,8 @@ impl Editor {
 
     /// Take what the worker has to tell.
     pub(in crate::editor) fn receive_operations(&mut self) {
-        for answer in self.operations.worker.take() {
-            self.take_answer(answer);
-        }
+        self.operations.client.receive();
+        self.take_result();
     }
 
     pub(in crate::editor) fn input_of(
@@ -294,7 +292,6 @@ impl Editor {
             run: None,
             pending: false,
             features: None,
-            question: 0,
             handles: Vec::new(),
             dragged: None,
             held: None,
@@ -353,71 +350,64 @@ impl Editor {
         ids.filter(|id| before.curve(*id).is_none()).collect()
     }
 
-    /// Ask the worker what the operation comes to, and wait a moment for the answer.
+    /// Run the operation with its present values, and wait a moment for the result.
     pub(in crate::editor) fn ask(&mut self) {
-        let operations = &mut self.operations;
-        let Some(trial) = &mut operations.trial else {
+        let Operations { client, trial } = &mut self.operations;
+        let Some(trial) = trial else {
             return;
         };
-        operations.questions += 1;
-        let question = operations.questions;
-        trial.question = question;
         trial.pending = true;
         let (operation, input, values) =
             (trial.operation, trial.input.clone(), trial.values.clone());
-        let job = move |progress: &Progress| Told {
-            question,
-            what: What::Ran(Box::new(Run::new(operation, &input, &values, progress))),
+        let job = move |progress: &Progress| {
+            let run = Run::new(operation, &input, &values, progress);
+            Some(JobResult::Run(Box::new(run)))
         };
-        let worker = &mut operations.worker;
-        let answers = self.patience.spend(|left| worker.start(job, left));
-        for answer in answers {
-            self.take_answer(answer);
-        }
+        client.start((), job, Some(&mut self.patience));
+        self.take_result();
     }
 
-    /// Ask the worker for the features before and afterwards.
+    /// Prove the features before and afterwards.
     fn ask_for_features(&mut self) {
-        let operations = &mut self.operations;
-        let Some(trial) = &operations.trial else {
+        let Operations { client, trial } = &mut self.operations;
+        let Some(trial) = trial else {
             return;
         };
         let Some(Ok(run)) = &trial.run else {
             return;
         };
-        let (question, input, outcome) = (trial.question, trial.input.clone(), run.outcome.clone());
-        let job = move |progress: &Progress| Told {
-            question,
-            what: What::Proved(FeatureComparison::prove(&input, &outcome, progress)),
+        let (input, outcome) = (trial.input.clone(), run.outcome.clone());
+        let job = move |progress: &Progress| {
+            let features = FeatureComparison::prove(&input, &outcome, progress);
+            Some(JobResult::Features(features))
         };
-        let worker = &mut operations.worker;
-        let answers = self.patience.spend(|left| worker.start(job, left));
-        for answer in answers {
-            self.take_answer(answer);
-        }
+        client.go_on(job, Some(&mut self.patience));
+        self.take_result();
     }
 
-    fn take_answer(&mut self, answer: Answer<Told>) {
-        let counts = self.trial().map(|trial| trial.question);
-        match answer {
-            Answer::Panicked(text) => {
-                let failed = format!("The operation failed: {text}. Nothing was changed");
-                self.leave_trial();
-                self.message = Message::of(&Err(Refusal(failed)));
-            }
-            Answer::Done(Told { question, what }) if counts == Some(question) => match what {
-                What::Ran(run) => self.take_run(*run),
-                What::Proved(features) => {
-                    if let Some(trial) = &mut self.operations.trial
-                        && let Some(Ok(run)) = &mut trial.run
-                    {
-                        trial.features = features.clone();
-                        run.report.features = features;
-                    }
+    /// Take the result of the newest job, if the operation still counts.
+    fn take_result(&mut self) {
+        if self.trial().is_none() {
+            return;
+        }
+        let Operations { client, trial } = &mut self.operations;
+        if let Some(panic) = client.failure() {
+            let failed = format!("The operation failed: {panic}. Nothing was changed");
+            self.leave_trial();
+            self.message = Message::of(&Err(Refusal(failed)));
+            return;
+        }
+        match client.take_result() {
+            Some(JobResult::Run(run)) => self.take_run(*run),
+            Some(JobResult::Features(features)) => {
+                if let Some(trial) = trial
+                    && let Some(Ok(run)) = &mut trial.run
+                {
+                    trial.features = features.clone();
+                    run.report.features = features;
                 }
-            },
-            // It was asked for other values, or before something else was done.
-            Answer::Done(_) => {}
+            }
+            None => {}
         }
     }
 
@@ -426,7 +416,7 @@ impl Editor {
             Ok(run) => run.outcome.edits.clone(),
             Err(_) => Vec::new(),
         };
-        let proves = run.as_ref().is_ok_and(|run| run.outcome.is_useful());
+        let succeeds = run.as_ref().is_ok_and(|run| run.outcome.is_useful());
         let Some(trial) = &mut self.operations.trial else {
             return;
         };
@@ -444,7 +434,10 @@ impl Editor {
                 self.activate_made(is_first);
             }
             Stage::Applied { steps, .. } => {
-                self.amend(label, steps, edits);
+                // A run that fails leaves the applied step as it is.
+                if succeeds {
+                    self.amend(label, steps, edits);
+                }
                 self.tell_of_amendment();
             }
         }
@@ -456,7 +449,7 @@ impl Editor {
                 None => told(self.tell(reply)),
             }
         }
-        if proves {
+        if succeeds {
             self.ask_for_features();
         }
     }

@@ -4,8 +4,7 @@ use std::time::{Duration, Instant};
 
 use crate::document::quoted;
 use crate::editor::Editor;
-use crate::editor::autosaving::Autosaver;
-use crate::editor::recoverable::Recoverable;
+use crate::editor::jobs::{Autosaver, Recoverable};
 use crate::editor::reply::{Message, Note, Refusal, Reply};
 use crate::io::{FileError, Sessions};
 

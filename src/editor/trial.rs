@@ -2,8 +2,8 @@
 
 use crate::document::CurveId;
 use crate::editor::hand::handle_drag::HandleDrag;
+use crate::editor::jobs::Client;
 use crate::editor::selection::Selection;
-use crate::editor::worker::Worker;
 use crate::editor::workspace::PreviewId;
 use crate::geometry::Progress;
 use crate::operations::{
@@ -26,8 +26,6 @@ pub struct Trial {
     pub(in crate::editor) pending: bool,
     /// The features before and afterwards that were proved last.
     pub(in crate::editor) features: Option<FeatureComparison>,
-    /// The number of the question whose answers count.
-    pub(in crate::editor) question: u64,
     /// The handles that it offers, or offered when it made a curve last.
     pub(in crate::editor) handles: Vec<Handle>,
     /// The handle that is dragged on the canvas.
@@ -62,35 +60,18 @@ pub(in crate::editor) enum Stage {
     },
 }
 
-/// What the worker tells of a question.
+/// A result of a background job.
 #[derive(Debug)]
-pub(in crate::editor) struct Told {
-    pub(in crate::editor) question: u64,
-    pub(in crate::editor) what: What,
-}
-
-#[derive(Debug)]
-pub(in crate::editor) enum What {
-    Ran(Box<Result<Run, OperationError>>),
-    Proved(Option<FeatureComparison>),
+pub(in crate::editor) enum JobResult {
+    Run(Box<Result<Run, OperationError>>),
+    Features(Option<FeatureComparison>),
 }
 
 /// Run operations beside the frame.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(in crate::editor) struct Operations {
-    pub(in crate::editor) worker: Worker<Told>,
+    pub(in crate::editor) client: Client<(), JobResult>,
     pub(in crate::editor) trial: Option<Trial>,
-    pub(in crate::editor) questions: u64,
-}
-
-impl Default for Operations {
-    fn default() -> Self {
-        Self {
-            worker: Worker::inline(),
-            trial: None,
-            questions: 0,
-        }
-    }
 }
 
 impl Operations {
@@ -98,7 +79,7 @@ impl Operations {
     /// later than it is waited for.
     pub fn background(wake: impl Fn() + Send + 'static) -> Self {
         Self {
-            worker: Worker::background("operations", wake),
+            client: Client::background("operations", wake),
             ..Self::default()
         }
     }

@@ -15,6 +15,8 @@ pub struct Workspace {
     path: Option<PathBuf>,
     /// What the file held when it was last read or written.
     fingerprint: Option<Fingerprint>,
+    /// What the file was seen to hold since then.
+    seen: Option<Fingerprint>,
     preview: Option<Preview>,
     /// How many previews there have been.
     previews: u64,
@@ -64,7 +66,7 @@ impl Workspace {
     pub fn reload(&mut self, document: Document, fingerprint: Fingerprint) {
         self.interrupt();
         self.revision += 1;
-        self.fingerprint = Some(fingerprint);
+        self.set_fingerprint(Some(fingerprint));
         self.history.replace("Reload", document);
     }
 
@@ -113,7 +115,7 @@ impl Workspace {
     /// Take the document without what is being tried out as saved under a path.
     pub fn mark_saved(&mut self, path: PathBuf, fingerprint: Fingerprint) {
         self.path = Some(path);
-        self.fingerprint = Some(fingerprint);
+        self.set_fingerprint(Some(fingerprint));
         self.history.mark_saved();
     }
 
@@ -130,6 +132,14 @@ impl Workspace {
     /// Tell what the document's file held when it was last read or written.
     pub fn set_fingerprint(&mut self, fingerprint: Option<Fingerprint>) {
         self.fingerprint = fingerprint;
+        self.seen = None;
+    }
+
+    /// Note what the document's file holds now. Returns whether another program has changed it since
+    /// the last note.
+    pub fn note_file(&mut self, found: Fingerprint) -> bool {
+        let is_new = self.seen.replace(found) != Some(found);
+        is_new && self.fingerprint.is_some_and(|known| known != found)
     }
 
     /// The preview that runs.

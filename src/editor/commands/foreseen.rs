@@ -1,7 +1,7 @@
 //! What commands would do, told beforehand.
 
 use crate::editor::Editor;
-use crate::editor::foreseeing::Begun;
+use crate::editor::jobs::foreseeing::Candidate;
 use crate::operations::{Deviation, Operation, elevate_degree, reduce_degree};
 
 /// The operations whose deviation is told before they are done.
@@ -15,13 +15,14 @@ impl Editor {
         let Some(curve) = curve.filter(|curve| !self.foreseeing.is_about(curve)) else {
             return;
         };
-        let begun = FORESEEN.into_iter().filter_map(|operation| {
+        let candidates = FORESEEN.into_iter().filter_map(|operation| {
             let input = self.input_of(operation).ok()?;
             let values = operation.values(&input, []).ok()?;
             Some((operation, input, values))
         });
-        let begun: Vec<Begun> = begun.collect();
-        self.foreseeing.ask(curve, begun, &mut self.patience);
+        let candidates: Vec<Candidate> = candidates.collect();
+        self.foreseeing
+            .request(curve, candidates, &mut self.patience);
     }
 
     /// How far an operation would move the active curve with the values that it begins with. `None` if that

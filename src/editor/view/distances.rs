@@ -3,7 +3,7 @@
 use crate::analysis::{Distance, Measured};
 use crate::document::CurveId;
 use crate::editor::Editor;
-use crate::editor::comparing::Pair;
+use crate::editor::jobs::comparing::Pair;
 use crate::editor::view::scene::Mark;
 use crate::geometry::figure;
 
@@ -12,7 +12,7 @@ impl Editor {
     /// is compared with; `None` until it is measured, and between two references. While a curve is changed it
     /// is that of the last state that was measured.
     pub fn distance(&self) -> Option<&Distance> {
-        self.comparing.found()
+        self.comparing.distance()
     }
 
     /// Measure that, if there is something to compare with.
@@ -37,6 +37,7 @@ impl Editor {
             None => (document.curve(compared)?, active),
         };
         Some(Pair {
+            ids: [active, compared],
             curve: curve.clone(),
             other: measured(other)?,
         })

@@ -7,8 +7,8 @@ use glam::DVec2;
 
 use crate::document::Curve;
 use crate::editor::Editor;
-use crate::editor::guides::{FeatureOf, VertexOf};
 use crate::editor::hand::tools::ToolKind;
+use crate::editor::jobs::guides::{FeatureOf, VertexOf};
 use crate::editor::selection::VertexId;
 use crate::editor::view::feature_report::FeatureKind;
 use crate::editor::view::guide_scene::{GuideLabel, GuideScene, LossArrow};
@@ -62,31 +62,25 @@ impl Editor {
 
     /// See to it that the guides which are to be shown are found.
     pub(in crate::editor) fn guide(&mut self) {
-        match self.guided_vertex() {
-            Some(vertex) => self.guides.regions.advance(&vertex),
-            None => self.guides.regions.forget(),
-        }
         let settled = self.settled_active();
         let counts = |feature: &FeatureOf| {
             let is_settled = |curve: &Arc<Curve>| Arc::ptr_eq(curve, &feature.curve);
             settled.as_ref().is_some_and(is_settled)
         };
         self.view.chosen = self.view.chosen.take().filter(counts);
-        match &self.view.chosen {
-            Some(feature) => self.guides.losses.advance(feature),
-            None => self.guides.losses.forget(),
-        }
-        match self.shown_atlas().map(|atlas| atlas.plane) {
-            Some(plane) => self.guides.atlas.advance(&plane),
-            None => self.guides.atlas.forget(),
-        }
+        let atlas = self.shown_atlas().map(|atlas| atlas.plane);
+        let (vertex, feature) = (self.guided_vertex(), self.view.chosen.clone());
+        self.guides.advance(vertex, feature, atlas);
     }
 
     /// What is proved so far of the atlas that the operation at hand offers, while a panel shows it.
     pub fn atlas_verdicts(&self) -> Option<&AtlasVerdicts> {
         let atlas = self.shown_atlas()?;
-        let is_asked = self.guides.atlas.question() == Some(&atlas.plane);
-        self.guides.atlas.found().filter(|_| is_asked)
+        let guide = &self.guides.atlas;
+        let step = guide
+            .result()
+            .filter(|_| guide.request() == Some(&atlas.plane));
+        Some(&step?.as_ref().ok()?.level)
     }
 
     fn shown_atlas(&self) -> Option<&Atlas> {
@@ -125,37 +119,34 @@ impl Editor {
             return;
         };
         let regions = &self.guides.regions;
-        if let Some(VertexOf { curve, vertex }) = regions.question()
+        if let Some(VertexOf { curve, vertex }) = regions.request()
             && differs_at_most_at(&curve.polygon, &shown.polygon, Some(*vertex))
         {
-            match regions.answer() {
+            match regions.result() {
                 Some(Err(reason)) => {
                     let at = curve.polygon.vertex(*vertex).truncate();
                     let text = format!("No safe region: {reason}");
                     scene.labels.push(self.guide_label(at, DVec2::Y, text));
                 }
-                _ if regions.has_failed() => {
+                _ if regions.failure().is_some() => {
                     let at = curve.polygon.vertex(*vertex).truncate();
                     let text = "The safe region could not be found: please report this curve";
                     scene
                         .labels
                         .push(self.guide_label(at, DVec2::Y, text.to_owned()));
                 }
-                _ => {
-                    if let Some(region) = regions.region() {
-                        self.draw_region(region, scene);
-                    }
-                }
+                Some(Ok(step)) => self.draw_region(&step.level, scene),
+                None => {}
             }
         }
         let losses = &self.guides.losses;
-        if let Some(feature) = losses.question()
+        if let Some(feature) = losses.request()
             && differs_at_most_at(&feature.curve.polygon, &shown.polygon, None)
         {
-            let found = match losses.answer() {
+            let found = match losses.result() {
                 Some(Ok(found)) => Ok(found.as_slice()),
                 Some(Err(reason)) => Err(reason.to_string()),
-                None if losses.has_failed() => {
+                None if losses.failure().is_some() => {
                     Err("Moves could not be found: please report this curve".to_owned())
                 }
                 None => Err("Looking for the shortest move that loses this…".to_owned()),

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::analysis::ReferenceAnalysis;
 use crate::document::CurveId;
-use crate::editor::guides::FeatureOf;
+use crate::editor::jobs::guides::FeatureOf;
 use crate::editor::view::comb::CombSettings;
 use crate::editor::view::feature_report::FeatureReport;
 use crate::editor::view::ghost::Ghost;

@@ -7,6 +7,7 @@ use crate::geometry::differentiable::Differentiable;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::jet::Jet;
 use crate::geometry::nearest::refined_parameter;
+use crate::geometry::progress::Progress;
 
 /// Samples a segment at which distances are measured.
 const SAMPLES: usize = 16;
@@ -51,6 +52,20 @@ impl MeasuredDeviation {
         parameter: &dyn Fn(f64) -> f64,
         reach: [f64; 2],
     ) -> Result<Self, ApproximationError> {
+        Self::measure_cancellably(polygon, curve, parameter, reach, &Progress::default())
+    }
+
+    /// Measure as [`MeasuredDeviation::measure`] does, and stop soon after a cancellation.
+    ///
+    /// # Errors
+    /// As [`MeasuredDeviation::measure`]; [`ApproximationError::Cancelled`].
+    pub fn measure_cancellably(
+        polygon: &FloatPolygon,
+        curve: &dyn Differentiable,
+        parameter: &dyn Fn(f64) -> f64,
+        reach: [f64; 2],
+        progress: &Progress,
+    ) -> Result<Self, ApproximationError> {
         let segments = polygon.segments();
         let count = (segments * SAMPLES).max(LEAST_SAMPLES);
         let interval = [0, segments].map(|u| parameter(u as f64));
@@ -59,7 +74,10 @@ impl MeasuredDeviation {
         let distance = |u: f64| nearest(u).0;
         let last = segments * SAMPLES;
         let place = |index: usize| index as f64 / SAMPLES as f64;
-        let distances: Vec<f64> = (0..=last).map(|index| distance(place(index))).collect();
+        let going_on = |index: usize| (!progress.is_cancelled()).then_some(index);
+        let distances = (0..=last).map(|index| Some(distance(place(going_on(index)?))));
+        let distances: Option<Vec<f64>> = distances.collect();
+        let distances = distances.ok_or(ApproximationError::Cancelled)?;
         let mut found = (0..=last).fold(
             Self {
                 largest: -1.0,
@@ -71,6 +89,7 @@ impl MeasuredDeviation {
         );
         let enough = NEARLY_LARGEST * found.largest;
         for index in 0..=last {
+            going_on(index).ok_or(ApproximationError::Cancelled)?;
             let (before, after) = (index.saturating_sub(1), (index + 1).min(last));
             let here = distances[index];
             if here >= enough && here >= distances[before] && here >= distances[after] {

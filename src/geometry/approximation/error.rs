@@ -45,6 +45,9 @@ pub enum ApproximationError {
         "a periodic curve has no ends that could be made exact: leave exact ends out, or choose a part of the curve"
     )]
     NoEnds,
+    /// The caller cancelled the computation.
+    #[error("cancelled")]
+    Cancelled,
     /// The ends cannot be brought to the curve's.
     #[error(transparent)]
     Ends(#[from] CorrectionError),

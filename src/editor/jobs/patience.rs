@@ -1,27 +1,27 @@
-//! How long a frame waits for what workers do.
+//! The time a frame may wait for its background work.
 
 use std::time::{Duration, Instant};
 
-/// Hold how long the frame may still wait for answers that may come at once.
+/// Hold the time that is left of a frame's budget, which all its requests share.
 #[derive(Debug, Default)]
 pub struct Patience {
-    /// How long a frame waits at most, for all of its answers together.
+    /// The budget of a frame.
     frame: Duration,
     left: Duration,
 }
 
 impl Patience {
-    /// Let every frame wait so long.
+    /// Give every frame this budget.
     pub fn new(frame: Duration) -> Self {
         Self { frame, left: frame }
     }
 
-    /// Begin a frame.
+    /// Begin a frame with the full budget.
     pub fn renew(&mut self) {
         self.left = self.frame;
     }
 
-    /// Wait for something for as long as is left; what it takes is spent.
+    /// Wait with the time that is left, and subtract the time it takes.
     pub fn spend<T>(&mut self, wait: impl FnOnce(Duration) -> T) -> T {
         let begin = Instant::now();
         let waited = wait(self.left);

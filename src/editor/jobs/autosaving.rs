@@ -5,8 +5,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant, SystemTime};
 
+use super::Client;
 use crate::document::Document;
-use crate::editor::worker::{Outcome, Worker};
 use crate::editor::workspace::Workspace;
 use crate::io::autosave::Origin;
 use crate::io::{AbandonedSession, FileError, Fingerprint, Session, Sessions};
@@ -15,26 +15,22 @@ use crate::io::{AbandonedSession, FileError, Fingerprint, Session, Sessions};
 /// period ends.
 const BEGINS: f64 = 0.95;
 
-/// Decide when what is not saved is written, and see to it. By default nothing is.
+/// Decide when unsaved changes are written, and write them beside the frame. By default nothing is.
 #[derive(Debug, Default)]
 pub struct Autosaving {
     autosaver: Option<Autosaver>,
-    writing: Writing,
-    /// At most so much work is lost.
+    client: Client<(), Result<(), FileError>>,
+    /// The most work that a crash loses.
     period: Duration,
-    /// What the autosaver knows of.
+    /// The state that the autosaver was given last.
     state: State,
-    /// What it has not been told to supersede yet.
+    /// Recovered sessions that the autosaver was not given yet.
     superseded: Vec<AbandonedSession>,
-    /// When it writes next, if there is something to write.
+    /// The time of the next write, if there is something to write.
     due: Option<Instant>,
-    /// Whether the last attempt failed: failures that follow are not told.
+    /// Whether the last write failed: further failures are not reported.
     has_failed: bool,
 }
-
-/// Where autosaves are written: at once in tests.
-#[derive(Debug)]
-struct Writing(Worker<Result<(), FileError>>);
 
 /// What an autosave depends on.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -160,7 +156,7 @@ fn write(
 impl Autosaving {
     /// Write on a thread of its own from now on; `wake` is called when something was written.
     pub fn run_in_background(&mut self, wake: impl Fn() + Send + 'static) {
-        self.writing = Writing(Worker::background("autosave", wake));
+        self.client = Client::background("autosave", wake);
     }
 
     /// Keep what is not saved in a session of its own from now on; at most a `period`'s work is lost.
@@ -233,18 +229,15 @@ impl Autosaving {
             autosaver.set_newest(workspace, state.clone(), superseded);
             self.state = state;
         }
-        let mut outcomes = self.writing.0.take();
+        self.client.receive();
         if self.due.is_some_and(|due| due <= now || urgent) {
             self.due = None;
             let autosaver = autosaver.clone();
-            let job = move |_: &_| autosaver.write();
-            outcomes.extend(self.writing.0.start(job, Duration::ZERO));
+            self.client
+                .start((), move |_| Some(autosaver.write()), None);
         }
-        // The newest tells how it is now.
-        match outcomes.pop_back()? {
-            Outcome::Done(written) => self.note(written, now),
-            Outcome::Panicked(_) => None,
-        }
+        let written = self.client.take_result()?;
+        self.note(written, now)
     }
 
     fn note(&mut self, written: Result<(), FileError>, now: Instant) -> Option<FileError> {
@@ -264,12 +257,6 @@ impl Drop for Autosaving {
             // Nobody is left to be told.
             let _ = autosaver.write();
         }
-    }
-}
-
-impl Default for Writing {
-    fn default() -> Self {
-        Self(Worker::inline())
     }
 }
 

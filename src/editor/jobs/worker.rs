@@ -1,4 +1,4 @@
-//! Work beside the frame: jobs that own all they need, run at once or on a thread of their own.
+//! Worker threads: jobs that own all they need, run one after the other beside the frame.
 
 use std::any::Any;
 use std::collections::VecDeque;
@@ -10,57 +10,57 @@ use std::time::Duration;
 
 use crate::geometry::Progress;
 
-/// Run jobs of one kind, one after the other. A newer job cancels the older one: what that had come
-/// to is still delivered, if it had begun.
+/// Run jobs of one kind, one after the other.
+///
+/// A new job cancels the one that runs, whose result still arrives, and replaces one that has not
+/// begun. Jobs are numbered from 1.
 #[derive(Debug)]
 pub struct Worker<T> {
     /// The progress of the newest job.
     progress: Progress,
-    /// Its number; jobs count from 1.
     newest: u64,
     place: Place<T>,
 }
 
-/// What a job came to.
+/// A finished job.
 #[derive(Debug, PartialEq, Eq)]
-pub enum Outcome<T> {
-    /// What it returned.
-    Done(T),
-    /// It panicked, with this message.
-    Panicked(String),
+pub struct Reply<T> {
+    /// The number of the job.
+    pub job: u64,
+    /// Its result, or the message of its panic.
+    pub result: Result<T, String>,
 }
 
 /// Where jobs run.
 #[derive(Debug)]
 enum Place<T> {
-    /// At once, before they are handed over.
-    Inline(VecDeque<Outcome<T>>),
-    /// On a thread.
+    /// On the calling thread, at once.
+    Inline(VecDeque<Reply<T>>),
+    /// On a thread of their own.
     Thread(Arc<Desk<T>>),
 }
 
-/// What the two threads share.
+/// State shared by the two threads.
 struct Desk<T> {
     tray: Mutex<Tray<T>>,
-    /// There is a job, or there will be none.
-    asked: Condvar,
-    /// A job is done.
-    answered: Condvar,
+    /// Signals a new job, or the end of the worker.
+    job_ready: Condvar,
+    /// Signals a new reply.
+    reply_ready: Condvar,
 }
 
-/// Jobs and outcomes on their way.
+/// Jobs and replies on their way.
 struct Tray<T> {
     job: Option<Job<T>>,
-    outcomes: VecDeque<Outcome<T>>,
-    /// The number of the last job that is done.
+    replies: VecDeque<Reply<T>>,
+    /// The number of the last finished job.
     done: u64,
-    /// Whether someone waits for an outcome, and need not be woken.
+    /// Whether the caller waits for a reply: then the thread need not wake a frame.
     awaited: bool,
-    /// Whether there will be no more jobs.
+    /// Whether the worker was dropped.
     closed: bool,
 }
 
-/// A job with its number.
 struct Job<T> {
     number: u64,
     progress: Progress,
@@ -70,13 +70,13 @@ struct Job<T> {
 type Run<T> = Box<dyn FnOnce(&Progress) -> T + Send>;
 
 impl<T: Send + 'static> Worker<T> {
-    /// Run every job at once, in the thread that hands it over: nothing depends on time.
+    /// Run every job at once on the calling thread, so that tests depend on no clock.
     pub fn inline() -> Self {
         Self::at(Place::Inline(VecDeque::new()))
     }
 
-    /// Run jobs on a thread of their own. When an outcome is ready that nobody waits for, `wake` is
-    /// called on that thread. Where no thread can be had, jobs run inline.
+    /// Run jobs on a thread of this name. The thread calls `wake` after a job that nobody waits for.
+    /// Without threads, jobs run inline.
     pub fn background(name: &str, wake: impl Fn() + Send + 'static) -> Self {
         let desk = Arc::new(Desk::default());
         let own = desk.clone();
@@ -87,29 +87,30 @@ impl<T: Send + 'static> Worker<T> {
         }
     }
 
-    /// Hand a job over, wait until it is done, but no longer than `at_most`, and take the outcomes that
-    /// are ready then. Without a wait the frame is always woken, even where the outcome is taken here: what
-    /// goes on from it is begun by the next frame. An older job is cancelled; one that has not begun is dropped.
+    /// Start a job, wait for it no longer than `at_most`, and take the replies that are ready then.
+    /// Without a wait the thread always wakes a frame, even if this call already takes the reply:
+    /// the next frame may start a further job.
     pub fn start(
         &mut self,
         job: impl FnOnce(&Progress) -> T + Send + 'static,
         at_most: Duration,
-    ) -> VecDeque<Outcome<T>> {
+    ) -> VecDeque<Reply<T>> {
         self.progress.cancel();
         self.progress = Progress::default();
         self.newest += 1;
+        let job = Job {
+            number: self.newest,
+            progress: self.progress.clone(),
+            run: Box::new(job),
+        };
         match &mut self.place {
-            Place::Inline(outcomes) => outcomes.push_back(run(Box::new(job), &self.progress)),
+            Place::Inline(replies) => replies.push_back(job.run()),
             Place::Thread(desk) => {
                 let mut tray = desk.tray();
-                tray.job = Some(Job {
-                    number: self.newest,
-                    progress: self.progress.clone(),
-                    run: Box::new(job),
-                });
+                tray.job = Some(job);
                 tray.awaited = !at_most.is_zero();
                 drop(tray);
-                desk.asked.notify_one();
+                desk.job_ready.notify_one();
             }
         }
         self.wait(at_most)
@@ -120,24 +121,25 @@ impl<T: Send + 'static> Worker<T> {
         self.progress.cancel();
     }
 
-    /// How far the newest job has come; `None` if it is done, or there is none.
-    pub fn progress(&self) -> Option<&Progress> {
-        let is_done = match &self.place {
-            Place::Inline(_) => true,
-            Place::Thread(desk) => desk.tray().done == self.newest,
-        };
-        (!is_done).then_some(&self.progress)
+    /// The number of the newest job; 0 before the first.
+    pub fn newest(&self) -> u64 {
+        self.newest
     }
 
-    /// Take the outcomes that are ready, in the order of their jobs.
-    pub fn take(&mut self) -> VecDeque<Outcome<T>> {
+    /// The progress of the newest job.
+    pub fn progress(&self) -> &Progress {
+        &self.progress
+    }
+
+    /// Take the replies that are ready, in the order of their jobs.
+    pub fn take(&mut self) -> VecDeque<Reply<T>> {
         match &mut self.place {
-            Place::Inline(outcomes) => std::mem::take(outcomes),
-            Place::Thread(desk) => std::mem::take(&mut desk.tray().outcomes),
+            Place::Inline(replies) => std::mem::take(replies),
+            Place::Thread(desk) => std::mem::take(&mut desk.tray().replies),
         }
     }
 
-    fn wait(&mut self, at_most: Duration) -> VecDeque<Outcome<T>> {
+    fn wait(&mut self, at_most: Duration) -> VecDeque<Reply<T>> {
         if let Place::Thread(desk) = &self.place
             && !at_most.is_zero()
         {
@@ -145,7 +147,7 @@ impl<T: Send + 'static> Worker<T> {
             tray.awaited = true;
             let newest = self.newest;
             let waited = desk
-                .answered
+                .reply_ready
                 .wait_timeout_while(tray, at_most, |tray| tray.done != newest);
             let (mut tray, _) = waited.unwrap_or_else(PoisonError::into_inner);
             tray.awaited = false;
@@ -163,14 +165,14 @@ impl<T: Send + 'static> Worker<T> {
 }
 
 impl<T> Drop for Worker<T> {
-    /// Let the thread end after its job, which is not waited for.
+    /// Cancel the job and let the thread end after it, without waiting.
     fn drop(&mut self) {
         self.progress.cancel();
         if let Place::Thread(desk) = &self.place {
             let mut tray = desk.tray();
             tray.closed = true;
             tray.job = None;
-            desk.asked.notify_one();
+            desk.job_ready.notify_one();
         }
     }
 }
@@ -180,13 +182,13 @@ impl<T> Default for Desk<T> {
         Self {
             tray: Mutex::new(Tray {
                 job: None,
-                outcomes: VecDeque::new(),
+                replies: VecDeque::new(),
                 done: 0,
                 awaited: false,
                 closed: false,
             }),
-            asked: Condvar::new(),
-            answered: Condvar::new(),
+            job_ready: Condvar::new(),
+            reply_ready: Condvar::new(),
         }
     }
 }
@@ -198,55 +200,50 @@ impl<T> fmt::Debug for Desk<T> {
 }
 
 impl<T> Desk<T> {
-    /// Look at the tray. Nothing panics while it is held.
+    /// Lock the tray. No code panics while it holds the lock.
     fn tray(&self) -> MutexGuard<'_, Tray<T>> {
         self.tray.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Run jobs until there will be no more.
+    /// Run jobs until the worker is dropped.
     fn serve(&self, wake: &impl Fn()) {
         while let Some(job) = self.next() {
-            let outcome = run(job.run, &job.progress);
+            let reply = job.run();
             let mut tray = self.tray();
-            tray.done = job.number;
-            tray.outcomes.push_back(outcome);
+            tray.done = reply.job;
+            tray.replies.push_back(reply);
             let awaited = tray.awaited;
             drop(tray);
-            self.answered.notify_all();
+            self.reply_ready.notify_all();
             if !awaited {
                 wake();
             }
         }
     }
 
-    /// Wait for a job; `None` if there will be no more.
+    /// Wait for a job; `None` once the worker is dropped.
     fn next(&self) -> Option<Job<T>> {
-        let mut tray = self.tray();
-        loop {
-            if tray.closed {
-                return None;
-            }
-            match tray.job.take() {
-                Some(job) => return Some(job),
-                None => {
-                    let waited = self.asked.wait(tray);
-                    tray = waited.unwrap_or_else(PoisonError::into_inner);
-                }
-            }
+        let tray = self.tray();
+        let waited = self
+            .job_ready
+            .wait_while(tray, |tray| tray.job.is_none() && !tray.closed);
+        let mut tray = waited.unwrap_or_else(PoisonError::into_inner);
+        tray.job.take()
+    }
+}
+
+impl<T> Job<T> {
+    /// Run the job and catch its panic.
+    fn run(self) -> Reply<T> {
+        let result = catch_unwind(AssertUnwindSafe(|| (self.run)(&self.progress)));
+        Reply {
+            job: self.number,
+            result: result.map_err(|panic| panic_message(panic.as_ref())),
         }
     }
 }
 
-/// Run a job, whatever it does.
-fn run<T>(job: Run<T>, progress: &Progress) -> Outcome<T> {
-    match catch_unwind(AssertUnwindSafe(|| job(progress))) {
-        Ok(result) => Outcome::Done(result),
-        Err(panic) => Outcome::Panicked(panic_text(panic.as_ref())),
-    }
-}
-
-/// What a panic says of itself.
-fn panic_text(panic: &(dyn Any + Send)) -> String {
+fn panic_message(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
     text.unwrap_or("no message").to_owned()
@@ -258,17 +255,17 @@ mod tests {
 
     use super::*;
 
-    /// Longer than any of these jobs takes: whoever waits so long has failed.
+    /// Longer than any job here takes.
     const LONG: Duration = Duration::from_secs(60);
 
-    /// A worker with a thread, and what tells that it woke somebody.
+    /// A worker with a thread, and the receiver of its wake-up calls.
     fn background() -> (Worker<u32>, Receiver<()>) {
         let (sender, woken) = channel();
         let wake = move || sender.send(()).unwrap_or_default();
         (Worker::background("test", wake), woken)
     }
 
-    /// Start a job that says when it begins, and ends when it is let go or cancelled.
+    /// Start a job that signals its begin and ends when the sender lets it go.
     fn start_held(worker: &mut Worker<u32>, result: u32) -> (Receiver<()>, Sender<()>) {
         let (begins, begun) = channel();
         let (lets_go, held) = channel::<()>();
@@ -277,17 +274,14 @@ mod tests {
             held.recv().unwrap_or_default();
             result + 100 * u32::from(progress.is_cancelled())
         };
-        // Were it waited for until it is done, this would never return.
+        // Waiting for its end here would never return.
         assert!(worker.start(job, Duration::from_millis(4)).is_empty());
         (begun, lets_go)
     }
 
-    fn done(outcomes: VecDeque<Outcome<u32>>) -> Vec<u32> {
-        let results = outcomes.into_iter().map(|outcome| match outcome {
-            Outcome::Done(result) => result,
-            Outcome::Panicked(text) => panic!("{text}"),
-        });
-        results.collect()
+    fn done(replies: VecDeque<Reply<u32>>) -> Vec<u32> {
+        let results = replies.into_iter().map(|reply| reply.result);
+        results.collect::<Result<_, _>>().expect("no panic")
     }
 
     #[test]
@@ -295,7 +289,6 @@ mod tests {
         let mut worker = Worker::inline();
         assert_eq!(done(worker.start(|_| 1, LONG)), [1]);
         assert_eq!(done(worker.start(|_| 2, Duration::ZERO)), [2]);
-        assert!(worker.progress().is_none());
         assert!(worker.take().is_empty());
     }
 
@@ -315,10 +308,9 @@ mod tests {
         let (mut worker, woken) = background();
         let (begun, lets_go) = start_held(&mut worker, 1);
         begun.recv().expect("it begins");
-        assert!(worker.progress().is_some());
+        assert!(worker.take().is_empty());
         lets_go.send(()).expect("it is held");
         woken.recv_timeout(LONG).expect("it wakes");
-        assert!(worker.progress().is_none());
         assert_eq!(done(worker.take()), [1]);
     }
 
@@ -330,7 +322,7 @@ mod tests {
         assert!(worker.start(|_| 2, Duration::ZERO).is_empty());
         assert!(worker.start(|_| 3, Duration::ZERO).is_empty());
         lets_go.send(()).expect("it is held");
-        // What the first came to is told, the second never ran.
+        // The first still reports, the second never ran.
         let mut results = Vec::new();
         while results.last() != Some(&3) {
             results.extend(done(worker.wait(LONG)));
@@ -339,10 +331,11 @@ mod tests {
     }
 
     #[test]
-    fn a_panic_is_an_outcome_and_the_next_job_runs() {
+    fn a_panic_is_reported_with_its_job_and_the_next_job_runs() {
         for (mut worker, _woken) in [background(), (Worker::inline(), channel().1)] {
-            let outcomes = worker.start(|_| panic!("on purpose"), LONG);
-            assert_eq!(outcomes, [Outcome::Panicked("on purpose".into())]);
+            let replies = worker.start(|_| panic!("on purpose"), LONG);
+            let result = Err("on purpose".into());
+            assert_eq!(replies, [Reply { job: 1, result }]);
             assert_eq!(done(worker.start(|_| 2, LONG)), [2]);
         }
     }

@@ -1,0 +1,156 @@
+//! The distance between the active curve and the item it is compared with.
+
+use std::sync::Arc;
+
+use super::Client;
+use super::patience::Patience;
+use crate::analysis::{Distance, Measured};
+use crate::document::{Curve, CurveId};
+
+/// Measure distances beside the frame, of one pair at a time.
+#[derive(Debug, Default)]
+pub struct Comparing {
+    client: Client<Pair, Distance>,
+    /// The last distance of the same two items: while one of them is changed it stays until the next.
+    shown: Option<Distance>,
+}
+
+/// A curve and the curve or reference it is measured against.
+#[derive(Clone, Debug)]
+pub struct Pair {
+    /// The two items.
+    pub ids: [CurveId; 2],
+    /// The state of the first item.
+    pub curve: Arc<Curve>,
+    /// The state of the second item.
+    pub other: Measured,
+}
+
+impl Comparing {
+    /// Measure on a thread, which calls `wake` when a distance is measured.
+    pub fn background(wake: impl Fn() + Send + 'static) -> Self {
+        Self {
+            client: Client::background("distances", wake),
+            shown: None,
+        }
+    }
+
+    /// Take the result, and start the measurement of a pair that has changed.
+    pub fn advance(&mut self, pair: Option<Pair>, patience: &mut Patience) {
+        self.client.receive();
+        let Some(pair) = pair else {
+            self.client.forget();
+            self.shown = None;
+            return;
+        };
+        let latest = self.client.request();
+        if latest.is_none_or(|latest| latest.ids != pair.ids) {
+            self.shown = None;
+        }
+        if latest.is_none_or(|latest| !latest.is_same(&pair)) {
+            let Pair { curve, other, .. } = pair.clone();
+            let job = move |progress: &_| Distance::measure(&curve.polygon, &other, progress);
+            self.client.start(pair, job, Some(patience));
+        }
+        if self.client.progress().is_none() {
+            self.shown = self.client.result().copied();
+        }
+    }
+
+    /// The distance of the pair; `None` until it is measured, and if it cannot be.
+    pub fn distance(&self) -> Option<&Distance> {
+        self.shown.as_ref()
+    }
+}
+
+impl Pair {
+    fn is_same(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.curve, &other.curve) && self.other.is_same(&other.other)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc::channel;
+    use std::time::Duration;
+
+    use super::*;
+    use crate::document::Document;
+    use crate::geometry::FloatPolygon;
+
+    /// Longer than any job here takes.
+    const LONG: Duration = Duration::from_secs(60);
+
+    /// A straight curve, `offset` above the x-axis.
+    fn line(offset: f64) -> Arc<Curve> {
+        let points = [(0.0, offset), (1.0, offset), (2.0, offset)];
+        let polygon = FloatPolygon::planar(2, &points).expect("a polygon");
+        Arc::new(Curve::new("line".to_owned(), polygon))
+    }
+
+    fn pair(ids: [CurveId; 2], offset: f64) -> Pair {
+        Pair {
+            ids,
+            curve: line(0.0),
+            other: Measured::Curve(line(offset)),
+        }
+    }
+
+    fn largest(comparing: &Comparing) -> Option<f64> {
+        comparing.distance().map(|distance| distance.largest)
+    }
+
+    #[test]
+    fn a_distance_is_shown_of_its_own_pair_only() {
+        let ids: Vec<CurveId> = Document::default().next_ids().take(3).collect();
+        let [one, two] = [[ids[0], ids[1]], [ids[0], ids[2]]];
+        let (sender, woken) = channel();
+        let wake = move || sender.send(()).unwrap_or_default();
+        let mut comparing = Comparing::background(wake);
+        let mut patient = Patience::new(LONG);
+        let mut hasty = Patience::default();
+        comparing.advance(Some(pair(one, 1.0)), &mut patient);
+        assert_eq!(largest(&comparing), Some(1.0));
+
+        // The thread is held, so that no later job begins.
+        let (lets_go, held) = channel::<()>();
+        let (begins, begun) = channel();
+        let job = move |_: &_| {
+            begins.send(()).unwrap_or_default();
+            held.recv().unwrap_or_default();
+            None
+        };
+        comparing.client.start(pair(one, 2.0), job, None);
+        begun.recv_timeout(LONG).expect("the job begins");
+        comparing.advance(Some(pair(one, 3.0)), &mut hasty);
+        assert_eq!(largest(&comparing), Some(1.0), "the last state of the pair");
+        let other = pair(two, 4.0);
+        comparing.advance(Some(other.clone()), &mut hasty);
+        assert_eq!(
+            largest(&comparing),
+            None,
+            "not the distance of another pair"
+        );
+        lets_go.send(()).expect("the job is held");
+        while comparing.client.progress().is_some() {
+            woken.recv_timeout(LONG).expect("the frame is woken");
+            comparing.advance(Some(other.clone()), &mut hasty);
+        }
+        assert_eq!(largest(&comparing), Some(4.0));
+    }
+
+    #[test]
+    fn a_panic_leaves_no_distance_of_an_earlier_state() {
+        let ids: Vec<CurveId> = Document::default().next_ids().take(2).collect();
+        let mut comparing = Comparing::default();
+        let mut patience = Patience::default();
+        comparing.advance(Some(pair([ids[0], ids[1]], 1.0)), &mut patience);
+        assert_eq!(largest(&comparing), Some(1.0));
+        let changed = pair([ids[0], ids[1]], 2.0);
+        comparing
+            .client
+            .start(changed.clone(), |_| panic!("on purpose"), None);
+        comparing.advance(Some(changed), &mut patience);
+        assert_eq!(largest(&comparing), None);
+    }
+}

@@ -1,0 +1,17 @@
+//! Background work: worker threads, the client that every kind of work shares, and the kinds themselves.
+
+mod client;
+mod worker;
+
+pub(in crate::editor) mod autosaving;
+pub(in crate::editor) mod comparing;
+pub(in crate::editor) mod foreseeing;
+pub(in crate::editor) mod guides;
+pub(in crate::editor) mod measuring;
+pub(in crate::editor) mod patience;
+pub(in crate::editor) mod proving;
+pub(in crate::editor) mod recoverable;
+
+pub use autosaving::Autosaver;
+pub(in crate::editor) use client::Client;
+pub use recoverable::{Recoverable, RecoverableDocument};
