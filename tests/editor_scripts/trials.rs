@@ -289,12 +289,13 @@ fn what_does_not_reach_its_target_is_refused_with_what_is_left() {
     assert!(script.trial_report().reached);
     script.editor.apply_trial().expect("a step");
     assert_eq!(script.steps(), made + 1);
-    // Back to what does not reach it: the step is gone, and those before it are not.
+    // Back to the method that fails: the applied step stays, and the message says why.
     let corrected = script.editor.document().clone();
     script.set("method", STEPS).expect("a method");
-    check_is(&script, &before);
-    assert_eq!(script.steps(), made);
+    check_is(&script, &corrected);
+    assert_eq!(script.steps(), made + 1);
     assert!(is_applied(&script));
+    assert_eq!(script.message(), refused.0);
     script.set("method", JOINT).expect("a method");
     check_is(&script, &corrected);
     assert_eq!(script.steps(), made + 1);
@@ -852,6 +853,28 @@ fn what_is_left_before_it_is_known_never_comes() {
             assert_eq!(script.steps(), 0, "{name}");
         }
     }
+}
+
+#[test]
+fn a_value_that_fails_after_applying_keeps_the_applied_step() {
+    let (mut script, before) = trying("trim");
+    script.set("from", Value::Real(1.5)).expect("a place");
+    script.editor.apply_trial().expect("a step");
+    let trimmed = script.editor.document().clone();
+    // The part would end before it begins.
+    script.set("to", Value::Real(0.5)).expect("a place");
+    let run = script.editor.trial().and_then(Trial::run).expect("a run");
+    let error = run.as_ref().expect_err("no curve").to_string();
+    assert_eq!(script.message(), error);
+    check_is(&script, &trimmed);
+    assert_eq!(script.steps(), 1);
+    // The next success amends the same step.
+    script.set("from", Value::Real(0.25)).expect("a place");
+    assert_ne!(*script.editor.document(), trimmed);
+    assert!(is_applied(&script));
+    assert_eq!(script.steps(), 1);
+    script.command(Command::Undo);
+    check_is(&script, &before);
 }
 
 #[test]
