@@ -1,7 +1,7 @@
-//! Autosaves: a document that is not saved yet, with what is known of its file.
+//! Autosaves: an unsaved document with the path and the fingerprint of its file.
 //!
-//! An autosave is a line of JSON that tells where the document belongs and when it was written,
-//! and below it a project as [`project`](super::project) writes it.
+//! An autosave is a line of JSON with the origin of the document, and below it a project as
+//! [`project`](super::project) writes it.
 
 use std::path::PathBuf;
 use std::time::{Duration, SystemTime};
@@ -13,18 +13,18 @@ use super::fingerprint::Fingerprint;
 use super::format::Format;
 use crate::document::Document;
 
-/// What the first line says it begins.
+/// The name of the format in the first line.
 const FORMAT: &str = "batten autosave";
 
 /// The version of the first line.
 const VERSION: u64 = 1;
 
-/// What an autosave tells of its document.
+/// The origin of an autosaved document.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Origin {
     /// The document's own file; `None` if it was never saved.
     pub path: Option<PathBuf>,
-    /// What that file held when it was last read or written.
+    /// The fingerprint of that file when it was last read or written.
     pub fingerprint: Option<Fingerprint>,
     /// When the autosave was made, to the second.
     pub time: SystemTime,
@@ -44,7 +44,7 @@ struct Header {
     revision: u64,
 }
 
-/// Write a document with what is known of its file.
+/// Write a document with its origin.
 ///
 /// # Errors
 /// [`WriteError`] if a project cannot hold the document: never.
@@ -65,7 +65,7 @@ pub fn write(origin: &Origin, document: &Document) -> Result<Vec<u8>, WriteError
     Ok(bytes)
 }
 
-/// Read a document with what is known of its file.
+/// Read a document with its origin.
 ///
 /// # Errors
 /// [`ReadError`] with the place, counted from the line below the first.

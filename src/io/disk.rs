@@ -251,6 +251,23 @@ pub(super) fn remove_folder(path: &Path) {
     let _ = fs::remove_dir_all(path);
 }
 
+/// Whether the program was started with a signal ignored, as `nohup` does with SIGHUP. Linux tells in
+/// `/proc/self/status`; elsewhere the answer is `false`.
+pub fn ignores_signal(signal: i32) -> bool {
+    let status = read_bytes(Path::new("/proc/self/status")).unwrap_or_default();
+    is_ignored_in(&String::from_utf8_lossy(&status), signal)
+}
+
+/// Whether a status of Linux lists a signal as ignored: bit n - 1 of a hexadecimal mask is signal n.
+fn is_ignored_in(status: &str, signal: i32) -> bool {
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    let bit = u32::try_from(signal.saturating_sub(1))
+        .ok()
+        .and_then(|n| 1_u64.checked_shl(n));
+    mask.zip(bit).is_some_and(|(mask, bit)| mask & bit != 0)
+}
+
 fn read_at_most(path: &Path, most: u64) -> Result<Vec<u8>, FileProblem> {
     let file = File::open(path).map_err(FileProblem::system("read"))?;
     let metadata = file.metadata().map_err(FileProblem::system("read"))?;

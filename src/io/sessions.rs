@@ -1,9 +1,9 @@
-//! Sessions: what each running window keeps in the user's state folder, so that nothing is lost
-//! when it ends badly, and other windows know of it.
+//! Sessions: the files that each window keeps in the user's state folder, for recovery after a crash
+//! and for other windows.
 //!
-//! A session is a folder with three files: a lock, held as long as the program runs; the autosave,
-//! while something is not saved; and the path of the file that is open. A session whose lock nobody
-//! holds was abandoned: the program was killed, or the machine stopped.
+//! A session is a folder with four files: two locks, held as long as the program runs; the autosave,
+//! while something is unsaved; and the path of the open file. A session whose first lock is free was
+//! abandoned: the program was killed, or the machine stopped.
 
 use std::path::{Path, PathBuf};
 
@@ -14,38 +14,43 @@ use super::disk::{self, FileLock};
 use super::error::{FileError, FileProblem};
 use crate::document::Document;
 
-/// The names of a session's files.
+/// The lock of the session's owner: the window that runs it, or the window that recovers it.
 const LOCK: &str = "lock";
+
+/// The lock that other windows try in order to see whether the session runs. It is a second one, so
+/// that a look never hides an abandoned session from a window that starts at that moment.
+const RUNNING: &str = "running";
+
 const AUTOSAVE: &str = "autosave";
 const OPEN: &str = "open";
 
-/// The folder that holds the sessions of all windows of a user.
+/// The folder with the sessions of all windows of a user.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Sessions(PathBuf);
 
-/// A session of this program: its folder is locked until it is dropped.
+/// A session whose folder is locked until the value is dropped.
 #[derive(Debug)]
 pub struct Session {
     folder: PathBuf,
     _lock: FileLock,
+    /// Held by a session of this program, not by one that it recovers.
+    _running: Option<FileLock>,
 }
 
-/// A session that ended without being closed, with an autosave. As long as this is held, no other
-/// window finds it.
+/// A session with an autosave whose program has ended. No other window finds it while this is held.
 #[derive(Debug)]
 pub struct AbandonedSession(Session);
 
 impl Sessions {
-    /// The sessions of the user who runs the program: in `batten/sessions` of the state folder that
-    /// the system names (`XDG_STATE_HOME`), or of its data folder where there is none. `None` for a
-    /// user without a home.
+    /// The sessions of the user who runs the program, in `batten/sessions` of the system's state folder
+    /// (`XDG_STATE_HOME`), or of its data folder without one. `None` for a user without a home.
     pub fn of_user() -> Option<Self> {
         let strategy = etcetera::choose_base_strategy().ok()?;
         let folder = strategy.state_dir().unwrap_or_else(|| strategy.data_dir());
         Some(Self::in_folder(folder.join("batten").join("sessions")))
     }
 
-    /// The sessions in a folder, which is made when it is needed.
+    /// The sessions in a folder. The first session creates it.
     pub fn in_folder(folder: PathBuf) -> Self {
         Self(folder)
     }
@@ -53,44 +58,75 @@ impl Sessions {
     /// Begin a session.
     ///
     /// # Errors
-    /// [`FileError`] if the folder cannot be made or locked.
+    /// [`FileError`] if the folder cannot be created or locked; nothing is left behind then.
     pub fn begin(&self) -> Result<Session, FileError> {
-        loop {
-            let folder = disk::create_own_folder(&self.0).map_err(FileError::at(&self.0))?;
-            // Until it is locked another program may take it for abandoned and remove it.
-            match Session::locked(&folder) {
-                Ok(Some(session)) if session.is_there() => return Ok(session),
-                Err(error) if folder.is_dir() => return Err(error),
-                Ok(_) | Err(_) => {}
-            }
-        }
+        self.begin_with(disk::lock)
     }
 
-    /// Take hold of all sessions that were abandoned with an autosave. Those without one are removed.
+    /// Find all abandoned sessions with an autosave and hold them. Abandoned sessions without one are
+    /// removed.
     pub fn abandoned(&self) -> Vec<AbandonedSession> {
         let folders = disk::folders_in(&self.0).into_iter();
-        let sessions = folders.filter_map(|folder| Session::locked(&folder).ok().flatten());
+        let sessions = folders.filter_map(|folder| {
+            let lock = lock_in(&folder, LOCK, disk::lock).ok().flatten()?;
+            Some(Session {
+                folder,
+                _lock: lock,
+                _running: None,
+            })
+        });
         // The others are removed as they are dropped.
         let abandoned = sessions.filter(Session::has_autosave);
         abandoned.map(AbandonedSession).collect()
     }
 
-    /// Whether a window that runs, other than that of `own`, has a file open.
+    /// Whether another running window than that of `own` has a file open.
     pub fn has_open(&self, path: &Path, own: &Session) -> bool {
         let folders = disk::folders_in(&self.0).into_iter();
         let mut others = folders.filter(|folder| *folder != own.folder);
         others.any(|folder| {
             is_open_in(&folder, path)
-                && disk::lock(&folder.join(LOCK)).is_ok_and(|lock| lock.is_none())
+                && lock_in(&folder, RUNNING, disk::lock).is_ok_and(|lock| lock.is_none())
         })
     }
+
+    fn begin_with(&self, lock: Lock) -> Result<Session, FileError> {
+        loop {
+            let folder = disk::create_own_folder(&self.0).map_err(FileError::at(&self.0))?;
+            let locked = lock_in(&folder, LOCK, lock)
+                .and_then(|first| Ok(first.zip(lock_in(&folder, RUNNING, lock)?)));
+            // Until it is locked another program may take it for abandoned and remove it.
+            match locked {
+                Ok(Some((lock, running))) if folder.join(LOCK).is_file() => {
+                    return Ok(Session {
+                        folder,
+                        _lock: lock,
+                        _running: Some(running),
+                    });
+                }
+                Err(error) if folder.is_dir() => {
+                    disk::remove_folder(&folder);
+                    return Err(error);
+                }
+                Ok(_) | Err(_) => {}
+            }
+        }
+    }
+}
+
+/// Take a lock on a file; `None` if another program holds it.
+type Lock = fn(&Path) -> Result<Option<FileLock>, FileProblem>;
+
+fn lock_in(folder: &Path, name: &str, lock: Lock) -> Result<Option<FileLock>, FileError> {
+    let path = folder.join(name);
+    lock(&path).map_err(FileError::at(&path))
 }
 
 impl Session {
     /// Write the autosave, atomically.
     ///
     /// # Errors
-    /// [`FileError`] if it cannot be written; what was there before is unchanged then.
+    /// [`FileError`] if it cannot be written; the autosave before is unchanged then.
     pub fn write_autosave(&self, origin: &Origin, document: &Document) -> Result<(), FileError> {
         let path = self.folder.join(AUTOSAVE);
         let bytes = autosave::write(origin, document).map_err(FileError::at(&path))?;
@@ -98,7 +134,7 @@ impl Session {
         Ok(())
     }
 
-    /// Remove the autosave if there is one: nothing is unsaved.
+    /// Remove the autosave if there is one.
     ///
     /// # Errors
     /// [`FileError`] if it cannot be removed.
@@ -107,10 +143,10 @@ impl Session {
         disk::remove_file(&path).map_err(FileError::at(&path))
     }
 
-    /// Let other windows know which file is open; `None` if none is.
+    /// Tell other windows which file is open; `None` if none is.
     ///
     /// # Errors
-    /// [`FileError`] if that cannot be written.
+    /// [`FileError`] if the path cannot be written.
     pub fn tell_open(&self, path: Option<&Path>) -> Result<(), FileError> {
         let register = self.folder.join(OPEN);
         let told = match path {
@@ -124,26 +160,13 @@ impl Session {
         told.map_err(FileError::at(&register))
     }
 
-    fn locked(folder: &Path) -> Result<Option<Self>, FileError> {
-        let path = folder.join(LOCK);
-        let lock = disk::lock(&path).map_err(FileError::at(&path))?;
-        Ok(lock.map(|lock| Self {
-            folder: folder.to_owned(),
-            _lock: lock,
-        }))
-    }
-
-    fn is_there(&self) -> bool {
-        self.folder.join(LOCK).is_file()
-    }
-
     fn has_autosave(&self) -> bool {
         self.folder.join(AUTOSAVE).is_file()
     }
 }
 
 impl Drop for Session {
-    /// Leave nothing behind but an autosave.
+    /// Remove the folder, unless it holds an autosave.
     fn drop(&mut self) {
         if !self.has_autosave() {
             disk::remove_folder(&self.folder);
@@ -152,7 +175,7 @@ impl Drop for Session {
 }
 
 impl AbandonedSession {
-    /// Where the autosave is.
+    /// The path of the autosave.
     pub fn path(&self) -> PathBuf {
         self.0.folder.join(AUTOSAVE)
     }
@@ -173,7 +196,7 @@ impl AbandonedSession {
     }
 }
 
-/// Whether a session's folder tells that a file is open.
+/// Whether a session's folder names a file as open.
 fn is_open_in(folder: &Path, path: &Path) -> bool {
     let told = disk::read_bytes(&folder.join(OPEN)).ok();
     let told = told.and_then(|bytes| serde_json::from_slice::<std::ffi::OsString>(&bytes).ok());
@@ -203,7 +226,7 @@ mod tests {
         written.expect("an autosave");
     }
 
-    /// What is left in the folder of sessions.
+    /// The number of folders that are left.
     fn left(sessions: &Sessions) -> usize {
         disk::folders_in(&sessions.0).len()
     }
@@ -246,6 +269,41 @@ mod tests {
         );
         drop(running);
         assert_eq!(sessions.abandoned().len(), 3);
+    }
+
+    #[test]
+    fn without_locks_no_folder_is_left_behind() {
+        let (_folder, sessions) = sessions();
+        let unsupported = |_: &Path| {
+            let error = std::io::Error::from(std::io::ErrorKind::Unsupported);
+            Err(FileProblem::system("lock")(error))
+        };
+        for _ in 0..2 {
+            let error = sessions.begin_with(unsupported).expect_err("no locks");
+            assert!(error.to_string().contains("lock"), "{error}");
+        }
+        assert_eq!(left(&sessions), 0);
+    }
+
+    #[test]
+    fn a_window_that_looks_for_open_files_hides_no_abandoned_session() {
+        let (folder, sessions) = sessions();
+        let file = folder.path().join("a.batten");
+        disk::write_bytes(&file, b"").expect("a file");
+        let own = sessions.begin().expect("a session");
+        let crashed = sessions.begin().expect("a session");
+        crashed.tell_open(Some(&file)).expect("told");
+        write_autosave(&crashed);
+        let probed = crashed.folder.clone();
+        drop(crashed);
+        // Another window is in the middle of its look.
+        let look = lock_in(&probed, RUNNING, disk::lock).expect("a lock");
+        assert!(look.is_some(), "the session does not run");
+        let found = sessions.abandoned();
+        assert_eq!(found.len(), 1);
+        drop(look);
+        // A window that recovers a document does not count as one that has its file open.
+        assert!(!sessions.has_open(&file, &own));
     }
 
     #[test]

@@ -297,3 +297,19 @@ fn a_path_cannot_turn_or_break_a_message() {
     let error = read_file(Path::new(&format!("a.{}\u{202e}", "x".repeat(99)))).unwrap_err();
     assert!(error.to_string().contains("xxx…”"), "{error}");
 }
+
+#[test]
+fn an_ignored_signal_is_known_from_the_status_of_the_process() {
+    let status =
+        |mask: &str| format!("Name:\tbatten\nSigBlk:\t0000\nSigIgn:\t{mask}\nSigCgt:\t0003\n");
+    // SIGHUP is 1, SIGPIPE 13.
+    let nohup = status("0000000000001001");
+    assert!(is_ignored_in(&nohup, 1) && is_ignored_in(&nohup, 13));
+    assert!(!is_ignored_in(&nohup, 2) && !is_ignored_in(&status("0000000000001000"), 1));
+    for status in ["", "SigIgn:\n", "SigIgn:\tg\n"] {
+        assert!(!is_ignored_in(status, 1), "{status}");
+    }
+    for signal in [i32::MIN + 1, 0, 65, i32::MAX] {
+        assert!(!is_ignored_in(&nohup, signal), "{signal}");
+    }
+}
