@@ -56,11 +56,12 @@ pub struct Chosen {
     pub paths: Vec<PathBuf>,
 }
 
-/// The dialogs' state: at most one is open.
+/// The dialogs that are open: any number of the system's, and one prompt.
 pub struct FileDialogs {
     /// Whether to try the system's dialogs at all.
     native: bool,
-    waiting: Option<Waiting>,
+    /// The oldest first.
+    waiting: Vec<Waiting>,
     prompt: Option<Prompt>,
 }
 
@@ -85,7 +86,7 @@ impl FileDialogs {
     pub fn new(native: bool) -> Self {
         Self {
             native,
-            waiting: None,
+            waiting: Vec::new(),
             prompt: None,
         }
     }
@@ -95,7 +96,7 @@ impl FileDialogs {
         self.native
     }
 
-    /// Ask for a path; `proposal` is where to begin. An earlier question is forgotten.
+    /// Ask for a path; `proposal` is where to begin. Dialogs that are open stay so.
     pub fn ask(&mut self, context: &Context, purpose: Purpose, proposal: PathBuf) {
         if !self.native {
             self.open_prompt(purpose, &proposal);
@@ -114,7 +115,7 @@ impl FileDialogs {
         } else {
             std::thread::spawn(show);
         }
-        self.waiting = Some(Waiting {
+        self.waiting.push(Waiting {
             purpose,
             proposal,
             begun,
@@ -141,20 +142,24 @@ impl FileDialogs {
         });
     }
 
-    /// Take an answer, if one has come.
+    /// Take the answer of one dialog, if it has come. While the prompt is open, answers wait.
     pub fn answer(&mut self) -> Option<Chosen> {
-        let waiting = self.waiting.as_ref()?;
-        let paths = match waiting.answer.try_recv() {
-            Err(TryRecvError::Empty) => return None,
-            Ok(paths) => paths,
-            Err(TryRecvError::Disconnected) => Vec::new(),
-        };
+        if self.prompt.is_some() {
+            return None;
+        }
+        let mut dialogs = self.waiting.iter().enumerate();
+        let (place, paths) =
+            dialogs.find_map(|(place, waiting)| match waiting.answer.try_recv() {
+                Err(TryRecvError::Empty) => None,
+                Ok(paths) => Some((place, paths)),
+                Err(TryRecvError::Disconnected) => Some((place, Vec::new())),
+            })?;
         let Waiting {
             purpose,
             proposal,
             begun,
             ..
-        } = self.waiting.take()?;
+        } = self.waiting.remove(place);
         if let [path] = paths.as_slice() {
             let complete = completed(&purpose, path);
             // The system's dialog asked about the path as it was typed, without an extension.
@@ -378,5 +383,35 @@ fn native_dialog(purpose: &Purpose, proposal: &Path) -> Vec<PathBuf> {
             let dialog = dialog.add_filter(name, &[export.extension]);
             dialog.save_file().into_iter().collect()
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_open_dialog_is_answered_for_its_own_purpose() {
+        let mut dialogs = FileDialogs::new(true);
+        let senders = [Purpose::Open, Purpose::Import].map(|purpose| {
+            let (sender, answer) = channel();
+            dialogs.waiting.push(Waiting {
+                purpose,
+                proposal: PathBuf::new(),
+                begun: Instant::now(),
+                answer,
+            });
+            sender
+        });
+        assert_eq!(dialogs.answer(), None);
+        let purposes = [Purpose::Open, Purpose::Import];
+        // The second dialog is answered first.
+        for (sender, purpose) in senders.iter().zip(&purposes).rev() {
+            let paths = vec![PathBuf::from("a.batten")];
+            sender.send(paths.clone()).expect("the dialog waits");
+            let purpose = purpose.clone();
+            assert_eq!(dialogs.answer(), Some(Chosen { purpose, paths }));
+        }
+        assert_eq!(dialogs.answer(), None);
     }
 }
