@@ -108,7 +108,8 @@ pub fn run(files: &[PathBuf]) -> anyhow::Result<()> {
     editor.open(files)?;
     check_display()?;
     if let Some(sessions) = Sessions::of_user() {
-        editor.autosave_in(sessions, autosave_period());
+        let period = seconds_of(AUTOSAVE_VARIABLE).unwrap_or(AUTOSAVE_PERIOD);
+        editor.autosave_in(sessions, period);
     }
     let mut viewport = ViewportBuilder::default()
         .with_title("Batten")
@@ -138,11 +139,10 @@ pub fn run(files: &[PathBuf]) -> anyhow::Result<()> {
     })
 }
 
-fn autosave_period() -> Duration {
-    let given = std::env::var(AUTOSAVE_VARIABLE).ok();
-    let seconds = given.and_then(|text| text.parse().ok());
-    let period = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
-    period.unwrap_or(AUTOSAVE_PERIOD)
+/// A duration that an environment variable sets in seconds.
+fn seconds_of(variable: &str) -> Option<Duration> {
+    let seconds = std::env::var(variable).ok()?.parse().ok()?;
+    Duration::try_from_secs_f64(seconds).ok()
 }
 
 /// On Linux and its like, say what is missing instead of failing deep inside.

@@ -1,4 +1,4 @@
-//! Signals that ask the program to end: what is not saved is kept, then the window closes.
+//! Signals that end the program: they write the autosave, then close the window.
 
 use std::io;
 use std::sync::Arc;
@@ -8,16 +8,17 @@ use eframe::egui::Context;
 
 use crate::editor::Autosaver;
 
-/// Whether the system has asked the program to end.
+/// Whether a signal has asked the program to end.
 #[derive(Clone, Debug, Default)]
 pub struct Signals(Arc<AtomicBool>);
 
 impl Signals {
-    /// Listen on a thread. When a signal comes, what is not saved is written there, and the frame is
-    /// woken to close the window; should it not come to that soon, the program ends all the same.
+    /// Listen on a thread. A signal writes the autosave there and wakes a frame, which closes the
+    /// window. If no frame comes in time, the thread ends the program. SIGHUP stays ignored if the
+    /// program was started so, as by `nohup`.
     ///
     /// # Errors
-    /// If the system does not let signals be heard.
+    /// If the system refuses a signal handler or a thread.
     pub fn listen(context: &Context, autosaver: Option<Autosaver>) -> io::Result<Self> {
         let signals = Self::default();
         system::listen(signals.clone(), context.clone(), autosaver)?;
@@ -46,18 +47,25 @@ mod system {
     use signal_hook::iterator;
     use signal_hook::low_level::emulate_default_handler;
 
+    use super::super::seconds_of;
     use super::Signals;
     use crate::editor::Autosaver;
+    use crate::io::disk;
 
-    /// How long the window may take to close.
+    /// The time in which the window must close. Longer delays a logout, shorter ends a busy window
+    /// that would have closed.
     const PATIENCE: Duration = Duration::from_secs(3);
+
+    /// The variable that sets another time, in seconds: for tests on slow machines.
+    const PATIENCE_VARIABLE: &str = "BATTEN_SIGNAL_SECONDS";
 
     pub fn listen(
         signals: Signals,
         context: Context,
         autosaver: Option<Autosaver>,
     ) -> io::Result<()> {
-        let mut heard = iterator::Signals::new([SIGTERM, SIGINT, SIGHUP])?;
+        let hangs_up = (!disk::ignores_signal(SIGHUP)).then_some(SIGHUP);
+        let mut heard = iterator::Signals::new([SIGTERM, SIGINT].into_iter().chain(hangs_up))?;
         let serve = move || {
             if let Some(signal) = heard.forever().next() {
                 if let Some(Err(error)) = autosaver.as_ref().map(Autosaver::write) {
@@ -65,8 +73,8 @@ mod system {
                 }
                 signals.take_note();
                 context.request_repaint();
-                thread::sleep(PATIENCE);
-                // A window that is not shown may have no frames.
+                thread::sleep(seconds_of(PATIENCE_VARIABLE).unwrap_or(PATIENCE));
+                // A hidden window may have no frames.
                 let _ = emulate_default_handler(signal);
             }
         };

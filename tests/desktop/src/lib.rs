@@ -5,6 +5,7 @@
 pub mod arc;
 mod display;
 
+use std::ffi::OsStr;
 use std::net::{TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -34,7 +35,9 @@ pub struct Window {
 /// How the program is started.
 #[derive(Clone, Copy, Debug)]
 pub struct Start<'a> {
-    /// What follows its name.
+    /// A command that starts the program, as `nohup`; empty to start it directly.
+    pub command: &'a [&'a str],
+    /// The arguments of the program.
     pub arguments: &'a [&'a str],
     /// How many pixels a screen point has.
     pub scale: f32,
@@ -45,6 +48,7 @@ pub struct Start<'a> {
 impl Default for Start<'_> {
     fn default() -> Self {
         Self {
+            command: &[],
             arguments: &[],
             scale: 1.0,
             autosave_seconds: 30.0,
@@ -72,7 +76,10 @@ impl Window {
     ) -> Result<Self> {
         let program = program()?;
         let address = free_address()?;
-        let mut child = Command::new(&program)
+        let program = program.as_os_str();
+        let mut words = start.command.iter().map(OsStr::new).chain([program]);
+        let mut child = Command::new(words.next().unwrap_or(program))
+            .args(words)
             .args(start.arguments)
             .env("DISPLAY", display.name())
             .env_remove("WAYLAND_DISPLAY")
@@ -88,8 +95,15 @@ impl Window {
                 "BATTEN_AUTOSAVE_SECONDS",
                 start.autosave_seconds.to_string(),
             )
+            // A signal ends the window by a frame, or not at all while a test waits.
+            .env(
+                "BATTEN_SIGNAL_SECONDS",
+                (2 * PATIENCE).as_secs().to_string(),
+            )
             .env("EGUI_INSPECTION", &address)
             .stdin(Stdio::null())
+            // On a terminal, nohup would write a file into the working folder.
+            .stdout(Stdio::null())
             .spawn()
             .with_context(|| format!("{} does not start", program.display()))?;
         let connection = match connect(&address, &mut child) {

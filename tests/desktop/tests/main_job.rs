@@ -92,6 +92,7 @@ fn export(window: &mut Window, curve: &Curve) -> Result<()> {
     let path = window.folder().join("arc.dxf");
     window.key(Key::E, Modifiers::COMMAND)?;
     answer_prompt(window, &path)?;
+    window.find_beginning("1 curve exported to")?;
     let drawing = std::fs::read_to_string(&path).context("the export")?;
     let clamped = ClampedPolygon::from_float(&curve.polygon);
     for vertex in clamped.vertices() {
@@ -154,6 +155,7 @@ fn saving_with_the_button_held_writes_the_state_before_the_drag() -> Result<()> 
     let from = place(canvas, &original, 5);
     window.hold(from, from + vec2(30.0, 30.0))?;
     window.key(Key::S, Modifiers::COMMAND)?;
+    window.find_beginning("Saved to")?;
     let read = || -> Result<Curve> {
         let curves = disk::read_file(&path)?.curves;
         curves.into_iter().next().context("the file has no curve")
@@ -162,6 +164,7 @@ fn saving_with_the_button_held_writes_the_state_before_the_drag() -> Result<()> 
     window.move_to(from + vec2(60.0, 10.0))?;
     window.release(from + vec2(60.0, 10.0))?;
     window.key(Key::S, Modifiers::COMMAND)?;
+    window.find_beginning("Saved to")?;
     let moved = read()?.polygon.vertex(5) - original.vertex(5);
     let scale = fitted(canvas).view().viewport().scale;
     let off = (moved - DVec3::new(60.0, -10.0, 0.0) / scale).length();
@@ -177,6 +180,7 @@ fn saved(window: &mut Window, name: &str) -> Result<Curve> {
     let path = window.folder().join(format!("{name}.batten"));
     window.key(Key::S, Modifiers::COMMAND | Modifiers::SHIFT)?;
     answer_prompt(window, &path)?;
+    window.find_beginning(&format!("Saved to {}", path.display()))?;
     let curves = disk::read_file(&path)?.curves;
     curves.into_iter().next().context("the file has no curve")
 }
