@@ -16,7 +16,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use batten::document::{Curve, Document};
-use batten::editor::{Button, Command, Editor, Input, Layer, PlotKind};
+use batten::editor::{Button, Command, Editor, Input, Layer, Look, PlotKind};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use glam::DVec2;
 use wavy::wavy;
@@ -30,7 +30,7 @@ const PATIENCE: Duration = Duration::from_millis(4);
 /// An editor in the middle of a drag of the vertex in the middle of a curve.
 fn dragging(document: Document, close: bool) -> (Editor, DVec2) {
     let mut editor = Editor::with_document(document);
-    editor.set_canvas_size(CANVAS);
+    editor.look(Look::Canvas(CANVAS));
     editor.view_mut().show_plot(Some(PlotKind::Curvature));
     editor
         .execute(Command::ToggleLayer(Layer::Comb))
@@ -76,11 +76,11 @@ fn frame(editor: &mut Editor, at: DVec2) {
     editor.input(Input::Moved { at });
     editor.refresh();
     // The chip and the list read the features.
-    black_box(editor.features());
-    black_box(editor.features());
+    black_box(editor.sight().features());
+    black_box(editor.sight().features());
     black_box(editor.view().plots());
-    black_box(editor.report());
-    black_box(editor.readout());
+    black_box(editor.sight().report());
+    black_box(editor.sight().readout());
     black_box(editor.hint());
     // The canvas comes after the panels, which may have changed something.
     editor.refresh();

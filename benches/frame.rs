@@ -29,7 +29,7 @@ impl Window {
     fn open(count: usize) -> Self {
         let mut editor = Editor::with_document(winding(count));
         let comb = Command::ToggleLayer(Layer::Comb);
-        if !editor.layers().shows(Layer::Comb) {
+        if !editor.sight().layers().shows(Layer::Comb) {
             editor.execute(comb).expect("a command");
         }
         // In a crowd only what is selected can be pressed.

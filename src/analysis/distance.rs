@@ -1,21 +1,10 @@
 //! How far a curve is from another curve or from a reference.
 
-use std::sync::Arc;
-
 use glam::DVec3;
 
-use crate::document::{Curve, Reference};
+use crate::analysis::item::Item;
 use crate::geometry::approximation::MeasuredDeviation;
 use crate::geometry::{Differentiable, FloatPolygon, Progress};
-
-/// What a curve is measured against.
-#[derive(Clone, Debug)]
-pub enum Measured {
-    /// Another curve.
-    Curve(Arc<Curve>),
-    /// A reference.
-    Reference(Arc<Reference>),
-}
 
 /// Hold how far a curve is from another one, or points are from a curve: true distances, to the nearest point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,27 +21,16 @@ pub struct Distance {
     pub places: [DVec3; 2],
 }
 
-impl Measured {
-    /// Whether two of them are the same state of the same curve or reference.
-    pub fn is_same(&self, other: &Self) -> bool {
-        match (self, other) {
-            (Self::Curve(own), Self::Curve(other)) => Arc::ptr_eq(own, other),
-            (Self::Reference(own), Self::Reference(other)) => Arc::ptr_eq(own, other),
-            _ => false,
-        }
-    }
-}
-
 impl Distance {
     /// Measure how far a curve is from what it is compared with; how far points are from the curve, if that is
     /// a list of points. `None` where the other one has no points, and after a cancellation.
-    pub fn measure(polygon: &FloatPolygon, other: &Measured, progress: &Progress) -> Option<Self> {
+    pub fn measure(polygon: &FloatPolygon, other: &Item, progress: &Progress) -> Option<Self> {
         match other {
-            Measured::Curve(other) => {
+            Item::Curve(other) => {
                 let end = other.polygon.segments() as f64;
                 Self::between(polygon, &other.polygon, [0.0, end], progress)
             }
-            Measured::Reference(other) => match other.points() {
+            Item::Reference(other) => match other.points() {
                 Some(points) => Self::of_points(polygon, &points, progress),
                 None => Self::between(polygon, &other.curve, other.curve.interval(), progress),
             },
@@ -101,13 +79,16 @@ impl Distance {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
+    use crate::document::Curve;
 
     #[test]
     fn a_cancelled_measurement_has_no_distance() {
         let line =
             |y: f64| FloatPolygon::planar(2, &[(0.0, y), (1.0, y), (2.0, y)]).expect("a polygon");
-        let other = Measured::Curve(Arc::new(Curve::new("line".to_owned(), line(1.0))));
+        let other = Item::Curve(Arc::new(Curve::new("line".to_owned(), line(1.0))));
         let progress = Progress::default();
         let measured = Distance::measure(&line(0.0), &other, &progress);
         assert!(measured.is_some_and(|distance| distance.largest == 1.0));

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::document::{Curve, CurveId, Document, Edit, EndMatch, Reference, quoted};
 use crate::editor::reply::{Message, Note, Refusal, Reply};
+use crate::editor::view::Look;
 use crate::editor::{Editor, Export};
 use crate::geometry::counted;
 use crate::geometry::expressions::LengthUnit;
@@ -212,7 +213,7 @@ impl Editor {
             text += &format!("; what is added is in {name}, and its numbers stay as they are");
         }
         self.add("Import curves", reading)?;
-        self.fit_all();
+        self.look(Look::All);
         Ok(Note::done(with_lines(text, &remarks)))
     }
 

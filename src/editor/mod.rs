@@ -37,27 +37,24 @@ pub use trial::{Run, Trial};
 pub use view::{
     Bounds, ChainOutlines, ClampedMark, CombSettings, CurveOutlines, CurveScene, DragReadout,
     EndFitMarks, FeatureKind, FeatureMark, FeatureReport, FeatureRow, GAP, GroundGrid, GuideLabel,
-    GuideScene, HoverScene, Layer, Layers, Legs, LossArrow, Mark, MeasuredFigure, NamedView,
+    GuideScene, HoverScene, Layer, Layers, Legs, Look, LossArrow, Mark, MeasuredFigure, NamedView,
     Orientation, PieceTrend, PlotBand, PlotFeature, PlotKind, PlotScene, ProposalScene, REACH,
-    Scene, VertexMark, View, ViewBox, Viewport, grid_steps, ground_grid, view_name,
+    Scene, Sight, VertexMark, View, ViewBox, Viewport, grid_steps, ground_grid, view_name,
 };
 pub use workspace::{Interruption, PreviewId, Workspace};
 
-use crate::analysis::AnalysisCache;
 use crate::document::{CurveId, Document, Edit, quoted};
 use crate::io::Fingerprint;
 use crate::io::examples::{EXAMPLES, FIRST};
 use hand::gesture::Gesture;
+use hand::snapping::snap_name;
 use hand::tools::Tools;
 use jobs::Client;
 use jobs::autosaving::Autosaving;
-use jobs::comparing::Comparing;
 use jobs::foreseeing::Foreseeing;
-use jobs::guides::Guides;
-use jobs::measuring::Measuring;
 use jobs::patience::Patience;
-use jobs::proving::Proving;
 use trial::Operations;
+use view::overlay::Overlay;
 
 /// Hold the running application: what is worked on, how it is seen, and what works on it.
 #[derive(Debug, Default)]
@@ -65,14 +62,9 @@ pub struct Editor {
     workspace: Workspace,
     view: View,
     hand: Hand,
-    analyses: AnalysisCache,
     operations: Operations,
     patience: Patience,
-    proving: Proving,
-    measuring: Measuring,
-    comparing: Comparing,
     foreseeing: Foreseeing,
-    guides: Guides,
     autosaving: Autosaving,
     recoverable: Vec<Recoverable>,
     /// Looks at the document's file for changes by other programs.
@@ -106,11 +98,8 @@ impl Editor {
         wake: impl Fn() + Clone + Send + 'static,
     ) {
         self.patience = Patience::new(patience);
-        self.proving = Proving::background(wake.clone());
-        self.measuring = Measuring::background(wake.clone());
-        self.comparing = Comparing::background(wake.clone());
+        self.view.run_in_background(wake.clone());
         self.foreseeing = Foreseeing::background(wake.clone());
-        self.guides = Guides::background(wake.clone());
         self.autosaving.run_in_background(wake.clone());
         self.file_watch = Client::background("file", wake.clone());
         self.operations = Operations::background(wake);
@@ -136,6 +125,75 @@ impl Editor {
     /// How it is seen, to be changed.
     pub fn view_mut(&mut self) -> &mut View {
         &mut self.view
+    }
+
+    /// What is seen, for panels to read.
+    pub fn sight(&self) -> Sight<'_> {
+        let layers = self.hand.layers(self.view.layers);
+        self.view.sight(self.hand.shown(&self.workspace, layers))
+    }
+
+    /// Change how the model is seen.
+    pub fn look(&mut self, look: Look) {
+        let layers = self.hand.layers(self.view.layers);
+        let before = self.view.viewport.orientation;
+        self.view
+            .look(look, self.hand.shown(&self.workspace, layers));
+        if self.view.viewport.orientation != before {
+            self.set_pivot(None);
+        }
+    }
+
+    /// Bring up to date all that is derived from the document and how it is seen: analyses, features, harmony,
+    /// distances, guides, the scene and what is hovered, and the plot that is shown. Panels read after this.
+    pub fn refresh(&mut self) {
+        let layers = self.hand.layers(self.view.layers);
+        let shown = self.hand.shown(&self.workspace, layers);
+        self.view.update(shown, &mut self.patience);
+        let mut overlay = self.overlay();
+        let shown = self.hand.shown(&self.workspace, layers);
+        self.view.guide(shown, &overlay);
+        self.view.draw(shown, &mut overlay);
+        self.view.draw_plot(shown, &overlay);
+    }
+
+    /// What the tool in use and the operation at hand show.
+    fn overlay(&self) -> Overlay {
+        let (context, tool) = (self.context(), self.hand.tool());
+        let mut marks = self.hand.tools.used().marks(&context);
+        if let Some(measurement) = self.hand.tools.measurement() {
+            marks.extend(measurement.marks(&context));
+        }
+        marks.extend(self.operation_marks());
+        marks.extend(self.handle_marks());
+        if !self.is_trying() {
+            marks.extend(snap_name(tool, &context));
+        }
+        let trial = self.trial();
+        let active = self.active();
+        let given = trial.filter(|trial| {
+            !trial.is_applied() || active.is_some_and(|id| self.made_curves().contains(&id))
+        });
+        let given = given.and_then(|trial| trial.values().given_reference());
+        let run = trial.and_then(Trial::run).and_then(|run| run.as_ref().ok());
+        let alters = active.filter(|_| tool != ToolKind::Draw);
+        let before = || match self.hand.modifiers.alt && self.workspace.preview().is_some() {
+            true => context.hits.shown.settled_active().cloned(),
+            false => self.before_operation(),
+        };
+        Overlay {
+            marks,
+            handle: self.handle_hover(),
+            hovering: self.hand.hovering(context.hits.shown),
+            guides: tool == ToolKind::Select,
+            fitted_end: (tool == ToolKind::EndFit).then_some(self.hand.tools.end_fit.settings.end),
+            before: before(),
+            others_before: self.others_before_operation(),
+            proposal: self.proposal().map(|polygon| (polygon, alters)),
+            given: given.map(|curve| self.view.given_reference(curve)),
+            joint: run.and_then(|run| run.outcome.joint),
+            atlas: run.and_then(|run| Some(run.outcome.atlas.as_ref()?.plane)),
+        }
     }
 
     /// What works on it: the tool, the selection, and which keys are held.
@@ -192,16 +250,6 @@ impl Editor {
         self.message = None;
     }
 
-    /// Which layers are shown now.
-    pub fn layers(&self) -> Layers {
-        let mut layers = self.view.layers;
-        if self.hand.tool() == ToolKind::EndFit && self.hand.tools.end_fit.settings.closed {
-            layers.set(Layer::Clamped, true);
-            layers.set(Layer::Float, false);
-        }
-        layers
-    }
-
     /// Make edits as one step; what is being tried out is ended. The reply is told.
     ///
     /// # Errors
@@ -226,7 +274,7 @@ impl Editor {
         };
         self.document_changed();
         if was_empty && !self.document().is_empty() {
-            self.fit_all();
+            self.look(Look::All);
         }
         made?;
         Ok(Note::told(self.dissolved_since(&before)))
@@ -348,7 +396,7 @@ impl Editor {
                 self.view.viewport.centre = DVec2::ZERO;
                 self.view.viewport.scale = Viewport::default().scale;
             }
-            self.fit_all();
+            self.look(Look::All);
         }
     }
 }

@@ -10,6 +10,7 @@ use crate::editor::hand::tools::ToolKind;
 use crate::editor::reply::{Message, Note, Refusal, Reply, told};
 use crate::editor::selection::Selection;
 use crate::editor::trial::{JobResult, Operations, Run, Stage, Trial};
+use crate::editor::view::Look;
 use crate::editor::view::scene::Mark;
 use crate::editor::workspace::Interruption;
 use crate::geometry::Progress;
@@ -267,7 +268,7 @@ impl Editor {
 
     /// The points of the active reference, where they are placed, if it is a list of them.
     fn active_points(&self) -> Option<Vec<DVec3>> {
-        let analysis = self.analyses.reference(self.active()?)?;
+        let analysis = self.view.analyses.reference(self.active()?)?;
         let points = analysis.points().vertices();
         (!points.is_empty()).then(|| points.to_vec())
     }
@@ -327,7 +328,7 @@ impl Editor {
             let reference = active.filter(|id| self.document().reference(*id).is_some());
             let followed = followed.and_then(Trial::curve);
             self.view.compared = reference.or(followed).or(self.view.compared);
-            self.bring_into_sight(&made);
+            self.look(Look::New(made));
         }
     }
 

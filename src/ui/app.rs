@@ -306,7 +306,7 @@ impl App {
             // The message stands above what is typed.
             let above = entry.map_or(rect, |entry| rect.with_max_y(entry.top()));
             message_ui(context, above, &mut self.editor, &mut self.actions);
-            if self.editor.is_orbited() {
+            if self.editor.sight().is_orbited() {
                 overlays::orbited_ui(context, rect, &mut self.actions);
             }
             overlays::drop_ui(context, rect);
@@ -601,7 +601,7 @@ fn move_keyboard(context: &Context) {
 
 fn hide_layers(editor: &mut Editor, hidden: &[usize]) {
     for (place, layer) in Layer::ALL.into_iter().enumerate() {
-        if editor.layers().shows(layer) == hidden.contains(&place) {
+        if editor.sight().layers().shows(layer) == hidden.contains(&place) {
             told(editor.execute(Command::ToggleLayer(layer)));
         }
     }

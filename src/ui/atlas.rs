@@ -69,7 +69,9 @@ impl AtlasView {
         let response = ui.interact(rect, ui.scope_id().with("atlas"), Sense::click_and_drag());
         let place = atlas.place(trial.values());
         describe(&response, trial, atlas);
-        let found = editor.atlas_verdicts();
+        let found = editor.view().atlas();
+        let found = found.filter(|(plane, _)| **plane == atlas.plane);
+        let found = found.map(|(_, verdicts)| verdicts);
         if ui.is_rect_visible(whole) {
             self.paint_picture(ui, rect, atlas, found);
             paint_axes(ui, rect, atlas);

@@ -13,7 +13,7 @@ use super::chains::Screen;
 use super::keyboard::Steering;
 use super::theme::Tokens;
 use super::{gizmo, grid, keyboard, painting};
-use crate::editor::{Button, Cursor, Editor, Input, Key, Layer, Modifiers};
+use crate::editor::{Button, Cursor, Editor, Input, Key, Layer, Look, Modifiers};
 
 /// Points of the wheel that scale by the factor e.
 pub const WHEEL_POINTS: f64 = 220.0;
@@ -334,7 +334,10 @@ impl Canvas {
         if self.rect != Some(rect) {
             self.rect = Some(rect);
             let size = rect.size();
-            editor.set_canvas_size(DVec2::new(f64::from(size.x), f64::from(size.y)));
+            editor.look(Look::Canvas(DVec2::new(
+                f64::from(size.x),
+                f64::from(size.y),
+            )));
         }
         let response = ui.interact(rect, id(), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "Canvas"));
@@ -345,7 +348,7 @@ impl Canvas {
         let painter = ui.painter_at(rect);
         let tokens = Tokens::of(ui);
         painter.rect_filled(rect, 0, tokens.background);
-        let has_grid = editor.layers().shows(Layer::Grid);
+        let has_grid = editor.sight().layers().shows(Layer::Grid);
         let viewport = *editor.view().viewport();
         if has_grid {
             grid::paint(&painter, rect, &viewport, tokens);

@@ -18,7 +18,7 @@ pub fn distance_ui(ui: &mut Ui, editor: &mut Editor) {
     let Some(compared) = editor.view().compared() else {
         return;
     };
-    match editor.distance() {
+    match editor.sight().distance() {
         Some(distance) => figures_ui(ui, editor, compared, distance),
         None => drop(widgets::note(
             ui,

@@ -41,7 +41,7 @@ pub fn end_fit_panel_ui(ui: &mut Ui, editor: &mut Editor) {
     });
     let mut panel = Panel {
         report: &report,
-        closed: !editor.layers().shows(Layer::Float),
+        closed: !editor.sight().layers().shows(Layer::Float),
         pixel: editor.view().viewport().pixel(),
         asked: None,
     };

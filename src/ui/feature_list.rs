@@ -12,7 +12,7 @@ use super::feature_marks::glyph;
 use super::legend::legend_ui;
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
 use super::{figures, icons, widgets};
-use crate::editor::{Editor, FeatureKind, FeatureReport, FeatureRow, MenuSubject};
+use crate::editor::{Editor, FeatureKind, FeatureReport, FeatureRow, Look, MenuSubject};
 use crate::geometry::counted;
 use crate::geometry::features::{Verdict, certain_text};
 
@@ -28,7 +28,7 @@ const PROGRESS: Duration = Duration::from_millis(100);
 /// Show the verdict and the features of the active curve in all the room that there is, however many
 /// they are; choosing one goes to it.
 pub fn feature_list_ui(ui: &mut Ui, editor: &mut Editor) {
-    let report = editor.features();
+    let report = editor.sight().features();
     ui.spacing_mut().item_spacing.y = 0.0;
     let (_, heading) = ui.allocate_space(vec2(ui.available_width(), ROW));
     ui.scope_builder(UiBuilder::new().max_rect(heading), |ui| match report {
@@ -37,15 +37,15 @@ pub fn feature_list_ui(ui: &mut Ui, editor: &mut Editor) {
             proving_ui(ui, editor);
         }
     });
-    let chosen = editor.chosen_feature();
+    let chosen = editor.view().chosen_feature();
     match report.and_then(|report| rows_ui(ui, report, chosen)) {
         Some(Asked::Go(u)) => {
-            editor.choose_feature(u);
-            editor.go_to(u);
+            editor.look(Look::Feature(u));
+            editor.look(Look::Around(u));
         }
         Some(Asked::Menu(u)) => {
             if chosen != Some(u) {
-                editor.choose_feature(u);
+                editor.look(Look::Feature(u));
             }
             editor.ask_for_menu(MenuSubject::Feature);
         }
@@ -195,7 +195,7 @@ fn colour_of(icon: Icon, tokens: &Tokens) -> Color32 {
 
 /// Tell how far the proofs of a long curve have come.
 fn proving_ui(ui: &mut Ui, editor: &Editor) -> Option<Response> {
-    if let Some(progress) = editor.proof_progress() {
+    if let Some(progress) = editor.sight().proof_progress() {
         ui.ctx().request_repaint_after(PROGRESS);
         let text = format!("Proving features: {:.0} %", 100.0 * progress);
         Some(widgets::caption(ui, &text))
@@ -209,7 +209,7 @@ fn proving_ui(ui: &mut Ui, editor: &Editor) -> Option<Response> {
 
 /// Show the verdict as a chip; pressing it shows the features.
 pub fn chip_ui(ui: &mut Ui, editor: &mut Editor) -> Option<Response> {
-    let Some(report) = editor.features() else {
+    let Some(report) = editor.sight().features() else {
         let proving = proving_ui(ui, editor)?;
         return Some(proving.on_hover_ui(|ui| legend_ui(ui, "What the canvas shows:")));
     };

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 
 use super::action::Action;
 use super::theme::{self, STEP, Tokens};
-use crate::editor::{Command, Editor, NamedView, Orientation, view_name};
+use crate::editor::{Command, Editor, Look, NamedView, Orientation, view_name};
 
 /// The gizmo's width and height, in points.
 const SIZE: f32 = 84.0;
@@ -54,7 +54,7 @@ pub fn gizmo_ui(ui: &mut Ui, canvas: Rect, editor: &mut Editor, commands: &mut V
     paint(ui, rect, &view, &response);
     if response.dragged() {
         let by = response.drag_delta();
-        editor.orbit(DVec2::new(f64::from(by.x), f64::from(by.y)));
+        editor.look(Look::Orbit(DVec2::new(f64::from(by.x), f64::from(by.y))));
         ui.set_cursor_icon(CursorIcon::Grabbing);
     }
     if response.clicked()

@@ -9,7 +9,7 @@ use lucide_icons::Icon;
 use super::theme::{RADIUS, ROW, STEP, Tokens};
 use super::{figures, widgets};
 use crate::analysis::CurveAnalysis;
-use crate::editor::Editor;
+use crate::editor::{Editor, Look};
 use crate::geometry::counted;
 use crate::geometry::features::ExtremumKind;
 use crate::geometry::harmony::{
@@ -58,7 +58,7 @@ impl Pointed {
 /// its vertex or goes to its parameter.
 pub fn harmony_list_ui(ui: &mut Ui, editor: &mut Editor) {
     editor.view_mut().show_harmony(true);
-    let Some(harmony) = editor.harmony() else {
+    let Some(harmony) = editor.sight().harmony() else {
         widgets::caption(ui, "Measuring…");
         ui.ctx().request_repaint_after(PROGRESS);
         return;
@@ -98,7 +98,7 @@ fn follow(editor: &mut Editor, Pointed { place, chosen }: Pointed) {
             }
         }
         Place::Parameter(u) => {
-            let Some(sampled) = editor.analysis(id).map(CurveAnalysis::sampled) else {
+            let Some(sampled) = editor.view().analysis(id).map(CurveAnalysis::sampled) else {
                 return;
             };
             // On a periodic curve it may lie behind the joint.
@@ -107,7 +107,7 @@ fn follow(editor: &mut Editor, Pointed { place, chosen }: Pointed) {
             let length = sampled.length_at(u);
             editor.view_mut().hover_length(length);
             if chosen {
-                editor.go_to(u);
+                editor.look(Look::Around(u));
             }
         }
     }

@@ -49,7 +49,7 @@ impl Inspector {
         // Fields of their own for each curve: what is typed into one is for no other.
         ui.push_id(id, |ui| self.curve_ui(ui, editor, id, &curve));
         widgets::section(ui, "Properties", true, |ui| {
-            if let Some(report) = editor.report() {
+            if let Some(report) = editor.sight().report() {
                 figures_ui(ui, &curve, &report);
             }
             distance_ui(ui, editor);
@@ -95,7 +95,7 @@ impl Inspector {
             });
         });
         widgets::section(ui, "Properties", true, |ui| {
-            if let Some(report) = editor.reference_report() {
+            if let Some(report) = editor.sight().reference_report() {
                 reference_panel::figures_ui(ui, reference, &report);
             }
             distance_ui(ui, editor);

@@ -77,7 +77,7 @@ fn colour(tokens: &Tokens, layer: Layer) -> Color32 {
 
 fn switch_ui(ui: &mut Ui, editor: &Editor, layer: Layer, commands: &mut Vec<Action>) {
     let command = Command::ToggleLayer(layer);
-    let shown = editor.layers().shows(layer);
+    let shown = editor.sight().layers().shows(layer);
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(SIDE), Sense::click());
     let tokens = Tokens::of(ui);
     if response.hovered() {
@@ -112,7 +112,7 @@ fn divider_ui(ui: &mut Ui) {
 
 /// The comb's scale and density; they keep their place while no comb is shown.
 fn comb_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
-    let shown = editor.layers().shows(Layer::Comb);
+    let shown = editor.sight().layers().shows(Layer::Comb);
     ui.spacing_mut().item_spacing.x = STEP;
     ui.add_enabled_ui(shown, |ui| {
         caption_ui(ui, "Comb", 38.0);

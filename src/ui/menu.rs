@@ -51,7 +51,7 @@ pub fn menu_ui(ui: &mut Ui, editor: &mut Editor, shell: &Shell, commands: &mut V
         }
         widgets::at_right(ui, |ui| {
             let chip = chip_ui(ui, editor);
-            let shown = editor.layers().shows(Layer::Features);
+            let shown = editor.sight().layers().shows(Layer::Features);
             if chip.is_some_and(|chip| chip.clicked()) && !shown {
                 commands.push(Command::ToggleLayer(Layer::Features).into());
             }

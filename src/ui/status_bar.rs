@@ -30,7 +30,7 @@ pub fn status_bar_ui(
     shell: &Shell,
     (hint, actions): (&str, &mut Vec<Action>),
 ) {
-    let readout = editor.readout();
+    let readout = editor.sight().readout();
     let width = ui.available_width();
     widgets::at_right(ui, |ui| {
         ui.spacing_mut().item_spacing.x = GAP;

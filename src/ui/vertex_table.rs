@@ -82,7 +82,7 @@ impl VertexTable {
             columns: &columns,
             width: ((width - HEAD) / columns.len() as f32).floor(),
             selected: &selected,
-            hovered: editor.hovered_vertex(),
+            hovered: editor.sight().hovered_vertex(),
             pixel: editor.view().viewport().pixel(),
             can_edit: curve.check_editable().is_ok(),
         };

@@ -1,7 +1,7 @@
 //! References, curves and points that operations approximate, tried out and applied.
 
 use batten::document::{Document, Edit, Reference};
-use batten::editor::{Command, Editor};
+use batten::editor::{Command, Editor, Look};
 use batten::geometry::references::{PointList, ReferenceCurve, ReferenceForm, find};
 use batten::operations::Value;
 use glam::{DVec2, DVec3};
@@ -75,7 +75,7 @@ fn points_that_are_active_are_fitted() {
     let curve = ReferenceCurve::of(ReferenceForm::Points(points)).expect("a reference");
     let scan = Edit::AddReference(Box::new(Reference::new("scan", curve)));
     let mut editor = Editor::with_document(Document::default());
-    editor.set_canvas_size(DVec2::new(1000.0, 700.0));
+    editor.look(Look::Canvas(DVec2::new(1000.0, 700.0)));
     editor.apply("Add scan", vec![scan]).expect("it is added");
     let scan = editor.document().references().next().expect("a scan").0;
     editor.activate(scan);

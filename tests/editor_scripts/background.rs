@@ -47,7 +47,7 @@ fn check_proved_in_later_frames(script: &mut Script, woken: &Receiver<()>) {
             break report;
         }
         script.scene();
-        let share = script.editor.proof_progress().expect("a curve");
+        let share = script.editor.sight().proof_progress().expect("a curve");
         assert!((before..=1.0).contains(&share), "{before} {share}");
         before = share;
         woken.recv_timeout(LONG).expect("the frame is woken");
@@ -89,7 +89,7 @@ fn a_curve_that_changes_while_it_is_proved_gets_its_own_features() {
     // What was proved before is not proved again.
     script.command(Command::Undo);
     check_proved_in_later_frames(&mut script, &woken);
-    let analysis = script.editor.analysis(curve).expect("an analysis");
+    let analysis = script.editor.view().analysis(curve).expect("an analysis");
     assert_eq!(analysis.segments_proved(), 4);
 }
 

@@ -1,7 +1,7 @@
 //! What is drawn of a polygon where its vertices crowd on the screen, and what is hit there.
 
 use batten::document::{Curve, Document};
-use batten::editor::{Command, Editor, HoverScene, Input, Layer, VertexMark};
+use batten::editor::{Command, Editor, HoverScene, Input, Layer, Look, VertexMark};
 use batten::geometry::FloatPolygon;
 use glam::{DVec2, DVec3};
 
@@ -23,7 +23,7 @@ fn even(count: usize) -> Script {
     let points: Vec<(f64, f64)> = (0..count).map(vertex).collect();
     let polygon = FloatPolygon::planar(3, &points).expect("a polygon");
     let mut editor = Editor::with_document(Document::from_curves([Curve::new("even", polygon)]));
-    editor.set_canvas_size(DVec2::new(1000.0, 700.0));
+    editor.look(Look::Canvas(DVec2::new(1000.0, 700.0)));
     Script { editor }
 }
 
@@ -88,7 +88,7 @@ fn sizes_hardly_differ_between_neighbours() {
     let points: Vec<(f64, f64)> = (0..60).map(place).collect();
     let polygon = FloatPolygon::planar(3, &points).expect("a polygon");
     let mut editor = Editor::with_document(Document::from_curves([Curve::new("growing", polygon)]));
-    editor.set_canvas_size(DVec2::new(1000.0, 700.0));
+    editor.look(Look::Canvas(DVec2::new(1000.0, 700.0)));
     let mut script = Script { editor };
     let marks = marks(&mut script);
     assert!(marks[0].index > 0 && marks[0].size < 0.3, "{:?}", marks[0]);

@@ -1,7 +1,7 @@
 //! What is told and drawn while something is dragged: the readout, what it snaps to, the axis it keeps to.
 
 use batten::document::{Curve, Document, Edit};
-use batten::editor::{Command, ToolKind};
+use batten::editor::{Command, Look, ToolKind};
 use batten::editor::{DragReadout, Editor, HoverScene, Input, Key, Mark, Modifiers, NamedView};
 use batten::geometry::FloatPolygon;
 use glam::{DVec2, DVec3};
@@ -36,7 +36,7 @@ fn two() -> Script {
         Curve::new("right", polygon(9.0)),
     ];
     let mut editor = Editor::with_document(Document::from_curves(curves));
-    editor.set_canvas_size(DVec2::new(1000.0, 700.0));
+    editor.look(Look::Canvas(DVec2::new(1000.0, 700.0)));
     let mut script = Script { editor };
     // Steps of the grid that are wide enough to get between.
     script.input(Input::Zoomed {
@@ -178,7 +178,7 @@ fn the_status_bar_reads_the_model_in_every_view() {
     let mut script = Script::example("s-curve");
     script.move_to(DVec2::new(10.0, 10.0));
     script.scene();
-    let readout = script.editor.readout();
+    let readout = script.editor.sight().readout();
     let viewport = *script.editor.view().viewport();
     let place = viewport.to_model(DVec2::new(10.0, 10.0));
     assert_eq!(readout.pointer, Some(place.extend(0.0)));
@@ -186,7 +186,7 @@ fn the_status_bar_reads_the_model_in_every_view() {
     // At an angle: in the plane through the middle, seen where the pointer is.
     script.command(Command::View(NamedView::Isometric));
     script.scene();
-    let readout = script.editor.readout();
+    let readout = script.editor.sight().readout();
     let viewport = *script.editor.view().viewport();
     let point = readout.pointer.expect("a point");
     let seen = viewport.to_screen(viewport.flatten(point));
@@ -195,7 +195,7 @@ fn the_status_bar_reads_the_model_in_every_view() {
     script.move_to(script.at_vertex(2));
     script.scene();
     let vertex = script.polygon().vertex(2);
-    assert_eq!(script.editor.readout().pointer, Some(vertex));
+    assert_eq!(script.editor.sight().readout().pointer, Some(vertex));
 }
 
 #[test]
@@ -210,7 +210,7 @@ fn views_have_names() {
         name(&script)
     });
     assert_eq!(named, ["Top", "Front", "Right", "Isometric"]);
-    script.editor.orbit(DVec2::new(7.0, 3.0));
+    script.editor.look(Look::Orbit(DVec2::new(7.0, 3.0)));
     assert_eq!(name(&script), "Orbit");
 }
 

@@ -2,7 +2,7 @@
 
 use batten::analysis::LevelPlot;
 use batten::document::Edit;
-use batten::editor::{Command, FeatureKind, HoverScene, Layer, PieceTrend};
+use batten::editor::{Command, FeatureKind, HoverScene, Layer, Look, PieceTrend};
 use batten::geometry::features::Verdict;
 use batten::geometry::{FloatPolygon, LEVELS};
 use glam::{DVec2, DVec3};
@@ -20,7 +20,7 @@ fn the_list_holds_every_feature_in_order_and_choosing_one_goes_there() {
     assert!(report.rows.is_sorted_by(|a, b| a.u[0] <= b.u[0]));
     let scale = script.editor.view().viewport().scale;
     let row = report.rows[2];
-    script.editor.go_to(row.middle);
+    script.editor.look(Look::Around(row.middle));
     let viewport = *script.editor.view().viewport();
     assert!(viewport.scale > scale);
     let at = viewport.flatten(script.polygon().point(row.middle));
@@ -153,7 +153,7 @@ fn every_example_has_every_plot() {
     for example in 0..7 {
         let mut script = Script::example("arc");
         script.editor.open_example(example).expect("an example");
-        let analysis = script.editor.analysis(script.curve());
+        let analysis = script.editor.view().analysis(script.curve());
         let planar = analysis.map(|analysis| analysis.is_planar());
         assert_eq!(planar, Some(true));
         for level in 1..=LEVELS {

@@ -400,13 +400,13 @@ fn both_polygons_make_two_curves_of_which_one_is_active() {
 #[test]
 fn the_atlas_is_proved_from_coarse_to_fine_while_it_is_shown() {
     let mut script = figure_2();
-    assert!(script.editor.atlas_verdicts().is_none());
+    assert!(script.editor.view().atlas().is_none());
     script.editor.view_mut().show_atlas(true);
     let mut pictures = 0;
     loop {
         script.editor.refresh();
         pictures += 1;
-        let found = script.editor.atlas_verdicts().expect("a picture");
+        let found = script.editor.view().atlas().expect("a picture").1;
         if found.is_finest() {
             break;
         }
@@ -421,7 +421,7 @@ fn the_atlas_is_proved_from_coarse_to_fine_while_it_is_shown() {
         ([0.8025, 0.7525], Verdict::Disproved),
     ] {
         let cell = place.map(|share: f64| (share * 200.0) as usize);
-        let found = script.editor.atlas_verdicts().expect("a picture");
+        let found = script.editor.view().atlas().expect("a picture").1;
         assert_eq!(found.verdict(cell[0], cell[1]), expected);
         script
             .editor
@@ -433,9 +433,9 @@ fn the_atlas_is_proved_from_coarse_to_fine_while_it_is_shown() {
     }
     // Another degree is another question.
     script.set("degree", Value::Whole(3)).expect("a degree");
-    let found = script.editor.atlas_verdicts().expect("a picture");
+    let found = script.editor.view().atlas().expect("a picture").1;
     assert!(!found.is_finest());
     script.editor.view_mut().show_atlas(false);
     script.editor.refresh();
-    assert!(script.editor.atlas_verdicts().is_none());
+    assert!(script.editor.view().atlas().is_none());
 }

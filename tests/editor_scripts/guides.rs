@@ -4,7 +4,7 @@ use std::sync::mpsc::channel;
 use std::time::Duration;
 
 use batten::document::{Curve, Edit};
-use batten::editor::{Command, FeatureKind, GuideScene, Key, Layer, ToolKind};
+use batten::editor::{Command, FeatureKind, GuideScene, Key, Layer, Look, ToolKind};
 use batten::geometry::FloatPolygon;
 use batten::geometry::features::Features;
 use batten::geometry::vertex_moves::FeatureRise;
@@ -242,7 +242,7 @@ fn the_moves_that_lose_a_chosen_feature_are_shown_and_do_lose_it() {
         let mut script = Script::example(name);
         let report = script.features().expect("features");
         for row in report.rows.iter().filter(|row| kinds.contains(&row.kind)) {
-            script.editor.choose_feature(row.middle);
+            script.editor.look(Look::Feature(row.middle));
             let guides = script.scene().guides.clone();
             assert!(!guides.labels.is_empty() && guides.labels.len() <= 3);
             check_arrows(&script.polygon(), &guides);
@@ -264,7 +264,7 @@ fn the_moves_stay_while_a_vertex_is_dragged_and_go_once_the_curve_has_changed() 
     let mut script = Script::example("s-curve");
     let before = script.polygon();
     let u = choose(&mut script, FeatureKind::CurvatureMaximum);
-    assert_eq!(script.editor.chosen_feature(), Some(u));
+    assert_eq!(script.editor.view().chosen_feature(), Some(u));
     let guides = script.scene().guides.clone();
     assert!(!guides.arrows.is_empty(), "{:?}", guides.labels);
     let vertex = script.at_vertex(3);
@@ -274,7 +274,7 @@ fn the_moves_stay_while_a_vertex_is_dragged_and_go_once_the_curve_has_changed() 
     assert_eq!(script.scene().guides.arrows, guides.arrows);
     script.release(vertex + by);
     assert!(script.scene().guides.arrows.is_empty());
-    assert_eq!(script.editor.chosen_feature(), None);
+    assert_eq!(script.editor.view().chosen_feature(), None);
     script.command(Command::Undo);
     assert_eq!(script.polygon(), before);
 }
@@ -283,14 +283,14 @@ fn the_moves_stay_while_a_vertex_is_dragged_and_go_once_the_curve_has_changed() 
 fn a_feature_is_let_go_when_it_is_chosen_again() {
     let mut script = Script::example("bottle");
     let u = choose(&mut script, FeatureKind::Inflection);
-    assert_eq!(script.editor.chosen_feature(), Some(u));
+    assert_eq!(script.editor.view().chosen_feature(), Some(u));
     let guides = script.scene().guides.clone();
     assert!(!guides.labels.is_empty());
-    script.editor.choose_feature(u);
-    assert_eq!(script.editor.chosen_feature(), None);
+    script.editor.look(Look::Feature(u));
+    assert_eq!(script.editor.view().chosen_feature(), None);
     assert!(script.scene().guides.labels.is_empty());
     // From the list, and of another curve nothing.
-    script.editor.choose_feature(u);
+    script.editor.look(Look::Feature(u));
     let other = Curve::new("other", Script::example("arc").polygon());
     let add = Edit::Add(Box::new(other));
     script.editor.apply("add", vec![add]).expect("an edit");
@@ -300,5 +300,5 @@ fn a_feature_is_let_go_when_it_is_chosen_again() {
     drop(curves);
     script.editor.activate(other);
     assert!(script.scene().guides.labels.is_empty());
-    assert_eq!(script.editor.chosen_feature(), None);
+    assert_eq!(script.editor.view().chosen_feature(), None);
 }

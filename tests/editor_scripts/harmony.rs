@@ -2,7 +2,7 @@
 
 use batten::analysis::Flow;
 use batten::document::{Curve, Document};
-use batten::editor::{Command, Editor, Layer, Mark, Modifiers, PlotKind, PlotScene};
+use batten::editor::{Command, Editor, Layer, Look, Mark, Modifiers, PlotKind, PlotScene};
 use batten::geometry::FloatPolygon;
 use batten::geometry::features::Features;
 use batten::geometry::harmony::{Harmony, VertexFlow};
@@ -37,22 +37,25 @@ fn measured(polygon: &FloatPolygon) -> Harmony {
 fn harmony_is_measured_only_where_it_is_shown() {
     let mut script = Script::example("hull");
     script.scene();
-    assert_eq!(script.editor.harmony(), None);
+    assert_eq!(script.editor.sight().harmony(), None);
     script.editor.view_mut().show_harmony(true);
     script.scene();
     let expected = measured(&script.polygon());
-    assert_eq!(script.editor.harmony(), Some(&expected));
+    assert_eq!(script.editor.sight().harmony(), Some(&expected));
     script.editor.view_mut().show_harmony(false);
     script.drag_vertex(5, DVec2::new(0.0, 12.0));
     assert_eq!(
-        script.editor.harmony(),
+        script.editor.sight().harmony(),
         None,
         "it is that of the curve before"
     );
     strips(&mut script);
-    assert_eq!(script.editor.harmony(), Some(&measured(&script.polygon())));
+    assert_eq!(
+        script.editor.sight().harmony(),
+        Some(&measured(&script.polygon()))
+    );
     script.command(Command::Undo);
-    assert_eq!(script.editor.harmony(), Some(&expected));
+    assert_eq!(script.editor.sight().harmony(), Some(&expected));
 }
 
 #[test]
@@ -152,7 +155,7 @@ fn two_curves_are_compared_in_the_same_strips() {
     let planar = Script::example("hull").polygon();
     let curves = [Curve::new("hull", planar), Curve::new("helix", helix)];
     let mut editor = Editor::with_document(Document::from_curves(curves));
-    editor.set_canvas_size(DVec2::new(1000.0, 700.0));
+    editor.look(Look::Canvas(DVec2::new(1000.0, 700.0)));
     let mut script = Script { editor };
     let ids: Vec<_> = script.editor.document().ids().collect();
     script.editor.activate(ids[1]);

@@ -1,7 +1,7 @@
 //! Drags that keep features: no place of them adds any.
 
 use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace};
-use batten::editor::{Command, Editor, Input, Key, Modifiers, NamedView};
+use batten::editor::{Command, Editor, Input, Key, Look, Modifiers, NamedView};
 use batten::geometry::features::Features;
 use batten::geometry::vertex_moves::FeatureRise;
 use batten::geometry::{Continuity, End, FloatPolygon};
@@ -248,7 +248,7 @@ fn followed(level: Continuity) -> (Script, [CurveId; 2]) {
     let document = Document::from_curves(curves);
     let ids: Vec<CurveId> = document.ids().collect();
     let mut editor = Editor::with_document(document);
-    editor.set_canvas_size(DVec2::new(1000.0, 700.0));
+    editor.look(Look::Canvas(DVec2::new(1000.0, 700.0)));
     let matched = Edit::SetMatch(EndMatch {
         curve: ids[1],
         end: End::Start,

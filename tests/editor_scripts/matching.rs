@@ -1,7 +1,7 @@
 //! Ends that are matched to other curves, and follow them.
 
 use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace};
-use batten::editor::{Command, Editor, EndFitAction, Export, Key, ToolKind, told};
+use batten::editor::{Command, Editor, EndFitAction, Export, Key, Look, ToolKind, told};
 use batten::geometry::end_correction::{EndDifference, EndTarget};
 use batten::geometry::{Continuity, End, FloatPolygon, PolygonKind};
 use batten::operations::Value;
@@ -44,7 +44,7 @@ fn script() -> (Script, [CurveId; 2]) {
     let document = Document::from_curves(curves);
     let ids: Vec<CurveId> = document.ids().collect();
     let mut editor = Editor::with_document(document);
-    editor.set_canvas_size(DVec2::new(1000.0, 700.0));
+    editor.look(Look::Canvas(DVec2::new(1000.0, 700.0)));
     let mut script = Script { editor };
     script.check();
     script.editor.activate(ids[1]);

@@ -178,6 +178,6 @@ fn figure_3_keeps_its_place_by_quasi_interpolation() {
     // The next page is seen from above again, by the tool that selects.
     let mut script = script;
     script.editor.open_paper(PaperPage::Arc).expect("a page");
-    assert!(!script.editor.is_orbited());
+    assert!(!script.editor.sight().is_orbited());
     assert_eq!(script.editor.hand().tool(), ToolKind::Select);
 }

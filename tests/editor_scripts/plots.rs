@@ -3,7 +3,7 @@
 use batten::analysis::LevelPlot;
 use batten::document::{Edit, Reference};
 use batten::editor::{
-    Command, FeatureKind, Layer, Modifiers, PieceTrend, PlotFeature, PlotKind, PlotScene,
+    Command, FeatureKind, Layer, Look, Modifiers, PieceTrend, PlotFeature, PlotKind, PlotScene,
 };
 use batten::geometry::references::{PointList, ReferenceCurve, ReferenceForm};
 use batten::operations::Value;
@@ -345,10 +345,10 @@ fn a_formula_is_not_drawn_through_its_poles() {
         );
     }
     // Near a pole, where it is sampled anew, too.
-    script.editor.go_to(id.map_or(0.0, |_| {
+    script.editor.look(Look::Around(id.map_or(0.0, |_| {
         let curve = script.editor.document().shape(id.expect("it")).expect("it");
         (4.0 - 0.45 * std::f64::consts::PI) / 9.0 * curve.pieces() as f64
-    }));
+    })));
     for pair in drawn(&mut script).windows(2) {
         let crosses = poles
             .iter()

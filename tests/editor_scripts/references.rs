@@ -319,7 +319,7 @@ fn its_distance_from_a_curve_is_measured_and_marked() {
         script.editor.change_reference(&change).expect("a circle");
     }
     script.editor.refresh();
-    assert!(script.editor.distance().is_none());
+    assert!(script.editor.sight().distance().is_none());
     let arc = script.editor.document().ids().next().expect("the arc");
     let polygon = script
         .editor
@@ -336,7 +336,7 @@ fn its_distance_from_a_curve_is_measured_and_marked() {
         script.editor.activate(active);
         script.editor.view_mut().compare(Some(compared));
         script.editor.refresh();
-        let found = *script.editor.distance().expect("a distance");
+        let found = *script.editor.sight().distance().expect("a distance");
         assert!((found.largest / largest - 1.0).abs() <= 1e-6, "{found:?}");
         assert!(found.mean <= found.largest && found.mean > 0.999 * found.largest);
         assert!((far(found.u) - found.largest).abs() <= ROUNDING);
@@ -356,13 +356,21 @@ fn its_distance_from_a_curve_is_measured_and_marked() {
     script.editor.view_mut().compare(Some(circle));
     script.drag_vertex(3, DVec2::new(0.0, -30.0));
     script.editor.refresh();
-    assert!(script.editor.distance().expect("a distance").largest > largest);
+    assert!(
+        script
+            .editor
+            .sight()
+            .distance()
+            .expect("a distance")
+            .largest
+            > largest
+    );
     script.command(Command::ToggleVisible);
     let is_mark = |mark: &Mark| matches!(mark, Mark::Extreme { .. });
     assert!(!script.scene().marks.iter().any(is_mark));
     script.editor.view_mut().compare(None);
     script.editor.refresh();
-    assert!(script.editor.distance().is_none());
+    assert!(script.editor.sight().distance().is_none());
 }
 
 #[test]
@@ -380,7 +388,7 @@ fn a_list_of_points_is_measured_point_by_point() {
         .expect("a list of points");
     script.editor.view_mut().compare(Some(arc));
     script.editor.refresh();
-    let found = *script.editor.distance().expect("a distance");
+    let found = *script.editor.sight().distance().expect("a distance");
     // What is pasted stands aside: the points are measured where they are.
     let (_, list) = script
         .editor
@@ -409,7 +417,7 @@ fn the_status_bar_tells_the_references_own_parameter() {
     let (mut script, id) = with("circle");
     script.move_to(seen(&script, id, 0.25));
     script.editor.refresh();
-    let readout = script.editor.readout();
+    let readout = script.editor.sight().readout();
     assert_eq!(readout.parameter_name, "t");
     let [from, to] = curve(&script, id).interval();
     let expected = from + 0.25 * (to - from);

@@ -3,8 +3,8 @@
 use batten::analysis::LevelPlot;
 use batten::document::CurveId;
 use batten::editor::{
-    Button, Command, Editor, EndFitAction, EndFitReport, FeatureReport, Input, Key, Modifiers,
-    PlotKind, PlotScene, Reply, Scene, ToolKind, told,
+    Button, Command, Editor, EndFitAction, EndFitReport, FeatureReport, Input, Key, Look,
+    Modifiers, PlotKind, PlotScene, Reply, Scene, ToolKind, told,
 };
 use batten::geometry::FloatPolygon;
 use batten::io::examples::EXAMPLES;
@@ -24,7 +24,7 @@ impl Script {
     pub fn example(name: &str) -> Self {
         let index = EXAMPLES.iter().position(|example| example.name == name);
         let mut editor = Editor::default();
-        editor.set_canvas_size(DVec2::new(1000.0, 700.0));
+        editor.look(Look::Canvas(DVec2::new(1000.0, 700.0)));
         told(editor.open_example(index.expect("an example")));
         let mut script = Self { editor };
         script.check();
@@ -211,7 +211,7 @@ impl Script {
     /// The features of the active curve, if they are proved by now.
     pub fn features(&mut self) -> Option<FeatureReport> {
         self.editor.refresh();
-        self.editor.features().cloned()
+        self.editor.sight().features().cloned()
     }
 
     /// The plot that is shown now: the curvature, unless another was chosen.
@@ -238,9 +238,9 @@ impl Script {
     /// Check that all that panels and canvas read can be made, and that the document is valid.
     pub fn check(&mut self) {
         self.editor.refresh();
-        self.editor.report();
+        self.editor.sight().report();
         self.editor.end_fit();
-        self.editor.readout();
+        self.editor.sight().readout();
         assert!(!self.editor.hint().is_empty());
         let document = self.editor.document();
         assert_eq!(check_document(document), Ok(()));

@@ -188,12 +188,12 @@ fn tabs_choice_survives_jitter_and_is_what_a_drag_takes() {
     let place = script.polygon().vertex(2);
     let at = script.at_vertex(2);
     script.move_to(at);
-    let first = script.editor.hovered_vertex();
+    let first = script.editor.sight().hovered_vertex();
     script.key(Key::Tab);
-    let chosen = script.editor.hovered_vertex().expect("a vertex");
+    let chosen = script.editor.sight().hovered_vertex().expect("a vertex");
     assert_ne!(first, Some(chosen));
     script.move_to(at + DVec2::new(1.0, 0.0));
-    assert_eq!(script.editor.hovered_vertex(), Some(chosen));
+    assert_eq!(script.editor.sight().hovered_vertex(), Some(chosen));
     script.drag(at + DVec2::new(0.0, 1.0), at + DVec2::new(40.0, 30.0));
     assert_ne!(script.polygon().vertex(chosen), place);
     assert_eq!(script.polygon().vertex(9 - chosen), place);

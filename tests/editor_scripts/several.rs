@@ -55,7 +55,7 @@ fn what_is_hovered_is_told_of_the_curve_it_is_on() {
     };
     assert_eq!((curve, script.curve()), (other, arc));
     assert!(text.starts_with("other\n"), "{text}");
-    let readout = script.editor.readout();
+    let readout = script.editor.sight().readout();
     assert!((readout.parameter.expect("u") - u).abs() < 1e-3);
     let expected = polygon
         .jet(readout.parameter.expect("u"))

@@ -4,7 +4,7 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
 use batten::document::{Curve, Document, Edit};
-use batten::editor::{Command, Editor, EndFitAction, Input, Key, Note, ToolKind, Trial};
+use batten::editor::{Command, Editor, EndFitAction, Input, Key, Look, Note, ToolKind, Trial};
 use batten::geometry::features::Features;
 use batten::geometry::{End, FloatPolygon};
 use batten::io::disk;
@@ -71,7 +71,7 @@ fn applied(name: &str) -> (Script, Document) {
 fn script_of(polygon: FloatPolygon) -> Script {
     let document = Document::from_curves([Curve::new("curve", polygon)]);
     let mut editor = Editor::with_document(document);
-    editor.set_canvas_size(DVec2::new(1000.0, 700.0));
+    editor.look(Look::Canvas(DVec2::new(1000.0, 700.0)));
     let mut script = Script { editor };
     script.check();
     script
@@ -463,7 +463,7 @@ fn check_goes_on(script: &mut Script, name: &str) {
     goes_on(script, "zooming");
     script.input(Input::Panned { by: BY });
     goes_on(script, "panning");
-    script.editor.orbit(BY);
+    script.editor.look(Look::Orbit(BY));
     goes_on(script, "turning the view");
     script.move_to(at);
     goes_on(script, "moving the pointer");

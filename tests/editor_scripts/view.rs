@@ -1,7 +1,9 @@
 //! The view and what it shows: zoom, pan, hovering, the comb, what is redone.
 
 use batten::document::{Curve, Document, Edit};
-use batten::editor::{Button, CombSettings, Command, Editor, HoverScene, Input, Layer, NamedView};
+use batten::editor::{
+    Button, CombSettings, Command, Editor, HoverScene, Input, Layer, Look, NamedView,
+};
 use batten::geometry::FloatPolygon;
 use batten::io::examples::EXAMPLES;
 use glam::{DVec2, DVec3};
@@ -92,7 +94,7 @@ fn hovering_tells_of_vertices_and_of_the_curve() {
         }
         other => panic!("{other:?}"),
     }
-    let readout = script.editor.readout();
+    let readout = script.editor.sight().readout();
     assert!((readout.parameter.expect("u") - 0.5).abs() < 1e-6);
 }
 
@@ -120,7 +122,7 @@ fn the_hand_reaches_what_was_not_drawn_yet() {
     let polygon = Script::example("arc").polygon();
     let document = Document::from_curves([Curve::new("arc", polygon.clone())]);
     let mut editor = Editor::with_document(document);
-    editor.set_canvas_size(DVec2::new(1000.0, 700.0));
+    editor.look(Look::Canvas(DVec2::new(1000.0, 700.0)));
     editor
         .execute(Command::ToggleLayer(Layer::Comb))
         .expect("a command");
@@ -237,15 +239,15 @@ fn tips_of_the_comb_yield_to_legs_and_to_what_is_beside_a_vertex() {
 #[test]
 fn a_planar_drawing_seen_at_an_angle_says_so() {
     let mut script = Script::example("arc");
-    assert!(!script.editor.is_orbited());
+    assert!(!script.editor.sight().is_orbited());
     script.drag_with(
         Button::Secondary,
         DVec2::new(300.0, 300.0),
         DVec2::new(310.0, 330.0),
     );
-    assert!(script.editor.is_orbited());
+    assert!(script.editor.sight().is_orbited());
     script.command(Command::View(NamedView::Xy));
-    assert!(!script.editor.is_orbited());
+    assert!(!script.editor.sight().is_orbited());
     // A drawing in space is seen from anywhere.
     let curve = script.curve();
     let moves = vec![(3, DVec3::new(1.0, 2.0, 3.0))];
@@ -254,7 +256,7 @@ fn a_planar_drawing_seen_at_an_angle_says_so() {
         .apply("lift", vec![Edit::MoveVertices { curve, moves }])
         .expect("an edit");
     script.command(Command::View(NamedView::Isometric));
-    assert!(!script.editor.is_orbited());
+    assert!(!script.editor.sight().is_orbited());
 }
 
 /// Prove all features, however many frames that takes on this machine.
@@ -293,7 +295,7 @@ fn only_segments_that_depend_on_a_vertex_are_redone() {
         script.editor.apply("edit", vec![edit]).expect("an edit");
         script.scene();
         prove(&mut script);
-        let analysis = script.editor.analysis(curve).expect("an analysis");
+        let analysis = script.editor.view().analysis(curve).expect("an analysis");
         assert_eq!(analysis.segments_redone(), expected);
         assert_eq!(analysis.segments_proved(), expected);
     }

@@ -6,7 +6,7 @@ use std::path::Path;
 use batten::analysis::LevelPlot;
 use batten::document::{Colour, Curve, CurveId, Document, Edit};
 use batten::editor::{
-    CombSettings, Command, Editor, EndFitAction, EndFitMarks, Export, Input, PlotKind, Reply,
+    CombSettings, Command, Editor, EndFitAction, EndFitMarks, Export, Input, Look, PlotKind, Reply,
     Selection, Shortcut, Transformation, Trial, Viewport, told,
 };
 use batten::geometry::{FloatPolygon, PolygonKind};
@@ -151,7 +151,7 @@ impl Window {
     /// Open a document that counts as saved.
     pub fn open(document: Document) -> Self {
         let mut editor = Editor::with_document(document);
-        editor.set_canvas_size(CANVAS);
+        editor.look(Look::Canvas(CANVAS));
         editor.refresh();
         Self { editor }
     }
@@ -313,12 +313,12 @@ impl Window {
             self.editor.view_mut().show_plot(Some(kind));
             self.editor.refresh();
         }
-        self.editor.features();
-        self.editor.report();
+        self.editor.sight().features();
+        self.editor.sight().report();
         self.editor.end_fit();
-        self.editor.readout();
+        self.editor.sight().readout();
         self.editor.cursor();
-        self.editor.hovered_vertex();
+        self.editor.sight().hovered_vertex();
         for command in self.commands() {
             self.editor.is_checked(command);
             assert!(!self.editor.label(command).is_empty(), "{command:?}");
@@ -415,15 +415,15 @@ impl Window {
                     .iter()
                     .for_each(|at| self.editor.view_mut().hover_vertex(*at));
             }
-            Panel::SetCanvasSize(size) => self.editor.set_canvas_size(*size),
-            Panel::Orbit(by) => self.editor.orbit(*by),
+            Panel::SetCanvasSize(size) => self.editor.look(Look::Canvas(*size)),
+            Panel::Orbit(by) => self.editor.look(Look::Orbit(*by)),
             Panel::SetComb(scale, density) => {
                 let (scale, density) = (*scale, *density);
                 self.editor
                     .view_mut()
                     .set_comb(CombSettings { scale, density });
             }
-            Panel::GoTo(u) => self.editor.go_to(*u),
+            Panel::GoTo(u) => self.editor.look(Look::Around(*u)),
             Panel::DismissMessage => self.editor.dismiss_message(),
             Panel::Replace(replacement) => match *replacement {
                 Replacement::Empty => self.editor.begin_empty(),

@@ -10,18 +10,18 @@ use crate::hand::*;
 #[test]
 fn digits_typed_while_drawing_switch_no_layers() {
     let mut window = open_window();
-    let layers = window.state().editor().layers();
+    let layers = window.state().editor().sight().layers();
     press(&mut window, Modifiers::NONE, Key::D);
     let first = vertex(&window, 2);
     drag(&mut window, first, first);
     for key in [Key::Num1, Key::Num2, Key::Num5, Key::Minus] {
         press(&mut window, Modifiers::NONE, key);
     }
-    assert_eq!(window.state().editor().layers(), layers);
+    assert_eq!(window.state().editor().sight().layers(), layers);
     press(&mut window, Modifiers::NONE, Key::Escape);
     press(&mut window, Modifiers::NONE, Key::V);
     press(&mut window, Modifiers::NONE, Key::Num1);
-    assert!(!window.state().editor().layers().shows(Layer::Float));
+    assert!(!window.state().editor().sight().layers().shows(Layer::Float));
 }
 
 #[test]
@@ -157,7 +157,7 @@ fn the_view_has_a_name_and_the_status_bar_tells_the_model() {
         let at = vertex(window, 4);
         window.hover_at(at);
         window.run();
-        window.state().editor().readout().pointer
+        window.state().editor().sight().readout().pointer
     };
     let expected = Some(curve(&window).polygon.vertex(4));
     window.get_by_label("Seen from: Top");

@@ -71,9 +71,9 @@ fn a_curve_is_drawn_by_typing_alone() {
 #[test]
 fn keys_typed_into_the_field_are_no_shortcuts_and_escape_gives_the_canvas_back() {
     let mut window = drawing();
-    let layers = window.state().editor().layers();
+    let layers = window.state().editor().sight().layers();
     type_keys(&mut window, "34");
-    assert_eq!(window.state().editor().layers(), layers);
+    assert_eq!(window.state().editor().sight().layers(), layers);
     // Letters are no tools while something is typed.
     type_keys(&mut window, "v");
     assert_eq!(window.state().editor().hand().tool(), ToolKind::Draw);

@@ -42,8 +42,8 @@ fn real(window: &Window, name: &str) -> f64 {
 /// Where the atlas is, once it is proved.
 fn atlas(window: &mut Window) -> Rect {
     let is_done = |window: &Window| {
-        let verdicts = window.state().editor().atlas_verdicts();
-        verdicts.is_some_and(|verdicts| verdicts.is_finest())
+        let verdicts = window.state().editor().view().atlas();
+        verdicts.is_some_and(|(_, verdicts)| verdicts.is_finest())
     };
     for _ in 0..8 {
         window.run();

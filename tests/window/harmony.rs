@@ -20,7 +20,7 @@ fn sentences_tell_the_harmony_and_follow_a_drag_and_its_undo() {
     let mut window = open_window_of(1480.0, 1280.0);
     choose(&mut window, &["File", "Examples", "Waterline"]);
     assert!(
-        window.state().editor().harmony().is_none(),
+        window.state().editor().sight().harmony().is_none(),
         "nothing shows it"
     );
     click(&mut window, "Harmony");
@@ -59,7 +59,10 @@ fn a_sentence_marks_its_vertex_and_selects_it() {
     let at = window.get_by_label(&sentence).rect().center();
     window.hover_at(at);
     window.run();
-    assert_eq!(window.state().editor().hovered_vertex(), Some(vertex));
+    assert_eq!(
+        window.state().editor().sight().hovered_vertex(),
+        Some(vertex)
+    );
     click(&mut window, &sentence);
     let editor = window.state().editor();
     let curve = editor.active().expect("a curve");
@@ -78,7 +81,7 @@ fn a_strip_and_the_canvas_mark_the_same_vertex() {
     let canvas = window.state().canvas_rect().expect("the canvas was shown");
     window.hover_at(canvas.center_bottom() + vec2(0.0, 80.0));
     window.run();
-    let hovered = window.state().editor().hovered_vertex();
+    let hovered = window.state().editor().sight().hovered_vertex();
     let count = curve(&window).polygon.vertices().len();
     // The middle of the strips, beside which there is room for the axis alone.
     assert!(

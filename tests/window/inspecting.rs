@@ -56,7 +56,12 @@ fn the_verdict_counts_what_the_list_has() {
         .apply(Edit::Add(Box::new(curve)))
         .expect("a curve is added");
     let window = open_window_with(Editor::with_document(document), 1480.0, 920.0);
-    let report = window.state().editor().features().expect("features");
+    let report = window
+        .state()
+        .editor()
+        .sight()
+        .features()
+        .expect("features");
     let listed: usize = report.rows.iter().map(|row| row.count).sum();
     let verdict = window
         .query_all_by_label_contains("κ extrem")

@@ -282,7 +282,7 @@ fn what_a_plot_marks_goes_with_the_plot() {
     let on_plot = canvas.center_bottom() + vec2(0.0, 120.0);
     window.hover_at(on_plot);
     window.run();
-    let hovered = |window: &Window| window.state().editor().readout().parameter;
+    let hovered = |window: &Window| window.state().editor().sight().readout().parameter;
     assert!(hovered(&window).is_some_and(|u| 0.0 < u && u < 1.0));
     press(&mut window, Modifiers::NONE, Key::F8);
     window.hover_at(canvas.center_top() + vec2(0.0, 20.0));
@@ -357,7 +357,7 @@ fn the_palette_finds_commands() {
     window.event(Event::Text("comb".to_owned()));
     window.run();
     press(&mut window, Modifiers::NONE, Key::Enter);
-    assert!(window.state().editor().layers().shows(Layer::Comb));
+    assert!(window.state().editor().sight().layers().shows(Layer::Comb));
     window.get_by_label("Comb scale");
     window.get_by_label("Comb density");
 }
@@ -456,7 +456,7 @@ fn choosing_a_feature_in_the_list_shows_how_to_lose_it() {
         .expect("a row");
     row.click();
     window.run();
-    assert!(window.state().editor().chosen_feature().is_some());
+    assert!(window.state().editor().view().chosen_feature().is_some());
     let guides = &window.state().editor().view().scene().guides;
     assert!(!guides.arrows.is_empty(), "{:?}", guides.labels);
 }

@@ -222,7 +222,7 @@ fn a_feature_has_a_menu_in_its_row() {
     for _ in 0..2 {
         // A second time it stays chosen.
         right_click(&mut window, row);
-        assert!(window.state().editor().chosen_feature().is_some());
+        assert!(window.state().editor().view().chosen_feature().is_some());
         press(&mut window, Modifiers::NONE, Key::Escape);
     }
     assert_eq!(scale(&window), before, "a menu moves nothing");

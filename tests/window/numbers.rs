@@ -90,7 +90,7 @@ pub fn state(window: &Window) -> State {
     let active = editor.active().expect("a curve");
     let curves = editor.document().curves();
     (
-        editor.layers(),
+        editor.sight().layers(),
         editor.hand().tool(),
         curves.map(|(_, curve)| Curve::clone(curve)).collect(),
         editor.view().viewport().centre,
@@ -117,7 +117,7 @@ pub fn y(window: &Window, vertex: usize) -> f64 {
 #[test]
 fn enter_goes_down_the_table_and_the_next_digit_is_a_number() {
     let mut window = table_of(vec![wave(8, 3)]);
-    let layers = window.state().editor().layers();
+    let layers = window.state().editor().sight().layers();
     click(&mut window, "vertex 0 x");
     for number in ["-1.5", "2", "3.25"] {
         strike(&mut window, number);
@@ -136,7 +136,7 @@ fn enter_goes_down_the_table_and_the_next_digit_is_a_number() {
     strike(&mut window, "9");
     enter(&mut window);
     assert_eq!([x(&window, 1), x(&window, 2)], [9.0, 7.0]);
-    assert_eq!(window.state().editor().layers(), layers);
+    assert_eq!(window.state().editor().sight().layers(), layers);
     assert_eq!(
         window.state().editor().workspace().history().undo_steps(),
         6,
@@ -300,11 +300,11 @@ fn thousands_of_rows_are_typed_into_and_scroll_into_sight() {
         window.query_by_label("vertex 0 y").is_none(),
         "scrolled away"
     );
-    let layers = window.state().editor().layers();
+    let layers = window.state().editor().sight().layers();
     strike(&mut window, "25");
     enter(&mut window);
     assert_eq!(y(&window, 0), 25.0);
-    assert_eq!(window.state().editor().layers(), layers);
+    assert_eq!(window.state().editor().sight().layers(), layers);
     window.get_by_label("vertex 1 y");
 }
 
@@ -420,7 +420,7 @@ fn an_edit_moves_no_number_in_the_window() {
     };
     let before = places(&window);
     let features = |window: &Window| {
-        let report = window.state().editor().features();
+        let report = window.state().editor().sight().features();
         report.map(|report| report.rows.len())
     };
     let count = features(&window);

@@ -18,7 +18,7 @@ fn hovered(window: &mut Window, share: f32) -> f64 {
     window.hover_at(at);
     window.run();
     window.run();
-    let u = window.state().editor().readout().parameter;
+    let u = window.state().editor().sight().readout().parameter;
     u.unwrap_or_else(|| panic!("nothing is hovered at {share}"))
 }
 
@@ -163,7 +163,7 @@ fn strips_are_zoomed_together_and_one_direction_alone_with_shift() {
         window.hover_at(at);
         window.run();
         window.run();
-        let found = window.state().editor().hovered_vertex();
+        let found = window.state().editor().sight().hovered_vertex();
         found.unwrap_or_else(|| panic!("no vertex at {share}"))
     };
     let last = vertex(&mut window, 0.95, 0.0);
@@ -182,7 +182,7 @@ fn hovering_a_feature_in_the_plot_marks_it_exactly() {
     let mut window = open_window();
     choose(&mut window, &["File", "Examples", "Bottle"]);
     let editor = window.state().editor();
-    let report = editor.features().expect("features").clone();
+    let report = editor.sight().features().expect("features").clone();
     let length = editor.view().plots().length;
     let feature = editor.view().plots().features[1];
     assert_eq!(feature.kind, report.rows[1].kind);
@@ -197,7 +197,7 @@ fn hovering_a_feature_in_the_plot_marks_it_exactly() {
             window.hover_at(Pos2::new(at.x, y));
             window.step();
             window.step();
-            let u = window.state().editor().readout().parameter;
+            let u = window.state().editor().sight().readout().parameter;
             exactly += u32::from(u.is_some_and(|u| (u - report.rows[1].middle).abs() < 1e-9));
         }
     }

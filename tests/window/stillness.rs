@@ -124,7 +124,7 @@ fn drag_vertex(window: &mut Window) {
     let top = canvas.top() + 60.0;
     let way = heights.map(|share| pos2(from.x + 8.0, top + share * (canvas.bottom() - top - 20.0)));
     let counts = drag_still(window, from, way.into_iter(), |window| {
-        let report = window.state().editor().features();
+        let report = window.state().editor().sight().features();
         report.map_or(0, |report| report.rows.len())
     });
     let different: BTreeSet<usize> = counts.iter().copied().collect();

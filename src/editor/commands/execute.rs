@@ -7,6 +7,7 @@ use crate::editor::commands::command::Command;
 use crate::editor::commands::polygon_edits::made_periodic;
 use crate::editor::reply::{Note, Reply};
 use crate::editor::selection::VertexId;
+use crate::editor::view::Look;
 use crate::editor::view::layers::Layer;
 use crate::editor::workspace::Interruption;
 use crate::editor::{Editor, Refusal};
@@ -66,7 +67,7 @@ impl Editor {
                 let before = self.document().unit();
                 before.is_some_and(|before| before != unit)
             }
-            Command::GoToFeature => self.chosen_feature().is_some(),
+            Command::GoToFeature => self.view.chosen_feature().is_some(),
             Command::Compare(other) => active && other.is_none_or(|id| self.can_compare(id)),
             // What is dragged is dragged in the plane that is seen.
             Command::View(_) => !self.hand.is_dragging(),
@@ -78,7 +79,7 @@ impl Editor {
     pub fn is_checked(&self, command: Command) -> Option<bool> {
         let curve = self.active_curve().map(|(_, curve)| curve);
         match command {
-            Command::ToggleLayer(layer) => Some(self.layers().shows(layer)),
+            Command::ToggleLayer(layer) => Some(self.sight().layers().shows(layer)),
             Command::Compare(other) => {
                 let compared = self.view.compared().filter(|id| self.can_compare(*id));
                 Some(compared == other)
@@ -208,13 +209,13 @@ impl Editor {
         match command {
             Command::ZoomIn => viewport.zoom(middle, ZOOM),
             Command::ZoomOut => viewport.zoom(middle, 1.0 / ZOOM),
-            Command::Fit => self.fit(),
-            Command::FitAll => self.fit_all(),
-            Command::View(view) => self.set_orientation(view.orientation()),
-            Command::ResetComb => self.reset_comb(),
+            Command::Fit => self.look(Look::Selection),
+            Command::FitAll => self.look(Look::All),
+            Command::View(view) => self.look(Look::From(view.orientation())),
+            Command::ResetComb => self.look(Look::ResetComb),
             Command::GoToFeature => {
-                if let Some(u) = self.chosen_feature() {
-                    self.go_to(u);
+                if let Some(u) = self.view.chosen_feature() {
+                    self.look(Look::Around(u));
                 }
             }
             Command::Compare(other) => self.view.compare(other),
@@ -292,7 +293,7 @@ impl Editor {
     }
 
     fn toggle_layer(&mut self, layer: Layer) {
-        let shown = self.layers().shows(layer);
+        let shown = self.sight().layers().shows(layer);
         if matches!(layer, Layer::Float | Layer::Clamped) {
             self.hand.tools.end_fit.settings.closed = false;
         }

@@ -11,7 +11,7 @@ impl Editor {
     /// See to it that [`Editor::foreseen`] will know the active curve: asked for while something shows it.
     pub fn foresee(&mut self) {
         self.foreseeing.receive();
-        let curve = self.settled_active();
+        let curve = self.sight().shown.settled_active().cloned();
         let Some(curve) = curve.filter(|curve| !self.foreseeing.is_about(curve)) else {
             return;
         };
@@ -28,7 +28,7 @@ impl Editor {
     /// How far an operation would move the active curve with the values that it begins with. `None` if that
     /// is not known, not yet, or the operation cannot be done.
     pub fn foreseen(&self, operation: &Operation) -> Option<Deviation> {
-        let curve = self.settled_active()?;
-        self.foreseeing.deviation(&curve, operation)
+        let curve = self.sight().shown.settled_active()?;
+        self.foreseeing.deviation(curve, operation)
     }
 }

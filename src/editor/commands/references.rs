@@ -7,6 +7,7 @@ use glam::{DQuat, DVec3};
 use crate::document::{CurveId, Edit, Reference};
 use crate::editor::Editor;
 use crate::editor::reply::{Note, Refusal, Reply};
+use crate::editor::view::Look;
 use crate::geometry::references::{
     AnalyticForm, Formula, Placement, ReferenceCurve, ReferenceError, ReferenceForm, ReferenceKind,
 };
@@ -147,7 +148,7 @@ impl Editor {
         };
         self.add("Add reference", added)?;
         if let Some(id) = self.active_reference_id() {
-            self.bring_into_sight(&[id]);
+            self.look(Look::New(vec![id]));
         }
         Ok(Note::silent())
     }

@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 
 use crate::document::Edit;
 use crate::editor::hand::NudgeStep;
+use crate::editor::view::Look;
 use crate::editor::{Editor, Note, Reply};
 use crate::geometry::expressions::LengthUnit;
 
@@ -40,7 +41,7 @@ impl Editor {
             vec![Edit::ConvertUnit(unit)],
             false,
         )?;
-        self.fit_all();
+        self.look(Look::All);
         Ok(Note::done(format!(
             "Converted to {}: everything keeps its size",
             unit.name()

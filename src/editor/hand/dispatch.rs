@@ -8,9 +8,9 @@ use crate::editor::Editor;
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::{Input, Key};
 use crate::editor::hand::keeping::Keeping;
-use crate::editor::hand::tools::{Context, Cursor, Effect, Look, ToolKind};
+use crate::editor::hand::tools::{Context, Cursor, Effect, ToolKind};
 use crate::editor::reply::{Message, Note, Refusal, told};
-use crate::editor::view::hit::HitTest;
+use crate::editor::view::Look;
 use crate::editor::view::layers::Layers;
 use crate::editor::workspace::Interruption;
 use crate::geometry::features::SegmentFeatures;
@@ -75,7 +75,7 @@ impl Editor {
         for gesture in self.hand.gestures.input(input) {
             match gesture {
                 Gesture::Pan(by) => self.view.viewport.pan(by),
-                Gesture::Orbit(by) => self.orbit(by),
+                Gesture::Orbit(by) => self.look(Look::Orbit(by)),
                 Gesture::Zoom(at, factor) if self.hand.turns_following() => {
                     let stiffer = self.hand.modifiers.shift;
                     let active = self.active().and_then(|id| self.document().curve(id));
@@ -127,7 +127,7 @@ impl Editor {
         if !self.hand.keeps_features() || self.workspace.preview().is_none() {
             return edits;
         }
-        let proved = known_features(&self.analyses);
+        let proved = known_features(&self.view.analyses);
         let settled = self.workspace.settled();
         let try_out = |edits| self.workspace.previewed(edits);
         self.hand.keeping.keep(edits, settled, try_out, proved)
@@ -138,7 +138,7 @@ impl Editor {
     pub(in crate::editor) fn commit_kept(&mut self) {
         if self.hand.keeps_features() {
             let settled = self.workspace.settled().clone();
-            let proved = known_features(&self.analyses);
+            let proved = known_features(&self.view.analyses);
             let keeping = &mut self.hand.keeping;
             let allowed = |after: &Document| keeping.allows(after, &settled, proved);
             self.workspace.take_time(allowed);
@@ -158,7 +158,7 @@ impl Editor {
         if !moves || !self.hand.keeps_features() {
             return Ok(());
         }
-        let proved = known_features(&self.analyses);
+        let proved = known_features(&self.view.analyses);
         match Keeping::refusal(edits.to_vec(), self.workspace.settled(), proved) {
             None => Ok(()),
             Some(reason) => Err(Refusal(format!("Features are kept (K): {reason}"))),
@@ -196,8 +196,8 @@ impl Editor {
         if self.offers_handles() {
             return self.leave_beside_handles(gesture);
         }
-        self.analyse();
-        let layers = self.layers();
+        self.view.analyse(self.workspace.document());
+        let layers = self.hand.layers(self.view.layers);
         let mut tools = std::mem::take(&mut self.hand.tools);
         let mut effects = tools
             .used_mut()
@@ -206,7 +206,7 @@ impl Editor {
         if self.is_trying() && effects.iter().any(begins) {
             // What was pressed is of the document that an operation shows, which goes now.
             self.interrupt_trial();
-            self.analyse();
+            self.view.analyse(self.workspace.document());
             tools.choose(tools.kind());
             effects = tools
                 .used_mut()
@@ -227,28 +227,16 @@ impl Editor {
     }
 
     pub(in crate::editor) fn context(&self) -> Context<'_> {
-        self.context_with(self.layers())
+        self.context_with(self.hand.layers(self.view.layers))
     }
 
     fn context_with(&self, layers: Layers) -> Context<'_> {
-        let active = self.hand.selection.active();
         Context {
             document: self.workspace.document(),
             before: self.workspace.settled(),
             selection: &self.hand.selection,
             viewport: &self.view.viewport,
-            hits: HitTest {
-                document: self.workspace.document(),
-                analyses: &self.analyses,
-                outlines: &self.view.outlines,
-                features: self.features(),
-                comb: self.view.comb,
-                viewport: &self.view.viewport,
-                layers,
-                selection: &self.hand.selection,
-                active,
-                cycle: self.hand.cycle.count(),
-            },
+            hits: self.view.sight(self.hand.shown(&self.workspace, layers)),
             modifiers: self.hand.modifiers,
             axis: self.hand.axis,
             snapping: self.hand.snapping,
@@ -290,9 +278,7 @@ impl Editor {
             Effect::SelectMore(vertices) => self.hand.selection.add(vertices),
             Effect::ToggleSelected(vertex) => self.hand.selection.toggle(vertex),
             Effect::Activate(curve) => self.hand.selection.activate(curve),
-            Effect::Choose(u) => self.choose_feature(u),
-            Effect::Look(Look::FitAll) => self.fit_all(),
-            Effect::Look(Look::Comb(comb)) => self.view.set_comb(comb),
+            Effect::Look(look) => self.look(look),
             Effect::Say(text) if self.workspace.preview().is_some() => {
                 self.tell_of_update(Some(Refusal(text)));
             }

@@ -24,7 +24,7 @@ impl Editor {
         }
         let last = self.last_end_fit_action();
         let settings = &self.hand.tools.end_fit.settings;
-        Some(settings.report(self.document(), id, self.analyses.get(id)?, last))
+        Some(settings.report(self.document(), id, self.view.analyses.get(id)?, last))
     }
 
     /// What the last action of the end-fit panel came to, unless something else happened since.

@@ -102,7 +102,7 @@ impl Editor {
         if self.is_trying() {
             self.interrupt_trial();
         }
-        self.analyse();
+        self.view.analyse(self.workspace.document());
         let mut tools = std::mem::take(&mut self.hand.tools);
         let entered = tools
             .drawing_mut()

@@ -9,6 +9,10 @@ use crate::editor::hand::menu_request::MenuRequest;
 use crate::editor::hand::tools::{ToolKind, Tools};
 use crate::editor::hand::typed_point::TypedPoint;
 use crate::editor::selection::Selection;
+use crate::editor::view::layers::{Layer, Layers};
+use crate::editor::view::overlay::Hovering;
+use crate::editor::view::shown::Shown;
+use crate::editor::workspace::Workspace;
 
 /// How far an arrow key moves the selection, in units of the model.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,6 +49,59 @@ pub struct Hand {
 }
 
 impl Hand {
+    /// Let the view show the workspace with these layers, as the hand works on it.
+    pub(in crate::editor) fn shown<'a>(
+        &'a self,
+        workspace: &'a Workspace,
+        layers: Layers,
+    ) -> Shown<'a> {
+        Shown {
+            workspace,
+            selection: &self.selection,
+            layers,
+            pointer: self.gestures.pointer(),
+            is_dragging: self.gestures.is_dragging(),
+            is_holding: self.gestures.is_holding(),
+            cycle: self.cycle.count(),
+        }
+    }
+
+    /// The layers that are shown, of those that the user chose: the end-fit tool may show the closed
+    /// S-polygon in place of the float one.
+    pub(in crate::editor) fn layers(&self, chosen: Layers) -> Layers {
+        let mut layers = chosen;
+        if self.tool() == ToolKind::EndFit && self.tools.end_fit.settings.closed {
+            layers.set(Layer::Clamped, true);
+            layers.set(Layer::Float, false);
+        }
+        layers
+    }
+
+    /// What the pointer can be over.
+    pub(in crate::editor) fn hovering(&self, shown: Shown<'_>) -> Hovering {
+        let tool = self.tool();
+        if self.gestures.is_dragging() {
+            let held = shown
+                .only_vertex()
+                .filter(|_| tool == ToolKind::Select && shown.workspace.preview().is_some());
+            return held.map_or(Hovering::Nothing, Hovering::Dragged);
+        }
+        let points_at_things = matches!(
+            tool,
+            ToolKind::Select
+                | ToolKind::Delete
+                | ToolKind::EndFit
+                | ToolKind::Rotate
+                | ToolKind::Scale
+        );
+        match points_at_things && !self.gestures.is_panning() {
+            true => Hovering::Document {
+                closed: tool == ToolKind::Select,
+            },
+            false => Hovering::Nothing,
+        }
+    }
+
     /// What is selected.
     pub fn selection(&self) -> &Selection {
         &self.selection

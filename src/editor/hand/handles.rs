@@ -7,6 +7,7 @@ use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::handle_drag::HandleDrag;
 use crate::editor::hand::snapping::Carried;
 use crate::editor::reply::{Message, Refusal};
+use crate::editor::view::Look;
 use crate::editor::view::hit::REACH;
 use crate::editor::view::scene::{HoverScene, Mark};
 use crate::geometry::figure;
@@ -53,7 +54,7 @@ impl Editor {
     /// nothing still shows everything.
     pub(in crate::editor) fn leave_beside_handles(&mut self, gesture: Gesture) {
         match gesture {
-            Gesture::DoubleClick(at) if !self.is_over_curve(at) => self.fit_all(),
+            Gesture::DoubleClick(at) if !self.is_over_curve(at) => self.look(Look::All),
             Gesture::DragStart(at) if self.is_over_curve(at) => {
                 let label = self.trial().map_or("", |trial| trial.operation().label);
                 let first = format!("Apply or cancel {label} before you edit curves on the canvas");

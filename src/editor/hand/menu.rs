@@ -18,7 +18,7 @@ impl Editor {
         if self.is_trying() {
             return;
         }
-        self.analyse();
+        self.view.analyse(self.workspace.document());
         let subject = self.select_at(at);
         self.ask_for_menu(subject);
     }
@@ -122,7 +122,7 @@ impl Editor {
         let hits = self.context().hits;
         let viewport = &self.view.viewport;
         let open = hits
-            .shown()
+            .curves()
             .filter(|(_, curve)| !curve.polygon.is_periodic());
         let ends = open.flat_map(|(id, curve)| {
             End::BOTH.map(|end| {

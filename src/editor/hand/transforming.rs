@@ -25,7 +25,7 @@ impl Editor {
     /// Show what a typed angle or factor does, or take that back; a drag that goes on ends. Returns whether that
     /// changes anything.
     pub(in crate::editor) fn type_transformation(&mut self, typed: Option<Transformation>) -> bool {
-        self.analyse();
+        self.view.analyse(self.workspace.document());
         let mut tools = std::mem::take(&mut self.hand.tools);
         let effects = tools
             .transform_mut()

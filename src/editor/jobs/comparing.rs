@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::Client;
 use super::patience::Patience;
-use crate::analysis::{Distance, Measured};
+use crate::analysis::{Distance, Item};
 use crate::document::{Curve, CurveId};
 
 /// Measure distances beside the frame, of one pair at a time.
@@ -23,7 +23,7 @@ pub struct Pair {
     /// The state of the first item.
     pub curve: Arc<Curve>,
     /// The state of the second item.
-    pub other: Measured,
+    pub other: Item,
 }
 
 impl Comparing {
@@ -65,7 +65,7 @@ impl Comparing {
 
 impl Pair {
     fn is_same(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.curve, &other.curve) && self.other.is_same(&other.other)
+        Arc::ptr_eq(&self.curve, &other.curve) && self.other == other.other
     }
 }
 
@@ -92,7 +92,7 @@ mod tests {
         Pair {
             ids,
             curve: line(0.0),
-            other: Measured::Curve(line(offset)),
+            other: Item::Curve(line(offset)),
         }
     }
 

@@ -1,36 +1,21 @@
-//! How far the active curve is from what it is compared with: for panels, and marked on the canvas.
+//! The distance between the active curve and what it is compared with: for panels, and marked on the canvas.
 
-use crate::analysis::{Distance, Measured};
-use crate::document::CurveId;
-use crate::editor::Editor;
+use crate::analysis::{Distance, Item};
 use crate::editor::jobs::comparing::Pair;
 use crate::editor::view::scene::Mark;
+use crate::editor::view::shown::Shown;
+use crate::editor::view::sight::Sight;
+use crate::editor::view::view::View;
 use crate::geometry::figure;
 
-impl Editor {
-    /// How far the active curve is from what it is compared with, or a curve from the active reference that it
-    /// is compared with; `None` until it is measured, and between two references. While a curve is changed it
-    /// is that of the last state that was measured.
-    pub fn distance(&self) -> Option<&Distance> {
-        self.comparing.distance()
-    }
-
-    /// Measure that, if there is something to compare with.
-    pub(in crate::editor) fn compare_distances(&mut self) {
-        let pair = self.compared_pair();
-        self.comparing.advance(pair, &mut self.patience);
-    }
-
-    fn compared_pair(&self) -> Option<Pair> {
-        let (active, compared) = (self.active()?, self.view.compared?);
-        let document = self.document();
+impl View {
+    /// The curve and what it is compared with, if there is something to compare.
+    pub(super) fn compared_pair(&self, shown: Shown<'_>) -> Option<Pair> {
+        let (active, compared) = (shown.active()?, self.compared?);
+        let document = shown.document();
         if active == compared {
             return None;
         }
-        let measured = |id: CurveId| match (document.curve(id), document.reference(id)) {
-            (Some(curve), _) => Some(Measured::Curve(curve.clone())),
-            (None, reference) => reference.cloned().map(Measured::Reference),
-        };
         // The active one is the curve that is measured, unless it is a reference.
         let (curve, other) = match document.curve(active) {
             Some(curve) => (curve, compared),
@@ -39,15 +24,27 @@ impl Editor {
         Some(Pair {
             ids: [active, compared],
             curve: curve.clone(),
-            other: measured(other)?,
+            other: Item::of(document, other)?,
         })
+    }
+}
+
+impl<'a> Sight<'a> {
+    /// How far the active curve is from what it is compared with, or a curve from the active reference that it
+    /// is compared with; `None` until it is measured, and between two references. While a curve is changed it
+    /// is that of the last state that was measured.
+    pub fn distance(self) -> Option<&'a Distance> {
+        self.view.comparing.distance()
     }
 
     /// Mark on the canvas where the largest distance is.
-    pub(in crate::editor) fn distance_marks(&self) -> Vec<Mark> {
+    pub(super) fn distance_marks(self) -> Vec<Mark> {
+        let is_visible = |id| self.document().is_visible(id);
         let both = [self.active(), self.view.compared];
-        let shown = |id: &Option<CurveId>| id.is_some_and(|id| self.document().is_visible(id));
-        let Some(distance) = self.distance().filter(|_| both.iter().all(shown)) else {
+        let Some(distance) = self
+            .distance()
+            .filter(|_| both.into_iter().all(|id| id.is_some_and(is_visible)))
+        else {
             return Vec::new();
         };
         let [from, to] = distance

@@ -1,25 +1,22 @@
 //! Making the scene: what the canvas shows for this frame.
 
-use std::sync::Arc;
-
-use glam::DVec2;
-
 use crate::analysis::SampledCurve;
-use crate::document::{Curve, CurveId, Reference};
-use crate::editor::Editor;
-use crate::editor::hand::snapping::{Carried, snap_to_point};
-use crate::editor::hand::tools::ToolKind;
+use crate::document::{Curve, CurveId};
 use crate::editor::view::comb::CombSettings;
 use crate::editor::view::curve_outlines::{CurveOutlines, PieceTrend};
 use crate::editor::view::density::{disc, disc_among_kept};
-use crate::editor::view::end_marks;
+use crate::editor::view::end_marks::{self, EndFitMarks};
 use crate::editor::view::feature_report::{FeatureMark, append_marks};
 use crate::editor::view::ghost::Ghost;
 use crate::editor::view::layers::{Layer, Layers};
 use crate::editor::view::orientation::Orientation;
 use crate::editor::view::outline::{GAP, ViewBox};
-use crate::editor::view::scene::{ClampedMark, CurveScene, Mark, ProposalScene, Scene, VertexMark};
-use crate::geometry::End;
+use crate::editor::view::overlay::Overlay;
+use crate::editor::view::scene::{ClampedMark, CurveScene, ProposalScene, Scene, VertexMark};
+use crate::editor::view::shown::Shown;
+use crate::editor::view::view::View;
+use crate::geometry::{End, FloatPolygon};
+use glam::DVec2;
 
 /// Screen points around the canvas that are drawn too, so that strokes run off it.
 const BORDER: f64 = 16.0;
@@ -27,101 +24,74 @@ const BORDER: f64 = 16.0;
 /// Where pieces are smaller than this on the whole, in screen points, joints are not looked at.
 const JOINT_SPACING: f64 = 6.0;
 
-impl Editor {
+impl View {
     /// Make the scene of what is analysed.
-    pub(in crate::editor) fn draw(&mut self) {
-        let mut scene = std::mem::take(&mut self.view.scene);
-        let mut view = self.view.viewport.view_box();
+    pub(in crate::editor) fn draw(&mut self, shown: Shown<'_>, overlay: &mut Overlay) {
+        let mut scene = std::mem::take(&mut self.scene);
+        let mut view = self.viewport.view_box();
         let border = BORDER * view.pixel;
         view.low -= border;
         view.high += border;
-        self.draw_curves(&view, &mut scene.curves);
-        self.draw_ghost(&view, &mut scene);
-        self.draw_proposal(&view, &mut scene);
+        self.draw_curves(shown, &view, &mut scene.curves);
+        self.draw_ghosts(shown, overlay, &view, &mut scene);
+        scene.proposal = ProposalScene::default();
+        if let Some((polygon, changed)) = overlay.proposal.take() {
+            self.draw_proposal(shown, polygon, changed, &view, &mut scene.proposal);
+        }
         scene.ends.clear();
-        if self.layers().shows(Layer::Targets) || self.hand.tool() == ToolKind::EndFit {
-            self.draw_ends(&mut scene);
+        if shown.layers.shows(Layer::Targets) || overlay.fitted_end.is_some() {
+            self.draw_ends(shown, overlay.fitted_end, &mut scene.ends);
         }
-        scene.marks = self.hand.tools.used().marks(&self.context());
-        if let Some(measurement) = self.hand.tools.measurement() {
-            scene.marks.extend(measurement.marks(&self.context()));
-        }
-        scene.marks.extend(self.operation_marks());
-        scene.marks.extend(self.handle_marks());
-        scene.marks.extend(self.flow_marks());
-        scene.marks.extend(self.distance_marks());
-        scene.marks.extend(self.snap_name());
-        self.draw_guides(&mut scene.guides);
-        scene.hover = self.hover();
-        self.view.scene = scene;
+        let sight = self.sight(shown);
+        scene.marks = std::mem::take(&mut overlay.marks);
+        scene.marks.extend(sight.flow_marks());
+        scene.marks.extend(sight.distance_marks());
+        sight.draw_guides(&mut scene.guides);
+        scene.hover = sight.hover(overlay);
+        self.scene = scene;
     }
 
-    /// The name of what a click of a tool that sets points would snap to.
-    fn snap_name(&self) -> Option<Mark> {
-        let sets_points = matches!(
-            self.hand.tool(),
-            ToolKind::Draw | ToolKind::AddVertex | ToolKind::Measure
-        );
-        // With Shift they keep to a direction instead.
-        if !sets_points || self.hand.modifiers.shift || self.is_trying() {
-            return None;
-        }
-        let context = self.context();
-        let (at, carried) = (context.pointer?, Carried::default());
-        let snap = match self.hand.tool() {
-            // What is measured is attracted without the switch.
-            ToolKind::Measure if context.modifiers.ctrl => None,
-            ToolKind::Measure => snap_to_point(at, context.before, &carried, context.viewport),
-            _ => context.snap(at, &carried),
-        }?;
-        let at = self.view.viewport.flatten(snap.point);
-        Some(Mark::Name(at, snap.name))
-    }
-
-    fn draw_curves(&mut self, view: &ViewBox, scenes: &mut Vec<CurveScene>) {
-        let active = self.hand.selection.active();
-        let mut shown: Vec<(CurveId, Arc<Curve>)> = self
-            .workspace
-            .document()
-            .curves()
-            .filter(|(_, curve)| curve.visible)
-            .map(|(id, curve)| (id, curve.clone()))
-            .collect();
-        let references = self.workspace.document().references();
-        let mut references: Vec<(CurveId, Arc<Reference>)> = references
-            .filter(|(_, reference)| reference.visible)
-            .map(|(id, reference)| (id, reference.clone()))
-            .collect();
+    fn draw_curves(&mut self, shown: Shown<'_>, view: &ViewBox, scenes: &mut Vec<CurveScene>) {
+        let (document, active) = (shown.document(), shown.active());
+        let mut curves: Vec<_> = document.curves().filter(|(_, it)| it.visible).collect();
+        let references = document.references();
+        let mut references: Vec<_> = references.filter(|(_, it)| it.visible).collect();
         // What is active is drawn last, on top.
-        shown.sort_by_key(|(id, _)| Some(*id) == active);
+        curves.sort_by_key(|(id, _)| Some(*id) == active);
         references.sort_by_key(|(id, _)| Some(*id) == active);
-        scenes.resize_with(references.len() + shown.len(), CurveScene::default);
+        scenes.resize_with(references.len() + curves.len(), CurveScene::default);
         let (behind, before) = scenes.split_at_mut(references.len());
-        for ((id, reference), scene) in references.iter().zip(behind) {
+        for ((id, reference), scene) in references.into_iter().zip(behind) {
             scene.clear();
-            scene.id = Some(*id);
+            scene.id = Some(id);
             scene.is_reference = true;
-            scene.active = Some(*id) == active;
+            scene.active = Some(id) == active;
             scene.locked = reference.locked;
             scene.colour = reference.colour;
-            self.draw_reference(*id, view, scene);
+            self.draw_reference(shown, id, view, scene);
         }
-        for ((id, curve), scene) in shown.iter().zip(before) {
+        for ((id, curve), scene) in curves.into_iter().zip(before) {
             scene.clear();
-            scene.id = Some(*id);
+            scene.id = Some(id);
             scene.is_reference = false;
-            scene.active = Some(*id) == active;
+            scene.active = Some(id) == active;
             scene.locked = curve.locked;
             scene.colour = curve.colour;
-            self.draw_curve(*id, curve, view, scene);
+            self.draw_curve(shown, id, curve, view, scene);
         }
     }
 
-    fn draw_reference(&mut self, id: CurveId, view: &ViewBox, scene: &mut CurveScene) {
-        let orientation = self.view.viewport.orientation;
-        self.append_features(scene.active, view, &mut scene.features);
-        let (layers, comb) = (self.layers(), self.view.comb);
-        let outlined = self.view.outlines.get_mut(id);
+    fn draw_reference(
+        &mut self,
+        shown: Shown<'_>,
+        id: CurveId,
+        view: &ViewBox,
+        scene: &mut CurveScene,
+    ) {
+        let orientation = self.viewport.orientation;
+        self.append_features(shown, scene.active, view, &mut scene.features);
+        let (layers, comb) = (shown.layers, self.comb);
+        let outlined = self.outlines.get_mut(id);
         let Some((analysis, outlined)) = self.analyses.reference(id).zip(outlined) else {
             return;
         };
@@ -139,23 +109,35 @@ impl Editor {
     }
 
     /// Append the marks of the features of what is active.
-    fn append_features(&self, active: bool, view: &ViewBox, out: &mut Vec<FeatureMark>) {
-        if let Some(report) = self.features()
+    fn append_features(
+        &self,
+        shown: Shown<'_>,
+        active: bool,
+        view: &ViewBox,
+        out: &mut Vec<FeatureMark>,
+    ) {
+        if let Some(report) = self.sight(shown).features()
             && active
-            && self.layers().shows(Layer::Features)
+            && shown.layers.shows(Layer::Features)
         {
-            append_marks(report, &self.view.viewport.orientation, view, out);
+            append_marks(report, &self.viewport.orientation, view, out);
         }
     }
 
-    fn draw_curve(&mut self, id: CurveId, curve: &Curve, view: &ViewBox, scene: &mut CurveScene) {
+    fn draw_curve(
+        &mut self,
+        shown: Shown<'_>,
+        id: CurveId,
+        curve: &Curve,
+        view: &ViewBox,
+        scene: &mut CurveScene,
+    ) {
         let locked = &curve.locked_vertices;
-        let (layers, comb, active) = (self.layers(), self.view.comb, scene.active);
-        let viewport = self.view.viewport;
-        let orientation = viewport.orientation;
-        self.append_features(active, view, &mut scene.features);
-        let shows_bands = layers.shows(Layer::Features) && self.view.shows_bands();
-        let outlined = self.view.outlines.get_mut(id);
+        let (layers, comb, active) = (shown.layers, self.comb, scene.active);
+        let orientation = self.viewport.orientation;
+        self.append_features(shown, active, view, &mut scene.features);
+        let shows_bands = layers.shows(Layer::Features) && self.shows_bands();
+        let outlined = self.outlines.get_mut(id);
         let Some((analysis, outlined)) = self.analyses.get(id).zip(outlined) else {
             return;
         };
@@ -167,7 +149,7 @@ impl Editor {
         if layers.shows(Layer::Float) {
             let (outlines, chain) = (&outlined.float, analysis.float());
             outlines.append_legs(chain, None, view, &mut scene.float);
-            let selection = &self.hand.selection;
+            let selection = shown.selection;
             let mark = |index: usize, at: DVec2, size: f32| VertexMark {
                 index,
                 at,
@@ -230,70 +212,61 @@ impl Editor {
         append_derived(&mut outlined.curve, sampled, view, (layers, comb), scene);
     }
 
-    /// The active curve before what is tried out on it, while Alt is held; before an operation
-    /// without that.
-    pub(in crate::editor) fn before(&self) -> Option<Arc<Curve>> {
-        if self.hand.modifiers.alt && self.workspace.preview().is_some() {
-            let active = self.hand.selection.active()?;
-            return self.workspace.settled().curve(active).cloned();
-        }
-        self.before_operation()
-    }
-
-    fn draw_ghost(&mut self, view: &ViewBox, scene: &mut Scene) {
+    fn draw_ghosts(
+        &mut self,
+        shown: Shown<'_>,
+        overlay: &Overlay,
+        view: &ViewBox,
+        scene: &mut Scene,
+    ) {
         scene.ghost.clear();
         scene.ghost_polygon.clear();
-        let others = self.others_before_operation();
-        let orientation = self.view.viewport.orientation;
-        let shows_float = self.layers().shows(Layer::Float);
-        if let Some(before) = self.before() {
+        let orientation = self.viewport.orientation;
+        if let Some(before) = &overlay.before {
             let chains = (&mut scene.ghost, &mut scene.ghost_polygon);
-            self.view.ghost.append(&before, orientation, view, chains);
+            self.ghost.append(before, orientation, view, chains);
         }
-        let ghosts = &mut self.view.other_ghosts;
-        ghosts.resize_with(others.len(), Ghost::default);
-        for (ghost, other) in ghosts.iter_mut().zip(&others) {
+        let others = &overlay.others_before;
+        self.other_ghosts.resize_with(others.len(), Ghost::default);
+        for (ghost, other) in self.other_ghosts.iter_mut().zip(others) {
             scene.ghost.push(GAP);
             let chains = (&mut scene.ghost, &mut scene.ghost_polygon);
             ghost.append(other, orientation, view, chains);
         }
-        if !shows_float {
+        if !shown.layers.shows(Layer::Float) {
             scene.ghost_polygon.clear();
         }
     }
 
-    /// The curve that a click would make now.
-    fn draw_proposal(&mut self, view: &ViewBox, scene: &mut Scene) {
-        scene.proposal = ProposalScene::default();
-        if let Some(polygon) = self.proposal() {
-            let (orientation, layers) = (self.view.viewport.orientation, self.layers());
-            let (proposed, scene) = (&mut self.view.proposed, &mut scene.proposal);
-            let changed = self.hand.selection.active();
-            let changed = changed.filter(|_| self.hand.tool() != ToolKind::Draw);
-            let document = self.workspace.document();
-            scene.id = Some(changed.unwrap_or(document.next_id()));
-            scene.colour = changed.and_then(|id| document.curve(id)?.colour);
-            proposed.draw(polygon, orientation, layers, view, scene);
-        }
+    /// Draw the curve that a click would make.
+    fn draw_proposal(
+        &mut self,
+        shown: Shown<'_>,
+        polygon: FloatPolygon,
+        changed: Option<CurveId>,
+        view: &ViewBox,
+        scene: &mut ProposalScene,
+    ) {
+        let document = shown.document();
+        scene.id = Some(changed.unwrap_or(document.next_id()));
+        scene.colour = changed.and_then(|id| document.curve(id)?.colour);
+        let orientation = self.viewport.orientation;
+        self.proposed
+            .draw(polygon, orientation, shown.layers, view, scene);
     }
 
-    fn draw_ends(&self, scene: &mut Scene) {
-        let fitting = self.hand.tool() == ToolKind::EndFit;
-        let active = self.hand.selection.active();
-        for (id, curve) in self.workspace.document().curves() {
-            if !curve.visible || curve.polygon.is_periodic() {
-                continue;
-            }
+    /// Draw the targets of all ends, and the marks of the end that the end-fit tool corrects.
+    fn draw_ends(&self, shown: Shown<'_>, fitted: Option<End>, out: &mut Vec<EndFitMarks>) {
+        let document = shown.document();
+        let open = |curve: &Curve| curve.visible && !curve.polygon.is_periodic();
+        for (id, curve) in document.curves().filter(|(_, curve)| open(curve)) {
             for end in End::BOTH {
-                let chosen =
-                    fitting && Some(id) == active && end == self.hand.tools.end_fit.settings.end;
-                let document = self.workspace.document();
+                let chosen = shown.active() == Some(id) && fitted == Some(end);
                 let matched = document.match_of(id, end);
                 let matched = matched.map(|matched| document.meets(matched));
-                let viewport = &self.view.viewport;
-                let marks = end_marks::marks(curve, end, chosen, matched, viewport);
-                scene.ends.extend(marks.map(|mut marks| {
-                    if !self.layers().shows(Layer::Float) {
+                let marks = end_marks::marks(curve, end, chosen, matched, &self.viewport);
+                out.extend(marks.map(|mut marks| {
+                    if !shown.layers.shows(Layer::Float) {
                         marks.terminal.clear();
                     }
                     marks

@@ -1,12 +1,13 @@
 //! Fitting what is shown into the canvas, with a comb of legible size.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
-use crate::document::CurveId;
-use crate::editor::Editor;
+use crate::document::{CurveId, Document};
 use crate::editor::view::comb::CombSettings;
 use crate::editor::view::layers::Layer;
 use crate::editor::view::outline::Bounds;
+use crate::editor::view::shown::Shown;
+use crate::editor::view::view::View;
 use crate::editor::view::viewport::Viewport;
 
 /// The height of the comb after a reset, as a share of the smaller side of the curve's box.
@@ -24,89 +25,77 @@ const SPECK: f64 = 0.15;
 /// How far beside curve and polygon a fitted view follows the comb, in units of their extent.
 const COMB_REACH: f64 = 1.0;
 
-impl Editor {
+impl View {
     /// Fit everything into the canvas, and give the comb a legible scale.
-    pub(in crate::editor) fn fit_all(&mut self) {
-        self.reset_comb();
-        self.show_all();
+    pub(super) fn fit_all(&mut self, shown: Shown<'_>) {
+        self.reset_comb(shown);
+        self.show_all(shown);
     }
 
-    /// Tell how large the canvas is, in screen points. As long as the view shows everything as it was fitted, it
-    /// is fitted again; afterwards the middle of the view stays where it is.
-    pub fn set_canvas_size(&mut self, size: DVec2) {
+    pub(super) fn set_canvas_size(&mut self, size: DVec2, shown: Shown<'_>) {
         if !(size.min_element() >= 1.0) {
             return;
         }
-        let is_fitted = self.view.fitted == Some(self.fitted_now());
-        self.view.viewport.size = size;
-        if !self.view.placed {
-            self.view.placed = true;
-            self.fit_all();
-        } else if is_fitted && !self.hand.is_holding() {
-            self.analyse();
-            self.show_all();
+        let is_fitted = self.fitted == Some(self.fitted_now(shown));
+        self.viewport.size = size;
+        if !self.placed {
+            self.placed = true;
+            self.fit_all(shown);
+        } else if is_fitted && !shown.is_holding {
+            self.analyse(shown.document());
+            self.show_all(shown);
         }
     }
 
     /// Fit everything into the canvas, and remember that nothing has changed since.
-    fn show_all(&mut self) {
-        let mut bounds = Bounds::EMPTY;
-        let document = self.document();
-        let shown = document.all_ids().filter(|id| document.is_visible(*id));
-        let shown: Vec<CurveId> = shown.collect();
-        for id in shown {
-            bounds.unite(&self.bounds_of(id));
-        }
-        self.view.viewport = self.view.viewport.fitted(&bounds);
-        self.view.target = self.middle();
-        self.view.fitted = Some(self.fitted_now());
+    fn show_all(&mut self, shown: Shown<'_>) {
+        let document = shown.document();
+        let visible = document.all_ids().filter(|id| document.is_visible(*id));
+        let bounds = self.bounds_of_all(visible, shown);
+        self.fit_bounds(&bounds, document);
+        self.fitted = Some(self.fitted_now(shown));
+    }
+
+    /// Fit a box, and turn the view about the middle of all from now on.
+    fn fit_bounds(&mut self, bounds: &Bounds, document: &Document) {
+        self.viewport = self.viewport.fitted(bounds);
+        self.target = middle(document);
     }
 
     /// The view and the state of the document that it shows.
-    fn fitted_now(&self) -> (Viewport, u64) {
-        (self.view.viewport, self.workspace.revision())
+    fn fitted_now(&self, shown: Shown<'_>) -> (Viewport, u64) {
+        (self.viewport, shown.workspace.revision())
     }
 
-    /// Fit everything into the canvas if one of some curves lies beyond what is visible.
-    pub(in crate::editor) fn bring_into_view(&mut self, curves: &[CurveId]) {
-        self.analyse();
-        let view = self.view.viewport.view_box();
-        let hidden = curves.iter().any(|id| {
-            let bounds = self.bounds_of(*id);
-            bounds.low.cmplt(view.low).any() || bounds.high.cmpgt(view.high).any()
-        });
-        if hidden {
-            self.fit_all();
+    pub(super) fn bring_into_sight(&mut self, new: &[CurveId], shown: Shown<'_>) {
+        self.analyse(shown.document());
+        let seen = self.viewport.view_box();
+        let is_hidden = |id: &CurveId| {
+            let bounds = self.bounds_of(*id, shown);
+            bounds.low.cmplt(seen.low).any() || bounds.high.cmpgt(seen.high).any()
+        };
+        if new.iter().any(is_hidden) {
+            self.fit_all(shown);
         }
-    }
-
-    /// Fit everything into the canvas if one of some new curves lies beyond what is visible; where they would be a
-    /// speck then, or are one already, fit them alone, with a legible comb.
-    pub(in crate::editor) fn bring_into_sight(&mut self, new: &[CurveId]) {
-        self.bring_into_view(new);
-        let comb = self.view.comb;
-        self.reset_comb();
-        let mut bounds = Bounds::EMPTY;
-        for id in new {
-            bounds.unite(&self.bounds_of(*id));
-        }
-        let view = self.view.viewport.view_box();
-        let (extent, side) = (bounds.high - bounds.low, view.high - view.low);
+        let comb = self.comb;
+        self.reset_comb(shown);
+        let bounds = self.bounds_of_all(new.iter().copied(), shown);
+        let seen = self.viewport.view_box();
+        let (extent, side) = (bounds.high - bounds.low, seen.high - seen.low);
         if extent.max_element() < SPECK * side.min_element() {
-            self.view.viewport = self.view.viewport.fitted(&bounds);
-            self.view.target = self.middle();
+            self.fit_bounds(&bounds, shown.document());
         } else {
-            self.view.comb = comb;
+            self.comb = comb;
         }
     }
 
-    /// Give the comb a scale at which its longest tooth is a good part of the active curve's box,
-    /// and teeth of which a long curve has no more a segment than can be told apart.
-    pub(in crate::editor) fn reset_comb(&mut self) {
-        self.analyse();
-        self.view.comb = CombSettings::default();
-        let Some((samples, bounds)) = self.active().and_then(|id| {
-            let outlined = self.view.outlines.get(id)?;
+    /// Give the comb a scale at which its longest tooth is a good part of the active curve's box, and so many
+    /// teeth a segment as can be told apart on a long curve.
+    pub(super) fn reset_comb(&mut self, shown: Shown<'_>) {
+        self.analyse(shown.document());
+        self.comb = CombSettings::default();
+        let Some((samples, bounds)) = shown.active().and_then(|id| {
+            let outlined = self.outlines.get(id)?;
             Some((self.analyses.sampled(id)?.samples, outlined.curve.bounds()))
         }) else {
             return;
@@ -115,35 +104,39 @@ impl Editor {
         let largest = samples
             .curvature()
             .map_or(0.0, |range| range.high.abs().max(range.low.abs()));
-        self.view.comb.density = (TEETH / samples.pieces()).clamp(1, self.view.comb.density);
+        self.comb.density = (TEETH / samples.pieces()).clamp(1, self.comb.density);
         // Without curvature there is no scale to choose.
-        self.view.set_comb(CombSettings {
+        self.set_comb(CombSettings {
             scale: COMB_HEIGHT * extent / largest,
-            ..self.view.comb
+            ..self.comb
         });
     }
 
-    /// Fit the selected vertices, or everything; the comb is legible again.
-    pub(in crate::editor) fn fit(&mut self) {
+    pub(super) fn fit_selection(&mut self, shown: Shown<'_>) {
         // A single vertex has no extent that could be fitted.
-        if self.hand.selection.vertices().len() < 2 {
-            self.fit_all();
-        } else {
-            self.reset_comb();
-            let mut bounds = Bounds::EMPTY;
-            for (curve, index) in self.hand.selection.vertices() {
-                if let Some(curve) = self.document().curve(curve) {
-                    bounds.add(self.view.viewport.flatten(curve.polygon.vertex(index)));
-                }
-            }
-            self.view.viewport = self.view.viewport.fitted(&bounds);
+        if shown.selection.vertices().len() < 2 {
+            return self.fit_all(shown);
         }
+        self.reset_comb(shown);
+        let mut bounds = Bounds::EMPTY;
+        for (curve, index) in shown.selection.vertices() {
+            if let Some(curve) = shown.document().curve(curve) {
+                bounds.add(self.viewport.flatten(curve.polygon.vertex(index)));
+            }
+        }
+        self.viewport = self.viewport.fitted(&bounds);
     }
 
-    fn bounds_of(&self, id: CurveId) -> Bounds {
-        let (layers, scale) = (self.layers(), self.view.comb.scale);
-        let is_active = self.hand.selection.active() == Some(id);
-        let outlined = self.view.outlines.get(id);
+    fn bounds_of_all(&self, ids: impl Iterator<Item = CurveId>, shown: Shown<'_>) -> Bounds {
+        let mut bounds = Bounds::EMPTY;
+        ids.for_each(|id| bounds.unite(&self.bounds_of(id, shown)));
+        bounds
+    }
+
+    fn bounds_of(&self, id: CurveId, shown: Shown<'_>) -> Bounds {
+        let (layers, scale) = (shown.layers, self.comb.scale);
+        let is_active = shown.active() == Some(id);
+        let outlined = self.outlines.get(id);
         let Some((sampled, outlined)) = self.analyses.sampled(id).zip(outlined) else {
             return Bounds::EMPTY;
         };
@@ -166,5 +159,20 @@ impl Editor {
             bounds.unite(&comb.within(&around));
         }
         bounds
+    }
+}
+
+/// The middle of the box around the float S-polygons that are shown.
+pub(super) fn middle(document: &Document) -> DVec3 {
+    let shown = document.curves().filter(|(_, curve)| curve.visible);
+    let vertices = shown.flat_map(|(_, curve)| curve.polygon.vertices());
+    let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let (low, high) = vertices.fold(start, |(low, high), vertex| {
+        (low.min(*vertex), high.max(*vertex))
+    });
+    if low.is_finite() {
+        0.5 * (low + high)
+    } else {
+        DVec3::ZERO
     }
 }

@@ -5,20 +5,19 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use crate::document::Curve;
-use crate::editor::Editor;
-use crate::editor::hand::tools::ToolKind;
 use crate::editor::jobs::guides::{FeatureOf, VertexOf};
-use crate::editor::selection::VertexId;
 use crate::editor::view::feature_report::FeatureKind;
 use crate::editor::view::guide_scene::{GuideLabel, GuideScene, LossArrow};
 use crate::editor::view::layers::Layer;
 use crate::editor::view::outline::GAP;
+use crate::editor::view::overlay::Overlay;
+use crate::editor::view::shown::Shown;
+use crate::editor::view::sight::Sight;
+use crate::editor::view::view::View;
 use crate::geometry::features::Quantity;
-use crate::geometry::mineur_farin::AtlasVerdicts;
+use crate::geometry::mineur_farin::{Atlas, AtlasVerdicts};
 use crate::geometry::vertex_moves::{FeatureLoss, FeatureRise, RayBorder, SafeRegion};
 use crate::geometry::{FloatPolygon, significant};
-use crate::operations::Atlas;
 
 /// The most texts at the border of a safe region.
 const BORDER_LABELS: usize = 5;
@@ -32,21 +31,54 @@ const MOVE_LABELS: usize = 3;
 /// The digits of distances.
 const DIGITS: usize = 3;
 
-impl Editor {
-    /// Choose a feature of the active curve by the middle of its interval: the canvas shows the
-    /// shortest moves found that lose it, until the curve changes. Chosen again it is let go.
-    pub fn choose_feature(&mut self, u: f64) {
-        let chosen = self.feature_at(u);
-        let is_same = chosen.is_some() && chosen == self.view.chosen;
-        self.view.chosen = chosen.filter(|_| !is_same);
-    }
-
+impl View {
     /// The middle of the interval of the feature that is chosen.
     pub fn chosen_feature(&self) -> Option<f64> {
-        self.view.chosen.as_ref().map(|feature| feature.u)
+        self.chosen.as_ref().map(|feature| feature.u)
     }
 
-    fn feature_at(&self, u: f64) -> Option<FeatureOf> {
+    /// What is proved so far of the atlas of an operation, while a panel shows it: its plane, and the verdicts.
+    pub fn atlas(&self) -> Option<(&Atlas, &AtlasVerdicts)> {
+        let step = self.guides.atlas.result()?.as_ref().ok()?;
+        Some((self.guides.atlas.request()?, &step.level))
+    }
+
+    pub(super) fn choose_feature(&mut self, u: f64, shown: Shown<'_>) {
+        let chosen = self.sight(shown).feature_at(u);
+        let is_same = chosen.is_some() && chosen == self.chosen;
+        self.chosen = chosen.filter(|_| !is_same);
+    }
+
+    /// Request the guides that are to be shown, and take those that are found.
+    pub(in crate::editor) fn guide(&mut self, shown: Shown<'_>, overlay: &Overlay) {
+        let settled = shown.settled_active();
+        let counts =
+            |feature: &FeatureOf| settled.is_some_and(|curve| Arc::ptr_eq(curve, &feature.curve));
+        self.chosen = self.chosen.take().filter(counts);
+        let vertex = guided_vertex(shown).filter(|_| overlay.guides);
+        let atlas = overlay.atlas.filter(|_| self.shows_atlas);
+        self.guides.advance(vertex, self.chosen.clone(), atlas);
+    }
+}
+
+/// The vertex whose safe region is to be shown: the only one that is selected, of the active curve, where it
+/// can be moved.
+fn guided_vertex(shown: Shown<'_>) -> Option<VertexOf> {
+    if !shown.layers.shows(Layer::SafeRegion) {
+        return None;
+    }
+    let (id, vertex) = shown.only_vertex()?;
+    let curve = shown
+        .settled_active()
+        .filter(|_| shown.active() == Some(id))?;
+    curve.check_editable().ok()?;
+    curve.check_vertices_unlocked([vertex]).ok()?;
+    let curve = curve.clone();
+    Some(VertexOf { curve, vertex })
+}
+
+impl Sight<'_> {
+    fn feature_at(self, u: f64) -> Option<FeatureOf> {
         let rows = self.features()?.rows.iter();
         let row = rows.into_iter().find(|row| row.middle == u)?;
         let quantity = match row.kind {
@@ -56,69 +88,18 @@ impl Editor {
             }
             _ => return None,
         };
-        let curve = self.workspace.settled().curve(self.active()?)?.clone();
+        let curve = self.shown.settled_active()?.clone();
         Some(FeatureOf { curve, quantity, u })
     }
 
-    /// See to it that the guides which are to be shown are found.
-    pub(in crate::editor) fn guide(&mut self) {
-        let settled = self.settled_active();
-        let counts = |feature: &FeatureOf| {
-            let is_settled = |curve: &Arc<Curve>| Arc::ptr_eq(curve, &feature.curve);
-            settled.as_ref().is_some_and(is_settled)
-        };
-        self.view.chosen = self.view.chosen.take().filter(counts);
-        let atlas = self.shown_atlas().map(|atlas| atlas.plane);
-        let (vertex, feature) = (self.guided_vertex(), self.view.chosen.clone());
-        self.guides.advance(vertex, feature, atlas);
-    }
-
-    /// What is proved so far of the atlas that the operation at hand offers, while a panel shows it.
-    pub fn atlas_verdicts(&self) -> Option<&AtlasVerdicts> {
-        let atlas = self.shown_atlas()?;
-        let guide = &self.guides.atlas;
-        let step = guide
-            .result()
-            .filter(|_| guide.request() == Some(&atlas.plane));
-        Some(&step?.as_ref().ok()?.level)
-    }
-
-    fn shown_atlas(&self) -> Option<&Atlas> {
-        let trial = self.trial().filter(|_| self.view.atlas)?;
-        let run = trial.run()?.as_ref().ok()?;
-        run.outcome.atlas.as_ref()
-    }
-
-    /// The vertex whose safe region is to be shown: the single one that is selected, of the active
-    /// curve, where it can be moved.
-    fn guided_vertex(&self) -> Option<VertexOf> {
-        let shows = self.layers().shows(Layer::SafeRegion);
-        if !shows || self.hand.tool() != ToolKind::Select {
-            return None;
-        }
-        let mut selected = self.hand.selection.vertices();
-        let (id, vertex): VertexId = selected.next().filter(|_| selected.next().is_none())?;
-        let curve = self
-            .settled_active()
-            .filter(|_| self.active() == Some(id))?;
-        curve.check_editable().ok()?;
-        curve.check_vertices_unlocked([vertex]).ok()?;
-        Some(VertexOf { curve, vertex })
-    }
-
-    /// The active curve without what is tried out on it.
-    pub(in crate::editor) fn settled_active(&self) -> Option<Arc<Curve>> {
-        let active = self.hand.selection.active()?;
-        self.workspace.settled().curve(active).cloned()
-    }
-
     /// Draw the guides that hold for what is shown.
-    pub(in crate::editor) fn draw_guides(&self, scene: &mut GuideScene) {
+    pub(super) fn draw_guides(self, scene: &mut GuideScene) {
         scene.clear();
-        let Some((_, shown)) = self.active_curve().filter(|(_, curve)| curve.visible) else {
+        let active = self.active().and_then(|id| self.document().curve(id));
+        let Some(shown) = active.filter(|curve| curve.visible) else {
             return;
         };
-        let regions = &self.guides.regions;
+        let regions = &self.view.guides.regions;
         if let Some(VertexOf { curve, vertex }) = regions.request()
             && differs_at_most_at(&curve.polygon, &shown.polygon, Some(*vertex))
         {
@@ -139,7 +120,7 @@ impl Editor {
                 None => {}
             }
         }
-        let losses = &self.guides.losses;
+        let losses = &self.view.guides.losses;
         if let Some(feature) = losses.request()
             && differs_at_most_at(&feature.curve.polygon, &shown.polygon, None)
         {
@@ -155,7 +136,7 @@ impl Editor {
         }
     }
 
-    fn draw_region(&self, region: &SafeRegion, scene: &mut GuideScene) {
+    fn draw_region(self, region: &SafeRegion, scene: &mut GuideScene) {
         let corners: Vec<DVec2> = region.outline().collect();
         let rays = &region.rays;
         let seen = corners.iter().map(|corner| self.seen(*corner)).collect();
@@ -190,7 +171,7 @@ impl Editor {
     }
 
     fn draw_losses(
-        &self,
+        self,
         feature: &FeatureOf,
         found: Result<&[FeatureLoss], String>,
         scene: &mut GuideScene,
@@ -236,7 +217,7 @@ impl Editor {
     }
 
     /// A text at a place of the plane, on the side of a direction.
-    fn guide_label(&self, at: DVec2, outwards: DVec2, text: String) -> GuideLabel {
+    fn guide_label(self, at: DVec2, outwards: DVec2, text: String) -> GuideLabel {
         GuideLabel {
             at: self.seen(at),
             outwards: self.seen(outwards) - self.seen(DVec2::ZERO),
@@ -245,7 +226,7 @@ impl Editor {
     }
 
     /// Where a place of the plane z = 0 is seen.
-    fn seen(&self, place: DVec2) -> DVec2 {
+    fn seen(self, place: DVec2) -> DVec2 {
         self.view.viewport.flatten(place.extend(0.0))
     }
 }

@@ -1,37 +1,31 @@
 //! The harmony of the active curve, and the vertices where the flow is least even.
 
 use crate::analysis::{Flow, LevelPlot};
-use crate::editor::Editor;
 use crate::editor::view::layers::Layer;
 use crate::editor::view::plot_scene::PlotKind;
 use crate::editor::view::scene::Mark;
-use crate::geometry::harmony::Harmony;
+use crate::editor::view::sight::Sight;
+use crate::editor::view::view::View;
 
 /// A second difference of a logarithm or an angle that is no more than this is rounding.
 const EVEN: f64 = 1e-9;
 
-impl Editor {
-    /// The harmony of the active curve, once it is measured: only while something shows it.
-    pub fn harmony(&self) -> Option<&Harmony> {
-        self.analyses.get(self.active()?)?.harmony()
-    }
-
-    /// Measure the harmony of the active curve if something shows it.
-    pub(in crate::editor) fn measure(&mut self) {
-        let plotted = match self.view.plot {
+impl View {
+    /// Whether something shows the harmony of the active curve.
+    pub(super) fn shows_harmony(&self) -> bool {
+        let is_plotted = match self.plot {
             Some(PlotKind::Harmony) => true,
             Some(PlotKind::Levels { plot, .. }) => plot == LevelPlot::Logarithmic,
             _ => false,
         };
-        if let Some(active) = self.active().filter(|_| plotted || self.view.harmony) {
-            let (analyses, patience) = (&mut self.analyses, &mut self.patience);
-            self.measuring.advance(active, analyses, patience);
-        }
+        is_plotted || self.harmony
     }
+}
 
+impl Sight<'_> {
     /// The vertices where the flow of the active curve is least even, if its harmony is known and
     /// shown in strips.
-    pub(in crate::editor) fn worst_of_flow(&self) -> [Option<(Flow, usize)>; Flow::ALL.len()] {
+    pub(super) fn worst_of_flow(self) -> [Option<(Flow, usize)>; Flow::ALL.len()] {
         let is_shown = matches!(self.view.plot, Some(PlotKind::Harmony));
         let harmony = self.harmony().filter(|_| is_shown);
         Flow::ALL.map(|flow| {
@@ -50,11 +44,11 @@ impl Editor {
     }
 
     /// Mark these vertices on the canvas, with the names of the strips in which they are worst.
-    pub(in crate::editor) fn flow_marks(&self) -> Vec<Mark> {
-        let Some((_, curve)) = self.active_curve() else {
+    pub(super) fn flow_marks(self) -> Vec<Mark> {
+        let Some(curve) = self.active().and_then(|id| self.document().curve(id)) else {
             return Vec::new();
         };
-        if !curve.visible || !self.layers().shows(Layer::Float) {
+        if !curve.visible || !self.shown.layers.shows(Layer::Float) {
             return Vec::new();
         }
         let mut worst: Vec<(usize, String)> = Vec::new();

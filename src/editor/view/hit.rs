@@ -2,15 +2,12 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::analysis::AnalysisCache;
-use crate::document::{Curve, CurveId, Document};
-use crate::editor::selection::{Selection, VertexId};
-use crate::editor::view::comb::CombSettings;
+use crate::document::{Curve, CurveId};
+use crate::editor::selection::VertexId;
 use crate::editor::view::density::{self, SeenChain};
-use crate::editor::view::feature_report::{FeatureReport, FeatureRow};
-use crate::editor::view::layers::{Layer, Layers};
-use crate::editor::view::outlines::Outlines;
-use crate::editor::view::viewport::Viewport;
+use crate::editor::view::feature_report::FeatureRow;
+use crate::editor::view::layers::Layer;
+use crate::editor::view::sight::Sight;
 
 /// How near the pointer must come to something, in screen points, whatever the zoom.
 pub const REACH: f64 = 8.0;
@@ -24,31 +21,6 @@ const BEHIND: f64 = 2.0;
 
 /// The smallest length of a comb's tooth, in screen points, that can be dragged by its tip.
 const SHORTEST_TOOTH: f64 = 4.0;
-
-/// Find what lies under a place; vertices come before legs and curves.
-#[derive(Clone, Copy)]
-pub struct HitTest<'a> {
-    /// The document.
-    pub document: &'a Document,
-    /// The analyses of its curves.
-    pub analyses: &'a AnalysisCache,
-    /// How they are seen.
-    pub outlines: &'a Outlines,
-    /// The features of the active curve, if they are known.
-    pub features: Option<&'a FeatureReport>,
-    /// How the comb is drawn.
-    pub comb: CombSettings,
-    /// How the model is mapped to the canvas.
-    pub viewport: &'a Viewport,
-    /// Which layers are shown, and can therefore be hit.
-    pub layers: Layers,
-    /// What is selected, and is hit however much it crowds.
-    pub selection: &'a Selection,
-    /// The curve that is preferred among equals.
-    pub active: Option<CurveId>,
-    /// How many times Tab was pressed over things that overlap.
-    pub cycle: usize,
-}
 
 /// A place on a curve or on a reference.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,32 +46,32 @@ pub struct LegHit {
     pub point: DVec2,
 }
 
-impl<'a> HitTest<'a> {
+impl<'a> Sight<'a> {
     /// Find the vertex under a place; where several overlap, Tab has chosen which.
-    pub fn vertex(&self, place: DVec2) -> Option<(CurveId, usize)> {
-        if !self.layers.shows(Layer::Float) {
+    pub(in crate::editor) fn vertex(&self, place: DVec2) -> Option<(CurveId, usize)> {
+        if !self.shown.layers.shows(Layer::Float) {
             return None;
         }
         let mut found: Vec<(f64, bool, (CurveId, usize))> = self
             .vertices_within(place, REACH)
-            .map(|(distance, id)| (distance, self.active != Some(id.0), id))
+            .map(|(distance, id)| (distance, self.active() != Some(id.0), id))
             .collect();
         // The nearest wins; of equals, the active curve's, then the one drawn on top.
         found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(b.2.cmp(&a.2)));
-        let chosen = self.cycle.checked_rem(found.len())?;
+        let chosen = self.shown.cycle.checked_rem(found.len())?;
         found.get(chosen).map(|hit| hit.2)
     }
 
     /// Whether a place lies so near to a vertex that is shown, of either S-polygon, that it may
     /// be the vertex that is meant.
-    pub fn is_beside_vertex(&self, place: DVec2) -> bool {
-        let float = self.layers.shows(Layer::Float);
+    pub(in crate::editor) fn is_beside_vertex(&self, place: DVec2) -> bool {
+        let float = self.shown.layers.shows(Layer::Float);
         (float && self.vertices_within(place, BESIDE).next().is_some())
             || self.clamped_vertex_within(place, BESIDE).is_some()
     }
 
     /// Find the vertex of the active curve's closed S-polygon under a place, if it is shown.
-    pub fn clamped_vertex(&self, place: DVec2) -> Option<(CurveId, usize)> {
+    pub(in crate::editor) fn clamped_vertex(&self, place: DVec2) -> Option<(CurveId, usize)> {
         self.clamped_vertex_within(place, REACH)
     }
 
@@ -110,14 +82,14 @@ impl<'a> HitTest<'a> {
         place: DVec2,
         reach: f64,
     ) -> impl Iterator<Item = (f64, (CurveId, usize))> {
-        let model = self.viewport.to_model(place);
-        let reach = reach * self.viewport.pixel();
-        let all = self.shown().flat_map(|(id, curve)| {
+        let model = self.view.viewport.to_model(place);
+        let reach = reach * self.view.viewport.pixel();
+        let all = self.curves().flat_map(|(id, curve)| {
             let vertices = curve.polygon.vertices().iter().enumerate();
             vertices.map(move |(index, vertex)| (*vertex, (id, index)))
         });
         let distances =
-            all.map(move |(vertex, id)| (self.viewport.flatten(vertex).distance(model), id));
+            all.map(move |(vertex, id)| (self.view.viewport.flatten(vertex).distance(model), id));
         let near = distances.filter(move |(distance, _)| *distance <= reach);
         near.filter(|(_, id)| self.is_seen(*id))
     }
@@ -127,44 +99,54 @@ impl<'a> HitTest<'a> {
         let (curve, index) = id;
         let is_locked = |curve: &Curve| curve.locked_vertices.contains(index);
         self.spacing_on(curve, |seen| seen.spacing(index))
-            || self.selection.contains(id)
+            || self.shown.selection.contains(id)
             || self
-                .document
+                .document()
                 .curve(curve)
                 .is_some_and(|curve| is_locked(curve))
     }
 
     /// Whether legs are drawn at a spacing of a curve's polygon.
     fn spacing_on(&self, curve: CurveId, spacing: impl Fn(SeenChain) -> f64) -> bool {
-        let known = self.analyses.get(curve).zip(self.outlines.get(curve));
+        let known = self
+            .view
+            .analyses
+            .get(curve)
+            .zip(self.view.outlines.get(curve));
         known.is_none_or(|(analysis, outlined)| {
             let seen = outlined.float.seen(analysis.float());
-            density::leg(spacing(seen) * self.viewport.scale) > 0.0
+            density::leg(spacing(seen) * self.view.viewport.scale) > 0.0
         })
     }
 
     fn clamped_vertex_within(&self, place: DVec2, reach: f64) -> Option<(CurveId, usize)> {
-        if !self.layers.shows(Layer::Clamped) {
+        if !self.shown.layers.shows(Layer::Clamped) {
             return None;
         }
         let id = self.shown_active()?;
-        let model = self.viewport.to_model(place);
-        let chain = self.analyses.get(id)?.clamped();
+        let model = self.view.viewport.to_model(place);
+        let chain = self.view.analyses.get(id)?.clamped();
         let vertices = chain.vertices();
-        let distance = |vertex: &DVec3| self.viewport.flatten(*vertex).distance(model);
+        let distance = |vertex: &DVec3| self.view.viewport.flatten(*vertex).distance(model);
         let distances = vertices.iter().map(distance).enumerate();
         let (index, nearest) = distances.min_by(|a, b| a.1.total_cmp(&b.1))?;
-        let spacing = self.outlines.get(id)?.clamped.seen(chain).spacing(index);
-        let is_seen = density::leg(spacing * self.viewport.scale) > 0.0;
-        (is_seen && nearest <= reach * self.viewport.pixel()).then_some((id, index))
+        let spacing = self
+            .view
+            .outlines
+            .get(id)?
+            .clamped
+            .seen(chain)
+            .spacing(index);
+        let is_seen = density::leg(spacing * self.view.viewport.scale) > 0.0;
+        (is_seen && nearest <= reach * self.view.viewport.pixel()).then_some((id, index))
     }
 
     /// Find the place on a curve or on a reference under a place on the canvas. Where a curve follows
     /// a reference it is the curve that is found.
-    pub fn curve(&self, place: DVec2) -> Option<CurveHit> {
-        let curves = self.layers.shows(Layer::Curve).then(|| self.shown());
+    pub(in crate::editor) fn curve(&self, place: DVec2) -> Option<CurveHit> {
+        let curves = self.shown.layers.shows(Layer::Curve).then(|| self.curves());
         let curves = curves.into_iter().flatten().map(|(id, _)| (id, 0.0));
-        let behind = BEHIND * self.viewport.pixel();
+        let behind = BEHIND * self.view.viewport.pixel();
         let references = self.shown_references().map(|id| (id, behind));
         let hits = curves.chain(references).filter_map(|(id, behind)| {
             let (distance, hit) = self.hit_on(id, place)?;
@@ -174,7 +156,11 @@ impl<'a> HitTest<'a> {
     }
 
     /// Find the place on a reference under a place on the canvas, on others than `left_out`.
-    pub fn reference(&self, place: DVec2, left_out: Option<CurveId>) -> Option<CurveHit> {
+    pub(in crate::editor) fn reference(
+        &self,
+        place: DVec2,
+        left_out: Option<CurveId>,
+    ) -> Option<CurveHit> {
         let others = self.shown_references().filter(|id| Some(*id) != left_out);
         let hits = others.filter_map(|id| self.hit_on(id, place));
         hits.min_by(|a, b| a.0.total_cmp(&b.0)).map(|hit| hit.1)
@@ -182,10 +168,10 @@ impl<'a> HitTest<'a> {
 
     /// The place on one curve or reference under a place on the canvas, with its distance.
     fn hit_on(&self, id: CurveId, place: DVec2) -> Option<(f64, CurveHit)> {
-        let model = self.viewport.to_model(place);
-        let reach = REACH * self.viewport.pixel();
-        let sampled = self.analyses.sampled(id)?;
-        let outlines = &self.outlines.get(id)?.curve;
+        let model = self.view.viewport.to_model(place);
+        let reach = REACH * self.view.viewport.pixel();
+        let sampled = self.view.analyses.sampled(id)?;
+        let outlines = &self.view.outlines.get(id)?.curve;
         let (u, point, distance) = outlines.nearest(sampled, model, reach)?;
         let curve = id;
         Some((distance, CurveHit { curve, u, point }))
@@ -193,33 +179,36 @@ impl<'a> HitTest<'a> {
 
     /// Find the tooth of the active curve's comb whose tip is under a place, from its foot to its tip.
     /// Beside a vertex it was the vertex that was aimed at.
-    pub fn tooth(&self, place: DVec2) -> Option<[DVec2; 2]> {
-        if !self.layers.shows(Layer::Comb) || self.is_beside_vertex(place) {
+    pub(in crate::editor) fn tooth(&self, place: DVec2) -> Option<[DVec2; 2]> {
+        if !self.shown.layers.shows(Layer::Comb) || self.is_beside_vertex(place) {
             return None;
         }
         let id = self.shown_active()?;
-        let reference = self.analyses.reference(id);
+        let reference = self.view.analyses.reference(id);
         if reference.is_some_and(|reference| !reference.is_smooth()) {
             return None;
         }
-        let sampled = self.analyses.sampled(id)?;
-        let (model, pixel) = (self.viewport.to_model(place), self.viewport.pixel());
-        let outlines = &self.outlines.get(id)?.curve;
+        let sampled = self.view.analyses.sampled(id)?;
+        let (model, pixel) = (
+            self.view.viewport.to_model(place),
+            self.view.viewport.pixel(),
+        );
+        let outlines = &self.view.outlines.get(id)?.curve;
         let (reach, shortest) = (REACH * pixel, SHORTEST_TOOTH * pixel);
-        outlines.tooth(sampled, &self.comb, model, reach, shortest)
+        outlines.tooth(sampled, &self.view.comb, model, reach, shortest)
     }
 
     /// Find the feature of the active curve under a place, if they are shown.
-    pub fn feature(&self, place: DVec2) -> Option<(CurveId, &'a FeatureRow)> {
-        if !self.layers.shows(Layer::Features) {
+    pub(in crate::editor) fn feature(&self, place: DVec2) -> Option<(CurveId, &'a FeatureRow)> {
+        if !self.shown.layers.shows(Layer::Features) {
             return None;
         }
         let id = self.shown_active()?;
         let distance = |row: &FeatureRow| {
-            let at = self.viewport.flatten(row.point);
-            self.viewport.to_screen(at).distance(place)
+            let at = self.view.viewport.flatten(row.point);
+            self.view.viewport.to_screen(at).distance(place)
         };
-        let rows = self.features?.rows.iter();
+        let rows = self.features()?.rows.iter();
         let rows = rows.map(|row| (distance(row), row));
         let (nearest, row) = rows.min_by(|a, b| a.0.total_cmp(&b.0))?;
         (nearest <= REACH).then_some((id, row))
@@ -227,17 +216,17 @@ impl<'a> HitTest<'a> {
 
     /// The active curve or reference, unless it is hidden.
     fn shown_active(&self) -> Option<CurveId> {
-        self.active.filter(|id| self.document.is_visible(*id))
+        self.active().filter(|id| self.document().is_visible(*id))
     }
 
     /// Find the leg nearest to a place, within `reach` screen points, of those that are drawn.
-    pub fn leg(&self, place: DVec2, reach: f64) -> Option<LegHit> {
-        if !self.layers.shows(Layer::Float) {
+    pub(in crate::editor) fn leg(&self, place: DVec2, reach: f64) -> Option<LegHit> {
+        if !self.shown.layers.shows(Layer::Float) {
             return None;
         }
-        let model = self.viewport.to_model(place);
+        let model = self.view.viewport.to_model(place);
         let mut best: Option<(f64, LegHit)> = None;
-        for (id, curve) in self.shown() {
+        for (id, curve) in self.curves() {
             let polygon = &curve.polygon;
             let count = polygon.vertices().len();
             let legs = if polygon.is_periodic() {
@@ -246,8 +235,9 @@ impl<'a> HitTest<'a> {
                 count - 1
             };
             for index in 0..legs {
-                let from = self.viewport.flatten(polygon.vertices()[index]);
+                let from = self.view.viewport.flatten(polygon.vertices()[index]);
                 let leg = self
+                    .view
                     .viewport
                     .flatten(polygon.vertices()[(index + 1) % count])
                     - from;
@@ -273,20 +263,23 @@ impl<'a> HitTest<'a> {
             }
         }
         let (distance, hit) = best?;
-        (distance <= reach * self.viewport.pixel()).then_some(hit)
+        (distance <= reach * self.view.viewport.pixel()).then_some(hit)
     }
 
     /// List the vertices inside a box, by opposite corners on the canvas.
-    pub fn vertices_in_box(&self, a: DVec2, b: DVec2) -> Vec<(CurveId, usize)> {
-        if !self.layers.shows(Layer::Float) {
+    pub(in crate::editor) fn vertices_in_box(&self, a: DVec2, b: DVec2) -> Vec<(CurveId, usize)> {
+        if !self.shown.layers.shows(Layer::Float) {
             return Vec::new();
         }
-        let (a, b) = (self.viewport.to_model(a), self.viewport.to_model(b));
+        let (a, b) = (
+            self.view.viewport.to_model(a),
+            self.view.viewport.to_model(b),
+        );
         let (low, high) = (a.min(b), a.max(b));
         let mut found = Vec::new();
-        for (id, curve) in self.shown().filter(|(_, curve)| !curve.locked) {
+        for (id, curve) in self.curves().filter(|(_, curve)| !curve.locked) {
             for (index, vertex) in curve.polygon.vertices().iter().enumerate() {
-                let at = self.viewport.flatten(*vertex);
+                let at = self.view.viewport.flatten(*vertex);
                 if at.cmpge(low).all() && at.cmple(high).all() {
                     found.push((id, index));
                 }
@@ -297,14 +290,14 @@ impl<'a> HitTest<'a> {
 
     /// The references that can be hit.
     fn shown_references(&self) -> impl Iterator<Item = CurveId> {
-        let references = self.document.references();
+        let references = self.document().references();
         let visible = references.filter(|(_, reference)| reference.visible);
         visible.map(|(id, _)| id)
     }
 
     /// The curves that can be hit.
-    pub fn shown(&self) -> impl Iterator<Item = (CurveId, &'a Curve)> {
-        let curves = self.document.curves();
+    pub(in crate::editor) fn curves(&self) -> impl Iterator<Item = (CurveId, &'a Curve)> {
+        let curves = self.document().curves();
         curves
             .filter(|(_, curve)| curve.visible)
             .map(|(id, curve)| (id, curve.as_ref()))

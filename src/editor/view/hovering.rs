@@ -6,82 +6,61 @@ use glam::{DVec2, DVec3};
 
 use crate::analysis::{ReferenceAnalysis, SampledCurve};
 use crate::document::CurveId;
-use crate::editor::Editor;
-use crate::editor::hand::tools::ToolKind;
+use crate::editor::view::overlay::{Hovering, Overlay};
 use crate::editor::view::scene::HoverScene;
+use crate::editor::view::sight::Sight;
 use crate::geometry::{Jet, coordinate, figure, significant};
 
 /// Chords in half of the osculating circle.
 const CIRCLE_STEPS: i32 = 64;
 
-impl Editor {
-    /// What the pointer is over, on the canvas or in a panel.
-    pub(in crate::editor) fn hover(&self) -> Option<HoverScene> {
-        if let Some(hover) = self.hover_from_panels() {
+impl Sight<'_> {
+    /// Find what the pointer is over, on the canvas or in a panel.
+    pub(in crate::editor) fn hover(self, overlay: &Overlay) -> Option<HoverScene> {
+        if let Some(hover) = self.hover_from_panels().or_else(|| overlay.handle.clone()) {
             return Some(hover);
         }
-        if let Some(hover) = self.handle_hover() {
-            return Some(hover);
-        }
-        let place = self.hand.gestures.pointer()?;
-        let context = self.context();
-        if self.hand.gestures.is_dragging() {
-            let mut hover = self.vertex_hover(self.held_vertex()?);
-            if let Some(HoverScene::Vertex { text, .. }) = &mut hover {
-                // What a drag does is told beside it.
-                text.clear();
+        let place = self.shown.pointer?;
+        let closed = match overlay.hovering {
+            Hovering::Nothing => return None,
+            Hovering::Dragged(vertex) => {
+                let mut hover = self.vertex_hover(vertex);
+                if let Some(HoverScene::Vertex { text, .. }) = &mut hover {
+                    // The readout beside it tells what a drag does.
+                    text.clear();
+                }
+                return hover;
             }
-            return hover;
-        }
-        if self.hand.gestures.is_panning()
-            || !matches!(
-                self.hand.tool(),
-                ToolKind::Select
-                    | ToolKind::Delete
-                    | ToolKind::EndFit
-                    | ToolKind::Rotate
-                    | ToolKind::Scale
-            )
-        {
-            return None;
-        }
-        if let Some(vertex) = context.hits.vertex(place) {
+            Hovering::Document { closed } => closed,
+        };
+        if let Some(vertex) = self.vertex(place) {
             return self.vertex_hover(vertex);
         }
-        if let (ToolKind::Select, Some((id, index))) =
-            (self.hand.tool(), context.hits.clamped_vertex(place))
-        {
+        if let Some((id, index)) = self.clamped_vertex(place).filter(|_| closed) {
             return self.clamped_hover(id, index);
         }
-        if let Some((id, feature)) = context.hits.feature(place) {
+        if let Some((id, feature)) = self.feature(place) {
             let mut hover = self.curve_hover(id, feature.middle);
             if let Some(HoverScene::Curve { text, .. }) = &mut hover {
                 *text = format!("{}\n{text}", feature.kind.label());
             }
             return hover;
         }
-        let hit = context.hits.curve(place)?;
+        let hit = self.curve(place)?;
         self.curve_hover(hit.curve, hit.u)
     }
 
-    /// The one vertex that a drag moves.
-    fn held_vertex(&self) -> Option<(CurveId, usize)> {
-        let mut selected = self.hand.selection.vertices();
-        let only = selected.next().filter(|_| selected.next().is_none());
-        only.filter(|_| self.hand.tool() == ToolKind::Select && self.workspace.preview().is_some())
-    }
-
-    fn hover_from_panels(&self) -> Option<HoverScene> {
-        let id = self.hand.selection.active()?;
+    fn hover_from_panels(self) -> Option<HoverScene> {
+        let id = self.active()?;
         if let Some(index) = self.view.hovered.vertex {
             return self.vertex_hover((id, index));
         }
-        let samples = self.analyses.sampled(id)?.samples;
+        let samples = self.view.analyses.sampled(id)?.samples;
         let u = samples.parameter_at_length(self.view.hovered.length?);
         self.curve_hover(id, u)
     }
 
-    fn vertex_hover(&self, (id, index): (CurveId, usize)) -> Option<HoverScene> {
+    fn vertex_hover(self, (id, index): (CurveId, usize)) -> Option<HoverScene> {
         let curve = self.document().curve(id).filter(|curve| curve.visible)?;
         let vertex = *curve.polygon.vertices().get(index)?;
         let written = |value| coordinate(value, self.view.viewport.pixel());
@@ -99,7 +78,7 @@ impl Editor {
         if curve.locked_vertices.contains(index) {
             text += "\nLocked";
         }
-        if self.hand.selection.active() != Some(id) {
+        if self.active() != Some(id) {
             text = format!("{}\n{text}", curve.name);
         }
         Some(HoverScene::Vertex {
@@ -109,8 +88,8 @@ impl Editor {
         })
     }
 
-    fn clamped_hover(&self, id: CurveId, index: usize) -> Option<HoverScene> {
-        let analysis = self.analyses.get(id)?;
+    fn clamped_hover(self, id: CurveId, index: usize) -> Option<HoverScene> {
+        let analysis = self.view.analyses.get(id)?;
         let vertex = *analysis.clamped().vertices().get(index)?;
         let written = |value| coordinate(value, self.view.viewport.pixel());
         let mut text = format!(
@@ -131,15 +110,15 @@ impl Editor {
         })
     }
 
-    fn curve_hover(&self, id: CurveId, u: f64) -> Option<HoverScene> {
+    fn curve_hover(self, id: CurveId, u: f64) -> Option<HoverScene> {
         if !self.document().is_visible(id) {
             return None;
         }
         let SampledCurve {
             curve: shape,
             samples,
-        } = self.analyses.sampled(id)?;
-        let reference = self.analyses.reference(id);
+        } = self.view.analyses.sampled(id)?;
+        let reference = self.view.analyses.reference(id);
         let is_smooth = reference.is_none_or(ReferenceAnalysis::is_smooth);
         let (planar, jet) = (samples.is_planar(), shape.jet(u));
         let curvature = jet.curvature_of(planar);
@@ -164,7 +143,7 @@ impl Editor {
             let torsion = Some(jet.torsion()).filter(|torsion| !planar && torsion.is_finite());
             lines.extend(torsion.map(|torsion| format!("τ {}", figure(torsion))));
         }
-        if self.hand.selection.active() != Some(id) {
+        if self.active() != Some(id) {
             lines.splice(0..0, self.document().name(id).map(str::to_owned));
         }
         let text = lines.join("\n");
@@ -186,7 +165,7 @@ impl Editor {
     }
 
     /// The osculating circle as it is seen; of a large one only the part near its point.
-    fn circle(&self, jet: &Jet, centre: DVec3) -> Vec<DVec2> {
+    fn circle(self, jet: &Jet, centre: DVec3) -> Vec<DVec2> {
         let arm = jet.point - centre;
         let reach = 4.0
             * (self.view.viewport.size.x + self.view.viewport.size.y)

@@ -3,15 +3,15 @@
 use glam::DVec2;
 
 use crate::analysis::{LengthCursor, LevelPlot, SampledCurve};
-use crate::document::CurveId;
-use crate::editor::Editor;
-use crate::editor::trial::Trial;
 use crate::editor::view::curve_outlines::PieceTrend;
 use crate::editor::view::feature_report::{FeatureKind, FeatureRow};
 use crate::editor::view::layers::Layer;
 use crate::editor::view::plot_scene::{
     MarkSource, PlotBand, PlotFeature, PlotKind, PlotScene, PlotSource,
 };
+use crate::editor::view::shown::Shown;
+use crate::editor::view::sight::Sight;
+use crate::editor::view::view::View;
 use crate::geometry::ParametricCurve;
 use crate::geometry::features::SegmentFeatures;
 
@@ -23,12 +23,12 @@ const BANDS: f64 = 2048.0;
 
 /// The quantity that a plot shows, if it has features.
 #[derive(Clone, Copy, PartialEq)]
-enum Quantity {
+enum PlottedQuantity {
     Curvature,
     Torsion,
 }
 
-impl Quantity {
+impl PlottedQuantity {
     fn of(kind: PlotKind) -> Option<Self> {
         match kind {
             PlotKind::Curvature => Some(Self::Curvature),
@@ -66,44 +66,42 @@ impl Quantity {
     }
 }
 
-impl Editor {
+impl View {
     /// Mark in the plot what the canvas marks; made anew only if something of it changed.
-    pub(in crate::editor) fn mark_plot(&mut self, plots: &mut PlotScene) {
-        let source = self.mark_source();
-        if source == self.view.plot_marked {
+    pub(super) fn mark_plot(
+        &mut self,
+        plots: &mut PlotScene,
+        shown: Shown<'_>,
+        joint: Option<[f64; 2]>,
+    ) {
+        let source = self.plotted.as_ref().map(|_| MarkSource {
+            features: shown.layers.shows(Layer::Features) && self.sight(shown).features().is_some(),
+            joint,
+        });
+        // The series were not made anew, nor did what their marks are made of change.
+        if source == self.plot_marked {
             return;
         }
         plots.features.clear();
         plots.bands.clear();
         plots.joints.clear();
-        if let Some((source, id)) = source.as_ref().zip(self.active()) {
+        if let Some((source, plotted)) = source.as_ref().zip(self.plotted.as_ref()) {
             if source.features {
-                self.mark_features(plots, id, source.kind);
+                self.sight(shown).mark_features(plots, plotted);
             }
             if let Some(joint) = source.joint {
-                self.mark_joint(plots, id, source.kind, joint);
+                self.sight(shown).mark_joint(plots, plotted, joint);
             }
         }
-        self.view.plot_marked = source;
+        self.plot_marked = source;
     }
+}
 
-    fn mark_source(&self) -> Option<MarkSource> {
-        let PlotSource {
-            kind, shown, part, ..
-        } = self.view.plotted.as_ref()?;
-        let run = self.trial().and_then(Trial::run);
-        let joint = run.and_then(|run| run.as_ref().ok()?.outcome.joint);
-        Some(MarkSource {
-            kind: *kind,
-            shown: shown.clone(),
-            features: self.layers().shows(Layer::Features) && self.features().is_some(),
-            joint,
-            part: *part,
-        })
-    }
-
-    fn mark_features(&self, plots: &mut PlotScene, id: CurveId, kind: PlotKind) {
-        let Some((quantity, sampled)) = Quantity::of(kind).zip(self.analyses.sampled(id)) else {
+impl Sight<'_> {
+    fn mark_features(self, plots: &mut PlotScene, source: &PlotSource) {
+        let (id, kind) = (source.id, source.kind);
+        let analyses = &self.view.analyses;
+        let Some((quantity, sampled)) = PlottedQuantity::of(kind).zip(analyses.sampled(id)) else {
             return;
         };
         let rows = self.features().map_or(&[][..], |report| &report.rows);
@@ -129,7 +127,7 @@ impl Editor {
                 at: DVec2::new(along * scale, value / scale),
             });
         }
-        if let Some(analysis) = self.analyses.get(id)
+        if let Some(analysis) = analyses.get(id)
             && let Some(segments) = analysis.proved_segments()
             && kind == PlotKind::Curvature
         {
@@ -140,8 +138,9 @@ impl Editor {
 
     /// Mark the part between two parameters, in strips its vertices; on a periodic curve it may run
     /// over the end.
-    fn mark_joint(&self, plots: &mut PlotScene, id: CurveId, kind: PlotKind, [from, to]: [f64; 2]) {
-        let Some(sampled) = self.analyses.sampled(id) else {
+    fn mark_joint(self, plots: &mut PlotScene, source: &PlotSource, [from, to]: [f64; 2]) {
+        let (id, kind) = (source.id, source.kind);
+        let Some(sampled) = self.view.analyses.sampled(id) else {
             return;
         };
         let scale = match kind {

@@ -1,14 +1,11 @@
 //! What the plots under the canvas show: the ui only paints it.
 
-use std::sync::Arc;
-
 use glam::DVec2;
 
-use crate::analysis::{Flow, LevelPlot};
-use crate::document::{Curve, CurveId};
+use crate::analysis::{Flow, Item, LevelPlot};
+use crate::document::CurveId;
 use crate::editor::view::curve_outlines::PieceTrend;
 use crate::editor::view::feature_report::FeatureKind;
-use crate::editor::view::shown::Shown;
 
 /// What is plotted of the active curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -133,16 +130,16 @@ fn at_length_one(scene: Option<&PlotScene>) -> Option<Box<PlotScene>> {
 }
 
 /// What the series of a plot are made of.
-#[derive(Debug)]
+#[derive(Debug, PartialEq)]
 pub struct PlotSource {
     /// What is plotted.
     pub kind: PlotKind,
     /// Of which curve or reference.
     pub id: CurveId,
     /// The curve or the reference as it is.
-    pub shown: Shown,
+    pub item: Item,
     /// The curve as it was.
-    pub before: Option<Arc<Curve>>,
+    pub before: Option<Item>,
     /// What it is compared with.
     pub compared: Option<Compared>,
     /// The part that is looked at closely.
@@ -153,35 +150,16 @@ pub struct PlotSource {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Compared {
     /// A curve or a reference of the document.
-    Item(CurveId, Shown),
+    OfDocument(CurveId, Item),
     /// The reference that an operation was given, which the document does not have.
-    Given(Shown),
+    Given(Item),
 }
 
 /// What the marks of a plot are made of, beside its series.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MarkSource {
-    /// What is plotted.
-    pub kind: PlotKind,
-    /// The curve or the reference as it is.
-    pub shown: Shown,
-    /// Whether its features are known and shown.
+    /// Whether features are known and shown.
     pub features: bool,
-    /// The parameters between which it was joined.
+    /// The parameters between which the curve was joined.
     pub joint: Option<[f64; 2]>,
-    /// The part that is looked at closely.
-    pub part: Option<[f64; 2]>,
-}
-
-impl PartialEq for PlotSource {
-    /// Whether both are of the very same curves.
-    fn eq(&self, other: &Self) -> bool {
-        let before = |source: &Self| source.before.as_ref().map(Arc::as_ptr);
-        self.kind == other.kind
-            && self.id == other.id
-            && self.shown == other.shown
-            && self.compared == other.compared
-            && self.part == other.part
-            && before(self) == before(other)
-    }
 }

@@ -4,117 +4,124 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use crate::analysis::{CurveAnalysis, Flow, LevelPlot, ReferenceAnalysis, SampledCurve};
-use crate::document::{CurveId, Reference};
-use crate::editor::Editor;
+use crate::analysis::{CurveAnalysis, Flow, Item, LevelPlot, ReferenceAnalysis, SampledCurve};
+use crate::document::{CurveId, Document, Reference};
+use crate::editor::view::overlay::Overlay;
 use crate::editor::view::plot_scene::{Compared, PlotKind, PlotScene, PlotSource};
 use crate::editor::view::shown::Shown;
+use crate::editor::view::view::View;
 use crate::geometry::references::ReferenceCurve;
 
-impl Editor {
+impl View {
     /// Make the plot that is shown; its series are made anew only if its curves or its kind changed.
-    pub(in crate::editor) fn plot(&mut self) {
-        let source = self.plot_source();
-        let mut plots = std::mem::take(&mut self.view.plots);
+    pub(in crate::editor) fn draw_plot(&mut self, shown: Shown<'_>, overlay: &Overlay) {
+        let source = self.plot_source(shown, overlay);
+        let mut plots = std::mem::take(&mut self.plots);
         plots.hovered = None;
         plots.hovered_level = None;
         plots.hovered_vertex = None;
-        if source != self.view.plotted {
+        if source != self.plotted {
             plots.clear();
-            self.fill(&mut plots, source.as_ref());
-            self.view.plotted = source;
-            self.view.plot_marked = None;
+            self.fill(&mut plots, source.as_ref(), shown.document());
+            self.plotted = source;
+            self.plot_marked = None;
         }
-        self.mark_plot(&mut plots);
-        if let Some((id, kind)) = self.active().zip(self.view.plot)
+        self.mark_plot(&mut plots, shown, overlay.joint);
+        if let Some((id, kind)) = shown.active().zip(self.plot)
             && let Some(sampled) = self.analyses.sampled(id)
         {
-            if let Some((u, curvature)) = self.view.scene.hovered_on(id) {
+            if let Some((u, curvature)) = self.scene.hovered_on(id) {
                 plots.hovered = Some(DVec2::new(sampled.length_at(u), curvature));
                 if let PlotKind::Levels { plot, normalised } = kind {
                     plots.hovered_level = Some(sampled.level_at(plot, normalised, u));
                 }
             }
-            plots.hovered_vertex = self.vertex_hovered_on(id);
-            plots.worst = self.worst_of_flow().map(|worst| {
+            plots.hovered_vertex = self.sight(shown).hovered_vertex();
+            plots.worst = self.sight(shown).worst_of_flow().map(|worst| {
                 let (flow, vertex) = worst?;
                 let value = self.analyses.get(id)?.float().flow(flow, vertex)?;
-                Some(DVec2::new(vertex as f64, shown(flow, value)))
+                Some(DVec2::new(vertex as f64, as_shown(flow, value)))
             });
         }
-        self.view.plots = plots;
+        self.plots = plots;
     }
 
     /// What is to be plotted; `None` if nothing is.
-    fn plot_source(&mut self) -> Option<PlotSource> {
-        let (id, kind) = self.active().zip(self.view.plot)?;
+    fn plot_source(&mut self, shown: Shown<'_>, overlay: &Overlay) -> Option<PlotSource> {
+        let (id, kind) = shown.active().zip(self.plot)?;
         Some(PlotSource {
             kind,
             id,
-            shown: Shown::of(self.document(), id)?,
-            before: self.before(),
-            compared: self.compared_with(id),
-            part: self.view.plot_part.filter(|_| can_be_closer(kind)),
+            item: Item::of(shown.document(), id)?,
+            before: overlay.before.clone().map(Item::Curve),
+            compared: self.compared_with(id, shown.document(), overlay),
+            part: self.plot_part.filter(|_| can_be_closer(kind)),
         })
     }
 
     /// What the active curve is compared with: the reference that the operation at hand was given, or
     /// what was chosen.
-    fn compared_with(&mut self, id: CurveId) -> Option<Compared> {
-        let trial = self.trial();
-        let trial = trial.filter(|trial| !trial.is_applied() || self.made_curves().contains(&id));
-        let given = trial.and_then(|trial| trial.values().given_reference());
-        let document = self.document();
-        let has = |curve: &ReferenceCurve| {
+    fn compared_with(
+        &mut self,
+        id: CurveId,
+        document: &Document,
+        overlay: &Overlay,
+    ) -> Option<Compared> {
+        let has = |given: &Arc<Reference>| {
             let mut references = document.references();
-            references.find(|(_, reference)| reference.curve == *curve)
+            references.find(|(_, reference)| reference.curve == given.curve)
         };
-        match given {
-            Some(curve) if has(curve).is_none() => {
-                let known = self.view.given.as_ref().map(ReferenceAnalysis::reference);
-                let known = known.filter(|known| known.curve == *curve);
-                let reference = known.cloned().unwrap_or_else(|| {
-                    let name = curve.form().label().to_lowercase();
-                    Arc::new(Reference::new(name, curve.clone()))
-                });
-                match &mut self.view.given {
-                    Some(analysis) => analysis.update(&reference),
-                    given => *given = Some(ReferenceAnalysis::new(reference.clone())),
+        match &overlay.given {
+            Some(given) if has(given).is_none() => {
+                match &mut self.given {
+                    Some(analysis) => analysis.update(given),
+                    none => *none = Some(ReferenceAnalysis::new(given.clone())),
                 }
-                Some(Compared::Given(Shown::Reference(reference)))
+                Some(Compared::Given(Item::Reference(given.clone())))
             }
             given => {
-                let of_document = given.and_then(has).map(|(id, _)| id);
-                let other = of_document.or(self.view.compared);
+                let of_document = given.as_ref().and_then(has).map(|(id, _)| id);
+                let other = of_document.or(self.compared);
                 let other = other.filter(|other| *other != id)?;
-                Some(Compared::Item(other, Shown::of(document, other)?))
+                Some(Compared::OfDocument(other, Item::of(document, other)?))
             }
         }
     }
 
-    fn fill(&mut self, plots: &mut PlotScene, source: Option<&PlotSource>) {
+    /// The reference with the curve that an operation was given: the same as in the frame before, unless it is
+    /// another curve.
+    pub(in crate::editor) fn given_reference(&self, curve: &ReferenceCurve) -> Arc<Reference> {
+        let known = self.given.as_ref().map(ReferenceAnalysis::reference);
+        let known = known.filter(|known| known.curve == *curve);
+        known.cloned().unwrap_or_else(|| {
+            let name = curve.form().label().to_lowercase();
+            Arc::new(Reference::new(name, curve.clone()))
+        })
+    }
+
+    fn fill(&mut self, plots: &mut PlotScene, source: Option<&PlotSource>, document: &Document) {
         let Some(source) = source else {
             return;
         };
         plots.part = source.part;
         self.fill_of(plots, source.id, source.kind);
-        if let Some(before) = &source.before {
+        if let Some(Item::Curve(before)) = &source.before {
             let part = source.part;
             let mut scene = PlotScene {
                 part,
                 ..PlotScene::default()
             };
-            scene.fill(self.view.ghost.analysis(before), source.kind);
+            scene.fill(self.ghost.analysis(before), source.kind);
             plots.before = Some(Box::new(scene));
         }
         let mut scene = PlotScene::default();
         match &source.compared {
-            Some(Compared::Item(other, _)) => {
+            Some(Compared::OfDocument(other, _)) => {
                 self.fill_of(&mut scene, *other, source.kind);
-                plots.compared_name = self.document().name(*other).unwrap_or_default().to_owned();
+                plots.compared_name = document.name(*other).unwrap_or_default().to_owned();
             }
             Some(Compared::Given(_)) => {
-                if let Some(analysis) = &mut self.view.given {
+                if let Some(analysis) = &mut self.given {
                     scene.fill_reference(analysis, source.kind);
                     let name = &analysis.reference().name;
                     plots.compared_name = format!("source: {name}");
@@ -146,7 +153,7 @@ fn can_be_closer(kind: PlotKind) -> bool {
 }
 
 /// A number of the flow as it is shown: angles in degrees.
-fn shown(flow: Flow, value: f64) -> f64 {
+fn as_shown(flow: Flow, value: f64) -> f64 {
     match flow {
         Flow::Turns | Flow::TorsionAngles => value.to_degrees(),
         Flow::Legs | Flow::Curvatures => value,
@@ -215,7 +222,7 @@ impl PlotScene {
                     }
                     analysis.float().append_flow(flow, series);
                     for point in series {
-                        point.y = shown(flow, point.y);
+                        point.y = as_shown(flow, point.y);
                     }
                 }
             }

@@ -1,34 +1,52 @@
-//! A curve or a reference, as what is derived from it remembers it.
+//! What the view shows, borrowed from the workspace and the hand.
 
 use std::sync::Arc;
 
-use crate::document::{Curve, CurveId, Document, Reference};
+use glam::DVec2;
 
-/// A state of a curve or of a reference. Two are equal if they are the very same one.
-#[derive(Clone, Debug)]
-pub enum Shown {
-    /// A curve.
-    Curve(Arc<Curve>),
-    /// A reference.
-    Reference(Arc<Reference>),
+use crate::document::{Curve, CurveId, Document};
+use crate::editor::selection::Selection;
+use crate::editor::view::layers::Layers;
+use crate::editor::workspace::Workspace;
+
+/// Borrow what the view shows and does not own.
+#[derive(Clone, Copy)]
+pub struct Shown<'a> {
+    /// The document, with its preview and without.
+    pub workspace: &'a Workspace,
+    /// The selected vertices, and the active curve or reference.
+    pub selection: &'a Selection,
+    /// The layers that are shown: those that the user chose, as the tool in use changes them.
+    pub layers: Layers,
+    /// The pointer's place on the canvas, in screen points.
+    pub pointer: Option<DVec2>,
+    /// Whether the hand drags something.
+    pub is_dragging: bool,
+    /// Whether the primary button is held on the canvas.
+    pub is_holding: bool,
+    /// How often Tab was pressed over things that overlap.
+    pub cycle: usize,
 }
 
-impl Shown {
-    /// Find a curve or a reference of a document.
-    pub fn of(document: &Document, id: CurveId) -> Option<Self> {
-        match document.curve(id) {
-            Some(curve) => Some(Self::Curve(curve.clone())),
-            None => Some(Self::Reference(document.reference(id)?.clone())),
-        }
+impl<'a> Shown<'a> {
+    /// The document, with the preview.
+    pub fn document(&self) -> &'a Document {
+        self.workspace.document()
     }
-}
 
-impl PartialEq for Shown {
-    fn eq(&self, other: &Self) -> bool {
-        match (self, other) {
-            (Self::Curve(a), Self::Curve(b)) => Arc::ptr_eq(a, b),
-            (Self::Reference(a), Self::Reference(b)) => Arc::ptr_eq(a, b),
-            _ => false,
-        }
+    /// The active curve or reference.
+    pub fn active(&self) -> Option<CurveId> {
+        self.selection.active()
+    }
+
+    /// The active curve without the preview.
+    pub fn settled_active(&self) -> Option<&'a Arc<Curve>> {
+        self.workspace.settled().curve(self.active()?)
+    }
+
+    /// The only selected vertex.
+    pub fn only_vertex(&self) -> Option<(CurveId, usize)> {
+        let mut selected = self.selection.vertices();
+        selected.next().filter(|_| selected.next().is_none())
     }
 }

@@ -2,9 +2,13 @@
 
 use glam::DVec3;
 
-use crate::analysis::ReferenceAnalysis;
-use crate::document::CurveId;
-use crate::editor::jobs::guides::FeatureOf;
+use crate::analysis::{AnalysisCache, CurveAnalysis, Item, ReferenceAnalysis};
+use crate::document::{CurveId, Document};
+use crate::editor::jobs::comparing::Comparing;
+use crate::editor::jobs::guides::{FeatureOf, Guides};
+use crate::editor::jobs::measuring::Measuring;
+use crate::editor::jobs::patience::Patience;
+use crate::editor::jobs::proving::Proving;
 use crate::editor::view::comb::CombSettings;
 use crate::editor::view::feature_report::FeatureReport;
 use crate::editor::view::ghost::Ghost;
@@ -16,9 +20,15 @@ use crate::editor::view::scene::Scene;
 use crate::editor::view::shown::Shown;
 use crate::editor::view::viewport::Viewport;
 
-/// Hold how the model is seen, what is hovered, and what canvas and plots show.
+/// Hold how the model is seen, what is hovered, what is known of curves and references, and what canvas and
+/// plots show.
 #[derive(Debug, Default)]
 pub struct View {
+    pub(in crate::editor) analyses: AnalysisCache,
+    pub(in crate::editor) proving: Proving,
+    pub(in crate::editor) measuring: Measuring,
+    pub(in crate::editor) comparing: Comparing,
+    pub(in crate::editor) guides: Guides,
     pub(in crate::editor) viewport: Viewport,
     /// The point about which the view turns.
     pub(in crate::editor) target: DVec3,
@@ -34,7 +44,7 @@ pub struct View {
     /// What panels said in the frame before: those that are shown first read it.
     pub(in crate::editor) hovered_before: Hovered,
     /// The report of features, for the curve or the reference that it was made of.
-    pub(in crate::editor) features: Option<(Shown, FeatureReport)>,
+    pub(in crate::editor) features: Option<(Item, FeatureReport)>,
     /// The feature whose loss is shown.
     pub(in crate::editor) chosen: Option<FeatureOf>,
     pub(in crate::editor) scene: Scene,
@@ -53,7 +63,7 @@ pub struct View {
     /// Whether a panel shows the harmony of the active curve.
     pub(in crate::editor) harmony: bool,
     /// Whether a panel shows the atlas of an operation.
-    pub(in crate::editor) atlas: bool,
+    pub(in crate::editor) shows_atlas: bool,
     pub(in crate::editor) outlines: Outlines,
     pub(in crate::editor) ghost: Ghost,
     pub(in crate::editor) proposed: ProposedCurve,
@@ -69,6 +79,62 @@ pub(in crate::editor) struct Hovered {
 }
 
 impl View {
+    /// Find out what takes time on threads of its own; `wake` is called when something is known later.
+    pub(in crate::editor) fn run_in_background(
+        &mut self,
+        wake: impl Fn() + Clone + Send + 'static,
+    ) {
+        self.proving = Proving::background(wake.clone());
+        self.measuring = Measuring::background(wake.clone());
+        self.comparing = Comparing::background(wake.clone());
+        self.guides = Guides::background(wake);
+    }
+
+    /// Bring up to date what hit tests look at.
+    pub(in crate::editor) fn analyse(&mut self, document: &Document) {
+        self.analyses.update(document);
+        let orientation = self.viewport.orientation;
+        self.outlines.update(&self.analyses, orientation);
+    }
+
+    /// Bring up to date what is known: analyses, features, harmony and distances.
+    pub(in crate::editor) fn update(&mut self, shown: Shown<'_>, patience: &mut Patience) {
+        self.analyse(shown.document());
+        if let Some(active) = shown.active() {
+            self.proving.advance(active, &mut self.analyses, patience);
+            self.list_features(active, shown);
+            if self.shows_harmony() {
+                self.measuring.advance(active, &mut self.analyses, patience);
+            }
+        }
+        let pair = self.compared_pair(shown);
+        self.comparing.advance(pair, patience);
+    }
+
+    /// List the features of the active curve once all are proved, those of a reference as its samples show.
+    fn list_features(&mut self, active: CurveId, shown: Shown<'_>) {
+        if self.sight(shown).features().is_some() {
+            return;
+        }
+        let listed = match self.analyses.reference(active) {
+            Some(analysis) => Some((
+                Item::Reference(analysis.reference().clone()),
+                FeatureReport::of_samples(analysis),
+            )),
+            None => self.analyses.get(active).and_then(|analysis| {
+                let report =
+                    FeatureReport::of(analysis.known_features()?, &analysis.curve().polygon);
+                Some((Item::Curve(analysis.curve().clone()), report))
+            }),
+        };
+        self.features = listed.or_else(|| self.features.take());
+    }
+
+    /// What is known of a curve.
+    pub fn analysis(&self, curve: CurveId) -> Option<&CurveAnalysis> {
+        self.analyses.get(curve)
+    }
+
     /// How the model is mapped to the canvas.
     pub fn viewport(&self) -> &Viewport {
         &self.viewport
@@ -150,7 +216,7 @@ impl View {
 
     /// Say whether a panel shows the atlas of an operation, which is proved only then.
     pub fn show_atlas(&mut self, shown: bool) {
-        self.atlas = shown;
+        self.shows_atlas = shown;
     }
 
     /// Forget what panels marked, before they are shown anew.

@@ -102,7 +102,7 @@ impl Plots {
             editor.view_mut().hover_vertex(vertex as usize);
         }
         // The strips are painted already: they mark it in the next frame.
-        if editor.hovered_vertex() != editor.view().plots().hovered_vertex {
+        if editor.sight().hovered_vertex() != editor.view().plots().hovered_vertex {
             ui.ctx().request_repaint();
         }
     }

@@ -150,7 +150,7 @@ impl Plots {
 
 /// Say how straight the logarithmic graph is on the longest piece of monotone curvature.
 fn slope_remark(editor: &Editor) -> String {
-    let Some(harmony) = editor.harmony() else {
+    let Some(harmony) = editor.sight().harmony() else {
         return String::new();
     };
     let longest = harmony.longest_slope();

@@ -259,7 +259,7 @@ impl Plots {
         tabs.extend((2..=LEVELS).map(|level| Tab::Levels(LevelPlot::Curvature(level))));
         let is_own = |tab: &Tab| self.tab == *tab;
         let torsion = (1..=LEVELS).map(|level| Tab::Levels(LevelPlot::Torsion(level)));
-        let planar = editor.active().and_then(|id| editor.is_planar(id));
+        let planar = editor.active().and_then(|id| editor.sight().is_planar(id));
         let has_torsion = planar == Some(false);
         tabs.extend(torsion.filter(|tab| has_torsion || is_own(tab)));
         tabs.push(Tab::Levels(LevelPlot::Logarithmic));

@@ -1,7 +1,7 @@
 //! The window with the arc of the examples fitted into its canvas.
 
 use anyhow::Result;
-use batten::editor::Editor;
+use batten::editor::{Editor, Look};
 use batten::geometry::{End, FloatPolygon};
 use egui::{Pos2, Rect, vec2};
 use glam::DVec2;
@@ -35,7 +35,10 @@ pub fn open(window: &mut Window) -> Result<()> {
 /// An editor whose canvas has the window's size: it fits the arc as the window did.
 pub fn fitted(canvas: Rect) -> Editor {
     let mut editor = editor();
-    editor.set_canvas_size(DVec2::new(canvas.width().into(), canvas.height().into()));
+    editor.look(Look::Canvas(DVec2::new(
+        canvas.width().into(),
+        canvas.height().into(),
+    )));
     editor
 }
 

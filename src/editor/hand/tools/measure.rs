@@ -123,7 +123,7 @@ impl Place {
     /// A point, with all curves on which it lies.
     fn new(point: DVec3, context: &Context) -> Self {
         let reach = ON_CURVE * point.abs().max_element().max(1.0);
-        let curves = context.hits.shown().filter_map(|(id, curve)| {
+        let curves = context.hits.curves().filter_map(|(id, curve)| {
             let nearest = curve.polygon.nearest(point);
             (nearest.distance <= reach).then_some((id, nearest.u))
         });
@@ -255,7 +255,7 @@ impl Measured {
 
 /// The arc length to plotting accuracy.
 fn about(id: CurveId, [u, v]: [f64; 2], context: &Context) -> Option<MeasuredFigure> {
-    let sampled = context.hits.analyses.sampled(id)?;
+    let sampled = context.hits.view.analyses.sampled(id)?;
     let one_way = (sampled.length_at(u) - sampled.length_at(v)).abs();
     let other_way = sampled.samples.length() - one_way;
     let lengths = match sampled.curve.is_periodic() {

@@ -16,7 +16,7 @@ mod vertices;
 
 pub use draw::DrawSettings;
 pub use drawing::DrawingTool;
-pub use tool::{Context, Cursor, Effect, Look, Tool};
+pub use tool::{Context, Cursor, Effect, Tool};
 pub use transform::NOTHING_TO_TRANSFORM;
 pub use transformed::{Action as Transformation, Transformed};
 

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use glam::{DVec2, DVec3};
 
 use super::reference_drags::{Frame, ReferenceDrag, nudged};
-use super::tool::{Context, Cursor, Effect, Look, Tool, move_edits};
+use super::tool::{Context, Cursor, Effect, Tool, move_edits};
 use crate::document::{CurveId, Document, EditError};
 use crate::editor::hand::clean_step::stepped;
 use crate::editor::hand::following::Follow;
@@ -13,6 +13,7 @@ use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
 use crate::editor::hand::snapping::{Carried, Snap};
 use crate::editor::selection::VertexId;
+use crate::editor::view::Look;
 use crate::editor::view::hit::{LegHit, REACH};
 use crate::editor::view::scene::{DragReadout, Mark};
 use crate::geometry::{counted, significant};
@@ -140,7 +141,7 @@ impl MovingClamped {
 
     fn marks(&self, context: &Context) -> Vec<Mark> {
         let (id, index) = self.vertex;
-        let analysis = context.hits.analyses.get(id);
+        let analysis = context.hits.view.analyses.get(id);
         let now = analysis.and_then(|analysis| analysis.clamped().vertices().get(index));
         let seen = context.viewport.flatten(self.held);
         let snap = self.snap.as_ref();
@@ -185,7 +186,7 @@ impl Tool for SelectTool {
                 }
             }
             (State::Scaling { scale, .. }, Gesture::Cancel) => {
-                let mut comb = context.hits.comb;
+                let mut comb = context.hits.view.comb;
                 comb.scale = scale;
                 vec![Effect::Look(Look::Comb(comb))]
             }
@@ -310,7 +311,7 @@ impl SelectTool {
             State::Scaling { foot, tip, scale } => {
                 let arm = *tip - *foot;
                 let reach = (context.model(place) - *foot).dot(arm) / arm.length_squared();
-                let mut comb = context.hits.comb;
+                let mut comb = context.hits.view.comb;
                 comb.scale = *scale * reach.max(1e-3);
                 vec![Effect::Look(Look::Comb(comb))]
             }
@@ -333,7 +334,7 @@ impl SelectTool {
             return self.start_moving_leg(place, leg, context);
         }
         if let Some([foot, tip]) = context.hits.tooth(place) {
-            let scale = context.hits.comb.scale;
+            let scale = context.hits.view.comb.scale;
             self.state = State::Scaling { foot, tip, scale };
             return Vec::new();
         }
@@ -412,7 +413,7 @@ impl SelectTool {
         context: &Context,
     ) -> Vec<Effect> {
         let (id, index) = vertex;
-        let analysis = context.hits.analyses.get(id);
+        let analysis = context.hits.view.analyses.get(id);
         let held = analysis.and_then(|analysis| analysis.clamped().vertices().get(index));
         let (Some(held), Some(curve)) = (held, context.before.curve(id)) else {
             return Vec::new();
@@ -531,7 +532,7 @@ fn click(place: DVec2, context: &Context) -> Vec<Effect> {
         return vec![
             select,
             Effect::Activate(curve),
-            Effect::Choose(feature.middle),
+            Effect::Look(Look::Feature(feature.middle)),
         ];
     }
     let curve = context.hits.curve(place).map(|hit| hit.curve);
@@ -554,7 +555,7 @@ fn double_click(place: DVec2, context: &Context) -> Vec<Effect> {
             let all = (0..vertex_count(hit.curve, context)).map(|index| (hit.curve, index));
             vec![Effect::Activate(hit.curve), Effect::Select(all.collect())]
         }
-        None => vec![Effect::Look(Look::FitAll)],
+        None => vec![Effect::Look(Look::All)],
     }
 }
 

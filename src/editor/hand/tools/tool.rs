@@ -12,9 +12,9 @@ use crate::editor::hand::input::Modifiers;
 use crate::editor::hand::snapping::{self, Carried, Snap};
 use crate::editor::hand::typed_point::TypedPoint;
 use crate::editor::selection::{Selection, VertexId};
-use crate::editor::view::comb::CombSettings;
-use crate::editor::view::hit::HitTest;
+use crate::editor::view::Look;
 use crate::editor::view::scene::Mark;
+use crate::editor::view::sight::Sight;
 use crate::editor::view::viewport::Viewport;
 
 /// How far below the pointer a label stands, in screen points: what is dragged is told above.
@@ -31,7 +31,7 @@ pub struct Context<'a> {
     /// How the model is mapped to the canvas.
     pub viewport: &'a Viewport,
     /// What lies where.
-    pub hits: HitTest<'a>,
+    pub hits: Sight<'a>,
     /// The modifier keys that are held.
     pub modifiers: Modifiers,
     /// The axis of the model (0 x, 1 y, 2 z) whose key is held: drags keep to it.
@@ -69,23 +69,12 @@ pub enum Effect {
     ToggleSelected(VertexId),
     /// Make a curve the active one.
     Activate(CurveId),
-    /// Choose a feature of the active curve, by the middle of its interval.
-    Choose(f64),
     /// Change how the model is seen.
     Look(Look),
     /// Tell the user something.
     Say(String),
     /// Take the select tool.
     Finish,
-}
-
-/// A change of how the model is seen.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Look {
-    /// Show everything.
-    FitAll,
-    /// Draw the comb differently.
-    Comb(CombSettings),
 }
 
 /// A tool in the hand.

@@ -82,7 +82,7 @@ impl Transformed {
             bounds.add(context.viewport.flatten(*vertex));
         }
         if let Some((id, _)) = &self.reference
-            && let Some(outlines) = context.hits.outlines.get(*id)
+            && let Some(outlines) = context.hits.view.outlines.get(*id)
         {
             bounds = outlines.curve.bounds();
         }

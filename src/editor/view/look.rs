@@ -1,0 +1,90 @@
+//! Changes of how the model is seen.
+
+use glam::DVec2;
+
+use crate::document::CurveId;
+use crate::editor::view::comb::CombSettings;
+use crate::editor::view::fitting::middle;
+use crate::editor::view::layers::Layer;
+use crate::editor::view::orientation::Orientation;
+use crate::editor::view::outline::Bounds;
+use crate::editor::view::shown::Shown;
+use crate::editor::view::view::View;
+
+/// How much of a segment is shown around a feature, on either side.
+const SURROUNDINGS: f64 = 0.6;
+
+/// Radians that the view turns by for each screen point of a drag.
+const TURN: f64 = 0.008;
+
+/// A change of how the model is seen.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Look {
+    /// Fit everything into the canvas, and give the comb a legible scale.
+    All,
+    /// Fit the selected vertices, or everything where fewer than two are selected.
+    Selection,
+    /// Fit everything where one of these new curves is out of sight; fit them alone where they would be a speck.
+    New(Vec<CurveId>),
+    /// Draw the comb differently.
+    Comb(CombSettings),
+    /// Give the comb a legible scale.
+    ResetComb,
+    /// Show the surroundings of a parameter of the active curve or reference, and the layer of its features.
+    Around(f64),
+    /// Choose a feature of the active curve by the middle of its interval: the canvas shows the shortest moves
+    /// that lose it, until the curve changes. A feature that is chosen already is no longer.
+    Feature(f64),
+    /// See the model from somewhere else; the middle of what is shown stays where it is.
+    From(Orientation),
+    /// Turn the view by a drag of some screen points.
+    Orbit(DVec2),
+    /// The size of the canvas in screen points. A view that shows everything is fitted again, unless the hand
+    /// holds something; otherwise the middle of the view stays where it is.
+    Canvas(DVec2),
+}
+
+impl View {
+    /// Change how the model is seen.
+    pub(in crate::editor) fn look(&mut self, look: Look, shown: Shown<'_>) {
+        match look {
+            Look::All => self.fit_all(shown),
+            Look::Selection => self.fit_selection(shown),
+            Look::New(curves) => self.bring_into_sight(&curves, shown),
+            Look::Comb(comb) => self.set_comb(comb),
+            Look::ResetComb => self.reset_comb(shown),
+            Look::Around(u) => self.look_around(u, shown),
+            Look::Feature(u) => self.choose_feature(u, shown),
+            Look::From(orientation) => self.look_from(orientation, shown),
+            Look::Orbit(by) if by.is_finite() => {
+                let turned = self.viewport.orientation.orbited(TURN * by.x, TURN * by.y);
+                self.look_from(turned, shown);
+            }
+            Look::Orbit(_) => {}
+            Look::Canvas(size) => self.set_canvas_size(size, shown),
+        }
+    }
+
+    fn look_around(&mut self, u: f64, shown: Shown<'_>) {
+        let Some(curve) = shown.active().and_then(|id| shown.document().shape(id)) else {
+            return;
+        };
+        let jet = curve.jet(u.clamp(0.0, curve.pieces() as f64));
+        let reach = SURROUNDINGS * jet.speed();
+        let at = self.viewport.flatten(jet.point);
+        let mut bounds = Bounds::EMPTY;
+        bounds.add(at - reach);
+        bounds.add(at + reach);
+        self.viewport = self.viewport.fitted(&bounds);
+        self.layers.set(Layer::Features, true);
+        self.layers.set(Layer::Curve, true);
+    }
+
+    fn look_from(&mut self, orientation: Orientation, shown: Shown<'_>) {
+        let pivot = middle(shown.document());
+        self.target = pivot;
+        let before = self.viewport.flatten(pivot);
+        self.viewport.orientation = orientation;
+        self.viewport.centre += self.viewport.flatten(pivot) - before;
+    }
+}

@@ -1,0 +1,50 @@
+//! What the tool in use and the operation at hand add to the canvas and the plots.
+
+use std::sync::Arc;
+
+use crate::document::{Curve, CurveId, Reference};
+use crate::editor::view::scene::{HoverScene, Mark};
+use crate::geometry::mineur_farin::Atlas;
+use crate::geometry::{End, FloatPolygon};
+
+/// Hold what the tool in use and the operation at hand show in one frame.
+#[derive(Debug, Default)]
+pub struct Overlay {
+    /// Their marks.
+    pub marks: Vec<Mark>,
+    /// The handle under the pointer.
+    pub handle: Option<HoverScene>,
+    /// What else the pointer can be over.
+    pub hovering: Hovering,
+    /// Whether the safe region of the selected vertex may be shown.
+    pub guides: bool,
+    /// The end that the end-fit tool corrects.
+    pub fitted_end: Option<End>,
+    /// The active curve before the preview, where it is shown.
+    pub before: Option<Arc<Curve>>,
+    /// The other curves that the operation changes, before it.
+    pub others_before: Vec<Arc<Curve>>,
+    /// The polygon that a click would make, and the curve that it would change.
+    pub proposal: Option<(FloatPolygon, Option<CurveId>)>,
+    /// The reference that the operation was given.
+    pub given: Option<Arc<Reference>>,
+    /// The parameters between which the operation joined the active curve.
+    pub joint: Option<[f64; 2]>,
+    /// The plane of the atlas that the operation offers.
+    pub atlas: Option<Atlas>,
+}
+
+/// What the pointer can be over on the canvas.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Hovering {
+    /// Nothing, as while the view is panned or points are set.
+    #[default]
+    Nothing,
+    /// Only the vertex that is dragged.
+    Dragged((CurveId, usize)),
+    /// Vertices, features and curves.
+    Document {
+        /// Whether vertices of the closed S-polygon too.
+        closed: bool,
+    },
+}

@@ -1,0 +1,172 @@
+//! What is seen, for hit tests and panels to read.
+
+use glam::DVec3;
+
+use crate::document::{CurveId, Document};
+use crate::editor::report::{CurveReport, Readout, ReferenceReport};
+use crate::editor::view::feature_report::FeatureReport;
+use crate::editor::view::layers::Layers;
+use crate::editor::view::orientation::Orientation;
+use crate::editor::view::scene::HoverScene;
+use crate::editor::view::shown::Shown;
+use crate::editor::view::view::View;
+use crate::geometry::Amplification;
+use crate::geometry::harmony::Harmony;
+
+/// Borrow the view and what it shows. All that it tells is as of the last [`crate::editor::Editor::refresh`].
+#[derive(Clone, Copy)]
+pub struct Sight<'a> {
+    pub(in crate::editor) view: &'a View,
+    pub(in crate::editor) shown: Shown<'a>,
+}
+
+impl View {
+    /// Read what is seen.
+    pub(in crate::editor) fn sight<'a>(&'a self, shown: Shown<'a>) -> Sight<'a> {
+        Sight { view: self, shown }
+    }
+}
+
+impl<'a> Sight<'a> {
+    /// The layers that are shown: those that the user chose, as the tool in use changes them.
+    pub fn layers(self) -> Layers {
+        self.shown.layers
+    }
+
+    /// The features of the active curve or reference; `None` until all are known, which in the background may
+    /// take some frames.
+    pub fn features(self) -> Option<&'a FeatureReport> {
+        let (item, report) = self.view.features.as_ref()?;
+        item.is_of(self.document(), self.active()?)
+            .then_some(report)
+    }
+
+    /// The share of the active curve whose features are known; `None` without a curve, and where the proof
+    /// failed, which is a fault of the program.
+    pub fn proof_progress(self) -> Option<f64> {
+        let known = self.view.analyses.get(self.active()?)?.proof_progress();
+        Some(known + (1.0 - known) * self.view.proving.share()?)
+    }
+
+    /// The harmony of the active curve, once it is measured: only while something shows it.
+    pub fn harmony(self) -> Option<&'a Harmony> {
+        self.view.analyses.get(self.active()?)?.harmony()
+    }
+
+    /// The figures of the active curve.
+    pub fn report(self) -> Option<CurveReport> {
+        let analysis = self.view.analyses.get(self.active()?)?;
+        let figures = analysis.float().figures();
+        let polygon = &analysis.curve().polygon;
+        Some(CurveReport {
+            planar: analysis.is_planar(),
+            segments: polygon.segments(),
+            length: analysis.samples().length(),
+            curvature: analysis.samples().curvature(),
+            legs: figures.legs,
+            turns: figures.turns,
+            amplification: Amplification::of_unclamping(polygon.degree(), polygon.segments()),
+        })
+    }
+
+    /// The figures of the active reference.
+    pub fn reference_report(self) -> Option<ReferenceReport> {
+        let analyses = &self.view.analyses;
+        let samples = analyses.reference(self.active()?)?.sampled().samples;
+        Some(ReferenceReport {
+            planar: samples.is_planar(),
+            length: samples.is_continuous().then(|| samples.length()),
+            curvature: samples.curvature(),
+        })
+    }
+
+    /// Whether a curve or a reference is planar.
+    pub fn is_planar(self, id: CurveId) -> Option<bool> {
+        Some(self.view.analyses.sampled(id)?.samples.is_planar())
+    }
+
+    /// Whether everything that is shown is planar, and seen from elsewhere than from above.
+    pub fn is_orbited(self) -> bool {
+        let mut shown = self.curves();
+        self.view.viewport.orientation != Orientation::XY
+            && shown.all(|(_, curve)| curve.polygon.is_planar())
+    }
+
+    /// The vertex of the active curve that is hovered, on the canvas or in a panel.
+    pub fn hovered_vertex(self) -> Option<usize> {
+        let active = self.active()?;
+        let View {
+            hovered,
+            hovered_before,
+            ..
+        } = self.view;
+        hovered.vertex.or(hovered_before.vertex).or_else(|| {
+            let place = self.shown.pointer.filter(|_| !self.shown.is_dragging)?;
+            let (id, vertex) = self.vertex(place)?;
+            (id == active).then_some(vertex)
+        })
+    }
+
+    /// What the status bar reads.
+    pub fn readout(self) -> Readout {
+        let active = self.active();
+        let curve = active.and_then(|id| self.document().curve(id));
+        let reference = |id| self.document().reference(id);
+        let mut readout = Readout {
+            pointer: self.pointed_at(),
+            in_space: self.tells_z(),
+            scale: self.view.viewport.scale,
+            parameter_name: if active.and_then(reference).is_some() {
+                "t"
+            } else {
+                "u"
+            },
+            degree: curve.map(|curve| curve.polygon.degree()),
+            ..Readout::default()
+        };
+        if let Some(HoverScene::Curve {
+            curve,
+            u,
+            curvature,
+            ..
+        }) = self.view.scene.hover
+        {
+            (readout.parameter_name, readout.parameter) = match reference(curve) {
+                Some(reference) => ("t", Some(reference.curve.parameter(u))),
+                None => ("u", Some(u)),
+            };
+            readout.curvature = Some(curvature);
+        }
+        readout
+    }
+
+    /// The point of the model that is hovered, or under the pointer.
+    fn pointed_at(self) -> Option<DVec3> {
+        match &self.view.scene.hover {
+            Some(HoverScene::Vertex { point, .. } | HoverScene::Curve { point, .. }) => {
+                Some(*point)
+            }
+            _ => {
+                // In the plane through the point about which the view turns; from above in the plane z = 0.
+                let place = self.view.viewport.to_model(self.shown.pointer?);
+                let orientation = &self.view.viewport.orientation;
+                Some(orientation.point_at(place, self.view.target))
+            }
+        }
+    }
+
+    /// Whether z tells something.
+    fn tells_z(self) -> bool {
+        let mut all = self.document().all_ids();
+        !self.view.viewport.orientation.is_from_above()
+            || all.any(|id| !self.is_planar(id).unwrap_or(true))
+    }
+
+    pub(in crate::editor) fn document(self) -> &'a Document {
+        self.shown.document()
+    }
+
+    pub(in crate::editor) fn active(self) -> Option<CurveId> {
+        self.shown.active()
+    }
+}
