@@ -2,9 +2,11 @@
 
 mod common;
 
-use batten::geometry::circle_comparison::{CircleComparison, evolute_reach, regular_polygon};
+use batten::geometry::paper::{
+    CircleComparison, RoundingTest, Shortening, evolute_reach, regular_polygon,
+};
 use batten::geometry::polygon_figures::turning_angle;
-use batten::geometry::{BezierPolygon, ClampedPolygon, FloatPolygon, RoundingTest, Shortening};
+use batten::geometry::{BezierPolygon, ClampedPolygon, FloatPolygon};
 use common::{
     assert_near, assert_points_near, list, number, numbers, point, points, reach, reference,
 };

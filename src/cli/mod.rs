@@ -21,7 +21,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
-use crate::geometry::circle_comparison::CircleComparison;
+use crate::geometry::paper::CircleComparison;
 use crate::io::examples::{EXAMPLES, Example};
 use crate::io::json_layout;
 use arguments::{Arguments, Task};

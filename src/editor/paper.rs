@@ -11,14 +11,14 @@ use crate::editor::{Command, Editor, NamedView, ToolKind};
 use crate::geometry::approximation::{
     ApproximationError, MeasuredDeviation, Placing, UniformKnots, float_polygon,
 };
-use crate::geometry::circle_comparison::{
-    PAPER_RADIUS, equal_leg_bezier, paper_sides, regular_polygon,
-};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::fairing::bridging::{Bridge, BridgeError, join};
 use crate::geometry::mineur_farin::{Configuration, Format};
+use crate::geometry::paper::{
+    PAPER_RADIUS, RoundingTest, equal_leg_bezier, paper_sides, regular_polygon,
+};
 use crate::geometry::references::{ReferenceCurve, ReferenceTextError};
-use crate::geometry::{End, FloatPolygon, PolygonError, Progress, RoundingTest};
+use crate::geometry::{End, FloatPolygon, PolygonError, Progress};
 
 /// The name of the curve whose closed S-polygon loses digits.
 const SHORTENED: &str = "shortened";

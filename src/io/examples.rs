@@ -90,7 +90,7 @@ impl Example {
 mod tests {
     use super::*;
     use crate::document::{Curve, Extras};
-    use crate::geometry::circle_comparison::regular_polygon;
+    use crate::geometry::paper::regular_polygon;
     use crate::geometry::{FloatPolygon, PolygonKind};
 
     fn polygon(name: &str) -> FloatPolygon {

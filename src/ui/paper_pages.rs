@@ -9,10 +9,10 @@ use eframe::egui::{
 use super::theme::{self, Tokens};
 use super::{figures, widgets};
 use crate::editor::{Editor, PaperPage, spiral_deviations};
-use crate::geometry::circle_comparison::{
-    CircleComparison, PAPER_RADIUS, evolute_reach, paper_sides,
+use crate::geometry::PolygonError;
+use crate::geometry::paper::{
+    CircleComparison, PAPER_RADIUS, RoundingTest, Shortening, evolute_reach, paper_sides,
 };
-use crate::geometry::{PolygonError, RoundingTest, Shortening};
 
 /// The degrees of the table of circles.
 const DEGREES: std::ops::RangeInclusive<usize> = 2..=15;

@@ -2,7 +2,8 @@
 
 use batten::editor::{Command, Editor, PaperPage, ToolKind, spiral_deviations};
 use batten::geometry::features::{Features, Quantity};
-use batten::geometry::{End, FloatPolygon, RoundingTest, Shortening};
+use batten::geometry::paper::{RoundingTest, Shortening};
+use batten::geometry::{End, FloatPolygon};
 use batten::operations::Value;
 use glam::{DVec2, DVec3};
 

@@ -3,13 +3,13 @@
 
 use crate::common::Random;
 use batten::geometry::basis::uniform_basis_derivative;
-use batten::geometry::circle_comparison::regular_polygon;
 use batten::geometry::end_correction::{
     EndDifference, EndOverlap, EndTarget, correct_end, correct_in_turn,
 };
 use batten::geometry::fairing::joint_correction::{
     CorrectionError, Disturbance, JointCorrection, correct_jointly,
 };
+use batten::geometry::paper::regular_polygon;
 use batten::geometry::{End, FloatPolygon, rotation_between};
 use glam::{DMat3, DVec3};
 use nalgebra::{DMatrix, DVector};

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 
 use crate::common::{Random, assert_near, counts};
 use crate::witness::ExactSegment;
-use batten::geometry::circle_comparison::regular_polygon;
 use batten::geometry::features::{ExtremumKind, Features, Root, Trend, Verdict};
+use batten::geometry::paper::regular_polygon;
 use batten::geometry::{BezierPolygon, FloatPolygon};
 use glam::DVec3;
 

@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 
 use batten::geometry::FloatPolygon;
-use batten::geometry::circle_comparison::regular_polygon;
 use batten::geometry::features::{ExtremumKind, Features};
 use batten::geometry::harmony::{
     Event, EventCounts, Harmony, Match, Mismatch, VertexFigure, VertexFlow,
 };
+use batten::geometry::paper::regular_polygon;
 use batten::geometry::polygon_figures::{discrete_curvature, turning_angle};
 use glam::{DMat3, DVec3};
 

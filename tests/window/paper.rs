@@ -1,6 +1,6 @@
 //! The pages about the paper in the window.
 
-use batten::geometry::{RoundingTest, Shortening};
+use batten::geometry::paper::{RoundingTest, Shortening};
 use eframe::egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::Queryable;
 

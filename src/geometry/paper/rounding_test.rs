@@ -1,47 +1,44 @@
-//! The paper's rounding test: digits are taken from one vertex of a closed S-polygon, and the
-//! float S-polygon of the curve and its evolute tell what that does.
+//! The paper's rounding test. It shortens the coordinates of one clamped vertex and measures how far the
+//! float vertices and the evolute move.
 
 use glam::DVec3;
 
 use super::circle_comparison::{PAPER_RADIUS, evolute_reach, regular_polygon};
-use super::clamped_polygon::ClampedPolygon;
-use super::conversion::{cut_off, rounded_off};
-use super::error::PolygonError;
-use super::float_polygon::FloatPolygon;
+use crate::geometry::conversion::{cut_off, rounded_off};
+use crate::geometry::{ClampedPolygon, FloatPolygon, PolygonError};
 
-/// The degree of the paper's arc, and the sides of the regular polygon that it lies on.
+/// The degree of the paper's arc, and the sides of its regular polygon.
 const ARC: (usize, usize) = (9, 12);
 
-/// The vertex whose coordinates lose digits: the second.
+/// The vertex to shorten: the second.
 const VERTEX: usize = 1;
 
-/// How coordinates lose digits.
+/// The way to shorten a coordinate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shortening {
-    /// The digits that are too many are left out, as in the paper.
+    /// Leave out the last digits, as the paper does.
     CutOff,
-    /// To the nearest number with so many digits.
+    /// Round to the nearest number.
     Rounded,
 }
 
-/// Hold what came of shortening the coordinates of the arc's second closed vertex.
+/// Hold the result of the rounding test: the arc after shortening its second clamped vertex.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoundingTest {
-    /// The vertex as it was.
+    /// The vertex with all its digits.
     pub before: DVec3,
-    /// The vertex with fewer digits.
+    /// The vertex after shortening.
     pub after: DVec3,
-    /// The float polygon of the curve that has this closed polygon.
+    /// The float polygon of the changed curve.
     pub polygon: FloatPolygon,
-    /// The largest distance of the float polygon's vertices from where they were.
+    /// The largest move of a float vertex.
     pub moved: f64,
     /// The largest distance of the evolute from the centre.
     pub evolute_reach: f64,
 }
 
 impl RoundingTest {
-    /// Make the arc whose closed vertex loses digits: degree 9, on ten corners of a regular dodecagon
-    /// of radius 10.
+    /// Make the paper's arc: degree 9, on ten corners of a regular dodecagon of radius 10.
     ///
     /// # Errors
     /// None: the arc is valid.
@@ -50,10 +47,10 @@ impl RoundingTest {
         regular_polygon(degree, sides, PAPER_RADIUS)
     }
 
-    /// Keep so many digits after the decimal point of the vertex's coordinates.
+    /// Shorten the vertex's coordinates to `digits` digits after the decimal point.
     ///
     /// # Errors
-    /// None for the arc there is: the closed polygon stays valid.
+    /// None for this arc: the clamped polygon stays valid.
     pub fn new(digits: usize, shortening: Shortening) -> Result<Self, PolygonError> {
         let arc = Self::arc()?;
         let closed = ClampedPolygon::from_float(&arc);

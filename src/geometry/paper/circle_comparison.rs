@@ -1,14 +1,12 @@
-//! The paper's Table 1: how well a float polygon and a Bézier polygon of constant legs and
-//! turning angles approximate a circle, measured by the evolute's largest distance from the
+//! The paper's Table 1: the deviation of a B-spline and of a Bézier curve from a circle. Both polygons have
+//! equal legs and equal turning angles. The measure is the largest distance of the evolute from the circle's
 //! centre.
 
 use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 
-use super::bezier_polygon::BezierPolygon;
-use super::error::PolygonError;
-use super::float_polygon::FloatPolygon;
+use crate::geometry::{BezierPolygon, FloatPolygon, PolygonError};
 
 /// The radius of the circle in the paper.
 pub const PAPER_RADIUS: f64 = 10.0;
@@ -16,27 +14,27 @@ pub const PAPER_RADIUS: f64 = 10.0;
 /// The degrees of the paper's Table 1.
 const PAPER_DEGREES: [usize; 4] = [3, 5, 7, 9];
 
-/// The degree from which on the B-spline's distance is computed by its harmonics: from its
-/// vertices, given as doubles, it would be lost in their rounding as the degree grows.
+/// The lowest degree at which harmonics give the B-spline's distance. From here on the rounding of the
+/// vertices to doubles would hide it.
 const BY_HARMONICS: usize = 7;
 
-/// The harmonics on either side that count: what those beyond could add is below rounding.
+/// The number of harmonics on either side of 0. Those beyond add less than rounding does.
 const HARMONICS: i32 = 400;
 
-/// Samples of a segment between which the largest distance is searched.
+/// Samples of a segment. The search for the largest distance begins at the best one.
 const SAMPLES: usize = 64;
 
-/// Steps of the golden-section search: the bracket shrinks to rounding.
+/// Steps of the golden-section search. After 60 the bracket is as small as rounding.
 const STEPS: usize = 60;
 
-/// One row of Table 1.
+/// Hold one row of Table 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CircleComparison {
     /// The degree n.
     pub degree: usize,
-    /// The evolute's largest distance from the centre, of the B-spline segment.
+    /// The largest distance of the B-spline segment's evolute from the centre.
     pub bspline: f64,
-    /// The same of the Bézier curve.
+    /// The largest distance of the Bézier curve's evolute from the centre.
     pub bezier: f64,
 }
 
@@ -74,14 +72,13 @@ impl CircleComparison {
     }
 }
 
-/// The sides of the regular polygon on which the paper puts a B-spline of some degree: 6 up to the
-/// third, 12 beyond.
+/// Return the sides of the regular polygon that the paper uses for a degree: 6 up to degree 3, 12 beyond.
 pub fn paper_sides(degree: usize) -> usize {
     if degree <= 3 { 6 } else { 12 }
 }
 
-/// Place a float polygon of one segment on n + 1 consecutive corners of a regular polygon about
-/// the origin, symmetric about the y axis, running clockwise over the top as in the paper's
+/// Make a float polygon of one segment from n + 1 consecutive corners of a regular polygon. The centre is the
+/// origin and the y axis the axis of symmetry. The corners run clockwise over the top, as in the paper's
 /// figure 1.
 ///
 /// # Errors
@@ -102,9 +99,9 @@ pub fn regular_polygon(
     FloatPolygon::planar(degree, &points)
 }
 
-/// Make the Bézier curve that the float polygon of [`regular_polygon`] is compared with: n equal
-/// legs and n − 1 equal turning angles θ/(n − 1), θ the central angle of one side, from the
-/// B-spline segment's start to its end. It is given by its float polygon.
+/// Make the Bézier curve to compare with [`regular_polygon`], as its float polygon. It has n equal legs and
+/// n − 1 equal turning angles θ/(n − 1), with θ the central angle of one side. It starts and ends where the
+/// B-spline segment does.
 ///
 /// # Errors
 /// As [`regular_polygon`].
@@ -130,7 +127,7 @@ pub fn equal_leg_bezier(
     BezierPolygon::new(degree, vertices, None)?.to_float()
 }
 
-/// Find the largest distance between the curve's evolute and the origin.
+/// Find the largest distance of the curve's evolute from the origin; infinite at an inflection.
 pub fn evolute_reach(polygon: &FloatPolygon) -> f64 {
     largest(polygon.segments(), |u| {
         let centre = polygon.jet(u).centre_of_curvature();
@@ -138,17 +135,17 @@ pub fn evolute_reach(polygon: &FloatPolygon) -> f64 {
     })
 }
 
-/// Find the largest distance between the evolute and the centre for the float polygon on a regular
-/// polygon of some degree from 3 on, exactly but for the rounding of the result.
+/// Find the evolute's largest distance from the centre for [`regular_polygon`] of degree 3 or higher. Only
+/// the result is rounded.
 ///
-/// With φ the central angle of a side and the vertices R e^{iφj}, Poisson's sum makes of the curve
+/// Let φ be the central angle of a side and R e^{iφj} the vertices. By Poisson summation the curve is
 ///
 ///   z(u) = ρ e^{iφu} (1 + ε(u)),   ε(u) = Σ_{k≠0} (φ/(φ + 2πk))^{n+1} e^{2πiku},
 ///
-/// u counted from where it is symmetric, ρ = R (sin(φ/2)/(φ/2))^{n+1}: a circle and harmonics that fade as the degree grows. The centre
-/// of curvature z + i z′ |z′|² / Im(z̄′ z″) is multiplied out with z′ = iφ e^{iφu} ρ (1 + a) and
-/// z″ = −φ² e^{iφu} ρ (1 + b), a = ε + ε′/(iφ), b = ε − 2iε′/φ − ε″/φ², so that the ones cancel
-/// before anything is rounded.
+/// where u counts from the axis of symmetry and ρ = R (sin(φ/2)/(φ/2))^{n+1}. This is a circle plus harmonics
+/// that fade as the degree grows. The centre of curvature is z + i z′ |z′|² / Im(z̄′ z″), with z′ = iφ
+/// e^{iφu} ρ (1 + a), z″ = −φ² e^{iφu} ρ (1 + b), a = ε + ε′/(iφ), b = ε − 2iε′/φ − ε″/φ². The code
+/// multiplies this out by hand, so that the ones cancel before rounding.
 fn regular_evolute_reach(degree: usize, sides: usize, radius: f64) -> f64 {
     let angle = TAU / sides as f64;
     let order = degree as i32 + 1;
@@ -157,7 +154,7 @@ fn regular_evolute_reach(degree: usize, sides: usize, radius: f64) -> f64 {
         let turn = TAU * f64::from(k);
         (turn, (angle / (angle + turn)).powi(order))
     });
-    // The smallest come first, so that their sum keeps its digits.
+    // Adding the smallest first keeps the digits of the sum.
     let mut harmonics: Vec<(f64, f64)> = harmonics.collect();
     harmonics.reverse();
     largest(1, |u| {
@@ -178,7 +175,7 @@ fn regular_evolute_reach(degree: usize, sides: usize, radius: f64) -> f64 {
     })
 }
 
-/// Find the largest value of a function over some segments.
+/// Find the largest value of a function over the segments: samples, then a golden-section search.
 fn largest(segments: usize, value: impl Fn(f64) -> f64) -> f64 {
     let count = SAMPLES * segments;
     let step = segments as f64 / count as f64;
