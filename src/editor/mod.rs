@@ -37,9 +37,10 @@ pub use trial::{Run, Trial};
 pub use view::{
     Bounds, ChainOutlines, ClampedMark, CombSettings, CurveOutlines, CurveScene, DragReadout,
     EndFitMarks, FeatureKind, FeatureMark, FeatureReport, FeatureRow, GAP, GroundGrid, GuideLabel,
-    GuideScene, HoverScene, Layer, Layers, Legs, Look, LossArrow, Mark, MeasuredFigure, NamedView,
-    Orientation, PieceTrend, PlotBand, PlotFeature, PlotKind, PlotScene, ProposalScene, REACH,
-    Scene, Sight, VertexMark, View, ViewBox, Viewport, grid_steps, ground_grid, view_name,
+    GuideScene, HoverScene, Layer, LayerRow, LayerSample, Layers, Legs, Look, LossArrow, Mark,
+    MeasuredFigure, NamedView, Orientation, PieceTrend, PlotBand, PlotFeature, PlotKind, PlotScene,
+    ProposalScene, REACH, Scene, Sight, VertexMark, View, ViewBox, Viewport, grid_steps,
+    ground_grid, view_name,
 };
 pub use workspace::{Interruption, PreviewId, Workspace};
 

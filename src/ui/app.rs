@@ -76,8 +76,10 @@ impl App {
         if let Some(step) = shell.nudge_step {
             editor.set_nudge_step(step);
         }
-        if let Some(hidden) = &shell.hidden {
-            hide_layers(&mut editor, hidden);
+        for layer in Layer::ALL {
+            if let Some(shown) = shell.shows(layer) {
+                editor.view_mut().show_layer(layer, shown);
+            }
         }
         editor.view_mut().show_bands(shell.bands);
         let mut plots = Plots::default();
@@ -540,18 +542,14 @@ impl App {
     }
 
     fn settings(&self) -> Shell {
-        let layers = self.editor.view().chosen_layers();
-        let hidden = Layer::ALL
-            .into_iter()
-            .enumerate()
-            .filter(|(_, layer)| !layers.shows(*layer));
-        Shell {
+        let mut shell = Shell {
             harmony: self.plots.tab() == Tab::Harmony,
             nudge_step: Some(self.editor.hand().nudge_step()),
-            hidden: Some(hidden.map(|(place, _)| place).collect()),
             bands: self.editor.view().shows_bands(),
             ..self.shell.clone()
-        }
+        };
+        shell.keep_layers(self.editor.view().chosen_layers());
+        shell
     }
 }
 
@@ -597,14 +595,6 @@ fn move_keyboard(context: &Context) {
             memory.request_focus(canvas::id());
         }
     });
-}
-
-fn hide_layers(editor: &mut Editor, hidden: &[usize]) {
-    for (place, layer) in Layer::ALL.into_iter().enumerate() {
-        if editor.sight().layers().shows(layer) == hidden.contains(&place) {
-            told(editor.execute(Command::ToggleLayer(layer)));
-        }
-    }
 }
 
 /// Whether the second button was clicked in a box: pressed and released, not dragged.

@@ -25,17 +25,12 @@ pub fn of_tool(tool: ToolKind) -> Icon {
 
 /// The icon of a layer.
 pub fn of_layer(layer: Layer) -> Icon {
-    match layer {
-        Layer::Float => Icon::Waypoints,
-        Layer::Clamped => Icon::Pentagon,
-        Layer::Curve => Icon::Spline,
-        Layer::Evolute => Icon::Origami,
-        Layer::Comb => Icon::ChartNoAxesColumn,
-        Layer::Targets => Icon::Goal,
-        Layer::Grid => Icon::Grid3x3,
-        Layer::Features => Icon::BadgeCheck,
-        Layer::SafeRegion => Icon::CircleDashed,
-    }
+    named(layer.row().icon)
+}
+
+/// The icon that a row of a table names.
+fn named(name: &str) -> Icon {
+    Icon::try_from(name).unwrap_or(Icon::CircleQuestionMark)
 }
 
 /// The icon of an action, for those that have one.
@@ -98,4 +93,19 @@ fn of_operation(operation: &Operation) -> Icon {
 /// An icon as text in the icons' own font.
 pub fn text(icon: Icon) -> RichText {
     RichText::new(String::from(char::from(icon))).font(theme::icon_font(theme::ICON))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_layer_has_an_icon_and_a_colour() {
+        let tokens = theme::Tokens::of_theme(true);
+        for layer in Layer::ALL {
+            let row = layer.row();
+            assert!(Icon::try_from(row.icon).is_ok(), "{}", row.icon);
+            assert_ne!(tokens.named(row.colour), tokens.text, "{}", row.colour);
+        }
+    }
 }

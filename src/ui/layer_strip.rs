@@ -1,8 +1,8 @@
 //! The layers' switches over the canvas, each in its layer's colour, and the comb's scale and density.
 
 use eframe::egui::{
-    Area, Color32, Context, Frame, Id, Margin, Order, Rect, Response, Role, Sense, Stroke, Ui,
-    Vec2, WidgetInfo, vec2,
+    Area, Context, Frame, Id, Margin, Order, Rect, Response, Role, Sense, Stroke, Ui, Vec2,
+    WidgetInfo, vec2,
 };
 use lucide_icons::Icon;
 
@@ -60,21 +60,6 @@ pub fn layer_strip_ui(
     });
 }
 
-/// The colour of a layer.
-fn colour(tokens: &Tokens, layer: Layer) -> Color32 {
-    match layer {
-        Layer::Float => tokens.float,
-        Layer::Clamped => tokens.clamped,
-        Layer::Curve => tokens.curve,
-        Layer::Evolute => tokens.evolute,
-        Layer::Comb => tokens.comb,
-        Layer::Targets => tokens.target,
-        Layer::Grid => tokens.joints,
-        Layer::Features => tokens.rising,
-        Layer::SafeRegion => tokens.good,
-    }
-}
-
 fn switch_ui(ui: &mut Ui, editor: &Editor, layer: Layer, commands: &mut Vec<Action>) {
     let command = Command::ToggleLayer(layer);
     let shown = editor.sight().layers().shows(layer);
@@ -86,7 +71,7 @@ fn switch_ui(ui: &mut Ui, editor: &Editor, layer: Layer, commands: &mut Vec<Acti
     if response.has_focus() {
         widgets::focus_ring(ui, rect);
     }
-    let own = colour(tokens, layer);
+    let own = tokens.named(layer.row().colour);
     let icon = if shown { own } else { tokens.faint_text };
     widgets::icon(ui, rect, icons::of_layer(layer), icon);
     if shown {

@@ -7,7 +7,7 @@ use eframe::egui::{
 
 use super::feature_marks::glyph;
 use super::theme::{STEP, Tokens};
-use crate::editor::FeatureKind;
+use crate::editor::{FeatureKind, Layer, LayerSample};
 
 /// The width of what a row shows beside its words.
 const SAMPLE: f32 = 7.0 * STEP;
@@ -84,18 +84,21 @@ fn glyphs() -> impl Iterator<Item = (Sample, &'static str)> {
     named.into_iter()
 }
 
-fn lines(tokens: &Tokens) -> [(Sample, &'static str); 9] {
-    [
-        (Sample::Line(tokens.curve), "Curve"),
-        (Sample::Float(tokens.float), "Float S-polygon"),
-        (Sample::Closed(tokens.clamped), "Closed S-polygon"),
+fn lines(tokens: &Tokens) -> impl Iterator<Item = (Sample, &'static str)> {
+    let layers = Layer::ALL.into_iter().filter_map(|layer| {
+        let (row, colour) = (layer.row(), tokens.named(layer.row().colour));
+        let sample = match row.sample? {
+            LayerSample::Line => Sample::Line(colour),
+            LayerSample::Discs => Sample::Float(colour),
+            LayerSample::Squares => Sample::Closed(colour),
+        };
+        Some((sample, row.label))
+    });
+    layers.chain([
         (Sample::Locked(tokens.float), "Locked vertex"),
         (Sample::Tick(tokens.joints), "Joint of segments"),
-        (Sample::Line(tokens.comb), "Curvature comb"),
-        (Sample::Line(tokens.evolute), "Evolute"),
-        (Sample::Line(tokens.target), "End target"),
         (Sample::Line(tokens.reference), "Reference"),
-    ]
+    ])
 }
 
 fn row_ui(ui: &mut Ui, sample: Sample, text: &str) {

@@ -1,6 +1,10 @@
 //! What the window shows beside the document.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
+
+use crate::editor::{Layer, Layers};
 
 /// What the window shows beside the document, kept from run to run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -12,7 +16,10 @@ pub struct Shell {
     pub(super) harmony: bool,
     /// Whether plots show curves scaled to length 1.
     pub(super) normalised: bool,
-    /// The layers that are hidden, by their place in the list.
+    /// Whether layers are shown, by their names.
+    pub(super) layers: BTreeMap<String, bool>,
+    /// The layers that are hidden, by their places, as older settings have them.
+    #[serde(skip_serializing)]
     pub(super) hidden: Option<Vec<usize>>,
     /// How far an arrow key moves the selection; none is as the editor begins.
     pub(super) nudge_step: Option<f64>,
@@ -27,9 +34,67 @@ impl Default for Shell {
             plots: true,
             harmony: false,
             normalised: false,
+            layers: BTreeMap::new(),
             hidden: None,
             nudge_step: None,
             bands: true,
         }
+    }
+}
+
+/// The places of layers in old settings.
+const OLD_PLACES: [Layer; 9] = [
+    Layer::Float,
+    Layer::Clamped,
+    Layer::Curve,
+    Layer::Evolute,
+    Layer::Comb,
+    Layer::Targets,
+    Layer::Grid,
+    Layer::Features,
+    Layer::SafeRegion,
+];
+
+impl Shell {
+    /// Remember which layers are shown.
+    pub fn keep_layers(&mut self, layers: Layers) {
+        let named = Layer::ALL.map(|layer| (layer.row().name.to_owned(), layers.shows(layer)));
+        self.layers = named.into();
+        self.hidden = None;
+    }
+
+    /// Whether a layer was shown; `None` if the settings do not say.
+    pub fn shows(&self, layer: Layer) -> Option<bool> {
+        let old = || {
+            let place = OLD_PLACES.iter().position(|old| *old == layer)?;
+            Some(!self.hidden.as_ref()?.contains(&place))
+        };
+        self.layers.get(layer.row().name).copied().or_else(old)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn layers_are_kept_by_name_and_old_places_are_still_read() {
+        let old = r#"{ "hidden": [0, 4] }"#;
+        let mut shell: Shell = serde_json::from_str(old).expect("settings");
+        let shown = |shell: &Shell| Layer::ALL.map(|layer| shell.shows(layer));
+        let expected = [0, 1, 2, 3, 4, 5, 6, 7, 8].map(|place| Some(place != 0 && place != 4));
+        assert_eq!(shown(&shell)[..9], expected);
+        let mut layers = Layers::default();
+        layers.set(Layer::Evolute, false);
+        shell.keep_layers(layers);
+        let written = serde_json::to_string(&shell).expect("settings");
+        assert!(written.contains(r#""evolute":false"#) && !written.contains("hidden"));
+        let read: Shell = serde_json::from_str(&written).expect("settings");
+        assert_eq!(read, shell);
+        assert_eq!(
+            shown(&read),
+            Layer::ALL.map(|layer| Some(layers.shows(layer)))
+        );
+        assert_eq!(shown(&Shell::default()), Layer::ALL.map(|_| None));
     }
 }

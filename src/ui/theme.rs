@@ -219,6 +219,22 @@ impl Tokens {
         if dark { &DARK } else { &LIGHT }
     }
 
+    /// The colour that a row of the table of layers names.
+    pub fn named(&self, name: &str) -> Color32 {
+        match name {
+            "float" => self.float,
+            "clamped" => self.clamped,
+            "curve" => self.curve,
+            "evolute" => self.evolute,
+            "comb" => self.comb,
+            "target" => self.target,
+            "joints" => self.joints,
+            "rising" => self.rising,
+            "good" => self.good,
+            _ => self.text,
+        }
+    }
+
     /// The colour of a curve that was given none: the next for each one that is added.
     pub fn of_curve(&self, id: CurveId) -> Color32 {
         self.items[(id.number() % self.items.len() as u64) as usize]

@@ -245,10 +245,7 @@ impl Command {
             Self::GoToFeature => "Show the surroundings of the feature that is chosen in the list",
             Self::Compare(None) => "Show the plots of the active curve alone",
             Self::Compare(Some(_)) => "Show the plots of this curve beside those of the active one",
-            Self::ToggleLayer(Layer::SafeRegion) => {
-                "Show or hide where the selected vertex may go without adding a curvature extremum or an inflection"
-            }
-            Self::ToggleLayer(_) => "Show or hide this layer",
+            Self::ToggleLayer(layer) => layer.row().help,
             Self::ToggleBands => {
                 "Show the bands of rising and falling curvature along the curve, or only under the plot"
             }
@@ -288,7 +285,7 @@ impl Command {
             // F2 renames and F6 focuses panels, as elsewhere.
             Self::View(NamedView::Isometric) => plain(Key::Function(7)),
             Self::View(view) => plain(Key::Function(3 + view as u8)),
-            Self::ToggleLayer(layer) => plain(Key::Character(char::from(b'1' + layer as u8))),
+            Self::ToggleLayer(layer) => plain(Key::Character(layer.key()?)),
             Self::ToggleSnapping => plain(Key::Character('g')),
             Self::Follow(Follow::InHarmony) => plain(Key::Character('n')),
             Self::Follow(Follow::Softly) => plain(Key::Character('j')),

@@ -1,4 +1,4 @@
-//! The canvas's layers and which of them are shown.
+//! The table of the canvas's layers, and which of them are shown.
 
 /// A layer of the canvas.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -19,37 +19,171 @@ pub enum Layer {
     Grid,
     /// Proved monotone pieces and features.
     Features,
-    /// Where the selected vertex may go without adding a feature.
+    /// Places of the selected vertex that add no feature.
     SafeRegion,
 }
 
+/// A row of the table of layers. Menu, strip of switches, keys, legend and settings read it.
+#[derive(Debug)]
+pub struct LayerRow {
+    /// The layer.
+    pub layer: Layer,
+    /// Its name in the settings.
+    pub name: &'static str,
+    /// Its name on screen.
+    pub label: &'static str,
+    /// The tooltip of its switch.
+    pub help: &'static str,
+    /// The Lucide name of its icon.
+    pub icon: &'static str,
+    /// The name of its colour in the theme.
+    pub colour: &'static str,
+    /// Its sample in the legend.
+    pub sample: Option<LayerSample>,
+    /// Whether it is shown until the user hides it.
+    pub is_on: bool,
+}
+
+/// How the legend draws a layer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LayerSample {
+    /// A line.
+    Line,
+    /// A line with a disc.
+    Discs,
+    /// A dashed line with a square.
+    Squares,
+}
+
+/// The tooltip of most switches.
+const SHOW: &str = "Show or hide this layer";
+
+/// Every layer, in the order of the switches, which is that of [`Layer`]'s variants.
+static LAYERS: &[LayerRow] = &[
+    LayerRow {
+        layer: Layer::Float,
+        name: "float",
+        label: "Float S-polygon",
+        help: SHOW,
+        icon: "waypoints",
+        colour: "float",
+        sample: Some(LayerSample::Discs),
+        is_on: true,
+    },
+    LayerRow {
+        layer: Layer::Clamped,
+        name: "closed",
+        label: "Closed S-polygon",
+        help: "Show or hide the clamped control polygon, as CAD programs show it",
+        icon: "pentagon",
+        colour: "clamped",
+        sample: Some(LayerSample::Squares),
+        is_on: true,
+    },
+    LayerRow {
+        layer: Layer::Curve,
+        name: "curve",
+        label: "Curve",
+        help: SHOW,
+        icon: "spline",
+        colour: "curve",
+        sample: Some(LayerSample::Line),
+        is_on: true,
+    },
+    LayerRow {
+        layer: Layer::Evolute,
+        name: "evolute",
+        label: "Evolute",
+        help: SHOW,
+        icon: "origami",
+        colour: "evolute",
+        sample: Some(LayerSample::Line),
+        is_on: true,
+    },
+    LayerRow {
+        layer: Layer::Comb,
+        name: "comb",
+        label: "Curvature comb",
+        help: SHOW,
+        icon: "chart-no-axes-column",
+        colour: "comb",
+        sample: Some(LayerSample::Line),
+        // Together with the evolute it would hide the polygons at first sight.
+        is_on: false,
+    },
+    LayerRow {
+        layer: Layer::Targets,
+        name: "targets",
+        label: "End targets",
+        help: SHOW,
+        icon: "goal",
+        colour: "target",
+        sample: Some(LayerSample::Line),
+        is_on: true,
+    },
+    LayerRow {
+        layer: Layer::Grid,
+        name: "grid",
+        label: "Grid and axes",
+        help: SHOW,
+        icon: "grid-3x3",
+        colour: "joints",
+        sample: None,
+        is_on: true,
+    },
+    LayerRow {
+        layer: Layer::Features,
+        name: "features",
+        label: "Proved features",
+        help: SHOW,
+        icon: "badge-check",
+        colour: "rising",
+        sample: None,
+        is_on: true,
+    },
+    LayerRow {
+        layer: Layer::SafeRegion,
+        name: "safe-region",
+        label: "Safe region",
+        help: "Show or hide where the selected vertex can go without adding a feature",
+        icon: "circle-dashed",
+        colour: "good",
+        sample: None,
+        // It takes work to find.
+        is_on: false,
+    },
+];
+
 impl Layer {
-    /// Every layer, in the order of its switches: keys 1 to 9.
-    pub const ALL: [Self; 9] = [
-        Self::Float,
-        Self::Clamped,
-        Self::Curve,
-        Self::Evolute,
-        Self::Comb,
-        Self::Targets,
-        Self::Grid,
-        Self::Features,
-        Self::SafeRegion,
-    ];
+    /// Every layer, in the order of the switches.
+    pub const ALL: [Self; LAYERS.len()] = {
+        let mut all = [Self::Float; LAYERS.len()];
+        let mut place = 0;
+        while place < LAYERS.len() {
+            assert!(
+                LAYERS[place].layer as usize == place,
+                "rows in the order of variants"
+            );
+            all[place] = LAYERS[place].layer;
+            place += 1;
+        }
+        all
+    };
+
+    /// What the table says of the layer.
+    pub fn row(self) -> &'static LayerRow {
+        &LAYERS[self as usize]
+    }
 
     /// What the layer is called on screen.
     pub fn label(self) -> &'static str {
-        match self {
-            Self::Float => "Float S-polygon",
-            Self::Clamped => "Closed S-polygon (clamped)",
-            Self::Curve => "Curve",
-            Self::Evolute => "Evolute",
-            Self::Comb => "Curvature comb",
-            Self::Targets => "End targets",
-            Self::Grid => "Grid and axes",
-            Self::Features => "Proved features",
-            Self::SafeRegion => "Safe region",
-        }
+        self.row().label
+    }
+
+    /// The digit that shows or hides the layer; none after the ninth.
+    pub fn key(self) -> Option<char> {
+        let digit = self as u32 + 1;
+        char::from_digit(digit, 10)
     }
 }
 
@@ -60,15 +194,10 @@ pub struct Layers {
 }
 
 impl Default for Layers {
-    /// All but the comb, which together with the evolute would hide the polygons at first sight, and
-    /// the safe region, which takes work to find.
     fn default() -> Self {
-        let mut layers = Self {
-            shown: [true; Layer::ALL.len()],
-        };
-        layers.set(Layer::Comb, false);
-        layers.set(Layer::SafeRegion, false);
-        layers
+        Self {
+            shown: Layer::ALL.map(|layer| layer.row().is_on),
+        }
     }
 }
 
@@ -81,5 +210,22 @@ impl Layers {
     /// Show or hide a layer.
     pub fn set(&mut self, layer: Layer, shown: bool) {
         self.shown[layer as usize] = shown;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    #[test]
+    fn layers_have_names_of_their_own_and_the_first_nine_a_digit() {
+        let names: BTreeSet<&str> = LAYERS.iter().map(|row| row.name).collect();
+        assert_eq!(names.len(), LAYERS.len());
+        for (place, layer) in Layer::ALL.into_iter().enumerate() {
+            let digit = "123456789".chars().nth(place);
+            assert_eq!(layer.key(), digit, "{}", layer.label());
+        }
     }
 }

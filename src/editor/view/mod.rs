@@ -46,7 +46,7 @@ pub use feature_report::{FeatureKind, FeatureMark, FeatureReport, FeatureRow};
 pub use grid::{GroundGrid, grid_steps, ground_grid};
 pub use guide_scene::{GuideLabel, GuideScene, LossArrow};
 pub use hit::REACH;
-pub use layers::{Layer, Layers};
+pub use layers::{Layer, LayerRow, LayerSample, Layers};
 pub use look::Look;
 pub use named_view::{NamedView, view_name};
 pub use orientation::Orientation;

@@ -12,7 +12,7 @@ use crate::editor::jobs::proving::Proving;
 use crate::editor::view::comb::CombSettings;
 use crate::editor::view::feature_report::FeatureReport;
 use crate::editor::view::ghost::Ghost;
-use crate::editor::view::layers::Layers;
+use crate::editor::view::layers::{Layer, Layers};
 use crate::editor::view::outlines::Outlines;
 use crate::editor::view::plot_scene::{MarkSource, PlotKind, PlotScene, PlotSource};
 use crate::editor::view::proposed::ProposedCurve;
@@ -160,6 +160,11 @@ impl View {
     /// Which layers the user has chosen, whatever the tool in the hand makes of them.
     pub fn chosen_layers(&self) -> Layers {
         self.layers
+    }
+
+    /// Show or hide a layer.
+    pub fn show_layer(&mut self, layer: Layer, shown: bool) {
+        self.layers.set(layer, shown);
     }
 
     /// Whether the canvas shows bands of rising and falling curvature, with the layer of features.
