@@ -3,7 +3,7 @@
 use batten::document::Reference;
 use batten::document::{
     Colour, Curve, CurveId, Document, Edit, EditError, EndMatch, History, LockedVertices,
-    MatchPlace,
+    MatchPlace, Renumbering,
 };
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::expressions::LengthUnit;
@@ -14,6 +14,11 @@ use glam::DVec3;
 fn cubic() -> FloatPolygon {
     let points = [(0.1, 0.2), (1.3, 0.7), (2.1, -0.3), (3.7, 0.9), (4.1, 1.1)];
     FloatPolygon::planar(3, &points).expect("a valid polygon")
+}
+
+/// The renumbering to another polygon whose vertices have the same numbers.
+fn same_numbers(polygon: &FloatPolygon) -> Renumbering {
+    Renumbering::of_vertices(&Curve::new("first", cubic()), polygon, Some)
 }
 
 fn history() -> (History, CurveId) {
@@ -153,7 +158,7 @@ fn gestures_that_change_nothing_leave_no_step() {
         Edit::Renumber {
             curve: id,
             polygon: cubic(),
-            locked_vertices: LockedVertices::default(),
+            renumbering: same_numbers(&cubic()),
         },
         Edit::SetVerticesLocked {
             curve: id,
@@ -197,7 +202,7 @@ fn every_edit_is_undone_and_redone() {
         Edit::Renumber {
             curve: id,
             polygon: cubic(),
-            locked_vertices: LockedVertices::default(),
+            renumbering: same_numbers(&cubic()),
         },
         Edit::Rename {
             curve: id,
@@ -476,12 +481,11 @@ fn no_edit_moves_a_locked_vertex() {
     shifted.move_vertices(moves).expect("a valid place");
     let mut heavier = cubic();
     heavier.set_weight(0, 2.0).expect("a valid weight");
-    let short = FloatPolygon::planar(1, &[(0.1, 0.2), (1.3, 0.7)]).expect("a valid polygon");
     let set = |polygon| Edit::SetPolygon { curve: id, polygon };
     let renumber = |polygon, vertices: [usize; 1]| Edit::Renumber {
         curve: id,
+        renumbering: same_numbers(&polygon).with_locked_vertices(vertices.into_iter().collect()),
         polygon,
-        locked_vertices: vertices.into_iter().collect(),
     };
     let weigh = Edit::SetWeight {
         curve: id,
@@ -493,7 +497,6 @@ fn no_edit_moves_a_locked_vertex() {
         (set(cubic().reversed()), 0),
         (set(shifted.clone()), 2),
         (set(heavier), 0),
-        (set(short), 2),
         (weigh, 2),
         (renumber(cubic(), [1]), 1),
         (renumber(shifted, [2]), 2),
@@ -519,6 +522,24 @@ fn no_edit_moves_a_locked_vertex() {
     history.undo();
     assert!(!history.document().is_same(&locked));
     history.apply("Move", moved(id, 3.0)).expect("not locked");
+}
+
+#[test]
+fn a_polygon_with_other_numbers_of_vertices_needs_a_renumbering() {
+    let (mut history, id) = history();
+    let vertices = cubic().vertices().to_vec();
+    let refused = [
+        FloatPolygon::new(3, vertices[1..].to_vec(), None, false),
+        FloatPolygon::new(2, vertices.clone(), None, false),
+        FloatPolygon::new(3, vertices, None, true),
+    ];
+    for polygon in refused.map(|polygon| polygon.expect("a valid polygon")) {
+        let set = Edit::SetPolygon { curve: id, polygon };
+        let name = "first".to_owned();
+        let refused = history.apply("Set", vec![set]);
+        assert_eq!(refused, Err(EditError::OtherNumbers { name }));
+    }
+    assert_eq!(history.undo_steps(), 0);
 }
 
 #[test]

@@ -47,6 +47,15 @@ impl EndTargets {
         }
     }
 
+    /// Give each end the target of the other, turned round: the targets of the reversed curve.
+    pub fn turned(&self, planar: bool) -> Self {
+        let turned = |target: EndTarget| target.turned(planar);
+        Self {
+            start: self.finish.map(turned),
+            finish: self.start.map(turned),
+        }
+    }
+
     /// List the ends that have a target, with it.
     pub fn list(&self) -> Vec<(End, EndTarget)> {
         let both = End::BOTH.into_iter();

@@ -9,8 +9,8 @@ use super::curve::{Colour, Curve, CurveId};
 use super::document::Document;
 use super::end_match::EndMatch;
 use super::error::EditError;
-use super::locked_vertices::LockedVertices;
 use super::reference::Reference;
+use super::renumbering::Renumbering;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::ReferenceCurve;
@@ -26,22 +26,23 @@ pub enum Edit {
         /// The vertices, counted from 0, with their new places.
         moves: Vec<(usize, DVec3)>,
     },
-    /// Give a curve another float polygon, whose vertices have the same numbers: locked ones must
-    /// be where they were.
+    /// Give a curve another float polygon with the same degree and number of vertices, open or periodic as it was.
+    /// Locked vertices stay where they are.
     SetPolygon {
         /// The curve.
         curve: CurveId,
         /// The new polygon.
         polygon: FloatPolygon,
     },
-    /// Give a curve a float polygon whose vertices have other numbers, as after an insertion.
+    /// Give a curve a float polygon whose vertices have other numbers, as after an insertion. Locks and matches at
+    /// places of the curve go along.
     Renumber {
         /// The curve.
         curve: CurveId,
         /// The new polygon.
         polygon: FloatPolygon,
-        /// Which of its vertices are locked: each is one that was locked before, at its point.
-        locked_vertices: LockedVertices,
+        /// Where vertices and places go. A locked vertex must be one that was locked before, at its point.
+        renumbering: Renumbering,
     },
     /// Lock vertices of a curve, or unlock them.
     SetVerticesLocked {
@@ -168,15 +169,12 @@ impl Document {
             Edit::MoveVertices { curve, moves } => self.reshape(curve, |polygon| {
                 polygon.move_vertices(moves.iter().copied())
             }),
-            Edit::SetPolygon { curve, polygon } => self.reshape(curve, |old| {
-                *old = polygon;
-                Ok(())
-            }),
+            Edit::SetPolygon { curve, polygon } => self.set_polygon(curve, polygon),
             Edit::Renumber {
                 curve,
                 polygon,
-                locked_vertices,
-            } => self.renumber(curve, polygon, locked_vertices),
+                renumbering,
+            } => self.renumber(curve, polygon, &renumbering),
             Edit::SetVerticesLocked {
                 curve,
                 vertices,
@@ -315,23 +313,45 @@ impl Document {
         Ok(())
     }
 
+    fn set_polygon(&mut self, id: CurveId, polygon: FloatPolygon) -> Result<(), EditError> {
+        let curve = self.curve(id).ok_or(EditError::NoSuchCurve)?;
+        if !curve.polygon.has_numbers_of(&polygon) {
+            let name = curve.name.clone();
+            return Err(EditError::OtherNumbers { name });
+        }
+        self.reshape(id, |old| {
+            *old = polygon;
+            Ok(())
+        })
+    }
+
     fn renumber(
         &mut self,
         id: CurveId,
         polygon: FloatPolygon,
-        locked_vertices: LockedVertices,
+        renumbering: &Renumbering,
     ) -> Result<(), EditError> {
         let index = self.position(id).ok_or(EditError::NoSuchCurve)?;
         let shared = &mut self.curves[index].1;
         shared.check_editable()?;
         let held = shared.locked_vertices.carried(&shared.polygon, &polygon);
-        if let Some(vertex) = locked_vertices.iter().find(|new| !held.contains(*new)) {
+        let mut locked = renumbering.locked_vertices().iter();
+        if let Some(vertex) = locked.find(|new| !held.contains(*new)) {
             let name = shared.name.clone();
             return Err(EditError::LockedVertex { name, vertex });
         }
         let changed = Arc::make_mut(shared);
+        if renumbering.is_turned() {
+            changed.targets = changed.targets.turned(changed.polygon.is_planar());
+        }
         changed.polygon = polygon;
-        changed.locked_vertices = locked_vertices;
+        changed.locked_vertices = renumbering.locked_vertices().clone();
+        let matches = self.matches.iter().filter_map(|matched| match matched {
+            matched if matched.source == id => renumbering.of_source(matched),
+            matched if matched.curve == id => Some(renumbering.of_end(matched)),
+            matched => Some(*matched),
+        });
+        self.matches = matches.collect();
         Ok(())
     }
 

@@ -40,6 +40,12 @@ pub enum EditError {
         /// What is wrong with it.
         error: PolygonError,
     },
+    /// A polygon has other numbers of vertices than the curve: the edit needs a renumbering.
+    #[error("{}: the new polygon has another degree or number of vertices, or opens or closes the curve", quoted(.name))]
+    OtherNumbers {
+        /// The curve's name.
+        name: String,
+    },
     /// A target has a number that cannot be used.
     #[error("a target needs numbers up to 1e100, and a direction that is not 0")]
     BadTarget,

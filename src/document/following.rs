@@ -162,8 +162,9 @@ impl Document {
         let kept: Vec<EndMatch> = self.matches().filter(|it| possible(it)).copied().collect();
         self.matches = kept;
         for curve in self.followers() {
-            let sources = self.sources_of(curve).chain([curve]);
-            let changed = sources.into_iter().any(|id| !self.is_unchanged(id, before));
+            let is_reshaped = |source| !self.has_same_shape(source, before);
+            let changed =
+                self.sources_of(curve).any(is_reshaped) || !self.is_as_correctable(curve, before);
             let [now, then] = [&*self, before].map(|document| {
                 let own = document.matches().filter(|matched| matched.curve == curve);
                 own.collect::<Vec<_>>()
@@ -198,11 +199,24 @@ impl Document {
         ordered
     }
 
-    fn is_unchanged(&self, id: CurveId, before: &Self) -> bool {
+    /// Whether a curve or a reference has the shape that it had; its name, colour and visibility do not count.
+    fn has_same_shape(&self, id: CurveId, before: &Self) -> bool {
         let curves = self.curve(id).zip(before.curve(id));
         let references = self.reference(id).zip(before.reference(id));
-        curves.is_some_and(|(now, then)| Arc::ptr_eq(now, then))
-            || references.is_some_and(|(now, then)| Arc::ptr_eq(now, then))
+        curves.is_some_and(|(now, then)| Arc::ptr_eq(now, then) || now.polygon == then.polygon)
+            || references
+                .is_some_and(|(now, then)| Arc::ptr_eq(now, then) || now.curve == then.curve)
+    }
+
+    /// Whether a curve has all that a correction of its ends depends on as it was: shape, targets and locks.
+    fn is_as_correctable(&self, id: CurveId, before: &Self) -> bool {
+        let corrected = |curve: &Curve| {
+            let locks = (curve.visible, curve.locked, curve.locked_vertices.clone());
+            (curve.targets, locks)
+        };
+        let curves = self.curve(id).zip(before.curve(id));
+        self.has_same_shape(id, before)
+            && curves.is_some_and(|(now, then)| corrected(now) == corrected(then))
     }
 
     /// Give the matched ends of a curve their targets, and bring them there.

@@ -14,6 +14,7 @@ mod history;
 mod locked_vertices;
 mod names;
 mod reference;
+mod renumbering;
 mod unit_conversion;
 mod wording;
 
@@ -27,4 +28,5 @@ pub use history::History;
 pub use locked_vertices::LockedVertices;
 pub use names::free_name;
 pub use reference::Reference;
+pub use renumbering::{ParameterSpan, Renumbering};
 pub use wording::{cut, escaped, quoted};

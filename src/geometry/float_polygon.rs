@@ -63,6 +63,14 @@ impl FloatPolygon {
         self.periodic
     }
 
+    /// Whether the other polygon has the same degree and number of vertices and is open or periodic as this one, so
+    /// that vertices and parameters mean the same in both.
+    pub fn has_numbers_of(&self, other: &Self) -> bool {
+        let numbers =
+            |polygon: &Self| (polygon.degree(), polygon.vertices().len(), polygon.periodic);
+        numbers(self) == numbers(other)
+    }
+
     /// The number of segments L, which is also the end of the parameter's domain \[0, L\].
     pub fn segments(&self) -> usize {
         if self.periodic {

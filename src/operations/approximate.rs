@@ -13,7 +13,7 @@ use super::outcome::{Deviation, Figure, Mark, Outcome};
 use super::parameter::{Choice, Kind, Parameter};
 use super::values::Values;
 use super::whole;
-use crate::document::{Curve, Edit};
+use crate::document::{Curve, Edit, ParameterSpan};
 use crate::geometry::approximation::{
     Approximated, Asked, Goal, LevelComparison, MOST_SEGMENTS, Placing, Spacing, Watched,
     approximate_between, approximate_by_steps, approximate_to_tolerance,
@@ -264,8 +264,13 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
             }
         }
         Source::Curve(_) => {
-            let (id, curve) = input.curve()?;
-            Outcome::renumbered(id, curve, found.polygon.clone(), deviation)
+            let polygon = input.polygon()?;
+            Outcome::renumbered(
+                input,
+                found.polygon.clone(),
+                spans(polygon, &found.polygon),
+                deviation,
+            )?
         }
     };
     let mut remarks = outcome.remarks.clone();
@@ -282,6 +287,31 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
         remarks,
         ..outcome
     })
+}
+
+/// The parameters of a curve with those of its approximation: at the approximation's knots the nearest points, as far
+/// as these follow one another along the curve.
+fn spans(curve: &FloatPolygon, approximation: &FloatPolygon) -> Vec<ParameterSpan> {
+    let segments = [curve, approximation].map(|polygon| polygon.segments());
+    let [last, new_last] = segments.map(|segments| segments as f64);
+    let inner = (1..segments[1]).map(|knot| {
+        let new = knot as f64;
+        [curve.nearest(approximation.point(new)).u, new]
+    });
+    let mut places = vec![[0.0, 0.0]];
+    for place in inner {
+        let before = places.last().map_or(0.0, |[old, _]| *old);
+        if place[0] > before && place[0] < last {
+            places.push(place);
+        }
+    }
+    places.push([last, new_last]);
+    let pairs = places.windows(2);
+    let spans = pairs.map(|pair| ParameterSpan {
+        old: [pair[0][0], pair[1][0]],
+        new: [pair[0][1], pair[1][1]],
+    });
+    spans.collect()
 }
 
 /// Approximate as asked; where a tolerance is not reached with a remark on what would do.

@@ -5,11 +5,11 @@ use super::editable::open;
 use super::error::OperationError;
 use super::input::Input;
 use super::inputs::Inputs;
-use super::matches::{Moved, followers, without_match};
+use super::matches::without_match;
 use super::operation::Operation;
 use super::outcome::{Deviation, Outcome};
 use super::values::Values;
-use crate::document::{Edit, MatchPlace};
+use crate::document::{Edit, ParameterSpan};
 use crate::geometry::fairing::bridging::close;
 use crate::geometry::{End, Progress};
 
@@ -29,7 +29,6 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
     let (id, curve) = input.curve()?;
     let found = found(close(&curve.polygon, vertices(values)?, progress))?;
     let document = input.document();
-    let segments = curve.polygon.segments() as f64;
     let mut edits: Vec<Edit> = Vec::new();
     for end in End::BOTH {
         edits.extend(without_match(document, id, end));
@@ -40,16 +39,11 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
         });
         edits.extend(target);
     }
-    let mut outcome = Outcome::renumbered(id, curve, found.polygon.clone(), Deviation::Exact);
+    let polygon = found.polygon.clone();
+    let whole = [0.0, curve.polygon.segments() as f64];
+    let span = vec![ParameterSpan::shifted(whole, 0.0)];
+    let mut outcome = Outcome::renumbered(input, polygon, span, Deviation::Exact)?;
     edits.append(&mut outcome.edits);
-    edits.extend(followers(document, id, |place| {
-        let place = match place {
-            MatchPlace::End(End::Start) => MatchPlace::Parameter(0.0),
-            MatchPlace::End(End::Finish) => MatchPlace::Parameter(segments),
-            place => place,
-        };
-        Moved::To(id, place, false)
-    }));
     outcome.edits = edits;
     outcome.renumbered = false;
     outcome.figures = figures(&found);

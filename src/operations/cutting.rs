@@ -1,9 +1,9 @@
 //! What splitting and trimming share.
 
 use super::amount::Amount;
-use super::matches::{Moved, without_match};
+use super::matches::without_match;
 use super::parameter::{Kind, Parameter};
-use crate::document::{Curve, CurveId, Document, Edit, MatchPlace};
+use crate::document::{Curve, CurveId, Document, Edit};
 use crate::geometry::{End, MAX_SUBDIVISIONS};
 
 /// How often segments may be halved to bring a knot to where the curve is cut.
@@ -31,21 +31,4 @@ pub(super) fn without_target(
         target: None,
     });
     without_match(document, id, end).into_iter().chain(target)
-}
-
-/// Where a place is on the part of a curve between two parameters, which has so many segments.
-pub(super) fn on_part(
-    id: CurveId,
-    place: MatchPlace,
-    (from, to): (f64, f64),
-    segments: usize,
-) -> Moved {
-    match place {
-        MatchPlace::End(_) => Moved::To(id, place, false),
-        MatchPlace::Parameter(u) if (from..=to).contains(&u) => {
-            let u = (u - from) / (to - from) * segments as f64;
-            Moved::To(id, MatchPlace::Parameter(u), false)
-        }
-        MatchPlace::Parameter(_) => Moved::Gone,
-    }
 }

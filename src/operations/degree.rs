@@ -5,6 +5,8 @@ use super::error::OperationError;
 use super::input::Input;
 use super::outcome::{Deviation, Outcome};
 use super::parameter::{Kind, Parameter};
+use crate::document::ParameterSpan;
+use crate::geometry::FloatPolygon;
 
 /// The parameter that is the degree which the curve gets.
 pub(super) const fn degree(from: Amount, to: Amount, default: Amount) -> Parameter {
@@ -18,8 +20,13 @@ pub(super) const fn degree(from: Amount, to: Amount, default: Amount) -> Paramet
 
 /// Let the curve of this degree stand in for the curve: the same one, or one near it.
 pub(super) fn with_degree(input: &Input, degree: usize) -> Result<Outcome, OperationError> {
-    let (id, curve) = input.curve()?;
-    let changed = curve.polygon.with_degree(degree)?;
+    let polygon = input.polygon()?;
+    let changed = polygon.with_degree(degree)?;
     let deviation = Deviation::of(&changed);
-    Ok(Outcome::renumbered(id, curve, changed.polygon, deviation))
+    let whole = |polygon: &FloatPolygon| [0.0, polygon.segments() as f64];
+    let span = ParameterSpan {
+        old: whole(polygon),
+        new: whole(&changed.polygon),
+    };
+    Outcome::renumbered(input, changed.polygon, vec![span], deviation)
 }

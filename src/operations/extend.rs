@@ -5,13 +5,12 @@ use super::editable::open;
 use super::error::OperationError;
 use super::input::Input;
 use super::inputs::Inputs;
-use super::matches::{Moved, followers};
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Mark, Outcome};
 use super::parameter::{Kind, Parameter};
 use super::values::Values;
 use super::which_end::{END, end};
-use crate::document::MatchPlace;
+use crate::document::ParameterSpan;
 use crate::geometry::{End, MAX_ADDED_SEGMENTS, Progress};
 
 const SEGMENTS: Parameter = Parameter {
@@ -38,24 +37,17 @@ pub static OPERATION: Operation = Operation {
 };
 
 fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
-    let (id, curve) = input.curve()?;
+    let (_, curve) = input.curve()?;
     let end = end(values);
     let added = values.whole(&SEGMENTS);
     let polygon = curve.polygon.extended(end, added)?;
     let segments = Figure::count("segments", "Segments", polygon.segments());
-    let mut outcome = Outcome::renumbered(id, curve, polygon, Deviation::Exact);
+    let shift = if end == End::Start { added } else { 0 };
+    let whole = [0.0, curve.polygon.segments() as f64];
+    let span = ParameterSpan::shifted(whole, shift as f64);
+    let mut outcome = Outcome::renumbered(input, polygon, vec![span], Deviation::Exact)?;
     outcome.renumbered = end == End::Start;
     outcome.figures.push(segments);
-    let followers = followers(input.document(), id, |place| {
-        let place = match place {
-            MatchPlace::Parameter(u) if end == End::Start => {
-                MatchPlace::Parameter(u + added as f64)
-            }
-            place => place,
-        };
-        Moved::To(id, place, false)
-    });
-    outcome.edits.extend(followers);
     outcome
         .marks
         .push(Mark::Point(curve.polygon.end_jet(end).point));

@@ -10,12 +10,14 @@ use super::error::OperationError;
 use super::input::Input;
 use super::inputs::Inputs;
 use super::locks;
-use super::matches::{Moved, followers, without_match};
+use super::matches::{handed_over, without_match};
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
 use super::parameter::{Choice, Kind, Parameter};
 use super::values::Values;
-use crate::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace};
+use crate::document::{
+    Curve, CurveId, Document, Edit, EndMatch, MatchPlace, ParameterSpan, Renumbering,
+};
 use crate::geometry::fairing::bridging::{Bridge, join};
 use crate::geometry::{End, FloatPolygon, Progress};
 
@@ -256,10 +258,21 @@ impl Composite<'_> {
             edits.extend(without_match(self.document, other, end));
         }
         let locked = &first.locked_vertices;
+        let locked = locked.renumbered(|vertex| Some(first_offset + vertex));
+        let span = ParameterSpan::shifted(
+            [0.0, first.polygon.segments() as f64],
+            first_offset as f64,
+        );
+        let inside = match joined {
+            End::Start => span.new[0],
+            End::Finish => span.new[1],
+        };
         edits.push(Edit::Renumber {
             curve: id,
             polygon: self.polygon.clone(),
-            locked_vertices: locked.renumbered(|vertex| Some(first_offset + vertex)),
+            renumbering: Renumbering::of_parameters(first, self.polygon, vec![span])
+                .with_locked_vertices(locked)
+                .with_end(joined, MatchPlace::Parameter(inside)),
         });
         let kept = second.locked_vertices.carried(&second.polygon, self.second);
         let kept: Vec<usize> = kept.iter().map(|vertex| second_offset + vertex).collect();
@@ -302,43 +315,29 @@ impl Composite<'_> {
         edits
     }
 
-    /// Those that follow one of the two curves follow the same places of the composite.
+    /// The matches at places of the second curve, which are places of the composite then.
     fn followers(&self) -> Vec<Edit> {
-        let [(id, first), (other, second)] = self.parts;
-        let [first_offset, second_offset] = self.offsets();
+        let [(id, _), (other, second)] = self.parts;
+        let [_, offset] = self.offsets();
         let joined = self.ends[0];
-        let length = first.polygon.segments() as f64;
-        let of_first = followers(self.document, id, |place| {
-            let place = match place {
-                MatchPlace::End(end) if end != joined => place,
-                MatchPlace::End(End::Start) => MatchPlace::Parameter(first_offset as f64),
-                MatchPlace::End(End::Finish) => MatchPlace::Parameter(first_offset as f64 + length),
-                MatchPlace::Parameter(u) => MatchPlace::Parameter(first_offset as f64 + u),
-            };
-            Moved::To(id, place, false)
-        });
         let length = second.polygon.segments() as f64;
         let within = |u: f64| {
             let u = if self.layout.turned { length - u } else { u };
-            MatchPlace::Parameter(second_offset as f64 + u)
+            MatchPlace::Parameter(offset as f64 + u)
         };
-        let of_second = followers(self.document, other, |place| {
-            let place = match place {
+        let place = |place: MatchPlace| {
+            Some(match place {
                 MatchPlace::End(end) if end != self.ends[1] => MatchPlace::End(joined),
                 MatchPlace::End(End::Start) => within(0.0),
                 MatchPlace::End(End::Finish) => within(length),
                 MatchPlace::Parameter(u) => within(u),
-            };
-            Moved::To(id, place, self.layout.turned)
-        });
-        // What one of the two followed of the other is part of the same curve now.
-        let both = [id, other];
-        let apart =
-            |edit: &Edit| !matches!(edit, Edit::SetMatch(matched) if both.contains(&matched.curve));
-        of_first
-            .into_iter()
-            .chain(of_second)
-            .filter(apart)
-            .collect()
+            })
+        };
+        // What the first curve followed of the second is part of the same curve now.
+        let is_own =
+            |edit: &Edit| matches!(edit, Edit::SetMatch(matched) if matched.curve == id);
+        let mut followers = handed_over(self.document, [other, id], self.layout.turned, place);
+        followers.retain(|edit| !is_own(edit));
+        followers
     }
 }

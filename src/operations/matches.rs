@@ -1,38 +1,45 @@
 //! What becomes of matches when an operation gives a curve's places other parameters.
 
-use crate::document::{CurveId, Document, Edit, EndMatch, MatchPlace, quoted};
-use crate::geometry::End;
+use crate::document::{CurveId, Document, Edit, EndMatch, MatchPlace, Renumbering, quoted};
+use crate::geometry::{End, counted};
 
-/// Where a place of a curve is afterwards.
-pub(super) enum Moved {
-    /// On this curve, there; and whether that runs the other way.
-    To(CurveId, MatchPlace, bool),
-    /// It is cut off.
-    Gone,
-}
-
-/// The edits that let those who follow a curve follow the same places afterwards.
-pub(super) fn followers(
+/// The edits that let ends matched to a curve follow places of another one instead. `place` gives the new place of
+/// an old one, `None` if the match stays; `turned` says whether the other curve runs the other way.
+pub(super) fn handed_over(
     document: &Document,
-    source: CurveId,
-    place: impl Fn(MatchPlace) -> Moved,
+    [source, other]: [CurveId; 2],
+    turned: bool,
+    place: impl Fn(MatchPlace) -> Option<MatchPlace>,
 ) -> Vec<Edit> {
-    let following = document
-        .matches()
-        .filter(|matched| matched.source == source);
-    let edit = |matched: &EndMatch| match place(matched.place) {
-        Moved::Gone => {
-            let (curve, end) = (matched.curve, matched.end);
-            Edit::RemoveMatch { curve, end }
-        }
-        Moved::To(source, place, turned) => Edit::SetMatch(EndMatch {
-            source,
-            place,
+    let matches = document.matches();
+    let handed_over = matches.filter(|matched| matched.source == source);
+    let edit = |matched: &EndMatch| {
+        Some(Edit::SetMatch(EndMatch {
+            source: other,
+            place: place(matched.place)?,
             reversed: matched.reversed != turned,
             ..*matched
-        }),
+        }))
     };
-    following.map(edit).collect()
+    handed_over.filter_map(edit).collect()
+}
+
+/// Count the matches at places of a curve that a renumbering removes, in a remark.
+pub(super) fn cut_off(
+    document: &Document,
+    source: CurveId,
+    renumbering: &Renumbering,
+) -> Option<String> {
+    let is_gone = |matched: &&EndMatch| {
+        matched.source == source && renumbering.place(matched.place).is_none()
+    };
+    match document.matches().filter(is_gone).count() {
+        0 => None,
+        count => Some(format!(
+            "{}: what was followed is cut off",
+            counted(count, "match to it is removed", "matches to it are removed")
+        )),
+    }
 }
 
 /// The edit that ends the match of an end, if it has one: its target can be set then.

@@ -3,11 +3,14 @@
 use glam::DVec3;
 
 use super::atlas::Atlas;
+use super::error::OperationError;
 use super::handle::Handle;
+use super::input::Input;
 use super::locks;
+use super::matches;
 use super::parameter::Unit;
 use super::value::Value;
-use crate::document::{Curve, CurveId, Document, Edit, EditError};
+use crate::document::{CurveId, Document, Edit, EditError, ParameterSpan, Renumbering};
 use crate::geometry::approximation::LevelComparison;
 use crate::geometry::{Approximation, End, FloatPolygon};
 
@@ -173,7 +176,7 @@ pub enum Mark {
 }
 
 impl Outcome {
-    /// Give a curve another polygon; vertices keep their numbers.
+    /// Give a curve another polygon with the same numbers of vertices.
     pub(super) fn reshaped(curve: CurveId, polygon: FloatPolygon, deviation: Deviation) -> Self {
         Self {
             edits: vec![Edit::SetPolygon { curve, polygon }],
@@ -181,24 +184,28 @@ impl Outcome {
         }
     }
 
-    /// Give a curve a polygon of other vertices. Those that it had before stay locked if they were;
-    /// a remark tells how many locks are lost.
+    /// Give a curve a polygon of other vertices, with the spans of parameters that both have. Locked vertices that
+    /// remain stay locked; remarks count the locks and the matches at places of the curve that are lost.
     pub(super) fn renumbered(
-        id: CurveId,
-        curve: &Curve,
+        input: &Input,
         polygon: FloatPolygon,
+        spans: Vec<ParameterSpan>,
         deviation: Deviation,
-    ) -> Self {
-        Self {
+    ) -> Result<Self, OperationError> {
+        let (id, curve) = input.curve()?;
+        let renumbering = Renumbering::of_parameters(curve, &polygon, spans);
+        let lost = locks::lost(curve, &[&polygon]);
+        let cut_off = matches::cut_off(input.document(), id, &renumbering);
+        Ok(Self {
             renumbered: true,
-            remarks: locks::lost(curve, &[&polygon]).into_iter().collect(),
+            remarks: lost.into_iter().chain(cut_off).collect(),
             edits: vec![Edit::Renumber {
                 curve: id,
-                locked_vertices: locks::locks_of(curve, &polygon),
                 polygon,
+                renumbering,
             }],
             ..Self::unchanged(deviation)
-        }
+        })
     }
 
     /// Change nothing.

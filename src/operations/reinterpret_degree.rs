@@ -10,6 +10,7 @@ use super::operation::Operation;
 use super::outcome::{Deviation, Outcome};
 use super::parameter::Parameter;
 use super::values::Values;
+use crate::document::{Edit, Renumbering};
 use crate::geometry::{FloatPolygon, MAX_DEGREE, Progress};
 
 const DEGREE: Parameter = degree(
@@ -52,7 +53,14 @@ fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, Operatio
     let weights = polygon.weights().map(<[f64]>::to_vec);
     let vertices = polygon.vertices().to_vec();
     let polygon = FloatPolygon::new(degree, vertices, weights, polygon.is_periodic())?;
-    Ok(Outcome::reshaped(id, polygon, Deviation::Unmeasured))
+    Ok(Outcome {
+        edits: vec![Edit::Renumber {
+            curve: id,
+            renumbering: Renumbering::of_vertices(curve, &polygon, Some),
+            polygon,
+        }],
+        ..Outcome::unchanged(Deviation::Unmeasured)
+    })
 }
 
 /// The highest degree that so many vertices make a curve of.

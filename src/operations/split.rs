@@ -3,18 +3,18 @@
 use std::ops::Bound;
 
 use super::amount::Amount;
-use super::cutting::{SUBDIVISIONS, on_part, without_target};
+use super::cutting::{SUBDIVISIONS, without_target};
 use super::editable::open;
 use super::error::OperationError;
 use super::input::Input;
 use super::inputs::Inputs;
 use super::locks;
-use super::matches::{Moved, followers};
+use super::matches::handed_over;
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Mark, Outcome};
 use super::parameter::{Kind, Parameter, Unit};
 use super::values::Values;
-use crate::document::{Curve, Edit, EndMatch, MatchPlace};
+use crate::document::{Curve, Edit, EndMatch, MatchPlace, ParameterSpan, Renumbering};
 use crate::geometry::{End, Progress};
 
 /// Where a cut is offered: at the knot in the middle.
@@ -65,12 +65,19 @@ fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, Operatio
     let segments = [&first, &second].map(|part| part.polygon.segments());
     let counts = [&first, &second].map(|part| part.polygon.vertices().len());
     let lost = locks::lost(curve, &[&first.polygon, &second.polygon]);
-    let mut outcome = Outcome::renumbered(id, curve, first.polygon, deviation);
+    let last = curve.polygon.segments() as f64;
+    let part = |old: [f64; 2], segments: usize| ParameterSpan {
+        old,
+        new: [0.0, segments as f64],
+    };
+    let parts = [part([0.0, at], segments[0]), part([at, last], segments[1])];
+    let mut outcome = Outcome::renumbered(input, first.polygon, vec![parts[0]], deviation)?;
     outcome.remarks = lost.into_iter().collect();
     let document = input.document();
     let cut_off = without_target(document, id, curve, End::Finish);
     outcome.edits.extend(cut_off);
-    let mut added = Curve::new(input.document().free_name(&curve.name), second.polygon);
+    let added_polygon = second.polygon;
+    let mut added = Curve::new(document.free_name(&curve.name), added_polygon.clone());
     added.colour = curve.colour;
     added.locked_vertices = locks::locks_of(curve, &added.polygon);
     added.targets.finish = curve.targets.finish;
@@ -85,11 +92,11 @@ fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, Operatio
         })
     });
     outcome.edits.extend(own);
-    let last = curve.polygon.segments() as f64;
-    let followers = followers(document, id, |place| match place {
-        MatchPlace::End(End::Finish) => Moved::To(second, place, false),
-        MatchPlace::Parameter(u) if u > at => on_part(second, place, (at, last), segments[1]),
-        place => on_part(id, place, (0.0, at), segments[0]),
+    let of_second = Renumbering::of_parameters(curve, &added_polygon, vec![parts[1]]);
+    let followers = handed_over(document, [id, second], false, |place| match place {
+        MatchPlace::Parameter(u) if u <= at => None,
+        MatchPlace::End(End::Start) => None,
+        place => of_second.place(place),
     });
     outcome.edits.extend(followers);
     outcome.figures = vec![

@@ -4,11 +4,10 @@ use super::editable::check_editable;
 use super::error::OperationError;
 use super::input::Input;
 use super::inputs::Inputs;
-use super::matches::{Moved, followers};
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
 use super::values::Values;
-use crate::document::{Curve, Edit, MatchPlace};
+use crate::document::{Curve, Edit, ParameterSpan};
 use crate::geometry::Progress;
 
 /// The operation: its description, and how it is checked and run.
@@ -27,7 +26,12 @@ fn run(input: &Input, _: &Values, _: &Progress) -> Result<Outcome, OperationErro
     let (id, curve) = input.curve()?;
     let polygon = curve.polygon.subdivided()?;
     let segments = Figure::count("segments", "Segments", polygon.segments());
-    let mut outcome = Outcome::renumbered(id, curve, polygon, Deviation::Exact);
+    let last = curve.polygon.segments() as f64;
+    let doubled = ParameterSpan {
+        old: [0.0, last],
+        new: [0.0, 2.0 * last],
+    };
+    let mut outcome = Outcome::renumbered(input, polygon, vec![doubled], Deviation::Exact)?;
     outcome.figures.push(segments);
     let locked = halved_locks(curve);
     if !locked.is_empty() {
@@ -40,14 +44,6 @@ fn run(input: &Input, _: &Values, _: &Progress) -> Result<Outcome, OperationErro
             locked: true,
         });
     }
-    let followers = followers(input.document(), id, |place| {
-        let place = match place {
-            MatchPlace::Parameter(u) => MatchPlace::Parameter(2.0 * u),
-            place => place,
-        };
-        Moved::To(id, place, false)
-    });
-    outcome.edits.extend(followers);
     Ok(outcome)
 }
 

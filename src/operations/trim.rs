@@ -3,18 +3,17 @@
 use std::ops::Bound;
 
 use super::amount::Amount;
-use super::cutting::{SUBDIVISIONS, on_part, without_target};
+use super::cutting::{SUBDIVISIONS, without_target};
 use super::editable::check_editable;
 use super::error::OperationError;
 use super::input::Input;
 use super::inputs::Inputs;
-use super::matches::followers;
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Mark, Outcome};
 use super::parameter::{Kind, Parameter, Unit};
 use super::values::Values;
-use crate::document::{Edit, MatchPlace};
-use crate::geometry::{End, Progress, counted};
+use crate::document::ParameterSpan;
+use crate::geometry::{End, Progress};
 
 const FROM: Parameter = Parameter {
     name: "from",
@@ -71,36 +70,26 @@ fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, Operatio
     let segments = part.polygon.segments();
     let vertices = Figure::count("vertices", "Vertices", part.polygon.vertices().len());
     let ends = End::BOTH.map(|end| Mark::Point(part.polygon.end_jet(end).point));
-    let mut outcome = Outcome::renumbered(id, curve, part.polygon, deviation);
+    let turn = polygon.segments() as f64;
+    let scale = segments as f64 / (to - from);
+    let span = |old: [f64; 2], turns: f64| ParameterSpan {
+        old,
+        new: old.map(|u| (u + turns * turn - from) * scale),
+    };
+    let mut spans = vec![span([from, to.min(turn)], 0.0)];
+    // On a periodic curve the part may lie past the joint.
+    if polygon.is_periodic() && to >= turn {
+        spans.push(span([0.0, to - turn], 1.0));
+    }
+    let mut outcome = Outcome::renumbered(input, part.polygon, spans, deviation)?;
     if from > 0.0 {
         let cut_off = without_target(input.document(), id, curve, End::Start);
         outcome.edits.extend(cut_off);
     }
-    if to < polygon.segments() as f64 {
+    if to < turn {
         let cut_off = without_target(input.document(), id, curve, End::Finish);
         outcome.edits.extend(cut_off);
     }
-    let turn = polygon.segments() as f64;
-    let followers = followers(input.document(), id, |place| {
-        // On a periodic curve the part may lie past the joint.
-        let place = match place {
-            MatchPlace::Parameter(u) if u < from && to > turn => MatchPlace::Parameter(u + turn),
-            place => place,
-        };
-        on_part(id, place, (from, to), segments)
-    });
-    let is_removed = |edit: &&Edit| matches!(edit, Edit::RemoveMatch { .. });
-    let removed = followers.iter().filter(is_removed).count();
-    if removed > 0 {
-        let matches = counted(
-            removed,
-            "match to it is removed",
-            "matches to it are removed",
-        );
-        let why = "what was followed is cut off";
-        outcome.remarks.push(format!("{matches}: {why}"));
-    }
-    outcome.edits.extend(followers);
     outcome.figures.push(vertices);
     outcome.marks.extend(ends);
     Ok(outcome)

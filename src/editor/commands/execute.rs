@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::document::{Colour, Curve, CurveId, Edit, Reference, quoted};
 use crate::editor::commands::command::Command;
-use crate::editor::commands::polygon_edits::made_periodic;
+use crate::editor::commands::polygon_edits::periodicity;
 use crate::editor::reply::{Note, Reply};
 use crate::editor::selection::VertexId;
 use crate::editor::view::Look;
@@ -395,8 +395,8 @@ impl Editor {
         } else {
             "Open curve"
         };
-        let reply = match made_periodic(&curve.polygon, periodic) {
-            Ok(polygon) => return self.apply(label, vec![Edit::SetPolygon { curve: id, polygon }]),
+        let reply = match periodicity(id, &curve, periodic) {
+            Ok(edit) => return self.apply(label, vec![edit]),
             Err(error) => Err(Refusal(format!("{}: {error}", quoted(&curve.name)))),
         };
         self.tell(reply)

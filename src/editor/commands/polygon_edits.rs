@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::document::{Curve, CurveId, Edit, EditError};
+use crate::document::{Curve, CurveId, Edit, EditError, ParameterSpan, Renumbering};
 use crate::geometry::{FloatPolygon, PolygonError};
 
 /// The edit that inserts a vertex into a curve's polygon, so that it gets number `index`.
@@ -15,11 +15,12 @@ pub fn insertion(
     index: usize,
     vertex: DVec3,
 ) -> Result<Edit, PolygonError> {
+    let polygon = inserted(&curve.polygon, index, vertex)?;
     let number = |old| Some(if old < index { old } else { old + 1 });
     Ok(Edit::Renumber {
         curve: id,
-        polygon: inserted(&curve.polygon, index, vertex)?,
-        locked_vertices: curve.locked_vertices.renumbered(number),
+        renumbering: Renumbering::of_vertices(curve, &polygon, number),
+        polygon,
     })
 }
 
@@ -33,13 +34,14 @@ pub fn deletion(id: CurveId, curve: &Curve, indices: &[usize]) -> Result<Edit, E
         name: curve.name.clone(),
         error,
     })?;
-    let below = |old| indices.partition_point(|index| *index < old);
+    let number = |old| match indices.binary_search(&old) {
+        Ok(_) => None,
+        Err(below) => Some(old - below),
+    };
     Ok(Edit::Renumber {
         curve: id,
+        renumbering: Renumbering::of_vertices(curve, &polygon, number),
         polygon,
-        locked_vertices: curve
-            .locked_vertices
-            .renumbered(|old| Some(old - below(old))),
     })
 }
 
@@ -91,16 +93,20 @@ fn without(polygon: &FloatPolygon, indices: &[usize]) -> Result<FloatPolygon, Po
     FloatPolygon::new(polygon.degree(), vertices, weights, polygon.is_periodic())
 }
 
-/// Keep the polygon and make its curve periodic, or open it.
+/// The edit that makes a curve periodic or opens it; the polygon stays, and so do the segments that both have.
 ///
 /// # Errors
 /// [`PolygonError`] if there are too few vertices.
-pub fn made_periodic(polygon: &FloatPolygon, periodic: bool) -> Result<FloatPolygon, PolygonError> {
-    let weights = polygon.weights().map(<[f64]>::to_vec);
-    FloatPolygon::new(
-        polygon.degree(),
-        polygon.vertices().to_vec(),
-        weights,
-        periodic,
-    )
+pub fn periodicity(id: CurveId, curve: &Curve, periodic: bool) -> Result<Edit, PolygonError> {
+    let old = &curve.polygon;
+    let weights = old.weights().map(<[f64]>::to_vec);
+    let polygon = FloatPolygon::new(old.degree(), old.vertices().to_vec(), weights, periodic)?;
+    let common = old.segments().min(polygon.segments()) as f64;
+    let same = ParameterSpan::shifted([0.0, common], 0.0);
+    Ok(Edit::Renumber {
+        curve: id,
+        renumbering: Renumbering::of_parameters(curve, &polygon, vec![same])
+            .with_locked_vertices(curve.locked_vertices.clone()),
+        polygon,
+    })
 }

@@ -9,7 +9,6 @@ use glam::{DVec2, DVec3};
 
 use super::kept_curves::{KeptCurves, Obstacle};
 use crate::document::{Curve, CurveId, Document, Edit, EditError, quoted};
-use crate::geometry::FloatPolygon;
 use crate::geometry::features::SegmentFeatures;
 
 /// How long a frame tries places on the way to one that is not safe.
@@ -253,12 +252,7 @@ fn moves(edit: &Edit, settled: &Document) -> Option<(CurveId, Moves)> {
         Edit::MoveVertices { curve, moves } => Some((*curve, moves.clone())),
         Edit::SetPolygon { curve, polygon } => {
             let before = &settled.curve(*curve)?.polygon;
-            let shape = |polygon: &FloatPolygon| {
-                let weights = polygon.weights().map(<[f64]>::to_vec);
-                let count = polygon.vertices().len();
-                (polygon.degree(), polygon.is_periodic(), count, weights)
-            };
-            if shape(before) != shape(polygon) {
+            if !before.has_numbers_of(polygon) || before.weights() != polygon.weights() {
                 return None;
             }
             // All vertices: which of them move may differ from frame to frame.
