@@ -2,8 +2,7 @@
 
 use batten::document::Reference;
 use batten::document::{
-    Colour, Curve, CurveId, Document, Edit, EditError, EndMatch, History, LockedVertices,
-    MatchPlace, Renumbering,
+    Colour, Curve, CurveId, Document, Edit, EditError, EndMatch, History, MatchPlace, Renumbering,
 };
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::expressions::LengthUnit;

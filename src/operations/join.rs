@@ -259,10 +259,8 @@ impl Composite<'_> {
         }
         let locked = &first.locked_vertices;
         let locked = locked.renumbered(|vertex| Some(first_offset + vertex));
-        let span = ParameterSpan::shifted(
-            [0.0, first.polygon.segments() as f64],
-            first_offset as f64,
-        );
+        let span =
+            ParameterSpan::shifted([0.0, first.polygon.segments() as f64], first_offset as f64);
         let inside = match joined {
             End::Start => span.new[0],
             End::Finish => span.new[1],
@@ -334,8 +332,7 @@ impl Composite<'_> {
             })
         };
         // What the first curve followed of the second is part of the same curve now.
-        let is_own =
-            |edit: &Edit| matches!(edit, Edit::SetMatch(matched) if matched.curve == id);
+        let is_own = |edit: &Edit| matches!(edit, Edit::SetMatch(matched) if matched.curve == id);
         let mut followers = handed_over(self.document, [other, id], self.layout.turned, place);
         followers.retain(|edit| !is_own(edit));
         followers
