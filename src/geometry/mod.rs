@@ -7,12 +7,12 @@ mod arc_length;
 mod banded;
 pub mod basis;
 pub mod between;
-mod bezier_polygon;
+mod bezier_matrix;
 mod blend;
-mod clamped_polygon;
 mod continuity;
 mod control_polygon;
 mod conversion;
+mod curvature_levels;
 mod cut;
 mod differentiable;
 mod end;
@@ -27,7 +27,6 @@ pub mod features;
 mod float_polygon;
 pub mod harmony;
 mod jet;
-mod levels;
 pub mod mineur_farin;
 mod nearest;
 pub mod paper;
@@ -39,36 +38,40 @@ mod power_of_two;
 mod power_series;
 mod progress;
 mod quadrature;
+mod rebuilding;
 pub mod references;
 mod sampled_cusps;
 mod sampler;
+mod segment_expansion;
 mod tables;
+mod taylor_series;
 mod vector;
 pub mod vertex_moves;
+mod whole_numbers;
 mod wording;
 
 pub use arc_length::arc_length_between;
-pub use bezier_polygon::{BezierPolygon, segment_bezier};
-pub use clamped_polygon::ClampedPolygon;
 pub use continuity::Continuity;
 pub use control_polygon::{ControlPolygon, MAX_MAGNITUDE};
 pub use conversion::{
-    Amplification, Approximation, ExactPolygon, MAX_ADDED_SEGMENTS, MAX_PART_SEGMENTS,
-    MAX_SUBDIVISIONS, NearestFloat, Rounded,
+    Amplification, Approximation, BezierPolygon, ClampedPolygon, ExactPolygon, MAX_ADDED_SEGMENTS,
+    NearestFloat, Rounded, segment_bezier,
 };
+pub use curvature_levels::{CurvatureLevels, LEVEL_ORDER, LEVELS};
 pub use differentiable::Differentiable;
 pub use end::{End, rotation_between};
 pub use error::{MAX_DEGREE, PolygonError};
 pub use float_polygon::FloatPolygon;
 pub use jet::Jet;
-pub use levels::{CurvatureLevels, LEVEL_ORDER, LEVELS, SegmentExpansion};
 pub use nearest::Nearest;
 pub use parametric_curve::{EvenBatch, ParametricCurve};
 pub use polygon_figures::Range;
 pub use polygon_kind::PolygonKind;
 pub use progress::Progress;
+pub use rebuilding::{MAX_PART_SEGMENTS, MAX_SUBDIVISIONS};
 pub use sampled_cusps::sampled_cusps;
 pub use sampler::{BATCH_ORDER, Batch, Sampler};
+pub use segment_expansion::SegmentExpansion;
 pub use wording::{
     SMALL, coordinate, counted, figure, noun, rounded_up, significant, to_resolution,
     without_negative_zero,

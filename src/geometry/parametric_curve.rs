@@ -3,10 +3,11 @@
 use glam::DVec3;
 
 use super::control_polygon::ControlPolygon;
+use super::curvature_levels::{CurvatureLevels, LEVEL_ORDER};
 use super::float_polygon::FloatPolygon;
 use super::jet::Jet;
-use super::levels::{CurvatureLevels, LEVEL_ORDER, SegmentExpansion};
 use super::sampler::{BATCH_ORDER, Batch, Sampler};
+use super::segment_expansion::SegmentExpansion;
 
 /// A curve in pieces, each smooth over its local parameter t in \[0, 1\]: the parameter u = piece + t
 /// of the whole runs over \[0, m\].

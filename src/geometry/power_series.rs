@@ -5,7 +5,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use glam::DVec3;
 
-use super::levels::taylor_series::{power_sum, product_coefficient};
+use super::taylor_series::{power_sum, product_coefficient};
 
 /// Hold the first coefficients of the power series of a function about a parameter t:
 /// f(t + h) = Σ cₖ hᵏ, k = 0 … order, where cₖ is the k-th derivative at t over k!.

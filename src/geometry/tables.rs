@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use super::conversion::bezier_matrix::float_to_bezier;
+use super::bezier_matrix::float_to_bezier;
 use super::error::MAX_DEGREE;
 use super::expansion::{DoubleDouble, Expansion};
 

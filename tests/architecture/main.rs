@@ -4,6 +4,7 @@
 //! `geometry ← document ← { analysis, io, operations } ← editor ← ui`, with `cli` beside the editor.
 
 mod circles;
+mod folders;
 mod imports;
 mod layers;
 mod paths;

@@ -3,9 +3,10 @@
 
 use glam::DVec3;
 
+use crate::geometry::curvature_levels::{CurvatureLevels, LEVEL_ORDER, LEVELS};
 use crate::geometry::differentiable::Differentiable;
 use crate::geometry::float_polygon::FloatPolygon;
-use crate::geometry::levels::{CurvatureLevels, LEVEL_ORDER, LEVELS, SegmentExpansion};
+use crate::geometry::segment_expansion::SegmentExpansion;
 
 /// Samples a segment at which levels are compared.
 const SAMPLES: usize = 32;

@@ -8,8 +8,8 @@
 //!
 //! a mean, with the positive weights of a, of the same quotients vertex by vertex.
 
-use super::bezier_matrix::{chain, float_to_bezier};
 use super::exact_vertices::ExactVertices;
+use crate::geometry::bezier_matrix::{chain, float_to_bezier};
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::vector::{self, larger};
 

@@ -12,8 +12,8 @@
 //! with s_r the inverse weight of the vertex. The system is banded, and of condition 2¹⁰⁶ at most,
 //! which is what numbers of two or three doubles are for.
 
-use super::bezier_matrix::float_to_bezier;
 use super::exact_vertices::ExactVertices;
+use crate::geometry::bezier_matrix::float_to_bezier;
 use crate::geometry::expansion::Expansion;
 
 /// Hold the least-squares system of one chain of Bézier polygons.

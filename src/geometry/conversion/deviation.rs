@@ -6,9 +6,9 @@
 
 use glam::{DVec3, DVec4};
 
+use super::bezier_polygon::{BezierPolygon, segment_bezier};
+use super::clamped_polygon::ClampedPolygon;
 use super::exact_polygon::ExactPolygon;
-use crate::geometry::bezier_polygon::{BezierPolygon, segment_bezier};
-use crate::geometry::clamped_polygon::ClampedPolygon;
 use crate::geometry::cut::cut;
 use crate::geometry::error::PolygonError;
 use crate::geometry::float_polygon::FloatPolygon;

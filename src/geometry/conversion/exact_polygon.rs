@@ -1,14 +1,14 @@
 //! A polygon that keeps its digits on the way from one kind of polygon to another.
 
 use super::amplification::Amplification;
-use super::bezier_matrix::{blossom_row, chain, dot, float_to_bezier, middle_segment};
+use super::bezier_polygon::BezierPolygon;
+use super::clamped_polygon::ClampedPolygon;
 use super::exact_vertices::{
     ExactVertices, RoundedVertices, check_weight, converted_error, weight_loss,
 };
 use super::knots::unclamp;
-use crate::geometry::bezier_polygon::BezierPolygon;
+use crate::geometry::bezier_matrix::{blossom_row, chain, dot, float_to_bezier, middle_segment};
 use crate::geometry::blend::Blend;
-use crate::geometry::clamped_polygon::ClampedPolygon;
 use crate::geometry::control_polygon::ControlPolygon;
 use crate::geometry::error::{MAX_DEGREE, PolygonError};
 use crate::geometry::expansion::Expansion;

@@ -6,13 +6,13 @@
 //! another Bézier segment. Then the nearest curve of several least-squares fits is taken.
 
 use super::amplification::double_factorial;
+use super::bezier_polygon::BezierPolygon;
 use super::chain_deviation::{chain_deviation, reach};
 use super::chain_fit::ChainFit;
+use super::clamped_polygon::ClampedPolygon;
 use super::closing::{check_periodic, periodic, worst_difference};
 use super::exact_polygon::ExactPolygon;
 use super::exact_vertices::ExactVertices;
-use crate::geometry::bezier_polygon::BezierPolygon;
-use crate::geometry::clamped_polygon::ClampedPolygon;
 use crate::geometry::error::PolygonError;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::polygon_kind::PolygonKind;

@@ -11,9 +11,9 @@
 //! smooth, and has an error of order h^{m+1}. Where ξ is a knot of the curve the mean of both
 //! sides is taken; beyond the ends their polynomials are continued.
 
-use super::bezier_matrix::dot;
 use super::exact_vertices::{ExactVertices, check_weight, converted_error, weight_loss};
 use crate::geometry::basis::uniform_basis_derivative;
+use crate::geometry::bezier_matrix::dot;
 use crate::geometry::error::PolygonError;
 use crate::geometry::expansion::Expansion;
 use crate::geometry::float_polygon::FloatPolygon;

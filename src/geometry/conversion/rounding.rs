@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::geometry::clamped_polygon::ClampedPolygon;
+use super::clamped_polygon::ClampedPolygon;
 use crate::geometry::error::PolygonError;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::vector;

@@ -8,12 +8,12 @@ use glam::DVec3;
 use num_bigint::BigInt;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
-use super::bezier_matrix::{chain, float_to_bezier};
 use super::exact_vertices::{ExactVertices, RoundedVertices};
 use super::knots::Direction;
+use crate::geometry::bezier_matrix::{chain, float_to_bezier};
 use crate::geometry::blend::Blend;
-use crate::geometry::features::whole_numbers::scaled_numbers;
 use crate::geometry::power_of_two::times_power_of_two;
+use crate::geometry::whole_numbers::scaled_numbers;
 
 /// The primes that can divide the steps' divisors, which are at most twice the degree.
 const PRIMES: [u32; 15] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47];

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::joint_correction::{CorrectionError, Disturbance, correct_jointly};
 use super::objective::Objective;
 use super::problem::{self, Problem};
-use crate::geometry::clamped_polygon::ClampedPolygon;
+use crate::geometry::conversion::ClampedPolygon;
 use crate::geometry::end::End;
 use crate::geometry::end_correction::{EndDifference, EndTarget, align_end, translate_end};
 use crate::geometry::error::PolygonError;

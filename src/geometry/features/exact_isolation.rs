@@ -8,7 +8,7 @@ use super::exact_polynomial::ExactPolynomial;
 use super::isolation::{ROOT_WIDTH, exact_cut};
 use super::refinement::{Bracket, refine};
 use super::sign_piece::{Sign, SignPiece, append};
-use super::whole_numbers::{fraction, sign};
+use crate::geometry::whole_numbers::{fraction, sign};
 
 /// Where to cut a piece: odd numbers of these shares, the middle first. A polynomial has at most
 /// as many roots as its degree says, below 512, so that not all of these places are roots.

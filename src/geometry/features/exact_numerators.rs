@@ -14,9 +14,9 @@ use super::feature::Quantity;
 use super::floating::Floating;
 use super::numerators::{Derivatives, Function, Vector, dot};
 use super::ring::Ring;
-use super::whole_numbers::{scaled_numbers, whole_numbers};
-use crate::geometry::conversion::bezier_matrix::whole_basis;
+use crate::geometry::bezier_matrix::whole_basis;
 use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::whole_numbers::{scaled_numbers, whole_numbers};
 
 /// The most binary digits of a segment's Bernstein coefficients, whatever the degree: 53 for a
 /// coordinate and for a weight, up to 110 for n! and binomial coefficients, and what the sizes

@@ -4,7 +4,7 @@ use num_bigint::BigInt;
 use num_traits::{One, Zero};
 
 use super::floating::Floating;
-use super::whole_numbers::sign;
+use crate::geometry::whole_numbers::sign;
 
 /// Hold a polynomial Σ sᵢ tⁱ (1 − t)ᴺ⁻ⁱ: its Bernstein coefficients times binomial coefficients.
 /// Without coefficients it is 0.

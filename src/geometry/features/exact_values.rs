@@ -9,7 +9,7 @@ use super::exact_polynomial::ExactPolynomial;
 use super::feature::Quantity;
 use super::floating::Floating;
 use super::numerators::Function;
-use super::whole_numbers::fraction;
+use crate::geometry::whole_numbers::fraction;
 
 /// The interval is narrowed by so many binary digits at once, where a secant tells where to, and
 /// by twice as many the next time.

@@ -53,7 +53,6 @@ mod square_free;
 mod trends;
 mod values;
 mod variations;
-pub(super) mod whole_numbers;
 
 pub use certain_digits::certain_text;
 pub use feature::{

@@ -14,9 +14,9 @@ use super::segment_shape::SegmentShape;
 use super::sign_piece::{Sign, SignPiece, append, with_starts};
 use super::values::{at_extremum, is_known};
 use super::variations::certain_sign;
-use super::whole_numbers::fraction;
 use crate::geometry::expansion::DoubleDouble;
 use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::whole_numbers::fraction;
 
 /// Hold what is proved of one segment, its two ends included as far as they can be seen from
 /// this side. It depends on the segment's n + 1 vertices and weights alone, so it stays valid

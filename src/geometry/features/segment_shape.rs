@@ -3,10 +3,10 @@
 use glam::DVec3;
 
 use super::scalar::FLOOR;
-use super::whole_numbers;
 use crate::geometry::error::MAX_DEGREE;
 use crate::geometry::expansion::DoubleDouble;
 use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::whole_numbers;
 
 /// What the arithmetic of wide numbers adds to a product or a sum of three: 2⁻⁹⁸.
 const WIDE_ROUNDING: f64 = f64::EPSILON * f64::EPSILON * 64.0;

@@ -7,8 +7,8 @@ use super::feature::Quantity;
 use super::numerators::Function;
 use super::refinement::bisect;
 use super::sign_walk::Change;
-use super::whole_numbers::fraction;
 use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::whole_numbers::fraction;
 
 /// Hold changes of sign that one interval of u holds.
 #[derive(Clone, Copy, Debug)]

@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 
+use crate::geometry::curvature_levels::logarithmic_point;
 use crate::geometry::jet::Jet;
-use crate::geometry::levels::logarithmic_point;
 use crate::geometry::parametric_curve::ParametricCurve;
 use crate::geometry::quadrature::gauss_legendre;
 

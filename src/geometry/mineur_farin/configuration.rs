@@ -2,8 +2,8 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::geometry::bezier_polygon::BezierPolygon;
 use crate::geometry::conversion::Approximation;
+use crate::geometry::conversion::BezierPolygon;
 use crate::geometry::error::PolygonError;
 use crate::geometry::features::PowerVelocity;
 use crate::geometry::float_polygon::FloatPolygon;

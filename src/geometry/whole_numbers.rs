@@ -10,7 +10,7 @@ pub(super) fn whole_numbers(values: &[f64]) -> Vec<BigInt> {
 
 /// Write finite doubles as whole numbers times one power of two, as large as it can be; returns
 /// its exponent too.
-pub(in crate::geometry) fn scaled_numbers(values: &[f64]) -> (Vec<BigInt>, i32) {
+pub(super) fn scaled_numbers(values: &[f64]) -> (Vec<BigInt>, i32) {
     let decoded: Vec<_> = values.iter().map(|value| decode(*value)).collect();
     let nonzero = decoded.iter().filter(|(digits, _)| !digits.is_zero());
     let least = nonzero.map(|(_, exponent)| *exponent).min().unwrap_or(0);

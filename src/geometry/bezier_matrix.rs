@@ -1,13 +1,13 @@
 //! The matrices between the vertices of one segment's float and Bézier polygon, and products with
 //! them.
 
-use crate::geometry::basis::raise_basis;
-use crate::geometry::expansion::Expansion;
+use super::basis::raise_basis;
+use super::expansion::Expansion;
 
 /// Fill the (n + 1)² matrix, row by row, that takes the float vertices of a segment to its
 /// Bézier vertices (SB). Its entries are not negative and each row sums to 1; each is the exact
 /// one but for one rounding.
-pub(in crate::geometry) fn float_to_bezier<const K: usize>(degree: usize) -> Vec<Expansion<K>> {
+pub(super) fn float_to_bezier<const K: usize>(degree: usize) -> Vec<Expansion<K>> {
     let factorial: i128 = (1..=degree as i128).product();
     let columns = whole_basis(degree);
     let mut matrix = Vec::with_capacity(columns.len() * columns.len());
@@ -23,7 +23,7 @@ pub(in crate::geometry) fn float_to_bezier<const K: usize>(degree: usize) -> Vec
 
 /// List, for each of the n + 1 basis functions of a segment, the whole numbers sᵢ with
 /// n! N(t) = Σ sᵢ tⁱ (1 − t)ⁿ⁻ⁱ. They have 107 binary digits at most.
-pub(in crate::geometry) fn whole_basis(degree: usize) -> Vec<Vec<i128>> {
+pub(super) fn whole_basis(degree: usize) -> Vec<Vec<i128>> {
     let mut basis = vec![Vec::new(); degree + 1];
     basis[0] = vec![1];
     for level in 1..=degree {
@@ -49,7 +49,7 @@ pub(in crate::geometry) fn whole_basis(degree: usize) -> Vec<Vec<i128>> {
 /// at integers, counted from the segment's start (BS): the coefficients of the powers of x in
 /// ∏ ((1 − k) + k x), which are integers. At the knots of a float vertex their magnitudes sum up
 /// to (2n − 1)!! at most, which is 5.8e30 for degree 25.
-pub(in crate::geometry) fn blossom_row(arguments: impl Iterator<Item = i64>) -> Vec<i128> {
+pub(super) fn blossom_row(arguments: impl Iterator<Item = i64>) -> Vec<i128> {
     let mut row = vec![1];
     for argument in arguments.map(i128::from) {
         row.push(0);
@@ -63,21 +63,18 @@ pub(in crate::geometry) fn blossom_row(arguments: impl Iterator<Item = i64>) -> 
 
 /// Find the segment whose knots lie in the middle of those of a vertex of an open polygon, as far
 /// as there is one: from there an error in the Bézier vertices grows least.
-pub(in crate::geometry) fn middle_segment(degree: usize, segments: usize, index: usize) -> usize {
+pub(super) fn middle_segment(degree: usize, segments: usize, index: usize) -> usize {
     index.saturating_sub(degree / 2).min(segments - 1)
 }
 
 /// Sum up the products of a row and as many numbers.
-pub(in crate::geometry) fn dot<const K: usize>(
-    row: &[Expansion<K>],
-    numbers: &[Expansion<K>],
-) -> Expansion<K> {
+pub(super) fn dot<const K: usize>(row: &[Expansion<K>], numbers: &[Expansion<K>]) -> Expansion<K> {
     let products = row.iter().zip(numbers);
     products.fold(Expansion::default(), |sum, (a, b)| sum.plus_product(*a, *b))
 }
 
 /// Convert one coordinate of a float polygon to that of the chain of Bézier polygons.
-pub(in crate::geometry) fn chain<const K: usize>(
+pub(super) fn chain<const K: usize>(
     degree: usize,
     matrix: &[Expansion<K>],
     axis: &[Expansion<K>],

@@ -4,14 +4,14 @@ use std::ops::Deref;
 
 use glam::DVec3;
 
-use super::control_polygon::ControlPolygon;
-use super::conversion::amplification::{Amplification, double_factorial};
-use super::conversion::end_conversion::ConvertedEnds;
-use super::conversion::exact_vertices::{check_weight, converted_error, weight_loss};
-use super::conversion::knots::Direction;
-use super::error::PolygonError;
-use super::float_polygon::FloatPolygon;
-use super::polygon_kind::PolygonKind;
+use super::amplification::{Amplification, double_factorial};
+use super::end_conversion::ConvertedEnds;
+use super::exact_vertices::{check_weight, converted_error, weight_loss};
+use super::knots::Direction;
+use crate::geometry::control_polygon::ControlPolygon;
+use crate::geometry::error::PolygonError;
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::polygon_kind::PolygonKind;
 
 /// Hold a curve of degree n by its vertices on the knots 0 (n + 1 times), 1 … L − 1,
 /// L (n + 1 times): the S-polygon in closed format. It starts and ends on its first and last

@@ -4,12 +4,12 @@ use std::ops::Deref;
 
 use glam::{DVec3, DVec4};
 
-use super::control_polygon::ControlPolygon;
-use super::conversion::exact_vertices::ExactVertices;
-use super::conversion::knots::clamp;
-use super::conversion::whole_vertices::rounded_chain;
-use super::error::PolygonError;
-use super::float_polygon::FloatPolygon;
+use super::exact_vertices::ExactVertices;
+use super::knots::clamp;
+use super::whole_vertices::rounded_chain;
+use crate::geometry::control_polygon::ControlPolygon;
+use crate::geometry::error::PolygonError;
+use crate::geometry::float_polygon::FloatPolygon;
 
 /// Hold a curve by the Bézier polygons of its L segments in one chain of n·L + 1 vertices,
 /// neighbours sharing the vertex at their joint.

@@ -2,10 +2,10 @@
 
 use glam::DVec4;
 
-use crate::geometry::basis::derivative_bases;
-use crate::geometry::error::MAX_DEGREE;
-use crate::geometry::expansion::Expansion;
-use crate::geometry::float_polygon::FloatPolygon;
+use super::basis::derivative_bases;
+use super::error::MAX_DEGREE;
+use super::expansion::Expansion;
+use super::float_polygon::FloatPolygon;
 
 /// A homogeneous vertex, or a difference of some, with twice the digits.
 type Vector = Expansion<2, DVec4>;
@@ -70,7 +70,7 @@ impl SegmentExpansion {
     /// are the k-th derivatives over k!. They fit the derivatives; the point itself counts from
     /// a vertex of the segment if the curve is rational.
     #[inline(always)]
-    pub(in crate::geometry) fn about<const LENGTH: usize>(&self, t: f64) -> [DVec4; LENGTH] {
+    pub(super) fn about<const LENGTH: usize>(&self, t: f64) -> [DVec4; LENGTH] {
         let step = t - 0.5;
         let mut shifted = self.coefficients;
         let shifted = &mut shifted[..=self.degree];

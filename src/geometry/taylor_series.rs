@@ -10,11 +10,11 @@ use std::ops::{Add, Mul, Sub};
 /// Sums and products are those of the truncated series, so all coefficients of a result are
 /// exact up to rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::geometry) struct TaylorSeries<const LENGTH: usize>(pub [f64; LENGTH]);
+pub(super) struct TaylorSeries<const LENGTH: usize>(pub [f64; LENGTH]);
 
 /// Sum up coefficient k of the product of two series: Σ aⱼ bₖ₋ⱼ, j = 0 … k.
 #[inline(always)]
-pub(in crate::geometry) fn product_coefficient(a: &[f64], b: &[f64], k: usize) -> f64 {
+pub(super) fn product_coefficient(a: &[f64], b: &[f64], k: usize) -> f64 {
     let mut sum = 0.0;
     for j in 0..=k {
         sum += a[j] * b[k - j];
@@ -25,7 +25,7 @@ pub(in crate::geometry) fn product_coefficient(a: &[f64], b: &[f64], k: usize) -
 /// Sum up what coefficient k ≥ 1 of the power g = fᵃ follows from. With g′ f = a f′ g it is
 /// gₖ = Σ (a j − (k − j)) fⱼ gₖ₋ⱼ / (k f₀), j = 1 … k; this is the sum, without the division.
 #[inline(always)]
-pub(in crate::geometry) fn power_sum(exponent: f64, f: &[f64], g: &[f64], k: usize) -> f64 {
+pub(super) fn power_sum(exponent: f64, f: &[f64], g: &[f64], k: usize) -> f64 {
     let mut sum = 0.0;
     for j in 1..=k {
         let factor = exponent * j as f64 - (k - j) as f64;

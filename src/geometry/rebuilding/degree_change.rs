@@ -2,13 +2,13 @@
 
 use std::cmp::Ordering;
 
-use super::approximation::Approximation;
-use super::deviation::between_chains;
-use super::exact_polygon::ExactPolygon;
 use super::kept_ends::with_ends;
-use super::quasi_interpolation::{NewKnots, quasi_interpolated};
-use crate::geometry::bezier_polygon::BezierPolygon;
 use crate::geometry::control_polygon::check_degree;
+use crate::geometry::conversion::approximation::Approximation;
+use crate::geometry::conversion::bezier_polygon::BezierPolygon;
+use crate::geometry::conversion::deviation::between_chains;
+use crate::geometry::conversion::exact_polygon::ExactPolygon;
+use crate::geometry::conversion::quasi_interpolation::{NewKnots, quasi_interpolated};
 use crate::geometry::end::End;
 use crate::geometry::error::PolygonError;
 use crate::geometry::float_polygon::FloatPolygon;

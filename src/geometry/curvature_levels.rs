@@ -9,10 +9,10 @@ use std::array::from_fn;
 
 use glam::{DVec3, DVec4};
 
+use super::float_polygon::FloatPolygon;
+use super::power_of_two::{exponent, power_of_two, times_power_of_two};
 use super::segment_expansion::SegmentExpansion;
 use super::taylor_series::TaylorSeries;
-use crate::geometry::float_polygon::FloatPolygon;
-use crate::geometry::power_of_two::{exponent, power_of_two, times_power_of_two};
 
 /// The number of levels.
 pub const LEVELS: usize = 4;

@@ -2,10 +2,10 @@
 
 use std::ops::Range;
 
-use super::approximation::Approximation;
-use super::deviation::from_part;
 use super::kept_ends::with_ends;
-use super::quasi_interpolation::{NewKnots, quasi_interpolated};
+use crate::geometry::conversion::approximation::Approximation;
+use crate::geometry::conversion::deviation::from_part;
+use crate::geometry::conversion::quasi_interpolation::{NewKnots, quasi_interpolated};
 use crate::geometry::error::PolygonError;
 use crate::geometry::float_polygon::FloatPolygon;
 

@@ -1,0 +1,7 @@
+//! The same curve by other polygons that keep its ends: of another degree, or of a part.
+
+mod degree_change;
+mod kept_ends;
+mod splitting;
+
+pub use splitting::{MAX_PART_SEGMENTS, MAX_SUBDIVISIONS};
