@@ -1,7 +1,6 @@
 //! The application without a window, in three parts: the workspace (what is worked on), the view
 //! (how it is seen) and the hand (what works on it). Nothing in here knows of egui.
 
-mod changing;
 mod commands;
 mod files;
 mod hand;
@@ -12,7 +11,6 @@ mod recovering;
 mod reply;
 mod report;
 mod selection;
-mod trial;
 mod view;
 mod workspace;
 
@@ -29,11 +27,11 @@ pub use hand::{
     Transformation,
 };
 pub use jobs::{Autosaver, Recoverable, RecoverableDocument};
+pub use operating::{Operating, OperationInProgress, Run};
 pub use paper::{PaperError, PaperPage, spiral_deviations};
 pub use reply::{Message, Note, Refusal, Reply, told};
 pub use report::{CurveReport, Export, Readout, ReferenceReport};
 pub use selection::{Selection, VertexId};
-pub use trial::{Run, Trial};
 pub use view::{
     Bounds, ChainOutlines, ClampedMark, CombSettings, CurveOutlines, CurveScene, DragReadout,
     EndFitMarks, FeatureKind, FeatureMark, FeatureReport, FeatureRow, GAP, GroundGrid, GuideLabel,
@@ -54,7 +52,7 @@ use jobs::Client;
 use jobs::autosaving::Autosaving;
 use jobs::foreseeing::Foreseeing;
 use jobs::patience::Patience;
-use trial::Operations;
+use operating::Operations;
 use view::overlay::Overlay;
 
 /// Hold the running application: what is worked on, how it is seen, and what works on it.
@@ -109,7 +107,10 @@ impl Editor {
     /// Begin a frame: take what was done beside the last one.
     pub fn begin_frame(&mut self) {
         self.patience.renew();
-        self.receive_operations();
+        self.operating().receive();
+        if let Some((step, reply)) = self.operations.take_late() {
+            self.keep_end_fit_action(step, &reply);
+        }
         self.tell_file_change();
     }
 
@@ -165,31 +166,40 @@ impl Editor {
         if let Some(measurement) = self.hand.tools.measurement() {
             marks.extend(measurement.marks(&context));
         }
-        marks.extend(self.operation_marks());
-        marks.extend(self.handle_marks());
-        if !self.is_trying() {
-            marks.extend(snap_name(tool, &context));
+        let (active, operation) = (self.active(), self.operation());
+        let (viewport, pointer) = (&self.view.viewport, self.hand.gestures.pointer());
+        let previewed = self.previewed_operation();
+        match previewed {
+            Some(previewed) => {
+                marks.extend(previewed.marks(viewport));
+                marks.extend(previewed.handle_marks(viewport, pointer));
+            }
+            None => marks.extend(snap_name(tool, &context)),
         }
-        let trial = self.trial();
-        let active = self.active();
-        let given = trial.filter(|trial| {
-            !trial.is_applied() || active.is_some_and(|id| self.made_curves().contains(&id))
-        });
-        let given = given.and_then(|trial| trial.values().given_reference());
-        let run = trial.and_then(Trial::run).and_then(|run| run.as_ref().ok());
+        let is_made = |it: &&OperationInProgress| {
+            active.is_some_and(|id| it.made_curves(self.document()).contains(&id))
+        };
+        let given = operation.filter(|it| !it.is_applied() || is_made(it));
+        let given = given.and_then(|it| it.values().given_reference());
+        let run = operation.and_then(OperationInProgress::run);
+        let run = run.and_then(|run| run.as_ref().ok());
         let alters = active.filter(|_| tool != ToolKind::Draw);
         let before = || match self.hand.modifiers.alt && self.workspace.preview().is_some() {
             true => context.hits.shown.settled_active().cloned(),
-            false => self.before_operation(),
+            // A correction of ends is shown against the curve before it.
+            false => operation
+                .filter(|it| !it.is_applied() || tool == ToolKind::EndFit)
+                .and_then(|it| it.before(active)),
         };
         Overlay {
             marks,
-            handle: self.handle_hover(),
+            handle: previewed.and_then(|it| it.handle_hover(viewport, pointer)),
             hovering: self.hand.hovering(context.hits.shown),
             guides: tool == ToolKind::Select,
             fitted_end: (tool == ToolKind::EndFit).then_some(self.hand.tools.end_fit.settings.end),
             before: before(),
-            others_before: self.others_before_operation(),
+            others_before: previewed
+                .map_or_else(Vec::new, |it| it.others_before(active, self.document())),
             proposal: self.proposal().map(|polygon| (polygon, alters)),
             given: given.map(|curve| self.view.given_reference(curve)),
             joint: run.and_then(|run| run.outcome.joint),
@@ -219,7 +229,7 @@ impl Editor {
             let own: Vec<VertexId> = selection.of_curve(curve).map(|i| (curve, i)).collect();
             selection.set(own);
             selection.activate(curve);
-            self.leave_stale_trial();
+            self.operating().leave_stale();
         }
     }
 
@@ -231,7 +241,7 @@ impl Editor {
             self.hand.selection.set([(curve, vertex)]);
         }
         self.document_changed();
-        self.leave_stale_trial();
+        self.operating().leave_stale();
     }
 
     /// Use another tool; what is being tried out is ended.
@@ -336,19 +346,9 @@ impl Editor {
         self.document_changed();
     }
 
-    /// Show the message that tells of an update of the preview, or take away that of an earlier
-    /// one.
+    /// Show the refusal of a preview's update, or take away that of an earlier update.
     fn tell_of_update(&mut self, refusal: Option<Refusal>) {
-        match refusal {
-            Some(refusal) => {
-                let message = Message::of(&Err(refusal));
-                self.message = message.map(|message| Message {
-                    of_update: true,
-                    ..message
-                });
-            }
-            None => self.message = self.message.take().filter(|message| !message.of_update),
-        }
+        Message::tell_update(&mut self.message, refusal);
     }
 
     /// Show the message that tells of a reply.
@@ -365,9 +365,9 @@ impl Editor {
             self.deliver(Gesture::Cancel, false);
         }
         self.hand.gestures.reset();
-        if let Some(trial) = self.trial().filter(|trial| !trial.is_applied()) {
-            let cancelled = format!("{}: cancelled", trial.operation().label);
-            self.interrupt_trial();
+        if let Some(previewed) = self.previewed_operation() {
+            let cancelled = format!("{}: cancelled", previewed.operation().label);
+            self.operating().interrupt();
             self.message = Message::of(&Ok(Note::told(cancelled)));
             return true;
         }

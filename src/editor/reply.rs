@@ -103,6 +103,17 @@ impl Message {
         })
     }
 
+    /// Show the refusal of a preview's update, or take away that of an earlier update.
+    pub(in crate::editor) fn tell_update(message: &mut Option<Self>, refusal: Option<Refusal>) {
+        *message = match refusal {
+            Some(refusal) => Self::of(&Err(refusal)).map(|message| Self {
+                of_update: true,
+                ..message
+            }),
+            None => message.take().filter(|message| !message.of_update),
+        };
+    }
+
     /// The message that the document's file has changed and can be read again.
     pub(in crate::editor) fn file_changed(text: String) -> Self {
         Self {

@@ -8,7 +8,7 @@ use eframe::egui::{
 
 use super::theme::{self, STEP, Tokens};
 use super::{figures, widgets};
-use crate::editor::{Editor, Trial};
+use crate::editor::{Editor, OperationInProgress};
 use crate::geometry::features::Verdict;
 use crate::geometry::mineur_farin::{self, ATLAS_SIZE, AtlasVerdicts};
 use crate::operations::{Atlas, Parameter, Unit, Value};
@@ -59,7 +59,7 @@ impl AtlasView {
         &mut self,
         ui: &mut Ui,
         editor: &Editor,
-        trial: &Trial,
+        in_progress: &OperationInProgress,
         atlas: &Atlas,
     ) -> Option<Asked> {
         let size = vec2(ui.available_width(), HEIGHT + MARGINS[1]);
@@ -67,8 +67,8 @@ impl AtlasView {
         let low = whole.min + vec2(MARGINS[0], 0.5 * STEP);
         let rect = Rect::from_min_max(low, whole.max - vec2(0.5 * STEP, MARGINS[1]));
         let response = ui.interact(rect, ui.scope_id().with("atlas"), Sense::click_and_drag());
-        let place = atlas.place(trial.values());
-        describe(&response, trial, atlas);
+        let place = atlas.place(in_progress.values());
+        describe(&response, in_progress, atlas);
         let found = editor.view().atlas();
         let found = found.filter(|(plane, _)| **plane == atlas.plane);
         let found = found.map(|(_, verdicts)| verdicts);
@@ -105,7 +105,10 @@ impl AtlasView {
             let clicked = response.clicked().then(values).flatten();
             return clicked.map(Asked::Set);
         }
-        self.dragged = response.dragged() && editor.holds_values();
+        self.dragged = response.dragged()
+            && editor
+                .operation()
+                .is_some_and(OperationInProgress::holds_values);
         if ui.input(|input| input.key_pressed(Key::Escape)) {
             self.dragged = false;
             return Some(Asked::CallOff);
@@ -281,9 +284,9 @@ fn legend_ui(ui: &mut Ui, atlas: &Atlas) {
 }
 
 /// Tell a screen reader where the point is.
-fn describe(response: &Response, trial: &Trial, atlas: &Atlas) {
+fn describe(response: &Response, in_progress: &OperationInProgress, atlas: &Atlas) {
     let told = [atlas.across, atlas.up].map(|parameter| {
-        let value = trial.values().get(parameter);
+        let value = in_progress.values().get(parameter);
         format!("{} {}", parameter.label, parameter.text(value))
     });
     let told = format!("Atlas: {}, {}", told[0], told[1]);

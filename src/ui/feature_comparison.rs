@@ -5,7 +5,7 @@ use eframe::egui::{Role, Sense, Ui, WidgetInfo, vec2};
 use super::steady_rows::SteadyRows;
 use super::theme::{STEP, Tokens};
 use super::{figures, widgets};
-use crate::editor::Trial;
+use crate::editor::OperationInProgress;
 use crate::geometry::features::Verdict;
 use crate::geometry::harmony::{Harmony, Match};
 use crate::operations::FeatureCounts;
@@ -29,12 +29,12 @@ pub struct Comparison {
 
 impl Comparison {
     /// Show the proved features, before and afterwards, of each kind that there is.
-    pub fn show(&mut self, ui: &mut Ui, trial: &Trial) {
-        let Some((features, current)) = trial.features() else {
+    pub fn show(&mut self, ui: &mut Ui, in_progress: &OperationInProgress) {
+        let Some((features, current)) = in_progress.features() else {
             widgets::figure_row(ui, "Features", "proving…");
             return;
         };
-        if !current && !trial.is_pending() {
+        if !current && !in_progress.is_pending() {
             ui.multiply_opacity(OUTDATED);
         }
         let (before, after) = (&features.before, &features.after);
@@ -140,8 +140,8 @@ fn joined(counts: &[FeatureCounts], text: impl Fn(&FeatureCounts) -> String) -> 
 }
 
 /// Show whether the curvature is proved to be monotone, before and afterwards, in one row.
-pub fn monotone_ui(ui: &mut Ui, trial: &Trial) {
-    let Some((features, current)) = trial.features() else {
+pub fn monotone_ui(ui: &mut Ui, in_progress: &OperationInProgress) {
+    let Some((features, current)) = in_progress.features() else {
         widgets::figure_row(ui, "Monotone", "proving…");
         return;
     };
@@ -152,7 +152,7 @@ pub fn monotone_ui(ui: &mut Ui, trial: &Trial) {
         false => format!("{before} · now {after}"),
     };
     ui.scope(|ui| {
-        if !current && !trial.is_pending() {
+        if !current && !in_progress.is_pending() {
             ui.multiply_opacity(OUTDATED);
         }
         let row = widgets::figure_row(ui, "Monotone", &text);

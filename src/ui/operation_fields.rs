@@ -9,7 +9,7 @@ use eframe::egui::{
 use super::number_field::{FieldEvent, NumberField};
 use super::theme::{self, STEP, Tokens};
 use super::{figures, widgets};
-use crate::editor::Trial;
+use crate::editor::OperationInProgress;
 use crate::operations::{Choice, Kind, Limits, Parameter, Unit, Value};
 
 /// The least width of the captions of fields.
@@ -63,18 +63,18 @@ impl OperationFields {
     pub fn show(
         &mut self,
         ui: &mut Ui,
-        trial: &Trial,
+        in_progress: &OperationInProgress,
         parameter: &'static Parameter,
     ) -> Option<Asked> {
-        let value = trial.values().get(parameter);
-        let label = label_width(ui, trial);
+        let value = in_progress.values().get(parameter);
+        let label = label_width(ui, in_progress);
         let row = widgets::wide_form_row(ui, parameter.label, label, |ui| {
             match (&parameter.kind, value) {
                 (Kind::Choice { options, .. }, Value::Choice(chosen)) => {
                     choice_ui(ui, parameter.label, options, *chosen).map(Asked::Set)
                 }
                 (Kind::List { .. } | Kind::Reference { .. }, _) => {
-                    self.list_ui(ui, parameter, value, hint_of(trial, parameter))
+                    self.list_ui(ui, parameter, value, hint_of(in_progress, parameter))
                 }
                 (Kind::Switch { .. }, Value::Switch(on)) => {
                     let mut on = *on;
@@ -85,17 +85,23 @@ impl OperationFields {
                     let set = switch.clicked().then_some(Value::Switch(on));
                     set.map(Asked::Set)
                 }
-                _ => self.number_ui(ui, trial, parameter, value),
+                _ => self.number_ui(ui, in_progress, parameter, value),
             }
         });
         row.response.on_hover_text(parameter.help);
-        self.below_ui(ui, trial, parameter, label);
+        self.below_ui(ui, in_progress, parameter, label);
         row.inner
     }
 
     /// Below a field: what an empty one means, where that does not fit into it, and why its last value was not
     /// accepted.
-    fn below_ui(&self, ui: &mut Ui, trial: &Trial, parameter: &'static Parameter, label: f32) {
+    fn below_ui(
+        &self,
+        ui: &mut Ui,
+        in_progress: &OperationInProgress,
+        parameter: &'static Parameter,
+        label: f32,
+    ) {
         let gap = ui.spacing().item_spacing.x;
         let below = |ui: &mut Ui, text: RichText| {
             ui.horizontal(|ui| {
@@ -103,9 +109,11 @@ impl OperationFields {
                 ui.add(Label::new(text.font(theme::small_font())).wrap());
             });
         };
-        let is_empty = parameter.text(trial.values().get(parameter)).is_empty();
+        let is_empty = parameter
+            .text(in_progress.values().get(parameter))
+            .is_empty();
         let room = ui.available_width() - label - gap;
-        let hint = hint_of(trial, parameter);
+        let hint = hint_of(in_progress, parameter);
         if is_empty && !fits(ui, hint, room) {
             let text = format!("empty: {hint}");
             below(ui, RichText::new(text).color(Tokens::of(ui).faint_text));
@@ -183,11 +191,11 @@ impl OperationFields {
     fn number_ui(
         &mut self,
         ui: &mut Ui,
-        trial: &Trial,
+        in_progress: &OperationInProgress,
         parameter: &'static Parameter,
         value: &Value,
     ) -> Option<Asked> {
-        let limits = parameter.limits(trial.input()).ok().flatten();
+        let limits = parameter.limits(in_progress.input()).ok().flatten();
         let number = shown_number(value, parameter.unit());
         let range = field_range(limits, parameter.unit());
         let whole = matches!(value, Value::Whole(_));
@@ -219,8 +227,8 @@ impl OperationFields {
 }
 
 /// The width of the captions: that of the longest, so that none is cut off.
-fn label_width(ui: &Ui, trial: &Trial) -> f32 {
-    let parameters = trial.operation().parameters.iter();
+fn label_width(ui: &Ui, in_progress: &OperationInProgress) -> f32 {
+    let parameters = in_progress.operation().parameters.iter();
     let widths = parameters.map(|parameter| text_width(ui, parameter.label));
     let most = (MOST_LABEL * ui.available_width()).max(LABEL);
     (widths.fold(0.0, f32::max) + STEP).clamp(LABEL, most)
@@ -241,9 +249,9 @@ fn fits(ui: &Ui, text: &str, width: f32) -> bool {
 }
 
 /// What an empty field means, of parameters that may be left empty.
-fn hint_of(trial: &Trial, parameter: &Parameter) -> &'static str {
+fn hint_of(in_progress: &OperationInProgress, parameter: &Parameter) -> &'static str {
     match parameter.kind {
-        Kind::List { none, .. } => none(Some(trial.input())),
+        Kind::List { none, .. } => none(Some(in_progress.input())),
         Kind::Reference { none } => none,
         _ => "",
     }

@@ -8,7 +8,7 @@ use super::operation_fields::{self, OperationFields, Refused};
 use super::operation_report::{ReportView, error_ui, failure, summary_ui};
 use super::theme::STEP;
 use super::widgets::{self, IconButton};
-use crate::editor::{Editor, Trial, told};
+use crate::editor::{Editor, OperationInProgress, told};
 use crate::operations::{Atlas, Parameter, Value};
 
 /// The heights of the places for the summary, for what is wrong and for the buttons, one below the other.
@@ -36,28 +36,29 @@ impl OperationPanel {
     /// Show the panel of the operation that is tried out, or was applied last: its fields and below them what
     /// it came to, which scroll together, and what matters most of it with the buttons in a place of their own.
     pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor) {
-        let Some(trial) = editor.trial() else {
+        let Some(in_progress) = editor.operation() else {
             *self = Self::default();
             return;
         };
-        let atlas = atlas_of(trial).copied();
+        let atlas = atlas_of(in_progress).copied();
         let told_before = self.fields.refusal.clone();
-        let mut asked = Vec::from_iter(heading_ui(ui, trial));
-        let foot = self.foot_ui(ui, trial, editor.operation_progress());
+        let mut asked = Vec::from_iter(heading_ui(ui, in_progress));
+        let foot = self.foot_ui(ui, in_progress, editor.operation_progress());
         ui.add_space(STEP);
         let mut shows_atlas = false;
-        widgets::scrolling(ui, trial.operation().name, |ui| {
-            asked.extend(self.fields_ui(ui, trial));
+        widgets::scrolling(ui, in_progress.operation().name, |ui| {
+            asked.extend(self.fields_ui(ui, in_progress));
             ui.separator();
             if let Some(atlas) = &atlas {
                 let view = &mut self.atlas;
-                let shown =
-                    widgets::section(ui, "Atlas", true, |ui| view.show(ui, editor, trial, atlas));
+                let shown = widgets::section(ui, "Atlas", true, |ui| {
+                    view.show(ui, editor, in_progress, atlas)
+                });
                 shows_atlas = shown.is_some();
                 asked.extend(shown.flatten().map(Asked::Atlas));
                 ui.add_space(STEP);
             }
-            self.report.show(ui, trial);
+            self.report.show(ui, in_progress);
         });
         // A click on a button also leaves a field: what was typed there counts first.
         asked.extend(foot);
@@ -73,25 +74,25 @@ impl OperationPanel {
         match asked {
             Asked::Field(parameter, Field::Set(value)) => {
                 self.set(editor, &[(parameter.name, value)], told_before);
-                editor.keep_values();
+                editor.operating().keep_values();
             }
             Asked::Field(parameter, Field::Try(value)) => {
-                editor.hold_values();
+                editor.operating().hold_values();
                 self.set(editor, &[(parameter.name, value)], told_before);
             }
             Asked::Atlas(atlas::Asked::Set(values)) => self.set(editor, &values, told_before),
             Asked::Atlas(atlas::Asked::Drag(values)) => {
-                editor.hold_values();
+                editor.operating().hold_values();
                 self.set(editor, &values, told_before);
             }
             Asked::Field(_, Field::Keep) | Asked::Atlas(atlas::Asked::Release) => {
-                editor.keep_values();
+                editor.operating().keep_values();
             }
             Asked::Field(_, Field::Restore) | Asked::Atlas(atlas::Asked::CallOff) => {
-                editor.restore_values();
+                editor.operating().restore_values();
             }
-            Asked::Apply => told(editor.apply_trial()),
-            Asked::Leave => editor.leave_trial(),
+            Asked::Apply => told(editor.operating().apply()),
+            Asked::Leave => editor.operating().leave(),
         }
     }
 
@@ -101,7 +102,7 @@ impl OperationPanel {
         values: &[(&'static str, Value)],
         told_before: &Option<Refused>,
     ) {
-        let refused = editor.set_values(values).err();
+        let refused = editor.operating().set_values(values).err();
         let refused = refused.map(|error| Refused {
             parameter: match values {
                 [(parameter, _)] => Some(*parameter),
@@ -116,9 +117,18 @@ impl OperationPanel {
     }
 
     /// At the lower edge, whatever stands above: the summary, why nothing comes of the values, and the buttons.
-    fn foot_ui(&self, ui: &mut Ui, trial: &Trial, progress: Option<f64>) -> Option<Asked> {
+    fn foot_ui(
+        &self,
+        ui: &mut Ui,
+        in_progress: &OperationInProgress,
+        progress: Option<f64>,
+    ) -> Option<Asked> {
         let [summary, wrong, buttons] = FOOT;
-        let height = if trial.is_applied() { 0.0 } else { buttons };
+        let height = if in_progress.is_applied() {
+            0.0
+        } else {
+            buttons
+        };
         let panel = Panel::bottom("operation foot").resizable(false);
         let panel = panel
             .frame(Frame::NONE)
@@ -128,7 +138,7 @@ impl OperationPanel {
             ui.allocate_ui(vec2(ui.available_width(), summary), |ui| {
                 ui.set_height(summary);
                 ui.add_space(STEP);
-                summary_ui(ui, trial);
+                summary_ui(ui, in_progress);
             });
             ui.allocate_ui(vec2(ui.available_width(), wrong), |ui| {
                 ui.set_height(wrong);
@@ -136,20 +146,20 @@ impl OperationPanel {
                 let refused = self.fields.refusal.as_ref();
                 let refused = refused.filter(|refused| refused.parameter.is_none());
                 let refused = refused.map(|refused| refused.text.clone());
-                if let Some(text) = refused.or_else(|| failure(trial)) {
+                if let Some(text) = refused.or_else(|| failure(in_progress)) {
                     error_ui(ui, &text);
                 }
             });
-            (!trial.is_applied()).then(|| buttons_ui(ui, trial, progress))
+            (!in_progress.is_applied()).then(|| buttons_ui(ui, in_progress, progress))
         });
         asked.inner.flatten()
     }
 
-    fn fields_ui(&mut self, ui: &mut Ui, trial: &Trial) -> Vec<Asked> {
-        let operation = trial.operation();
-        let parameters = operation.parameters_for(trial.input(), trial.values());
+    fn fields_ui(&mut self, ui: &mut Ui, in_progress: &OperationInProgress) -> Vec<Asked> {
+        let operation = in_progress.operation();
+        let parameters = operation.parameters_for(in_progress.input(), in_progress.values());
         let asked = parameters.filter_map(|parameter| {
-            let set = self.fields.show(ui, trial, parameter);
+            let set = self.fields.show(ui, in_progress, parameter);
             set.map(|set| Asked::Field(parameter, set))
         });
         asked.collect()
@@ -157,16 +167,16 @@ impl OperationPanel {
 }
 
 /// The atlas that the operation offers.
-fn atlas_of(trial: &Trial) -> Option<&Atlas> {
-    let run = trial.run()?.as_ref().ok()?;
+fn atlas_of(in_progress: &OperationInProgress) -> Option<&Atlas> {
+    let run = in_progress.run()?.as_ref().ok()?;
     run.outcome.atlas.as_ref()
 }
 
-fn heading_ui(ui: &mut Ui, trial: &Trial) -> Option<Asked> {
+fn heading_ui(ui: &mut Ui, in_progress: &OperationInProgress) -> Option<Asked> {
     let mut left = false;
     ui.horizontal(|ui| {
-        ui.strong(trial.operation().label);
-        if trial.is_applied() {
+        ui.strong(in_progress.operation().label);
+        if in_progress.is_applied() {
             widgets::caption(ui, "applied");
             widgets::at_right(ui, |ui| {
                 let close = IconButton::new(Icon::X, "Close operation");
@@ -174,17 +184,21 @@ fn heading_ui(ui: &mut Ui, trial: &Trial) -> Option<Asked> {
             });
         }
     });
-    widgets::note(ui, trial.operation().help);
+    widgets::note(ui, in_progress.operation().help);
     left.then_some(Asked::Leave)
 }
 
 /// Apply and Cancel; their keys are the canvas's, which has the keyboard unless a field has it.
-fn buttons_ui(ui: &mut Ui, trial: &Trial, progress: Option<f64>) -> Option<Asked> {
+fn buttons_ui(
+    ui: &mut Ui,
+    in_progress: &OperationInProgress,
+    progress: Option<f64>,
+) -> Option<Asked> {
     let mut asked = None;
     let fails = |run: &Result<crate::editor::Run, _>| {
         run.as_ref().map_or(true, |run| !run.outcome.is_useful())
     };
-    let enabled = !trial.run().is_some_and(fails);
+    let enabled = !in_progress.run().is_some_and(fails);
     ui.horizontal_centered(|ui| {
         let apply = ui.add_enabled_ui(enabled, |ui| widgets::primary_button(ui, "Apply"));
         if apply.inner.on_hover_text("Enter").clicked() {

@@ -9,7 +9,7 @@ use super::message::sentence;
 use super::steady_rows::SteadyRows;
 use super::theme::Tokens;
 use super::{figures, widgets};
-use crate::editor::Trial;
+use crate::editor::OperationInProgress;
 use crate::geometry::rounded_up;
 use crate::operations::{Deviation, Figure, Report, Unit, Value};
 
@@ -23,8 +23,8 @@ pub struct ReportView {
 
 impl ReportView {
     /// Show what the operation came to, faintly while other values are being tried.
-    pub fn show(&mut self, ui: &mut Ui, trial: &Trial) {
-        let operation = trial.operation().name;
+    pub fn show(&mut self, ui: &mut Ui, in_progress: &OperationInProgress) {
+        let operation = in_progress.operation().name;
         if self.operation != operation {
             *self = Self {
                 operation,
@@ -32,16 +32,16 @@ impl ReportView {
             };
         }
         ui.scope(|ui| {
-            if trial.is_pending() {
+            if in_progress.is_pending() {
                 ui.multiply_opacity(OUTDATED);
             }
-            if let Some(Ok(run)) = trial.run() {
-                self.report_ui(ui, trial, &run.report);
+            if let Some(Ok(run)) = in_progress.run() {
+                self.report_ui(ui, in_progress, &run.report);
             }
         });
     }
 
-    fn report_ui(&mut self, ui: &mut Ui, trial: &Trial, report: &Report) {
+    fn report_ui(&mut self, ui: &mut Ui, in_progress: &OperationInProgress, report: &Report) {
         ui.scope(|ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
             for (name, figure) in self.figures.in_place(figures_of(report)) {
@@ -50,7 +50,7 @@ impl ReportView {
             }
             level_comparisons_ui(ui, report.equivalence.as_deref().unwrap_or_default());
             if report.useful {
-                self.features.show(ui, trial);
+                self.features.show(ui, in_progress);
             }
         });
         for remark in &report.remarks {
@@ -60,8 +60,8 @@ impl ReportView {
 }
 
 /// Say why nothing comes of the values, or not all that was asked for.
-pub fn failure(trial: &Trial) -> Option<String> {
-    match trial.run()? {
+pub fn failure(in_progress: &OperationInProgress) -> Option<String> {
+    match in_progress.run()? {
         Err(error) => Some(sentence(&error.to_string())),
         Ok(run) if run.report.reached => None,
         Ok(run) if run.report.useful => Some("Not reached: this is the best found".to_owned()),
@@ -71,14 +71,14 @@ pub fn failure(trial: &Trial) -> Option<String> {
 
 /// Show what matters most of what the operation came to: how far the curve moves, and its vertices, or whether it
 /// has the shape of what it follows; and whether its curvature is monotone. There are always as many rows.
-pub fn summary_ui(ui: &mut Ui, trial: &Trial) {
-    let Some(run) = trial.run() else {
+pub fn summary_ui(ui: &mut Ui, in_progress: &OperationInProgress) {
+    let Some(run) = in_progress.run() else {
         return;
     };
     let report = run.as_ref().ok().map(|run| &run.report);
     let dash = || "–".to_owned();
     ui.scope(|ui| {
-        if trial.is_pending() {
+        if in_progress.is_pending() {
             ui.multiply_opacity(OUTDATED);
         }
         let deviation = report.and_then(deviation);
@@ -90,7 +90,7 @@ pub fn summary_ui(ui: &mut Ui, trial: &Trial) {
             widgets::figure_row(ui, "Largest move", &largest.unwrap_or_else(dash));
         }
         match report.filter(|report| report.useful) {
-            Some(_) => monotone_ui(ui, trial),
+            Some(_) => monotone_ui(ui, in_progress),
             None => drop(widgets::figure_row(ui, "Monotone", &dash())),
         }
     });

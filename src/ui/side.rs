@@ -40,7 +40,7 @@ enum Tab {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Task {
     /// An operation that is tried out.
-    Trial(&'static str),
+    Preview(&'static str),
     /// An operation that was applied last: its values can still be changed.
     Applied(&'static str),
     /// A tool with fields.
@@ -90,11 +90,11 @@ impl Side {
             return;
         }
         self.is_task_in_front = match (self.task, task) {
-            (Some(Task::Trial(before)), Some(Task::Applied(now))) if before == now => {
+            (Some(Task::Preview(before)), Some(Task::Applied(now))) if before == now => {
                 self.is_task_in_front
             }
             (_, Some(Task::Applied(_)) | None) => false,
-            (_, Some(Task::Trial(_) | Task::Tool(_))) => true,
+            (_, Some(Task::Preview(_) | Task::Tool(_))) => true,
         };
         self.task = task;
     }
@@ -153,7 +153,7 @@ impl Side {
 
     fn task_ui(&mut self, ui: &mut Ui, editor: &mut Editor, task: Task) {
         match task {
-            Task::Trial(_) | Task::Applied(_) => self.operation.show(ui, editor),
+            Task::Preview(_) | Task::Applied(_) => self.operation.show(ui, editor),
             Task::Tool(ToolKind::EndFit) => end_fit_panel_ui(ui, editor),
             Task::Tool(_) => {
                 widgets::scrolling(ui, "tool", |ui| self.transform.show(ui, editor));
@@ -179,7 +179,7 @@ impl Side {
 impl Task {
     fn label(self) -> &'static str {
         match self {
-            Self::Trial(_) | Self::Applied(_) => "Operation",
+            Self::Preview(_) | Self::Applied(_) => "Operation",
             Self::Tool(_) => "Tool",
         }
     }
@@ -187,16 +187,17 @@ impl Task {
 
 /// The task at hand: an operation that is tried out, then the tool, then the operation applied last.
 fn task(editor: &Editor) -> Option<Task> {
-    let trial = editor.trial();
-    if let Some(trial) = trial.filter(|_| editor.is_trying()) {
-        return Some(Task::Trial(trial.operation().name));
+    let in_progress = editor.operation();
+    if let Some(in_progress) = in_progress.filter(|_| editor.previewed_operation().is_some()) {
+        return Some(Task::Preview(in_progress.operation().name));
     }
     let tool = editor.hand().tool();
     if matches!(tool, ToolKind::EndFit | ToolKind::Rotate | ToolKind::Scale) {
         return Some(Task::Tool(tool));
     }
-    let trial = trial.filter(|trial| !trial.operation().parameters.is_empty())?;
-    Some(Task::Applied(trial.operation().name))
+    let in_progress =
+        in_progress.filter(|in_progress| !in_progress.operation().parameters.is_empty())?;
+    Some(Task::Applied(in_progress.operation().name))
 }
 
 /// Where a list stands.

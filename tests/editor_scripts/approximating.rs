@@ -38,7 +38,7 @@ fn a_reference_that_is_active_is_approximated_and_compared_in_the_plots() {
     script.set("count", vertices).expect("a count");
     assert!(far(&script) < 1e-3 * coarse);
     assert_eq!(script.polygon().vertices().len(), 60);
-    script.editor.apply_trial().expect("it is reached");
+    script.editor.operating().apply().expect("it is reached");
     assert_eq!(script.steps(), steps + 1);
     script.command(Command::Undo);
     assert!(script.editor.document().is_same(&before));
@@ -58,7 +58,7 @@ fn a_curve_takes_another_degree_and_count_and_esc_gives_it_back() {
     let polygon = script.polygon();
     assert_eq!((polygon.degree(), polygon.vertices().len()), (7, 30));
     assert_eq!(script.editor.document().len(), before.len());
-    script.editor.leave_trial();
+    script.editor.operating().leave();
     assert!(script.editor.document().is_same(&before));
     script.command(Command::ToggleLocked);
     script.try_out("approximate").expect_err("it is locked");
@@ -86,7 +86,7 @@ fn points_that_are_active_are_fitted() {
         .expect("a count");
     let report = serde_json::to_value(script.trial_report()).expect("a report");
     assert_eq!(report["reached"], true, "{report}");
-    script.editor.apply_trial().expect("it is reached");
+    script.editor.operating().apply().expect("it is reached");
     assert_eq!(script.editor.document().len(), 1);
     script.command(Command::Undo);
     assert_eq!(script.editor.document().len(), 0);

@@ -20,7 +20,7 @@ fn alone() -> Script {
 }
 
 fn handles(script: &Script) -> Vec<Handle> {
-    let run = script.editor.trial().and_then(|trial| trial.run());
+    let run = script.editor.operation().and_then(|trial| trial.run());
     let run = run.expect("a run").as_ref().expect("an answer");
     run.outcome.handles.clone()
 }
@@ -99,7 +99,11 @@ fn where_there_is_none_the_handles_stay_and_lead_back() {
         .expect("a vector");
     assert!(!script.trial_report().reached);
     assert!(script.editor.document().is_empty());
-    let refused = script.editor.apply_trial().expect_err("nothing to keep");
+    let refused = script
+        .editor
+        .operating()
+        .apply()
+        .expect_err("nothing to keep");
     assert!(refused.0.contains("There is no segment"), "{}", refused.0);
     script
         .set("from-direction", Value::List(vec![2.0, 1.2]))
@@ -130,17 +134,17 @@ fn beside_a_chosen_curve_the_new_segment_is_the_active_one() {
     script.try_out(NAME).expect("it can run");
     let made = script.curve();
     assert_ne!(made, own);
-    assert_eq!(script.editor.made_curves(), [made]);
+    assert_eq!(script.made_curves(), [made]);
     // Values are changed, a handle is dragged, and it stays the active one.
     script.set("degree", Value::Whole(4)).expect("a degree");
     let at = drag(&mut script, 1, DVec2::new(8.0, 5.0));
     script.release(at);
-    assert!(script.editor.is_trying());
+    assert!(script.editor.previewed_operation().is_some());
     assert_eq!(script.editor.active(), Some(made));
     assert!(script.plots().before.is_none(), "the curve is as it was");
     // The curve that was chosen may be looked at.
     script.editor.activate(own);
-    assert!(script.editor.is_trying());
+    assert!(script.editor.previewed_operation().is_some());
     script.key(Key::Escape);
     assert_eq!(script.curve(), own);
     assert!(script.editor.document().is_same(&before));
@@ -158,7 +162,7 @@ fn beside_a_chosen_curve_the_new_segment_is_the_active_one() {
 fn numbers_of_kinds_that_are_not_chosen_are_not_offered() {
     let mut script = alone();
     let shown = |script: &Script| -> Vec<&str> {
-        let trial = script.editor.trial().expect("an operation");
+        let trial = script.editor.operation().expect("an operation");
         let operation = trial.operation();
         let shown = operation.parameters_for(trial.input(), trial.values());
         shown.map(|parameter| parameter.name).collect()

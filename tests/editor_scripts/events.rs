@@ -98,7 +98,7 @@ impl Player {
         }
         self.input(Input::SpaceHeld(false), Done::Other)?;
         self.hold(Modifiers::NONE)?;
-        self.panel(&Panel::LeaveTrial)?;
+        self.panel(&Panel::Leave)?;
         self.panel(&Panel::CommitField)?;
         self.watch.rewind(&mut self.window)?;
         check_written(self.window.document())

@@ -26,7 +26,7 @@ fn figure_2() -> Script {
 }
 
 fn handle(editor: &Editor, index: usize) -> Handle {
-    let run = editor.trial().and_then(|trial| trial.run());
+    let run = editor.operation().and_then(|trial| trial.run());
     run.expect("a run")
         .as_ref()
         .expect("a curve")
@@ -40,7 +40,7 @@ fn at_handle(script: &Script, index: usize) -> DVec2 {
 }
 
 fn value(script: &Script, name: &str) -> Value {
-    let trial = script.editor.trial().expect("an operation");
+    let trial = script.editor.operation().expect("an operation");
     let mut parameters = trial.operation().parameters.iter();
     let parameter = parameters.find(|parameter| parameter.name == name);
     trial.values().get(parameter.expect("a parameter")).clone()
@@ -97,7 +97,7 @@ fn the_curve_that_is_made_is_active_and_in_view_while_it_is_tried_out() {
     script.try_out(NAME).expect("it can run");
     let made = script.curve();
     assert_ne!(made, own);
-    assert_eq!(script.editor.made_curves(), [made]);
+    assert_eq!(script.made_curves(), [made]);
     let view = script.editor.view().viewport().view_box();
     for vertex in script.polygon().vertices() {
         let seen = vertex.truncate();
@@ -156,7 +156,7 @@ fn the_third_point_sets_ratio_and_angle() {
     script.press(from + off);
     script.move_to(from + off + 0.5 * by);
     script.move_to(from + off + by);
-    assert!(script.editor.drags_handle());
+    assert!(script.drags_handle());
     assert!(at_handle(&script, 2).distance(from + by) < 1e-6);
     let to = handle(&script.editor, 2).at - DVec3::X;
     assert!((real(&script, "ratio") - to.length()).abs() < 1e-12);
@@ -164,8 +164,8 @@ fn the_third_point_sets_ratio_and_angle() {
     // The first two points stay.
     assert_eq!(handle(&script.editor, 1).at, DVec3::X);
     script.release(from + off + by);
-    assert!(!script.editor.drags_handle());
-    assert!(script.editor.is_trying());
+    assert!(!script.drags_handle());
+    assert!(script.editor.previewed_operation().is_some());
     script.key(Key::Enter);
     assert_eq!(script.steps(), 1);
     assert_eq!(marks(&mut script), [false; 0]);
@@ -183,11 +183,11 @@ fn escape_puts_a_handle_back_and_then_ends_the_operation() {
         assert!(!script.editor.document().is_same(&shown));
         script.key(Key::Escape);
         assert!(script.editor.document().is_same(&shown), "handle {index}");
-        assert!(script.editor.is_trying() && !script.editor.drags_handle());
+        assert!(script.editor.previewed_operation().is_some() && !script.drags_handle());
         script.release(from);
     }
     script.key(Key::Escape);
-    assert!(!script.editor.is_trying());
+    assert!(!script.editor.previewed_operation().is_some());
     assert!(script.editor.document().is_same(&before));
 }
 
@@ -207,7 +207,10 @@ fn a_press_beside_the_handles_leaves_the_operation_alone() {
         for from in [NOWHERE, vertex] {
             script.click(from);
             script.drag(from, from + DVec2::new(30.0, 20.0));
-            assert!(script.editor.is_trying(), "{tool:?} at {from}");
+            assert!(
+                script.editor.previewed_operation().is_some(),
+                "{tool:?} at {from}"
+            );
             assert!(script.editor.document().is_same(&shown));
             assert_eq!(real(&script, "ratio"), 1.7);
         }
@@ -218,7 +221,7 @@ fn a_press_beside_the_handles_leaves_the_operation_alone() {
     script.drag_with(Button::Middle, NOWHERE, NOWHERE + DVec2::new(30.0, 20.0));
     assert_ne!(script.editor.view().viewport().centre, before);
     script.input(Input::DoubleClicked { at: NOWHERE });
-    assert!(script.editor.is_trying());
+    assert!(script.editor.previewed_operation().is_some());
     // A vertex says what comes first.
     let vertex = script.at_vertex(3);
     script.press(vertex);
@@ -237,7 +240,7 @@ fn undo_takes_a_drag_of_a_handle_back_then_changes_of_values_and_only_then_the_o
     script.move_to(from + 0.5 * by);
     script.move_to(from + by);
     script.command(Command::Undo);
-    assert!(script.editor.is_trying() && !script.editor.drags_handle());
+    assert!(script.editor.previewed_operation().is_some() && !script.drags_handle());
     assert!(script.editor.document().is_same(&shown));
     // The rest of the drag does nothing.
     script.move_to(from + 2.0 * by);
@@ -245,11 +248,11 @@ fn undo_takes_a_drag_of_a_handle_back_then_changes_of_values_and_only_then_the_o
     assert!(script.editor.document().is_same(&shown));
     // A drag is one change, however far it went, and so is a field's.
     script.drag(from, from + by);
-    script.editor.hold_values();
+    script.editor.operating().hold_values();
     for ratio in [1.1, 1.2, 1.3] {
         script.set("ratio", Value::Real(ratio)).expect("a ratio");
     }
-    script.editor.keep_values();
+    script.editor.operating().keep_values();
     assert_eq!(script.editor.label(Command::Undo), "Undo change of values");
     script.command(Command::Undo);
     let dragged = (real(&script, "ratio"), real(&script, "angle"));
@@ -264,10 +267,10 @@ fn undo_takes_a_drag_of_a_handle_back_then_changes_of_values_and_only_then_the_o
     // Four values were given at first.
     for _ in 0..4 {
         script.command(Command::Undo);
-        assert!(script.editor.is_trying());
+        assert!(script.editor.previewed_operation().is_some());
     }
     script.command(Command::Undo);
-    assert!(!script.editor.is_trying());
+    assert!(!script.editor.previewed_operation().is_some());
     assert_eq!(script.message(), "Mineur–Farin curve: cancelled");
 }
 
@@ -382,7 +385,7 @@ fn something_else_that_is_begun_takes_it_back() {
 fn both_polygons_make_two_curves_of_which_one_is_active() {
     let mut script = figure_2();
     script.set("polygon", Value::Choice(2)).expect("both");
-    let made = script.editor.made_curves();
+    let made = script.made_curves();
     assert_eq!(made.len(), 2);
     assert_eq!(script.curve(), made[0]);
     assert_eq!(script.editor.view().compared(), Some(made[1]));
@@ -412,7 +415,7 @@ fn the_atlas_is_proved_from_coarse_to_fine_while_it_is_shown() {
         }
     }
     assert_eq!(pictures, 4);
-    let run = script.editor.trial().and_then(|trial| trial.run());
+    let run = script.editor.operation().and_then(|trial| trial.run());
     let atlas = run.expect("a run").as_ref().expect("a curve").outcome.atlas;
     let atlas = atlas.expect("an atlas");
     // The verdict at a place is that of the curve that it makes.
@@ -425,6 +428,7 @@ fn the_atlas_is_proved_from_coarse_to_fine_while_it_is_shown() {
         assert_eq!(found.verdict(cell[0], cell[1]), expected);
         script
             .editor
+            .operating()
             .set_values(&atlas.values(place))
             .expect("values");
         script.editor.refresh();

@@ -29,14 +29,15 @@ fn two_curves_are_joined_as_one_step_and_undone_to_the_bit() {
     let count = shown.polygon.vertices().len();
     script
         .editor
-        .set_value("bridge", Value::List(vec![7.0]))
+        .operating()
+        .set_values(&[("bridge", Value::List(vec![7.0]))])
         .expect("a value");
     let shown = script.editor.document().curve(arc).expect("the first");
     // Six segments, of the degree of the first.
     assert_eq!(shown.polygon.vertices().len(), 10 + 7 + (6 + 9));
     assert_ne!(count, 0);
     let shown = shown.clone();
-    script.editor.apply_trial().expect("a step");
+    script.editor.operating().apply().expect("a step");
     script.check();
     assert_eq!(script.editor.workspace().history().undo_steps(), steps + 1);
     assert_eq!(script.editor.document().curve(arc), Some(&shown));
@@ -47,7 +48,7 @@ fn two_curves_are_joined_as_one_step_and_undone_to_the_bit() {
     script.command(Command::Undo);
     // Another curve stays as it is after the operation was left.
     script.try_out("join").expect("an operation");
-    script.editor.leave_trial();
+    script.editor.operating().leave();
     assert!(script.editor.document().is_same(&before));
 }
 
@@ -85,7 +86,7 @@ fn the_ghost_shows_both_curves_as_they_were() {
     }
     assert!(ghost.len() >= alone.iter().sum::<usize>());
     assert!(!scene.ghost.is_empty());
-    script.editor.apply_trial().expect("a step");
+    script.editor.operating().apply().expect("a step");
     assert!(script.scene().ghost.is_empty());
 }
 
@@ -100,7 +101,7 @@ fn of_more_curves_those_with_selected_vertices_are_joined() {
     script.editor.select_vertex(other, 2, true);
     let active = script.curve();
     script.try_out("join").expect("an operation");
-    script.editor.apply_trial().expect("a step");
+    script.editor.operating().apply().expect("a step");
     script.check();
     let document = script.editor.document();
     assert_eq!(document.curves().len(), 2);

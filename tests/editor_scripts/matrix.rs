@@ -136,7 +136,7 @@ fn every_step_of_every_command_is_undone_and_redone_between_others() {
             || format!("{}, operations", case.name),
             play(&case, |player| {
                 ALL.iter().try_for_each(|operation| {
-                    player.play(&[tried(operation), Event::Panel(Panel::ApplyTrial)])
+                    player.play(&[tried(operation), Event::Panel(Panel::Apply)])
                 })
             }),
         );
@@ -154,13 +154,10 @@ fn every_operation_applied_or_cancelled_is_undone_to_the_bit() {
     let mut failures = Failures::default();
     let plain = |key| Event::Key(Modifiers::NONE, key);
     let endings = [
-        vec![Event::Panel(Panel::ApplyTrial)],
+        vec![Event::Panel(Panel::Apply)],
         vec![plain(Key::Enter)],
-        vec![
-            Event::Panel(Panel::ApplyTrial),
-            Event::Command(Command::Undo),
-        ],
-        vec![Event::Panel(Panel::LeaveTrial)],
+        vec![Event::Panel(Panel::Apply), Event::Command(Command::Undo)],
+        vec![Event::Panel(Panel::Leave)],
         vec![plain(Key::Escape)],
         vec![Event::Command(Command::Undo)],
     ];

@@ -133,7 +133,7 @@ fn a_drag_with_the_second_button_and_the_end_of_drawing_ask_for_none() {
     script.try_out("round").expect("it can run");
     let vertex = script.at_vertex(1);
     assert_eq!(ask(&mut script, vertex), None);
-    assert!(script.editor.is_trying());
+    assert!(script.editor.previewed_operation().is_some());
 }
 
 #[test]

@@ -452,8 +452,8 @@ fn operations() -> impl Strategy<Value = Panel> {
     prop_oneof![
         8 => (0..3usize, number()).prop_map(|(at, number)| Panel::SetValue(at, number)),
         1 => (0..3usize, any_value).prop_map(|(at, value)| Panel::SetAnyValue(at, value)),
-        6 => Just(Panel::ApplyTrial),
-        2 => Just(Panel::LeaveTrial),
+        6 => Just(Panel::Apply),
+        2 => Just(Panel::Leave),
         3 => (select(ALL), numbers)
             .prop_map(|(operation, numbers)| Panel::Operate(operation, numbers)),
     ]

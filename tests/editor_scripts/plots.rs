@@ -160,7 +160,7 @@ fn a_joint_is_marked_while_curves_are_joined() {
         .editor
         .view_mut()
         .show_plot(Some(PlotKind::Curvature));
-    script.editor.apply_trial().expect("a step");
+    script.editor.operating().apply().expect("a step");
     assert_eq!(script.plots().joints, plots.joints);
     script.command(Command::Undo);
     assert!(script.plots().joints.is_empty());
@@ -172,7 +172,7 @@ fn a_joint_is_marked_while_curves_are_joined() {
     };
     assert!((from - own).abs() <= 1e-4 * own);
     assert!((to - plots.length).abs() <= 1e-9 * plots.length);
-    script.editor.leave_trial();
+    script.editor.operating().leave();
     assert!(script.plots().joints.is_empty());
 }
 
@@ -225,7 +225,7 @@ fn a_reference_that_is_typed_is_overlaid_as_one_of_the_document_is() {
     let levels = script.level_plot(LevelPlot::Curvature(2), false);
     let other = levels.compared.as_ref().expect("the source");
     assert!(!other.levels.is_empty());
-    script.editor.leave_trial();
+    script.editor.operating().leave();
     assert!(script.plots().compared.is_none());
 }
 

@@ -176,9 +176,9 @@ fn what_is_more_than_showing_keeps_a_field_and_takes_back_a_drag() {
 
 /// An operation's command begins a preview of its own.
 fn leave_its_own_preview(script: &mut Script, command: Command) {
-    let trial = script.editor.trial().map(|trial| trial.operation());
+    let trial = script.editor.operation().map(|trial| trial.operation());
     if trial.is_some_and(|operation| command == Command::Operation(operation)) {
-        script.editor.leave_trial();
+        script.editor.operating().leave();
     }
 }
 

@@ -224,7 +224,7 @@ fn rounding_tells_beforehand_what_it_does() {
     assert_eq!(farthest, farthest_vertex(&before, &script.polygon()));
     // The paper's instability: the float S-polygon moves a thousand times and more as far.
     assert!(farthest.distance > 1e3 * rounding(&closed), "{farthest:?}");
-    script.editor.leave_trial();
+    script.editor.operating().leave();
     assert_eq!(script.polygon(), before);
     script.operate("round", &[]).expect("a rounded curve");
     let rounded = script.polygon();

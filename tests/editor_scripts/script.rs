@@ -4,7 +4,7 @@ use batten::analysis::LevelPlot;
 use batten::document::CurveId;
 use batten::editor::{
     Button, Command, Editor, EndFitAction, EndFitReport, FeatureReport, Input, Key, Look,
-    Modifiers, PlotKind, PlotScene, Reply, Scene, ToolKind, told,
+    Modifiers, OperationInProgress, PlotKind, PlotScene, Reply, Scene, ToolKind, told,
 };
 use batten::geometry::FloatPolygon;
 use batten::io::examples::EXAMPLES;
@@ -170,14 +170,26 @@ impl Script {
 
     /// Try an operation out.
     pub fn try_out(&mut self, name: &str) -> Reply {
-        let reply = self.editor.try_operation(operation(name));
+        let reply = self.editor.preview_operation(operation(name));
         self.check();
         reply
     }
 
+    /// Whether a handle of the operation in progress is dragged.
+    pub fn drags_handle(&self) -> bool {
+        let operation = self.editor.operation();
+        operation.is_some_and(OperationInProgress::drags_handle)
+    }
+
+    /// The curves that the operation in progress has made.
+    pub fn made_curves(&self) -> Vec<CurveId> {
+        let made = self.editor.operation();
+        made.map_or_else(Vec::new, |it| it.made_curves(self.editor.document()))
+    }
+
     /// Give the operation another value.
     pub fn set(&mut self, parameter: &str, value: Value) -> Result<(), OperationError> {
-        let set = self.editor.set_value(parameter, value);
+        let set = self.editor.operating().set_values(&[(parameter, value)]);
         self.check();
         set
     }
@@ -185,7 +197,7 @@ impl Script {
     /// What the operation that is tried out, or was applied last, reports.
     #[track_caller]
     pub fn trial_report(&self) -> Report {
-        let trial = self.editor.trial().expect("an operation");
+        let trial = self.editor.operation().expect("an operation");
         trial.report().expect("a report").clone()
     }
 

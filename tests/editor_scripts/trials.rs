@@ -4,7 +4,9 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
 use batten::document::{Curve, Document, Edit};
-use batten::editor::{Command, Editor, EndFitAction, Input, Key, Look, Note, ToolKind, Trial};
+use batten::editor::{
+    Command, Editor, EndFitAction, Input, Key, Look, Note, OperationInProgress, ToolKind,
+};
 use batten::geometry::features::Features;
 use batten::geometry::{End, FloatPolygon};
 use batten::io::disk;
@@ -49,9 +51,9 @@ fn trying(name: &str) -> (Script, Document) {
     let (mut script, before) = s_curve();
     let begun = script.try_out(name).expect("an operation");
     assert_eq!(begun, Note::silent());
-    assert!(script.editor.is_trying());
+    assert!(script.editor.previewed_operation().is_some());
     for (parameter, value) in given(name) {
-        let set = script.editor.set_value(parameter, value);
+        let set = script.editor.operating().set_values(&[(parameter, value)]);
         set.expect("a value");
     }
     assert!(!script.editor.document().is_same(&before), "it is shown");
@@ -61,7 +63,7 @@ fn trying(name: &str) -> (Script, Document) {
 /// An operation that is applied to the s-curve after it was tried out, and the document before.
 fn applied(name: &str) -> (Script, Document) {
     let (mut script, before) = trying(name);
-    let note = script.editor.apply_trial().expect("a step");
+    let note = script.editor.operating().apply().expect("a step");
     assert!(note.offers_undo, "{note:?}");
     script.check();
     (script, before)
@@ -78,7 +80,10 @@ fn script_of(polygon: FloatPolygon) -> Script {
 }
 
 fn is_applied(script: &Script) -> bool {
-    script.editor.trial().is_some_and(Trial::is_applied)
+    script
+        .editor
+        .operation()
+        .is_some_and(OperationInProgress::is_applied)
 }
 
 /// The document is another one to the bit.
@@ -91,7 +96,7 @@ fn check_is(script: &Script, expected: &Document) {
 /// Nothing is tried out, and nothing is left of it.
 #[track_caller]
 fn check_left(script: &Script, before: &Document) {
-    assert!(script.editor.trial().is_none());
+    assert!(script.editor.operation().is_none());
     assert_eq!(script.editor.workspace().preview(), None);
     check_is(script, before);
     assert_eq!(script.steps(), 0);
@@ -114,7 +119,7 @@ const CHANGING: [&str; 7] = [
 fn cancel_escape_and_undo_leave_no_trace() {
     for name in CHANGING {
         let (mut script, before) = trying(name);
-        script.editor.leave_trial();
+        script.editor.operating().leave();
         check_left(&script, &before);
         let (mut script, before) = trying(name);
         script.key(Key::Escape);
@@ -123,14 +128,14 @@ fn cancel_escape_and_undo_leave_no_trace() {
         // Values that were given come first.
         for _ in given(name) {
             script.command(Command::Undo);
-            assert!(script.editor.is_trying());
+            assert!(script.editor.previewed_operation().is_some());
         }
         script.command(Command::Undo);
         check_left(&script, &before);
         // What was selected meanwhile is taken back, too.
         let (mut script, before) = trying(name);
         script.editor.select_vertex(script.curve(), 0, true);
-        assert!(script.editor.is_trying());
+        assert!(script.editor.previewed_operation().is_some());
         assert_eq!(script.selected(), [0, 2]);
         script.key(Key::Escape);
         check_left(&script, &before);
@@ -146,10 +151,10 @@ fn applying_makes_one_step_with_the_operations_name() {
             if by_key {
                 script.key(Key::Enter);
             } else {
-                script.editor.apply_trial().expect("a step");
+                script.editor.operating().apply().expect("a step");
             }
             assert!(is_applied(&script), "{name}");
-            assert!(!script.editor.is_trying());
+            assert!(!script.editor.previewed_operation().is_some());
             check_is(&script, &shown);
             assert_eq!(script.steps(), 1);
             let label = operation(name).label;
@@ -181,7 +186,7 @@ fn operations_without_parameters_are_applied_at_once() {
     for name in ["reverse", "subdivide"] {
         let (mut script, before) = s_curve();
         script.command(Command::Operation(operation(name)));
-        assert!(!script.editor.is_trying());
+        assert!(!script.editor.previewed_operation().is_some());
         assert_eq!(script.steps(), 1);
         assert!(!script.editor.document().is_same(&before));
         script.command(Command::Undo);
@@ -223,7 +228,7 @@ fn a_value_changed_after_applying_amends_the_step() {
     assert_eq!(script.steps(), 0);
     script.command(Command::Redo);
     check_is(&script, &amended);
-    assert!(script.editor.trial().is_none(), "redo ended it");
+    assert!(script.editor.operation().is_none(), "redo ended it");
 }
 
 #[test]
@@ -274,7 +279,7 @@ fn what_does_not_reach_its_target_is_refused_with_what_is_left() {
     assert!(!report.reached);
     assert!(report.residual.is_some_and(|left| left > 0.0));
     check_is(&script, &before);
-    let refused = script.editor.apply_trial().expect_err("a refusal");
+    let refused = script.editor.operating().apply().expect_err("a refusal");
     assert_eq!(script.message(), refused.0);
     assert!(
         refused.0.contains("not reached, nothing is changed"),
@@ -284,10 +289,10 @@ fn what_does_not_reach_its_target_is_refused_with_what_is_left() {
     check_is(&script, &before);
     assert_eq!(script.steps(), made);
     // Another method can still be chosen.
-    assert!(script.editor.is_trying());
+    assert!(script.editor.previewed_operation().is_some());
     script.set("method", JOINT).expect("a method");
     assert!(script.trial_report().reached);
-    script.editor.apply_trial().expect("a step");
+    script.editor.operating().apply().expect("a step");
     assert_eq!(script.steps(), made + 1);
     // Back to the method that fails: the applied step stays, and the message says why.
     let corrected = script.editor.document().clone();
@@ -304,7 +309,7 @@ fn what_does_not_reach_its_target_is_refused_with_what_is_left() {
     // Applied at once it is refused as well, and nothing stays tried out.
     let refused = script.operate("correct-ends", &[("method", STEPS)]);
     assert!(refused.is_err_and(|refusal| refusal.0.contains("is left")));
-    assert!(script.editor.trial().is_none());
+    assert!(script.editor.operation().is_none());
     assert_eq!(script.editor.workspace().preview(), None);
     check_is(&script, &before);
 }
@@ -314,11 +319,11 @@ fn a_value_that_is_not_allowed_is_refused_and_the_values_stay() {
     for is_applied in [false, true] {
         let (mut script, _) = trying("split");
         if is_applied {
-            script.editor.apply_trial().expect("a step");
+            script.editor.operating().apply().expect("a step");
         }
         let (shown, made) = (script.editor.document().clone(), script.steps());
         let values = |script: &Script| {
-            let trial = script.editor.trial().expect("an operation");
+            let trial = script.editor.operation().expect("an operation");
             trial.values().clone()
         };
         let given = values(&script);
@@ -349,15 +354,19 @@ fn values_that_make_no_curve_together_are_told_and_not_applied() {
     // Each is in its range, but the part would end before it begins.
     script.set("from", Value::Real(1.5)).expect("a place");
     script.set("to", Value::Real(0.5)).expect("a place");
-    let run = script.editor.trial().and_then(Trial::run).expect("a run");
+    let run = script
+        .editor
+        .operation()
+        .and_then(OperationInProgress::run)
+        .expect("a run");
     let error = run.as_ref().expect_err("no curve").to_string();
     check_is(&script, &before);
-    let refused = script.editor.apply_trial().expect_err("a refusal");
+    let refused = script.editor.operating().apply().expect_err("a refusal");
     assert_eq!(refused.0, error);
-    assert!(script.editor.is_trying());
+    assert!(script.editor.previewed_operation().is_some());
     assert_eq!(script.steps(), 0);
     script.set("from", Value::Real(0.25)).expect("a place");
-    script.editor.apply_trial().expect("a step");
+    script.editor.operating().apply().expect("a step");
     assert_eq!(script.steps(), 1);
 }
 
@@ -431,11 +440,11 @@ fn what_cannot_run_is_not_begun() {
         let (before, made) = (script.editor.document().clone(), script.steps());
         let given = script.editor.execute(Command::Operation(operation));
         assert_eq!(given, Ok(Note::silent()), "it is not offered");
-        let refused = script.editor.try_operation(operation);
+        let refused = script.editor.preview_operation(operation);
         let refused = refused.expect_err("a refusal");
         assert!(refused.0.contains("locked"), "{refused}");
         assert_eq!(script.message(), refused.0);
-        assert!(script.editor.trial().is_none());
+        assert!(script.editor.operation().is_none());
         assert_eq!(script.editor.workspace().preview(), None);
         check_is(&script, &before);
         assert_eq!(script.steps(), made);
@@ -448,7 +457,7 @@ fn check_goes_on(script: &mut Script, name: &str) {
     let stage = is_applied(script);
     let goes_on = |script: &mut Script, what: &str| {
         script.check();
-        let trial = script.editor.trial();
+        let trial = script.editor.operation();
         let trial = trial.unwrap_or_else(|| panic!("{name} ended by {what}"));
         assert_eq!(trial.operation().name, name);
         assert_eq!(trial.is_applied(), stage, "{what}");
@@ -513,12 +522,12 @@ fn every_other_command_takes_the_preview_back() {
         }
         script.command(command);
         assert_ne!(script.editor.workspace().preview(), preview, "{command:?}");
-        let trial = script.editor.trial();
+        let trial = script.editor.operation();
         assert!(
             trial.is_none_or(|trial| command == Command::Operation(trial.operation())),
             "{command:?}"
         );
-        script.editor.leave_trial();
+        script.editor.operating().leave();
         script.undo_all();
         check_is(&script, &before);
     }
@@ -530,7 +539,7 @@ fn a_drag_takes_the_preview_back() {
     let at = script.at_vertex(3);
     script.press(at);
     script.move_to(at + BY);
-    assert!(script.editor.trial().is_none());
+    assert!(script.editor.operation().is_none());
     assert!(script.editor.hand().is_dragging());
     assert!(script.editor.workspace().settled().is_same(&before));
     let moved: Vec<bool> = moved_vertices(&before, &script);
@@ -559,7 +568,7 @@ fn a_number_field_takes_the_preview_back() {
     };
     script.editor.preview("Set coordinate", vec![edit]);
     script.check();
-    assert!(script.editor.trial().is_none());
+    assert!(script.editor.operation().is_none());
     assert!(script.editor.workspace().settled().is_same(&before));
     let moved = moved_vertices(&before, &script);
     assert_eq!(moved.iter().filter(|moved| **moved).count(), 1);
@@ -573,10 +582,10 @@ fn a_number_field_takes_the_preview_back() {
 fn another_operation_takes_the_preview_back() {
     let (mut script, before) = trying("round");
     script.try_out("extend").expect("an operation");
-    let trial = script.editor.trial().expect("an operation");
+    let trial = script.editor.operation().expect("an operation");
     assert_eq!(trial.operation().name, "extend");
     assert!(trial.input().document().is_same(&before));
-    script.editor.apply_trial().expect("a step");
+    script.editor.operating().apply().expect("a step");
     assert_eq!(script.steps(), 1);
     let (mut at_once, _) = s_curve();
     at_once.operate("extend", &[]).expect("a step");
@@ -589,20 +598,20 @@ fn another_curve_ends_what_is_tried_out_and_what_was_applied() {
     let (before, made) = (script.editor.document().clone(), script.steps());
     script.try_out("round").expect("an operation");
     script.editor.activate(other);
-    assert!(script.editor.trial().is_none());
+    assert!(script.editor.operation().is_none());
     check_is(&script, &before);
     script.editor.activate(arc);
-    assert!(script.editor.trial().is_none(), "it does not come back");
+    assert!(script.editor.operation().is_none(), "it does not come back");
     script.try_out("round").expect("an operation");
     script.editor.select_vertex(other, 1, false);
-    assert!(script.editor.trial().is_none());
+    assert!(script.editor.operation().is_none());
     check_is(&script, &before);
     assert_eq!(script.selected_of(other), [1]);
     script.editor.activate(arc);
     script.operate("round", &[]).expect("a step");
     assert!(is_applied(&script));
     script.editor.activate(other);
-    assert!(script.editor.trial().is_none());
+    assert!(script.editor.operation().is_none());
     assert_eq!(script.steps(), made + 1);
     // A value that comes too late changes nothing.
     let rounded = script.editor.document().clone();
@@ -632,7 +641,7 @@ fn the_panel_of_what_was_applied_ends_with_the_next_step_undo_or_redo() {
         let (mut script, before) = applied("round");
         script.editor.select_vertex(script.curve(), 2, false);
         end(&mut script);
-        assert!(script.editor.trial().is_none(), "{name}");
+        assert!(script.editor.operation().is_none(), "{name}");
         let shown = script.editor.document().clone();
         assert_eq!(script.set("digits", Value::Whole(0)), Ok(()));
         check_is(&script, &shown);
@@ -651,7 +660,7 @@ fn what_a_drag_took_back_does_not_bring_its_selection_back() {
     let outside = [("digits", Value::Whole(99))];
     script.operate("round", &outside).expect_err("too many");
     assert_eq!(script.selected(), [1]);
-    script.editor.leave_trial();
+    script.editor.operating().leave();
     assert_eq!(script.selected(), [1]);
 }
 
@@ -665,7 +674,7 @@ fn what_is_selected_meanwhile_is_what_the_next_command_is_about() {
         .vertex(0);
     script.editor.select_vertex(script.curve(), 0, false);
     script.command(Command::Delete);
-    assert!(script.editor.trial().is_none());
+    assert!(script.editor.operation().is_none());
     assert_eq!(script.steps(), 1);
     assert!(!script.polygon().vertices().contains(&vertex));
     // Where vertices get other numbers, what was selected before counts.
@@ -673,7 +682,7 @@ fn what_is_selected_meanwhile_is_what_the_next_command_is_about() {
     let last = script.polygon().vertices().len() - 1;
     script.editor.select_vertex(script.curve(), last, false);
     script.tool(ToolKind::Measure);
-    assert!(script.editor.trial().is_none());
+    assert!(script.editor.operation().is_none());
     assert_eq!(script.selected(), [2]);
 }
 
@@ -682,7 +691,7 @@ fn the_preview_is_not_what_is_selected_or_deleted() {
     let (mut script, before) = trying("split");
     assert_eq!(script.editor.document().len(), 2);
     script.command(Command::SelectAll);
-    assert!(script.editor.trial().is_none());
+    assert!(script.editor.operation().is_none());
     check_is(&script, &before);
     let count = script.polygon().vertices().len();
     assert_eq!(script.selected(), (0..count).collect::<Vec<usize>>());
@@ -723,7 +732,7 @@ fn wait_until(script: &mut Script, woken: &Receiver<()>, is: impl Fn(&Script) ->
 fn has_run(script: &Script) -> bool {
     script
         .editor
-        .trial()
+        .operation()
         .is_some_and(|trial| trial.run().is_some() && !trial.is_pending())
 }
 
@@ -737,15 +746,15 @@ fn a_late_result_is_taken_when_a_frame_begins() {
     let woken = run_in_background(&mut script);
     script
         .editor
-        .try_operation(operation("elevate-degree"))
+        .preview_operation(operation("elevate-degree"))
         .expect("begun");
-    assert!(script.editor.is_trying());
+    assert!(script.editor.previewed_operation().is_some());
     woken.recv_timeout(LONG).expect("the frame is woken");
     check_is(&script, &before);
     script.editor.begin_frame();
     assert!(has_run(&script));
     assert_eq!(script.polygon().degree(), 4);
-    script.editor.leave_trial();
+    script.editor.operating().leave();
     check_is(&script, &before);
 }
 
@@ -756,10 +765,13 @@ fn only_the_newest_values_count() {
     let woken = run_in_background(&mut script);
     script
         .editor
-        .try_operation(operation("extend"))
+        .preview_operation(operation("extend"))
         .expect("begun");
     for added in 2..=9 {
-        let set = script.editor.set_value("segments", Value::Whole(added));
+        let set = script
+            .editor
+            .operating()
+            .set_values(&[("segments", Value::Whole(added))]);
         set.expect("a number of segments");
     }
     // What answers the questions before is never shown from now on.
@@ -781,10 +793,10 @@ fn what_is_applied_before_it_is_known_is_applied_when_it_is() {
     let woken = run_in_background(&mut script);
     script
         .editor
-        .try_operation(operation("elevate-degree"))
+        .preview_operation(operation("elevate-degree"))
         .expect("begun");
     assert!(!has_run(&script), "it is not waited for");
-    assert_eq!(script.editor.apply_trial(), Ok(Note::silent()));
+    assert_eq!(script.editor.operating().apply(), Ok(Note::silent()));
     assert_eq!(script.steps(), 0);
     wait_until(&mut script, &woken, is_applied);
     assert_eq!(script.steps(), 1);
@@ -810,7 +822,9 @@ fn what_is_refused_late_is_told_and_changes_nothing() {
         .apply_operation(operation("correct-ends"), &given);
     let is_refused = |script: &Script| script.message().contains("not reached");
     wait_until(&mut script, &woken, is_refused);
-    assert!(at_once.is_ok_and(|note| note == Note::silent()) || script.editor.trial().is_none());
+    assert!(
+        at_once.is_ok_and(|note| note == Note::silent()) || script.editor.operation().is_none()
+    );
     check_is(&script, &before);
     assert_eq!(script.steps(), made);
     assert!(
@@ -824,7 +838,7 @@ fn what_is_refused_late_is_told_and_changes_nothing() {
 #[test]
 fn what_is_left_before_it_is_known_never_comes() {
     let leaves: [Done; 4] = [
-        ("cancel", |script| script.editor.leave_trial()),
+        ("cancel", |script| script.editor.operating().leave()),
         ("Esc", |script| script.editor.input(Input::Key(Key::Escape))),
         ("undo", |script| {
             script.editor.execute(Command::Undo).expect("undone");
@@ -839,16 +853,16 @@ fn what_is_left_before_it_is_known_never_comes() {
             let woken = run_in_background(&mut script);
             script
                 .editor
-                .try_operation(operation("elevate-degree"))
+                .preview_operation(operation("elevate-degree"))
                 .expect("begun");
             if applies {
-                assert_eq!(script.editor.apply_trial(), Ok(Note::silent()));
+                assert_eq!(script.editor.operating().apply(), Ok(Note::silent()));
             }
             leave(&mut script);
-            assert!(script.editor.trial().is_none(), "{name}");
+            assert!(script.editor.operation().is_none(), "{name}");
             woken.recv_timeout(LONG).expect("the frame is woken");
             script.editor.begin_frame();
-            assert!(script.editor.trial().is_none(), "{name}");
+            assert!(script.editor.operation().is_none(), "{name}");
             check_is(&script, &before);
             assert_eq!(script.steps(), 0, "{name}");
         }
@@ -859,11 +873,15 @@ fn what_is_left_before_it_is_known_never_comes() {
 fn a_value_that_fails_after_applying_keeps_the_applied_step() {
     let (mut script, before) = trying("trim");
     script.set("from", Value::Real(1.5)).expect("a place");
-    script.editor.apply_trial().expect("a step");
+    script.editor.operating().apply().expect("a step");
     let trimmed = script.editor.document().clone();
     // The part would end before it begins.
     script.set("to", Value::Real(0.5)).expect("a place");
-    let run = script.editor.trial().and_then(Trial::run).expect("a run");
+    let run = script
+        .editor
+        .operation()
+        .and_then(OperationInProgress::run)
+        .expect("a run");
     let error = run.as_ref().expect_err("no curve").to_string();
     assert_eq!(script.message(), error);
     check_is(&script, &trimmed);
@@ -891,7 +909,10 @@ fn a_value_that_is_worked_out_while_its_step_is_undone_changes_nothing() {
         .expect("asked for");
     wait_until(&mut script, &woken, is_applied);
     assert_eq!(script.steps(), 2);
-    let set = script.editor.set_value("digits", Value::Whole(0));
+    let set = script
+        .editor
+        .operating()
+        .set_values(&[("digits", Value::Whole(0))]);
     set.expect("a number of digits");
     script.editor.execute(Command::Undo).expect("undone");
     script.editor.execute(Command::Undo).expect("undone");
@@ -912,7 +933,10 @@ fn a_late_value_amends_the_step() {
         .expect("asked for");
     wait_until(&mut script, &woken, is_applied);
     let once = segments(&script);
-    let set = script.editor.set_value("segments", Value::Whole(4));
+    let set = script
+        .editor
+        .operating()
+        .set_values(&[("segments", Value::Whole(4))]);
     set.expect("a number of segments");
     wait_until(&mut script, &woken, |script| segments(script) == once + 3);
     assert!(is_applied(&script));
@@ -929,11 +953,11 @@ fn what_is_done_is_told_before_its_features_are_proved() {
     let woken = run_in_background(&mut script);
     script
         .editor
-        .try_operation(operation("round"))
+        .preview_operation(operation("round"))
         .expect("begun");
     wait_until(&mut script, &woken, has_run);
     assert_eq!(script.trial_report().features, None);
-    let note = script.editor.apply_trial().expect("a step");
+    let note = script.editor.operating().apply().expect("a step");
     assert!(!note.text.contains("extrema"), "{}", note.text);
     let is_proved = |script: &Script| script.trial_report().features.is_some();
     wait_until(&mut script, &woken, is_proved);

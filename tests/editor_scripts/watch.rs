@@ -1,7 +1,7 @@
 //! A second history beside the editor's, to the bit: every state that undo and redo lead to.
 
 use batten::document::{CurveId, Document};
-use batten::editor::{Command, ToolKind, Trial, told};
+use batten::editor::{Command, OperationInProgress, ToolKind, told};
 use batten::operations::Inputs;
 
 use super::laws::{check_document, check_protected, check_selection, check_view};
@@ -108,7 +108,7 @@ impl Watch {
     /// What does not hold, in words.
     pub fn check(&mut self, window: &Window, done: Done) -> Result<(), String> {
         // What is worked out later shows at the next event.
-        let joins = |trial: &Trial| trial.operation().inputs == Inputs::Two;
+        let joins = |trial: &OperationInProgress| trial.operation().inputs == Inputs::Two;
         let done = match done {
             Done::Other if window.trial().is_some_and(joins) => Done::Join,
             done => done,

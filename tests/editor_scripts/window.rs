@@ -6,8 +6,8 @@ use std::path::Path;
 use batten::analysis::LevelPlot;
 use batten::document::{Colour, Curve, CurveId, Document, Edit};
 use batten::editor::{
-    CombSettings, Command, Editor, EndFitAction, EndFitMarks, Export, Input, Look, PlotKind, Reply,
-    Selection, Shortcut, Transformation, Trial, Viewport, told,
+    CombSettings, Command, Editor, EndFitAction, EndFitMarks, Export, Input, Look,
+    OperationInProgress, PlotKind, Reply, Selection, Shortcut, Transformation, Viewport, told,
 };
 use batten::geometry::{FloatPolygon, PolygonKind};
 use batten::operations::{Kind, Operation, Parameter, Value, Values, find};
@@ -72,9 +72,9 @@ pub enum Panel {
     /// The operation's parameter with this number gets a value of any kind.
     SetAnyValue(usize, Value),
     /// The operation that is tried out is applied.
-    ApplyTrial,
+    Apply,
     /// The operation that is tried out is cancelled, or the panel of the last one closed.
-    LeaveTrial,
+    Leave,
     /// An operation is applied at once, its parameters read from numbers.
     Operate(&'static Operation, [f64; 3]),
     /// A row of the vertex table is clicked, or clicked with Shift.
@@ -191,18 +191,18 @@ impl Window {
     }
 
     /// The operation that is tried out or was applied last.
-    pub fn trial(&self) -> Option<&Trial> {
-        self.editor.trial()
+    pub fn trial(&self) -> Option<&OperationInProgress> {
+        self.editor.operation()
     }
 
     /// Whether an operation is tried out.
     pub fn is_trying(&self) -> bool {
-        self.editor.is_trying()
+        self.editor.previewed_operation().is_some()
     }
 
     /// The values of the operation that is tried out or was applied last.
     pub fn values(&self) -> Option<Values> {
-        Some(self.editor.trial()?.values().clone())
+        Some(self.editor.operation()?.values().clone())
     }
 
     /// Whether the pointer drags.
@@ -395,8 +395,8 @@ impl Window {
                     .for_each(|value| self.set(*parameter, value.clone()));
             }
             Panel::SetAnyValue(parameter, value) => self.set(*parameter, value.clone()),
-            Panel::ApplyTrial => told(self.editor.apply_trial()),
-            Panel::LeaveTrial => self.editor.leave_trial(),
+            Panel::Apply => told(self.editor.operating().apply()),
+            Panel::Leave => self.editor.operating().leave(),
             Panel::Operate(operation, numbers) => {
                 let given = operation.parameters.iter().zip(numbers);
                 let given = given.map(|(found, number)| (found.name, read(found, *number)));
@@ -498,7 +498,10 @@ impl Window {
     fn set(&mut self, parameter: usize, value: Value) {
         if let Some(parameter) = self.parameter(parameter) {
             // The panel shows why not; the player looks at what stays.
-            let _ = self.editor.set_value(parameter.name, value);
+            let _ = self
+                .editor
+                .operating()
+                .set_values(&[(parameter.name, value)]);
         }
     }
 }

@@ -25,12 +25,12 @@ fn figure_2() -> Window {
         type_over(&mut window, text);
         enter(&mut window);
     }
-    assert!(window.state().editor().is_trying());
+    assert!(window.state().editor().previewed_operation().is_some());
     window
 }
 
 fn real(window: &Window, name: &str) -> f64 {
-    let trial = window.state().editor().trial().expect("an operation");
+    let trial = window.state().editor().operation().expect("an operation");
     let mut parameters = trial.operation().parameters.iter();
     let parameter = parameters.find(|parameter| parameter.name == name);
     match trial.values().get(parameter.expect("a parameter")) {
@@ -73,7 +73,9 @@ fn the_panel_tells_the_proved_verdict_beside_the_atlas() {
     click(&mut window, "Both");
     window.get_by_label("Monotone: – before, yes, no after");
     // Both curvatures are plotted.
-    let made = window.state().editor().made_curves();
+    let editor = window.state().editor();
+    let operation = editor.operation().expect("an operation");
+    let made = operation.made_curves(editor.document());
     let view = window.state().editor().view();
     assert_eq!(view.plot(), Some(PlotKind::Curvature));
     assert_eq!(view.compared(), Some(made[1]));
@@ -139,14 +141,14 @@ fn escape_puts_the_point_of_the_atlas_back() {
     assert_ne!(curve(&window), shown);
     press(&mut window, Modifiers::NONE, Key::Escape);
     assert_eq!(curve(&window), shown);
-    assert!(window.state().editor().is_trying());
+    assert!(window.state().editor().previewed_operation().is_some());
     window.hover_at(within(rect, 0.2, 0.2));
     window.step();
     window.drop_at(within(rect, 0.2, 0.2));
     window.run();
     assert_eq!(curve(&window), shown);
     press(&mut window, Modifiers::NONE, Key::Escape);
-    assert!(!window.state().editor().is_trying());
+    assert!(!window.state().editor().previewed_operation().is_some());
     assert_eq!(window.state().editor().document().len(), 1);
 }
 
@@ -172,13 +174,13 @@ fn undo_in_a_drag_in_the_atlas_takes_back_the_drag_alone() {
     window.drop_at(within(rect, 0.2, 0.2));
     window.run();
     assert_eq!(curve(&window), shown);
-    assert!(window.state().editor().is_trying());
+    assert!(window.state().editor().previewed_operation().is_some());
     // A drag that comes to its end is one change.
     drag(&mut window, from, within(rect, 0.3, 0.4));
     assert_ne!(curve(&window), shown);
     press(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(curve(&window), shown);
-    assert!(window.state().editor().is_trying());
+    assert!(window.state().editor().previewed_operation().is_some());
 }
 
 #[test]
@@ -197,5 +199,5 @@ fn a_handle_on_the_canvas_changes_the_fields() {
         "{shown} {field}"
     );
     enter(&mut window);
-    assert!(!window.state().editor().is_trying());
+    assert!(!window.state().editor().previewed_operation().is_some());
 }

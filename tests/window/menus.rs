@@ -92,7 +92,7 @@ fn a_curve_has_its_operations_and_the_canvas_its_layers() {
     assert!(has(&window, "Operations"));
     click(&mut window, "Operations");
     click(&mut window, "Round coordinates…");
-    assert!(window.state().editor().is_trying());
+    assert!(window.state().editor().previewed_operation().is_some());
     press(&mut window, Modifiers::NONE, Key::Escape);
 
     let canvas = window.state().canvas_rect().expect("a canvas");
@@ -231,7 +231,7 @@ fn a_feature_has_a_menu_in_its_row() {
     assert!(scale(&window) > before);
     right_click(&mut window, row);
     pick(&mut window, "Split curve…");
-    assert!(window.state().editor().is_trying());
+    assert!(window.state().editor().previewed_operation().is_some());
 }
 
 #[test]

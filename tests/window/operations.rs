@@ -26,7 +26,7 @@ fn trying(name: &str) -> (Window, Curve) {
     let mut window = open_window_with(editor, 1480.0, 1300.0);
     let before = curve(&window);
     begin(&mut window, name);
-    assert!(window.state().editor().is_trying());
+    assert!(window.state().editor().previewed_operation().is_some());
     (window, before)
 }
 
@@ -40,7 +40,7 @@ fn steps(window: &Window) -> usize {
 }
 
 fn is_applied(window: &Window) -> bool {
-    let trial = window.state().editor().trial();
+    let trial = window.state().editor().operation();
     trial.is_some_and(|trial| trial.is_applied())
 }
 
@@ -66,7 +66,7 @@ fn the_panel_stands_where_the_inspector_is_and_leaves_the_canvas_free() {
     press(&mut window, Modifiers::NONE, Key::Plus);
     press(&mut window, Modifiers::NONE, Key::H);
     press(&mut window, Modifiers::NONE, Key::Num1);
-    assert!(window.state().editor().is_trying());
+    assert!(window.state().editor().previewed_operation().is_some());
     assert_eq!(curve(&window), shown);
     click(&mut window, "Cancel");
     assert_eq!(curve(&window), before);
@@ -98,13 +98,19 @@ fn enter_in_a_field_gives_the_value_and_enter_outside_applies() {
     let (mut window, before) = trying("Extend curve");
     let segments = before.polygon.segments();
     give(&mut window, "Segments", "3");
-    assert!(window.state().editor().is_trying(), "the field's Enter");
+    assert!(
+        window.state().editor().previewed_operation().is_some(),
+        "the field's Enter"
+    );
     assert_eq!(polygon(&window).segments(), segments + 3);
     assert_eq!(steps(&window), 0);
     click(&mut window, "Segments");
     type_over(&mut window, "9");
     press(&mut window, Modifiers::NONE, Key::Escape);
-    assert!(window.state().editor().is_trying(), "the field's Esc");
+    assert!(
+        window.state().editor().previewed_operation().is_some(),
+        "the field's Esc"
+    );
     assert_eq!(polygon(&window).segments(), segments + 3);
     enter(&mut window);
     assert!(is_applied(&window));
@@ -118,7 +124,7 @@ fn enter_in_a_field_gives_the_value_and_enter_outside_applies() {
 fn escape_cancels() {
     let (mut window, before) = trying("Round coordinates");
     press(&mut window, Modifiers::NONE, Key::Escape);
-    assert!(window.state().editor().trial().is_none());
+    assert!(window.state().editor().operation().is_none());
     assert_eq!(curve(&window), before);
     assert_eq!(steps(&window), 0);
     window.get_by_label("Name");
@@ -137,7 +143,7 @@ fn a_number_that_is_typed_counts_when_the_button_is_clicked() {
     click(&mut window, "Segments");
     type_over(&mut window, "3");
     click(&mut window, "Cancel");
-    assert!(window.state().editor().trial().is_none());
+    assert!(window.state().editor().operation().is_none());
     assert_eq!(curve(&window), before);
 }
 
@@ -186,7 +192,10 @@ fn a_number_out_of_range_is_refused_beside_its_field() {
     window.get_by_label_contains("Only numbers from 1 to");
     assert_eq!(curve(&window), shown);
     press(&mut window, Modifiers::NONE, Key::Escape);
-    assert!(window.state().editor().is_trying(), "the field's Esc");
+    assert!(
+        window.state().editor().previewed_operation().is_some(),
+        "the field's Esc"
+    );
     enter(&mut window);
     assert_eq!(curve(&window), shown);
     assert!(is_applied(&window));
@@ -200,7 +209,7 @@ fn values_that_make_no_curve_together_cannot_be_applied() {
     assert_eq!(curve(&window), before, "nothing is shown");
     enter(&mut window);
     click(&mut window, "Apply");
-    assert!(window.state().editor().is_trying());
+    assert!(window.state().editor().previewed_operation().is_some());
     assert_eq!(steps(&window), 0);
     give(&mut window, "From u", "0.5");
     enter(&mut window);
@@ -225,7 +234,7 @@ fn a_field_that_is_dragged_is_called_off_by_escape_and_the_panel_stays() {
     press(&mut window, Modifiers::NONE, Key::Escape);
     window.drop_at(field + vec2(60.0, 0.0));
     window.run();
-    assert!(window.state().editor().is_trying());
+    assert!(window.state().editor().previewed_operation().is_some());
     assert_eq!(curve(&window), shown);
     click(&mut window, "Cancel");
     assert_eq!(steps(&window), 0);
@@ -238,7 +247,7 @@ fn lists_of_numbers_are_typed_and_may_stay_empty() {
     give(&mut window, "Inflections", "0");
     window.get_by_label("Extrema asked for: 0");
     assert!(
-        window.state().editor().is_trying(),
+        window.state().editor().previewed_operation().is_some(),
         "Enter belongs to the field"
     );
     let harmonised = polygon(&window);
@@ -250,7 +259,7 @@ fn lists_of_numbers_are_typed_and_may_stay_empty() {
     click(&mut window, "Inflections");
     type_over(&mut window, "3");
     press(&mut window, Modifiers::NONE, Key::Escape);
-    assert!(window.state().editor().is_trying());
+    assert!(window.state().editor().previewed_operation().is_some());
     assert_eq!(polygon(&window), harmonised);
     click(&mut window, "Apply");
     assert_eq!(steps(&window), 1);
@@ -265,7 +274,7 @@ fn many_options_are_a_list_that_opens() {
     window.run();
     click(&mut window, "Slope");
     let editor = window.state().editor();
-    let trial = editor.trial().expect("it is tried out");
+    let trial = editor.operation().expect("it is tried out");
     let keep = trial.values().get(&trial.operation().parameters[0]);
     assert_eq!(*keep, batten::operations::Value::Choice(4));
 }
@@ -287,7 +296,10 @@ fn trying_in(width: f32, height: f32, name: &str, in_space: bool) -> Window {
     let editor = Editor::with_document(Document::from_curves([curve]));
     let mut window = open_window_with(editor, width, height);
     begin(&mut window, name);
-    assert!(window.state().editor().is_trying(), "{name}");
+    assert!(
+        window.state().editor().previewed_operation().is_some(),
+        "{name}"
+    );
     window
 }
 
@@ -354,7 +366,10 @@ fn a_list_counts_while_it_is_typed() {
     window.run();
     assert!((curved(&window) + 0.55).abs() < 1e-9, "{}", curved(&window));
     press(&mut window, Modifiers::NONE, Key::Escape);
-    assert!(window.state().editor().is_trying(), "the field's Esc");
+    assert!(
+        window.state().editor().previewed_operation().is_some(),
+        "the field's Esc"
+    );
     assert_eq!(polygon(&window), shown);
     give(&mut window, "Start curvature", "0.25");
     assert!((curved(&window) - 0.25).abs() < 1e-9, "{}", curved(&window));
@@ -364,7 +379,7 @@ fn a_list_counts_while_it_is_typed() {
 #[test]
 fn a_name_that_an_example_has_too_begins_the_operation() {
     let (window, _) = trying("Mineur");
-    let trial = window.state().editor().trial().expect("an operation");
+    let trial = window.state().editor().operation().expect("an operation");
     assert_eq!(trial.operation().name, "mineur-farin");
 }
 

@@ -180,7 +180,7 @@ fn nothing_moves_while_a_number_of_an_operation_is_dragged() {
         });
         assert!(told.iter().all(|told| !told.is_empty()));
     }
-    assert!(window.state().editor().is_trying());
+    assert!(window.state().editor().previewed_operation().is_some());
 }
 
 #[test]

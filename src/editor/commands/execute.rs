@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::document::{Colour, Curve, CurveId, Edit, Reference, quoted};
 use crate::editor::commands::command::Command;
 use crate::editor::commands::polygon_edits::periodicity;
+use crate::editor::operating::OperationInProgress;
 use crate::editor::reply::{Note, Reply};
 use crate::editor::selection::VertexId;
 use crate::editor::view::Look;
@@ -89,7 +90,10 @@ impl Editor {
             Command::Follow(follow) => Some(self.hand.following.follow == Some(follow)),
             Command::ToggleKeeping => Some(self.hand.keeps),
             Command::Tool(tool) => Some(self.hand.tool() == tool),
-            Command::Operation(operation) => Some(self.is_tried(operation)),
+            Command::Operation(operation) => {
+                let previewed = self.previewed_operation();
+                Some(previewed.is_some_and(|it| it.operation() == operation))
+            }
             Command::View(view) => Some(self.view.viewport.orientation == view.orientation()),
             Command::SetUnit(unit) => Some(self.document().unit() == unit),
             Command::TogglePeriodic => Some(curve.is_some_and(|c| c.polygon.is_periodic())),
@@ -152,7 +156,8 @@ impl Editor {
 
     /// What undo would take back: a point of what the tool has not finished comes first.
     fn undo_label(&self) -> Option<&str> {
-        if self.has_changed_values() {
+        let operation = self.operation();
+        if operation.is_some_and(OperationInProgress::has_changed_values) {
             return Some("Change of values");
         }
         let point = self.hand.tools.used().undo_label();
@@ -163,13 +168,13 @@ impl Editor {
     fn undo(&mut self) -> Note {
         let in_field = self.workspace.interruption() == Some(Interruption::Commits);
         let steps = self.workspace.history().undo_steps();
-        if self.undo_values() {
+        if self.operating().undo_values() {
             return Note::silent();
         }
-        let tried = self.trial().filter(|trial| !trial.is_applied());
-        let tried = tried.map(|trial| format!("{}: cancelled", trial.operation().label));
+        let previewed = self.previewed_operation();
+        let cancelled = previewed.map(|it| format!("{}: cancelled", it.operation().label));
         if self.interrupt() {
-            return tried.map_or_else(Note::silent, Note::told);
+            return cancelled.map_or_else(Note::silent, Note::told);
         }
         // What a field shows is taken back, and no step before it.
         if in_field && self.workspace.history().undo_steps() == steps {
@@ -235,7 +240,7 @@ impl Editor {
             Command::SelectAll => self.select_all()?,
             Command::SelectNone => self.hand.selection.clear(),
             Command::Tool(tool) => self.use_tool(tool),
-            Command::Operation(operation) => return self.try_operation(operation),
+            Command::Operation(operation) => return self.preview_operation(operation),
             Command::AddReference(kind) => return self.add_reference(kind),
             Command::AddFormula => return self.add_formula(),
             Command::SetUnit(unit) => return self.set_unit(unit),

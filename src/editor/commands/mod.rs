@@ -6,6 +6,7 @@ mod deleting;
 mod execute;
 mod foreseen;
 mod locking;
+mod operating;
 pub(in crate::editor) mod polygon_edits;
 mod references;
 mod units;

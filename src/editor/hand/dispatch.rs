@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use glam::DVec2;
+
 use crate::analysis::AnalysisCache;
 use crate::document::{Curve, CurveId, Document, Edit};
 use crate::editor::Editor;
@@ -9,9 +11,10 @@ use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::{Input, Key};
 use crate::editor::hand::keeping::Keeping;
 use crate::editor::hand::tools::{Context, Cursor, Effect, ToolKind};
+use crate::editor::operating::OperationInProgress;
 use crate::editor::reply::{Message, Note, Refusal, told};
-use crate::editor::view::Look;
 use crate::editor::view::layers::Layers;
+use crate::editor::view::{Look, REACH};
 use crate::editor::workspace::Interruption;
 use crate::geometry::features::SegmentFeatures;
 
@@ -35,13 +38,17 @@ impl Editor {
             self.hand.keeping_held = held;
         }
         let field = self.workspace.interruption() == Some(Interruption::Commits);
+        let (operation, previewed) = (self.operation(), self.previewed_operation());
+        let holds = operation.is_some_and(OperationInProgress::holds_values);
+        let drags_handle = operation.is_some_and(OperationInProgress::drags_handle);
+        let previews = previewed.is_some();
         match input {
             Input::Key(Key::Escape) if field => return self.abort_preview(),
-            Input::Key(Key::Escape) if self.holds_values() && !self.drags_handle() => {
-                return self.restore_values();
+            Input::Key(Key::Escape) if holds && !drags_handle => {
+                return self.operating().restore_values();
             }
-            Input::Key(Key::Escape) if self.is_trying() && !self.drags_handle() => {
-                return self.leave_trial();
+            Input::Key(Key::Escape) if previews && !drags_handle => {
+                return self.operating().leave();
             }
             Input::Key(Key::Escape)
                 if self.hand.tool() == ToolKind::Select
@@ -57,7 +64,7 @@ impl Editor {
             {
                 return self.leave_recoverable();
             }
-            Input::Key(Key::Enter) if self.is_trying() => return told(self.apply_trial()),
+            Input::Key(Key::Enter) if previews => return told(self.operating().apply()),
             _ => {}
         }
         if let Input::Moved { at } = input
@@ -99,17 +106,18 @@ impl Editor {
         if self.hand.gestures.is_orbiting() {
             return "Drag to orbit; F3, F4, F5 look along the axes".into();
         }
-        if self.drags_handle() {
+        let previewed = self.previewed_operation();
+        if previewed.is_some_and(OperationInProgress::drags_handle) {
             return "Drag; Shift constrains, Esc puts the handle back".into();
         }
         if self.is_over_handle() {
             return "Drag the handle to change the values in the panel".into();
         }
-        if self.offers_handles() {
+        if previewed.is_some_and(OperationInProgress::offers_handles) {
             return "Drag a handle, or change the values in the panel; Enter applies, Esc cancels"
                 .into();
         }
-        if self.is_trying() && !self.hand.is_dragging() {
+        if previewed.is_some() && !self.hand.is_dragging() {
             return "Change the values in the panel; Enter applies, Esc cancels".into();
         }
         let hint = self.hand.tools.used().hint(&self.context());
@@ -173,10 +181,12 @@ impl Editor {
         if self.hand.gestures.is_orbiting() {
             return Cursor::Grabbing;
         }
-        if self.drags_handle() || self.is_over_handle() {
+        let previewed = self.previewed_operation();
+        let drags_handle = previewed.is_some_and(OperationInProgress::drags_handle);
+        if drags_handle || self.is_over_handle() {
             return Cursor::Move;
         }
-        if self.offers_handles() {
+        if previewed.is_some_and(OperationInProgress::offers_handles) {
             return Cursor::Default;
         }
         self.hand.tools.used().cursor(&self.context())
@@ -185,7 +195,8 @@ impl Editor {
     /// Hand a gesture to the tool and do what it wants. What a key that `repeats` does belongs to
     /// the step that it began.
     pub(in crate::editor) fn deliver(&mut self, gesture: Gesture, repeats: bool) {
-        if self.is_trying() && self.drag_handle(gesture) {
+        let previews = self.previewed_operation().is_some();
+        if previews && self.drag_handle(gesture) {
             return;
         }
         if let Gesture::SecondaryClick(at) = gesture
@@ -193,7 +204,8 @@ impl Editor {
         {
             return self.ask_for_menu_at(at);
         }
-        if self.offers_handles() {
+        let previewed = self.previewed_operation();
+        if previewed.is_some_and(OperationInProgress::offers_handles) {
             return self.leave_beside_handles(gesture);
         }
         self.view.analyse(self.workspace.document());
@@ -203,9 +215,9 @@ impl Editor {
             .used_mut()
             .gesture(gesture, &self.context_with(layers));
         let begins = |effect: &Effect| matches!(effect, Effect::Begin(_));
-        if self.is_trying() && effects.iter().any(begins) {
+        if previews && effects.iter().any(begins) {
             // What was pressed is of the document that an operation shows, which goes now.
-            self.interrupt_trial();
+            self.operating().interrupt();
             self.view.analyse(self.workspace.document());
             tools.choose(tools.kind());
             effects = tools
@@ -216,6 +228,68 @@ impl Editor {
         self.take_effects(effects, repeats);
     }
 
+    /// Take a gesture that is meant for a handle of the previewed operation. Returns whether it is.
+    fn drag_handle(&mut self, gesture: Gesture) -> bool {
+        match gesture {
+            Gesture::DragStart(at) => self.operating().begin_handle_drag(at),
+            Gesture::Click(at) | Gesture::DoubleClick(at) => {
+                let previewed = self.previewed_operation();
+                previewed.is_some_and(|it| it.handle_at(&self.view.viewport, at).is_some())
+            }
+            Gesture::Drag(at) => {
+                let previewed = self.previewed_operation();
+                let given = previewed.and_then(|it| it.dragged_values(at, &self.context()));
+                self.operating().go_on_with_handle(given)
+            }
+            Gesture::DragEnd(_) => {
+                let drags = self.operating().end_handle_drag();
+                if drags {
+                    self.operating().keep_values();
+                }
+                drags
+            }
+            Gesture::Cancel => {
+                let drags = self.operating().end_handle_drag();
+                if drags {
+                    self.operating().restore_values();
+                }
+                drags
+            }
+            _ => false,
+        }
+    }
+
+    /// Leave a gesture beside the handles without effect on the operation that offers them; a double
+    /// click on nothing still shows everything.
+    fn leave_beside_handles(&mut self, gesture: Gesture) {
+        let is_over_curve = |at: DVec2| {
+            let hits = self.context().hits;
+            hits.vertex(at).is_some()
+                || hits.curve(at).is_some()
+                || hits.leg(at, 0.5 * REACH).is_some()
+        };
+        match gesture {
+            Gesture::DoubleClick(at) if !is_over_curve(at) => self.look(Look::All),
+            Gesture::DragStart(at) if is_over_curve(at) => {
+                let previewed = self.previewed_operation();
+                let label = previewed.map_or("", |it| it.operation().label);
+                let first = format!("Apply or cancel {label} before you edit curves on the canvas");
+                self.message = Message::of(&Err(Refusal(first)));
+            }
+            _ => {}
+        }
+    }
+
+    /// Whether the pointer rests on a handle.
+    fn is_over_handle(&self) -> bool {
+        let at = self.hand.gestures.pointer();
+        let handle = |at| {
+            self.previewed_operation()?
+                .handle_at(&self.view.viewport, at)
+        };
+        at.and_then(handle).is_some()
+    }
+
     /// Do what a tool wants.
     pub(in crate::editor) fn take_effects(&mut self, effects: Vec<Effect>, repeats: bool) {
         let mut step = Step::None;
@@ -223,7 +297,7 @@ impl Editor {
             self.take_effect(effect, repeats, &mut step);
         }
         self.document_changed();
-        self.leave_stale_trial();
+        self.operating().leave_stale();
     }
 
     pub(in crate::editor) fn context(&self) -> Context<'_> {

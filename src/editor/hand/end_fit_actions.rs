@@ -4,12 +4,12 @@ use crate::document::{Curve, CurveId, Edit, EndMatch, quoted};
 use crate::editor::Editor;
 use crate::editor::hand::end_fit::{EndFitAction, EndFitReport, LastAction};
 use crate::editor::hand::tools::ToolKind;
+use crate::editor::operating::{EndFitStep, OperationInProgress};
 use crate::editor::reply::{Note, Refusal, Reply};
-use crate::editor::trial::Trial;
 use crate::editor::view::layers::Layer;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{Continuity, End};
-use crate::operations::{Operation, Report, Value, correct_ends, rotate_end, translate_end};
+use crate::operations::{Operation, Value, correct_ends, rotate_end, translate_end};
 
 impl Editor {
     /// Collect the figures of the seven steps, if the end-fit tool is used and the active curve
@@ -53,50 +53,30 @@ impl Editor {
             ))));
         }
         let revision = self.workspace.revision();
-        let (reply, passes) = match self.correction(action, &curve) {
+        let mut step = EndFitStep { action, passes: 0 };
+        let reply = match self.correction(action, &curve) {
             Some((operation, values)) => {
-                let passes = self.last_end_fit_action().map_or(0, |last| last.passes);
-                (self.operate(operation, &values), passes)
+                step.passes = self.last_end_fit_action().map_or(0, |last| last.passes);
+                self.operate(operation, &values, Some(step))
             }
-            None => (self.set_up(action, id, &curve), 0),
+            None => self.set_up(action, id, &curve),
         };
-        if self.is_trying() {
-            self.hand.tools.end_fit.awaited = Some((action, passes));
-        } else if reply.is_err() || self.workspace.revision() != revision {
-            // What is only looked at otherwise leaves what was told before.
-            self.keep_end_fit_action(action, passes, &reply);
+        let is_pending = self.previewed_operation().is_some();
+        // What is only looked at leaves the last action.
+        if !is_pending && (reply.is_err() || self.workspace.revision() != revision) {
+            self.keep_end_fit_action(step, &reply);
         }
         reply
     }
 
-    /// Keep what an action came to, for the panel; so many passes were made before it.
-    pub(in crate::editor) fn keep_end_fit_action(
-        &mut self,
-        action: EndFitAction,
-        passes: usize,
-        reply: &Reply,
-    ) {
-        let Some((curve, found)) = self.active_curve() else {
-            return;
-        };
-        let report = self.trial().and_then(Trial::report);
-        let report = report.filter(|_| reply.is_ok());
-        let made = report.map_or(0, |report| passes_of(action, &found, report));
-        let joint = action == EndFitAction::BothAtOnce;
-        // The figures of the steps say what these two came to.
-        let silent = matches!(action, EndFitAction::Translate | EndFitAction::Rotate);
-        let reply = match reply {
-            Ok(_) if silent => Ok(Note::silent()),
-            reply => reply.clone(),
-        };
-        let largest_move = report.and_then(|report| report.largest_move);
-        self.hand.tools.end_fit.last = Some(LastAction {
-            curve,
-            revision: self.workspace.revision(),
-            passes: passes + made,
-            largest_move: largest_move.filter(|_| joint),
-            reply,
-        });
+    /// Keep an action with its reply, for the panel.
+    pub(in crate::editor) fn keep_end_fit_action(&mut self, step: EndFitStep, reply: &Reply) {
+        if let Some((id, curve)) = self.active_curve() {
+            let report = self.operation().and_then(OperationInProgress::report);
+            let revision = self.workspace.revision();
+            let last = step.last_action((id, &curve), revision, reply, report);
+            self.hand.tools.end_fit.last = Some(last);
+        }
     }
 
     /// Do what corrects nothing: choose what is worked on, or set the target.
@@ -270,20 +250,3 @@ impl EndFitAction {
 
 /// An operation and values of its parameters.
 type Correction = (&'static Operation, Vec<(&'static str, Value)>);
-
-/// How many passes of steps 2 to 6 an action made.
-fn passes_of(action: EndFitAction, curve: &Curve, report: &Report) -> usize {
-    match action {
-        // Without a direction there is no step 6: this was a whole pass.
-        EndFitAction::Translate => {
-            let targets = curve.targets.list();
-            usize::from(targets.iter().all(|(_, target)| target.direction.is_none()))
-        }
-        EndFitAction::Rotate => 1,
-        EndFitAction::Repeat => match report.figure("passes") {
-            Some(Value::Whole(passes)) => passes,
-            _ => 0,
-        },
-        _ => 0,
-    }
-}

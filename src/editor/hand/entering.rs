@@ -99,8 +99,8 @@ impl Editor {
     }
 
     fn enter_point(&mut self, typed: TypedPoint) -> Result<(), EntryError> {
-        if self.is_trying() {
-            self.interrupt_trial();
+        if self.previewed_operation().is_some() {
+            self.operating().interrupt();
         }
         self.view.analyse(self.workspace.document());
         let mut tools = std::mem::take(&mut self.hand.tools);
@@ -172,7 +172,10 @@ impl Editor {
 
     /// The polygon that there would be if the vertex was set now that is drawn.
     pub(in crate::editor) fn proposal(&self) -> Option<FloatPolygon> {
-        if self.is_trying() || self.hand.gestures.is_panning() || self.hand.gestures.is_orbiting() {
+        if self.previewed_operation().is_some()
+            || self.hand.gestures.is_panning()
+            || self.hand.gestures.is_orbiting()
+        {
             return None;
         }
         self.hand.tools.drawing()?.proposal(&self.context())

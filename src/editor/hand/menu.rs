@@ -15,7 +15,7 @@ const LEG_REACH: f64 = 0.5 * REACH;
 impl Editor {
     /// Ask for a menu about what lies at a place on the canvas. What is not selected is selected first.
     pub(in crate::editor) fn ask_for_menu_at(&mut self, at: DVec2) {
-        if self.is_trying() {
+        if self.previewed_operation().is_some() {
             return;
         }
         self.view.analyse(self.workspace.document());
@@ -37,7 +37,7 @@ impl Editor {
 
     /// Ask for a menu about what is selected, beside it: the menu key.
     pub fn ask_for_menu_of_selection(&mut self) {
-        if self.is_trying() {
+        if self.previewed_operation().is_some() {
             return;
         }
         let viewport = self.view.viewport;
@@ -114,7 +114,7 @@ impl Editor {
             selection.activate(*curve);
         }
         self.document_changed();
-        self.leave_stale_trial();
+        self.operating().leave_stale();
     }
 
     /// The end of an open curve that is seen at a place; the nearest of several.

@@ -11,8 +11,6 @@ pub(in crate::editor) mod following;
 pub(in crate::editor) mod gesture;
 #[allow(clippy::module_inception)]
 mod hand;
-pub(in crate::editor) mod handle_drag;
-mod handles;
 pub(in crate::editor) mod input;
 mod keeping;
 mod kept_curves;

@@ -8,9 +8,7 @@ use super::end_fit_drags::{
 use super::end_fit_subject::{Handle, Subject};
 use super::tool::{Context, Cursor, Effect, Tool, followers_label, named_snap};
 use crate::document::{Edit, EndMatch, MatchPlace};
-use crate::editor::hand::end_fit::{
-    EndFitAction, EndFitSettings, LastAction, nearest_other_end, other_ends,
-};
+use crate::editor::hand::end_fit::{EndFitSettings, LastAction, nearest_other_end, other_ends};
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
 use crate::editor::hand::snapping::by_fifteen_degrees;
@@ -25,8 +23,6 @@ pub struct EndFitTool {
     pub settings: EndFitSettings,
     /// What the last action of its panel came to.
     pub last: Option<LastAction>,
-    /// The correction that is still worked out, and the passes that were made before it.
-    pub awaited: Option<(EndFitAction, usize)>,
     state: State,
 }
 

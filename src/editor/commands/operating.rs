@@ -1,0 +1,128 @@
+//! Starting operations: their inputs, and what they interrupt.
+
+use crate::document::CurveId;
+use crate::editor::Editor;
+use crate::editor::operating::{EndFitStep, Operating, OperationInProgress};
+use crate::editor::reply::{Note, Reply};
+use crate::operations::{Input, Inputs, Operation, OperationError, Value};
+
+impl Editor {
+    /// The operation that is previewed or was applied last, unless something else was done since.
+    pub fn operation(&self) -> Option<&OperationInProgress> {
+        self.operations.current(&self.workspace, self.active())
+    }
+
+    /// The operation that is previewed.
+    pub fn previewed_operation(&self) -> Option<&OperationInProgress> {
+        self.operation().filter(|it| !it.is_applied())
+    }
+
+    /// The share of the operation's work that is done, from 0 to 1, while it runs beside the frame.
+    pub fn operation_progress(&self) -> Option<f64> {
+        self.operations.progress()
+    }
+
+    /// Change the operation in progress: its values, its preview, its end.
+    pub fn operating(&mut self) -> Operating<'_> {
+        Operating {
+            operations: &mut self.operations,
+            workspace: &mut self.workspace,
+            hand: &mut self.hand,
+            view: &mut self.view,
+            patience: &mut self.patience,
+            message: &mut self.message,
+        }
+    }
+
+    /// Check whether an operation can start now.
+    ///
+    /// # Errors
+    /// [`OperationError`] says why it cannot.
+    pub fn check_operation(&self, operation: &'static Operation) -> Result<(), OperationError> {
+        operation.check(&self.input_of(operation)?)
+    }
+
+    /// Preview an operation; one without parameters is applied at once. The reply is told.
+    ///
+    /// # Errors
+    /// [`Refusal`](crate::editor::Refusal) if it cannot run on its input.
+    pub fn preview_operation(&mut self, operation: &'static Operation) -> Reply {
+        if operation.parameters.is_empty() {
+            return self.apply_operation(operation, &[]);
+        }
+        self.message = None;
+        self.interrupt();
+        let input = self.input_of(operation);
+        let begun = self.operating().preview(operation, input);
+        self.tell(begun.map(|()| Note::silent()))
+    }
+
+    /// Apply an operation with some values; the others have their defaults. The reply is told.
+    ///
+    /// # Errors
+    /// [`Refusal`](crate::editor::Refusal) if it cannot run or does not reach its aim; nothing is changed
+    /// then.
+    pub fn apply_operation(
+        &mut self,
+        operation: &'static Operation,
+        given: &[(&str, Value)],
+    ) -> Reply {
+        self.message = None;
+        let reply = self.operate(operation, given, None);
+        self.tell(reply)
+    }
+
+    /// Apply an operation with some values, for an action of the end-fit panel if it is one.
+    pub(in crate::editor) fn operate(
+        &mut self,
+        operation: &'static Operation,
+        given: &[(&str, Value)],
+        end_fit: Option<EndFitStep>,
+    ) -> Reply {
+        self.interrupt();
+        let input = self.input_of(operation);
+        let mut operating = self.operating();
+        operating.apply_at_once(operation, input, given, end_fit)
+    }
+
+    /// The input of an operation: the active curve or reference, and the selected curves.
+    pub(in crate::editor) fn input_of(
+        &self,
+        operation: &Operation,
+    ) -> Result<Input, OperationError> {
+        let selection = &self.hand.selection;
+        let active = selection.active();
+        let active = active.filter(|id| self.document().curve(*id).is_some());
+        let curves: Vec<CurveId> = match operation.inputs {
+            Inputs::None | Inputs::Points => Vec::new(),
+            Inputs::One | Inputs::OneOrNone => active.into_iter().collect(),
+            // The active curve comes first.
+            Inputs::Two | Inputs::UpToTwo => {
+                let others = self.document().ids().filter(|id| Some(*id) != active);
+                let others: Vec<CurveId> = others.collect();
+                let is_selected = |id: &&CurveId| selection.of_curve(**id).next().is_some();
+                let selected: Vec<CurveId> = others.iter().filter(is_selected).copied().collect();
+                // Where two are needed and there are two, there is no choice.
+                let needed = operation.inputs == Inputs::Two;
+                let chosen = if needed && selected.is_empty() && others.len() == 1 {
+                    others
+                } else {
+                    selected
+                };
+                active.into_iter().chain(chosen).collect()
+            }
+        };
+        let settled = self.workspace.settled();
+        let reference = selection.active().and_then(|id| settled.reference(id));
+        let reference = reference.map(|reference| reference.curve.clone());
+        let input = Input::new(settled, curves)?.with_reference(reference);
+        let analysis = selection
+            .active()
+            .and_then(|id| self.view.analyses.reference(id));
+        let points = analysis.map_or(&[][..], |analysis| analysis.points().vertices());
+        Ok(match operation.inputs {
+            Inputs::Points if !points.is_empty() => input.with_points(points.to_vec()),
+            _ => input,
+        })
+    }
+}

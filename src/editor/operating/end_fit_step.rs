@@ -1,0 +1,62 @@
+//! What the result of an operation means to the end-fit tool, whose panel started it.
+
+use crate::document::{Curve, CurveId};
+use crate::editor::hand::end_fit::{EndFitAction, LastAction};
+use crate::editor::reply::{Note, Reply};
+use crate::operations::{Report, Value};
+
+/// An action of the end-fit panel.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::editor) struct EndFitStep {
+    /// The action.
+    pub action: EndFitAction,
+    /// The passes made before it, since the targets last changed.
+    pub passes: usize,
+}
+
+impl EndFitStep {
+    /// What the panel shows of the action, given the corrected curve, the revision of the document,
+    /// the reply, and the report of an operation that was applied.
+    pub fn last_action(
+        self,
+        (id, curve): (CurveId, &Curve),
+        revision: u64,
+        reply: &Reply,
+        report: Option<&Report>,
+    ) -> LastAction {
+        let report = report.filter(|_| reply.is_ok());
+        let made = report.map_or(0, |report| self.passes_of(curve, report));
+        let is_joint = self.action == EndFitAction::BothAtOnce;
+        // The figures of the steps show the result of these two.
+        let is_silent = matches!(self.action, EndFitAction::Translate | EndFitAction::Rotate);
+        LastAction {
+            curve: id,
+            revision,
+            passes: self.passes + made,
+            largest_move: report
+                .filter(|_| is_joint)
+                .and_then(|report| report.largest_move),
+            reply: match reply {
+                Ok(_) if is_silent => Ok(Note::silent()),
+                reply => reply.clone(),
+            },
+        }
+    }
+
+    /// The passes of steps 2 to 6 that the action made.
+    fn passes_of(self, curve: &Curve, report: &Report) -> usize {
+        match self.action {
+            // Without a direction there is no step 6: this was a whole pass.
+            EndFitAction::Translate => {
+                let targets = curve.targets.list();
+                usize::from(targets.iter().all(|(_, target)| target.direction.is_none()))
+            }
+            EndFitAction::Rotate => 1,
+            EndFitAction::Repeat => match report.figure("passes") {
+                Some(Value::Whole(passes)) => passes,
+                _ => 0,
+            },
+            _ => 0,
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! Handles of a previewed operation on the canvas: a drag sets the parameters.
+
+use glam::{DVec2, DVec3};
+
+use super::{Operating, OperationInProgress};
+use crate::editor::hand::snapping::Carried;
+use crate::editor::hand::tools::Context;
+use crate::editor::reply::{Message, Refusal};
+use crate::editor::view::scene::{HoverScene, Mark};
+use crate::editor::view::{REACH, Viewport};
+use crate::geometry::figure;
+use crate::operations::{Handle, Parameter, Unit, Value};
+
+/// Shift turns angles by multiples of this, in degrees.
+const ANGLE_STEP: f64 = 15.0;
+
+/// A handle that is dragged.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::editor) struct HandleDrag {
+    /// The handle when it was pressed.
+    handle: Handle,
+    /// Whether the handle stays in the plane z = 0.
+    planar: bool,
+    /// The pressed place in the view plane.
+    from: DVec2,
+}
+
+impl Operating<'_> {
+    /// Begin to drag the handle at a place on the canvas. Returns whether there is one.
+    pub(in crate::editor) fn begin_handle_drag(&mut self, at: DVec2) -> bool {
+        let viewport = &self.view.viewport;
+        let from = viewport.to_model(at);
+        let drag = self.current().and_then(|current| {
+            let handle = *current.handle_at(viewport, at)?;
+            let planar = current.handles().iter().all(|handle| handle.at.z == 0.0);
+            Some(HandleDrag {
+                handle,
+                planar,
+                from,
+            })
+        });
+        if drag.is_some() {
+            self.hold_values();
+            if let Some(current) = self.operation_mut() {
+                current.dragged = drag;
+            }
+        }
+        drag.is_some()
+    }
+
+    /// Set the values that the dragged handle has reached. Returns whether one is dragged.
+    pub(in crate::editor) fn go_on_with_handle(
+        &mut self,
+        given: Option<Vec<(&'static str, Value)>>,
+    ) -> bool {
+        let Some(given) = given else {
+            return false;
+        };
+        if let Err(error) = self.set_values(&given) {
+            Message::tell_update(self.message, Some(Refusal(error.to_string())));
+        }
+        true
+    }
+
+    /// End the drag of a handle. Returns whether there was one.
+    pub(in crate::editor) fn end_handle_drag(&mut self) -> bool {
+        let current = self.operation_mut();
+        current.is_some_and(|current| current.dragged.take().is_some())
+    }
+}
+
+impl OperationInProgress {
+    /// Whether a handle is dragged.
+    pub fn drags_handle(&self) -> bool {
+        self.dragged_handle().is_some()
+    }
+
+    /// Whether there are handles: then the canvas belongs to them.
+    pub(in crate::editor) fn offers_handles(&self) -> bool {
+        !self.handles().is_empty()
+    }
+
+    /// The handle at a place on the canvas; of equally near ones the last.
+    pub(in crate::editor) fn handle_at(
+        &self,
+        viewport: &Viewport,
+        place: DVec2,
+    ) -> Option<&Handle> {
+        let distance = |handle: &Handle| {
+            let at = viewport.to_screen(viewport.flatten(handle.at));
+            at.distance(place)
+        };
+        let near = self.handles().iter();
+        near.filter(|handle| distance(handle) <= REACH)
+            .rev()
+            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+
+    /// The handles as the canvas shows them; the dragged one or the one under the pointer is marked.
+    pub(in crate::editor) fn handle_marks(
+        &self,
+        viewport: &Viewport,
+        pointer: Option<DVec2>,
+    ) -> Vec<Mark> {
+        let marked = self.handle_of(viewport, pointer);
+        let marked = marked.map(|handle| handle.label);
+        let marks = self.handles().iter().map(|handle| Mark::Handle {
+            at: viewport.flatten(handle.at),
+            marked: marked == Some(handle.label),
+        });
+        marks.collect()
+    }
+
+    /// The parameters and values of the handle that is dragged or under the pointer.
+    pub(in crate::editor) fn handle_hover(
+        &self,
+        viewport: &Viewport,
+        pointer: Option<DVec2>,
+    ) -> Option<HoverScene> {
+        let handle = self.handle_of(viewport, pointer)?;
+        let set = handle.values(handle.at);
+        let lines = set.iter().filter_map(|(name, value)| {
+            let mut parameters = self.operation.parameters.iter();
+            let parameter = parameters.find(|parameter| parameter.name == *name)?;
+            Some(told(parameter, value))
+        });
+        Some(HoverScene::Handle {
+            at: viewport.flatten(handle.at),
+            text: lines.collect::<Vec<_>>().join("\n"),
+        })
+    }
+
+    /// The values that a drag of the handle to a place on the canvas sets. Shift keeps to an axis of the
+    /// view, and to multiples of 15°. `None` if none is dragged.
+    pub(in crate::editor) fn dragged_values(
+        &self,
+        at: DVec2,
+        context: &Context<'_>,
+    ) -> Option<Vec<(&'static str, Value)>> {
+        let drag = self.dragged_handle()?;
+        let shift = context.modifiers.shift;
+        let is_angle = |name: &str| {
+            let mut parameters = self.operation.parameters.iter();
+            parameters.any(|parameter| parameter.name == name && parameter.unit() == Unit::Angle)
+        };
+        let mut values = drag.handle.values(drag.handle.at);
+        let turns = values.iter().any(|(name, _)| is_angle(name));
+        let mut by = context.viewport.to_model(at) - drag.from;
+        if shift && !turns {
+            by = if by.x.abs() >= by.y.abs() {
+                by.with_y(0.0)
+            } else {
+                by.with_x(0.0)
+            };
+        }
+        let moved = drag.handle.at + context.movement(by, drag.planar);
+        let seen = context.viewport.flatten(moved);
+        let snapped = context.snapped_point(seen, &Carried::default());
+        let point: DVec3 = snapped.filter(|_| !shift).unwrap_or(moved);
+        values = drag.handle.values(point);
+        for (name, value) in &mut values {
+            if let Value::Real(angle) = value
+                && shift
+                && is_angle(name)
+            {
+                let steps = (angle.to_degrees() / ANGLE_STEP).round();
+                *angle = (steps * ANGLE_STEP).to_radians();
+            }
+        }
+        Some(values)
+    }
+
+    /// The handle that is dragged, where it is now, or the one under the pointer.
+    fn handle_of(&self, viewport: &Viewport, pointer: Option<DVec2>) -> Option<&Handle> {
+        match self.dragged_handle() {
+            Some(drag) => {
+                let label = drag.handle.label;
+                self.handles().iter().find(|handle| handle.label == label)
+            }
+            None => self.handle_at(viewport, pointer?),
+        }
+    }
+
+    fn handles(&self) -> &[Handle] {
+        match self.is_applied() {
+            true => &[],
+            false => &self.handles,
+        }
+    }
+
+    fn dragged_handle(&self) -> Option<&HandleDrag> {
+        self.dragged.as_ref().filter(|_| !self.is_applied())
+    }
+}
+
+/// The label of a parameter with its value.
+fn told(parameter: &Parameter, value: &Value) -> String {
+    let unit = parameter.unit();
+    let number = |number: &f64| figure(unit.shown(*number));
+    let text = match value {
+        Value::Real(angle) if unit == Unit::Angle => format!("{}°", number(angle)),
+        Value::Real(length) => number(length),
+        Value::List(numbers) => numbers.iter().map(number).collect::<Vec<_>>().join(", "),
+        other => parameter.text(other),
+    };
+    format!("{} {text}", parameter.label)
+}

@@ -1,0 +1,537 @@
+//! The course of an operation: preview, apply, change its values, leave it.
+
+use crate::document::{CurveId, Document};
+use crate::editor::hand::Hand;
+use crate::editor::jobs::Client;
+use crate::editor::jobs::patience::Patience;
+use crate::editor::reply::{Message, Note, Refusal, Reply};
+use crate::editor::selection::Selection;
+use crate::editor::view::{Look, View};
+use crate::editor::workspace::{Interruption, Workspace};
+use crate::geometry::Progress;
+use crate::operations::{
+    FeatureComparison, Input, Inputs, Operation, OperationError, Value, Values,
+};
+
+use super::end_fit_step::EndFitStep;
+use super::in_progress::{OperationInProgress, Run, Stage};
+
+/// Hold the operation in progress and run it beside the frame.
+#[derive(Debug, Default)]
+pub(in crate::editor) struct Operations {
+    client: Client<(), JobResult>,
+    operation: Option<OperationInProgress>,
+    /// The reply to an action of the end-fit panel that came after the action had returned.
+    late: Option<(EndFitStep, Reply)>,
+}
+
+/// The result of a job: a run, then the proof of its features.
+#[derive(Debug)]
+enum JobResult {
+    Run(Box<Result<Run, OperationError>>),
+    Features(Option<FeatureComparison>),
+}
+
+/// The operations with the parts of the editor that they change.
+#[derive(Debug)]
+pub struct Operating<'a> {
+    pub(in crate::editor) operations: &'a mut Operations,
+    pub(in crate::editor) workspace: &'a mut Workspace,
+    pub(in crate::editor) hand: &'a mut Hand,
+    pub(in crate::editor) view: &'a mut View,
+    pub(in crate::editor) patience: &'a mut Patience,
+    pub(in crate::editor) message: &'a mut Option<Message>,
+}
+
+impl Operations {
+    /// Run operations on a thread, which calls `wake` when a result is there.
+    pub fn background(wake: impl Fn() + Send + 'static) -> Self {
+        Self {
+            client: Client::background("operations", wake),
+            ..Self::default()
+        }
+    }
+
+    /// The operation that is previewed or was applied last, unless something else was done since.
+    pub fn current(
+        &self,
+        workspace: &Workspace,
+        active: Option<CurveId>,
+    ) -> Option<&OperationInProgress> {
+        self.operation.as_ref().filter(|it| match it.stage {
+            Stage::Previewed(preview) => workspace.preview() == Some(preview),
+            Stage::Applied { revision, .. } => {
+                workspace.revision() == revision
+                    && workspace.preview().is_none()
+                    && it.belongs_to(active, workspace.document())
+            }
+        })
+    }
+
+    /// The share of the running job that is done, from 0 to 1; `None` without one.
+    pub fn progress(&self) -> Option<f64> {
+        self.client.progress()
+    }
+
+    /// Take the late reply to an action of the end-fit panel.
+    pub fn take_late(&mut self) -> Option<(EndFitStep, Reply)> {
+        self.late.take()
+    }
+}
+
+impl Operating<'_> {
+    /// The operation in progress.
+    pub(super) fn current(&self) -> Option<&OperationInProgress> {
+        let active = self.hand.selection.active();
+        self.operations.current(self.workspace, active)
+    }
+
+    /// The operation in progress, to be changed.
+    pub(super) fn current_mut(&mut self) -> Option<&mut OperationInProgress> {
+        self.current()?;
+        self.operations.operation.as_mut()
+    }
+
+    /// The operation that is previewed.
+    pub(super) fn previewed(&self) -> Option<&OperationInProgress> {
+        self.current().filter(|it| !it.is_applied())
+    }
+
+    /// Preview an operation. A preview that is open must be ended before.
+    pub(in crate::editor) fn preview(
+        &mut self,
+        operation: &'static Operation,
+        input: Result<Input, OperationError>,
+    ) -> Result<(), Refusal> {
+        self.begin(operation, input, &[], None)?;
+        self.request_run();
+        Ok(())
+    }
+
+    /// Apply an operation with some values, now or once its run is finished. A preview that is open
+    /// must be ended before.
+    ///
+    /// # Errors
+    /// [`Refusal`] if it cannot run or does not reach its aim; nothing is changed then.
+    pub(in crate::editor) fn apply_at_once(
+        &mut self,
+        operation: &'static Operation,
+        input: Result<Input, OperationError>,
+        given: &[(&str, Value)],
+        end_fit: Option<EndFitStep>,
+    ) -> Reply {
+        let begun = self.begin(operation, input, given, end_fit);
+        let reply = begun.and_then(|()| {
+            self.request_run();
+            self.settle()
+        });
+        if reply.is_err() {
+            self.leave();
+        }
+        reply
+    }
+
+    /// Apply the operation that is previewed, now or once its run is finished. The reply is told.
+    ///
+    /// # Errors
+    /// [`Refusal`] if it does not reach its aim.
+    pub fn apply(&mut self) -> Reply {
+        if self.previewed().is_none() {
+            return Ok(Note::silent());
+        }
+        self.let_go();
+        let reply = self.settle();
+        *self.message = Message::of(&reply);
+        reply
+    }
+
+    /// Cancel the preview with the selection before it, or forget the operation that was applied last.
+    pub fn leave(&mut self) {
+        let previews = self.previewed().is_some();
+        if previews {
+            self.workspace.abort();
+        }
+        self.operations.client.forget();
+        // A preview that something else has ended has nothing to restore.
+        if let Some(left) = self.operations.operation.take()
+            && previews
+        {
+            self.hand.selection = left.selection;
+        }
+        self.document_changed();
+    }
+
+    /// Cancel the preview because something else begins. The selection stays if all vertices have the
+    /// numbers that they had before.
+    pub(in crate::editor) fn interrupt(&mut self) {
+        let numbers = |document: &Document| -> Vec<(CurveId, usize)> {
+            let curves = document.curves();
+            let counts = curves.map(|(id, curve)| (id, curve.polygon.vertices().len()));
+            counts.collect()
+        };
+        if numbers(self.workspace.settled()) == numbers(self.workspace.document()) {
+            self.leave_selecting(self.hand.selection.clone());
+        } else {
+            self.leave();
+        }
+    }
+
+    /// Cancel the preview if another curve is active now.
+    pub(in crate::editor) fn leave_stale(&mut self) {
+        let active = self.hand.selection.active();
+        let document = self.workspace.document();
+        let previewed = self.previewed();
+        if previewed.is_some_and(|it| !it.belongs_to(active, document)) {
+            self.leave_selecting(self.hand.selection.clone());
+        }
+    }
+
+    fn leave_selecting(&mut self, selection: Selection) {
+        self.leave();
+        self.hand.selection = selection;
+        self.document_changed();
+    }
+
+    /// Take the results of background jobs. Call this once a frame.
+    pub(in crate::editor) fn receive(&mut self) {
+        self.operations.client.receive();
+        self.take_result();
+    }
+
+    /// Change the values of some parameters.
+    ///
+    /// # Errors
+    /// [`OperationError`] if a parameter does not take its value; nothing is changed then.
+    pub fn set_values(&mut self, given: &[(&str, Value)]) -> Result<(), OperationError> {
+        let Some(current) = self.current_mut() else {
+            return Ok(());
+        };
+        let (operation, input) = (current.operation, &current.input);
+        let values = operation.values_with(input, &current.values, given.iter().cloned())?;
+        if values != current.values {
+            let before = std::mem::replace(&mut current.values, values);
+            if current.held.is_none() {
+                current.earlier.push(before);
+            }
+            self.request_run();
+        }
+        Ok(())
+    }
+
+    /// Begin a change that goes on, such as a drag: all values set from now on are one change, until
+    /// [`Operating::keep_values`] or [`Operating::restore_values`]. A change in progress stays.
+    pub fn hold_values(&mut self) {
+        if let Some(current) = &mut self.operations.operation {
+            current.held.get_or_insert_with(|| current.values.clone());
+        }
+    }
+
+    /// End the change in progress with its values.
+    pub fn keep_values(&mut self) {
+        if let Some(current) = &mut self.operations.operation
+            && let Some(before) = current.held.take()
+            && before != current.values
+        {
+            current.earlier.push(before);
+        }
+    }
+
+    /// End the change in progress with the values before it.
+    pub fn restore_values(&mut self) {
+        let operation = self.operations.operation.as_mut();
+        if let Some(before) = operation.and_then(|it| it.held.take()) {
+            self.give_back(before);
+        }
+    }
+
+    /// Take back the change of values in progress, or the last one. Returns whether there was one.
+    pub(in crate::editor) fn undo_values(&mut self) -> bool {
+        if !self
+            .current()
+            .is_some_and(OperationInProgress::has_changed_values)
+        {
+            return false;
+        }
+        self.let_go();
+        let Some(current) = &mut self.operations.operation else {
+            return false;
+        };
+        let before = current.held.take().or_else(|| current.earlier.pop());
+        if let Some(before) = before {
+            self.give_back(before);
+        }
+        true
+    }
+
+    fn give_back(&mut self, before: Values) {
+        if let Some(current) = &mut self.operations.operation
+            && current.values != before
+        {
+            current.values = before;
+            self.request_run();
+        }
+    }
+
+    /// End the drag of a handle; the gesture goes on without it.
+    fn let_go(&mut self) {
+        if self.end_handle_drag() {
+            self.hand.gestures.reset();
+        }
+    }
+
+    fn begin(
+        &mut self,
+        operation: &'static Operation,
+        input: Result<Input, OperationError>,
+        given: &[(&str, Value)],
+        end_fit: Option<EndFitStep>,
+    ) -> Result<(), Refusal> {
+        let prepared = input.and_then(|input| {
+            let values = operation.values(&input, given.iter().cloned())?;
+            Ok((input, values))
+        });
+        let (input, values) = prepared.map_err(|error| Refusal(error.to_string()))?;
+        let preview = self.workspace.begin(operation.label, Interruption::Aborts);
+        self.operations.operation = Some(OperationInProgress {
+            operation,
+            input,
+            values,
+            stage: Stage::Previewed(preview),
+            selection: self.hand.selection.clone(),
+            run: None,
+            pending: false,
+            features: None,
+            handles: Vec::new(),
+            dragged: None,
+            held: None,
+            earlier: Vec::new(),
+            applies: false,
+            end_fit,
+        });
+        Ok(())
+    }
+
+    /// Run the operation with its present values, and wait a moment for the result.
+    fn request_run(&mut self) {
+        let Operations {
+            client, operation, ..
+        } = &mut *self.operations;
+        let Some(current) = operation else {
+            return;
+        };
+        current.pending = true;
+        let operation = current.operation;
+        let (input, values) = (current.input.clone(), current.values.clone());
+        let job = move |progress: &Progress| {
+            let run = Run::new(operation, &input, &values, progress);
+            Some(JobResult::Run(Box::new(run)))
+        };
+        client.start((), job, Some(self.patience));
+        self.take_result();
+    }
+
+    /// Prove the features before and afterwards.
+    fn request_features(&mut self) {
+        let Operations {
+            client, operation, ..
+        } = &mut *self.operations;
+        let Some(current) = operation else {
+            return;
+        };
+        let Some(Ok(run)) = &current.run else {
+            return;
+        };
+        let (input, outcome) = (current.input.clone(), run.outcome.clone());
+        let job = move |progress: &Progress| {
+            let features = FeatureComparison::prove(&input, &outcome, progress);
+            Some(JobResult::Features(features))
+        };
+        client.go_on(job, Some(self.patience));
+        self.take_result();
+    }
+
+    /// Take the result of the newest job, unless something else was done since.
+    fn take_result(&mut self) {
+        if self.current().is_none() {
+            return;
+        }
+        if let Some(panic) = self.operations.client.failure() {
+            let failed = format!("The operation failed: {panic}. Nothing was changed");
+            self.leave();
+            *self.message = Message::of(&Err(Refusal(failed)));
+            return;
+        }
+        match self.operations.client.take_result() {
+            Some(JobResult::Run(run)) => self.take_run(*run),
+            Some(JobResult::Features(features)) => {
+                if let Some(current) = &mut self.operations.operation
+                    && let Some(Ok(run)) = &mut current.run
+                {
+                    current.features.clone_from(&features);
+                    run.report.features = features;
+                }
+            }
+            None => {}
+        }
+    }
+
+    fn take_run(&mut self, run: Result<Run, OperationError>) {
+        let Some(current) = &mut self.operations.operation else {
+            return;
+        };
+        let succeeds = run.as_ref().is_ok_and(Run::succeeds);
+        let is_first = current.run.is_none();
+        // The handles of the last success lead back to one.
+        if let Ok(run) = &run {
+            current.handles.clone_from(&run.outcome.handles);
+        }
+        current.run = Some(run);
+        current.pending = false;
+        let applies = current.applies;
+        match current.stage {
+            Stage::Previewed(_) => {
+                self.show_run();
+                self.activate_made(is_first);
+            }
+            Stage::Applied { steps, .. } => {
+                // A run that fails leaves the applied step as it is.
+                if succeeds {
+                    self.amend(steps);
+                }
+                let reply = self.reply();
+                *self.message = Message::of(&reply);
+            }
+        }
+        if applies {
+            let reply = self.settle();
+            let current = self.operations.operation.as_mut();
+            match current.and_then(|current| current.end_fit.take()) {
+                Some(step) => self.operations.late = Some((step, reply)),
+                None => *self.message = Message::of(&reply),
+            }
+        }
+        if succeeds {
+            self.request_features();
+        }
+    }
+
+    /// Show the last run in the preview.
+    fn show_run(&mut self) {
+        let run = self.operations.operation.as_ref().and_then(|it| it.run());
+        let edits = match run {
+            Some(Ok(run)) => run.outcome.edits.clone(),
+            _ => Vec::new(),
+        };
+        let updated = self.workspace.update(edits);
+        Message::tell_update(self.message, updated.err().map(Refusal::from));
+        self.document_changed();
+    }
+
+    /// Put the last run in place of the applied step, which comes after `steps` others.
+    fn amend(&mut self, steps: usize) {
+        let Some(current) = &mut self.operations.operation else {
+            return;
+        };
+        let Some(Ok(run)) = &current.run else {
+            return;
+        };
+        let (label, edits) = (current.operation.label, run.outcome.edits.clone());
+        let amended = if self.workspace.history().undo_steps() > steps {
+            self.workspace.amend(label, edits)
+        } else {
+            self.workspace.apply(label, edits)
+        };
+        Message::tell_update(self.message, amended.err().map(Refusal::from));
+        let revision = self.workspace.revision();
+        current.stage = Stage::Applied { revision, steps };
+        self.document_changed();
+    }
+
+    /// The reply that tells of the last run.
+    fn reply(&self) -> Reply {
+        match self.operations.operation.as_ref().and_then(|it| it.run()) {
+            Some(Ok(run)) if run.succeeds() => Ok(Note::done(run.report.summary())),
+            Some(Ok(run)) => Err(Refusal(run.report.summary())),
+            Some(Err(error)) => Err(Refusal(error.to_string())),
+            None => Ok(Note::silent()),
+        }
+    }
+
+    /// Apply the last run, now or once the pending one is finished; or say why it cannot be applied.
+    fn settle(&mut self) -> Reply {
+        let Some(current) = &mut self.operations.operation else {
+            return Ok(Note::silent());
+        };
+        current.applies = current.pending;
+        if current.pending {
+            return Ok(Note::silent());
+        }
+        current.dragged = None;
+        current.held = None;
+        let Some(Ok(run)) = &current.run else {
+            return self.reply();
+        };
+        if !run.succeeds() {
+            return self.reply();
+        }
+        let renumbers = run.outcome.renumbered;
+        let steps = self.workspace.history().undo_steps();
+        self.workspace.commit();
+        let revision = self.workspace.revision();
+        current.stage = Stage::Applied { revision, steps };
+        if renumbers {
+            self.hand.selection.clear();
+        }
+        self.document_changed();
+        self.reply()
+    }
+
+    /// Make a new curve the active one, compare it with the other new curve, or with the reference or
+    /// the curve that it follows, and bring it into sight the first time.
+    fn activate_made(&mut self, is_first: bool) {
+        let Some(current) = self.current() else {
+            return;
+        };
+        let made = current.made_curves(self.workspace.document());
+        let Some(first) = made.first() else {
+            return;
+        };
+        let follows = matches!(current.operation.inputs, Inputs::OneOrNone | Inputs::Points);
+        let (followed, was_active) = (current.curve(), current.selection.active());
+        let selection = &mut self.hand.selection;
+        let active = match selection.active().filter(|id| made.contains(id)) {
+            Some(active) => active,
+            None => {
+                selection.activate(*first);
+                *first
+            }
+        };
+        let mut others = made.iter().copied().filter(|id| *id != active);
+        let compared = self.view.compared();
+        if compared.is_none_or(|id| !others.clone().any(|other| other == id))
+            && let Some(other) = others.next()
+        {
+            self.view.compare(Some(other));
+        }
+        if is_first {
+            if follows {
+                let document = self.workspace.document();
+                let reference = was_active.filter(|id| document.reference(*id).is_some());
+                let compared = reference.or(followed).or(self.view.compared());
+                self.view.compare(compared);
+            }
+            let layers = self.hand.layers(self.view.chosen_layers());
+            let shown = self.hand.shown(self.workspace, layers);
+            self.view.look(Look::New(made), shown);
+        }
+    }
+
+    /// Only what the document holds can be selected.
+    fn document_changed(&mut self) {
+        self.hand.selection.retain_valid(self.workspace.document());
+    }
+
+    pub(super) fn operation_mut(&mut self) -> Option<&mut OperationInProgress> {
+        self.operations.operation.as_mut()
+    }
+}
