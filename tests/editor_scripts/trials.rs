@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use batten::document::{Curve, Document, Edit};
 use batten::editor::{
-    Command, Editor, EndFitAction, Input, Key, Look, Note, OperationInProgress, ToolKind,
+    Command, Editor, EndFitAction, Input, Key, Look, Note, OperationInProgress, REACH, ToolKind,
 };
 use batten::geometry::features::Features;
 use batten::geometry::{End, FloatPolygon};
@@ -549,6 +549,24 @@ fn a_drag_takes_the_preview_back() {
     assert_eq!(script.steps(), 1);
     script.command(Command::Undo);
     check_is(&script, &before);
+}
+
+#[test]
+fn a_click_works_on_the_document_without_the_preview() {
+    let (mut script, before) = s_curve();
+    script.tool(ToolKind::Delete);
+    let settled: Vec<DVec2> = (0..script.polygon().vertices().len())
+        .map(|vertex| script.at_vertex(vertex))
+        .collect();
+    script.try_out("elevate-degree").expect("an operation");
+    let previewed = (0..script.polygon().vertices().len()).map(|vertex| script.at_vertex(vertex));
+    let apart = |at: &DVec2| settled.iter().all(|vertex| vertex.distance(*at) > 4.0 * REACH);
+    let at = previewed.into_iter().find(apart).expect("a new place");
+    script.click(at);
+    // Only the preview has a vertex there: it ends, and no other vertex is deleted.
+    assert!(script.editor.operation().is_none());
+    check_is(&script, &before);
+    assert_eq!(script.steps(), 0);
 }
 
 /// Which vertices of the active curve are not where they were.

@@ -211,19 +211,13 @@ impl Editor {
         self.view.analyse(self.workspace.document());
         let layers = self.hand.layers(self.view.layers);
         let mut tools = std::mem::take(&mut self.hand.tools);
-        let mut effects = tools
-            .used_mut()
-            .gesture(gesture, &self.context_with(layers));
-        let begins = |effect: &Effect| matches!(effect, Effect::Begin(_));
-        if previews && effects.iter().any(begins) {
-            // What was pressed is of the document that an operation shows, which goes now.
+        if previews && tools.used().begins(gesture, &self.context_with(layers)) {
+            // The gesture is about the document without the preview, which ends now.
             self.operating().interrupt();
             self.view.analyse(self.workspace.document());
-            tools.choose(tools.kind());
-            effects = tools
-                .used_mut()
-                .gesture(gesture, &self.context_with(layers));
         }
+        let context = self.context_with(layers);
+        let effects = tools.used_mut().gesture(gesture, &context);
         self.hand.tools = tools;
         self.take_effects(effects, repeats);
     }

@@ -72,6 +72,14 @@ impl Tool for EndFitTool {
         }
     }
 
+    fn begins(&self, gesture: Gesture, context: &Context) -> bool {
+        let Gesture::DragStart(place) = gesture else {
+            return false;
+        };
+        let subject = Subject::of(context, self.settings.end, true);
+        subject.is_ok_and(|subject| subject.handle(place, context).is_some())
+    }
+
     fn hint(&self, context: &Context) -> String {
         let subject = match Subject::of(context, self.settings.end, false) {
             Ok(subject) => subject,

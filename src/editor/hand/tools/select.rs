@@ -198,6 +198,15 @@ impl Tool for SelectTool {
         }
     }
 
+    fn begins(&self, gesture: Gesture, context: &Context) -> bool {
+        let Gesture::DragStart(place) = gesture else {
+            return false;
+        };
+        takes_vertex(place, context)
+            || takes_reference(place, context)
+            || context.hits.leg(place, LEG_REACH).is_some()
+    }
+
     fn hint(&self, context: &Context) -> String {
         match &self.state {
             State::Moving(_) if context.following.follow.is_some() => {

@@ -82,6 +82,12 @@ pub trait Tool: std::fmt::Debug + Send {
     /// Take a gesture and tell what it does.
     fn gesture(&mut self, gesture: Gesture, context: &Context) -> Vec<Effect>;
 
+    /// Whether a gesture works on the vertices that it hits: then an open preview of an operation, which
+    /// may number them otherwise, ends first.
+    fn begins(&self, _gesture: Gesture, _context: &Context) -> bool {
+        false
+    }
+
     /// Say what the mouse will do now, in a sentence.
     fn hint(&self, context: &Context) -> String;
 

@@ -272,6 +272,14 @@ impl Tool for TransformTool {
         }
     }
 
+    fn begins(&self, gesture: Gesture, context: &Context) -> bool {
+        let Gesture::DragStart(place) = gesture else {
+            return false;
+        };
+        let pivot = self.pivot(context).map(|at| context.viewport.to_screen(at));
+        pivot.is_some_and(|pivot| pivot.distance(place) > REACH)
+    }
+
     fn hint(&self, context: &Context) -> String {
         let verb = match self.transform {
             Transform::Rotate => "rotate",

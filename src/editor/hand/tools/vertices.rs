@@ -267,6 +267,14 @@ impl Tool for AddVertexTool {
         }
     }
 
+    fn begins(&self, gesture: Gesture, context: &Context) -> bool {
+        let (Gesture::Click(place) | Gesture::DragStart(place)) = gesture else {
+            return false;
+        };
+        let at = context.snapped(context.model(place), &Carried::default());
+        self.plan(Some(at), context).is_ok()
+    }
+
     fn hint(&self, context: &Context) -> String {
         match context.pointer.map(|at| self.plan(Some(at), context)) {
             Some(Ok((_, end))) => {
@@ -398,6 +406,14 @@ impl Tool for InsertTool {
         }
     }
 
+    fn begins(&self, gesture: Gesture, context: &Context) -> bool {
+        let (Gesture::Click(place) | Gesture::DragStart(place)) = gesture else {
+            return false;
+        };
+        let hit = context.hits.leg(place, LEG_REACH);
+        hit.is_some_and(|hit| Self::plan(hit, context).is_ok())
+    }
+
     fn hint(&self, _context: &Context) -> String {
         match self.adding {
             Some(_) => "Release to place the new vertex; Esc cancels".into(),
@@ -428,6 +444,10 @@ impl Tool for DeleteTool {
             Gesture::Key(crate::editor::hand::input::Key::Escape) => vec![Effect::Finish],
             _ => Vec::new(),
         }
+    }
+
+    fn begins(&self, gesture: Gesture, context: &Context) -> bool {
+        matches!(gesture, Gesture::Click(place) if context.hits.vertex(place).is_some())
     }
 
     fn hint(&self, _context: &Context) -> String {
