@@ -560,7 +560,11 @@ fn a_click_works_on_the_document_without_the_preview() {
         .collect();
     script.try_out("elevate-degree").expect("an operation");
     let previewed = (0..script.polygon().vertices().len()).map(|vertex| script.at_vertex(vertex));
-    let apart = |at: &DVec2| settled.iter().all(|vertex| vertex.distance(*at) > 4.0 * REACH);
+    let apart = |at: &DVec2| {
+        settled
+            .iter()
+            .all(|vertex| vertex.distance(*at) > 4.0 * REACH)
+    };
     let at = previewed.into_iter().find(apart).expect("a new place");
     script.click(at);
     // Only the preview has a vertex there: it ends, and no other vertex is deleted.
