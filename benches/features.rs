@@ -6,7 +6,7 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use batten::geometry::Progress;
-use batten::geometry::features::{Features, Quantity, SegmentFeatures, SegmentProver};
+use batten::geometry::features::{Feature, Features, SegmentFeatures, SegmentProver};
 use batten::geometry::vertex_moves::{LossSearch, MoveProver, RegionSearch};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use glam::DVec3;
@@ -102,7 +102,7 @@ fn moves(criterion: &mut Criterion) {
         let losses = LossSearch {
             polygon: &polygon,
             proved: &proved,
-            quantity: Quantity::CurvatureExtremum,
+            quantity: Feature::CurvatureExtremum,
             u: 0.5 * (extremum.u[0] + extremum.u[1]),
         };
         group.bench_function(BenchmarkId::new("losing an extremum", name), |bencher| {

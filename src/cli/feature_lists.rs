@@ -4,7 +4,7 @@ use serde::Serialize;
 use serde_json::value::RawValue;
 
 use crate::geometry::features::{
-    Extremum, ExtremumKind, Features, Quantity, Root, Undecided, Verdict, certain_text,
+    Extremum, ExtremumKind, Feature, Features, Root, Undecided, Verdict, certain_text,
 };
 
 /// The most digits of a number that are printed.
@@ -124,12 +124,12 @@ fn kind(extremum: &Extremum) -> &'static str {
 }
 
 /// The list that features of a kind are in.
-fn list_of(quantity: Quantity) -> &'static str {
+fn list_of(quantity: Feature) -> &'static str {
     match quantity {
-        Quantity::Inflection => "inflections",
-        Quantity::CurvatureExtremum => "curvature_extrema",
-        Quantity::TorsionZero => "torsion_zeros",
-        Quantity::TorsionExtremum => "torsion_extrema",
+        Feature::Inflection => "inflections",
+        Feature::CurvatureExtremum => "curvature_extrema",
+        Feature::TorsionZero => "torsion_zeros",
+        Feature::TorsionExtremum => "torsion_extrema",
     }
 }
 

@@ -1,7 +1,7 @@
 //! What else reaches a tolerance, where an approximation does not, or by very many vertices.
 
 use crate::geometry::approximation::{
-    Approximated, Asked, Goal, MOST_FOR_SHAPE, approximate_to_tolerance,
+    Approximated, ApproximationRequest, Goal, MOST_FOR_SHAPE, approximate_to_tolerance,
 };
 use crate::geometry::{Differentiable, MAX_DEGREE, Progress, significant};
 
@@ -18,7 +18,7 @@ pub(super) fn remark_on_alternatives(
     curve: &dyn Differentiable,
     interval: [f64; 2],
     goal: &Goal,
-    asked: &Asked,
+    asked: &ApproximationRequest,
     found: &Approximated,
     progress: &Progress,
 ) -> Option<String> {
@@ -30,7 +30,7 @@ pub(super) fn remark_on_alternatives(
         most_segments: MANY,
         ..*goal
     };
-    let reaching = |asked: Asked, what: String| {
+    let reaching = |asked: ApproximationRequest, what: String| {
         let found = approximate_to_tolerance(curve, interval, &goal, &asked, progress).ok()?;
         let count = found.polygon.vertices().len();
         let reaches = format!("{what} reaches the tolerance with {count} vertices");
@@ -44,11 +44,19 @@ pub(super) fn remark_on_alternatives(
         (None, true) => asked.levels,
     };
     let fewer = (0..levels).rev();
-    let mut fewer =
-        fewer.filter_map(|levels| reaching(Asked { levels, ..*asked }, format!("levels {levels}")));
+    let mut fewer = fewer.filter_map(|levels| {
+        reaching(
+            ApproximationRequest { levels, ..*asked },
+            format!("levels {levels}"),
+        )
+    });
     let degrees = asked.degree + 1..=(asked.degree + DEGREES).min(MAX_DEGREE);
-    let mut higher = degrees
-        .filter_map(|degree| reaching(Asked { degree, ..*asked }, format!("degree {degree}")));
+    let mut higher = degrees.filter_map(|degree| {
+        reaching(
+            ApproximationRequest { degree, ..*asked },
+            format!("degree {degree}"),
+        )
+    });
     let enough: Vec<String> = fewer.next().into_iter().chain(higher.next()).collect();
     let (degree, segments) = (asked.degree, found.polygon.segments());
     let problem = match difference {

@@ -15,7 +15,7 @@ use super::values::Values;
 use super::whole;
 use crate::document::{Curve, Edit, ParameterSpan};
 use crate::geometry::approximation::{
-    Approximated, Asked, Goal, LevelComparison, MOST_SEGMENTS, Placing, Spacing, Watched,
+    Approximated, ApproximationRequest, Goal, LevelComparison, MOST_SEGMENTS, Placing, Spacing, Watched,
     approximate_between, approximate_by_steps, approximate_to_tolerance,
 };
 use crate::geometry::references::ReferenceCurve;
@@ -326,7 +326,7 @@ fn approximated(
     let degree = values.whole(&DEGREE);
     let count = count_given(values)?;
     let part = Part::of(source, values, tolerance, count)?;
-    let asked = Asked {
+    let asked = ApproximationRequest {
         degree,
         placing,
         levels: values.whole(&LEVELS),
@@ -357,9 +357,9 @@ fn approximated(
         _ => {
             let spacing = spacing.unwrap_or(Spacing::Parameter);
             let by =
-                |count, asked: &Asked| approximate_between(curve, interval, count, spacing, asked);
+                |count, asked: &ApproximationRequest| approximate_between(curve, interval, count, spacing, asked);
             let count = count.unwrap_or_else(|| {
-                let plain = Asked { levels: 0, ..asked };
+                let plain = ApproximationRequest { levels: 0, ..asked };
                 let mut counts = (0..DOUBLINGS).map(|doublings| offered << doublings);
                 let fades = counts.find(|count| by(*count, &plain).is_ok_and(|it| !diverges(&it)));
                 fades.unwrap_or(offered << DOUBLINGS)
@@ -381,7 +381,7 @@ fn by_quasi_interpolation(
     values: &Values,
     found: &Approximated,
 ) -> Option<f64> {
-    let asked = Asked {
+    let asked = ApproximationRequest {
         degree: found.polygon.degree(),
         placing: Placing::Quasi,
         levels: 0,

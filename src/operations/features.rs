@@ -8,7 +8,7 @@ use super::harmony_json;
 use super::input::Input;
 use super::outcome::Outcome;
 use crate::document::{Curve, CurveId, Document};
-use crate::geometry::features::{Features, Quantity, Verdict};
+use crate::geometry::features::{Feature, Features, Verdict};
 use crate::geometry::harmony::{Harmony, SegmentFairness};
 use crate::geometry::{FloatPolygon, Progress};
 
@@ -77,10 +77,10 @@ impl FeatureCounts {
         let cusps = features.cusps.iter().filter(|cusp| cusp.proved).count();
         Self {
             name: curve.name.clone(),
-            inflections: features.count(Quantity::Inflection),
-            curvature_extrema: features.count(Quantity::CurvatureExtremum),
-            torsion_zeros: features.count(Quantity::TorsionZero),
-            torsion_extrema: features.count(Quantity::TorsionExtremum),
+            inflections: features.count(Feature::Inflection),
+            curvature_extrema: features.count(Feature::CurvatureExtremum),
+            torsion_zeros: features.count(Feature::TorsionZero),
+            torsion_extrema: features.count(Feature::TorsionExtremum),
             cusps,
             undecided: features.undecided.len() + features.cusps.len() - cusps,
             monotone: features.monotone,

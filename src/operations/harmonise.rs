@@ -198,11 +198,11 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
     );
     outcome.figures = vec![
         Figure::count("iterations", "Iterations", found.iterations),
-        Figure::count("asked_extrema", extrema, found.asked.extrema),
-        Figure::count("asked_inflections", inflections, found.asked.inflections),
+        Figure::count("asked_extrema", extrema, found.request.extrema),
+        Figure::count("asked_inflections", inflections, found.request.inflections),
     ];
     if !curve.polygon.is_planar() {
-        let asked = found.asked.torsion_extrema;
+        let asked = found.request.torsion_extrema;
         let label = words(
             harmony.torsion_extrema,
             "Torsion extrema asked for",
@@ -226,7 +226,7 @@ fn one_end() -> [Option<Held>; 7] {
 
 /// Say what the best that was found lacks.
 fn why_not(found: &Harmonised, harmony: &Harmony) -> String {
-    let (has, asked) = (found.counts, found.asked);
+    let (has, asked) = (found.counts, found.request);
     let counts = [
         (has.extrema, asked.extrema, harmony.extrema),
         (has.inflections, asked.inflections, harmony.inflections),

@@ -3,15 +3,15 @@
 use std::f64::consts::TAU;
 
 use batten::geometry::approximation::{
-    Approximated, ApproximationError, Asked, Goal, LevelFeature, MOST_SEGMENTS, Placing, Spacing,
-    approximate_between, approximate_to_tolerance,
+    Approximated, ApproximationError, ApproximationRequest, Goal, LevelFeature, MOST_SEGMENTS,
+    Placing, Spacing, approximate_between, approximate_to_tolerance,
 };
 use batten::geometry::references::ReferenceCurve;
 use batten::geometry::{FloatPolygon, Progress};
 
 use crate::common::assert_points_near;
 
-const ASKED: Asked = Asked {
+const ASKED: ApproximationRequest = ApproximationRequest {
     degree: 5,
     placing: Placing::Quasi,
     levels: 1,
@@ -69,7 +69,7 @@ fn the_error_is_of_order_degree_plus_1() {
 
 #[test]
 fn vertices_on_the_curve_are_its_points() {
-    let asked = Asked {
+    let asked = ApproximationRequest {
         placing: Placing::OnCurve,
         ..ASKED
     };
@@ -117,7 +117,7 @@ fn a_tolerance_is_reached_by_as_few_vertices_as_it_takes() {
 
 #[test]
 fn without_ends_none_are_made_exact() {
-    let asked = Asked {
+    let asked = ApproximationRequest {
         fit_ends: true,
         ..ASKED
     };
@@ -130,7 +130,7 @@ fn without_ends_none_are_made_exact() {
 fn ripples_on_a_curvature_that_is_constant_do_not_count() {
     // The curvature of such a curve beside a circle varies by less than 1e-5 of itself.
     let circle = ReferenceCurve::from_text("circle:radius=10").expect("a reference");
-    let asked = Asked {
+    let asked = ApproximationRequest {
         degree: 9,
         levels: 2,
         periodic: false,
@@ -149,7 +149,7 @@ fn ripples_on_a_curvature_that_is_constant_do_not_count() {
 #[test]
 fn corrections_that_grow_are_noticed() {
     let circle = ReferenceCurve::from_text("circle").expect("a reference");
-    let asked = Asked {
+    let asked = ApproximationRequest {
         degree: 15,
         periodic: false,
         ..ASKED

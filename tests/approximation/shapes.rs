@@ -1,8 +1,8 @@
 //! Shape equivalence, spacings and tolerances.
 
 use batten::geometry::approximation::{
-    Approximated, Asked, Goal, LevelFeature, MOST_FOR_SHAPE, MOST_SEGMENTS, Placing, Respaced,
-    Spacing, approximate_between, approximate_by_steps, approximate_to_tolerance,
+    Approximated, ApproximationRequest, Goal, LevelFeature, MOST_FOR_SHAPE, MOST_SEGMENTS, Placing,
+    Respaced, Spacing, approximate_between, approximate_by_steps, approximate_to_tolerance,
 };
 use batten::geometry::references::ReferenceCurve;
 use batten::geometry::{Differentiable, End, Progress};
@@ -10,7 +10,7 @@ use glam::DVec3;
 
 use crate::common::{assert_near, assert_points_near};
 
-const SHAPE: Asked = Asked {
+const SHAPE: ApproximationRequest = ApproximationRequest {
     degree: 8,
     placing: Placing::Quasi,
     levels: 2,
@@ -42,7 +42,7 @@ fn equal(found: &Approximated) -> Vec<(bool, usize, bool)> {
 fn the_paper_s_figure_3_has_its_shape_to_the_levels_that_are_known() {
     let spiral = curve("conical-spiral");
     for placing in [Placing::OnCurve, Placing::Quasi] {
-        let asked = Asked { placing, ..SHAPE };
+        let asked = ApproximationRequest { placing, ..SHAPE };
         let coarse = approximate_by_steps(&spiral, [0.0, 1.0], 20, &asked).expect("a curve");
         assert_eq!(coarse.interval, [3.5, 15.5]);
         let expected = [
@@ -82,7 +82,7 @@ fn levels_that_the_degree_does_not_have_are_left_out() {
             ],
         ),
     ] {
-        let asked = Asked {
+        let asked = ApproximationRequest {
             degree,
             levels: 9,
             ..SHAPE
@@ -98,7 +98,7 @@ fn levels_that_the_degree_does_not_have_are_left_out() {
 fn an_ellipse_has_its_four_extrema() {
     use LevelFeature::{Maximum, Minimum};
     let ellipse = curve("ellipse:a=3,b=1");
-    let asked = Asked {
+    let asked = ApproximationRequest {
         degree: 7,
         levels: 1,
         ..SHAPE
@@ -167,7 +167,7 @@ fn arc_length_goes_on_beyond_the_part_as_far_as_the_curve() {
 #[test]
 fn tolerances_are_reached_by_arc_length_where_it_grows_by_the_logarithm() {
     let spiral = curve("nielsen-spiral");
-    let asked = Asked {
+    let asked = ApproximationRequest {
         degree: 6,
         levels: 0,
         ..SHAPE
@@ -194,7 +194,7 @@ fn spacing_by_curvature_is_finer_where_the_curve_bends() {
         from.distance(to)
     };
     assert!(3.0 * step(0.0) < step(0.5), "{} {}", step(0.0), step(0.5));
-    let asked = Asked {
+    let asked = ApproximationRequest {
         degree: 6,
         levels: 0,
         ..SHAPE
@@ -237,7 +237,7 @@ fn a_tolerance_and_the_shape_are_reached_by_as_few_vertices_as_it_takes() {
 #[test]
 fn what_a_small_tolerance_reaches_a_larger_one_does_too() {
     let helix = curve("helix:to=2*pi");
-    let asked = Asked {
+    let asked = ApproximationRequest {
         degree: 3,
         levels: 1,
         ..SHAPE
@@ -268,7 +268,7 @@ fn what_a_small_tolerance_reaches_a_larger_one_does_too() {
 #[test]
 fn of_shapes_that_are_missed_the_one_with_most_equal_levels_and_fewest_vertices_counts() {
     let spiral = curve("archimedean-spiral:to=2*pi");
-    let asked = Asked { degree: 5, ..SHAPE };
+    let asked = ApproximationRequest { degree: 5, ..SHAPE };
     let goal = Goal {
         most_segments: 96,
         ..goal(1e-4)
@@ -291,7 +291,7 @@ fn of_shapes_that_are_missed_the_one_with_most_equal_levels_and_fewest_vertices_
 fn ends_are_exact_if_asked() {
     let spiral = curve("conical-spiral");
     for placing in [Placing::OnCurve, Placing::Quasi] {
-        let asked = Asked {
+        let asked = ApproximationRequest {
             placing,
             fit_ends: true,
             ..SHAPE

@@ -10,7 +10,7 @@ mod true_segment;
 
 use batten::geometry::between::{BetweenError, Ends, Segment, SegmentKind, between};
 use batten::geometry::end_correction::{EndDifference, EndTarget};
-use batten::geometry::features::{Features, Quantity, Verdict};
+use batten::geometry::features::{Feature, Features, Verdict};
 use batten::geometry::{End, Progress};
 use glam::DVec2;
 
@@ -94,8 +94,8 @@ fn off(segment: &Segment, ends: &Ends) -> f64 {
 fn check(segment: &Segment, ends: &Ends, inflections: usize) {
     let features = Features::new(&segment.polygon);
     assert_eq!(features.monotone, Verdict::Proved);
-    assert_eq!(features.count(Quantity::CurvatureExtremum), 0);
-    assert_eq!(features.count(Quantity::Inflection), inflections);
+    assert_eq!(features.count(Feature::CurvatureExtremum), 0);
+    assert_eq!(features.count(Feature::Inflection), inflections);
     assert!(features.undecided.is_empty() && features.cusps.is_empty());
     assert!(segment.is_reached());
     let off = off(segment, ends);

@@ -4,7 +4,7 @@
 mod repeatable;
 
 use batten::geometry::FloatPolygon;
-use batten::geometry::features::{Features, Quantity};
+use batten::geometry::features::{Feature, Features};
 use glam::DVec3;
 use proptest::prelude::*;
 pub use repeatable::repeatable;
@@ -171,10 +171,10 @@ pub fn kinds(degrees: std::ops::RangeInclusive<usize>) -> impl Strategy<Value = 
 /// is in doubt.
 pub fn counts(features: &Features) -> [usize; 5] {
     [
-        features.count(Quantity::Inflection),
-        features.count(Quantity::CurvatureExtremum),
-        features.count(Quantity::TorsionZero),
-        features.count(Quantity::TorsionExtremum),
+        features.count(Feature::Inflection),
+        features.count(Feature::CurvatureExtremum),
+        features.count(Feature::TorsionZero),
+        features.count(Feature::TorsionExtremum),
         features.undecided.len() + features.cusps.len(),
     ]
 }

@@ -1,7 +1,7 @@
 //! The paper's figures as documents.
 
 use batten::editor::{Command, Editor, PaperPage, ToolKind, spiral_deviations};
-use batten::geometry::features::{Features, Quantity};
+use batten::geometry::features::{Feature, Features};
 use batten::geometry::paper::{RoundingTest, Shortening};
 use batten::geometry::{End, FloatPolygon};
 use batten::operations::Value;
@@ -27,7 +27,7 @@ fn polygons(editor: &Editor) -> Vec<FloatPolygon> {
 fn extrema(polygon: &FloatPolygon) -> usize {
     let features = Features::new(polygon);
     assert!(features.undecided.is_empty());
-    features.count(Quantity::CurvatureExtremum)
+    features.count(Feature::CurvatureExtremum)
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use batten::geometry::fairing::bridging::{
     Bridge, BridgeError, Bridged, close, join, largest_jump,
 };
-use batten::geometry::features::{Features, Quantity};
+use batten::geometry::features::{Feature, Features};
 use batten::geometry::{FloatPolygon, PolygonError, Progress};
 use glam::{DMat3, DVec3};
 
@@ -124,7 +124,7 @@ fn a_gap_cut_out_of_a_spiral_is_closed_as_it_was() {
             assert!(apart < 1e-2, "degree {degree}: {apart}");
         }
         let features = Features::new(&found.polygon);
-        assert_eq!(features.count(Quantity::CurvatureExtremum), 0);
+        assert_eq!(features.count(Feature::CurvatureExtremum), 0);
         assert_eq!((found.counts.extrema, found.undecided), (0, 0));
     }
 }

@@ -1,7 +1,7 @@
 //! Harmonising noisy polygons of curves with known features.
 
 use batten::geometry::fairing::harmonising::{Harmony, Held, harmonise};
-use batten::geometry::features::{Features, Quantity};
+use batten::geometry::features::{Feature, Features};
 use batten::geometry::{FloatPolygon, Progress};
 use glam::DVec3;
 
@@ -119,8 +119,8 @@ fn harmonise_many(shape: Shape, trials: usize, rational: bool) -> (usize, f64) {
         assert_eq!(found.polygon.weights(), polygon.weights());
         if found.reached {
             let features = Features::new(&found.polygon);
-            assert_eq!(features.count(Quantity::CurvatureExtremum), extrema);
-            assert_eq!(features.count(Quantity::Inflection), inflections);
+            assert_eq!(features.count(Feature::CurvatureExtremum), extrema);
+            assert_eq!(features.count(Feature::Inflection), inflections);
             assert!(features.undecided.is_empty());
             ratios.push(largest_move(&polygon, &found.polygon) / noise);
         }
@@ -236,7 +236,7 @@ fn long(shape: Shape, count: usize, noise: f64, degree: usize) -> FloatPolygon {
 
 fn check_long(shape: Shape, count: usize, noise: f64, degree: usize) {
     let polygon = long(shape, count, noise, degree);
-    let before = Features::new(&polygon).count(Quantity::CurvatureExtremum);
+    let before = Features::new(&polygon).count(Feature::CurvatureExtremum);
     let (extrema, inflections) = shape.features();
     let asked = asked(extrema, inflections);
     let found = harmonise(&polygon, &asked, &Progress::default()).expect("a result");
@@ -249,8 +249,8 @@ fn check_long(shape: Shape, count: usize, noise: f64, degree: usize) {
     assert!(found.reached, "{:?}", found.counts);
     check_ends(&polygon, &found.polygon);
     let features = Features::new(&found.polygon);
-    assert_eq!(features.count(Quantity::CurvatureExtremum), extrema);
-    assert_eq!(features.count(Quantity::Inflection), inflections);
+    assert_eq!(features.count(Feature::CurvatureExtremum), extrema);
+    assert_eq!(features.count(Feature::Inflection), inflections);
     assert!(before > count / 2 && features.undecided.is_empty());
 }
 
@@ -277,7 +277,7 @@ fn long_noisy_curves_of_every_shape() {
 fn the_best_found_comes_close_where_what_is_asked_is_out_of_reach() {
     // Curvatures of both signs are held at the ends, so an inflection is left.
     let polygon = long(Shape::Inflected, 200, 0.05, 5);
-    let before = Features::new(&polygon).count(Quantity::CurvatureExtremum);
+    let before = Features::new(&polygon).count(Feature::CurvatureExtremum);
     let held = Harmony {
         ends: [Held::Curvature; 2],
         ..asked(0, 0)

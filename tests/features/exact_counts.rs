@@ -6,7 +6,7 @@ use crate::common::Random;
 use crate::witness::{ExactSegment, Polynomial};
 use batten::geometry::FloatPolygon;
 use batten::geometry::features::{
-    Features, Quantity, SegmentFeatures, SegmentProver, Sign, SignPiece, Undecided, Verdict,
+    Feature, Features, SegmentFeatures, SegmentProver, Sign, SignPiece, Undecided, Verdict,
 };
 use glam::DVec3;
 
@@ -49,7 +49,7 @@ fn random_curve(random: &mut Random, degree: usize, kind: Kind) -> FloatPolygon 
 
 /// A function on all segments: how it is found, and exactly.
 struct Function {
-    quantity: Quantity,
+    quantity: Feature,
     found: fn(&SegmentFeatures) -> &[SignPiece],
     exact: fn(&ExactSegment) -> Polynomial,
 }
@@ -61,24 +61,24 @@ fn functions(in_space: bool) -> Vec<Function> {
         ExactSegment::curvature_slope
     };
     let mut functions = vec![Function {
-        quantity: Quantity::CurvatureExtremum,
+        quantity: Feature::CurvatureExtremum,
         found: |segment| &segment.curvature_slope,
         exact: slope,
     }];
     if in_space {
         functions.push(Function {
-            quantity: Quantity::TorsionZero,
+            quantity: Feature::TorsionZero,
             found: |segment| &segment.torsion,
             exact: ExactSegment::torsion,
         });
         functions.push(Function {
-            quantity: Quantity::TorsionExtremum,
+            quantity: Feature::TorsionExtremum,
             found: |segment| &segment.torsion_slope,
             exact: ExactSegment::torsion_slope,
         });
     } else {
         functions.push(Function {
-            quantity: Quantity::Inflection,
+            quantity: Feature::Inflection,
             found: |segment| &segment.curvature,
             exact: ExactSegment::curvature,
         });
@@ -143,11 +143,11 @@ fn exact_changes(
     let jump = |k: usize| {
         let before = &exact[(k + exact.len() - 1) % exact.len()];
         match (function.quantity, curve.degree()) {
-            (Quantity::CurvatureExtremum, 2) => {
+            (Feature::CurvatureExtremum, 2) => {
                 let behind = exact[k].end_curvature(false, planar)?;
                 Some(behind.cmp(&before.end_curvature(true, planar)?) as i32)
             }
-            (Quantity::TorsionExtremum, 3) => {
+            (Feature::TorsionExtremum, 3) => {
                 Some(exact[k].end_torsion(false)?.cmp(&before.end_torsion(true)?) as i32)
             }
             _ => Some(0),
@@ -202,14 +202,12 @@ fn check_curve(curve: &FloatPolygon, prover: &mut SegmentProver, tally: &mut Tal
     for function in &functions {
         let count = features.count(function.quantity);
         let knots = match function.quantity {
-            Quantity::Inflection => at_knots(features.inflections.iter().map(|r| (r.u, r.count))),
-            Quantity::CurvatureExtremum => {
+            Feature::Inflection => at_knots(features.inflections.iter().map(|r| (r.u, r.count))),
+            Feature::CurvatureExtremum => {
                 at_knots(features.curvature_extrema.iter().map(|e| (e.u, e.count)))
             }
-            Quantity::TorsionZero => {
-                at_knots(features.torsion_zeros.iter().map(|r| (r.u, r.count)))
-            }
-            Quantity::TorsionExtremum => {
+            Feature::TorsionZero => at_knots(features.torsion_zeros.iter().map(|r| (r.u, r.count))),
+            Feature::TorsionExtremum => {
                 at_knots(features.torsion_extrema.iter().map(|e| (e.u, e.count)))
             }
         };
@@ -222,7 +220,7 @@ fn check_curve(curve: &FloatPolygon, prover: &mut SegmentProver, tally: &mut Tal
             continue;
         };
         assert_eq!(count, expected, "{:?} of {curve:?}", function.quantity);
-        if function.quantity == Quantity::CurvatureExtremum {
+        if function.quantity == Feature::CurvatureExtremum {
             let monotone = if expected == 0 {
                 Verdict::Proved
             } else {

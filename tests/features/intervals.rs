@@ -1,7 +1,7 @@
 //! The intervals of proved features: they are apart where doubles can tell, narrow, and end at cusps.
 
 use crate::common::{assert_near, counts};
-use batten::geometry::features::{ExtremumKind, Features, Quantity};
+use batten::geometry::features::{ExtremumKind, Feature, Features};
 use batten::geometry::{BezierPolygon, FloatPolygon};
 use glam::DVec3;
 
@@ -239,7 +239,7 @@ fn no_feature_begins_where_an_undecided_piece_ends() {
     let polygon = FloatPolygon::new(20, points, Some(weights), false).expect("a valid polygon");
     let features = Features::new(&polygon);
     let doubts = features.undecided.iter();
-    let doubts = doubts.filter(|doubt| doubt.quantity == Quantity::CurvatureExtremum);
+    let doubts = doubts.filter(|doubt| doubt.quantity == Feature::CurvatureExtremum);
     let doubts: Vec<[f64; 2]> = doubts.map(|doubt| doubt.u).collect();
     assert!(!doubts.is_empty());
     for extremum in &features.curvature_extrema {

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use batten::geometry::FloatPolygon;
 use batten::geometry::features::{
-    ExtremumKind, Features, Quantity, SegmentFeatures, SegmentProver, Sign, SignPiece, Trend,
+    ExtremumKind, Feature, Features, SegmentFeatures, SegmentProver, Sign, SignPiece, Trend,
     TrendPiece, Verdict, certain_text,
 };
 use num_bigint::BigInt;
@@ -69,7 +69,7 @@ impl Check<'_> {
         }
     }
 
-    fn claimed(&mut self, quantity: Quantity, tally: &mut Tally) {
+    fn claimed(&mut self, quantity: Feature, tally: &mut Tally) {
         let claims = claims(self.features, quantity);
         let truth = self.truth;
         for claim in &claims {
@@ -96,7 +96,7 @@ impl Check<'_> {
     }
 
     /// The kind and the value of the first extremum of an interval.
-    fn extremum(&mut self, quantity: Quantity, claim: &Claim, change: &Change, tally: &mut Tally) {
+    fn extremum(&mut self, quantity: Feature, claim: &Claim, change: &Change, tally: &mut Tally) {
         let Some((kind, value)) = claim.extremum else {
             return;
         };
@@ -106,7 +106,7 @@ impl Check<'_> {
         });
         let truth = self.truth.value(quantity, change);
         // The witness has κ|κ|, and τ itself.
-        let squared = quantity == Quantity::CurvatureExtremum;
+        let squared = quantity == Feature::CurvatureExtremum;
         let compared = |bound: BigRational| {
             let power = if squared { &bound * bound.abs() } else { bound };
             Fraction::from(power)
@@ -140,7 +140,7 @@ impl Check<'_> {
         }
     }
 
-    fn disjoint(&mut self, quantity: Quantity, intervals: Vec<[f64; 2]>) {
+    fn disjoint(&mut self, quantity: Feature, intervals: Vec<[f64; 2]>) {
         for pair in intervals.windows(2) {
             self.expect(pair[0][1] < pair[1][0], || {
                 format!("{quantity:?}: {pair:?} are not disjoint and in order")
@@ -162,7 +162,7 @@ impl Check<'_> {
         }
     }
 
-    fn not_missed(&mut self, quantity: Quantity) {
+    fn not_missed(&mut self, quantity: Feature) {
         let truth = self.truth;
         let claims = claims(self.features, quantity);
         let doubts = self.features.undecided.iter();
@@ -183,7 +183,7 @@ impl Check<'_> {
         }
     }
 
-    fn doubts(&mut self, quantity: Quantity) {
+    fn doubts(&mut self, quantity: Feature) {
         let truth = self.truth;
         let features = self.features;
         let doubts = features
@@ -201,10 +201,10 @@ impl Check<'_> {
 
     fn nothing_of_other_quantities(&mut self) {
         let all = [
-            Quantity::Inflection,
-            Quantity::CurvatureExtremum,
-            Quantity::TorsionZero,
-            Quantity::TorsionExtremum,
+            Feature::Inflection,
+            Feature::CurvatureExtremum,
+            Feature::TorsionZero,
+            Feature::TorsionExtremum,
         ];
         for quantity in all {
             if !self.truth.quantities().contains(&quantity) {
@@ -244,7 +244,7 @@ impl Check<'_> {
     fn trends(&mut self) {
         let (truth, features) = (self.truth, self.features);
         for piece in &features.trends {
-            let changes = truth.changes_of(Quantity::CurvatureExtremum).iter();
+            let changes = truth.changes_of(Feature::CurvatureExtremum).iter();
             let changed = changes
                 .clone()
                 .any(|change| truth.reaches_into(&change.places, piece.u));
@@ -279,7 +279,7 @@ impl Check<'_> {
             let start = segment as f64 + by;
             let [low, high] = [piece.u[0].max(start), piece.u[1].min(start + 1.0)];
             if low < high {
-                let slope = self.truth.function(Quantity::CurvatureExtremum, segment);
+                let slope = self.truth.function(Feature::CurvatureExtremum, segment);
                 let parts = [exact(1.0) / BigInt::from(2), exact(1.0) / BigInt::from(3)];
                 let found = parts.map(|part| {
                     let [low, high] = [low, high].map(|u| exact(u) - exact(start));
@@ -296,7 +296,7 @@ impl Check<'_> {
                 });
             }
             if piece.u[0] < start && start < piece.u[1] {
-                let jump = self.truth.jump(Quantity::CurvatureExtremum, segment);
+                let jump = self.truth.jump(Feature::CurvatureExtremum, segment);
                 let agrees = jump == Some(0) || jump == Some(sign);
                 self.expect(agrees, || format!("{piece:?}: jump {jump:?} at {start}"));
             }
@@ -319,7 +319,7 @@ impl Check<'_> {
         }
         let extrema = features.curvature_extrema.iter().map(|extremum| extremum.u);
         let doubts = features.undecided.iter();
-        let doubts = doubts.filter(|doubt| doubt.quantity == Quantity::CurvatureExtremum);
+        let doubts = doubts.filter(|doubt| doubt.quantity == Feature::CurvatureExtremum);
         let cusps = features.cusps.iter().map(|cusp| cusp.u);
         let mut explained: Vec<_> = extrema
             .chain(doubts.map(|doubt| doubt.u))
@@ -349,14 +349,14 @@ impl Check<'_> {
     }
 
     fn verdict(&mut self) {
-        let changes = self.truth.changes_of(Quantity::CurvatureExtremum);
+        let changes = self.truth.changes_of(Feature::CurvatureExtremum);
         let extrema = changes.iter().filter(|change| !change.singular).count();
         let right = match self.features.monotone {
             Verdict::Proved => extrema == 0 && self.truth.cusps.is_empty(),
             Verdict::Disproved => extrema > 0,
             Verdict::Undecided => {
                 let mut doubts = self.features.undecided.iter();
-                let any = doubts.any(|doubt| doubt.quantity == Quantity::CurvatureExtremum);
+                let any = doubts.any(|doubt| doubt.quantity == Feature::CurvatureExtremum);
                 self.features.curvature_extrema.is_empty()
                     && (any || !self.features.cusps.is_empty())
             }
@@ -368,7 +368,7 @@ impl Check<'_> {
     }
 
     /// The pieces of one segment: a sign holds all along a piece, a root lies where it is said.
-    fn pieces(&mut self, quantity: Quantity, segment: usize, pieces: &[SignPiece]) {
+    fn pieces(&mut self, quantity: Feature, segment: usize, pieces: &[SignPiece]) {
         let function = self.truth.function(quantity, segment);
         let mut start = 0.0;
         for piece in pieces {
@@ -396,12 +396,12 @@ impl Check<'_> {
     }
 }
 
-fn pieces(segment: &SegmentFeatures, quantity: Quantity) -> &[SignPiece] {
+fn pieces(segment: &SegmentFeatures, quantity: Feature) -> &[SignPiece] {
     match quantity {
-        Quantity::Inflection => &segment.curvature,
-        Quantity::CurvatureExtremum => &segment.curvature_slope,
-        Quantity::TorsionZero => &segment.torsion,
-        Quantity::TorsionExtremum => &segment.torsion_slope,
+        Feature::Inflection => &segment.curvature,
+        Feature::CurvatureExtremum => &segment.curvature_slope,
+        Feature::TorsionZero => &segment.torsion,
+        Feature::TorsionExtremum => &segment.torsion_slope,
     }
 }
 

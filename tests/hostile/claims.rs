@@ -1,6 +1,6 @@
 //! What is said of a curve, in one form for all quantities.
 
-use batten::geometry::features::{Extremum, ExtremumKind, Features, Quantity, Root};
+use batten::geometry::features::{Extremum, ExtremumKind, Feature, Features, Root};
 
 /// A proved feature, or several.
 #[derive(Clone, Copy, Debug)]
@@ -11,12 +11,12 @@ pub struct Claim {
 }
 
 /// The proved features of a quantity.
-pub fn claims(features: &Features, quantity: Quantity) -> Vec<Claim> {
+pub fn claims(features: &Features, quantity: Feature) -> Vec<Claim> {
     match quantity {
-        Quantity::Inflection => of_roots(&features.inflections),
-        Quantity::CurvatureExtremum => of_extrema(&features.curvature_extrema),
-        Quantity::TorsionZero => of_roots(&features.torsion_zeros),
-        Quantity::TorsionExtremum => of_extrema(&features.torsion_extrema),
+        Feature::Inflection => of_roots(&features.inflections),
+        Feature::CurvatureExtremum => of_extrema(&features.curvature_extrema),
+        Feature::TorsionZero => of_roots(&features.torsion_zeros),
+        Feature::TorsionExtremum => of_extrema(&features.torsion_extrema),
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fmt::{Display, Formatter, Result};
 use std::time::Duration;
 
-use batten::geometry::features::{Features, Quantity, Verdict};
+use batten::geometry::features::{Feature, Features, Verdict};
 
 use crate::claims::claims;
 use crate::witness::Truth;
@@ -58,7 +58,7 @@ impl Tally {
         }
         let mut elsewhere = 0;
         for doubt in &features.undecided {
-            let flat = doubt.quantity == Quantity::TorsionExtremum;
+            let flat = doubt.quantity == Feature::TorsionExtremum;
             let at_cusp = truth.is_singular_within(doubt.u, flat);
             self.undecided_at_cusps += usize::from(at_cusp);
             elsewhere += usize::from(!at_cusp);

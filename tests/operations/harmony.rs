@@ -1,7 +1,7 @@
 //! Harmonising, and what can be asked of ends by values.
 
 use batten::document::Edit;
-use batten::geometry::features::{Features, Quantity};
+use batten::geometry::features::{Feature, Features};
 use batten::geometry::{End, FloatPolygon};
 use batten::operations::{Deviation, OperationError, Value};
 use glam::DVec3;
@@ -27,7 +27,7 @@ fn noisy() -> Runner {
 }
 
 fn extrema(polygon: &FloatPolygon) -> usize {
-    Features::new(polygon).count(Quantity::CurvatureExtremum)
+    Features::new(polygon).count(Feature::CurvatureExtremum)
 }
 
 fn list(numbers: &[f64]) -> Value {

@@ -1,12 +1,12 @@
 //! Moves that lose a feature.
 
-use batten::geometry::features::{Features, Quantity};
+use batten::geometry::features::{Feature, Features};
 use batten::geometry::vertex_moves::{FeatureLoss, FeatureRise, LossSearch};
 use batten::geometry::{FloatPolygon, Progress};
 
 use crate::curves::{case, moved, proved};
 
-fn losses(polygon: &FloatPolygon, quantity: Quantity, u: f64) -> Vec<FeatureLoss> {
+fn losses(polygon: &FloatPolygon, quantity: Feature, u: f64) -> Vec<FeatureLoss> {
     let search = LossSearch {
         polygon,
         proved: &proved(polygon),
@@ -20,9 +20,9 @@ fn losses(polygon: &FloatPolygon, quantity: Quantity, u: f64) -> Vec<FeatureLoss
 }
 
 /// The middles of all features of a kind.
-fn places(features: &Features, quantity: Quantity) -> Vec<f64> {
+fn places(features: &Features, quantity: Feature) -> Vec<f64> {
     let intervals: Vec<[f64; 2]> = match quantity {
-        Quantity::Inflection => features.inflections.iter().map(|root| root.u).collect(),
+        Feature::Inflection => features.inflections.iter().map(|root| root.u).collect(),
         _ => {
             let extrema = features.curvature_extrema.iter();
             extrema.map(|extremum| extremum.u).collect()
@@ -40,7 +40,7 @@ fn every_move_is_proved_to_lose_a_feature_and_to_add_none() {
     for number in (0..112).step_by(4) {
         let polygon = case(number).polygon;
         let before = Features::new(&polygon);
-        for quantity in [Quantity::CurvatureExtremum, Quantity::Inflection] {
+        for quantity in [Feature::CurvatureExtremum, Feature::Inflection] {
             let Some(u) = places(&before, quantity).first().copied() else {
                 continue;
             };
@@ -76,7 +76,7 @@ fn a_dent_is_lost_by_moving_its_vertex_back() {
     }
     let clean = FloatPolygon::planar(4, &points).expect("a polygon");
     assert_eq!(
-        Features::new(&clean).count(Quantity::CurvatureExtremum),
+        Features::new(&clean).count(Feature::CurvatureExtremum),
         0,
         "a spiral"
     );
@@ -84,10 +84,10 @@ fn a_dent_is_lost_by_moving_its_vertex_back() {
     let place = clean.vertices()[dented];
     let polygon = moved(&clean, dented, place * 1.01);
     let before = Features::new(&polygon);
-    let extrema = places(&before, Quantity::CurvatureExtremum);
+    let extrema = places(&before, Feature::CurvatureExtremum);
     assert!(!extrema.is_empty());
     for u in extrema {
-        let losses = losses(&polygon, Quantity::CurvatureExtremum, u);
+        let losses = losses(&polygon, Feature::CurvatureExtremum, u);
         let own = losses.iter().find(|loss| loss.vertex == dented);
         let own = own.expect("the vertex is near").distance().expect("a move");
         // Going all the way back loses every extremum, so the shortest way is no longer.
@@ -104,7 +104,7 @@ fn a_cancelled_search_finds_nothing() {
     let search = LossSearch {
         polygon: &polygon,
         proved: &proved(&polygon),
-        quantity: Quantity::CurvatureExtremum,
+        quantity: Feature::CurvatureExtremum,
         u: 0.5,
     };
     assert_eq!(search.run(&cancelled), Ok(None));

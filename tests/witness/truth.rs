@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::rc::Rc;
 
 use batten::geometry::FloatPolygon;
-use batten::geometry::features::Quantity;
+use batten::geometry::features::Feature;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 
@@ -83,9 +83,9 @@ pub struct Truth {
     periodic: bool,
     segments: Vec<ExactSegment>,
     /// The functions by quantity, one polynomial a segment.
-    functions: Vec<(Quantity, Vec<Polynomial>)>,
+    functions: Vec<(Feature, Vec<Polynomial>)>,
     /// The changes of sign by quantity, in the order of u.
-    pub changes: Vec<(Quantity, Vec<Change>)>,
+    pub changes: Vec<(Feature, Vec<Change>)>,
     /// Where the tangent vanishes.
     pub cusps: Vec<Singular>,
     /// The knots of a space curve without curvature.
@@ -98,11 +98,11 @@ impl Truth {
         let segments = ExactSegment::all(curve);
         let function = |quantity| {
             let of = |segment: &ExactSegment| match quantity {
-                Quantity::Inflection => segment.curvature(),
-                Quantity::CurvatureExtremum if planar => segment.curvature_slope(),
-                Quantity::CurvatureExtremum => segment.space_curvature_slope(),
-                Quantity::TorsionZero => segment.torsion(),
-                Quantity::TorsionExtremum => segment.torsion_slope(),
+                Feature::Inflection => segment.curvature(),
+                Feature::CurvatureExtremum if planar => segment.curvature_slope(),
+                Feature::CurvatureExtremum => segment.space_curvature_slope(),
+                Feature::TorsionZero => segment.torsion(),
+                Feature::TorsionExtremum => segment.torsion_slope(),
             };
             (quantity, segments.iter().map(of).collect())
         };
@@ -126,18 +126,18 @@ impl Truth {
     }
 
     /// The quantities that a curve has features of.
-    pub fn quantities(&self) -> &'static [Quantity] {
+    pub fn quantities(&self) -> &'static [Feature] {
         quantities(self.planar)
     }
 
-    pub fn changes_of(&self, quantity: Quantity) -> &[Change] {
+    pub fn changes_of(&self, quantity: Feature) -> &[Change] {
         let found = self.changes.iter().find(|(of, _)| *of == quantity);
         found.map_or(&[], |(_, changes)| changes)
     }
 
     /// The changes in an interval in the order in which the interval has them, which may reach over
     /// the joint of a periodic curve.
-    pub fn changes_inside(&self, quantity: Quantity, u: [f64; 2]) -> Vec<&Change> {
+    pub fn changes_inside(&self, quantity: Feature, u: [f64; 2]) -> Vec<&Change> {
         let changes = self.changes_of(quantity);
         let inside = changes
             .iter()
@@ -152,7 +152,7 @@ impl Truth {
     }
 
     /// The function of a quantity on a segment.
-    pub fn function(&self, quantity: Quantity, segment: usize) -> &Polynomial {
+    pub fn function(&self, quantity: Feature, segment: usize) -> &Polynomial {
         let found = self.functions.iter().find(|(of, _)| *of == quantity);
         &found.expect("a quantity of this curve").1[segment]
     }
@@ -202,18 +202,18 @@ impl Truth {
 
     /// The sign of the jump at the start of a segment of the quantity whose slope is walked along;
     /// `None` at a singular place.
-    pub fn jump(&self, quantity: Quantity, segment: usize) -> Option<i32> {
+    pub fn jump(&self, quantity: Feature, segment: usize) -> Option<i32> {
         let count = self.segments.len();
         let [before, behind] = [
             &self.segments[(segment + count - 1) % count],
             &self.segments[segment],
         ];
         let jump = match (quantity, self.degree) {
-            (Quantity::CurvatureExtremum, 2) => {
+            (Feature::CurvatureExtremum, 2) => {
                 let behind = behind.end_curvature(false, self.planar)?;
                 behind.cmp(&before.end_curvature(true, self.planar)?)
             }
-            (Quantity::TorsionExtremum, 3) => {
+            (Feature::TorsionExtremum, 3) => {
                 behind.end_torsion(false)?.cmp(&before.end_torsion(true)?)
             }
             _ => Ordering::Equal,
@@ -225,7 +225,7 @@ impl Truth {
     /// a minimum. The root is narrowed to 2⁻⁹⁶ of its isolating interval; the values at both ends
     /// are widened by what the value changes over as much before it, which at an extremum is more
     /// than what it changes inside.
-    pub fn value(&self, quantity: Quantity, change: &Change) -> [Fraction; 2] {
+    pub fn value(&self, quantity: Feature, change: &Change) -> [Fraction; 2] {
         let mut values: Vec<[Fraction; 2]> = Vec::new();
         for place in &change.places {
             match place {
@@ -266,10 +266,10 @@ impl Truth {
         best.expect("two places")
     }
 
-    fn hull(&self, quantity: Quantity, segment: usize, ends: [BigRational; 2]) -> [Fraction; 2] {
+    fn hull(&self, quantity: Feature, segment: usize, ends: [BigRational; 2]) -> [Fraction; 2] {
         let segment = &self.segments[segment];
         let at = |t: &BigRational| match quantity {
-            Quantity::TorsionExtremum => segment.torsion_at(t),
+            Feature::TorsionExtremum => segment.torsion_at(t),
             _ => segment.curvature_at(t, self.planar),
         };
         let before = &ends[0] - (&ends[1] - &ends[0]);
@@ -283,7 +283,7 @@ impl Truth {
         Fraction::widened([a, b], &before)
     }
 
-    fn walk(&self, quantity: Quantity, functions: &[Polynomial]) -> Vec<Change> {
+    fn walk(&self, quantity: Feature, functions: &[Polynomial]) -> Vec<Change> {
         let mut runs: Vec<(Place, Place, i32)> = Vec::new();
         for (segment, function) in functions.iter().enumerate() {
             if segment > 0 || self.periodic {
@@ -335,8 +335,8 @@ impl Truth {
         changes
     }
 
-    fn is_singular(&self, quantity: Quantity, places: &[Place; 2]) -> bool {
-        let flat: &[Singular] = if quantity == Quantity::TorsionExtremum {
+    fn is_singular(&self, quantity: Feature, places: &[Place; 2]) -> bool {
+        let flat: &[Singular] = if quantity == Feature::TorsionExtremum {
             &self.flat_knots
         } else {
             &[]
@@ -376,14 +376,14 @@ impl Truth {
 /// How many bits narrower than isolated a root is wanted for the values there.
 const NARROW: u64 = 96;
 
-fn quantities(planar: bool) -> &'static [Quantity] {
+fn quantities(planar: bool) -> &'static [Feature] {
     if planar {
-        &[Quantity::Inflection, Quantity::CurvatureExtremum]
+        &[Feature::Inflection, Feature::CurvatureExtremum]
     } else {
         &[
-            Quantity::CurvatureExtremum,
-            Quantity::TorsionZero,
-            Quantity::TorsionExtremum,
+            Feature::CurvatureExtremum,
+            Feature::TorsionZero,
+            Feature::TorsionExtremum,
         ]
     }
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::Client;
 use crate::document::Curve;
 use crate::geometry::Progress;
-use crate::geometry::features::{Quantity, SegmentFeatures};
+use crate::geometry::features::{Feature, SegmentFeatures};
 use crate::geometry::mineur_farin::{Atlas, AtlasSearch, AtlasVerdicts};
 use crate::geometry::vertex_moves::{FeatureLoss, LossSearch, MoveError, RegionSearch, SafeRegion};
 
@@ -39,7 +39,7 @@ pub struct FeatureOf {
     /// The curve.
     pub curve: Arc<Curve>,
     /// The quantity that has the feature.
-    pub quantity: Quantity,
+    pub quantity: Feature,
     /// The parameter of the feature.
     pub u: f64,
 }

@@ -8,7 +8,7 @@ use crate::editor::view::outline::ViewBox;
 use crate::geometry::FloatPolygon;
 use crate::geometry::ParametricCurve;
 use crate::geometry::features::{
-    Extremum, ExtremumKind, Features, Quantity, Root, Trend, TrendPiece, Verdict,
+    Extremum, ExtremumKind, Feature, Features, Root, Trend, TrendPiece, Verdict,
 };
 
 /// How far marks stay apart, in screen points: so far where few would touch, and farther where they
@@ -214,7 +214,7 @@ impl FeatureReport {
             sampled: false,
             monotone: features.monotone,
             constant: features.monotone == Verdict::Proved && trends.all(is_constant),
-            has_doubts: doubts.any(|doubt| doubt.quantity == Quantity::CurvatureExtremum),
+            has_doubts: doubts.any(|doubt| doubt.quantity == Feature::CurvatureExtremum),
             polyline: polygon.degree() == 1,
             rows,
         }
@@ -222,12 +222,12 @@ impl FeatureReport {
 }
 
 /// Name what could not be counted.
-fn doubtful(quantity: Quantity) -> &'static str {
+fn doubtful(quantity: Feature) -> &'static str {
     match quantity {
-        Quantity::Inflection => "inflections?",
-        Quantity::CurvatureExtremum => "κ extrema?",
-        Quantity::TorsionZero => "τ zeros?",
-        Quantity::TorsionExtremum => "τ extrema?",
+        Feature::Inflection => "inflections?",
+        Feature::CurvatureExtremum => "κ extrema?",
+        Feature::TorsionZero => "τ zeros?",
+        Feature::TorsionExtremum => "τ extrema?",
     }
 }
 

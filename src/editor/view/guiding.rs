@@ -14,7 +14,7 @@ use crate::editor::view::overlay::Overlay;
 use crate::editor::view::shown::Shown;
 use crate::editor::view::sight::Sight;
 use crate::editor::view::view::View;
-use crate::geometry::features::Quantity;
+use crate::geometry::features::Feature;
 use crate::geometry::mineur_farin::{Atlas, AtlasVerdicts};
 use crate::geometry::vertex_moves::{FeatureLoss, FeatureRise, RayBorder, SafeRegion};
 use crate::geometry::{FloatPolygon, significant};
@@ -82,9 +82,9 @@ impl Sight<'_> {
         let rows = self.features()?.rows.iter();
         let row = rows.into_iter().find(|row| row.middle == u)?;
         let quantity = match row.kind {
-            FeatureKind::Inflection => Quantity::Inflection,
+            FeatureKind::Inflection => Feature::Inflection,
             FeatureKind::CurvatureMaximum | FeatureKind::CurvatureMinimum => {
-                Quantity::CurvatureExtremum
+                Feature::CurvatureExtremum
             }
             _ => return None,
         };

@@ -31,7 +31,7 @@ const SPACINGS: [Spacing; 3] = [Spacing::Parameter, Spacing::ArcLength, Spacing:
 
 /// What an approximation is to be like.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Asked {
+pub struct ApproximationRequest {
     /// The degree.
     pub degree: usize,
     /// How the vertices are placed.
@@ -45,7 +45,7 @@ pub struct Asked {
     pub fit_ends: bool,
 }
 
-impl Asked {
+impl ApproximationRequest {
     /// The knots of so many vertices for a part of a curve.
     fn knots(&self, part: [f64; 2], count: usize) -> Result<UniformKnots, ApproximationError> {
         match self.periodic {
@@ -136,10 +136,10 @@ pub fn approximate_by_steps(
     curve: &dyn Differentiable,
     [first, step]: [f64; 2],
     count: usize,
-    asked: &Asked,
+    request: &ApproximationRequest,
 ) -> Result<Approximated, ApproximationError> {
-    let knots = UniformKnots::of_vertices(asked.degree, first, step, count)?;
-    Ok(Placed::uniform(curve, &knots, asked)?
+    let knots = UniformKnots::of_vertices(request.degree, first, step, count)?;
+    Ok(Placed::uniform(curve, &knots, request)?
         .measured()?
         .compared())
 }
@@ -153,18 +153,18 @@ pub fn approximate_between(
     interval: [f64; 2],
     count: usize,
     spacing: Spacing,
-    asked: &Asked,
+    request: &ApproximationRequest,
 ) -> Result<Approximated, ApproximationError> {
     match spacing {
         Spacing::Parameter => {
-            let knots = asked.knots(interval, count)?;
-            Ok(Placed::uniform(curve, &knots, asked)?
+            let knots = request.knots(interval, count)?;
+            Ok(Placed::uniform(curve, &knots, request)?
                 .measured()?
                 .compared())
         }
         _ => {
             let respaced = Respaced::new(curve, interval, spacing)?;
-            let placed = Placed::respaced(curve, &respaced, spacing, count, asked)?;
+            let placed = Placed::respaced(curve, &respaced, spacing, count, request)?;
             Ok(placed.measured()?.compared())
         }
     }
@@ -182,11 +182,11 @@ pub fn approximate_to_tolerance(
     curve: &dyn Differentiable,
     interval: [f64; 2],
     goal: &Goal,
-    asked: &Asked,
+    request: &ApproximationRequest,
     progress: &Progress,
 ) -> Result<Approximated, ApproximationError> {
     // The simplest knots say at once what cannot be made at all.
-    asked.knots(interval, asked.degree + 1)?;
+    request.knots(interval, request.degree + 1)?;
     let spacings = goal
         .spacing
         .map_or(SPACINGS.to_vec(), |spacing| vec![spacing]);
@@ -201,13 +201,13 @@ pub fn approximate_to_tolerance(
         curve,
         interval,
         goal,
-        asked,
+        request,
         spacings: respaced.collect(),
     };
     let found = search.run(progress)?;
     // What is too far away was not compared yet, nor are places of features refined.
     let count = found.polygon.vertices().len();
-    approximate_between(curve, interval, count, found.spacing, asked)
+    approximate_between(curve, interval, count, found.spacing, request)
 }
 
 /// The search for the least number of vertices.
@@ -215,14 +215,14 @@ struct Search<'a> {
     curve: &'a dyn Differentiable,
     interval: [f64; 2],
     goal: &'a Goal,
-    asked: &'a Asked,
+    request: &'a ApproximationRequest,
     /// A curve that stops somewhere has no arc length to go by; its own parameter is left then.
     spacings: Vec<Result<(Spacing, Option<Respaced<'a>>), ApproximationError>>,
 }
 
 impl Search<'_> {
     fn run(&self, progress: &Progress) -> Result<Approximated, ApproximationError> {
-        let least = self.asked.least_segments();
+        let least = self.request.least_segments();
         let most_tried = self.goal.most_segments.max(least);
         let (mut too_few, mut segments, mut most) = (least - 1, least, most_tried);
         let mut best: Option<Result<Approximated, ApproximationError>> = None;
@@ -270,7 +270,7 @@ impl Search<'_> {
 
     /// The first spacing that reaches what is asked for with so many segments, or the nearest.
     fn best_of(&self, segments: usize) -> Result<Approximated, ApproximationError> {
-        let count = self.asked.vertices(segments);
+        let count = self.request.vertices(segments);
         let mut best: Option<Result<Approximated, ApproximationError>> = None;
         for spacing in &self.spacings {
             let tried = match spacing {
@@ -319,10 +319,10 @@ impl Search<'_> {
     ) -> Result<Approximated, ApproximationError> {
         let placed = match respaced {
             None => {
-                let knots = self.asked.knots(self.interval, count)?;
-                Placed::uniform(self.curve, &knots, self.asked)?
+                let knots = self.request.knots(self.interval, count)?;
+                Placed::uniform(self.curve, &knots, self.request)?
             }
-            Some(respaced) => Placed::respaced(self.curve, respaced, spacing, count, self.asked)?,
+            Some(respaced) => Placed::respaced(self.curve, respaced, spacing, count, self.request)?,
         };
         let measured = placed.measured()?;
         // Levels take time, and are asked for only where the place is right.
@@ -337,7 +337,7 @@ impl Search<'_> {
 /// A polygon, placed but not measured.
 struct Placed<'a> {
     curve: &'a dyn Differentiable,
-    asked: &'a Asked,
+    request: &'a ApproximationRequest,
     polygon: FloatPolygon,
     corrections: Option<Corrections>,
     spacing: Spacing,
@@ -348,7 +348,7 @@ struct Placed<'a> {
 }
 
 /// A polygon that is measured, but whose levels are not compared.
-struct Measured<'a> {
+struct MeasuredPolygon<'a> {
     placed: Placed<'a>,
     found: Approximated,
 }
@@ -357,16 +357,16 @@ impl<'a> Placed<'a> {
     fn uniform(
         curve: &'a dyn Differentiable,
         knots: &UniformKnots,
-        asked: &'a Asked,
+        request: &'a ApproximationRequest,
     ) -> Result<Self, ApproximationError> {
         let knots = *knots;
         let PlacedPolygon {
             polygon,
             corrections,
-        } = placed(curve, &knots, asked.placing)?;
+        } = placed(curve, &knots, request.placing)?;
         let placed = Self {
             curve,
-            asked,
+            request,
             polygon,
             corrections,
             spacing: Spacing::Parameter,
@@ -382,16 +382,16 @@ impl<'a> Placed<'a> {
         respaced: &'a Respaced<'a>,
         spacing: Spacing,
         count: usize,
-        asked: &'a Asked,
+        request: &'a ApproximationRequest,
     ) -> Result<Self, ApproximationError> {
-        let knots = asked.knots([0.0, 1.0], count)?;
+        let knots = request.knots([0.0, 1.0], count)?;
         let PlacedPolygon {
             polygon,
             corrections,
-        } = placed(respaced, &knots, asked.placing)?;
+        } = placed(respaced, &knots, request.placing)?;
         let placed = Self {
             curve,
-            asked,
+            request,
             polygon,
             corrections,
             spacing,
@@ -407,10 +407,10 @@ impl<'a> Placed<'a> {
 
     /// Bring the ends to the curve's points and directions, if that is asked for.
     fn with_ends(mut self) -> Result<Self, ApproximationError> {
-        if self.asked.fit_ends && self.polygon.is_periodic() {
+        if self.request.fit_ends && self.polygon.is_periodic() {
             return Err(ApproximationError::NoEnds);
         }
-        if self.asked.fit_ends {
+        if self.request.fit_ends {
             let ends = [End::Start, End::Finish].into_iter().zip(self.interval);
             let targets = ends.map(|(end, t)| {
                 let values = self.curve.derivatives(t, 1);
@@ -429,7 +429,7 @@ impl<'a> Placed<'a> {
         Ok(self)
     }
 
-    fn measured(self) -> Result<Measured<'a>, ApproximationError> {
+    fn measured(self) -> Result<MeasuredPolygon<'a>, ApproximationError> {
         let polygon = &self.polygon;
         let deviation =
             MeasuredDeviation::measure(polygon, self.curve, &*self.parameter, self.reach)?;
@@ -447,7 +447,7 @@ impl<'a> Placed<'a> {
             spacing: self.spacing,
             corrections: self.corrections,
         };
-        Ok(Measured {
+        Ok(MeasuredPolygon {
             placed: self,
             found,
         })
@@ -458,7 +458,7 @@ impl<'a> Placed<'a> {
 type Compare =
     fn(&FloatPolygon, &dyn Differentiable, &dyn Fn(f64) -> f64, usize) -> Vec<LevelComparison>;
 
-impl Measured<'_> {
+impl MeasuredPolygon<'_> {
     fn compared(self) -> Approximated {
         self.compared_by(compare_levels)
     }
@@ -466,13 +466,13 @@ impl Measured<'_> {
     fn compared_by(self, compare: Compare) -> Approximated {
         let Placed {
             curve,
-            asked,
+            request,
             polygon,
             parameter,
             ..
         } = self.placed;
         Approximated {
-            levels: compare(&polygon, curve, &*parameter, asked.levels),
+            levels: compare(&polygon, curve, &*parameter, request.levels),
             ..self.found
         }
     }

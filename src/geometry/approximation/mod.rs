@@ -11,7 +11,7 @@ mod spacing;
 mod watched;
 
 pub use approximating::{
-    Approximated, Asked, Goal, MOST_FOR_SHAPE, MOST_SEGMENTS, approximate_between,
+    Approximated, ApproximationRequest, Goal, MOST_FOR_SHAPE, MOST_SEGMENTS, approximate_between,
     approximate_by_steps, approximate_to_tolerance,
 };
 pub use deviation::MeasuredDeviation;

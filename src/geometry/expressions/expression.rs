@@ -1,7 +1,7 @@
 //! Expressions as trees, and their power series.
 
 use super::function::Function;
-use super::range::{Gap, Range};
+use super::range::{Gap, ValueRange};
 use super::unit::Unit;
 use crate::geometry::power_series::PowerSeries;
 
@@ -66,8 +66,8 @@ impl Expression {
         let mut left = vec![[from, to]];
         for _ in 0..MOST_INTERVALS {
             let [low, high] = left.pop()?;
-            let range = self.0.range(Range::new(low, high));
-            let Err(gap) = range.and_then(Range::of_coordinate) else {
+            let range = self.0.range(ValueRange::new(low, high));
+            let Err(gap) = range.and_then(ValueRange::of_coordinate) else {
                 continue;
             };
             let middle = low + 0.5 * (high - low);
@@ -163,14 +163,14 @@ impl Node {
     }
 
     /// Bound its values for t in a range.
-    fn range(&self, t: Range) -> Result<Range, Gap> {
+    fn range(&self, t: ValueRange) -> Result<ValueRange, Gap> {
         match self {
-            Self::Number(number) => Ok(Range::number(*number)),
+            Self::Number(number) => Ok(ValueRange::number(*number)),
             Self::Parameter => Ok(t),
             Self::Negative(inner) => Ok(inner.range(t)?.negative()),
-            Self::InUnit(Unit::Degree, _, inner) => {
-                inner.range(t)?.times(Range::number(1_f64.to_radians()))
-            }
+            Self::InUnit(Unit::Degree, _, inner) => inner
+                .range(t)?
+                .times(ValueRange::number(1_f64.to_radians())),
             Self::InUnit(Unit::Radian | Unit::Length(_), _, inner) => inner.range(t),
             Self::Call(function, _, arguments) => {
                 let arguments = arguments.iter().map(|argument| argument.range(t));

@@ -1,7 +1,7 @@
 //! The functions that expressions can name.
 
 use super::degrees::{sin_cos_of_degrees, tan_of_degrees};
-use super::range::{Gap, Range};
+use super::range::{Gap, ValueRange};
 use crate::geometry::power_series::PowerSeries;
 
 /// A function that expressions can name.
@@ -34,8 +34,14 @@ pub(super) enum FunctionKind {
 
 #[derive(Clone, Copy)]
 enum Body {
-    One(OfOne<PowerSeries>, fn(Range) -> Result<Range, Gap>),
-    Two(OfTwo<PowerSeries>, fn(Range, Range) -> Result<Range, Gap>),
+    One(
+        OfOne<PowerSeries>,
+        fn(ValueRange) -> Result<ValueRange, Gap>,
+    ),
+    Two(
+        OfTwo<PowerSeries>,
+        fn(ValueRange, ValueRange) -> Result<ValueRange, Gap>,
+    ),
 }
 
 type OfOne<T> = fn(&T) -> T;
@@ -47,31 +53,31 @@ const FUNCTIONS: &[Function] = &[
         "sin",
         FunctionKind::OfAngle(|degrees| sin_cos_of_degrees(degrees).0),
         |f| f.sin_cos().0,
-        Range::sin,
+        ValueRange::sin,
     ),
     one(
         "cos",
         FunctionKind::OfAngle(|degrees| sin_cos_of_degrees(degrees).1),
         |f| f.sin_cos().1,
-        Range::cos,
+        ValueRange::cos,
     ),
     one(
         "tan",
         FunctionKind::OfAngle(tan_of_degrees),
         PowerSeries::tan,
-        Range::tan,
+        ValueRange::tan,
     ),
     one(
         "asin",
         FunctionKind::ToAngle,
         PowerSeries::asin,
-        Range::asin,
+        ValueRange::asin,
     ),
     one(
         "acos",
         FunctionKind::ToAngle,
         PowerSeries::acos,
-        Range::acos,
+        ValueRange::acos,
     ),
     one("atan", FunctionKind::ToAngle, PowerSeries::atan, |f| {
         f.rising(f64::atan)
@@ -86,7 +92,7 @@ const FUNCTIONS: &[Function] = &[
         "cosh",
         FunctionKind::Plain,
         |f| f.sinh_cosh().1,
-        Range::cosh,
+        ValueRange::cosh,
     ),
     one("tanh", FunctionKind::Plain, PowerSeries::tanh, |f| {
         f.rising(f64::tanh)
@@ -94,7 +100,7 @@ const FUNCTIONS: &[Function] = &[
     one("exp", FunctionKind::Plain, PowerSeries::exp, |f| {
         f.rising(f64::exp)
     }),
-    one("ln", FunctionKind::Plain, PowerSeries::ln, Range::ln),
+    one("ln", FunctionKind::Plain, PowerSeries::ln, ValueRange::ln),
     one(
         "sqrt",
         FunctionKind::Root,
@@ -124,7 +130,7 @@ const FUNCTIONS: &[Function] = &[
         "atan2",
         FunctionKind::Direction,
         PowerSeries::direction,
-        Range::direction,
+        ValueRange::direction,
     ),
 ];
 
@@ -132,7 +138,7 @@ const fn one(
     name: &'static str,
     kind: FunctionKind,
     of: OfOne<PowerSeries>,
-    over: fn(Range) -> Result<Range, Gap>,
+    over: fn(ValueRange) -> Result<ValueRange, Gap>,
 ) -> Function {
     let of = Body::One(of, over);
     Function { name, kind, of }
@@ -142,7 +148,7 @@ const fn two(
     name: &'static str,
     kind: FunctionKind,
     of: OfTwo<PowerSeries>,
-    over: fn(Range, Range) -> Result<Range, Gap>,
+    over: fn(ValueRange, ValueRange) -> Result<ValueRange, Gap>,
 ) -> Function {
     let of = Body::Two(of, over);
     Function { name, kind, of }
@@ -181,7 +187,7 @@ impl Function {
     ///
     /// # Errors
     /// [`Gap`] where it may have none, and if the arguments are not as many as it has.
-    pub(super) fn over(self, arguments: &[Range]) -> Result<Range, Gap> {
+    pub(super) fn over(self, arguments: &[ValueRange]) -> Result<ValueRange, Gap> {
         match (self.of, arguments) {
             (Body::One(_, over), [f]) => over(*f),
             (Body::Two(_, over), [f, g]) => over(*f, *g),

@@ -76,14 +76,14 @@ pub(super) struct Conventions {
     pub(super) degrees: bool,
 }
 
-type Measured = Result<Measure, ExpressionMistake>;
+type MeasureResult = Result<Measure, ExpressionMistake>;
 
 impl Conventions {
     /// Compute what a part of an expression without t comes to.
     ///
     /// # Errors
     /// [`ExpressionMistake`] where units do not go together.
-    pub(super) fn measure(self, node: &Node) -> Measured {
+    pub(super) fn measure(self, node: &Node) -> MeasureResult {
         match node {
             Node::Number(number) => Ok(Measure::plain(*number)),
             // Numbers are read without t.
@@ -109,7 +109,7 @@ impl Conventions {
         }
     }
 
-    fn in_unit(self, unit: Unit, column: usize, inner: &Node) -> Measured {
+    fn in_unit(self, unit: Unit, column: usize, inner: &Node) -> MeasureResult {
         let inner = self.measure(inner)?;
         let (number, dimension) = match unit {
             Unit::Length(length) => {
@@ -138,7 +138,7 @@ impl Conventions {
         column: usize,
         left: Measure,
         right: Measure,
-    ) -> Measured {
+    ) -> MeasureResult {
         let (a, b) = (left.number, right.number);
         let sum = || self.common(column, left, right);
         let (number, dimension) = match operator {
@@ -150,7 +150,7 @@ impl Conventions {
         Ok(Measure { number, dimension })
     }
 
-    fn power(self, base: &Node, column: usize, exponent: &Node) -> Measured {
+    fn power(self, base: &Node, column: usize, exponent: &Node) -> MeasureResult {
         let (base, exponent) = (self.measure(base)?, self.measure(exponent)?);
         needed(column, exponent, Dimension::PLAIN)?;
         let power = PowerSeries::constant(base.number, 0).power(exponent.number);
@@ -160,7 +160,7 @@ impl Conventions {
         })
     }
 
-    fn call(self, function: Function, column: usize, arguments: &[Node]) -> Measured {
+    fn call(self, function: Function, column: usize, arguments: &[Node]) -> MeasureResult {
         let inside = match function.kind {
             FunctionKind::Same => self,
             _ => Self {

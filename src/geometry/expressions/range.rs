@@ -7,7 +7,7 @@ use crate::geometry::control_polygon::MAX_MAGNITUDE;
 /// Hold the numbers that an expression can have over an interval: those between two, with room for
 /// rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Range {
+pub(super) struct ValueRange {
     low: f64,
     high: f64,
 }
@@ -21,9 +21,9 @@ pub(super) enum Gap {
     Border,
 }
 
-type Found = Result<Range, Gap>;
+type RangeResult = Result<ValueRange, Gap>;
 
-impl Range {
+impl ValueRange {
     /// The numbers from `low` to `high`.
     pub(super) fn new(low: f64, high: f64) -> Self {
         Self { low, high }
@@ -40,7 +40,7 @@ impl Range {
     }
 
     /// Leave room for the rounding of what was computed; what is beyond all numbers is a pole.
-    fn rounded(low: f64, high: f64) -> Found {
+    fn rounded(low: f64, high: f64) -> RangeResult {
         if low.is_finite() && high.is_finite() {
             Ok(Self::new(low.next_down(), high.next_up()))
         } else {
@@ -49,7 +49,7 @@ impl Range {
     }
 
     /// Refuse what is too large for a coordinate.
-    pub(super) fn of_coordinate(self) -> Found {
+    pub(super) fn of_coordinate(self) -> RangeResult {
         match self.abs().high <= MAX_MAGNITUDE {
             true => Ok(self),
             false => Err(Gap::Pole),
@@ -61,7 +61,7 @@ impl Range {
     }
 
     /// The range of a function that rises.
-    pub(super) fn rising(self, function: fn(f64) -> f64) -> Found {
+    pub(super) fn rising(self, function: fn(f64) -> f64) -> RangeResult {
         Self::rounded(function(self.low), function(self.high))
     }
 
@@ -71,12 +71,12 @@ impl Range {
     }
 
     /// a + b.
-    pub(super) fn plus(self, other: Self) -> Found {
+    pub(super) fn plus(self, other: Self) -> RangeResult {
         Self::rounded(self.low + other.low, self.high + other.high)
     }
 
     /// a b.
-    pub(super) fn times(self, other: Self) -> Found {
+    pub(super) fn times(self, other: Self) -> RangeResult {
         let products = [
             self.low * other.low,
             self.low * other.high,
@@ -89,7 +89,7 @@ impl Range {
     }
 
     /// 1 / a.
-    pub(super) fn inverse(self) -> Found {
+    pub(super) fn inverse(self) -> RangeResult {
         if self.holds(0.0) {
             return Err(Gap::Pole);
         }
@@ -106,7 +106,7 @@ impl Range {
     }
 
     /// A power with a fixed exponent.
-    pub(super) fn power(self, exponent: f64) -> Found {
+    pub(super) fn power(self, exponent: f64) -> RangeResult {
         if exponent.fract() != 0.0 {
             return if self.low > 0.0 {
                 self.ln()?.times(Self::number(exponent))?.rising(f64::exp)
@@ -123,7 +123,7 @@ impl Range {
     }
 
     /// The natural logarithm.
-    pub(super) fn ln(self) -> Found {
+    pub(super) fn ln(self) -> RangeResult {
         if self.low > 0.0 {
             self.rising(f64::ln)
         } else {
@@ -132,7 +132,7 @@ impl Range {
     }
 
     /// The sine: −1 to 1 where the range is wider than a quarter turn with a turning point in it.
-    pub(super) fn sin(self) -> Found {
+    pub(super) fn sin(self) -> RangeResult {
         use std::f64::consts::{PI, TAU};
         if self.high - self.low >= TAU {
             return Ok(Self::new(-1.0, 1.0));
@@ -158,12 +158,12 @@ impl Range {
     }
 
     /// The cosine.
-    pub(super) fn cos(self) -> Found {
+    pub(super) fn cos(self) -> RangeResult {
         self.plus(Self::quarter_turn())?.sin()
     }
 
     /// The tangent: no pole lies where the cosine has one sign.
-    pub(super) fn tan(self) -> Found {
+    pub(super) fn tan(self) -> RangeResult {
         if self.cos()?.holds(0.0) {
             return Err(Gap::Pole);
         }
@@ -181,7 +181,7 @@ impl Range {
     }
 
     /// The angle of the vector (x, y), which jumps where y = 0 and x < 0.
-    pub(super) fn direction(y: Self, x: Self) -> Found {
+    pub(super) fn direction(y: Self, x: Self) -> RangeResult {
         if x.low > 0.0 {
             return y.times(x.inverse()?)?.rising(f64::atan);
         }
@@ -194,13 +194,13 @@ impl Range {
     }
 
     /// The hyperbolic cosine.
-    pub(super) fn cosh(self) -> Found {
+    pub(super) fn cosh(self) -> RangeResult {
         let Self { low, high } = self.abs();
         Self::rounded(low.cosh(), high.cosh())
     }
 
     /// The arc sine, whose slope is infinite at the borders.
-    pub(super) fn asin(self) -> Found {
+    pub(super) fn asin(self) -> RangeResult {
         if self.low > -1.0 && self.high < 1.0 {
             self.rising(f64::asin)
         } else {
@@ -209,7 +209,7 @@ impl Range {
     }
 
     /// The arc cosine.
-    pub(super) fn acos(self) -> Found {
+    pub(super) fn acos(self) -> RangeResult {
         Self::quarter_turn().plus(self.asin()?.negative())
     }
 }
@@ -220,15 +220,15 @@ mod tests {
 
     #[test]
     fn ranges_hold_what_functions_have_over_them() {
-        type Case = (fn(Range) -> Found, fn(f64) -> f64);
+        type Case = (fn(ValueRange) -> RangeResult, fn(f64) -> f64);
         let cases: [Case; 9] = [
-            (Range::sin, f64::sin),
-            (Range::cos, f64::cos),
-            (Range::tan, f64::tan),
-            (Range::cosh, f64::cosh),
-            (Range::asin, f64::asin),
-            (Range::acos, f64::acos),
-            (Range::ln, f64::ln),
+            (ValueRange::sin, f64::sin),
+            (ValueRange::cos, f64::cos),
+            (ValueRange::tan, f64::tan),
+            (ValueRange::cosh, f64::cosh),
+            (ValueRange::asin, f64::asin),
+            (ValueRange::acos, f64::acos),
+            (ValueRange::ln, f64::ln),
             (|it| it.power(3.0), |x| x * x * x),
             (|it| it.power(-2.0), |x| 1.0 / (x * x)),
         ];
@@ -237,7 +237,7 @@ mod tests {
             for start in -40..40 {
                 for width in [0.0, 0.01, 0.3, 1.7, 7.0] {
                     let low = 0.25 * f64::from(start);
-                    let Ok(range) = over(Range::new(low, low + width)) else {
+                    let Ok(range) = over(ValueRange::new(low, low + width)) else {
                         continue;
                     };
                     held += 1;
@@ -260,13 +260,13 @@ mod tests {
 
     #[test]
     fn gaps_are_noticed() {
-        let around = Range::new(-1.0, 2.0);
+        let around = ValueRange::new(-1.0, 2.0);
         assert_eq!(around.inverse(), Err(Gap::Pole));
         assert_eq!(around.ln(), Err(Gap::Pole));
-        assert_eq!(Range::new(1.0, 2.0).tan(), Err(Gap::Pole));
+        assert_eq!(ValueRange::new(1.0, 2.0).tan(), Err(Gap::Pole));
         assert_eq!(around.power(0.5), Err(Gap::Border));
         assert_eq!(around.asin(), Err(Gap::Border));
-        assert_eq!(Range::number(800.0).rising(f64::exp), Err(Gap::Pole));
-        assert_eq!(Range::number(1e101).of_coordinate(), Err(Gap::Pole));
+        assert_eq!(ValueRange::number(800.0).rising(f64::exp), Err(Gap::Pole));
+        assert_eq!(ValueRange::number(1e101).of_coordinate(), Err(Gap::Pole));
     }
 }

@@ -27,7 +27,7 @@ pub struct ShapeCounts {
 
 impl ShapeCounts {
     /// How many features there are too many, or too few of a kind that is asked for in number.
-    pub(super) fn distance(self, asked: Asked) -> usize {
+    pub(super) fn distance(self, request: CountRequest) -> usize {
         let apart = |has: usize, most: usize, exact: bool| {
             if exact {
                 has.abs_diff(most)
@@ -35,7 +35,7 @@ impl ShapeCounts {
                 has.saturating_sub(most)
             }
         };
-        let (most, exact) = (asked.counts, asked.exact);
+        let (most, exact) = (request.counts, request.exact);
         apart(self.inflections, most.inflections, exact[0])
             + apart(self.extrema, most.extrema, exact[1])
             + apart(self.torsion_extrema, most.torsion_extrema, exact[2])
@@ -51,7 +51,7 @@ impl ShapeCounts {
 
 /// How many features are to be left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Asked {
+pub(super) struct CountRequest {
     pub(super) counts: ShapeCounts,
     /// Whether just so many inflections, extrema and torsion extrema are asked for, or at most so
     /// many.
@@ -60,25 +60,25 @@ pub(super) struct Asked {
 
 /// The proved features of a stretch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Proved {
+pub(super) struct ProvedCounts {
     pub(super) counts: ShapeCounts,
     pub(super) undecided: usize,
 }
 
-impl Proved {
+impl ProvedCounts {
     /// Whether it is what is asked for.
-    pub(super) fn has(self, asked: Asked) -> bool {
-        self.excess(asked) == 0
+    pub(super) fn has(self, request: CountRequest) -> bool {
+        self.excess(request) == 0
     }
 
     /// How many features there are too many or too few, undecided ones among them.
-    pub(super) fn excess(self, asked: Asked) -> usize {
-        self.counts.distance(asked) + self.undecided
+    pub(super) fn excess(self, request: CountRequest) -> usize {
+        self.counts.distance(request) + self.undecided
     }
 }
 
 /// Count the proved features that lie in a stretch.
-pub(super) fn counted(features: &Features, planar: bool, stretch: [f64; 2]) -> Proved {
+pub(super) fn counted(features: &Features, planar: bool, stretch: [f64; 2]) -> ProvedCounts {
     let within = |u: [f64; 2]| u[1] >= stretch[0] && u[0] <= stretch[1];
     let roots = |roots: &[Root]| -> usize {
         let found = roots.iter().filter(|root| within(root.u));
@@ -90,7 +90,7 @@ pub(super) fn counted(features: &Features, planar: bool, stretch: [f64; 2]) -> P
     };
     let doubts = features.undecided.iter().filter(|doubt| within(doubt.u));
     let cusps = features.cusps.iter().filter(|cusp| within(cusp.u));
-    Proved {
+    ProvedCounts {
         counts: ShapeCounts {
             inflections: if planar {
                 roots(&features.inflections)

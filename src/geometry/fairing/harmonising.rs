@@ -3,7 +3,7 @@
 use glam::DVec3;
 use thiserror::Error;
 
-use super::counts::{Asked, ShapeCounts, counted, domain, seen, significant};
+use super::counts::{CountRequest, ShapeCounts, counted, domain, seen, significant};
 use super::problem::{Problem, Sweep};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::error::PolygonError;
@@ -81,7 +81,7 @@ pub struct Harmonised {
     /// Whether it has what is asked for: proved features, held ends, deviation.
     pub reached: bool,
     /// How many features were asked for.
-    pub asked: ShapeCounts,
+    pub request: ShapeCounts,
     /// How many are proved.
     pub counts: ShapeCounts,
     /// How many places are undecided, cusps among them.
@@ -166,7 +166,7 @@ pub fn harmonise(
         harmony.extrema,
         harmony.torsion_extrema,
     ];
-    let asked = Asked {
+    let request = CountRequest {
         counts: ShapeCounts {
             inflections: given[0].unwrap_or(own.inflections),
             extrema: given[1].unwrap_or(own.extrema),
@@ -177,8 +177,8 @@ pub fn harmonise(
     let found = counted(&features, polygon.is_planar(), stretch);
     let unchanged = Harmonised {
         polygon: polygon.clone(),
-        reached: found.has(asked),
-        asked: asked.counts,
+        reached: found.has(request),
+        request: request.counts,
         counts: found.counts,
         undecided: found.undecided,
         deviation: 0.0,
@@ -203,11 +203,11 @@ pub fn harmonise(
     let mut search = Search {
         problem,
         stretch,
-        asked,
+        request,
         most: harmony.largest_deviation.unwrap_or(f64::INFINITY),
         progress,
         best: Candidate {
-            excess: found.excess(asked),
+            excess: found.excess(request),
             harmonised: unchanged,
             largest_move: 0.0,
         },
@@ -344,20 +344,20 @@ impl Candidate {
 
 /// What one ε leaves.
 #[derive(Clone, Copy, PartialEq)]
-enum Found {
+enum CountVerdict {
     /// More features of some kind than asked for, or undecided places.
-    More,
+    TooMany,
     /// Just those.
-    Asked,
+    Met,
     /// None too many of any kind, and of some too few.
-    Fewer,
+    TooFew,
 }
 
 struct Search<'a> {
     problem: Problem<'a>,
     polygon: &'a FloatPolygon,
     stretch: [f64; 2],
-    asked: Asked,
+    request: CountRequest,
     most: f64,
     progress: &'a Progress,
     best: Candidate,
@@ -392,7 +392,7 @@ impl Search<'_> {
             let before = vertices.clone();
             let found = self.try_out(sweep, closeness, &mut vertices)?;
             let between = [closeness, closeness / SWEEP];
-            if found != Found::More && self.narrow(sweep, between, found, before)? {
+            if found != CountVerdict::TooMany && self.narrow(sweep, between, found, before)? {
                 return Ok(());
             }
             closeness *= SWEEP;
@@ -414,18 +414,18 @@ impl Search<'_> {
         &mut self,
         sweep: &Sweep,
         [mut low, mut high]: [f64; 2],
-        found: Found,
+        found: CountVerdict,
         begin: Vec<DVec3>,
     ) -> Result<bool, HarmonyError> {
-        let mut reached = found == Found::Asked;
+        let mut reached = found == CountVerdict::Met;
         while high / low > FOUND {
             let middle = (high * low).sqrt();
             let mut vertices = begin.clone();
             let found = self.try_out(sweep, middle, &mut vertices)?;
-            reached |= found == Found::Asked;
+            reached |= found == CountVerdict::Met;
             match found {
-                Found::More => high = middle,
-                Found::Asked | Found::Fewer => low = middle,
+                CountVerdict::TooMany => high = middle,
+                CountVerdict::Met | CountVerdict::TooFew => low = middle,
             }
         }
         Ok(reached)
@@ -437,7 +437,7 @@ impl Search<'_> {
         sweep: &Sweep,
         closeness: f64,
         vertices: &mut Vec<DVec3>,
-    ) -> Result<Found, HarmonyError> {
+    ) -> Result<CountVerdict, HarmonyError> {
         if self.progress.is_cancelled() {
             return Err(HarmonyError::Cancelled);
         }
@@ -446,12 +446,12 @@ impl Search<'_> {
         self.iterations += found.steps;
         *vertices = found.vertices;
         let Ok(polygon) = self.problem.polygon(vertices) else {
-            return Ok(Found::More);
+            return Ok(CountVerdict::TooMany);
         };
         // What samples show already needs no proof.
         let looks = seen(&polygon, self.stretch);
-        if looks.exceeds(self.asked.counts) {
-            let excess = looks.distance(self.asked);
+        if looks.exceeds(self.request.counts) {
+            let excess = looks.distance(self.request);
             if self
                 .promising
                 .as_ref()
@@ -459,7 +459,7 @@ impl Search<'_> {
             {
                 self.promising = Some((excess, polygon));
             }
-            return Ok(Found::More);
+            return Ok(CountVerdict::TooMany);
         }
         self.rank(polygon)
     }
@@ -473,20 +473,20 @@ impl Search<'_> {
     }
 
     /// Prove a polygon, keep it if it is better, and tell whether it is what is asked.
-    fn rank(&mut self, polygon: FloatPolygon) -> Result<Found, HarmonyError> {
+    fn rank(&mut self, polygon: FloatPolygon) -> Result<CountVerdict, HarmonyError> {
         let features = prove(&polygon, self.progress)?;
         let proved = counted(&features, polygon.is_planar(), self.stretch);
         let deviation = self.polygon.deviation(&polygon)?;
         let moves = self.polygon.vertices().iter().zip(polygon.vertices());
         let moves = moves.map(|(before, after)| before.distance(*after));
-        let has = proved.has(self.asked);
+        let has = proved.has(self.request);
         let candidate = Candidate {
-            excess: proved.excess(self.asked),
+            excess: proved.excess(self.request),
             largest_move: moves.fold(0.0, f64::max),
             harmonised: Harmonised {
                 polygon,
                 reached: has && deviation <= self.most,
-                asked: self.asked.counts,
+                request: self.request.counts,
                 counts: proved.counts,
                 undecided: proved.undecided,
                 deviation,
@@ -497,11 +497,11 @@ impl Search<'_> {
             self.best = candidate;
         }
         Ok(if has {
-            Found::Asked
-        } else if proved.undecided > 0 || proved.counts.exceeds(self.asked.counts) {
-            Found::More
+            CountVerdict::Met
+        } else if proved.undecided > 0 || proved.counts.exceeds(self.request.counts) {
+            CountVerdict::TooMany
         } else {
-            Found::Fewer
+            CountVerdict::TooFew
         })
     }
 }

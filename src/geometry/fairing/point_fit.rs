@@ -12,7 +12,7 @@ use super::near_points::{NearPoints, Points};
 use super::slope_signs::SlopeSign;
 use super::unknowns::Unknowns;
 use crate::geometry::error::PolygonError;
-use crate::geometry::features::{Features, Quantity};
+use crate::geometry::features::{Feature, Features};
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
 
@@ -315,5 +315,5 @@ impl PointFit<'_> {
 
 /// The number of curvature extrema, undecided places among them.
 pub(in crate::geometry) fn extrema_of(features: &Features) -> usize {
-    features.count(Quantity::CurvatureExtremum) + features.undecided.len()
+    features.count(Feature::CurvatureExtremum) + features.undecided.len()
 }

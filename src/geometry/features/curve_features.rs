@@ -2,9 +2,9 @@
 
 use super::enclosure::narrower;
 use super::exact_numerators::ExactSegment;
-use super::feature::{Cusp, Extremum, ExtremumKind, Features, Quantity, Root, Undecided, Verdict};
+use super::feature::{Cusp, Extremum, ExtremumKind, Feature, Features, Root, Undecided, Verdict};
 use super::segment_features::SegmentFeatures;
-use super::separation::{Found, join_neighbours, narrow_neighbours};
+use super::separation::{ChangeInterval, join_neighbours, narrow_neighbours};
 use super::sign_piece::SignPiece;
 use super::sign_walk::{Place, SignWalk};
 use super::trends::trends;
@@ -52,12 +52,12 @@ impl Features {
         };
         let planar = polygon.is_planar();
         let mut singular: Vec<_> = features.cusps.iter().map(|cusp| cusp.u).collect();
-        let quantity = Quantity::Inflection;
+        let quantity = Feature::Inflection;
         let walk = assembly.walk(quantity);
         let found = assembly.find(quantity, &walk, &singular);
         let found = features.decide(&assembly, quantity, (&walk, found), &singular);
         features.inflections = found.iter().map(root).collect();
-        let quantity = Quantity::CurvatureExtremum;
+        let quantity = Feature::CurvatureExtremum;
         let walk = assembly.walk(quantity);
         let found = assembly.find(quantity, &walk, &singular);
         features.trends = trends(&walk.runs, &found, &features.cusps, count as f64);
@@ -66,14 +66,14 @@ impl Features {
         features.curvature_extrema = extrema.collect();
         features.monotone = features.verdict();
         if !planar {
-            let quantity = Quantity::TorsionZero;
+            let quantity = Feature::TorsionZero;
             let walk = assembly.walk(quantity);
             let found = assembly.find(quantity, &walk, &singular);
             let found = features.decide(&assembly, quantity, (&walk, found), &singular);
             features.torsion_zeros = found.iter().map(root).collect();
             let flat = assembly.flat_knots();
             singular.extend(&flat);
-            let quantity = Quantity::TorsionExtremum;
+            let quantity = Feature::TorsionExtremum;
             let walk = assembly.walk(quantity);
             let found = assembly.find(quantity, &walk, &singular);
             let found = features.decide(&assembly, quantity, (&walk, found), &singular);
@@ -90,10 +90,10 @@ impl Features {
     fn decide<'a>(
         &mut self,
         assembly: &Assembly,
-        quantity: Quantity,
-        (walk, mut found): (&SignWalk, Vec<Found<'a>>),
+        quantity: Feature,
+        (walk, mut found): (&SignWalk, Vec<ChangeInterval<'a>>),
         singular: &[[f64; 2]],
-    ) -> Vec<Found<'a>> {
+    ) -> Vec<ChangeInterval<'a>> {
         let doubt = |u, certain| Undecided {
             u,
             quantity,
@@ -122,7 +122,7 @@ impl Features {
         for u in knots {
             let doubt = Undecided {
                 u: *u,
-                quantity: Quantity::TorsionExtremum,
+                quantity: Feature::TorsionExtremum,
                 certain: false,
             };
             if !self.undecided.contains(&doubt) {
@@ -135,7 +135,7 @@ impl Features {
         let mut doubts = self
             .undecided
             .iter()
-            .filter(|doubt| doubt.quantity == Quantity::CurvatureExtremum)
+            .filter(|doubt| doubt.quantity == Feature::CurvatureExtremum)
             .peekable();
         if !self.curvature_extrema.is_empty() {
             Verdict::Disproved
@@ -176,12 +176,12 @@ impl Assembly<'_> {
         singular.iter().any(meets)
     }
 
-    fn walk(&self, quantity: Quantity) -> SignWalk {
+    fn walk(&self, quantity: Feature) -> SignWalk {
         // The quantity whose derivative is walked along jumps at the knots of this degree.
         let jumping = match quantity {
-            Quantity::CurvatureExtremum => Some(2),
-            Quantity::TorsionExtremum => Some(3),
-            Quantity::Inflection | Quantity::TorsionZero => None,
+            Feature::CurvatureExtremum => Some(2),
+            Feature::TorsionExtremum => Some(3),
+            Feature::Inflection | Feature::TorsionZero => None,
         };
         let jumps = jumping == Some(self.polygon.degree());
         let pieces = |segment: usize| self.pieces(quantity, segment);
@@ -205,13 +205,13 @@ impl Assembly<'_> {
     /// one, a singular place or an undecided piece are narrowed.
     fn find<'a>(
         &self,
-        quantity: Quantity,
+        quantity: Feature,
         walk: &'a SignWalk,
         singular: &[[f64; 2]],
-    ) -> Vec<Found<'a>> {
+    ) -> Vec<ChangeInterval<'a>> {
         let changes = walk.changes.iter();
         let mut found: Vec<_> = changes
-            .map(|change| Found::new(change, self.interval(change.places)))
+            .map(|change| ChangeInterval::new(change, self.interval(change.places)))
             .collect();
         // A walk round a periodic curve sees its joint last: a change at the joint itself comes
         // before a root whose interval begins there.
@@ -219,7 +219,7 @@ impl Assembly<'_> {
             let order = a.u[0].total_cmp(&b.u[0]);
             order.then(a.u[1].total_cmp(&b.u[1]))
         });
-        let narrow = |found: &mut Found| found.narrow(self.polygon, quantity);
+        let narrow = |found: &mut ChangeInterval| found.narrow(self.polygon, quantity);
         narrow_neighbours(&mut found, self.joint(), narrow);
         let doubts = self.doubts(walk);
         for found in &mut found {
@@ -230,22 +230,22 @@ impl Assembly<'_> {
         found
     }
 
-    fn pieces(&self, quantity: Quantity, segment: usize) -> &[SignPiece] {
+    fn pieces(&self, quantity: Feature, segment: usize) -> &[SignPiece] {
         let segment = &self.segments[segment];
         match quantity {
-            Quantity::Inflection => &segment.curvature,
-            Quantity::CurvatureExtremum => &segment.curvature_slope,
-            Quantity::TorsionZero => &segment.torsion,
-            Quantity::TorsionExtremum => &segment.torsion_slope,
+            Feature::Inflection => &segment.curvature,
+            Feature::CurvatureExtremum => &segment.curvature_slope,
+            Feature::TorsionZero => &segment.torsion,
+            Feature::TorsionExtremum => &segment.torsion_slope,
         }
     }
 
     /// The sign of the jump at the start of a segment.
-    fn jump(&self, quantity: Quantity, segment: usize) -> i8 {
+    fn jump(&self, quantity: Feature, segment: usize) -> i8 {
         let count = self.segments.len();
         let before = (segment + count - 1) % count;
         let [left, right] = [before, segment % count].map(|k| &self.segments[k]);
-        let ([_, left], [right, _]) = if quantity == Quantity::CurvatureExtremum {
+        let ([_, left], [right, _]) = if quantity == Feature::CurvatureExtremum {
             (left.end_curvature, right.end_curvature)
         } else {
             (left.end_torsion, right.end_torsion)
@@ -300,7 +300,7 @@ impl Assembly<'_> {
         }
     }
 
-    fn extremum(&self, found: &Found, quantity: Quantity) -> Extremum {
+    fn extremum(&self, found: &ChangeInterval, quantity: Feature) -> Extremum {
         let change = found.change;
         let maximum = change.from > 0;
         let value = if change.is_root {
@@ -324,12 +324,12 @@ impl Assembly<'_> {
     }
 
     /// Bound the curvature or torsion at an end of a segment, seen from inside.
-    fn value(&self, place: Place, quantity: Quantity) -> [f64; 2] {
+    fn value(&self, place: Place, quantity: Feature) -> [f64; 2] {
         let index = place.segment % self.segments.len();
         let segment = &self.segments[index];
         let end = usize::from(place.t == 1.0);
         let bounds = match quantity {
-            Quantity::CurvatureExtremum => segment.end_curvature[end],
+            Feature::CurvatureExtremum => segment.end_curvature[end],
             _ => segment.end_torsion[end],
         };
         let exact = || ExactSegment::new(self.polygon, index, self.polygon.is_planar());
@@ -389,7 +389,7 @@ fn join_cusps(last: &mut Cusp, next: &Cusp) -> bool {
     touch
 }
 
-fn root(found: &Found) -> Root {
+fn root(found: &ChangeInterval) -> Root {
     Root {
         u: found.u,
         count: found.count,

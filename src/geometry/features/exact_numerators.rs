@@ -10,7 +10,7 @@ use num_bigint::BigInt;
 use num_traits::{One, Zero};
 
 use super::exact_polynomial::ExactPolynomial;
-use super::feature::Quantity;
+use super::feature::Feature;
 use super::floating::Floating;
 use super::numerators::{Derivatives, Function, Vector, dot};
 use super::ring::Ring;
@@ -124,10 +124,10 @@ impl ExactSegment {
     /// Multiply out the polynomial that has a function's signs.
     pub(super) fn numerator(&self, function: Function) -> ExactPolynomial {
         match function {
-            Function::Feature(Quantity::Inflection) => self.bend(2),
-            Function::Feature(Quantity::CurvatureExtremum) => self.curvature_slope(),
-            Function::Feature(Quantity::TorsionZero) => self.torsion(3),
-            Function::Feature(Quantity::TorsionExtremum) => self.torsion_slope(),
+            Function::Feature(Feature::Inflection) => self.bend(2),
+            Function::Feature(Feature::CurvatureExtremum) => self.curvature_slope(),
+            Function::Feature(Feature::TorsionZero) => self.torsion(3),
+            Function::Feature(Feature::TorsionExtremum) => self.torsion_slope(),
             Function::Speed => self.speed(1),
             Function::Along(direction) => {
                 let direction = whole_numbers(&direction);
@@ -185,9 +185,9 @@ impl ExactSegment {
 
     /// Tell the sign of the jump of curvature at degree 2, or torsion at degree 3, at the knot
     /// to the next segment. All else in them is the same on both sides.
-    pub(super) fn jump(&self, next: &Self, quantity: Quantity) -> i8 {
+    pub(super) fn jump(&self, next: &Self, quantity: Feature) -> i8 {
         let jumping = |segment: &Self| match quantity {
-            Quantity::TorsionExtremum => segment.torsion(3),
+            Feature::TorsionExtremum => segment.torsion(3),
             _ if self.planar => segment.bend(2),
             _ => segment.bending(2),
         };

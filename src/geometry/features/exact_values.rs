@@ -6,7 +6,7 @@ use num_traits::{One, Zero};
 use super::enclosure::{Enclosure, UNKNOWN};
 use super::exact_numerators::ExactSegment;
 use super::exact_polynomial::ExactPolynomial;
-use super::feature::Quantity;
+use super::feature::Feature;
 use super::floating::Floating;
 use super::numerators::Function;
 use crate::geometry::whole_numbers::fraction;
@@ -39,7 +39,7 @@ impl ExactSegment {
 
     /// Enclose the curvature or torsion at the extremum that lies between two places, which are
     /// the same at a knot. It is narrowed as far as digits are to be gained.
-    pub(super) fn enclose(&self, quantity: Quantity, ends: [f64; 2]) -> Enclosure {
+    pub(super) fn enclose(&self, quantity: Feature, ends: [f64; 2]) -> Enclosure {
         let parts = Parts::new(self, quantity);
         let mut interval = Interval::new(ends);
         let mut best = UNKNOWN;
@@ -86,9 +86,9 @@ enum Form {
 }
 
 impl Parts {
-    fn new(segment: &ExactSegment, quantity: Quantity) -> Self {
+    fn new(segment: &ExactSegment, quantity: Feature) -> Self {
         let (form, numerator, below) = match quantity {
-            Quantity::TorsionExtremum => (Form::Torsion, segment.torsion(3), segment.bending(2)),
+            Feature::TorsionExtremum => (Form::Torsion, segment.torsion(3), segment.bending(2)),
             _ if segment.is_planar() => (Form::Planar, segment.bend(2), segment.speed(1)),
             _ => (Form::Spatial, segment.bending(2), segment.speed(1)),
         };
@@ -281,14 +281,14 @@ mod tests {
         let polygon = FloatPolygon::planar(2, &points).expect("valid");
         let [a, b] = [0, 1].map(|j| polygon.vertex(j + 1) - polygon.vertex(j));
         let exact = ExactSegment::new(&polygon, 0, true).expect("few digits");
-        let [low, high] = exact.enclose(Quantity::CurvatureExtremum, [0.5, 0.5]);
+        let [low, high] = exact.enclose(Feature::CurvatureExtremum, [0.5, 0.5]);
         let expected = a.truncate().perp_dot(b.truncate()) / (0.5 * (a + b)).length().powi(3);
         assert!((high - low) / low.abs() < 1e-13, "{low:e} {high:e}");
         // The witness's legs are rounded: 1e-17 of 1e-14.
         assert!((low / expected - 1.0).abs() <= 0.02, "{low:e} {expected:e}");
         let sound = FloatPolygon::planar(2, &[(0.0, 0.0), (4.0, 0.0), (6.0, 3.0)]).expect("valid");
         let exact = ExactSegment::new(&sound, 0, true).expect("few digits");
-        let [low, high] = exact.enclose(Quantity::CurvatureExtremum, [0.375, 0.375]);
+        let [low, high] = exact.enclose(Feature::CurvatureExtremum, [0.375, 0.375]);
         let doubles = sound.segment_jet(0, 0.375).signed_curvature();
         assert!(
             low <= doubles * (1.0 + 4.0 * f64::EPSILON)

@@ -59,14 +59,14 @@ pub struct Extremum {
 
 impl Features {
     /// Tell how many features of a kind are proved.
-    pub fn count(&self, quantity: Quantity) -> usize {
+    pub fn count(&self, quantity: Feature) -> usize {
         let roots = |roots: &[Root]| roots.iter().map(|root| root.count).sum();
         let extrema = |extrema: &[Extremum]| extrema.iter().map(|extremum| extremum.count).sum();
         match quantity {
-            Quantity::Inflection => roots(&self.inflections),
-            Quantity::CurvatureExtremum => extrema(&self.curvature_extrema),
-            Quantity::TorsionZero => roots(&self.torsion_zeros),
-            Quantity::TorsionExtremum => extrema(&self.torsion_extrema),
+            Feature::Inflection => roots(&self.inflections),
+            Feature::CurvatureExtremum => extrema(&self.curvature_extrema),
+            Feature::TorsionZero => roots(&self.torsion_zeros),
+            Feature::TorsionExtremum => extrema(&self.torsion_extrema),
         }
     }
 }
@@ -99,14 +99,14 @@ pub struct Undecided {
     /// The piece.
     pub u: [f64; 2],
     /// Which features may lie in it.
-    pub quantity: Quantity,
+    pub quantity: Feature,
     /// Whether there is at least one for certain: the signs on both sides differ.
     pub certain: bool,
 }
 
 /// Name a kind of feature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
+pub enum Feature {
     /// Inflections of a planar curve.
     Inflection,
     /// Extrema of the curvature.

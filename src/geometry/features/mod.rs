@@ -56,7 +56,7 @@ mod variations;
 
 pub use certain_digits::certain_text;
 pub use feature::{
-    Cusp, Extremum, ExtremumKind, Features, Quantity, Root, Trend, TrendPiece, Undecided, Verdict,
+    Cusp, Extremum, ExtremumKind, Feature, Features, Root, Trend, TrendPiece, Undecided, Verdict,
 };
 pub(super) use power_velocity::PowerVelocity;
 pub(super) use ray_forecast::RayForecast;

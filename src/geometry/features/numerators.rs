@@ -18,7 +18,7 @@
 use std::array::from_fn;
 
 use super::arena::{Arena, Polynomial};
-use super::feature::Quantity;
+use super::feature::Feature;
 use super::ring::Ring;
 use super::scalar::Scalar;
 use super::segment_shape::SegmentShape;
@@ -48,7 +48,7 @@ pub(super) struct Numerators {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Function {
     /// What a quantity changes its sign with.
-    Feature(Quantity),
+    Feature(Feature),
     /// The speed: the square of A.
     Speed,
     /// The velocity on a straight line of this direction.
@@ -59,10 +59,10 @@ impl Numerators {
     /// The polynomial that has a function's signs.
     pub(super) fn of(&self, function: Function) -> Polynomial {
         match function {
-            Function::Feature(Quantity::Inflection) => self.curvature,
-            Function::Feature(Quantity::CurvatureExtremum) => self.curvature_slope,
-            Function::Feature(Quantity::TorsionZero) => self.torsion,
-            Function::Feature(Quantity::TorsionExtremum) => self.torsion_slope,
+            Function::Feature(Feature::Inflection) => self.curvature,
+            Function::Feature(Feature::CurvatureExtremum) => self.curvature_slope,
+            Function::Feature(Feature::TorsionZero) => self.torsion,
+            Function::Feature(Feature::TorsionExtremum) => self.torsion_slope,
             Function::Speed => self.speed,
             // A line is turned into the x axis.
             Function::Along(_) => self.tangent[0],

@@ -6,7 +6,7 @@ use super::arena::Arena;
 use super::enclosure::{UNKNOWN, at_ends, narrower};
 use super::exact_numerators::ExactSegment;
 use super::exact_polynomial::ExactPolynomial;
-use super::feature::Quantity;
+use super::feature::Feature;
 use super::isolation::{Doubt, isolate};
 use super::numerators::{Function, Numerators};
 use super::refinement::bisect;
@@ -107,8 +107,8 @@ impl SegmentProver {
         let mut features = search.features();
         features.end_curvature = [start[0], end[0]];
         features.end_torsion = [start[1], end[1]];
-        search.set_values(&mut features.curvature_slope, Quantity::CurvatureExtremum);
-        search.set_values(&mut features.torsion_slope, Quantity::TorsionExtremum);
+        search.set_values(&mut features.curvature_slope, Feature::CurvatureExtremum);
+        search.set_values(&mut features.torsion_slope, Feature::TorsionExtremum);
         features
     }
 }
@@ -124,10 +124,10 @@ struct Search<'a> {
 
 impl Search<'_> {
     fn features(&mut self) -> SegmentFeatures {
-        let (curvature, _) = self.signs(Function::Feature(Quantity::Inflection));
-        let (curvature_slope, tier) = self.signs(Function::Feature(Quantity::CurvatureExtremum));
-        let (torsion, _) = self.signs(Function::Feature(Quantity::TorsionZero));
-        let (torsion_slope, _) = self.signs(Function::Feature(Quantity::TorsionExtremum));
+        let (curvature, _) = self.signs(Function::Feature(Feature::Inflection));
+        let (curvature_slope, tier) = self.signs(Function::Feature(Feature::CurvatureExtremum));
+        let (torsion, _) = self.signs(Function::Feature(Feature::TorsionZero));
+        let (torsion_slope, _) = self.signs(Function::Feature(Feature::TorsionExtremum));
         let cusps = self.cusps(tier);
         SegmentFeatures {
             curvature,
@@ -208,7 +208,7 @@ impl Search<'_> {
     }
 
     /// Bound the curvature or torsion at the roots of its derivative.
-    fn set_values(&mut self, pieces: &mut [SignPiece], quantity: Quantity) {
+    fn set_values(&mut self, pieces: &mut [SignPiece], quantity: Feature) {
         let (mut start, mut is_maximum) = (0.0, false);
         for piece in pieces {
             let ends = [start, piece.until];
@@ -220,7 +220,7 @@ impl Search<'_> {
         }
     }
 
-    fn value(&mut self, quantity: Quantity, place: ([f64; 2], bool), count: usize) -> [f64; 2] {
+    fn value(&mut self, quantity: Feature, place: ([f64; 2], bool), count: usize) -> [f64; 2] {
         let curve = (self.shape, self.prover.planar);
         let mut bounds = UNKNOWN;
         if count == 1 {
@@ -228,7 +228,7 @@ impl Search<'_> {
             if is_known(bounds) {
                 return bounds;
             }
-            let may_be_flat = quantity == Quantity::CurvatureExtremum && bounds[0] <= 0.0;
+            let may_be_flat = quantity == Feature::CurvatureExtremum && bounds[0] <= 0.0;
             let flat = |exact: &ExactSegment| exact.is_flat_between(place.0);
             if may_be_flat && self.exact.as_ref().is_some_and(flat) {
                 return [0.0, 0.0];

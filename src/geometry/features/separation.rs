@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use super::exact_numerators::ExactSegment;
-use super::feature::Quantity;
+use super::feature::Feature;
 use super::numerators::Function;
 use super::refinement::bisect;
 use super::sign_walk::Change;
@@ -12,7 +12,7 @@ use crate::geometry::whole_numbers::fraction;
 
 /// Hold changes of sign that one interval of u holds.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Found<'a> {
+pub(super) struct ChangeInterval<'a> {
     /// The interval.
     pub(super) u: [f64; 2],
     /// How many they are.
@@ -23,7 +23,7 @@ pub(super) struct Found<'a> {
     pub(super) is_narrow: bool,
 }
 
-impl<'a> Found<'a> {
+impl<'a> ChangeInterval<'a> {
     /// Hold one change, with the interval of u of its places.
     pub(super) fn new(change: &'a Change, u: [f64; 2]) -> Self {
         Self {
@@ -35,7 +35,7 @@ impl<'a> Found<'a> {
     }
 
     /// Narrow the interval of a root to neighbouring doubles of u, or to the root if it is one.
-    pub(super) fn narrow(&mut self, polygon: &FloatPolygon, quantity: Quantity) {
+    pub(super) fn narrow(&mut self, polygon: &FloatPolygon, quantity: Feature) {
         let [low, high] = self.change.places;
         if self.is_narrow || !self.change.is_root || self.count != 1 || low.segment != high.segment
         {
@@ -66,9 +66,9 @@ impl<'a> Found<'a> {
 /// Narrow the intervals that touch the next one: of a curve with a joint at `joint`, the last
 /// and the first as well.
 pub(super) fn narrow_neighbours(
-    found: &mut [Found<'_>],
+    found: &mut [ChangeInterval<'_>],
     joint: Option<f64>,
-    narrow: impl Fn(&mut Found<'_>),
+    narrow: impl Fn(&mut ChangeInterval<'_>),
 ) {
     for index in 1..found.len() {
         if let [first, second] = &mut found[index - 1..=index]
@@ -87,7 +87,7 @@ pub(super) fn narrow_neighbours(
 }
 
 /// Join intervals that touch: doubles of u cannot tell their features apart.
-pub(super) fn join_neighbours(found: &mut Vec<Found<'_>>, joint: Option<f64>) {
+pub(super) fn join_neighbours(found: &mut Vec<ChangeInterval<'_>>, joint: Option<f64>) {
     found.dedup_by(|next, last| {
         let touch = last.u[1] >= next.u[0];
         if touch {

@@ -2,7 +2,7 @@
 
 use super::arena::{Arena, Polynomial};
 use super::enclosure::{Enclosure, UNKNOWN, at_place, widened};
-use super::feature::Quantity;
+use super::feature::Feature;
 use super::numerators::Numerators;
 use super::scalar::Scalar;
 use super::segment_shape::SegmentShape;
@@ -29,7 +29,7 @@ pub(super) fn at_extremum<T: Scalar>(
     arena: &Arena<T>,
     numerators: &Numerators,
     (shape, planar): (&SegmentShape, bool),
-    quantity: Quantity,
+    quantity: Feature,
     (ends, is_maximum): ([f64; 2], bool),
 ) -> Enclosure {
     let value = |polynomial: Polynomial| {
@@ -48,7 +48,7 @@ pub(super) fn at_extremum<T: Scalar>(
         1.0
     };
     let (at_start, slope, factor) = match quantity {
-        Quantity::CurvatureExtremum => {
+        Feature::CurvatureExtremum => {
             let root = if planar {
                 1.0
             } else {

@@ -2,7 +2,7 @@
 //! its curve does.
 
 use super::events::{Event, SequenceEvent};
-use crate::geometry::features::{Extremum, ExtremumKind, Features, Quantity, Root};
+use crate::geometry::features::{Extremum, ExtremumKind, Feature, Features, Root};
 
 /// Count what a curvature or torsion does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -77,14 +77,14 @@ struct CurveEvent {
 impl Isogeometry {
     /// Compare the discrete curvature with the proved features of the curve.
     pub(super) fn of_curvature(polygon: &PolygonEvents, features: &Features) -> Self {
-        let kinds = [Quantity::CurvatureExtremum, Quantity::Inflection];
+        let kinds = [Feature::CurvatureExtremum, Feature::Inflection];
         let curve = curve_events(&features.curvature_extrema, &features.inflections);
         Self::compare(polygon, &curve, doubt(features, kinds))
     }
 
     /// Compare the discrete torsion with the proved features of the curve.
     pub(super) fn of_torsion(polygon: &PolygonEvents, features: &Features) -> Self {
-        let kinds = [Quantity::TorsionExtremum, Quantity::TorsionZero];
+        let kinds = [Feature::TorsionExtremum, Feature::TorsionZero];
         let curve = curve_events(&features.torsion_extrema, &features.torsion_zeros);
         Self::compare(polygon, &curve, doubt(features, kinds))
     }
@@ -131,7 +131,7 @@ impl PolygonEvents {
 }
 
 /// The first piece of the curve on which features of some kinds are not known.
-fn doubt(features: &Features, kinds: [Quantity; 2]) -> Option<[f64; 2]> {
+fn doubt(features: &Features, kinds: [Feature; 2]) -> Option<[f64; 2]> {
     let doubts = features.undecided.iter();
     let doubts = doubts.filter(|doubt| kinds.contains(&doubt.quantity));
     let cusps = features.cusps.iter().map(|cusp| cusp.u);

@@ -8,7 +8,7 @@ use super::feature_rise::FeatureRise;
 use super::move_prover::MoveError;
 use super::ray::RayProver;
 use crate::geometry::Progress;
-use crate::geometry::features::{Features, Quantity, SegmentFeatures};
+use crate::geometry::features::{Feature, Features, SegmentFeatures};
 use crate::geometry::float_polygon::FloatPolygon;
 
 /// The rays that are tried first.
@@ -53,7 +53,7 @@ pub struct LossSearch<'a> {
     /// The features of all of its segments.
     pub proved: &'a [SegmentFeatures],
     /// What the feature is: an inflection or an extremum of the curvature.
-    pub quantity: Quantity,
+    pub quantity: Feature,
     /// Where it is: the middle of its interval.
     pub u: f64,
 }
@@ -135,7 +135,7 @@ impl LossSearch<'_> {
 /// The search for one vertex.
 struct Trial {
     prover: RayProver,
-    quantity: Quantity,
+    quantity: Feature,
     u: f64,
     /// Where the order of the features begins: opposite to what the vertex moves.
     origin: f64,
@@ -197,7 +197,7 @@ impl Trial {
     /// List the places of the features in order, each as often as it counts.
     fn places(&self, features: &Features) -> Vec<f64> {
         let counted: Vec<(f64, usize)> = match self.quantity {
-            Quantity::Inflection => {
+            Feature::Inflection => {
                 let roots = features.inflections.iter();
                 roots.map(|root| (middle(root.u), root.count)).collect()
             }

@@ -1,6 +1,6 @@
 //! Which proved counts are greater than before.
 
-use crate::geometry::features::{Features, Quantity};
+use crate::geometry::features::{Feature, Features};
 use crate::geometry::wording::noun;
 
 /// Count the features that are there after a move in addition to those before, of each kind.
@@ -21,8 +21,8 @@ impl FeatureRise {
     pub fn between(before: &Features, after: &Features) -> Self {
         let rise = |count: fn(&Features) -> usize| count(after).saturating_sub(count(before));
         Self {
-            curvature_extrema: rise(|features| features.count(Quantity::CurvatureExtremum)),
-            inflections: rise(|features| features.count(Quantity::Inflection)),
+            curvature_extrema: rise(|features| features.count(Feature::CurvatureExtremum)),
+            inflections: rise(|features| features.count(Feature::Inflection)),
             cusps: rise(proved_cusps),
             undecided: rise(doubts),
         }
