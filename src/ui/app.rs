@@ -13,7 +13,7 @@ use super::dialogs::{self, Decision, Dialog};
 use super::document_unit;
 use super::file_dialogs::{AfterDiscard, Chosen, FileDialogs, Purpose};
 use super::gizmo::gizmo_ui;
-use super::keyboard::{self, Asked, Keyboard, Typing};
+use super::keyboard::{self, KeyCommand, Keyboard, Typing};
 use super::layer_strip::layer_strip_ui;
 use super::menu::menu_ui;
 use super::message::message_ui;
@@ -189,16 +189,16 @@ impl App {
             self.editor.ask_for_menu_of_selection();
         }
         let typing = keyboard::typing(context) == Typing::Text;
-        let asked = self.keyboard.asked(context, &self.editor);
-        if typing && !asked.is_empty() {
+        let commands = self.keyboard.take_commands(context, &self.editor);
+        if typing && !commands.is_empty() {
             // What is being typed counts: its field gives it up before the command is done.
             context.memory_mut(|memory| memory.stop_text_input());
         }
-        for asked in asked {
-            match asked {
-                Asked::Action(action) if typing => self.actions.push(action),
-                Asked::Action(action) => self.perform(context, action),
-                Asked::Paste(text) => told(self.editor.paste_text(&text)),
+        for command in commands {
+            match command {
+                KeyCommand::Action(action) if typing => self.actions.push(action),
+                KeyCommand::Action(action) => self.perform(context, action),
+                KeyCommand::Paste(text) => told(self.editor.paste_text(&text)),
             }
         }
     }

@@ -6,6 +6,7 @@ use eframe::egui::{
     StrokeKind, TextureHandle, TextureOptions, Ui, WidgetInfo, pos2, vec2,
 };
 
+use super::number_field::FieldEvent;
 use super::theme::{self, STEP, Tokens};
 use super::{figures, widgets};
 use crate::editor::{Editor, OperationInProgress};
@@ -29,21 +30,12 @@ const POINT: f32 = 6.0;
 #[derive(Default)]
 pub struct AtlasView {
     picture: Option<(Picture, TextureHandle)>,
-    /// Whether its point is dragged; no more once that is called off.
+    /// Whether its point is dragged; until it ends or Esc cancels it.
     dragged: bool,
 }
 
-/// What is asked for in the atlas.
-pub enum Asked {
-    /// These values, as a change of their own.
-    Set(Vec<(&'static str, Value)>),
-    /// These values, as a part of the drag that goes on.
-    Drag(Vec<(&'static str, Value)>),
-    /// An end of the drag; its values stay.
-    Release,
-    /// An end of the drag, and the values from before it.
-    CallOff,
-}
+/// Values of the operation's parameters, by name.
+pub type Values = Vec<(&'static str, Value)>;
 
 /// What a picture was made of.
 #[derive(PartialEq)]
@@ -54,14 +46,14 @@ struct Picture {
 }
 
 impl AtlasView {
-    /// Show the atlas of the operation at hand; returns what is asked for.
+    /// Show the atlas of the operation at hand; returns what the user did to its point.
     pub fn show(
         &mut self,
         ui: &mut Ui,
         editor: &Editor,
         in_progress: &OperationInProgress,
         atlas: &Atlas,
-    ) -> Option<Asked> {
+    ) -> Option<FieldEvent<Values>> {
         let size = vec2(ui.available_width(), HEIGHT + MARGINS[1]);
         let (whole, _) = ui.allocate_exact_size(size, Sense::hover());
         let low = whole.min + vec2(MARGINS[0], 0.5 * STEP);
@@ -81,29 +73,29 @@ impl AtlasView {
             paint_point(&painter, at(rect, place), hot, Tokens::of(ui));
         }
         legend_ui(ui, atlas);
-        self.asked(ui, &response, rect, editor, atlas)
+        self.event(ui, &response, rect, editor, atlas)
     }
 
-    /// What a click or a drag asks for. Undo ends a drag in the editor, Esc here.
-    fn asked(
+    /// What a click or a drag does to the point. Undo ends a drag in the editor, Esc here.
+    fn event(
         &mut self,
         ui: &Ui,
         response: &Response,
         rect: Rect,
         editor: &Editor,
         atlas: &Atlas,
-    ) -> Option<Asked> {
+    ) -> Option<FieldEvent<Values>> {
         let values = || {
             let pointer = response.interact_pointer_pos()?;
             Some(atlas.values(place_at(rect, pointer)).to_vec())
         };
         if response.drag_started() {
             self.dragged = true;
-            return values().map(Asked::Drag);
+            return values().map(FieldEvent::Preview);
         }
         if !self.dragged {
             let clicked = response.clicked().then(values).flatten();
-            return clicked.map(Asked::Set);
+            return clicked.map(FieldEvent::Set);
         }
         self.dragged = response.dragged()
             && editor
@@ -111,12 +103,12 @@ impl AtlasView {
                 .is_some_and(OperationInProgress::holds_values);
         if ui.input(|input| input.key_pressed(Key::Escape)) {
             self.dragged = false;
-            return Some(Asked::CallOff);
+            return Some(FieldEvent::Abort);
         }
         if self.dragged {
-            return values().map(Asked::Drag);
+            return values().map(FieldEvent::Preview);
         }
-        Some(Asked::Release)
+        Some(FieldEvent::Commit)
     }
 
     fn paint_picture(&mut self, ui: &Ui, rect: Rect, atlas: &Atlas, found: Option<&AtlasVerdicts>) {

@@ -9,7 +9,7 @@ use lucide_icons::Icon;
 use super::canvas::{self, Canvas};
 use super::draft::remark_ui;
 use super::keyboard::{self, Typing};
-use super::number_field::{FieldEvent, NumberField};
+use super::number_field::NumberField;
 use super::theme::{self, ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
 use super::{figures, inspector};
@@ -224,9 +224,8 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor) {
     caption_ui(ui, "Degree");
     let field = NumberField::new("drawn degree", degree as f64, degree.to_string())
         .width(40.0)
-        .range(1.0..=MAX_DEGREE as f64)
-        .typed_only();
-    if let FieldEvent::Typed(value) = field.show(ui).1 {
+        .range(1.0..=MAX_DEGREE as f64);
+    if let Some(value) = field.typed(ui) {
         let degree = value.round() as usize;
         match editor.draw_settings() {
             Some(mut settings) => {
@@ -256,12 +255,8 @@ fn figure_ui(
     let text = value.map_or_else(|| "–".to_owned(), shown);
     let field = NumberField::new(name, value.unwrap_or(0.0), text)
         .width(FIGURE)
-        .quantity(quantity)
-        .typed_only();
-    let typed = match field.show(ui).1 {
-        FieldEvent::Typed(value) => Some(value),
-        _ => None,
-    };
+        .quantity(quantity);
+    let typed = field.typed(ui);
     let (icon, verb) = match locked {
         Some(_) => (Icon::Lock, "Unlock"),
         None => (Icon::LockOpen, "Lock"),

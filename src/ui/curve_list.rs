@@ -34,17 +34,6 @@ fn field_id() -> Id {
     Id::unique("name of a curve")
 }
 
-/// What a row asks for.
-enum Asked {
-    Activate(CurveId),
-    Menu(CurveId),
-    Rename(CurveId),
-    Lock(CurveId, bool),
-    Show(CurveId, bool),
-    Renamed(CurveId, String),
-    Reorder(CurveId, usize),
-}
-
 impl CurveList {
     /// Open the field for another name of the active curve or reference.
     pub fn rename_active(&mut self, context: &Context, editor: &Editor) {
@@ -63,7 +52,6 @@ impl CurveList {
             );
             return;
         }
-        let mut asked = None;
         // Room for the bar is always kept.
         let width = ui.available_width() - ui.spacing().scroll.allocated_width();
         ScrollArea::vertical()
@@ -72,22 +60,10 @@ impl CurveList {
                 ui.set_max_width(width);
                 ui.spacing_mut().item_spacing.y = 0.0;
                 for row in rows(editor) {
-                    if let Some(more) = self.row_ui(ui, &row) {
-                        asked = Some(more);
-                    }
+                    self.row_ui(ui, editor, &row);
                 }
                 self.in_sight = editor.active();
             });
-        match asked {
-            Some(Asked::Activate(curve)) => editor.activate(curve),
-            Some(Asked::Menu(curve)) => editor.ask_for_menu_of(curve),
-            Some(Asked::Rename(curve)) => self.begin_renaming(ui.ctx(), editor, curve),
-            Some(Asked::Lock(curve, locked)) => told(editor.set_locked(curve, locked)),
-            Some(Asked::Show(curve, visible)) => told(editor.set_visible(curve, visible)),
-            Some(Asked::Renamed(curve, name)) => told(editor.rename(curve, name)),
-            Some(Asked::Reorder(curve, place)) => reorder(editor, curve, place),
-            None => {}
-        }
     }
 
     /// Open the field for a name; from now on keys are the field's.
@@ -105,29 +81,28 @@ impl CurveList {
         context.memory_mut(|memory| memory.request_focus(field_id()));
     }
 
-    fn row_ui(&mut self, ui: &mut Ui, row: &Row) -> Option<Asked> {
+    fn row_ui(&mut self, ui: &mut Ui, editor: &mut Editor, row: &Row) {
         let (rect, response) =
             ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click_and_drag());
         row.paint(ui, rect, &response);
         if row.active && self.in_sight != Some(row.id) {
             ui.scroll_to_rect(rect, None);
         }
-        let mut asked = row.reorder(ui, rect, &response);
-        if response.clicked() {
-            asked = Some(Asked::Activate(row.id));
-        }
+        row.reorder(ui, editor, rect, &response);
         if response.double_clicked() {
-            asked = Some(Asked::Rename(row.id));
+            self.begin_renaming(ui.ctx(), editor, row.id);
+        } else if response.clicked() {
+            editor.activate(row.id);
         }
         if response.secondary_clicked() {
-            asked = Some(Asked::Menu(row.id));
+            editor.ask_for_menu_of(row.id);
         }
         let inner = rect.shrink2(vec2(2.0 * STEP, 0.0));
         let builder = UiBuilder::new().max_rect(inner).id_salt(row.id);
         ui.scope_builder(builder, |ui| {
             widgets::at_right(ui, |ui| {
                 ui.spacing_mut().item_spacing.x = 0.0;
-                asked = row.switches_ui(ui, rect).or(asked.take());
+                row.switches_ui(ui, editor, rect);
             });
         });
         let name = Rect::from_min_max(
@@ -139,15 +114,16 @@ impl CurveList {
             .as_ref()
             .is_some_and(|renaming| renaming.curve == row.id);
         if is_renamed {
-            asked = self.renaming_ui(ui, name).or(asked);
+            self.renaming_ui(ui, editor, name);
         } else {
             row.name_ui(ui, name, response);
         }
-        asked
     }
 
-    fn renaming_ui(&mut self, ui: &mut Ui, rect: Rect) -> Option<Asked> {
-        let renaming = self.renaming.as_mut()?;
+    fn renaming_ui(&mut self, ui: &mut Ui, editor: &mut Editor, rect: Rect) {
+        let Some(renaming) = &mut self.renaming else {
+            return;
+        };
         let field = TextEdit::singleline(&mut renaming.text)
             .id(field_id())
             .align(Align2::LEFT_CENTER)
@@ -159,11 +135,14 @@ impl CurveList {
             ui.scroll_to_rect(rect, None);
         }
         if std::mem::take(&mut renaming.is_new) || !response.lost_focus() {
-            return None;
+            return;
         }
-        let Renaming { curve, text, .. } = self.renaming.take()?;
-        let called_off = ui.input(|input| input.key_pressed(Key::Escape));
-        (!called_off).then_some(Asked::Renamed(curve, text))
+        let is_cancelled = ui.input(|input| input.key_pressed(Key::Escape));
+        if let Some(Renaming { curve, text, .. }) = self.renaming.take()
+            && !is_cancelled
+        {
+            told(editor.rename(curve, text));
+        }
     }
 }
 
@@ -234,46 +213,35 @@ struct Row {
 fn rows(editor: &Editor) -> Vec<Row> {
     let (document, active) = (editor.document(), editor.active());
     let (curves, references) = (document.curves(), document.references());
-    let [last_curve, last_reference] = [curves.len(), references.len()].map(|it| it.max(1) - 1);
+    let counts = [curves.len(), references.len()];
+    let row =
+        |id, is_reference: bool, place, (name, colour): (&str, _), [visible, locked]: [bool; 2]| {
+            Row {
+                id,
+                is_reference,
+                name: name.to_owned(),
+                colour,
+                visible,
+                locked,
+                place,
+                last: counts[usize::from(is_reference)].saturating_sub(1),
+                active: active == Some(id),
+            }
+        };
     let curves = curves.enumerate().map(|(place, (id, curve))| {
-        let Curve {
-            name,
-            colour,
-            visible,
-            locked,
-            ..
-        } = &**curve;
-        Row {
+        let Curve { name, colour, .. } = &**curve;
+        row(
             id,
-            is_reference: false,
-            name: name.clone(),
-            colour: *colour,
-            visible: *visible,
-            locked: *locked,
+            false,
             place,
-            last: last_curve,
-            active: active == Some(id),
-        }
+            (name, *colour),
+            [curve.visible, curve.locked],
+        )
     });
     let references = references.enumerate().map(|(place, (id, reference))| {
-        let Reference {
-            name,
-            colour,
-            visible,
-            locked,
-            ..
-        } = &**reference;
-        Row {
-            id,
-            is_reference: true,
-            name: name.clone(),
-            colour: *colour,
-            visible: *visible,
-            locked: *locked,
-            place,
-            last: last_reference,
-            active: active == Some(id),
-        }
+        let Reference { name, colour, .. } = &**reference;
+        let state = [reference.visible, reference.locked];
+        row(id, true, place, (name, *colour), state)
     });
     curves.chain(references).collect()
 }
@@ -329,7 +297,7 @@ impl Row {
     }
 
     /// A row can be dragged to another place.
-    fn reorder(&self, ui: &Ui, rect: Rect, response: &Response) -> Option<Asked> {
+    fn reorder(&self, ui: &Ui, editor: &mut Editor, rect: Rect, response: &Response) {
         if response.drag_started() {
             response.dnd_set_drag_payload(self.id);
         }
@@ -347,11 +315,14 @@ impl Row {
                 StrokeKind::Inside,
             );
         }
-        let curve = *response.dnd_release_payload::<CurveId>()?;
-        (curve != self.id).then_some(Asked::Reorder(curve, self.place))
+        if let Some(dragged) = response.dnd_release_payload::<CurveId>()
+            && *dragged != self.id
+        {
+            reorder(editor, *dragged, self.place);
+        }
     }
 
-    fn switches_ui(&self, ui: &mut Ui, row: Rect) -> Option<Asked> {
+    fn switches_ui(&self, ui: &mut Ui, editor: &mut Editor, row: Rect) {
         let tokens = Tokens::of(ui);
         let is_hovered = ui.rect_contains_pointer(row);
         // Switches at rest stay out of sight, unless they tell something.
@@ -360,39 +331,25 @@ impl Row {
         } else {
             Color32::TRANSPARENT
         };
-        let Self {
-            id: curve,
-            name,
-            visible,
-            locked,
-            ..
-        } = self;
-        let mut asked = None;
-        let (icon, colour) = if *locked {
-            (Icon::Lock, tokens.text)
-        } else {
-            (Icon::LockOpen, faint)
+        let (icon, colour) = match self.locked {
+            true => (Icon::Lock, tokens.text),
+            false => (Icon::LockOpen, faint),
         };
-        let label = format!("Lock {name}");
-        let button = IconButton::new(icon, &label)
-            .colour(colour)
-            .tooltip("Protect the shape from edits");
-        if button.show(ui).clicked() {
-            asked = Some(Asked::Lock(*curve, !locked));
+        let label = format!("Lock {}", self.name);
+        let button = IconButton::new(icon, &label).colour(colour);
+        if button.tooltip("Protect the shape").show(ui).clicked() {
+            told(editor.set_locked(self.id, !self.locked));
         }
-        let (icon, colour) = if *visible {
-            (Icon::Eye, faint)
-        } else {
-            (Icon::EyeOff, tokens.text)
+        let (icon, colour) = match self.visible {
+            true => (Icon::Eye, faint),
+            false => (Icon::EyeOff, tokens.text),
         };
-        let label = format!("Show {name}");
-        let button = IconButton::new(icon, &label)
-            .colour(colour)
-            .tooltip(format!("Show or hide the {}", self.noun()));
-        if button.show(ui).clicked() {
-            asked = Some(Asked::Show(*curve, !visible));
+        let label = format!("Show {}", self.name);
+        let tooltip = format!("Show or hide the {}", self.noun());
+        let button = IconButton::new(icon, &label).colour(colour);
+        if button.tooltip(tooltip).show(ui).clicked() {
+            told(editor.set_visible(self.id, !self.visible));
         }
-        asked
     }
 }
 

@@ -1,12 +1,10 @@
 //! The end-fit panel's fields for what a target has beyond its direction: curvature, osculating plane
-//! and slope.
+//! and curvature slope.
 
 use eframe::egui::{Checkbox, Role, Sense, Ui, WidgetInfo, vec2};
 use glam::DVec3;
 
-use super::end_fit_asked::Asked;
-use super::end_fit_steps::field_width;
-use super::number_field::NumberField;
+use super::number_field::{FieldEvent, NumberField, vector_row};
 use super::theme::{ROW, STEP, Tokens};
 use super::{figures, widgets};
 use crate::editor::{EndFitAction, EndFitReport};
@@ -15,129 +13,127 @@ use crate::geometry::expressions::Quantity;
 /// The width of a field.
 const FIELD: f32 = 96.0;
 
-/// Show the fields. Each can be free: then it tells what the end has now.
-pub fn curvature_ui(ui: &mut Ui, report: &EndFitReport) -> Option<Asked> {
+/// Show the fields. A free one shows the figure that the end has now.
+pub fn curvature_ui(ui: &mut Ui, report: &EndFitReport) -> Option<FieldEvent<EndFitAction>> {
     let target = report.target?;
-    let curvature = Row {
+    let has_tangent = report.tangent.is_some();
+    let curvature = NumberRow {
         name: "Curvature",
-        about: "Give the end a curvature κ, positive where it turns left",
+        help: "Require a curvature κ at the end, positive where it turns left",
         quantity: Quantity::Curvature,
         value: target.curvature,
         actual: report.curvature,
+        has_tangent,
     };
-    let mut asked = curvature.show(ui, report, EndFitAction::SetCurvature);
+    let mut event = curvature.show(ui, EndFitAction::SetCurvature);
     if !report.planar {
-        asked = plane_ui(ui, target.normal, report.normal).or(asked);
+        event = plane_ui(ui, target.normal, report.normal).or(event);
     }
-    let slope = Row {
+    let slope = NumberRow {
         name: "Slope",
-        about: "Give the curvature a slope dκ/ds by arc length",
+        help: "Require a curvature slope dκ/ds at the end",
         quantity: Quantity::Number,
         value: target.slope,
         actual: report.slope,
+        has_tangent,
     };
-    slope.show(ui, report, EndFitAction::SetSlope).or(asked)
+    slope.show(ui, EndFitAction::SetSlope).or(event)
 }
 
 /// One number of the target.
-struct Row {
+struct NumberRow {
     name: &'static str,
-    about: &'static str,
+    help: &'static str,
     quantity: Quantity,
-    /// What it is to be; `None` if it is free.
+    /// The required number; `None` if it is free.
     value: Option<f64>,
-    /// What the end has.
+    /// The number that the end has.
     actual: Option<f64>,
+    has_tangent: bool,
 }
 
-impl Row {
+impl NumberRow {
     fn show(
         &self,
         ui: &mut Ui,
-        report: &EndFitReport,
         action: impl Fn(Option<f64>) -> EndFitAction,
-    ) -> Option<Asked> {
-        let mut asked = None;
-        widgets::form_row(ui, self.name, |ui| {
+    ) -> Option<FieldEvent<EndFitAction>> {
+        let row = widgets::form_row(ui, self.name, |ui| {
             ui.spacing_mut().item_spacing.x = STEP;
-            match self.value {
-                Some(value) => {
-                    let name = format!("target {}", self.name.to_lowercase());
-                    // A hundredth of what is there, or of what the actual end has.
-                    let size = value.abs().max(self.actual.unwrap_or_default().abs());
-                    let speed = if size > 0.0 { 0.01 * size } else { 0.001 };
-                    let field = NumberField::new(&name, value, figures::significant(value, 6))
-                        .speed(speed)
-                        .quantity(self.quantity)
-                        .width(FIELD);
-                    let event = field.show(ui).1;
-                    asked = Asked::of_field(event, |value| action(Some(value)));
-                }
+            let event = match self.value {
+                Some(value) => self.field_ui(ui, value),
                 None => {
-                    let actual = self.actual.map(|it| figures::significant(it, 6));
-                    let actual = actual.unwrap_or_else(|| "none".to_owned());
-                    let size = vec2(FIELD, ROW);
-                    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-                    let text = format!("now {actual}");
-                    widgets::number_in(ui, rect, &text, Tokens::of(ui).faint_text);
-                    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &text));
+                    self.actual_ui(ui);
+                    None
                 }
-            }
-            let can_fix = report.tangent.is_some() || self.value.is_some();
-            let fixed = fixed_ui(ui, (self.name, self.about), self.value.is_some(), can_fix);
+            };
+            let can_fix = self.has_tangent || self.value.is_some();
+            let fixed = fixed_ui(ui, self.name, self.help, (self.value.is_some(), can_fix));
             let actual = self.actual.unwrap_or_default();
-            asked = fixed
-                .map(|fixed| Asked::Action(action(fixed.then_some(actual))))
-                .or(asked.take());
+            let fixed = fixed.map(|fixed| FieldEvent::Set(action(fixed.then_some(actual))));
+            fixed.or(event.map(|event| event.map(|value| action(Some(value)))))
         });
-        asked
+        row.inner
+    }
+
+    fn field_ui(&self, ui: &mut Ui, value: f64) -> Option<FieldEvent> {
+        let name = format!("target {}", self.name.to_lowercase());
+        let size = value.abs().max(self.actual.unwrap_or_default().abs());
+        let speed = if size > 0.0 { 0.01 * size } else { 0.001 };
+        let field = NumberField::new(&name, value, figures::significant(value, 6));
+        let field = field.speed(speed).quantity(self.quantity);
+        field.width(FIELD).show(ui)
+    }
+
+    fn actual_ui(&self, ui: &mut Ui) {
+        let actual = self.actual.map(|actual| figures::significant(actual, 6));
+        let text = format!("now {}", actual.unwrap_or_else(|| "none".to_owned()));
+        let (rect, response) = ui.allocate_exact_size(vec2(FIELD, ROW), Sense::hover());
+        widgets::number_in(ui, rect, &text, Tokens::of(ui).faint_text);
+        response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &text));
     }
 }
 
-/// The normal of the osculating plane, three components in a row.
-fn plane_ui(ui: &mut Ui, normal: Option<DVec3>, actual: Option<DVec3>) -> Option<Asked> {
-    let mut asked = None;
-    let width = field_width(ui, 3);
-    if let Some(normal) = normal {
-        widgets::form_row(ui, "Plane", |ui| {
-            ui.spacing_mut().item_spacing.x = STEP;
-            for axis in 0..3 {
-                let name = format!("target normal {}", ["x", "y", "z"][axis]);
-                let value = normal[axis];
-                let field = NumberField::new(&name, value, format!("{value:.3}"))
-                    .speed(0.005)
-                    .width(width);
-                let event = field.show(ui).1;
-                let typed = Asked::of_field(event, |value| {
-                    let mut turned = normal;
-                    turned[axis] = value;
-                    EndFitAction::SetNormal(Some(turned))
-                });
-                asked = typed.or(asked.take());
-            }
-        });
-    }
-    let title = if normal.is_some() { "" } else { "Plane" };
-    widgets::form_row(ui, title, |ui| {
+/// Show the normal of the osculating plane, three components in a row.
+fn plane_ui(
+    ui: &mut Ui,
+    normal: Option<DVec3>,
+    actual: Option<DVec3>,
+) -> Option<FieldEvent<EndFitAction>> {
+    let event = normal.and_then(|normal| {
+        let event = direction_row(ui, ("Plane", "target normal"), normal)?;
+        Some(event.map(|normal| EndFitAction::SetNormal(Some(normal))))
+    });
+    let caption = if normal.is_some() { "" } else { "Plane" };
+    let row = widgets::form_row(ui, caption, |ui| {
         ui.spacing_mut().item_spacing.x = STEP;
         if normal.is_none() {
             widgets::caption(ui, "free");
         }
-        let about = "Give the end an osculating plane by its normal";
+        let help = "Require an osculating plane at the end, by its normal";
         let can_fix = normal.or(actual).is_some();
-        if let Some(fixed) = fixed_ui(ui, ("Plane", about), normal.is_some(), can_fix) {
-            let normal = actual.filter(|_| fixed);
-            asked = Some(Asked::Action(EndFitAction::SetNormal(normal)));
-        }
+        let fixed = fixed_ui(ui, "Plane", help, (normal.is_some(), can_fix))?;
+        let normal = actual.filter(|_| fixed);
+        Some(FieldEvent::Set(EndFitAction::SetNormal(normal)))
     });
-    asked
+    row.inner.or(event)
 }
 
-/// The switch between free and fixed; tells what it is set to.
-fn fixed_ui(ui: &mut Ui, (name, about): (&str, &str), fixed: bool, enabled: bool) -> Option<bool> {
+/// Show a direction in space, three components in a row.
+pub fn direction_row(
+    ui: &mut Ui,
+    names: (&str, &str),
+    direction: DVec3,
+) -> Option<FieldEvent<DVec3>> {
+    vector_row(ui, names, 3, direction, |name, value| {
+        NumberField::new(name, value, format!("{value:.3}")).speed(0.005)
+    })
+}
+
+/// Show the switch between free and required; returns its new state.
+fn fixed_ui(ui: &mut Ui, name: &str, help: &str, (fixed, enabled): (bool, bool)) -> Option<bool> {
     let mut now = fixed;
     let response = ui.add_enabled(enabled, Checkbox::new(&mut now, "Lock"));
     let response = response.accessible_name(format!("Lock {}", name.to_lowercase()));
-    let clicked = response.on_hover_text(about).clicked();
-    clicked.then_some(now)
+    response.on_hover_text(help).clicked().then_some(now)
 }

@@ -16,24 +16,24 @@ const BUTTONS: f32 = 2.0 * ROW + 4.0 * STEP;
 
 /// Show the level that is picked or kept, the match that there is, and the curves that follow.
 pub fn match_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
-    let mut asked = level_ui(ui, report);
+    let mut action = level_ui(ui, report);
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 2.0 * STEP;
         let pick = ui.add(Button::new("Pick from curve").selected(report.picking));
         let tooltip = "Then click another curve, at its end or at any point: what it has there \
                        becomes the target";
         if pick.on_hover_text(tooltip).clicked() {
-            asked = Some(EndFitAction::PickFromCurve);
+            action = Some(EndFitAction::PickFromCurve);
         }
         let mut live = report.matched.is_some() || report.live;
         let keep = ui.add(Checkbox::new(&mut live, "Keep matched"));
         let tooltip = "Let the end follow when the other curve changes, as part of the same step";
         if keep.on_hover_text(tooltip).clicked() {
-            asked = Some(EndFitAction::KeepMatched(live));
+            action = Some(EndFitAction::KeepMatched(live));
         }
     });
     if let Some(matched) = &report.matched {
-        asked = matched_ui(ui, matched).or(asked);
+        action = matched_ui(ui, matched).or(action);
         if !matched.met {
             let why = match &report.refusal {
                 Some(_) => "Not met: the curve follows once it is unlocked.",
@@ -47,11 +47,11 @@ pub fn match_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
         let text = format!("The {} of {} follows this curve", end.name(), quoted(name));
         widgets::note(ui, &text);
     }
-    asked
+    action
 }
 
 fn level_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
-    let mut asked = None;
+    let mut action = None;
     let matched = report.matched.as_ref();
     let now = matched.map_or(report.continuity, |it| it.matched.continuity);
     widgets::form_row(ui, "Match", |ui| {
@@ -61,16 +61,16 @@ fn level_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
             let response = ui.add_sized(vec2(40.0, ROW), button);
             let tooltip = format!("Match up to the {}", level.label());
             if response.on_hover_text(tooltip).clicked() {
-                asked = Some(EndFitAction::SetContinuity(level));
+                action = Some(EndFitAction::SetContinuity(level));
             }
         }
     });
-    asked
+    action
 }
 
 /// What the end follows, and what is missing of each level.
 fn matched_ui(ui: &mut Ui, report: &MatchReport) -> Option<EndFitAction> {
-    let mut asked = None;
+    let mut action = None;
     let place = match report.matched.place {
         MatchPlace::End(end) => format!("its {}", end.name()),
         MatchPlace::Parameter(u) => format!("u = {}", figures::significant(u, 5)),
@@ -90,11 +90,11 @@ fn matched_ui(ui: &mut Ui, report: &MatchReport) -> Option<EndFitAction> {
         widgets::at_right(ui, |ui| {
             ui.spacing_mut().item_spacing.x = STEP;
             if IconButton::new(Icon::X, "Remove match").show(ui).clicked() {
-                asked = Some(EndFitAction::KeepMatched(false));
+                action = Some(EndFitAction::KeepMatched(false));
             }
             let turn = IconButton::new(Icon::ArrowLeftRight, "Flip match");
             if turn.show(ui).clicked() {
-                asked = Some(EndFitAction::TurnRound);
+                action = Some(EndFitAction::TurnRound);
             }
         });
     });
@@ -109,5 +109,5 @@ fn matched_ui(ui: &mut Ui, report: &MatchReport) -> Option<EndFitAction> {
             ("G3 error", plain(missing.slope)),
         ],
     );
-    asked
+    action
 }

@@ -4,15 +4,12 @@ use eframe::egui::{self, Button, Checkbox, Frame, Ui, vec2};
 use glam::DVec3;
 use lucide_icons::Icon;
 
-use super::end_fit_asked::Asked;
-use super::end_fit_curvature::curvature_ui;
+use super::end_fit_curvature::{curvature_ui, direction_row};
 use super::end_fit_match::match_ui;
-use super::end_fit_steps::{
-    angle_text, field_width, figure_pairs, indented, remark_ui, step_button, step_ui,
-};
+use super::end_fit_steps::{angle_text, figure_pairs, indented, remark_ui, step_button, step_ui};
 use super::figures::range;
 use super::message::sentence;
-use super::number_field::{FieldEvent, NumberField};
+use super::number_field::{FieldEvent, NumberField, vector_row};
 use super::theme::{ROW, STEP, Tokens};
 use super::widgets::IconButton;
 use super::{figures, widgets};
@@ -43,18 +40,16 @@ pub fn end_fit_panel_ui(ui: &mut Ui, editor: &mut Editor) {
         report: &report,
         closed: !editor.sight().layers().shows(Layer::Float),
         pixel: editor.view().viewport().pixel(),
-        asked: None,
+        event: None,
     };
     widgets::scrolling(ui, "end fit", |ui| {
         // Fields of their own for each end of each curve: what is typed is for no other.
         ui.push_id((editor.active(), report.end), |ui| panel.show(ui));
     });
-    match panel.asked {
-        None => {}
-        Some(Asked::Action(action)) => told(editor.end_fit_action(action)),
-        Some(Asked::Preview(action)) => editor.preview_end_fit(action),
-        Some(Asked::Commit) => editor.commit_preview(),
-        Some(Asked::Abort) => editor.abort_preview(),
+    if let Some(event) = panel.event {
+        event.send(editor, Editor::preview_end_fit, |editor, action| {
+            told(editor.end_fit_action(action));
+        });
     }
 }
 
@@ -76,7 +71,7 @@ struct Panel<'a> {
     /// Whether the closed S-polygon stands in for the float one.
     closed: bool,
     pixel: f64,
-    asked: Option<Asked>,
+    event: Option<FieldEvent<EndFitAction>>,
 }
 
 impl Panel<'_> {
@@ -97,7 +92,7 @@ impl Panel<'_> {
     }
 
     fn ask(&mut self, action: EndFitAction) {
-        self.asked = Some(Asked::Action(action));
+        self.event = Some(FieldEvent::Set(action));
     }
 
     fn ends_ui(&mut self, ui: &mut Ui) {
@@ -124,9 +119,7 @@ impl Panel<'_> {
             ui.add_enabled_ui(report.matched.is_none(), |ui| {
                 self.point_ui(ui, point);
                 self.direction_ui(ui);
-                if let Some(asked) = curvature_ui(ui, report) {
-                    self.asked = Some(asked);
-                }
+                self.event = curvature_ui(ui, report).or(self.event);
             });
         } else {
             widgets::note(
@@ -177,44 +170,36 @@ impl Panel<'_> {
     }
 
     fn point_ui(&mut self, ui: &mut Ui, point: DVec3) {
-        let axes = if self.report.planar { 2 } else { 3 };
-        let width = field_width(ui, axes);
-        widgets::form_row(ui, "Target", |ui| {
-            ui.spacing_mut().item_spacing.x = STEP;
-            for axis in 0..axes {
-                let value = point[axis];
-                let name = format!("target {}", ["x", "y", "z"][axis]);
-                let shown = figures::to_resolution(value, 0.01 * self.pixel);
-                let field = NumberField::new(&name, value, shown)
-                    .speed(self.pixel)
-                    .quantity(Quantity::Length)
-                    .width(width);
-                let event = field.show(ui).1;
-                self.field(event, |value| {
-                    let mut moved = point;
-                    moved[axis] = value;
-                    EndFitAction::SetPoint(moved)
-                });
-            }
+        let (pixel, axes) = (self.pixel, if self.report.planar { 2 } else { 3 });
+        let event = vector_row(ui, ("Target", "target"), axes, point, |name, value| {
+            NumberField::new(name, value, figures::to_resolution(value, 0.01 * pixel))
+                .speed(pixel)
+                .quantity(Quantity::Length)
         });
+        let event = event.map(|event| event.map(EndFitAction::SetPoint));
+        self.event = event.or(self.event);
     }
 
     fn direction_ui(&mut self, ui: &mut Ui) {
-        let direction = self.report.target_direction;
-        let width = field_width(ui, 3);
-        widgets::form_row(ui, "Direction", |ui| {
+        let report = self.report;
+        let mut caption = "Direction";
+        if let (Some(direction), None) = (report.target_direction, report.target_angle) {
+            // Three components fill the row.
+            let event = direction_row(ui, (caption, "target direction"), direction);
+            let set = |direction| EndFitAction::SetDirection(Some(direction));
+            self.event = event.map(|event| event.map(set)).or(self.event);
+            caption = "";
+        }
+        if caption.is_empty() && report.planar {
+            return;
+        }
+        widgets::form_row(ui, caption, |ui| {
             ui.spacing_mut().item_spacing.x = STEP;
-            match (direction, self.report.target_angle) {
-                (_, Some(angle)) => self.angle_ui(ui, angle),
-                // Three components fill the row.
-                (Some(direction), None) => return self.components_ui(ui, direction, width),
-                (None, None) => {}
+            if let Some(angle) = report.target_angle {
+                self.angle_ui(ui, angle);
             }
             self.fixed_ui(ui);
         });
-        if direction.is_some() && !self.report.planar {
-            widgets::form_row(ui, "", |ui| self.fixed_ui(ui));
-        }
     }
 
     fn turn_round_ui(&mut self, ui: &mut Ui) {
@@ -242,35 +227,13 @@ impl Panel<'_> {
             .speed(0.25)
             .quantity(Quantity::Angle)
             .width(FIELD + 8.0);
-        let event = field.show(ui).1;
-        self.field(event, |degrees| {
-            let (sine, cosine) = sin_cos_of_degrees(degrees);
-            let direction = DVec3::new(cosine, sine, 0.0);
-            EndFitAction::SetDirection(Some(direction))
+        let event = field.show(ui).map(|event| {
+            event.map(|degrees| {
+                let (sine, cosine) = sin_cos_of_degrees(degrees);
+                EndFitAction::SetDirection(Some(DVec3::new(cosine, sine, 0.0)))
+            })
         });
-    }
-
-    fn components_ui(&mut self, ui: &mut Ui, direction: DVec3, width: f32) {
-        for axis in 0..3 {
-            let value = direction[axis];
-            let name = format!("target direction {}", ["x", "y", "z"][axis]);
-            let shown = format!("{value:.3}");
-            let field = NumberField::new(&name, value, shown)
-                .speed(0.005)
-                .width(width);
-            let event = field.show(ui).1;
-            self.field(event, |value| {
-                let mut turned = direction;
-                turned[axis] = value;
-                EndFitAction::SetDirection(Some(turned))
-            });
-        }
-    }
-
-    fn field(&mut self, event: FieldEvent, action: impl Fn(f64) -> EndFitAction) {
-        if let Some(asked) = Asked::of_field(event, action) {
-            self.asked = Some(asked);
-        }
+        self.event = event.or(self.event);
     }
 
     fn shape_ui(&mut self, ui: &mut Ui) {
@@ -404,9 +367,8 @@ impl Panel<'_> {
                 NumberField::new("tolerance", tolerance, figures::significant(tolerance, 4))
                     .range(0.0..=f64::MAX)
                     .quantity(Quantity::Length)
-                    .typed_only()
                     .width(FIELD + 24.0);
-            if let FieldEvent::Typed(value) = field.show(ui).1 {
+            if let Some(value) = field.typed(ui) {
                 self.ask(EndFitAction::SetTolerance(value));
             }
         });

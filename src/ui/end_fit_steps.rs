@@ -50,12 +50,6 @@ pub fn figure_pairs(ui: &mut Ui, pairs: &[(&str, String)]) {
     }
 }
 
-/// The width of each of some fields that share a row.
-pub fn field_width(ui: &Ui, fields: usize) -> f32 {
-    let free = ui.available_width() - 84.0 - 2.0 * STEP;
-    ((free - STEP * fields as f32) / fields as f32).clamp(40.0, 120.0)
-}
-
 /// Write an angle in degrees; a tiny one with its own digits.
 pub fn angle_text(radians: f64) -> String {
     let degrees = radians.to_degrees();

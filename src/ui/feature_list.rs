@@ -3,8 +3,8 @@
 use std::time::Duration;
 
 use eframe::egui::{
-    Button, Color32, Response, RichText, Role, ScrollArea, Sense, Ui, UiBuilder, WidgetInfo, pos2,
-    vec2,
+    Button, Color32, PointerButton, Response, RichText, Role, ScrollArea, Sense, Ui, UiBuilder,
+    WidgetInfo, pos2, vec2,
 };
 use lucide_icons::Icon;
 
@@ -39,47 +39,41 @@ pub fn feature_list_ui(ui: &mut Ui, editor: &mut Editor) {
     });
     let chosen = editor.view().chosen_feature();
     match report.and_then(|report| rows_ui(ui, report, chosen)) {
-        Some(Asked::Go(u)) => {
-            editor.look(Look::Feature(u));
-            editor.look(Look::Around(u));
-        }
-        Some(Asked::Menu(u)) => {
+        Some((u, PointerButton::Secondary)) => {
             if chosen != Some(u) {
                 editor.look(Look::Feature(u));
             }
             editor.ask_for_menu(MenuSubject::Feature);
         }
+        Some((u, _)) => {
+            editor.look(Look::Feature(u));
+            editor.look(Look::Around(u));
+        }
         None => {}
     }
 }
 
-/// What is asked for of the feature at a parameter.
-enum Asked {
-    Go(f64),
-    Menu(f64),
-}
-
-/// Show the features; returns what is asked for of one.
-fn rows_ui(ui: &mut Ui, report: &FeatureReport, own: Option<f64>) -> Option<Asked> {
+/// Show the features; returns the parameter of the one that was clicked, and with which button.
+fn rows_ui(ui: &mut Ui, report: &FeatureReport, own: Option<f64>) -> Option<(f64, PointerButton)> {
     let area = ScrollArea::vertical()
         .id_salt("features")
         .auto_shrink([false, false]);
     // Room for the bar is always kept, so that no row moves when it appears.
     let width = ui.available_width() - ui.spacing().scroll.allocated_width();
-    let mut asked = None;
+    let mut clicked = None;
     area.show_rows(ui, ROW, report.rows.len(), |ui, range| {
         ui.set_max_width(width);
         for row in report.rows.get(range).unwrap_or_default() {
             let response = row_ui(ui, row, report.sampled, own == Some(row.middle));
             if response.clicked() {
-                asked = Some(Asked::Go(row.middle));
+                clicked = Some((row.middle, PointerButton::Primary));
             }
             if response.secondary_clicked() {
-                asked = Some(Asked::Menu(row.middle));
+                clicked = Some((row.middle, PointerButton::Secondary));
             }
         }
     });
-    asked
+    clicked
 }
 
 fn verdict_ui(ui: &mut Ui, report: &FeatureReport) {

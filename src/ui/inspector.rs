@@ -12,7 +12,7 @@ use super::document_panel::document_ui;
 use super::formula_fields::FormulaFields;
 use super::harmony_list::harmony_list_ui;
 use super::keyboard::{self, Typing};
-use super::number_field::{FieldEvent, NumberField};
+use super::number_field::NumberField;
 use super::reference_panel;
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
@@ -175,9 +175,8 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor, curve: &Curve) {
     }
     let field = NumberField::new("Degree", degree as f64, degree.to_string())
         .width(48.0)
-        .range(1.0..=most as f64)
-        .typed_only();
-    if let FieldEvent::Typed(value) = field.show(ui).1 {
+        .range(1.0..=most as f64);
+    if let Some(value) = field.typed(ui) {
         set_degree(editor, value);
     }
     let raise = format!("Reinterpret as degree {}", degree + 1);

@@ -143,11 +143,11 @@ pub fn asks_for_menu(context: &Context) -> bool {
     })
 }
 
-/// What this frame's keys ask for.
-pub enum Asked {
-    /// An action of the table.
+/// What keys stand for.
+pub enum KeyCommand {
+    /// An action of the window's table.
     Action(Action),
-    /// The clipboard's text, already at hand.
+    /// Paste this text of the clipboard.
     Paste(String),
 }
 
@@ -163,7 +163,7 @@ pub struct Keyboard {
 
 impl Keyboard {
     /// Take the events out of this frame that stand for commands.
-    pub fn asked(&mut self, context: &Context, editor: &Editor) -> Vec<Asked> {
+    pub fn take_commands(&mut self, context: &Context, editor: &Editor) -> Vec<KeyCommand> {
         if is_covered(context) {
             self.waiting = None;
             return Vec::new();
@@ -181,29 +181,29 @@ impl Keyboard {
             .filter_map(|command| Some((command.shortcut()?, command)))
             .filter(|(shortcut, _)| !(takes_numbers && is_number(shortcut)))
             .collect();
-        let mut asked = Vec::new();
+        let mut commands = Vec::new();
         context.input_mut(|input| {
             input.events.retain(|event| {
-                asked.extend(self.released(event));
+                commands.extend(self.released(event));
                 let found = command_of(event, &table, typing);
                 match (found, steering(event)) {
                     (None, _) => true,
-                    (Some(Asked::Action(command)), Some((steering, _))) => {
+                    (Some(KeyCommand::Action(command)), Some((steering, _))) => {
                         self.waiting = (!holding).then_some((steering, command));
                         true
                     }
                     (Some(found), _) => {
-                        asked.push(found);
+                        commands.push(found);
                         false
                     }
                 }
             });
         });
-        asked
+        commands
     }
 
     /// The command that an event brings to its end of waiting.
-    fn released(&mut self, event: &Event) -> Option<Asked> {
+    fn released(&mut self, event: &Event) -> Option<KeyCommand> {
         let (waiting, command) = self.waiting?;
         match event {
             Event::PointerButton { pressed: true, .. } | Event::WindowFocused(false) => {
@@ -212,7 +212,7 @@ impl Keyboard {
             }
             _ if steering(event) == Some((waiting, false)) => {
                 self.waiting = None;
-                Some(Asked::Action(command))
+                Some(KeyCommand::Action(command))
             }
             _ => None,
         }
@@ -252,12 +252,12 @@ pub fn steering(event: &Event) -> Option<(Steering, bool)> {
     Some((steering, *pressed))
 }
 
-fn command_of(event: &Event, table: &[(Shortcut, Action)], typing: Typing) -> Option<Asked> {
+fn command_of(event: &Event, table: &[(Shortcut, Action)], typing: Typing) -> Option<KeyCommand> {
     let is_free = typing == Typing::Nothing;
     match event {
-        Event::Copy if is_free => Some(Asked::Action(Action::Copy)),
-        Event::Cut if is_free => Some(Asked::Action(Action::Cut)),
-        Event::Paste(text) if is_free => Some(Asked::Paste(text.clone())),
+        Event::Copy if is_free => Some(KeyCommand::Action(Action::Copy)),
+        Event::Cut if is_free => Some(KeyCommand::Action(Action::Cut)),
+        Event::Paste(text) if is_free => Some(KeyCommand::Paste(text.clone())),
         Event::Key {
             key: pressed,
             pressed: true,
@@ -276,7 +276,7 @@ fn command_of(event: &Event, table: &[(Shortcut, Action)], typing: Typing) -> Op
                 Action::Command(Command::Undo | Command::Redo | Command::ZoomIn | Command::ZoomOut)
             );
             let is_mine = !belongs_to(typing, shortcut);
-            (is_mine && (repeats || !repeat)).then_some(Asked::Action(command))
+            (is_mine && (repeats || !repeat)).then_some(KeyCommand::Action(command))
         }
         _ => None,
     }

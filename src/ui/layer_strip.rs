@@ -1,13 +1,12 @@
 //! The layers' switches over the canvas, each in its layer's colour, and the comb's scale and density.
 
 use eframe::egui::{
-    Area, Context, Frame, Id, Margin, Order, Rect, Response, Role, Sense, Stroke, Ui, Vec2,
-    WidgetInfo, vec2,
+    Area, Context, Frame, Id, Margin, Order, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2,
 };
 use lucide_icons::Icon;
 
 use super::action::Action;
-use super::number_field::{FieldEvent, NumberField};
+use super::number_field::NumberField;
 use super::theme::{RADIUS, ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
 use super::{figures, gizmo, icons, keyboard};
@@ -101,14 +100,14 @@ fn comb_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
     ui.spacing_mut().item_spacing.x = STEP;
     ui.add_enabled_ui(shown, |ui| {
         caption_ui(ui, "Comb", 38.0);
-        scale_ui(ui, editor).on_hover_text("Scale of the curvature comb");
+        scale_ui(ui, editor);
         let reset = IconButton::new(Icon::RotateCcw, "Reset comb scale");
         let reset = reset.tooltip(Command::ResetComb.tooltip());
         if reset.show(ui).clicked() {
             commands.push(Command::ResetComb.into());
         }
         caption_ui(ui, "Teeth", 38.0);
-        density_ui(ui, editor).on_hover_text("Teeth of the comb per segment");
+        density_ui(ui, editor);
     });
 }
 
@@ -117,33 +116,31 @@ fn caption_ui(ui: &mut Ui, text: &str, width: f32) {
     widgets::label_in(ui, rect, text, Tokens::of(ui).faint_text);
 }
 
-fn scale_ui(ui: &mut Ui, editor: &mut Editor) -> Response {
+fn scale_ui(ui: &mut Ui, editor: &mut Editor) {
     let mut comb = editor.view().comb();
     let shown = figures::significant(comb.scale, 4);
     let field = NumberField::new("Comb scale", comb.scale, shown)
         .range(1e-12..=1e15)
         .speed(0.02 * comb.scale.max(1e-12))
-        .width(76.0);
-    let (response, event) = field.show(ui);
-    if let FieldEvent::Typed(value) | FieldEvent::Preview(value) = event {
-        comb.scale = value;
+        .width(76.0)
+        .help("Scale of the curvature comb");
+    if let Some(scale) = field.changed(ui) {
+        comb.scale = scale;
         editor.view_mut().set_comb(comb);
     }
-    response
 }
 
-fn density_ui(ui: &mut Ui, editor: &mut Editor) -> Response {
+fn density_ui(ui: &mut Ui, editor: &mut Editor) {
     let mut comb = editor.view().comb();
     let shown = comb.density.to_string();
     let (least, most) = CombSettings::DENSITY.into_inner();
     let field = NumberField::new("Comb density", comb.density as f64, shown)
         .range(least as f64..=most as f64)
         .speed(0.25)
-        .width(44.0);
-    let (response, event) = field.show(ui);
-    if let FieldEvent::Typed(value) | FieldEvent::Preview(value) = event {
-        comb.density = value.round().max(0.0) as usize;
+        .width(44.0)
+        .help("Teeth of the comb per segment");
+    if let Some(density) = field.changed(ui) {
+        comb.density = density.round().max(0.0) as usize;
         editor.view_mut().set_comb(comb);
     }
-    response
 }

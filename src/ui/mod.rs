@@ -17,7 +17,6 @@ mod distance_panel;
 mod document_panel;
 mod document_unit;
 mod draft;
-mod end_fit_asked;
 mod end_fit_curvature;
 mod end_fit_match;
 mod end_fit_panel;

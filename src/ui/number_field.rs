@@ -6,27 +6,90 @@ use eframe::egui::{
     Align2, CursorIcon, EventFilter, Id, Key, Painter, Rect, Response, Sense, Stroke, StrokeKind,
     Ui, Vec2, WidgetInfo, accesskit::Action, accesskit::ActionData, pos2,
 };
+use glam::DVec3;
 
 use super::document_unit;
 use super::draft::{Accepted, Draft, Remark};
 use super::keyboard::{self, Typing};
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
-use super::{figures, labels};
+use super::{figures, labels, widgets};
+use crate::editor::Editor;
 use crate::geometry::expressions::Quantity;
 
-/// What the hand did to a field.
+/// What the user did to a field. `T` is what the field's number stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum FieldEvent {
-    /// Nothing.
-    Idle,
-    /// It is being dragged and shows this now.
-    Preview(f64),
-    /// The drag ended.
+pub enum FieldEvent<T = f64> {
+    /// Drag to a value, which is a preview.
+    Preview(T),
+    /// End the drag; its last preview counts.
     Commit,
-    /// The drag was called off.
+    /// End the drag by Esc, without a change.
     Abort,
-    /// A number was typed.
-    Typed(f64),
+    /// Set a value at once, as by typing.
+    Set(T),
+}
+
+impl<T> FieldEvent<T> {
+    /// Turn the number into what it stands for.
+    pub fn map<U>(self, of: impl FnOnce(T) -> U) -> FieldEvent<U> {
+        match self {
+            Self::Preview(value) => FieldEvent::Preview(of(value)),
+            Self::Set(value) => FieldEvent::Set(of(value)),
+            Self::Commit => FieldEvent::Commit,
+            Self::Abort => FieldEvent::Abort,
+        }
+    }
+
+    /// Pass the event to the editor: `preview` shows a value, `set` makes it a step of undo.
+    pub fn send(
+        self,
+        editor: &mut Editor,
+        preview: impl FnOnce(&mut Editor, T),
+        set: impl FnOnce(&mut Editor, T),
+    ) {
+        match self {
+            Self::Preview(value) => preview(editor, value),
+            Self::Set(value) => set(editor, value),
+            Self::Commit => editor.commit_preview(),
+            Self::Abort => editor.abort_preview(),
+        }
+    }
+}
+
+/// Show a form row with a field for each of the first `axes` components of a vector. `name` is what a
+/// screen reader calls the vector.
+pub fn vector_row(
+    ui: &mut Ui,
+    (caption, name): (&str, &str),
+    axes: usize,
+    vector: DVec3,
+    field: impl Fn(&str, f64) -> NumberField<'_>,
+) -> Option<FieldEvent<DVec3>> {
+    let width = field_width(ui, axes);
+    let row = widgets::form_row(ui, caption, |ui| {
+        ui.spacing_mut().item_spacing.x = STEP;
+        let mut changed = None;
+        for (axis, letter) in ["x", "y", "z"].into_iter().enumerate().take(axes) {
+            let name = format!("{name} {letter}");
+            let event = field(&name, vector[axis]).width(width).show(ui);
+            let event = event.map(|event| {
+                event.map(|value| {
+                    let mut vector = vector;
+                    vector[axis] = value;
+                    vector
+                })
+            });
+            changed = event.or(changed);
+        }
+        changed
+    });
+    row.inner
+}
+
+/// The width of each of some fields that share a form row.
+pub fn field_width(ui: &Ui, fields: usize) -> f32 {
+    let free = ui.available_width() - widgets::CAPTION - 2.0 * STEP;
+    ((free - STEP * fields as f32) / fields as f32).clamp(40.0, 120.0)
 }
 
 /// A number that can be typed (click, type, Enter) and dragged sideways (shift: finer).
@@ -41,6 +104,7 @@ pub struct NumberField<'a> {
     flat: bool,
     typed_only: bool,
     read_only: bool,
+    help: Option<&'a str>,
 }
 
 /// What is being typed into the field that has the keyboard, and the pass in which it was shown
@@ -73,6 +137,7 @@ impl<'a> NumberField<'a> {
             flat: false,
             typed_only: false,
             read_only: false,
+            help: None,
         }
     }
 
@@ -112,14 +177,20 @@ impl<'a> NumberField<'a> {
         self
     }
 
+    /// What a tooltip says of it.
+    pub fn help(mut self, help: &'a str) -> Self {
+        self.help = Some(help);
+        self
+    }
+
     /// Only to be read.
     pub fn read_only(mut self, read_only: bool) -> Self {
         self.read_only = read_only;
         self
     }
 
-    /// Show the field.
-    pub fn show(self, ui: &mut Ui) -> (Response, FieldEvent) {
+    /// Show the field; returns what the user did to it.
+    pub fn show(self, ui: &mut Ui) -> Option<FieldEvent> {
         let (_, rect) = ui.allocate_space(Vec2::new(self.width, ROW));
         let id = ui.make_persistent_id(self.name);
         keyboard::claim(ui.ctx(), id, Typing::Text, rect);
@@ -131,11 +202,30 @@ impl<'a> NumberField<'a> {
         if response.clicked() {
             response.request_focus();
         }
-        (response, typed.map_or(event, FieldEvent::Typed))
+        if let Some(help) = self.help {
+            response.on_hover_text(help);
+        }
+        typed.map(FieldEvent::Set).or(event)
+    }
+
+    /// Show the field; returns the number that was typed.
+    pub fn typed(self, ui: &mut Ui) -> Option<f64> {
+        match self.typed_only().show(ui) {
+            Some(FieldEvent::Set(value)) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// Show the field; returns the number that was typed or dragged to, without a preview in the document.
+    pub fn changed(self, ui: &mut Ui) -> Option<f64> {
+        match self.show(ui) {
+            Some(FieldEvent::Set(value) | FieldEvent::Preview(value)) => Some(value),
+            _ => None,
+        }
     }
 
     /// The field has the keyboard: it is a text field with the exact number.
-    fn typing_ui(&self, ui: &mut Ui, rect: Rect, id: Id) -> (Response, FieldEvent) {
+    fn typing_ui(&self, ui: &mut Ui, rect: Rect, id: Id) -> Option<FieldEvent> {
         let kept = take_kept(ui, id);
         let is_new = kept.is_none();
         let mut draft = kept.unwrap_or_else(|| Draft::of(self.value));
@@ -153,14 +243,13 @@ impl<'a> NumberField<'a> {
             Err(fault) if entered => draft.refuse(fault),
             _ if entered || is_left => {
                 ui.memory_mut(|memory| memory.surrender_focus(id));
-                let event = self.taken(ui, id, &draft);
-                return (response, event.map_or(FieldEvent::Idle, FieldEvent::Typed));
+                return self.taken(ui, id, &draft).map(FieldEvent::Set);
             }
             _ => {}
         }
         let pass = ui.ctx().cumulative_pass_nr();
         ui.data_mut(|data| data.insert_temp(id, Kept { draft, pass }));
-        (response, FieldEvent::Idle)
+        None
     }
 
     /// The number that was being typed when the keyboard went elsewhere, if it counts.
@@ -196,7 +285,7 @@ impl<'a> NumberField<'a> {
     }
 
     /// Show the field in a box as it is while nothing is typed: it can be dragged.
-    pub fn resting_ui(&self, ui: &mut Ui, rect: Rect, id: Id) -> (Response, FieldEvent) {
+    pub fn resting_ui(&self, ui: &mut Ui, rect: Rect, id: Id) -> (Response, Option<FieldEvent>) {
         let mut sense = if self.typed_only || self.read_only {
             Sense::click()
         } else {
@@ -212,11 +301,11 @@ impl<'a> NumberField<'a> {
         self.describe(ui, &response);
         self.remark_ui(ui, rect, id);
         if self.read_only {
-            return (response, FieldEvent::Idle);
+            return (response, None);
         }
         let event = self
             .requested_value(ui, id)
-            .unwrap_or_else(|| self.drag(ui, &response));
+            .or_else(|| self.drag(ui, &response));
         let cursor = if self.typed_only {
             CursorIcon::Text
         } else {
@@ -323,18 +412,18 @@ impl<'a> NumberField<'a> {
             let mut requests = input.accesskit_action_requests(id, Action::SetValue);
             requests.find_map(|request| match &request.data {
                 Some(ActionData::NumericValue(value)) if value.is_finite() => {
-                    Some(FieldEvent::Typed(self.clamped(*value)))
+                    Some(FieldEvent::Set(self.clamped(*value)))
                 }
                 Some(ActionData::Value(text)) => {
                     let value = accepted.read(text, self.value).ok()?;
-                    Some(FieldEvent::Typed(value))
+                    Some(FieldEvent::Set(value))
                 }
                 _ => None,
             })
         })
     }
 
-    fn drag(&self, ui: &Ui, response: &Response) -> FieldEvent {
+    fn drag(&self, ui: &Ui, response: &Response) -> Option<FieldEvent> {
         let memory = response.id.with("drag");
         if response.drag_started() {
             let drag = Drag {
@@ -350,19 +439,17 @@ impl<'a> NumberField<'a> {
                 }
             });
         }
-        let Some(mut drag) = ui.data(|data| data.get_temp::<Drag>(memory)) else {
-            return FieldEvent::Idle;
-        };
+        let mut drag = ui.data(|data| data.get_temp::<Drag>(memory))?;
         // Esc also ends egui's drag: look for it first.
         let is_escape = ui.input(|input| input.key_pressed(Key::Escape));
         let is_over = response.drag_stopped() || !response.dragged();
         let event = if drag.called_off {
-            FieldEvent::Idle
+            None
         } else if is_escape {
             drag.called_off = true;
-            FieldEvent::Abort
+            Some(FieldEvent::Abort)
         } else if is_over {
-            FieldEvent::Commit
+            Some(FieldEvent::Commit)
         } else {
             self.dragged_on(ui, response, &mut drag)
         };
@@ -376,16 +463,12 @@ impl<'a> NumberField<'a> {
         event
     }
 
-    fn dragged_on(&self, ui: &Ui, response: &Response, drag: &mut Drag) -> FieldEvent {
+    fn dragged_on(&self, ui: &Ui, response: &Response, drag: &mut Drag) -> Option<FieldEvent> {
         let is_fine = ui.input(|input| input.modifiers.shift);
         let fine = if is_fine { 0.1 } else { 1.0 };
         let moved = f64::from(response.drag_delta().x) * fine;
         drag.points += moved;
-        if moved == 0.0 {
-            FieldEvent::Idle
-        } else {
-            FieldEvent::Preview(self.dragged_to(drag, fine))
-        }
+        (moved != 0.0).then(|| FieldEvent::Preview(self.dragged_to(drag, fine)))
     }
 
     /// The value under the hand, rounded to what one point of the drag can tell apart.

@@ -39,18 +39,6 @@ pub struct Refused {
     pub text: String,
 }
 
-/// What is asked for in a field.
-pub enum Asked {
-    /// A value, as a change of its own or as the end of one.
-    Set(Value),
-    /// A value, as a part of the change that goes on.
-    Try(Value),
-    /// An end of that change; its values stay.
-    Keep,
-    /// An end of that change, and the values from before it.
-    Restore,
-}
-
 /// A list that is typed: it counts as far as it is one, while it is typed.
 struct TypedList {
     parameter: &'static str,
@@ -59,19 +47,19 @@ struct TypedList {
 }
 
 impl OperationFields {
-    /// Show the field of a parameter; returns what is asked for in it.
+    /// Show the field of a parameter; returns what the user did to it.
     pub fn show(
         &mut self,
         ui: &mut Ui,
         in_progress: &OperationInProgress,
         parameter: &'static Parameter,
-    ) -> Option<Asked> {
+    ) -> Option<FieldEvent<Value>> {
         let value = in_progress.values().get(parameter);
         let label = label_width(ui, in_progress);
         let row = widgets::wide_form_row(ui, parameter.label, label, |ui| {
             match (&parameter.kind, value) {
                 (Kind::Choice { options, .. }, Value::Choice(chosen)) => {
-                    choice_ui(ui, parameter.label, options, *chosen).map(Asked::Set)
+                    choice_ui(ui, parameter.label, options, *chosen).map(FieldEvent::Set)
                 }
                 (Kind::List { .. } | Kind::Reference { .. }, _) => {
                     self.list_ui(ui, parameter, value, hint_of(in_progress, parameter))
@@ -83,7 +71,7 @@ impl OperationFields {
                         WidgetInfo::selected(Role::CheckBox, true, on, parameter.label)
                     });
                     let set = switch.clicked().then_some(Value::Switch(on));
-                    set.map(Asked::Set)
+                    set.map(FieldEvent::Set)
                 }
                 _ => self.number_ui(ui, in_progress, parameter, value),
             }
@@ -139,7 +127,7 @@ impl OperationFields {
         parameter: &'static Parameter,
         value: &Value,
         none: &str,
-    ) -> Option<Asked> {
+    ) -> Option<FieldEvent<Value>> {
         let typed = self
             .typed
             .take_if(|typed| typed.parameter == parameter.name);
@@ -170,20 +158,20 @@ impl OperationFields {
                 before,
             });
             let changed = read.ok().filter(|read| field.changed() && read != value);
-            return changed.map(Asked::Try);
+            return changed.map(FieldEvent::Preview);
         }
         if !field.lost_focus() {
             return None;
         }
         if ui.input(|input| input.key_pressed(Key::Escape)) {
-            return Some(Asked::Restore);
+            return Some(FieldEvent::Abort);
         }
         match read {
-            Ok(read) if read != *value => Some(Asked::Set(read)),
-            Ok(_) => Some(Asked::Keep),
+            Ok(read) if read != *value => Some(FieldEvent::Set(read)),
+            Ok(_) => Some(FieldEvent::Commit),
             Err(error) => {
                 self.refuse(parameter, error.to_string());
-                Some(Asked::Restore)
+                Some(FieldEvent::Abort)
             }
         }
     }
@@ -194,7 +182,7 @@ impl OperationFields {
         in_progress: &OperationInProgress,
         parameter: &'static Parameter,
         value: &Value,
-    ) -> Option<Asked> {
+    ) -> Option<FieldEvent<Value>> {
         let limits = parameter.limits(in_progress.input()).ok().flatten();
         let number = shown_number(value, parameter.unit());
         let range = field_range(limits, parameter.unit());
@@ -206,22 +194,17 @@ impl OperationFields {
             .quantity(parameter.unit().quantity())
             .speed(speed)
             .width(FIELD);
-        let event = field.show(ui).1;
+        let event = field.show(ui);
         if parameter.unit() == Unit::Angle {
             widgets::caption(ui, "°");
         }
-        let of = |number: f64| given_number(number, value, parameter.unit());
-        match event {
-            FieldEvent::Idle => None,
-            FieldEvent::Typed(number) if whole && number.fract() != 0.0 => {
+        match event? {
+            FieldEvent::Set(number) if whole && number.fract() != 0.0 => {
                 let needed = format!("{}: a whole number is needed", parameter.label);
                 self.refuse(parameter, needed);
                 None
             }
-            FieldEvent::Typed(number) => Some(Asked::Set(of(number))),
-            FieldEvent::Preview(number) => Some(Asked::Try(of(number))),
-            FieldEvent::Commit => Some(Asked::Keep),
-            FieldEvent::Abort => Some(Asked::Restore),
+            event => Some(event.map(|number| given_number(number, value, parameter.unit()))),
         }
     }
 }

@@ -3,13 +3,14 @@
 use eframe::egui::{Frame, Panel, ProgressBar, Ui, vec2};
 use lucide_icons::Icon;
 
-use super::atlas::{self, AtlasView};
-use super::operation_fields::{self, OperationFields, Refused};
+use super::atlas::{AtlasView, Values};
+use super::number_field::FieldEvent;
+use super::operation_fields::{OperationFields, Refused};
 use super::operation_report::{ReportView, error_ui, failure, summary_ui};
 use super::theme::STEP;
 use super::widgets::{self, IconButton};
 use crate::editor::{Editor, OperationInProgress, told};
-use crate::operations::{Atlas, Parameter, Value};
+use crate::operations::{Atlas, Value};
 
 /// The heights of the places for the summary, for what is wrong and for the buttons, one below the other.
 const FOOT: [f32; 3] = [16.0 * STEP, 9.0 * STEP, 9.0 * STEP];
@@ -22,12 +23,10 @@ pub struct OperationPanel {
     report: ReportView,
 }
 
-/// What the user asks for.
-enum Asked {
-    /// What is asked for in the field of a parameter.
-    Field(&'static Parameter, operation_fields::Asked),
-    /// What is asked for in the atlas.
-    Atlas(atlas::Asked),
+/// An action of the user in the panel.
+enum PanelAction {
+    /// Change values of parameters.
+    Change(FieldEvent<Values>),
     Apply,
     Leave,
 }
@@ -41,13 +40,13 @@ impl OperationPanel {
             return;
         };
         let atlas = atlas_of(in_progress).copied();
-        let told_before = self.fields.refusal.clone();
-        let mut asked = Vec::from_iter(heading_ui(ui, in_progress));
+        let refused_before = self.fields.refusal.clone();
+        let mut actions = Vec::from_iter(heading_ui(ui, in_progress));
         let foot = self.foot_ui(ui, in_progress, editor.operation_progress());
         ui.add_space(STEP);
         let mut shows_atlas = false;
         widgets::scrolling(ui, in_progress.operation().name, |ui| {
-            asked.extend(self.fields_ui(ui, in_progress));
+            actions.extend(self.fields_ui(ui, in_progress));
             ui.separator();
             if let Some(atlas) = &atlas {
                 let view = &mut self.atlas;
@@ -55,44 +54,38 @@ impl OperationPanel {
                     view.show(ui, editor, in_progress, atlas)
                 });
                 shows_atlas = shown.is_some();
-                asked.extend(shown.flatten().map(Asked::Atlas));
+                actions.extend(shown.flatten().map(PanelAction::Change));
                 ui.add_space(STEP);
             }
             self.report.show(ui, in_progress);
         });
         // A click on a button also leaves a field: what was typed there counts first.
-        asked.extend(foot);
+        actions.extend(foot);
         editor.view_mut().show_atlas(shows_atlas);
-        for asked in asked {
-            self.take(asked, editor, &told_before);
+        for action in actions {
+            self.perform(action, editor, &refused_before);
         }
     }
 
-    /// Do what the user asks for.
-    fn take(&mut self, asked: Asked, editor: &mut Editor, told_before: &Option<Refused>) {
-        use operation_fields::Asked as Field;
-        match asked {
-            Asked::Field(parameter, Field::Set(value)) => {
-                self.set(editor, &[(parameter.name, value)], told_before);
+    fn perform(
+        &mut self,
+        action: PanelAction,
+        editor: &mut Editor,
+        refused_before: &Option<Refused>,
+    ) {
+        match action {
+            PanelAction::Change(FieldEvent::Set(values)) => {
+                self.set(editor, &values, refused_before);
                 editor.operating().keep_values();
             }
-            Asked::Field(parameter, Field::Try(value)) => {
+            PanelAction::Change(FieldEvent::Preview(values)) => {
                 editor.operating().hold_values();
-                self.set(editor, &[(parameter.name, value)], told_before);
+                self.set(editor, &values, refused_before);
             }
-            Asked::Atlas(atlas::Asked::Set(values)) => self.set(editor, &values, told_before),
-            Asked::Atlas(atlas::Asked::Drag(values)) => {
-                editor.operating().hold_values();
-                self.set(editor, &values, told_before);
-            }
-            Asked::Field(_, Field::Keep) | Asked::Atlas(atlas::Asked::Release) => {
-                editor.operating().keep_values();
-            }
-            Asked::Field(_, Field::Restore) | Asked::Atlas(atlas::Asked::CallOff) => {
-                editor.operating().restore_values();
-            }
-            Asked::Apply => told(editor.operating().apply()),
-            Asked::Leave => editor.operating().leave(),
+            PanelAction::Change(FieldEvent::Commit) => editor.operating().keep_values(),
+            PanelAction::Change(FieldEvent::Abort) => editor.operating().restore_values(),
+            PanelAction::Apply => told(editor.operating().apply()),
+            PanelAction::Leave => editor.operating().leave(),
         }
     }
 
@@ -100,7 +93,7 @@ impl OperationPanel {
         &mut self,
         editor: &mut Editor,
         values: &[(&'static str, Value)],
-        told_before: &Option<Refused>,
+        refused_before: &Option<Refused>,
     ) {
         let refused = editor.operating().set_values(values).err();
         let refused = refused.map(|error| Refused {
@@ -111,7 +104,7 @@ impl OperationPanel {
             text: error.to_string(),
         });
         // A text that was refused just now gave back the value before it.
-        if refused.is_some() || self.fields.refusal == *told_before {
+        if refused.is_some() || self.fields.refusal == *refused_before {
             self.fields.refusal = refused;
         }
     }
@@ -122,7 +115,7 @@ impl OperationPanel {
         ui: &mut Ui,
         in_progress: &OperationInProgress,
         progress: Option<f64>,
-    ) -> Option<Asked> {
+    ) -> Option<PanelAction> {
         let [summary, wrong, buttons] = FOOT;
         let height = if in_progress.is_applied() {
             0.0
@@ -133,7 +126,7 @@ impl OperationPanel {
         let panel = panel
             .frame(Frame::NONE)
             .exact_size(summary + wrong + height);
-        let asked = panel.show(ui, |ui| {
+        let action = panel.show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
             ui.allocate_ui(vec2(ui.available_width(), summary), |ui| {
                 ui.set_height(summary);
@@ -152,17 +145,18 @@ impl OperationPanel {
             });
             (!in_progress.is_applied()).then(|| buttons_ui(ui, in_progress, progress))
         });
-        asked.inner.flatten()
+        action.inner.flatten()
     }
 
-    fn fields_ui(&mut self, ui: &mut Ui, in_progress: &OperationInProgress) -> Vec<Asked> {
+    fn fields_ui(&mut self, ui: &mut Ui, in_progress: &OperationInProgress) -> Vec<PanelAction> {
         let operation = in_progress.operation();
         let parameters = operation.parameters_for(in_progress.input(), in_progress.values());
-        let asked = parameters.filter_map(|parameter| {
-            let set = self.fields.show(ui, in_progress, parameter);
-            set.map(|set| Asked::Field(parameter, set))
+        let actions = parameters.filter_map(|parameter| {
+            let event = self.fields.show(ui, in_progress, parameter)?;
+            let change = event.map(|value| vec![(parameter.name, value)]);
+            Some(PanelAction::Change(change))
         });
-        asked.collect()
+        actions.collect()
     }
 }
 
@@ -172,7 +166,7 @@ fn atlas_of(in_progress: &OperationInProgress) -> Option<&Atlas> {
     run.outcome.atlas.as_ref()
 }
 
-fn heading_ui(ui: &mut Ui, in_progress: &OperationInProgress) -> Option<Asked> {
+fn heading_ui(ui: &mut Ui, in_progress: &OperationInProgress) -> Option<PanelAction> {
     let mut left = false;
     ui.horizontal(|ui| {
         ui.strong(in_progress.operation().label);
@@ -185,7 +179,7 @@ fn heading_ui(ui: &mut Ui, in_progress: &OperationInProgress) -> Option<Asked> {
         }
     });
     widgets::note(ui, in_progress.operation().help);
-    left.then_some(Asked::Leave)
+    left.then_some(PanelAction::Leave)
 }
 
 /// Apply and Cancel; their keys are the canvas's, which has the keyboard unless a field has it.
@@ -193,8 +187,8 @@ fn buttons_ui(
     ui: &mut Ui,
     in_progress: &OperationInProgress,
     progress: Option<f64>,
-) -> Option<Asked> {
-    let mut asked = None;
+) -> Option<PanelAction> {
+    let mut action = None;
     let fails = |run: &Result<crate::editor::Run, _>| {
         run.as_ref().map_or(true, |run| !run.outcome.is_useful())
     };
@@ -202,14 +196,14 @@ fn buttons_ui(
     ui.horizontal_centered(|ui| {
         let apply = ui.add_enabled_ui(enabled, |ui| widgets::primary_button(ui, "Apply"));
         if apply.inner.on_hover_text("Enter").clicked() {
-            asked = Some(Asked::Apply);
+            action = Some(PanelAction::Apply);
         }
         if ui.button("Cancel").on_hover_text("Esc").clicked() {
-            asked = Some(Asked::Leave);
+            action = Some(PanelAction::Leave);
         }
         if let Some(done) = progress {
             ui.add(ProgressBar::new(done as f32).show_percentage());
         }
     });
-    asked
+    action
 }

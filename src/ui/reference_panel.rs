@@ -1,11 +1,10 @@
 //! The inspector of a reference: what it is, where it lies, and its figures.
 
 use eframe::egui::Ui;
-use glam::{DQuat, DVec3, EulerRot};
+use glam::{DQuat, EulerRot};
 
-use super::end_fit_steps::field_width;
 use super::formula_fields::FormulaFields;
-use super::number_field::{FieldEvent, NumberField};
+use super::number_field::{FieldEvent, NumberField, field_width, vector_row};
 use super::theme::STEP;
 use super::widgets;
 use super::{document_unit, figures};
@@ -51,8 +50,8 @@ fn parameters_ui(ui: &mut Ui, editor: &mut Editor, form: &AnalyticForm) {
     for (index, (parameter, value)) in parameters.enumerate() {
         let row = widgets::form_row(ui, parameter.label, |ui| {
             let field = field(parameter.label, *value).quantity(parameter.quantity());
-            let event = field.width(FIELD).show(ui).1;
-            changed(editor, event, |value| ReferenceChange::Value(index, value));
+            let event = field.width(FIELD).show(ui);
+            send(editor, event, |value| ReferenceChange::Value(index, value));
         });
         row.response.on_hover_text(parameter.help);
     }
@@ -62,11 +61,11 @@ fn interval_ui(ui: &mut Ui, editor: &mut Editor, curve: &ReferenceCurve) {
     let [from, to] = curve.interval();
     widgets::form_row(ui, "t from", |ui| {
         let t_field = |name, t| field(name, t).quantity(Quantity::Parameter).width(NARROW);
-        let event = t_field("t from", from).show(ui).1;
-        changed(editor, event, |from| ReferenceChange::Interval([from, to]));
+        let event = t_field("t from", from).show(ui);
+        send(editor, event, |from| ReferenceChange::Interval([from, to]));
         widgets::caption(ui, "to");
-        let event = t_field("t to", to).show(ui).1;
-        changed(editor, event, |to| ReferenceChange::Interval([from, to]));
+        let event = t_field("t to", to).show(ui);
+        send(editor, event, |to| ReferenceChange::Interval([from, to]));
     });
 }
 
@@ -75,28 +74,17 @@ pub fn placement_ui(ui: &mut Ui, editor: &mut Editor, curve: &ReferenceCurve) {
     let placement = curve.placement();
     let at = placement.translation();
     let pixel = editor.view().viewport().pixel();
-    let width = field_width(ui, 3);
-    widgets::form_row(ui, "Origin", |ui| {
-        ui.spacing_mut().item_spacing.x = STEP;
-        let axes = [("x", DVec3::X), ("y", DVec3::Y), ("z", DVec3::Z)];
-        for (name, axis) in axes {
-            let value = at.dot(axis);
-            let label = format!("origin {name}");
-            let shown = figures::short(value);
-            let field = NumberField::new(&label, value, shown)
-                .speed(pixel)
-                .quantity(Quantity::Length);
-            let event = field.width(width).show(ui).1;
-            changed(editor, event, |to| {
-                ReferenceChange::Translate(at + axis * (to - value))
-            });
-        }
+    let event = vector_row(ui, ("Origin", "origin"), 3, at, |name, value| {
+        NumberField::new(name, value, figures::short(value))
+            .speed(pixel)
+            .quantity(Quantity::Length)
     });
+    send(editor, event, ReferenceChange::Translate);
     rotation_ui(ui, editor, placement.rotation());
     widgets::form_row(ui, "Scale", |ui| {
         let event = field("reference scale", placement.scale());
-        let event = event.width(FIELD).show(ui).1;
-        changed(editor, event, ReferenceChange::Scale);
+        let event = event.width(FIELD).show(ui);
+        send(editor, event, ReferenceChange::Scale);
     });
 }
 
@@ -108,11 +96,8 @@ fn rotation_ui(ui: &mut Ui, editor: &mut Editor, rotation: DQuat) {
         // From −180° to 180°.
         let angle = angle - 360.0 * (angle / 360.0).round();
         widgets::form_row(ui, "Angle", |ui| {
-            let event = angle_field("reference angle", angle)
-                .width(FIELD)
-                .show(ui)
-                .1;
-            changed(editor, event, |angle| {
+            let event = angle_field("reference angle", angle).width(FIELD).show(ui);
+            send(editor, event, |angle| {
                 ReferenceChange::Rotate(DQuat::from_rotation_z(angle.to_radians()))
             });
         });
@@ -125,8 +110,8 @@ fn rotation_ui(ui: &mut Ui, editor: &mut Editor, rotation: DQuat) {
         ui.spacing_mut().item_spacing.x = STEP;
         for (index, name) in ["angle x", "angle y", "angle z"].into_iter().enumerate() {
             let shown = angles[index].to_degrees();
-            let event = angle_field(name, shown).width(width).show(ui).1;
-            changed(editor, event, |angle| {
+            let event = angle_field(name, shown).width(width).show(ui);
+            send(editor, event, |angle| {
                 let mut angles = angles;
                 angles[index] = angle.to_radians();
                 let [x, y, z] = angles;
@@ -148,15 +133,18 @@ fn angle_field(name: &str, degrees: f64) -> NumberField<'_> {
         .quantity(Quantity::Angle)
 }
 
-/// Do what a field was dragged or typed to.
-fn changed(editor: &mut Editor, event: FieldEvent, change: impl Fn(f64) -> ReferenceChange) {
-    match event {
-        FieldEvent::Idle => {}
-        // What cannot be is passed over: what was shown last stays.
-        FieldEvent::Preview(value) => drop(editor.preview_reference(&change(value))),
-        FieldEvent::Commit => editor.commit_preview(),
-        FieldEvent::Abort => editor.abort_preview(),
-        FieldEvent::Typed(value) => told(editor.change_reference(&change(value))),
+/// Send what was done in a field to the editor. A preview that is impossible leaves the last one.
+fn send<T>(
+    editor: &mut Editor,
+    event: Option<FieldEvent<T>>,
+    change: impl FnOnce(T) -> ReferenceChange,
+) {
+    if let Some(event) = event {
+        event.map(change).send(
+            editor,
+            |editor, change| drop(editor.preview_reference(&change)),
+            |editor, change| told(editor.change_reference(&change)),
+        );
     }
 }
 

@@ -4,7 +4,7 @@ use eframe::egui::{Button, Ui};
 use glam::DVec2;
 
 use super::figures;
-use super::number_field::{FieldEvent, NumberField};
+use super::number_field::NumberField;
 use super::widgets;
 use crate::editor::{Editor, ToolKind, Transformation, told};
 use crate::geometry::expressions::Quantity;
@@ -44,7 +44,7 @@ impl TransformPanel {
         let shown = format!("{}°", figures::significant(self.degrees, 6));
         let field = NumberField::new("rotation angle", self.degrees, shown);
         let field = field.speed(0.5).quantity(Quantity::Angle);
-        keep(&mut self.degrees, field.show(ui).1);
+        self.degrees = field.changed(ui).unwrap_or(self.degrees);
         if apply_ui(ui, editor, "Apply rotation") {
             told(editor.transform(Transformation::Rotate(self.degrees.to_radians())));
         }
@@ -53,7 +53,7 @@ impl TransformPanel {
     fn factor_ui(&mut self, ui: &mut Ui, editor: &mut Editor) {
         let shown = figures::significant(self.factor, 6);
         let field = NumberField::new("scale factor", self.factor, shown);
-        keep(&mut self.factor, field.speed(0.01).show(ui).1);
+        self.factor = field.speed(0.01).changed(ui).unwrap_or(self.factor);
         if apply_ui(ui, editor, "Apply scaling") {
             told(editor.transform(Transformation::Scale(self.factor)));
         }
@@ -74,23 +74,14 @@ fn pivot_ui(ui: &mut Ui, editor: &mut Editor) {
         for (name, axis) in axes {
             let value = pivot.dot(axis);
             let shown = figures::significant(value, 6);
-            let mut changed = value;
             let field = NumberField::new(name, value, shown)
                 .speed(pixel)
                 .quantity(Quantity::Length);
-            keep(&mut changed, field.show(ui).1);
-            if changed != value {
+            if let Some(changed) = field.changed(ui) {
                 editor.set_pivot(Some(pivot + axis * (changed - value)));
             }
         }
     });
-}
-
-/// Take over what a field was typed or dragged to: nothing of it is in the document yet.
-fn keep(value: &mut f64, event: FieldEvent) {
-    if let FieldEvent::Preview(new) | FieldEvent::Typed(new) = event {
-        *value = new;
-    }
 }
 
 fn apply_ui(ui: &mut Ui, editor: &Editor, name: &str) -> bool {

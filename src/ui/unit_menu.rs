@@ -8,7 +8,7 @@ use eframe::egui::{
 use super::action::Action;
 use super::figures;
 use super::menu_item::item_ui;
-use super::number_field::{FieldEvent, NumberField};
+use super::number_field::NumberField;
 use super::shell::Shell;
 use super::theme::{self, STEP, Tokens};
 use super::widgets;
@@ -95,7 +95,7 @@ fn nudge_ui(ui: &mut Ui, editor: &mut Editor) {
             .range(Editor::NUDGE_STEPS)
             .quantity(Quantity::Length)
             .speed(0.02 * step);
-        if let FieldEvent::Typed(step) | FieldEvent::Preview(step) = field.show(ui).1 {
+        if let Some(step) = field.changed(ui) {
             editor.set_nudge_step(step);
         }
     });

@@ -31,15 +31,15 @@ pub fn id() -> Id {
     Id::unique("vertex table")
 }
 
-/// What a row asks for.
-pub enum Asked {
-    /// To select a vertex, alone or in addition.
+/// An action of the user in a row.
+pub enum RowAction {
+    /// Select a vertex, alone or in addition.
     Select { vertex: usize, add: bool },
-    /// To lock a vertex, or to unlock it.
+    /// Lock or unlock a vertex.
     Lock { vertex: usize, locked: bool },
-    /// To give a cell the keyboard, and to edit it.
+    /// Give a cell the keyboard, and edit it.
     Focus { cell: Cell, edit: bool },
-    /// What was done to a cell's field.
+    /// Drag or set the number of a cell.
     Field(Cell, FieldEvent),
 }
 
@@ -77,7 +77,7 @@ impl Rows<'_> {
     }
 
     /// Show a vertex's number: pressing it selects the vertex.
-    pub fn number_ui(&self, ui: &mut Ui, vertex: usize) -> Option<Asked> {
+    pub fn number_ui(&self, ui: &mut Ui, vertex: usize) -> Option<RowAction> {
         let (_, rect) = ui.allocate_space(vec2(NUMBER, ROW));
         let response = ui.interact(rect, id().with(("number", vertex)), Sense::click());
         let tokens = Tokens::of(ui);
@@ -97,12 +97,14 @@ impl Rows<'_> {
             WidgetInfo::selected(Role::Button, true, selected, name)
         });
         let add = ui.input(|input| input.modifiers.shift || input.modifiers.command);
-        response.clicked().then_some(Asked::Select { vertex, add })
+        response
+            .clicked()
+            .then_some(RowAction::Select { vertex, add })
     }
 
     /// Show whether a vertex is locked: pressing the lock changes it. An open lock shows where the
     /// pointer is.
-    pub fn lock_ui(&self, ui: &mut Ui, vertex: usize, row: Rect) -> Option<Asked> {
+    pub fn lock_ui(&self, ui: &mut Ui, vertex: usize, row: Rect) -> Option<RowAction> {
         let (_, rect) = ui.allocate_space(vec2(LOCK, ROW));
         let response = ui.interact(rect, id().with(("lock", vertex)), Sense::click());
         let response = response.on_hover_text(if self.is_locked(vertex) {
@@ -133,8 +135,8 @@ impl Rows<'_> {
             WidgetInfo::selected(Role::CheckBox, true, locked, name)
         });
         let locked = !locked;
-        let asked = Asked::Lock { vertex, locked };
-        response.clicked().then_some(asked)
+        let action = RowAction::Lock { vertex, locked };
+        response.clicked().then_some(action)
     }
 
     fn is_locked(&self, vertex: usize) -> bool {
@@ -142,7 +144,7 @@ impl Rows<'_> {
     }
 
     /// Show a cell in which nothing is typed.
-    pub fn cell_ui(&self, ui: &mut Ui, cell: Cell, rect: Rect) -> Option<Asked> {
+    pub fn cell_ui(&self, ui: &mut Ui, cell: Cell, rect: Rect) -> Option<RowAction> {
         let value = cell.column.value(&self.curve.polygon, cell.vertex)?;
         let (shown, speed) = cell.column.shown(value, self.pixel);
         let name = name(cell);
@@ -156,11 +158,11 @@ impl Rows<'_> {
             .flat()
             .read_only(!self.can_edit || self.is_locked(cell.vertex));
         let (response, event) = field.resting_ui(ui, rect, id().with(cell_key(cell)));
-        if event != FieldEvent::Idle {
-            return Some(Asked::Field(cell, event));
-        }
         let edit = response.double_clicked();
-        response.clicked().then_some(Asked::Focus { cell, edit })
+        let focus = response
+            .clicked()
+            .then_some(RowAction::Focus { cell, edit });
+        event.map(|event| RowAction::Field(cell, event)).or(focus)
     }
 }
 

@@ -13,10 +13,9 @@ use super::document_unit;
 use super::draft::Remark;
 use super::figures;
 use super::keyboard::{self, Typing};
-use super::number_field::FieldEvent;
 use super::theme::{RADIUS, ROW, STEP, Tokens};
 use super::vertex_columns::{Column, MoreColumns};
-use super::vertex_rows::{Asked, HEAD, Rows, heading_ui, id, name};
+use super::vertex_rows::{HEAD, RowAction, Rows, heading_ui, id, name};
 use crate::document::{Curve, CurveId};
 use crate::editor::{Editor, told};
 
@@ -88,13 +87,13 @@ impl VertexTable {
         };
         heading_ui(ui, &columns, rows.width);
         let has_keyboard = has_keyboard(ui);
-        let (hovered, asked, place) = self.rows_ui(ui, &rows);
+        let (hovered, action, place) = self.rows_ui(ui, &rows);
         self.selected = selected;
         if let Some(hovered) = hovered.or(has_keyboard.then_some(self.cell.vertex)) {
             editor.view_mut().hover_vertex(hovered);
         }
-        if let Some(asked) = asked {
-            self.execute(ui, editor, id, curve, asked);
+        if let Some(action) = action {
+            self.execute(ui, editor, id, curve, action);
         }
         if let Some(key) = ending {
             self.end_entry(ui, editor, &columns, count, key);
@@ -276,9 +275,13 @@ impl VertexTable {
         self.follow = true;
     }
 
-    /// Show the rows in sight; tells which one is hovered, what is asked for, and where the cell
+    /// Show the rows in sight; tells which one is hovered, what is action for, and where the cell
     /// is that keys are for.
-    fn rows_ui(&mut self, ui: &mut Ui, rows: &Rows<'_>) -> (Option<usize>, Option<Asked>, Rect) {
+    fn rows_ui(
+        &mut self,
+        ui: &mut Ui,
+        rows: &Rows<'_>,
+    ) -> (Option<usize>, Option<RowAction>, Rect) {
         let follow = std::mem::take(&mut self.follow);
         let height = ui.available_height();
         let mut area = ScrollArea::vertical()
@@ -289,7 +292,7 @@ impl VertexTable {
         }
         ui.spacing_mut().item_spacing = Vec2::ZERO;
         let top = ui.cursor().min;
-        let (mut asked, mut hovered, mut visible) = (None, None, 0..0);
+        let (mut action, mut hovered, mut visible) = (None, None, 0..0);
         let mut focused = None;
         let count = rows.curve.polygon.vertices().len();
         let shown = area.show_rows(ui, ROW, count, |ui, range| {
@@ -302,7 +305,7 @@ impl VertexTable {
                     hovered = Some(vertex);
                 }
                 let (more, cell) = self.row_ui(ui, rows, vertex, rect);
-                asked = more.or(asked.take());
+                action = more.or(action.take());
                 focused = focused.or(cell);
             }
         });
@@ -317,7 +320,7 @@ impl VertexTable {
             focus_ui(ui, nowhere);
             nowhere
         });
-        (hovered, asked, place)
+        (hovered, action, place)
     }
 
     /// How far to scroll, so that a selection made elsewhere or the cell comes into sight.
@@ -341,12 +344,12 @@ impl VertexTable {
         rows: &Rows<'_>,
         vertex: usize,
         rect: Rect,
-    ) -> (Option<Asked>, Option<Rect>) {
+    ) -> (Option<RowAction>, Option<Rect>) {
         rows.paint(ui, vertex, rect);
-        let (mut asked, mut focused) = (None, None);
+        let (mut action, mut focused) = (None, None);
         ui.horizontal(|ui| {
-            asked = rows.number_ui(ui, vertex);
-            asked = rows.lock_ui(ui, vertex, rect).or(asked.take());
+            action = rows.number_ui(ui, vertex);
+            action = rows.lock_ui(ui, vertex, rect).or(action.take());
             for column in rows.columns {
                 let cell = Cell {
                     vertex,
@@ -355,7 +358,7 @@ impl VertexTable {
                 let (_, rect) = ui.allocate_space(vec2(rows.width, ROW));
                 let is_here = cell == self.cell;
                 if !(is_here && self.entry_ui(ui, rect)) {
-                    asked = rows.cell_ui(ui, cell, rect).or(asked.take());
+                    action = rows.cell_ui(ui, cell, rect).or(action.take());
                 }
                 if is_here {
                     self.cell_focus_ui(ui, rect);
@@ -364,7 +367,7 @@ impl VertexTable {
                 self.remark_ui(ui, cell, rect);
             }
         });
-        (asked, focused)
+        (action, focused)
     }
 
     /// Show the number that is being typed, if one is.
@@ -407,14 +410,16 @@ impl VertexTable {
         editor: &mut Editor,
         curve_id: CurveId,
         curve: &Curve,
-        asked: Asked,
+        action: RowAction,
     ) {
-        let (cell, event) = match asked {
-            Asked::Select { vertex, add } => return editor.select_vertex(curve_id, vertex, add),
-            Asked::Lock { vertex, locked } => {
+        let (cell, event) = match action {
+            RowAction::Select { vertex, add } => {
+                return editor.select_vertex(curve_id, vertex, add);
+            }
+            RowAction::Lock { vertex, locked } => {
                 return told(editor.lock_vertices(curve_id, vec![vertex], locked));
             }
-            Asked::Focus { cell, edit } => {
+            RowAction::Focus { cell, edit } => {
                 self.cell = cell;
                 self.remark = None;
                 ui.memory_mut(|memory| memory.request_focus(id()));
@@ -423,20 +428,16 @@ impl VertexTable {
                 }
                 return;
             }
-            Asked::Field(cell, event) => (cell, event),
+            RowAction::Field(cell, event) => (cell, event),
         };
         let label = cell.column.label();
         let polygon = (curve_id, &curve.polygon);
         let edits = |value: f64| vec![cell.column.edit(polygon, cell.vertex, value)];
-        match event {
-            FieldEvent::Idle => {}
-            FieldEvent::Preview(value) => editor.preview(label, edits(value)),
-            FieldEvent::Commit => editor.commit_preview(),
-            FieldEvent::Abort => editor.abort_preview(),
-            FieldEvent::Typed(value) => {
-                told(editor.apply(label, edits(value)));
-            }
-        }
+        event.map(edits).send(
+            editor,
+            |editor, edits| editor.preview(label, edits),
+            |editor, edits| told(editor.apply(label, edits)),
+        );
     }
 }
 

@@ -12,7 +12,7 @@ use lucide_icons::Icon;
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
 
 /// The width of the captions at the left of a form's rows.
-const CAPTION: f32 = 84.0;
+pub const CAPTION: f32 = 84.0;
 
 /// A square button that shows an icon.
 pub struct IconButton<'a> {
