@@ -164,12 +164,12 @@ impl Document {
         self.curves.is_empty() && self.references.is_empty()
     }
 
-    /// Whether the other document holds equal curves and equal references in the same order, the same matches
-    /// and the same unit.
-    /// What both share is not compared number by number.
+    /// Whether the other document holds equal curves and equal references in the same order, the same matches,
+    /// unit and unknown keys. Shared curves are not compared number by number.
     pub fn is_same(&self, other: &Self) -> bool {
         self.unit == other.unit
             && self.matches == other.matches
+            && self.extras == other.extras
             && are_same(&self.curves, &other.curves)
             && are_same(&self.references, &other.references)
     }

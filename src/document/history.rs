@@ -197,14 +197,16 @@ impl History {
         result
     }
 
-    /// Put another document in this one's place, as one step: it counts as saved. What a preview shows is gone.
+    /// Put another document in this one's place, as one step even if both look the same: it counts as saved. A
+    /// preview is aborted.
     pub fn replace(&mut self, label: impl Into<String>, document: Document) {
         self.abort();
-        self.begin(label);
         self.saved = document.clone();
-        self.document = document;
         self.unsaved = false;
-        self.commit();
+        let label = label.into();
+        let document = std::mem::replace(&mut self.document, document);
+        self.undo.push(Step { label, document });
+        self.redo.clear();
     }
 
     /// Take back the last step, or abort the running preview. Returns its label.

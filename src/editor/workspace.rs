@@ -62,9 +62,13 @@ impl Workspace {
         };
     }
 
-    /// Put what the document's file holds now in its place, as one step.
+    /// Put what the document's file holds now in its place, as one step. Without one the file has the bytes that were
+    /// last read or written, and nothing was edited since.
     pub fn reload(&mut self, document: Document, fingerprint: Fingerprint) {
         self.interrupt();
+        if self.fingerprint == Some(fingerprint) && !self.is_modified() {
+            return;
+        }
         self.revision += 1;
         self.set_fingerprint(Some(fingerprint));
         self.history.replace("Reload", document);
@@ -322,6 +326,24 @@ mod tests {
         assert!(workspace.preview().is_some(), "saving ends nothing");
         workspace.abort();
         assert!(!workspace.is_modified());
+    }
+
+    #[test]
+    fn a_reload_is_a_step_whenever_the_bytes_differ() {
+        let mut workspace = workspace();
+        let [first, second] = [b"1", b"2"].map(|bytes| Fingerprint::of(bytes));
+        workspace.set_fingerprint(Some(first));
+        let same = workspace.document().clone();
+        workspace.reload(same.clone(), first);
+        assert_eq!(workspace.history().undo_steps(), 0);
+        workspace.reload(same.clone(), second);
+        assert_eq!(workspace.history().undo_steps(), 1);
+        assert!(!workspace.is_modified());
+        let edits = rename(&workspace, "edited");
+        workspace.apply("Rename", edits).expect("a rename");
+        workspace.reload(same, second);
+        assert_eq!(workspace.history().undo_steps(), 3);
+        assert_eq!(name(workspace.document()), "arc");
     }
 
     #[test]

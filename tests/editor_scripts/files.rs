@@ -103,6 +103,21 @@ fn unknown_keys_survive_edits_undo_and_saving() {
 }
 
 #[test]
+fn a_reload_keeps_unknown_keys_that_another_program_changed() {
+    let folder = folder();
+    let path = write(&folder, "own.batten", PROJECT);
+    let mut script = opened(&path);
+    let changed = PROJECT.replace("\"a\": [2]", "\"a\": [3]");
+    write(&folder, "own.batten", &changed);
+    script.editor.reload().expect("a project");
+    script.editor.save(&path).expect("a file");
+    assert!(text(&path).contains(r#""a": [3]"#), "{}", text(&path));
+    script.command(Command::Undo);
+    script.editor.save(&path).expect("a file");
+    assert!(is_kept(&text(&path)), "{}", text(&path));
+}
+
+#[test]
 fn unknown_keys_do_not_go_with_copies() {
     let folder = folder();
     let mut script = opened(&write(&folder, "own.batten", PROJECT));
