@@ -18,6 +18,9 @@ use glam::{DVec2, DVec3};
 /// Edits of each curve.
 const EDITS: usize = 12;
 
+/// The plots that are kept, one of a curve.
+const PLOTS: [LevelPlot; 2] = [LevelPlot::CURVATURE, LevelPlot::Curvature(2)];
+
 /// How far closed polygons may differ that are converted whole and in part, in units of the
 /// curve's size.
 const CONVERSION: f64 = 8.0 * f64::EPSILON;
@@ -67,8 +70,13 @@ struct Outlines {
     float: ChainOutlines,
 }
 
-/// What is drawn of a curve and plotted, gaps included.
-fn drawn(analysis: &mut CurveAnalysis, outlines: &mut Outlines, eye: Orientation) -> Vec<[u64; 2]> {
+/// What is drawn of a curve, and one plot of it, gaps included.
+fn drawn(
+    analysis: &mut CurveAnalysis,
+    outlines: &mut Outlines,
+    eye: Orientation,
+    plot: LevelPlot,
+) -> Vec<[u64; 2]> {
     let view = ViewBox {
         low: DVec2::new(-20.0, -20.0),
         high: DVec2::new(150.0, 20.0),
@@ -93,11 +101,10 @@ fn drawn(analysis: &mut CurveAnalysis, outlines: &mut Outlines, eye: Orientation
     let mut teeth = Vec::new();
     curve.append_teeth(sampled, &view, &comb, &mut teeth);
     points.extend(teeth.into_flattened());
-    analysis.append_curvature(&mut points);
     let mut dots = Vec::new();
     analysis.append_discrete_curvature(None, &mut dots);
     points.extend(dots.into_iter().map(|(_, place)| place));
-    analysis.append_levels(LevelPlot::Curvature(2), false, &mut points);
+    analysis.append_levels(plot, false, &mut points);
     for flow in Flow::ALL {
         analysis.float().append_flow(flow, &mut points);
     }
@@ -136,7 +143,7 @@ fn measured(analysis: &mut CurveAnalysis) -> Harmony {
 #[test]
 fn an_edited_curve_is_analysed_as_if_it_were_new() {
     let mut random = Random(12);
-    for degree in (1..=9).cycle().take(27) {
+    for (degree, plot) in (1..=9).cycle().take(27).zip(PLOTS.into_iter().cycle()) {
         let mut polygon = random_polygon(&mut random, degree);
         let eye = if degree % 2 == 0 {
             Orientation::isometric()
@@ -148,7 +155,7 @@ fn an_edited_curve_is_analysed_as_if_it_were_new() {
         let mut outlines = Outlines::default();
         for number in 0..EDITS {
             proved(&mut kept);
-            drawn(&mut kept, &mut outlines, eye);
+            drawn(&mut kept, &mut outlines, eye, plot);
             edit(&mut random, &mut polygon);
             let curve = curve(&polygon);
             kept.update(&curve);
@@ -164,8 +171,8 @@ fn an_edited_curve_is_analysed_as_if_it_were_new() {
                 assert_eq!(measured(&mut kept), measured(&mut fresh));
             }
             assert_eq!(kept.samples().length(), fresh.samples().length());
-            let made_anew = drawn(&mut fresh, &mut Outlines::default(), eye);
-            assert_eq!(drawn(&mut kept, &mut outlines, eye), made_anew);
+            let made_anew = drawn(&mut fresh, &mut Outlines::default(), eye, plot);
+            assert_eq!(drawn(&mut kept, &mut outlines, eye, plot), made_anew);
             let [old, new] = [&kept, &fresh].map(|analysis| analysis.clamped().vertices());
             let pairs = old.iter().zip(new);
             for (kept, fresh) in pairs {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use batten::analysis::{CurvatureSeries, CurveSamples, LevelPlot, LevelSeries, SampledCurve};
+use batten::analysis::{CurveSamples, LevelPlot, LevelSeries, SampledCurve};
 use batten::editor::{CombSettings, CurveOutlines, Orientation, ViewBox};
 use batten::geometry::{EvenBatch, FloatPolygon, LEVELS, ParametricCurve};
 use glam::{DVec2, DVec3};
@@ -158,7 +158,7 @@ fn a_circle_has_its_length_curvature_and_levels() {
         let range = samples.curvature().expect("a range");
         assert!((range.low - kappa).abs() <= ROUNDING && (range.high - kappa).abs() <= ROUNDING);
         let mut points = Vec::new();
-        CurvatureSeries::default().append(sampled, &mut points);
+        LevelSeries::default().append(sampled, LevelPlot::CURVATURE, false, &mut points);
         assert!(points.len() > 10);
         for point in &points {
             assert!((point.y - kappa).abs() <= ROUNDING, "no gaps: {point}");
@@ -236,7 +236,7 @@ fn a_line_in_space_is_hit_where_it_is_seen() {
         assert!(point.distance(DVec2::new(1.0, 4.0)) <= ROUNDING * 13.0);
         assert!((distance - 0.25).abs() <= ROUNDING * 13.0);
         let mut points = Vec::new();
-        CurvatureSeries::default().append(sampled, &mut points);
+        LevelSeries::default().append(sampled, LevelPlot::CURVATURE, false, &mut points);
         assert!(!points.is_empty() && points.iter().all(|point| point.y == 0.0));
     });
 }

@@ -5,49 +5,41 @@ use glam::DVec2;
 use super::bins::{BINS, Bins};
 use super::curve_samples::SampledCurve;
 use super::discrete_curvature::LengthCursor;
-use super::level_series::LevelPlot;
+use super::level_series::{LevelPlot, finite};
 
 /// With about so many points a part is plotted.
 const POINTS: f64 = 1536.0;
 
 impl SampledCurve<'_> {
-    /// Append the plot of the curvature between two arc lengths: of the samples, or of more points
-    /// where these are few. NaN points are gaps.
-    pub fn append_curvature_part(self, part: [f64; 2], out: &mut Vec<DVec2>) {
-        let planar = self.samples.is_planar();
-        let curvature = |piece: usize, parameters: &[f64]| -> Vec<f64> {
-            let jets = parameters.iter().map(|t| self.curve.piece_jet(piece, *t));
-            jets.map(|jet| jet.curvature_of(planar)).collect()
-        };
-        if !self.append_closely(LevelPlot::Curvature(1), part, curvature, out) {
-            self.append_samples(part, out);
-        }
-    }
-
-    /// Append a plot of levels between two arc lengths, if there are fewer samples than can be told
-    /// apart there; returns whether it has. With `normalised` as for the whole curve.
-    pub fn append_level_part(
+    /// Append a plot between two arc lengths, at as many parameters as can be told apart there. Returns whether
+    /// it has: where there are more samples than that, only those of the curvature are thinned; other levels are
+    /// left to the plot of the whole curve. With `normalised` as for the whole curve.
+    pub fn append_part(
         self,
         plot: LevelPlot,
         normalised: bool,
         part: [f64; 2],
         out: &mut Vec<DVec2>,
     ) -> bool {
-        let planar = self.samples.is_planar();
-        let scale = match normalised {
-            true => 1.0 / self.samples.length(),
-            false => 1.0,
-        };
-        let level = |piece: usize, parameters: &[f64]| -> Vec<f64> {
+        let (planar, scale) = (self.samples.is_planar(), self.scale(normalised));
+        let is_curvature = plot == LevelPlot::CURVATURE;
+        let values = |piece: usize, parameters: &[f64]| -> Vec<f64> {
+            if is_curvature {
+                let jets = parameters.iter().map(|t| self.curve.piece_jet(piece, *t));
+                return jets.map(|jet| jet.curvature_of(planar) / scale).collect();
+            }
             let levels = self.curve.levels(piece, parameters, scale, planar);
             levels.iter().map(|it| plot.point(it, 0.0).y).collect()
         };
         let first = out.len();
-        let is_close = self.append_closely(plot, part, level, out);
+        let is_close = self.append_closely(plot, part, values, out);
+        if !is_close && is_curvature {
+            self.append_samples(part, scale, out);
+        }
         for point in out.iter_mut().skip(first) {
             point.x *= scale;
         }
-        is_close
+        is_close || is_curvature
     }
 
     /// Evaluate a quantity at more parameters than the samples', if these are few.
@@ -85,8 +77,7 @@ impl SampledCurve<'_> {
                 if leaps && samples.get(step).is_some_and(|sample| sample.leaps) {
                     out.push(DVec2::new(at, f64::NAN));
                 }
-                let value = Some(value).filter(|value| value.is_finite());
-                out.push(DVec2::new(at, value.unwrap_or(f64::NAN)));
+                out.push(finite(DVec2::new(at, value)));
             }
             if gaps {
                 out.push(DVec2::NAN);
@@ -95,8 +86,8 @@ impl SampledCurve<'_> {
         true
     }
 
-    /// Thin the samples of a part as those of a whole curve are.
-    fn append_samples(self, [from, to]: [f64; 2], out: &mut Vec<DVec2>) {
+    /// Append the samples of the curvature in a part, thinned as those of a whole curve are.
+    fn append_samples(self, [from, to]: [f64; 2], scale: f64, out: &mut Vec<DVec2>) {
         let mut bins = Bins::new((to - from) / BINS);
         let mut start = 0.0;
         for (index, block) in self.samples.blocks().iter().enumerate() {
@@ -113,7 +104,7 @@ impl SampledCurve<'_> {
                         bins.add(DVec2::new(at, f64::NAN), out);
                     }
                     if (from..=to).contains(&at) {
-                        bins.add(DVec2::new(at, sample.curvature), out);
+                        bins.add(DVec2::new(at, sample.curvature / scale), out);
                     }
                 }
                 start += samples.last().map_or(0.0, |sample| sample.arc_length);

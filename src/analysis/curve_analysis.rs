@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::curvature_series::CurvatureSeries;
 use super::curve_samples::{CurveSamples, SampledCurve};
 use super::discrete_curvature::append_discrete_curvature;
 use super::feature_proof::{FeatureProof, ProofResult, ProvedFeatures};
@@ -26,7 +25,6 @@ pub struct CurveAnalysis {
     float: VertexChain,
     clamped: VertexChain,
     features: ProvedFeatures,
-    curvature: CurvatureSeries,
     levels: LevelSeries,
     /// The harmony that was measured last.
     harmony: Option<Arc<MeasuredHarmony>>,
@@ -42,7 +40,6 @@ impl CurveAnalysis {
             float: VertexChain::default(),
             clamped: VertexChain::default(),
             features: ProvedFeatures::new(polygon.segments()),
-            curvature: CurvatureSeries::default(),
             levels: LevelSeries::default(),
             harmony: None,
             redone: polygon.segments(),
@@ -203,13 +200,6 @@ impl CurveAnalysis {
         measured.of(&self.curve)
     }
 
-    /// Append the curvature over arc length: see [`CurvatureSeries::append`].
-    pub fn append_curvature(&mut self, out: &mut Vec<DVec2>) {
-        let curve = &self.curve.polygon;
-        let samples = &self.samples;
-        self.curvature.append(SampledCurve { curve, samples }, out);
-    }
-
     /// Append the polygon's discrete curvature at its vertices, by their numbers, over arc length.
     /// Vertices that lie beyond an end of the curve stand evenly spaced in a flank beside it.
     /// Of many vertices only the outermost are listed, but of a `part` between two arc lengths all, if
@@ -222,10 +212,9 @@ impl CurveAnalysis {
         append_discrete_curvature(&self.curve.polygon, &self.float, self.sampled(), part, out)
     }
 
-    /// Append a plot of levels: see [`LevelSeries::append`].
+    /// Append a plot of the whole curve: see [`LevelSeries::append`].
     pub fn append_levels(&mut self, plot: LevelPlot, normalised: bool, out: &mut Vec<DVec2>) {
-        let curve = &self.curve.polygon;
-        let samples = &self.samples;
+        let (curve, samples) = (&self.curve.polygon, &self.samples);
         let sampled = SampledCurve { curve, samples };
         self.levels.append(sampled, plot, normalised, out);
     }

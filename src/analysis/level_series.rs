@@ -1,4 +1,4 @@
-//! Plots of curvature and torsion levels over arc length, and the logarithmic curvature graph.
+//! Plots of curvature, torsion and their levels over arc length, and the logarithmic curvature graph.
 
 use glam::DVec2;
 
@@ -10,7 +10,7 @@ use crate::geometry::CurvatureLevels;
 /// What is plotted of a curve's levels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LevelPlot {
-    /// A level (1 to 4) of the curvature over arc length.
+    /// A level (1 to 4) of the curvature over arc length; level 1 is the curvature itself.
     Curvature(usize),
     /// A level (1 to 4) of the torsion over arc length.
     Torsion(usize),
@@ -19,6 +19,9 @@ pub enum LevelPlot {
 }
 
 impl LevelPlot {
+    /// The curvature, which samples know without further derivatives.
+    pub const CURVATURE: Self = Self::Curvature(1);
+
     /// The value at one parameter: NaN where there is none.
     pub(super) fn point(self, levels: &CurvatureLevels, arc_length: f64) -> DVec2 {
         let level = |values: &[f64], level: usize| {
@@ -49,17 +52,16 @@ impl LevelPlot {
 /// Hold one plot's series, block by block.
 #[derive(Debug, Default)]
 pub struct LevelSeries {
-    /// What the blocks were made for: the plot, the scale's bits, the bins' level of detail.
+    /// What the blocks were made for: the plot, the bits of the values' scale, the bins' level of detail.
     key: Option<(LevelPlot, u64, i32)>,
-    /// For each block its points, from the block's own start, and the samples they were made of.
-    blocks: Vec<Option<(Revision, Vec<DVec2>)>>,
+    /// For each block the samples that its points were made of, and the points from the block's own start.
+    blocks: Vec<(Option<Revision>, Vec<DVec2>)>,
 }
 
 impl LevelSeries {
-    /// Append a plot of levels, thinned so that the whole curve has about a thousand bins with
-    /// their extrema kept; NaN points are gaps, also at joints where the plot may jump. With
-    /// `normalised`, the levels are those of the curve scaled to length 1, over the share of its
-    /// length.
+    /// Append a plot, thinned so that the whole curve has about a thousand bins with their extrema kept; NaN
+    /// points are gaps, also at joints where the plot may jump. With `normalised`, the values are those of the
+    /// curve scaled to length 1, over the share of its length.
     pub fn append(
         &mut self,
         sampled: SampledCurve<'_>,
@@ -68,28 +70,31 @@ impl LevelSeries {
         out: &mut Vec<DVec2>,
     ) {
         let samples = sampled.samples;
-        let length = samples.length();
-        let scale = if normalised { 1.0 / length } else { 1.0 };
-        if !(scale > 0.0 && scale.is_finite()) {
-            return;
-        }
-        let level = bin_level(length);
-        let key = Some((plot, scale.to_bits(), level));
+        let scale = sampled.scale(normalised);
+        // Curvatures are kept as they are: the length changes in every frame of a drag.
+        let (kept, factor) = match plot {
+            LevelPlot::CURVATURE => (1.0, 1.0 / scale),
+            _ => (scale, 1.0),
+        };
+        let level = bin_level(samples.length());
+        let key = Some((plot, kept.to_bits(), level));
         if self.key != key {
             self.key = key;
             self.blocks.clear();
         }
-        self.blocks.resize(samples.blocks().len(), None);
+        self.blocks
+            .resize(samples.blocks().len(), Default::default());
         let mut start = 0.0;
         for (index, (own, block)) in self.blocks.iter_mut().zip(samples.blocks()).enumerate() {
-            own.take_if(|(revision, _)| *revision != block.revision);
-            let (_, points) = own.get_or_insert_with(|| {
-                let points = block_levels(sampled, index, plot, scale, level);
-                (block.revision, points)
-            });
+            let (revision, points) = own;
+            if *revision != Some(block.revision) {
+                *revision = Some(block.revision);
+                points.clear();
+                append_block(sampled, index, plot, (kept, level), points);
+            }
             out.extend(points.iter().map(|point| match plot {
                 LevelPlot::Logarithmic => *point,
-                _ => DVec2::new((start + point.x) * scale, point.y),
+                _ => DVec2::new((start + point.x) * scale, point.y * factor),
             }));
             start += block.length;
         }
@@ -97,30 +102,38 @@ impl LevelSeries {
 }
 
 impl SampledCurve<'_> {
-    /// The place of the parameter u on a plot of levels.
-    pub fn level_at(&self, plot: LevelPlot, normalised: bool, u: f64) -> DVec2 {
-        let samples = self.samples;
-        let scale = if normalised {
-            1.0 / samples.length()
+    /// The factor that scales the curve to length 1 if it is `normalised` and has a length; otherwise 1.
+    pub fn scale(&self, normalised: bool) -> f64 {
+        let scale = 1.0 / self.samples.length();
+        if normalised && scale > 0.0 && scale.is_finite() {
+            scale
         } else {
             1.0
-        };
-        let (piece, t) = self.curve.locate(u);
-        let levels = self.curve.levels(piece, &[t], scale, samples.is_planar());
+        }
+    }
+
+    /// The place of the parameter u on a plot.
+    pub fn level_at(&self, plot: LevelPlot, normalised: bool, u: f64) -> DVec2 {
+        let (planar, scale) = (self.samples.is_planar(), self.scale(normalised));
         let arc_length = scale * self.length_at(u);
+        if plot == LevelPlot::CURVATURE {
+            return DVec2::new(arc_length, self.curve.jet(u).curvature_of(planar) / scale);
+        }
+        let (piece, t) = self.curve.locate(u);
+        let levels = self.curve.levels(piece, &[t], scale, planar);
         let place = |levels| plot.point(levels, arc_length);
         levels.first().map_or(DVec2::NAN, place)
     }
 }
 
-fn block_levels(
+/// Append a plot of one block, from its own start, with values of the curve scaled by `scale`.
+fn append_block(
     SampledCurve { curve, samples }: SampledCurve<'_>,
     index: usize,
     plot: LevelPlot,
-    scale: f64,
-    level: i32,
-) -> Vec<DVec2> {
-    let mut points = Vec::new();
+    (scale, level): (f64, i32),
+    out: &mut Vec<DVec2>,
+) {
     let mut bins = Bins::new(2f64.powi(level));
     let mut start = 0.0;
     // Where pieces are narrower than the bins, their jumps cannot be told apart.
@@ -131,28 +144,34 @@ fn block_levels(
     let parameters: Vec<f64> = (0..=steps).map(|step| step as f64 / steps as f64).collect();
     for piece in samples.block_pieces(index) {
         let own = samples.piece(piece);
-        let levels = curve.levels(piece, &parameters, scale, samples.is_planar());
-        for (sample, levels) in own.iter().zip(&levels) {
-            let point = plot.point(levels, start + sample.arc_length);
-            if sample.leaps {
-                match is_graph {
-                    true => append_apart(DVec2::NAN, &mut points),
-                    false => bins.add(DVec2::new(point.x, f64::NAN), &mut points),
-                }
-            }
+        let levels = match plot {
+            LevelPlot::CURVATURE => Vec::new(),
+            _ => curve.levels(piece, &parameters, scale, samples.is_planar()),
+        };
+        for (step, sample) in own.iter().enumerate() {
+            let at = start + sample.arc_length;
+            let point = match levels.get(step) {
+                Some(levels) => plot.point(levels, at),
+                None => DVec2::new(at, sample.curvature),
+            };
             if is_graph {
-                append_apart(point, &mut points);
+                if sample.leaps {
+                    append_apart(DVec2::NAN, out);
+                }
+                append_apart(point, out);
             } else {
-                bins.add(finite(point), &mut points);
+                if sample.leaps {
+                    bins.add(DVec2::new(at, f64::NAN), out);
+                }
+                bins.add(finite(point), out);
             }
         }
         start += own.last().map_or(0.0, |sample| sample.arc_length);
         if gaps {
-            bins.add(DVec2::new(start, f64::NAN), &mut points);
+            bins.add(DVec2::new(start, f64::NAN), out);
         }
     }
-    bins.finish(&mut points);
-    points
+    bins.finish(out);
 }
 
 /// Append a point of the logarithmic graph, unless it is one with the last; one gap stands for
@@ -170,8 +189,8 @@ fn append_apart(point: DVec2, points: &mut Vec<DVec2>) {
     }
 }
 
-/// Values beyond the range of numbers are gaps.
-fn finite(point: DVec2) -> DVec2 {
+/// Turn a value beyond the range of numbers into a gap.
+pub(super) fn finite(point: DVec2) -> DVec2 {
     let y = if point.y.is_finite() {
         point.y
     } else {

@@ -5,7 +5,6 @@ mod bins;
 mod cache;
 mod changed_segments;
 mod close_series;
-mod curvature_series;
 mod curve_analysis;
 mod curve_samples;
 mod discrete_curvature;
@@ -22,7 +21,6 @@ mod sampled_features;
 mod vertex_chain;
 
 pub use cache::AnalysisCache;
-pub use curvature_series::CurvatureSeries;
 pub use curve_analysis::CurveAnalysis;
 pub use curve_samples::{Block, CurveSamples, SampledCurve};
 pub use discrete_curvature::LengthCursor;

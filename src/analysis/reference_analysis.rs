@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::curvature_series::CurvatureSeries;
 use super::curve_samples::{CurveSamples, SampledCurve};
 use super::level_series::{LevelPlot, LevelSeries};
 use super::sampled_features::{SampledFeature, sampled_features};
@@ -24,7 +23,6 @@ pub struct ReferenceAnalysis {
     /// The samples of the curve where its formula puts it.
     unplaced: Arc<CurveSamples>,
     samples: CurveSamples,
-    curvature: CurvatureSeries,
     levels: LevelSeries,
     features: OnceCell<Vec<SampledFeature>>,
     /// The points of a list, where they are placed.
@@ -49,7 +47,6 @@ impl ReferenceAnalysis {
         Self {
             samples: unplaced.placed(reference.curve.placement(), reference.curve.is_planar()),
             unplaced,
-            curvature: CurvatureSeries::default(),
             levels: LevelSeries::default(),
             features: OnceCell::new(),
             points,
@@ -93,13 +90,7 @@ impl ReferenceAnalysis {
         self.reference.curve.form().is_smooth()
     }
 
-    /// Append the curvature over arc length: see [`CurvatureSeries::append`].
-    pub fn append_curvature(&mut self, out: &mut Vec<DVec2>) {
-        let (curve, samples) = (&self.reference.curve, &self.samples);
-        self.curvature.append(SampledCurve { curve, samples }, out);
-    }
-
-    /// Append a plot of levels: see [`LevelSeries::append`].
+    /// Append a plot of the whole curve: see [`LevelSeries::append`].
     pub fn append_levels(&mut self, plot: LevelPlot, normalised: bool, out: &mut Vec<DVec2>) {
         let (curve, samples) = (&self.reference.curve, &self.samples);
         let sampled = SampledCurve { curve, samples };

@@ -28,7 +28,7 @@ fn a_reference_that_is_active_is_approximated_and_compared_in_the_plots() {
     assert_eq!(script.editor.view().compared(), Some(reference));
     let plots = script.plots();
     let other = plots.compared.as_ref().expect("the reference");
-    assert!(!other.curvature.is_empty());
+    assert!(!other.series.is_empty());
     let far = |script: &Script| {
         let report = serde_json::to_value(script.trial_report()).expect("a report");
         report["deviation"].as_f64().expect("a number")

@@ -106,9 +106,9 @@ fn levels_are_plotted_over_arc_length_with_their_jumps() {
     // Degree 5 has a continuous second level of the curvature, and a third that jumps.
     for (level, gaps) in [(2, 0), (3, polygon.segments())] {
         let plot = script.level_plot(LevelPlot::Curvature(level), false);
-        let holes = plot.levels.iter().filter(|point| point.is_nan()).count();
+        let holes = plot.series.iter().filter(|point| point.is_nan()).count();
         assert_eq!(holes, gaps, "level {level}");
-        let last = plot.levels.iter().rfind(|point| !point.is_nan());
+        let last = plot.series.iter().rfind(|point| !point.is_nan());
         let last = last.expect("a point");
         assert!((last.x - length).abs() <= 1e-9 * length);
         let end = polygon.segment_curvature_levels(polygon.segments() - 1, 1.0, 1.0);
@@ -119,8 +119,8 @@ fn levels_are_plotted_over_arc_length_with_their_jumps() {
         );
     }
     let plot = script.level_plot(LevelPlot::Curvature(2), true);
-    let first = plot.levels[0];
-    let last = plot.levels[plot.levels.len() - 1];
+    let first = plot.series[0];
+    let last = plot.series[plot.series.len() - 1];
     assert!((last.x - 1.0).abs() <= 1e-9 && first.x == 0.0);
     let scaled = polygon
         .segment_curvature_levels(0, 0.0, 1.0 / length)
@@ -131,7 +131,7 @@ fn levels_are_plotted_over_arc_length_with_their_jumps() {
     );
     let plot = script.level_plot(LevelPlot::Torsion(1), false);
     assert!(
-        plot.levels.iter().all(|point| point.is_nan()),
+        plot.series.iter().all(|point| point.is_nan()),
         "a planar curve"
     );
 }
@@ -140,9 +140,9 @@ fn levels_are_plotted_over_arc_length_with_their_jumps() {
 fn the_curvature_of_the_curve_at_length_1_is_plotted_over_shares() {
     let mut script = Script::example("s-curve");
     let plot = script.plots().clone();
-    let scaled = plot.at_length_one();
-    assert_eq!(scaled.curvature.len(), plot.curvature.len());
-    for (a, b) in plot.curvature.iter().zip(&scaled.curvature) {
+    let scaled = script.level_plot(LevelPlot::CURVATURE, true);
+    assert_eq!(scaled.series.len(), plot.series.len());
+    for (a, b) in plot.series.iter().zip(&scaled.series) {
         assert!((a.x - b.x * plot.length).abs() <= 1e-12 * plot.length);
         assert!((a.y * plot.length - b.y).abs() <= 1e-12 * b.y.abs());
     }
@@ -158,9 +158,9 @@ fn every_example_has_every_plot() {
         assert_eq!(planar, Some(true));
         for level in 1..=LEVELS {
             let plot = LevelPlot::Curvature(level);
-            assert!(!script.level_plot(plot, true).levels.is_empty());
+            assert!(!script.level_plot(plot, true).series.is_empty());
         }
         let graph = script.level_plot(LevelPlot::Logarithmic, false);
-        assert!(graph.levels.iter().any(|point| point.is_finite()));
+        assert!(graph.series.iter().any(|point| point.is_finite()));
     }
 }

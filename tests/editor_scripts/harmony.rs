@@ -110,7 +110,7 @@ fn strips_show_the_flow_and_where_it_is_least_even() {
     script
         .editor
         .view_mut()
-        .show_plot(Some(PlotKind::Curvature));
+        .show_plot(Some(PlotKind::CURVATURE));
     assert_eq!(uneven(&mut script), []);
 }
 

@@ -38,7 +38,7 @@ fn the_plot_marks_the_features_where_they_are() {
             let expected = length(&script, 0.0, row.middle);
             assert!((feature.at.x - expected).abs() <= 1e-5 * plots.length);
             let curvature = script.polygon().jet(row.middle).curvature_of(is_planar);
-            let largest = plots.curvature.iter().filter(|at| !at.is_nan());
+            let largest = plots.series.iter().filter(|at| !at.is_nan());
             let largest = largest.fold(0.0, |most: f64, at| most.max(at.y.abs()));
             assert!(
                 (feature.at.y - curvature).abs() <= 1e-9 * largest,
@@ -61,7 +61,7 @@ fn bands_tell_where_the_curvature_rises_and_falls() {
         for band in &plots.bands {
             assert_ne!(band.trend, PieceTrend::Undecided, "{example}");
             let room = 2.0 / 2048.0 * plots.length;
-            let own = plots.curvature.iter().filter(|at| !at.is_nan());
+            let own = plots.series.iter().filter(|at| !at.is_nan());
             let own = own.filter(|at| (band.from + room..=band.to - room).contains(&at.x));
             let own: Vec<f64> = own.map(|at| at.y).collect();
             let rises = band.trend == PieceTrend::Rising;
@@ -122,7 +122,7 @@ fn levels_mark_what_belongs_to_them() {
 fn features_of_the_curve_at_length_1_stand_at_shares() {
     let mut script = Script::example("bottle");
     let plots = script.plots().clone();
-    let scaled = plots.at_length_one();
+    let scaled = script.level_plot(LevelPlot::CURVATURE, true);
     assert_eq!(kinds(&scaled.features), kinds(&plots.features));
     for (a, b) in plots.features.iter().zip(&scaled.features) {
         assert!((a.at.x - b.at.x * plots.length).abs() <= 1e-12 * plots.length);
@@ -159,7 +159,7 @@ fn a_joint_is_marked_while_curves_are_joined() {
     script
         .editor
         .view_mut()
-        .show_plot(Some(PlotKind::Curvature));
+        .show_plot(Some(PlotKind::CURVATURE));
     script.editor.operating().apply().expect("a step");
     assert_eq!(script.plots().joints, plots.joints);
     script.command(Command::Undo);
@@ -208,7 +208,7 @@ fn a_reference_that_is_typed_is_overlaid_as_one_of_the_document_is() {
         .map(|(id, _)| id);
     witness.editor.view_mut().compare(id);
     let same = witness.plots().compared.as_ref().expect("the reference");
-    assert_eq!(other.curvature, same.curvature);
+    assert_eq!(other.series, same.series);
     // Another one takes its place, in every plot.
     script
         .set("reference", source("circle:radius=3"))
@@ -218,13 +218,13 @@ fn a_reference_that_is_typed_is_overlaid_as_one_of_the_document_is() {
     let other = plots.compared.as_ref().expect("the source");
     assert!(
         other
-            .curvature
+            .series
             .iter()
             .all(|at| (at.y - 1.0 / 3.0).abs() < 1e-12)
     );
     let levels = script.level_plot(LevelPlot::Curvature(2), false);
     let other = levels.compared.as_ref().expect("the source");
-    assert!(!other.levels.is_empty());
+    assert!(!other.series.is_empty());
     script.editor.operating().leave();
     assert!(script.plots().compared.is_none());
 }
@@ -232,13 +232,13 @@ fn a_reference_that_is_typed_is_overlaid_as_one_of_the_document_is() {
 #[test]
 fn the_curve_before_is_overlaid_while_it_is_approximated() {
     let mut script = Script::example("s-curve");
-    let before = script.plots().curvature.clone();
+    let before = script.plots().series.clone();
     script.try_out("approximate").expect("it can run");
     script.set("degree", Value::Whole(7)).expect("a value");
     let plots = script.plots();
     let ghost = plots.before.as_ref().expect("the state before");
-    assert_eq!(ghost.curvature, before);
-    assert_ne!(plots.curvature, before);
+    assert_eq!(ghost.series, before);
+    assert_ne!(plots.series, before);
 }
 
 #[test]
@@ -279,13 +279,13 @@ fn points_are_overlaid_by_their_discrete_curvature_while_a_curve_is_fitted() {
         let expected = 2.0 / (5.0 * (1.0 + f64::cos(0.05)));
         assert!((at.y - expected).abs() < 1e-9);
     }
-    assert!(!plots.curvature.is_empty());
+    assert!(!plots.series.is_empty());
 }
 
 #[test]
 fn what_alt_shows_is_in_the_plot_with_its_marks() {
     let mut script = Script::example("s-curve");
-    let before = script.plots().curvature.clone();
+    let before = script.plots().series.clone();
     let at = script.at_vertex(3);
     script.press(at);
     script.move_to(at + DVec2::new(4.0, 30.0));
@@ -294,7 +294,7 @@ fn what_alt_shows_is_in_the_plot_with_its_marks() {
         ..Modifiers::NONE
     });
     let plots: &PlotScene = script.plots();
-    let ghost = plots.before.as_ref().map(|plots| &plots.curvature);
+    let ghost = plots.before.as_ref().map(|plots| &plots.series);
     assert_eq!(ghost, Some(&before));
     assert!(!plots.features.is_empty());
     script.modifiers(Modifiers::NONE);
@@ -302,7 +302,7 @@ fn what_alt_shows_is_in_the_plot_with_its_marks() {
     script
         .editor
         .view_mut()
-        .show_plot(Some(PlotKind::Curvature));
+        .show_plot(Some(PlotKind::CURVATURE));
     script.release(at);
 }
 
@@ -357,9 +357,9 @@ fn a_formula_is_not_drawn_through_its_poles() {
     }
     let plots = script.plots().clone();
     assert!(plots.length.is_finite());
-    assert_eq!(gaps(&plots.curvature).len(), 3);
+    assert_eq!(gaps(&plots.series).len(), 3);
     let levels = script.level_plot(LevelPlot::Curvature(2), false);
-    assert!(gaps(&levels.levels).len() >= 3);
+    assert!(gaps(&levels.series).len() >= 3);
     // A pole is no inflection: tan bends the other way between poles alone.
     let features = script.features().expect("features");
     assert_eq!(features.count(&[FeatureKind::Inflection]), 3);

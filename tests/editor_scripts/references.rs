@@ -563,7 +563,7 @@ fn a_pasted_table_of_points_is_a_list_that_is_drawn_and_has_no_comb() {
         .expect("it");
     assert_eq!(drawn.points.len(), 3);
     assert!(drawn.comb.is_empty() && drawn.teeth.is_empty() && drawn.evolute.is_empty());
-    assert!(script.plots().curvature.is_empty());
+    assert!(script.plots().series.is_empty());
     let features = script.features().expect("a report");
     assert!(features.sampled && features.rows.is_empty());
 }
@@ -583,9 +583,9 @@ fn its_comb_evolute_plots_and_features_are_shown() {
         .find(|it| it.id == Some(id))
         .expect("it");
     assert!(!drawn.comb.is_empty() && !drawn.teeth.is_empty() && !drawn.evolute.is_empty());
-    assert!(!script.plots().curvature.is_empty());
+    assert!(!script.plots().series.is_empty());
     let level = batten::analysis::LevelPlot::Curvature(2);
-    assert!(!script.level_plot(level, false).levels.is_empty());
+    assert!(!script.level_plot(level, false).series.is_empty());
     script.editor.view_mut().show_plot(Some(PlotKind::Harmony));
     script.check();
     assert!(script.plots().flow.iter().all(Vec::is_empty));

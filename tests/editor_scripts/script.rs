@@ -228,7 +228,7 @@ impl Script {
 
     /// The plot that is shown now: the curvature, unless another was chosen.
     pub fn plots(&mut self) -> &PlotScene {
-        let kind = self.editor.view().plot().unwrap_or(PlotKind::Curvature);
+        let kind = self.editor.view().plot().unwrap_or(PlotKind::CURVATURE);
         self.editor.view_mut().show_plot(Some(kind));
         self.editor.refresh();
         self.editor.view().plots()

@@ -308,7 +308,7 @@ impl Window {
             PlotKind::Harmony,
             level(LevelPlot::Curvature(2)),
             level(LevelPlot::Logarithmic),
-            PlotKind::Curvature,
+            PlotKind::CURVATURE,
         ] {
             self.editor.view_mut().show_plot(Some(kind));
             self.editor.refresh();

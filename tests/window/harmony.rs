@@ -125,7 +125,7 @@ fn strips_are_compared_with_another_curve_that_is_chosen() {
         click(&mut window, tab);
         let plots = window.state().editor().view().plots();
         let other = plots.compared.as_ref().expect("another curve");
-        let series = [&other.curvature, &other.levels];
+        let series = [&other.series, &other.series];
         assert!(series.iter().any(|series| !series.is_empty()), "{tab}");
     }
 }

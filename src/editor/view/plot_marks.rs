@@ -31,7 +31,6 @@ enum PlottedQuantity {
 impl PlottedQuantity {
     fn of(kind: PlotKind) -> Option<Self> {
         match kind {
-            PlotKind::Curvature => Some(Self::Curvature),
             PlotKind::Levels { plot, .. } => match plot {
                 LevelPlot::Curvature(1) => Some(Self::Curvature),
                 LevelPlot::Torsion(1) => Some(Self::Torsion),
@@ -97,6 +96,16 @@ impl View {
     }
 }
 
+impl PlotScene {
+    /// How many units of the plot's axis are one of the curve.
+    fn scale(&self) -> f64 {
+        match self.length > 0.0 {
+            true => self.extent / self.length,
+            false => 1.0,
+        }
+    }
+}
+
 impl Sight<'_> {
     fn mark_features(self, plots: &mut PlotScene, source: &PlotSource) {
         let (id, kind) = (source.id, source.kind);
@@ -106,11 +115,7 @@ impl Sight<'_> {
         };
         let rows = self.features().map_or(&[][..], |report| &report.rows);
         let planar = sampled.samples.is_planar();
-        // The curvature is scaled when it is shown, other plots where they are made.
-        let scale = match kind {
-            PlotKind::Levels { normalised, .. } if normalised => 1.0 / plots.length,
-            _ => 1.0,
-        };
+        let scale = plots.scale();
         let mut cursor = LengthCursor::default();
         let [from, to] = plots.part.unwrap_or([0.0, plots.length]);
         let apart = FINEST_MARK * (to - from);
@@ -129,10 +134,13 @@ impl Sight<'_> {
         }
         if let Some(analysis) = analyses.get(id)
             && let Some(segments) = analysis.proved_segments()
-            && kind == PlotKind::Curvature
+            && matches!(kind, PlotKind::Levels { plot, .. } if plot == LevelPlot::CURVATURE)
         {
-            let [from, to] = plots.part.unwrap_or([0.0, plots.length]);
             append_bands(sampled, segments, to - from, &mut plots.bands);
+            for band in &mut plots.bands {
+                band.from *= scale;
+                band.to *= scale;
+            }
         }
     }
 
@@ -143,21 +151,17 @@ impl Sight<'_> {
         let Some(sampled) = self.view.analyses.sampled(id) else {
             return;
         };
-        let scale = match kind {
-            PlotKind::Curvature => 1.0,
-            PlotKind::Levels {
-                plot: LevelPlot::Logarithmic,
-                ..
-            } => return,
-            PlotKind::Levels { normalised, .. } if normalised => 1.0 / plots.length,
-            PlotKind::Levels { .. } => 1.0,
+        match kind {
+            PlotKind::Levels { plot, .. } if plot == LevelPlot::Logarithmic => return,
+            PlotKind::Levels { .. } => {}
             PlotKind::Harmony => {
                 let degree = self.document().curve(id).map(|it| it.polygon.degree());
                 let first = from + degree.unwrap_or_default() as f64;
                 plots.joints.push([first, to].map(|vertex| vertex - 0.5));
                 return;
             }
-        };
+        }
+        let scale = plots.scale();
         let (end, whole) = (sampled.curve.pieces() as f64, plots.length);
         // On a periodic curve the end is the start.
         let within = |u: f64| match u < end {

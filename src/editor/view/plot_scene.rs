@@ -10,9 +10,8 @@ use crate::editor::view::feature_report::FeatureKind;
 /// What is plotted of the active curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlotKind {
-    /// The curvature over arc length, with the polygon's discrete curvature.
-    Curvature,
-    /// A level of curvature or torsion, or the logarithmic graph.
+    /// A level of curvature or torsion, or the logarithmic graph. The curvature itself comes with the polygon's
+    /// discrete curvature.
     Levels {
         /// Which of them.
         plot: LevelPlot,
@@ -28,17 +27,13 @@ pub enum PlotKind {
 pub struct PlotScene {
     /// Whether curvature is signed.
     pub planar: bool,
-    /// Curvature over arc length; NaN points are gaps.
-    pub curvature: Vec<DVec2>,
+    /// The plot of levels; NaN points are gaps.
+    pub series: Vec<DVec2>,
     /// The polygon's discrete curvature at its vertices, over arc length, by vertex number.
     /// Vertices that lie beyond the curve's ends stand evenly spaced in a flank beside either.
     pub discrete: Vec<(usize, DVec2)>,
     /// How wide the flank beside either end is; 0 if there is none.
     pub flank: f64,
-    /// The plot of levels; NaN points are gaps.
-    pub levels: Vec<DVec2>,
-    /// The place on it of what is hovered on the canvas.
-    pub hovered_level: Option<DVec2>,
     /// The sequences of the flow over the vertices' numbers, in the order of [`Flow::ALL`], angles
     /// in degrees; what belongs to a leg stands where it begins. The last is empty in the plane.
     pub flow: [Vec<DVec2>; Flow::ALL.len()],
@@ -60,7 +55,9 @@ pub struct PlotScene {
     pub joints: Vec<[f64; 2]>,
     /// The arc length of the whole curve.
     pub length: f64,
-    /// The arc length and curvature at what is hovered on the canvas.
+    /// The arc length as the plot shows it: 1 of a curve that is scaled to length 1.
+    pub extent: f64,
+    /// The place on the series of what is hovered on the canvas.
     pub hovered: Option<DVec2>,
     /// The vertex that is hovered on the canvas.
     pub hovered_vertex: Option<usize>,
@@ -88,45 +85,12 @@ pub struct PlotBand {
     pub to: f64,
 }
 
-impl PlotScene {
-    /// The plot of the curvature of the curve scaled to length 1, over shares of its length.
-    pub fn at_length_one(&self) -> Self {
-        let place = |point: &DVec2| DVec2::new(point.x / self.length, point.y * self.length);
-        let dots = self.discrete.iter();
-        let features = self.features.iter().map(|feature| PlotFeature {
-            at: place(&feature.at),
-            ..*feature
-        });
-        let bands = self.bands.iter().map(|band| PlotBand {
-            from: band.from / self.length,
-            to: band.to / self.length,
-            ..*band
-        });
-        let joints = self.joints.iter();
-        Self {
-            features: features.collect(),
-            bands: bands.collect(),
-            joints: joints
-                .map(|joint| joint.map(|end| end / self.length))
-                .collect(),
-            part: self.part.map(|part| part.map(|end| end / self.length)),
-            compared_name: self.compared_name.clone(),
-            curvature: self.curvature.iter().map(place).collect(),
-            discrete: dots.map(|(index, at)| (*index, place(at))).collect(),
-            hovered: self.hovered.as_ref().map(place),
-            flank: self.flank / self.length,
-            length: 1.0,
-            planar: self.planar,
-            hovered_vertex: self.hovered_vertex,
-            before: at_length_one(self.before.as_deref()),
-            compared: at_length_one(self.compared.as_deref()),
-            ..Self::default()
-        }
-    }
-}
-
-fn at_length_one(scene: Option<&PlotScene>) -> Option<Box<PlotScene>> {
-    Some(Box::new(scene?.at_length_one()))
+impl PlotKind {
+    /// The curvature over arc length.
+    pub const CURVATURE: Self = Self::Levels {
+        plot: LevelPlot::CURVATURE,
+        normalised: false,
+    };
 }
 
 /// What the series of a plot are made of.

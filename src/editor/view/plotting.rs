@@ -18,7 +18,6 @@ impl View {
         let source = self.plot_source(shown, overlay);
         let mut plots = std::mem::take(&mut self.plots);
         plots.hovered = None;
-        plots.hovered_level = None;
         plots.hovered_vertex = None;
         if source != self.plotted {
             plots.clear();
@@ -30,11 +29,10 @@ impl View {
         if let Some((id, kind)) = shown.active().zip(self.plot)
             && let Some(sampled) = self.analyses.sampled(id)
         {
-            if let Some((u, curvature)) = self.scene.hovered_on(id) {
-                plots.hovered = Some(DVec2::new(sampled.length_at(u), curvature));
-                if let PlotKind::Levels { plot, normalised } = kind {
-                    plots.hovered_level = Some(sampled.level_at(plot, normalised, u));
-                }
+            if let Some((u, _)) = self.scene.hovered_on(id)
+                && let PlotKind::Levels { plot, normalised } = kind
+            {
+                plots.hovered = Some(sampled.level_at(plot, normalised, u));
             }
             plots.hovered_vertex = self.sight(shown).hovered_vertex();
             plots.worst = self.sight(shown).worst_of_flow().map(|worst| {
@@ -146,7 +144,6 @@ impl View {
 /// vertices.
 fn can_be_closer(kind: PlotKind) -> bool {
     match kind {
-        PlotKind::Curvature => true,
         PlotKind::Levels { plot, .. } => plot != LevelPlot::Logarithmic,
         PlotKind::Harmony => false,
     }
@@ -161,59 +158,49 @@ fn as_shown(flow: Flow, value: f64) -> f64 {
 }
 
 impl PlotScene {
-    /// Take what series of every kind tell of their curve.
-    fn begin(&mut self, SampledCurve { samples, .. }: SampledCurve<'_>) {
-        self.planar = samples.is_planar();
-        self.length = samples.length();
-    }
-
-    /// Make the series of a reference: a list of points has but the discrete curvature, and there is
-    /// no flow of vertices.
-    fn fill_reference(&mut self, reference: &mut ReferenceAnalysis, kind: PlotKind) {
-        self.begin(reference.sampled());
-        match kind {
-            PlotKind::Curvature if !reference.is_smooth() => {
-                let points = reference.points();
-                points.append_curvatures_by_length(&mut self.discrete);
-            }
-            _ if !reference.is_smooth() => {}
-            PlotKind::Harmony => {}
-            _ if self.fill_part(reference.sampled(), kind) => {}
-            PlotKind::Curvature => reference.append_curvature(&mut self.curvature),
-            PlotKind::Levels { plot, normalised } => {
-                reference.append_levels(plot, normalised, &mut self.levels);
-            }
-        }
-    }
-
-    /// Make the series of the part that is looked at closely, if there is one.
-    fn fill_part(&mut self, sampled: SampledCurve<'_>, kind: PlotKind) -> bool {
-        let Some(part) = self.part else {
-            return false;
+    /// Take what series of every kind tell of their curve. Returns the scale of the curve.
+    fn begin(&mut self, sampled: SampledCurve<'_>, kind: PlotKind) -> f64 {
+        let scale = match kind {
+            PlotKind::Levels { normalised, .. } => sampled.scale(normalised),
+            PlotKind::Harmony => 1.0,
         };
-        match kind {
-            PlotKind::Curvature => {
-                sampled.append_curvature_part(part, &mut self.curvature);
-                true
+        self.planar = sampled.samples.is_planar();
+        self.length = sampled.samples.length();
+        self.extent = if scale == 1.0 { self.length } else { 1.0 };
+        scale
+    }
+
+    /// Make the series of a reference: of a list of points there is only the discrete curvature, and vertices
+    /// have no flow.
+    fn fill_reference(&mut self, reference: &mut ReferenceAnalysis, kind: PlotKind) {
+        let scale = self.begin(reference.sampled(), kind);
+        let PlotKind::Levels { plot, normalised } = kind else {
+            return;
+        };
+        if reference.is_smooth() {
+            if !self.fill_part(reference.sampled(), plot, normalised) {
+                reference.append_levels(plot, normalised, &mut self.series);
             }
-            PlotKind::Levels { plot, normalised } => {
-                sampled.append_level_part(plot, normalised, part, &mut self.levels)
-            }
-            PlotKind::Harmony => false,
+        } else if plot == LevelPlot::CURVATURE {
+            let points = reference.points();
+            points.append_curvatures_by_length(&mut self.discrete);
+            self.scale_discrete(scale);
         }
     }
 
     /// Make the series of a curve.
     fn fill(&mut self, analysis: &mut CurveAnalysis, kind: PlotKind) {
-        self.begin(analysis.sampled());
-        if kind == PlotKind::Curvature {
-            self.flank = analysis.append_discrete_curvature(self.part, &mut self.discrete);
-        }
+        let scale = self.begin(analysis.sampled(), kind);
         match kind {
-            _ if self.fill_part(analysis.sampled(), kind) => {}
-            PlotKind::Curvature => analysis.append_curvature(&mut self.curvature),
             PlotKind::Levels { plot, normalised } => {
-                analysis.append_levels(plot, normalised, &mut self.levels);
+                if plot == LevelPlot::CURVATURE {
+                    let (part, dots) = (self.part, &mut self.discrete);
+                    self.flank = scale * analysis.append_discrete_curvature(part, dots);
+                    self.scale_discrete(scale);
+                }
+                if !self.fill_part(analysis.sampled(), plot, normalised) {
+                    analysis.append_levels(plot, normalised, &mut self.series);
+                }
             }
             PlotKind::Harmony => {
                 for (flow, series) in Flow::ALL.into_iter().zip(&mut self.flow) {
@@ -229,25 +216,34 @@ impl PlotScene {
         }
     }
 
+    /// Make the series of the part that is looked at closely, if there is one. Returns whether it has.
+    fn fill_part(&mut self, sampled: SampledCurve<'_>, plot: LevelPlot, normalised: bool) -> bool {
+        let part = self.part;
+        part.is_some_and(|part| sampled.append_part(plot, normalised, part, &mut self.series))
+    }
+
+    fn scale_discrete(&mut self, scale: f64) {
+        for (_, at) in &mut self.discrete {
+            *at = DVec2::new(at.x * scale, at.y / scale);
+        }
+    }
+
     /// Empty all series, and keep their room.
     fn clear(&mut self) {
         let Self {
-            curvature,
+            series,
             discrete,
-            levels,
             flow,
             ..
         } = std::mem::take(self);
         *self = Self {
-            curvature,
+            series,
             discrete,
-            levels,
             flow,
             ..Self::default()
         };
         self.discrete.clear();
-        self.curvature.clear();
-        self.levels.clear();
+        self.series.clear();
         self.flow.iter_mut().for_each(Vec::clear);
     }
 }

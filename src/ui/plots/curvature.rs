@@ -49,11 +49,7 @@ impl Plots {
         let tokens = Tokens::of(ui);
         let held = is_held(ui, editor);
         let scene = editor.view().plots();
-        let whole = scene.length;
-        let normalised = self.normalised && whole > 0.0;
-        let scaled = normalised.then(|| scene.at_length_one());
-        let scene = scaled.as_ref().unwrap_or(scene);
-        let length = scene.length;
+        let (whole, length, normalised) = (scene.length, scene.extent, self.normalised);
         let (wanted, cut) = wanted(scene);
         if scene.part.is_none() {
             self.legend = cut.map_or_else(|| legend(scene.flank).to_owned(), peaks);
@@ -101,17 +97,17 @@ impl Plots {
             flanks(plot, scene, bounds, tokens);
             zero_line(plot, tokens);
             if let Some(before) = &scene.before {
-                before_lines(plot, &before.curvature, tokens);
+                before_lines(plot, &before.series, tokens);
             }
             if let Some(other) = &scene.compared {
-                lines(plot, "compared", &other.curvature, tokens.joints);
+                lines(plot, "compared", &other.series, tokens.joints);
                 points_compared(plot, other, &pane, tokens);
             }
             // Where there are many dots the curve is on top.
             if dots.crowded {
                 show_dots(plot, &series, &dots, &pane, tokens);
             }
-            lines(plot, "curvature", &scene.curvature, tokens.comb);
+            lines(plot, "curvature", &scene.series, tokens.comb);
             if !dots.crowded {
                 show_dots(plot, &series, &dots, &pane, tokens);
             }
@@ -146,9 +142,9 @@ impl Plots {
 fn wanted(scene: &PlotScene) -> ((DVec2, DVec2), Option<(f64, f64)>) {
     let overlaid = [scene.before.as_deref(), scene.compared.as_deref()];
     let overlaid = overlaid.into_iter().flatten();
-    let overlaid = overlaid.flat_map(|scene| &scene.curvature);
-    let points: Vec<DVec2> = scene.curvature.iter().chain(overlaid).copied().collect();
-    let noise = ROUNDING / scene.length.max(f64::MIN_POSITIVE);
+    let overlaid = overlaid.flat_map(|scene| &scene.series);
+    let points: Vec<DVec2> = scene.series.iter().chain(overlaid).copied().collect();
+    let noise = ROUNDING / scene.extent.max(f64::MIN_POSITIVE);
     let ((mut low, mut high), cut) = within_reason(&points, noise, TALLEST);
     let size = low.y.abs().max(high.y.abs());
     let reach = (DOTS * (high.y - low.y)).max(DOTS_OF_SIZE * size);
@@ -165,7 +161,7 @@ fn wanted(scene: &PlotScene) -> ((DVec2, DVec2), Option<(f64, f64)>) {
     low.y -= if low.y < bottom { room } else { 0.0 };
     high.y += if high.y > top { room } else { 0.0 };
     low.x = low.x.min(-scene.flank);
-    high.x = high.x.max(scene.length + scene.flank);
+    high.x = high.x.max(scene.extent + scene.flank);
     ((low, high), cut)
 }
 
@@ -217,7 +213,7 @@ fn show_dots(plot: &mut PlotUi<'_>, series: &[DVec2], dots: &Dots, pane: &Pane, 
 
 /// Show the discrete curvature of points that a curve is compared with, as far as there is room.
 fn points_compared(plot: &mut PlotUi<'_>, other: &PlotScene, pane: &Pane, tokens: &Tokens) {
-    if !other.curvature.is_empty() {
+    if !other.series.is_empty() {
         return;
     }
     let series: Vec<DVec2> = other.discrete.iter().map(|(_, at)| *at).collect();
@@ -244,7 +240,7 @@ fn discrete_label(scene: &PlotScene, dot: usize) -> String {
     let curvature = figures::significant(at.y, 6);
     let place = if at.x < 0.0 {
         "beyond the start".to_owned()
-    } else if at.x > scene.length {
+    } else if at.x > scene.extent {
         "beyond the end".to_owned()
     } else {
         format!("at {}", figures::significant(at.x, 5))
@@ -265,7 +261,7 @@ fn flanks(plot: &mut PlotUi<'_>, scene: &PlotScene, bounds: PlotBounds, tokens: 
         return;
     }
     let ([left, bottom], [right, top]) = (bounds.min(), bounds.max());
-    for (from, to) in [(left, 0.0), (scene.length, right)] {
+    for (from, to) in [(left, 0.0), (scene.extent, right)] {
         let corners = [[from, bottom], [to, bottom], [to, top], [from, top]];
         let shade = Polygon::new("flank", PlotPoints::from_iter(corners))
             .fill_color(tokens.grid_major.gamma_multiply(0.35))

@@ -60,9 +60,8 @@ impl Plots {
         let normalised = self.normalises(which);
         let scene = editor.view().plots();
         let is_graph = which == LevelPlot::Logarithmic;
-        let length = scene.length;
-        let extent = if normalised { 1.0 } else { length };
-        if scene.part.is_none() && scene.levels.iter().all(|point| point.is_nan()) {
+        let (length, extent) = (scene.length, scene.extent);
+        if scene.part.is_none() && scene.series.iter().all(|point| point.is_nan()) {
             self.remark.clear();
             let text = match which {
                 LevelPlot::Torsion(_) if scene.planar => "A planar curve has no torsion.",
@@ -74,8 +73,8 @@ impl Plots {
             return;
         }
         let other = scene.compared.as_deref();
-        let other = other.map_or(&[][..], |other| &other.levels);
-        let all: Vec<DVec2> = scene.levels.iter().chain(other).copied().collect();
+        let other = other.map_or(&[][..], |other| &other.series);
+        let all: Vec<DVec2> = scene.series.iter().chain(other).copied().collect();
         let (mut wanted, cut) = if is_graph {
             (most_of(&all), None)
         } else {
@@ -114,7 +113,7 @@ impl Plots {
                 false => [0.0, extent],
             },
         };
-        let marked = scene.hovered_level.filter(|_| !is_graph);
+        let marked = scene.hovered.filter(|_| !is_graph);
         let near = self.near.and_then(|index| scene.features.get(index));
         let back = ui.painter().add(Shape::Noop);
         let plot = plot("levels", &axes, &pane, tokens);
@@ -125,11 +124,11 @@ impl Plots {
                 zero_line(plot, tokens);
             }
             if let Some(before) = &scene.before {
-                before_lines(plot, &before.levels, tokens);
+                before_lines(plot, &before.series, tokens);
             }
             lines(plot, "compared", other, tokens.joints);
-            lines(plot, "level", &scene.levels, tokens.comb);
-            if let Some(at) = scene.hovered_level {
+            lines(plot, "level", &scene.series, tokens.comb);
+            if let Some(at) = scene.hovered {
                 cursor(plot, at, tokens);
             }
             hovered_x(plot)

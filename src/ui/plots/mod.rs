@@ -337,7 +337,10 @@ impl Plots {
     /// What the tab in front plots.
     fn kind(&self) -> PlotKind {
         match self.tab {
-            Tab::Curvature => PlotKind::Curvature,
+            Tab::Curvature => PlotKind::Levels {
+                plot: LevelPlot::CURVATURE,
+                normalised: self.normalised,
+            },
             Tab::Levels(plot) => PlotKind::Levels {
                 plot,
                 normalised: self.normalises(plot),
