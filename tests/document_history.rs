@@ -277,7 +277,7 @@ fn a_gesture_begun_in_another_commits_the_other() {
 fn saving_is_remembered_across_undo() {
     let (mut history, id) = history();
     history.apply("One", moved(id, 1.0)).expect("valid");
-    history.mark_saved();
+    history.mark_saved(history.settled().clone());
     assert!(!history.is_modified());
     history.undo();
     assert!(history.is_modified());

@@ -266,9 +266,9 @@ impl History {
         self.is_unsaved(self.settled())
     }
 
-    /// Count the document as saved, without what a running preview shows.
-    pub fn mark_saved(&mut self) {
-        self.saved = self.settled().clone();
+    /// Count a state of the document as saved.
+    pub fn mark_saved(&mut self, saved: Document) {
+        self.saved = saved;
         self.unsaved = false;
     }
 

@@ -2,31 +2,27 @@
 //! (how it is seen) and the hand (what works on it). Nothing in here knows of egui.
 
 mod commands;
-mod files;
 mod hand;
 mod jobs;
 mod operating;
 mod paper;
-mod recovering;
 mod reply;
 mod report;
 mod selection;
 mod view;
 mod workspace;
 
-use std::path::PathBuf;
 use std::time::Duration;
 
 use glam::DVec2;
 
-pub use commands::{Command, ReferenceChange, Shortcut};
-pub use files::with_extension;
+pub use commands::{Command, FileReply, ReferenceChange, Shortcut};
 pub use hand::{
     Button, Cursor, DrawSettings, EndFitAction, EndFitReport, Entry, EntryError, Follow, Following,
     Hand, Input, Key, Leg, LegLocks, MatchReport, MenuRequest, MenuSubject, Modifiers, ToolKind,
     Transformation,
 };
-pub use jobs::{Autosaver, Recoverable, RecoverableDocument};
+pub use jobs::{Autosaver, FileWork, Recoverable, RecoverableDocument, with_extension};
 pub use operating::{Operating, OperationInProgress, Run};
 pub use paper::{PaperError, PaperPage, spiral_deviations};
 pub use reply::{Message, Note, Refusal, Reply, told};
@@ -43,13 +39,12 @@ pub use view::{
 pub use workspace::{Interruption, PreviewId, Workspace};
 
 use crate::document::{CurveId, Document, Edit, quoted};
-use crate::io::Fingerprint;
 use crate::io::examples::{EXAMPLES, FIRST};
 use hand::gesture::Gesture;
 use hand::snapping::snap_name;
 use hand::tools::Tools;
-use jobs::Client;
 use jobs::autosaving::Autosaving;
+use jobs::filing::Filing;
 use jobs::foreseeing::Foreseeing;
 use jobs::patience::Patience;
 use operating::Operations;
@@ -66,8 +61,9 @@ pub struct Editor {
     foreseeing: Foreseeing,
     autosaving: Autosaving,
     recoverable: Vec<Recoverable>,
-    /// Looks at the document's file for changes by other programs.
-    file_watch: Client<PathBuf, Fingerprint>,
+    filing: Filing,
+    /// The reply to the last request for files, until the window takes it.
+    file_reply: Option<FileReply>,
     message: Option<Message>,
 }
 
@@ -100,7 +96,7 @@ impl Editor {
         self.view.run_in_background(wake.clone());
         self.foreseeing = Foreseeing::background(wake.clone());
         self.autosaving.run_in_background(wake.clone());
-        self.file_watch = Client::background("file", wake.clone());
+        self.filing = Filing::background(wake.clone());
         self.operations = Operations::background(wake);
     }
 
@@ -111,7 +107,7 @@ impl Editor {
         if let Some((step, reply)) = self.operations.take_late() {
             self.keep_end_fit_action(step, &reply);
         }
-        self.tell_file_change();
+        self.receive_files();
     }
 
     /// What is worked on: the document, its history and its file.

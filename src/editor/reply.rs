@@ -1,5 +1,7 @@
 //! What something that was asked for came to, and the message on screen that says so.
 
+use std::fmt;
+
 use thiserror::Error;
 
 use crate::document::EditError;
@@ -41,6 +43,11 @@ impl Note {
             offers_undo: true,
         }
     }
+}
+
+/// Add lines to a message, if there are any.
+pub(in crate::editor) fn with_lines(text: String, lines: &impl fmt::Display) -> String {
+    format!("{text}\n{lines}").trim_end().to_owned()
 }
 
 /// Why something that was asked for was not done, in words; nothing is changed then.

@@ -22,6 +22,8 @@ pub struct Workspace {
     previews: u64,
     /// How often the document was changed for good.
     revision: u64,
+    /// How often another document was put in its place.
+    opening: u64,
 }
 
 /// A preview, which is told from every other.
@@ -58,6 +60,7 @@ impl Workspace {
         *self = Self {
             previews: self.previews,
             revision: self.revision + 1,
+            opening: self.opening + 1,
             ..Self::new(document, path)
         };
     }
@@ -111,16 +114,21 @@ impl Workspace {
         self.revision
     }
 
+    /// A number that tells the document from those that were opened before it.
+    pub fn opening(&self) -> u64 {
+        self.opening
+    }
+
     /// Whether there is something to save besides what is being tried out.
     pub fn is_settled_modified(&self) -> bool {
         self.history.is_settled_modified()
     }
 
-    /// Take the document without what is being tried out as saved under a path.
-    pub fn mark_saved(&mut self, path: PathBuf, fingerprint: Fingerprint) {
+    /// Note that a state of the document was saved under a path.
+    pub fn mark_saved(&mut self, path: PathBuf, saved: Document, fingerprint: Fingerprint) {
         self.path = Some(path);
         self.set_fingerprint(Some(fingerprint));
-        self.history.mark_saved();
+        self.history.mark_saved(saved);
     }
 
     /// Take the document as one that was not saved.
@@ -321,7 +329,8 @@ mod tests {
         let mut workspace = trying(Interruption::Aborts);
         assert_eq!(name(workspace.document()), "tried");
         assert_eq!(name(workspace.settled()), "arc");
-        workspace.mark_saved(PathBuf::from("arc.batten"), Fingerprint::of(b"arc"));
+        let settled = workspace.settled().clone();
+        workspace.mark_saved("arc.batten".into(), settled, Fingerprint::of(b"arc"));
         assert!(workspace.is_modified() && !workspace.is_settled_modified());
         assert!(workspace.preview().is_some(), "saving ends nothing");
         workspace.abort();

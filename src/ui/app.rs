@@ -28,7 +28,9 @@ use super::status_bar::{self, status_bar_ui};
 use super::theme::{self, Tokens};
 use super::tool_rail::{self, tool_rail_ui};
 use super::{canvas, overlays, unit_menu, widgets};
-use crate::editor::{Command, Editor, Export, Layer, MenuSubject, Refusal, ToolKind, told};
+use crate::editor::{
+    Command, Editor, Export, FileReply, Layer, MenuSubject, Refusal, Reply, ToolKind, told,
+};
 use crate::geometry::PolygonKind;
 use crate::io::Format;
 
@@ -48,6 +50,8 @@ pub struct App {
     palette: Palette,
     paper: PaperPanel,
     files: FileDialogs,
+    /// The request for files whose reply is not there.
+    requested: Option<Requested>,
     dialog: Option<Dialog>,
     /// Actions that wait for the end of the frame.
     actions: Vec<Action>,
@@ -56,6 +60,25 @@ pub struct App {
     /// Whether the window may close without being asked again.
     leaving: bool,
     signals: Signals,
+}
+
+/// A request to read or write files, and what follows from its reply.
+struct Requested {
+    purpose: Purpose,
+    path: PathBuf,
+    /// Whether the prompt asks again after a refusal.
+    asks_again: bool,
+}
+
+impl Requested {
+    /// Save to the document's own file.
+    fn own(after: Option<AfterDiscard>, path: PathBuf) -> Self {
+        Self {
+            asks_again: after.is_some(),
+            purpose: Purpose::Save(after),
+            path,
+        }
+    }
 }
 
 impl App {
@@ -100,6 +123,7 @@ impl App {
             palette: Palette::default(),
             paper: PaperPanel::default(),
             files: FileDialogs::new(native_dialogs),
+            requested: None,
             dialog: None,
             actions: Vec::new(),
             title: String::new(),
@@ -172,6 +196,7 @@ impl App {
     }
 
     fn take_answers(&mut self, context: &Context) {
+        self.take_file_reply(context);
         if let Some(chosen) = self.files.answer() {
             self.use_chosen(context, chosen);
         }
@@ -459,48 +484,84 @@ impl App {
 
     /// Save to the document's own file, unless another program has changed it.
     fn save_own(&mut self, context: &Context, after: Option<AfterDiscard>) {
-        if self.editor.is_file_changed() {
-            self.dialog = Some(Dialog::Changed(after));
-        } else {
-            self.overwrite(context, after);
+        match self.editor.workspace().path().map(Path::to_owned) {
+            Some(path) => {
+                let requested = Requested::own(after, path);
+                self.request_files(context, requested, |editor, _| editor.save_unless_changed());
+            }
+            None => self.ask_save(context, after),
         }
     }
 
     /// Save to the document's own file, whatever it holds.
     fn overwrite(&mut self, context: &Context, after: Option<AfterDiscard>) {
-        match (self.editor.workspace().path().map(Path::to_owned), after) {
-            (Some(path), None) => told(self.editor.save(&path)),
-            (Some(path), after) => self.save_and(context, &path, after),
-            (None, after) => self.ask_save(context, after),
-        }
-    }
-
-    fn save_and(&mut self, context: &Context, path: &Path, after: Option<AfterDiscard>) {
-        match self.editor.save(path) {
-            Err(refusal) => self.ask_again(Purpose::Save(after), path, refusal),
-            Ok(_) => {
-                if let Some(after) = after {
-                    self.go_on(context, after);
-                }
+        match self.editor.workspace().path().map(Path::to_owned) {
+            Some(path) => {
+                let requested = Requested::own(after, path);
+                self.request_files(context, requested, Editor::save);
             }
+            None => self.ask_save(context, after),
         }
     }
 
     fn use_chosen(&mut self, context: &Context, chosen: Chosen) {
         let Chosen { purpose, paths } = chosen;
-        let Some(path) = paths.first() else {
+        let Some(path) = paths.first().cloned() else {
             return;
         };
-        let reply = match &purpose {
-            Purpose::Save(after) => return self.save_and(context, path, after.clone()),
-            Purpose::Open => self.editor.open(&paths),
-            Purpose::Import => self.editor.import(&paths),
-            Purpose::Export(export) => self.editor.export(path, export),
+        let requested = Requested {
+            purpose: purpose.clone(),
+            path,
+            asks_again: true,
         };
-        if let Err(refusal) = reply {
-            self.ask_again(purpose, path, refusal);
-        }
+        self.request_files(context, requested, |editor, path| match purpose {
+            Purpose::Save(_) => editor.save(path),
+            Purpose::Open => editor.open(&paths),
+            Purpose::Import => editor.import(&paths),
+            Purpose::Export(export) => editor.export(path, &export),
+        });
         context.request_repaint();
+    }
+
+    /// Request to read or write files. What follows from the reply is done when it is there.
+    fn request_files(
+        &mut self,
+        context: &Context,
+        requested: Requested,
+        request: impl FnOnce(&mut Editor, &Path) -> Reply,
+    ) {
+        let is_busy = self.editor.file_work().is_some();
+        told(request(&mut self.editor, &requested.path));
+        // While another task runs, the request is refused.
+        if !is_busy {
+            self.requested = Some(requested);
+            self.take_file_reply(context);
+        }
+    }
+
+    /// Do what follows from the reply to the last request for files, once it is there.
+    fn take_file_reply(&mut self, context: &Context) {
+        let Some(FileReply {
+            reply,
+            is_file_changed,
+        }) = self.editor.take_file_reply()
+        else {
+            return;
+        };
+        let Some(requested) = self.requested.take() else {
+            return;
+        };
+        match (requested.purpose, reply) {
+            (Purpose::Save(after), _) if is_file_changed => {
+                self.editor.dismiss_message();
+                self.dialog = Some(Dialog::Changed(after));
+            }
+            (purpose, Err(refusal)) if requested.asks_again => {
+                self.ask_again(purpose, &requested.path, refusal);
+            }
+            (Purpose::Save(Some(after)), Ok(_)) => self.go_on(context, after),
+            _ => {}
+        }
     }
 
     /// Where the window's own prompt was in use, a refusal is told there; otherwise it stays the
@@ -563,6 +624,7 @@ impl eframe::App for App {
     }
 
     fn on_exit(&mut self, _: Option<&eframe::glow::Context>) {
+        self.editor.finish_file_work();
         if self.leaving || !self.editor.workspace().is_settled_modified() {
             self.editor.close_session();
         } else {

@@ -73,6 +73,13 @@ impl Desk {
     }
 }
 
+/// Whether the document's file holds something else than when it was last read or written.
+fn is_file_changed(script: &Script) -> bool {
+    let workspace = script.editor.workspace();
+    let found = workspace.path().and_then(disk::fingerprint);
+    found.is_some() && found != workspace.fingerprint()
+}
+
 fn drag(script: &mut Script, vertex: usize) {
     script.drag_vertex(vertex, BY);
 }
@@ -207,7 +214,7 @@ fn several_crashed_sessions_are_offered_and_recovered() {
     script.check();
     assert_eq!(script.polygon(), polygons[1]);
     assert_eq!(script.editor.workspace().path(), Some(path.as_path()));
-    assert!(script.editor.workspace().is_modified() && !script.editor.is_file_changed());
+    assert!(script.editor.workspace().is_modified() && !is_file_changed(&script));
     script.command(Command::Undo);
     assert!(
         script.editor.workspace().is_modified(),
@@ -347,7 +354,7 @@ fn a_file_that_another_program_changes_is_noticed() {
     let path = desk.path("arc.batten");
     let mut script = Script::example("arc");
     script.editor.save(&path).expect("a file");
-    assert!(!script.editor.is_file_changed());
+    assert!(!is_file_changed(&script));
     script.editor.look_at_file();
     script.editor.begin_frame();
     assert_eq!(script.message(), format!("Saved to {}", path.display()));
@@ -355,7 +362,7 @@ fn a_file_that_another_program_changes_is_noticed() {
     // Of the same length, within the same instant.
     let text = fs::read_to_string(&path).expect("the file");
     fs::write(&path, text.replace("\"degree\": 9", "\"degree\": 8")).expect("the file");
-    assert!(script.editor.is_file_changed());
+    assert!(is_file_changed(&script));
     script.editor.look_at_file();
     script.editor.begin_frame();
     let message = script.editor.message().expect("a message");
@@ -366,19 +373,30 @@ fn a_file_that_another_program_changes_is_noticed() {
     script.editor.begin_frame();
     assert_eq!(script.message(), "", "told once");
 
+    // Saving to the own file is refused, and writes nothing.
+    script.editor.save_unless_changed().expect_err("changed");
+    let reply = script.editor.take_file_reply().expect("a reply");
+    assert!(reply.is_file_changed && is_file_changed(&script));
+
     script.editor.save(&path).expect("overwritten");
-    assert!(!script.editor.is_file_changed());
+    assert!(!is_file_changed(&script));
+    // The same change once more, after the own save: it is told again.
+    fs::write(&path, text.replace("\"degree\": 9", "\"degree\": 8")).expect("the file");
+    script.editor.look_at_file();
+    script.editor.begin_frame();
+    assert!(script.editor.message().is_some_and(|it| it.offers_reload));
+    script.editor.save(&path).expect("overwritten");
     fs::write(&path, text.replace("\"degree\": 9", "\"degree\": 8")).expect("the file");
     script
         .editor
         .open(std::slice::from_ref(&path))
         .expect("a file");
-    assert!(!script.editor.is_file_changed());
+    assert!(!is_file_changed(&script));
     assert_eq!(script.polygon().degree(), 8);
 
     // What is not there cannot be overwritten.
     fs::remove_file(&path).expect("the file");
-    assert!(!script.editor.is_file_changed());
+    assert!(!is_file_changed(&script));
 }
 
 #[test]
@@ -397,7 +415,7 @@ fn a_recovered_document_knows_that_its_file_has_changed_since() {
     let content = script.editor.recoverable()[0].content.as_ref();
     assert!(content.expect("a document").is_file_changed);
     script.editor.recover(0).expect("a document");
-    assert!(script.editor.is_file_changed());
+    assert!(is_file_changed(&script));
 }
 
 #[test]
@@ -432,7 +450,7 @@ fn a_second_window_on_a_file_says_so() {
     drag(&mut second, 4);
     second.editor.save(&path).expect("a file");
     assert!(!second.message().contains(line), "told once");
-    assert!(first.editor.is_file_changed());
+    assert!(is_file_changed(&first));
 
     first.editor.begin_empty();
     desk.pass(0, &mut first);
@@ -469,4 +487,77 @@ fn saving_in_mid_drag_writes_the_state_before_and_lets_the_drag_go_on() {
     script.command(Command::Redo);
     script.editor.save(&path).expect("a file");
     assert_eq!(read()[0].polygon, dragged);
+}
+
+#[test]
+fn a_slow_save_does_not_hold_the_frame_and_saves_the_state_of_its_request() {
+    let desk = Desk::new();
+    let path = desk.path("arc.batten");
+    let mut script = Script::example("arc");
+    let (sender, woken) = channel();
+    let wake = move || sender.send(()).unwrap_or_default();
+    script.editor.run_in_background(Duration::ZERO, wake);
+    let saved = script.polygon();
+    let note = script.editor.save(&path).expect("begun");
+    // Without patience the frame goes on at once. The save may be finished by now all the same.
+    assert!(note.text == "Saving arc.batten…" || note.text.starts_with("Saved to"));
+    if script.editor.file_work().is_some() {
+        assert_eq!(script.message(), "Saving arc.batten…");
+    }
+    drag(&mut script, 4);
+    while script.editor.file_work().is_some() {
+        woken
+            .recv_timeout(Duration::from_secs(60))
+            .expect("it wakes");
+        script.editor.begin_frame();
+    }
+    let reply = script.editor.take_file_reply().expect("the final reply");
+    assert!(reply.reply.expect("saved").text.starts_with("Saved to"));
+    let written = disk::read_file(&path).expect("the file").curves;
+    assert_eq!(written[0].polygon, saved);
+    assert!(
+        script.editor.workspace().is_modified(),
+        "the drag is not saved"
+    );
+    script.command(Command::Undo);
+    assert!(!script.editor.workspace().is_modified());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_document_that_is_changed_while_a_file_is_read_stays() {
+    let desk = Desk::new();
+    let path = desk.path("arc.batten");
+    let mut script = Script::example("arc");
+    script.editor.save(&path).expect("a file");
+    let (sender, woken) = channel();
+    let wake = move || sender.send(()).unwrap_or_default();
+    script.editor.run_in_background(Duration::ZERO, wake);
+    // A pipe without a writer holds the reader back until the test lets it go.
+    let pipe = desk.path("pipe.batten");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.expect("mkfifo").success());
+    let opening = script
+        .editor
+        .open(std::slice::from_ref(&pipe))
+        .expect("begun");
+    assert_eq!(opening.text, "Opening pipe.batten…");
+    let busy = script.editor.save(&path).expect_err("one task at a time");
+    assert!(busy.0.starts_with("Opening pipe.batten…"), "{busy}");
+    drag(&mut script, 4);
+    let dragged = script.polygon();
+    fs::write(&pipe, fs::read(&path).expect("the file")).expect("the pipe");
+    while script.editor.file_work().is_some() {
+        woken
+            .recv_timeout(Duration::from_secs(60))
+            .expect("it wakes");
+        script.editor.begin_frame();
+    }
+    let reply = script.editor.take_file_reply().expect("the final reply");
+    assert!(
+        reply
+            .reply
+            .is_err_and(|refusal| refusal.0.contains("changed while"))
+    );
+    assert_eq!(script.polygon(), dragged);
 }

@@ -8,8 +8,7 @@ use crate::document::{
     Curve, CurveId, Document, Extras, LockedVertices, Reference, free_name, quoted,
 };
 use crate::editor::Editor;
-use crate::editor::files::with_lines;
-use crate::editor::reply::{Note, Refusal, Reply};
+use crate::editor::reply::{Note, Refusal, Reply, with_lines};
 use crate::geometry::references::Placement;
 use crate::geometry::{FloatPolygon, PolygonKind, counted};
 use crate::io::{Export as Exported, Format, Reading, WriteError};

@@ -4,8 +4,7 @@ use crate::document::{CurveId, Edit, EditError, quoted};
 use crate::editor::Editor;
 use crate::editor::commands::command::Command;
 use crate::editor::commands::polygon_edits::deletion;
-use crate::editor::files::with_lines;
-use crate::editor::reply::{Note, Reply};
+use crate::editor::reply::{Note, Reply, with_lines};
 use crate::geometry::counted;
 
 impl Editor {

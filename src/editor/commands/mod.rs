@@ -4,12 +4,15 @@ mod clipboard;
 pub(in crate::editor) mod command;
 mod deleting;
 mod execute;
+mod files;
 mod foreseen;
 mod locking;
 mod operating;
 pub(in crate::editor) mod polygon_edits;
+mod recovering;
 mod references;
 mod units;
 
 pub use command::{Command, Shortcut};
+pub use files::FileReply;
 pub use references::ReferenceChange;

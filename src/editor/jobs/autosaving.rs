@@ -94,6 +94,13 @@ impl Autosaver {
         written
     }
 
+    /// Whether another window has a file open.
+    pub(in crate::editor) fn is_open_elsewhere(&self, path: &Path) -> bool {
+        let kept = held(&self.0.kept);
+        let session = kept.session.as_ref();
+        session.is_some_and(|session| self.0.sessions.has_open(path, session))
+    }
+
     fn begin(sessions: Sessions) -> Result<Self, FileError> {
         let session = Some(sessions.begin()?);
         let state = State::default();
@@ -172,15 +179,6 @@ impl Autosaving {
     /// What writes from other threads, if there is a session.
     pub fn autosaver(&self) -> Option<&Autosaver> {
         self.autosaver.as_ref()
-    }
-
-    /// Whether another window has a file open.
-    pub fn is_open_elsewhere(&self, path: &Path) -> bool {
-        self.autosaver.as_ref().is_some_and(|autosaver| {
-            let kept = held(&autosaver.0.kept);
-            let session = kept.session.as_ref();
-            session.is_some_and(|session| autosaver.0.sessions.has_open(path, session))
-        })
     }
 
     /// Remove a session whose document was put into the workspace, once this one holds it: soon.

@@ -77,6 +77,14 @@ impl<Q, T: Send + 'static> Client<Q, T> {
         self.sort(replies);
     }
 
+    /// Wait until the newest job has finished, however long it takes. [`Client::receive`] takes its result.
+    pub fn wait(&mut self) {
+        while self.pending {
+            let replies = self.worker.wait(Duration::from_secs(1));
+            self.sort(replies);
+        }
+    }
+
     /// Cancel the latest request and forget its result.
     pub fn forget(&mut self) {
         if self.request.take().is_some() {

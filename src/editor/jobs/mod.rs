@@ -5,6 +5,7 @@ mod worker;
 
 pub(in crate::editor) mod autosaving;
 pub(in crate::editor) mod comparing;
+pub(in crate::editor) mod filing;
 pub(in crate::editor) mod foreseeing;
 pub(in crate::editor) mod guides;
 pub(in crate::editor) mod measuring;
@@ -14,4 +15,5 @@ pub(in crate::editor) mod recoverable;
 
 pub use autosaving::Autosaver;
 pub(in crate::editor) use client::Client;
+pub use filing::{FileWork, with_extension};
 pub use recoverable::{Recoverable, RecoverableDocument};

@@ -139,7 +139,8 @@ impl<T: Send + 'static> Worker<T> {
         }
     }
 
-    fn wait(&mut self, at_most: Duration) -> VecDeque<Reply<T>> {
+    /// Wait for the newest job no longer than `at_most`, and take the replies that are ready then.
+    pub fn wait(&mut self, at_most: Duration) -> VecDeque<Reply<T>> {
         if let Place::Thread(desk) = &self.place
             && !at_most.is_zero()
         {

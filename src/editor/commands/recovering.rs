@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use crate::document::quoted;
 use crate::editor::Editor;
+use crate::editor::jobs::filing::open_elsewhere;
 use crate::editor::jobs::{Autosaver, Recoverable};
 use crate::editor::reply::{Message, Note, Refusal, Reply};
 use crate::io::{FileError, Sessions};
@@ -17,7 +18,9 @@ impl Editor {
         self.recoverable = Recoverable::find(&sessions);
         match self.autosaving.begin(sessions, period) {
             Ok(()) => {
-                let elsewhere = self.open_elsewhere();
+                let path = self.workspace.path();
+                let elsewhere = path.map(|path| open_elsewhere(path, self.autosaving.autosaver()));
+                let elsewhere = elsewhere.unwrap_or_default();
                 if !elsewhere.is_empty() {
                     let told = self.message.take().map_or(String::new(), |told| told.text);
                     self.tell_line(&told, &elsewhere);

@@ -1,0 +1,275 @@
+//! Opening, saving and exporting; the window only asks for paths.
+
+use std::path::{Path, PathBuf};
+
+use crate::document::{Curve, CurveId, Document, Edit, EndMatch, Reference};
+use crate::editor::jobs::filing::{FileResult, FileTask, FileWork};
+use crate::editor::reply::{Message, Note, Refusal, Reply, with_lines};
+use crate::editor::view::Look;
+use crate::editor::{Editor, Export};
+use crate::geometry::expressions::LengthUnit;
+use crate::io::Reading;
+use crate::io::examples::EXAMPLES;
+
+/// The reply to a request to read or write files.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FileReply {
+    /// The reply, which was told.
+    pub reply: Reply,
+    /// Whether nothing was written because another program has changed the file.
+    pub is_file_changed: bool,
+}
+
+impl Editor {
+    /// Begin an empty document.
+    pub fn begin_empty(&mut self) {
+        self.message = None;
+        self.replace(Document::default(), None);
+    }
+
+    /// Open files as one document in place of the present one; none leaves it as it is. Only a
+    /// single project is saved back to its file, with its unknown keys.
+    ///
+    /// The reply of this and of the other functions on files is told. A task that takes longer than a
+    /// frame goes on beside it: then the reply is a note of that, and [`Editor::take_file_reply`] has the
+    /// final one later.
+    ///
+    /// # Errors
+    /// [`Refusal`] if a file cannot be read; nothing is changed then.
+    pub fn open(&mut self, paths: &[PathBuf]) -> Reply {
+        if paths.is_empty() {
+            return Ok(Note::silent());
+        }
+        self.start_file_task(FileTask::Open(paths.to_owned()))
+    }
+
+    /// Open a built-in example in place of the document, by its number. The reply is told.
+    ///
+    /// # Errors
+    /// [`Refusal`] if there is no such example.
+    pub fn open_example(&mut self, index: usize) -> Reply {
+        let example = EXAMPLES.get(index).ok_or("There is no such example");
+        let reply = example.map_err(Refusal::from).and_then(|example| {
+            let reading = example.read().map_err(|error| error.to_string())?;
+            self.replace(reading.into_document()?, None);
+            let (title, description) = (example.title, example.description);
+            Ok(Note::told(format!("{title}: {description}")))
+        });
+        self.tell(reply)
+    }
+
+    /// Read the document's file again, as one step that can be undone.
+    ///
+    /// # Errors
+    /// [`Refusal`] if there is none, or it cannot be read; nothing is changed then.
+    pub fn reload(&mut self) -> Reply {
+        match self.workspace.path() {
+            Some(path) => self.start_file_task(FileTask::Reload(path.to_owned())),
+            None => self.tell(Err(Refusal::from("The document has no file yet"))),
+        }
+    }
+
+    /// Add the curves of some files to the document, as one step.
+    ///
+    /// # Errors
+    /// [`Refusal`] if a file cannot be read; nothing is changed then.
+    pub fn import(&mut self, paths: &[PathBuf]) -> Reply {
+        self.start_file_task(FileTask::Import(paths.to_owned()))
+    }
+
+    /// Save the document without the preview, which goes on.
+    ///
+    /// # Errors
+    /// [`Refusal`] if it cannot be written.
+    pub fn save(&mut self, path: &Path) -> Reply {
+        self.start_file_task(FileTask::Save {
+            path: path.to_owned(),
+            document: self.workspace.settled().clone(),
+            known: None,
+        })
+    }
+
+    /// Save the document to its own file, unless another program has changed it.
+    ///
+    /// # Errors
+    /// [`Refusal`] if it has no file, the file was changed, or it cannot be written.
+    pub fn save_unless_changed(&mut self) -> Reply {
+        match self.workspace.path() {
+            Some(path) => self.start_file_task(FileTask::Save {
+                path: path.to_owned(),
+                document: self.workspace.settled().clone(),
+                known: self.workspace.fingerprint(),
+            }),
+            None => self.tell(Err(Refusal::from("The document has no file yet"))),
+        }
+    }
+
+    /// Export the visible curves and references without the preview, which goes on. The reply names
+    /// what the format cannot hold.
+    ///
+    /// # Errors
+    /// [`Refusal`] if they cannot be written.
+    pub fn export(&mut self, path: &Path, export: &Export) -> Reply {
+        self.start_file_task(FileTask::Export {
+            path: path.to_owned(),
+            export: export.clone(),
+            document: self.workspace.settled().clone(),
+        })
+    }
+
+    /// The task on files that is not finished.
+    pub fn file_work(&self) -> Option<&FileWork> {
+        self.filing.work()
+    }
+
+    /// Take the final reply to the last request for files, once it is there.
+    pub fn take_file_reply(&mut self) -> Option<FileReply> {
+        self.file_reply.take()
+    }
+
+    /// Wait until the task on files is finished, as before the program ends.
+    pub fn finish_file_work(&mut self) {
+        self.filing.wait();
+        self.receive_files();
+    }
+
+    /// Look whether another program has changed the document's file, as when the window gets the
+    /// keyboard again. A later frame tells a change, once.
+    pub fn look_at_file(&mut self) {
+        if let Some(path) = self.workspace.path() {
+            self.filing.look_at(path);
+        }
+    }
+
+    /// Take the result of the task on files, and a change of the document's file. Returns the reply to
+    /// the task, which is told.
+    pub(in crate::editor) fn receive_files(&mut self) -> Option<Reply> {
+        if let Some(text) = self.filing.seen_change(&mut self.workspace) {
+            self.message = Some(Message::file_changed(text));
+        }
+        let (work, result) = self.filing.finish()?;
+        let is_file_changed = matches!(result, Ok(FileResult::Changed(_)));
+        let reply = result.and_then(|result| self.take_files(&work, result));
+        let reply = self.tell(reply);
+        self.file_reply = Some(FileReply {
+            reply: reply.clone(),
+            is_file_changed,
+        });
+        Some(reply)
+    }
+
+    fn start_file_task(&mut self, task: FileTask) -> Reply {
+        if let Some(work) = self.filing.work() {
+            let busy = format!("{} Wait until that is done", work.text);
+            return self.tell(Err(Refusal(busy)));
+        }
+        self.file_reply = None;
+        let autosaver = self.autosaving.autosaver().cloned();
+        let patience = &mut self.patience;
+        self.filing
+            .start(task, &self.workspace, autosaver, patience);
+        if let Some(reply) = self.receive_files() {
+            return reply;
+        }
+        let note = self.filing.work().map(|work| Note::told(&work.text));
+        self.tell(Ok(note.unwrap_or_default()))
+    }
+
+    /// Apply the result of a task to the document.
+    fn take_files(&mut self, work: &FileWork, result: FileResult) -> Reply {
+        match result {
+            FileResult::Opened { .. } | FileResult::Reloaded { .. } if self.is_later(work) => Err(
+                Refusal::from("The document was changed while the file was read: open it again"),
+            ),
+            FileResult::Opened {
+                document,
+                own,
+                text,
+            } => {
+                let (path, fingerprint) = own.unzip();
+                self.replace(document, path);
+                self.workspace.set_fingerprint(fingerprint);
+                Ok(Note::told(text))
+            }
+            FileResult::Reloaded {
+                document,
+                fingerprint,
+                text,
+            } => {
+                self.interrupt();
+                self.workspace.reload(document, fingerprint);
+                self.document_changed();
+                Ok(Note::done(text))
+            }
+            FileResult::Imported { reading, remarks } => self.add_files(reading, &remarks),
+            FileResult::Saved {
+                path,
+                document,
+                fingerprint,
+                text,
+            } => {
+                // Another document may be open by now.
+                if work.opening == self.workspace.opening() {
+                    self.workspace.mark_saved(path, document, fingerprint);
+                }
+                Ok(Note::told(text))
+            }
+            FileResult::Changed(path) => {
+                let name = path.file_name().unwrap_or_default().to_string_lossy();
+                Err(Refusal(format!("Another program has changed {name}")))
+            }
+            FileResult::Exported { text } => Ok(Note::told(text)),
+        }
+    }
+
+    /// Whether the document was changed since a request.
+    fn is_later(&self, work: &FileWork) -> bool {
+        self.workspace.revision() != work.revision
+    }
+
+    fn add_files(&mut self, reading: Reading, remarks: &str) -> Reply {
+        let mut text = format!("{} added", reading.counted());
+        let foreign = |unit: &LengthUnit| self.document().unit() != Some(*unit);
+        if let Some(unit) = reading.unit.filter(foreign) {
+            let name = unit.name();
+            text += &format!("; what is added is in {name}, and its numbers stay as they are");
+        }
+        self.add("Import curves", reading)?;
+        self.look(Look::All);
+        Ok(Note::done(with_lines(text, &remarks)))
+    }
+
+    /// Add curves and references, with the matches between them, as one step and make the first of them
+    /// active.
+    pub(in crate::editor) fn add(&mut self, label: &str, added: Reading) -> Reply {
+        self.interrupt();
+        let first = self.document().next_id();
+        let mut ids = self.document().next_ids();
+        let curves: Vec<CurveId> = ids.by_ref().take(added.curves.len()).collect();
+        let references: Vec<CurveId> = ids.take(added.references.len()).collect();
+        let matches = added.matches.iter();
+        let matches = matches.map(|matched| matched.between(&curves, &references));
+        let matches = matches.collect::<Result<Vec<EndMatch>, _>>()?;
+        let curve = |curve: Curve| Edit::Add(Box::new(curve));
+        let reference = |reference: Reference| Edit::AddReference(Box::new(reference));
+        let curves = added.curves.into_iter().map(curve);
+        let references = added.references.into_iter().map(reference);
+        let edits = curves
+            .chain(references)
+            .chain(matches.into_iter().map(Edit::SetMatch))
+            .collect();
+        let added = self.make(label, edits, false)?;
+        if self.document().name(first).is_some() {
+            self.hand.selection.clear();
+            self.hand.selection.activate(first);
+        }
+        Ok(added)
+    }
+
+    /// Put another document in the place of this one.
+    pub(in crate::editor) fn replace(&mut self, document: Document, path: Option<PathBuf>) {
+        self.interrupt();
+        self.workspace.replace(document, path);
+        self.document_replaced();
+    }
+}

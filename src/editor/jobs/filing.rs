@@ -1,0 +1,369 @@
+//! Reading and writing files beside the frame, one task at a time.
+
+use std::path::{Path, PathBuf};
+
+use super::Client;
+use super::autosaving::Autosaver;
+use super::patience::Patience;
+use crate::document::{Curve, Document, Reference, quoted};
+use crate::editor::reply::{Refusal, with_lines};
+use crate::editor::report::Export;
+use crate::editor::workspace::Workspace;
+use crate::geometry::counted;
+use crate::io::{FileError, Fingerprint, Format, Reading, disk, shown_path};
+
+/// Read and write files, and watch the document's own file.
+#[derive(Debug, Default)]
+pub(in crate::editor) struct Filing {
+    client: Client<FileWork, Result<FileResult, Refusal>>,
+    /// Looks at the document's file for changes by other programs.
+    watch: Client<PathBuf, Fingerprint>,
+}
+
+/// A task that is not finished.
+#[derive(Clone, Debug)]
+pub struct FileWork {
+    /// What the window says of it, as "Saving hull.batten…".
+    pub text: String,
+    /// The revision of the document at the request.
+    pub(in crate::editor) revision: u64,
+    /// The opening of the document at the request.
+    pub(in crate::editor) opening: u64,
+}
+
+/// A request to read or write files.
+#[derive(Debug)]
+pub(in crate::editor) enum FileTask {
+    /// Read files as one document.
+    Open(Vec<PathBuf>),
+    /// Read the document's own file again.
+    Reload(PathBuf),
+    /// Read files whose curves are added.
+    Import(Vec<PathBuf>),
+    /// Write the document; refuse if its file is known and holds something else.
+    Save {
+        path: PathBuf,
+        document: Document,
+        known: Option<Fingerprint>,
+    },
+    /// Write what is visible of the document.
+    Export {
+        path: PathBuf,
+        export: Export,
+        document: Document,
+    },
+}
+
+/// The result of a task, to be applied to the editor, with the text that tells of it.
+#[derive(Debug)]
+pub(in crate::editor) enum FileResult {
+    Opened {
+        document: Document,
+        /// The file that the document is saved back to.
+        own: Option<(PathBuf, Fingerprint)>,
+        text: String,
+    },
+    Reloaded {
+        document: Document,
+        fingerprint: Fingerprint,
+        text: String,
+    },
+    Imported {
+        reading: Reading,
+        remarks: String,
+    },
+    Saved {
+        path: PathBuf,
+        document: Document,
+        fingerprint: Fingerprint,
+        text: String,
+    },
+    /// Another program has changed the file, so nothing is written.
+    Changed(PathBuf),
+    Exported {
+        text: String,
+    },
+}
+
+impl Filing {
+    /// Work on threads, which call `wake` when a result is there.
+    pub fn background(wake: impl Fn() + Clone + Send + 'static) -> Self {
+        Self {
+            client: Client::background("files", wake.clone()),
+            watch: Client::background("file watch", wake),
+        }
+    }
+
+    /// The task that is not finished.
+    pub fn work(&self) -> Option<&FileWork> {
+        self.client.request()
+    }
+
+    /// Start a task. `autosaver` knows which files other windows have open.
+    pub fn start(
+        &mut self,
+        task: FileTask,
+        workspace: &Workspace,
+        autosaver: Option<Autosaver>,
+        patience: &mut Patience,
+    ) {
+        // What was seen before the task does not count after it.
+        self.watch.forget();
+        let work = FileWork {
+            text: task.text(),
+            revision: workspace.revision(),
+            opening: workspace.opening(),
+        };
+        let is_own = |path: &Path| workspace.path() == Some(path);
+        let autosaver = match &task {
+            FileTask::Save { path, .. } if is_own(path) => None,
+            _ => autosaver,
+        };
+        let job = move |_: &_| Some(task.run(autosaver.as_ref()));
+        self.client.start(work, job, Some(patience));
+    }
+
+    /// Take the result of the task, once it is there.
+    pub fn finish(&mut self) -> Option<(FileWork, Result<FileResult, Refusal>)> {
+        self.client.receive();
+        let work = self.client.request()?.clone();
+        let failed = |panic: &str| Err(Refusal(format!("{} failed: {panic}", work.text)));
+        let result = match self.client.take_result() {
+            Some(result) => result,
+            None => failed(self.client.failure()?),
+        };
+        self.client.forget();
+        Some((work, result))
+    }
+
+    /// Wait until the task is finished.
+    pub fn wait(&mut self) {
+        self.client.wait();
+    }
+
+    /// Look whether another program has changed the document's file. [`Filing::seen_change`] tells it
+    /// in a later frame.
+    pub fn look_at(&mut self, path: &Path) {
+        if self.work().is_none() {
+            let look = path.to_owned();
+            let job = move |_: &_| disk::fingerprint(&look);
+            self.watch.start(path.to_owned(), job, None);
+        }
+    }
+
+    /// Take a change of the document's file by another program, as a text. Each change is told once.
+    pub fn seen_change(&mut self, workspace: &mut Workspace) -> Option<String> {
+        self.watch.receive();
+        let path = self
+            .watch
+            .request()
+            .filter(|path| workspace.path() == Some(path));
+        let name = quoted(&path?.file_name().unwrap_or_default().to_string_lossy());
+        let is_new = workspace.note_file(self.watch.take_result()?);
+        is_new.then(|| format!("Another program has changed {name}"))
+    }
+}
+
+impl FileTask {
+    /// What the window says while the task is not finished.
+    fn text(&self) -> String {
+        let name = |path: &Path| {
+            let name = path.file_name().unwrap_or_default();
+            name.to_string_lossy().into_owned()
+        };
+        let names = |paths: &[PathBuf]| match paths {
+            [path] => name(path),
+            paths => counted(paths.len(), "file", "files"),
+        };
+        match self {
+            Self::Open(paths) => format!("Opening {}…", names(paths)),
+            Self::Reload(path) => format!("Reloading {}…", name(path)),
+            Self::Import(paths) => format!("Importing {}…", names(paths)),
+            Self::Save { path, .. } => format!("Saving {}…", name(path)),
+            Self::Export { path, .. } => format!("Exporting {}…", name(path)),
+        }
+    }
+
+    fn run(self, autosaver: Option<&Autosaver>) -> Result<FileResult, Refusal> {
+        match self {
+            Self::Open(paths) => match paths.as_slice() {
+                [path] => open(path, autosaver),
+                paths => open_together(paths),
+            },
+            Self::Reload(path) => reload(&path),
+            Self::Import(paths) => {
+                let (reading, remarks) = read_together(&paths)?;
+                Ok(FileResult::Imported { reading, remarks })
+            }
+            Self::Save {
+                path,
+                document,
+                known,
+            } => save(&path, document, known, autosaver),
+            Self::Export {
+                path,
+                export,
+                document,
+            } => export_visible(&path, &export, &document),
+        }
+    }
+}
+
+fn open(path: &Path, autosaver: Option<&Autosaver>) -> Result<FileResult, Refusal> {
+    let (mut reading, fingerprint) = disk::read_with_fingerprint(path)?;
+    let text = format!("{} read from {}", reading.counted(), shown_path(path));
+    let remarks = std::mem::take(&mut reading.remarks);
+    let document = reading.into_document()?;
+    let mut text = with_lines(text, &remarks);
+    if document.has_extras() {
+        text += "\nUnknown keys are kept when you save.";
+    }
+    let own = own_path(path);
+    let elsewhere = own.as_deref().map(|own| open_elsewhere(own, autosaver));
+    Ok(FileResult::Opened {
+        document,
+        own: own.map(|own| (own, fingerprint)),
+        text: with_lines(text, &elsewhere.unwrap_or_default()),
+    })
+}
+
+fn open_together(paths: &[PathBuf]) -> Result<FileResult, Refusal> {
+    let (reading, remarks) = read_together(paths)?;
+    let text = format!("{} read from {} files", reading.counted(), paths.len());
+    Ok(FileResult::Opened {
+        document: reading.into_document()?,
+        own: None,
+        text: with_lines(text, &remarks),
+    })
+}
+
+fn reload(path: &Path) -> Result<FileResult, Refusal> {
+    let (mut reading, fingerprint) = disk::read_with_fingerprint(path)?;
+    let remarks = std::mem::take(&mut reading.remarks);
+    let text = format!("Reloaded from {}", shown_path(path));
+    Ok(FileResult::Reloaded {
+        document: reading.into_document()?,
+        fingerprint,
+        text: with_lines(text, &remarks),
+    })
+}
+
+fn save(
+    path: &Path,
+    document: Document,
+    known: Option<Fingerprint>,
+    autosaver: Option<&Autosaver>,
+) -> Result<FileResult, Refusal> {
+    let path = with_extension(path, Format::Batten.extension());
+    let shown = shown_path(&path);
+    match Format::to_write(&path).map_err(|error| format!("{shown}: {error}"))? {
+        Format::Batten => {}
+        other => {
+            return Err(Refusal(format!(
+                "{shown}: a {other} cannot store a whole document: save as .batten, or export"
+            )));
+        }
+    }
+    // A file that is not there, or cannot be read, holds nothing that could be lost.
+    let found = known.and_then(|_| disk::fingerprint(&path));
+    if found.is_some() && found != known {
+        return Ok(FileResult::Changed(path));
+    }
+    let saved = disk::write_document(&path, &document, None)?;
+    let text = with_lines(format!("Saved to {shown}"), &saved);
+    Ok(FileResult::Saved {
+        text: with_lines(text, &open_elsewhere(&path, autosaver)),
+        path,
+        document,
+        fingerprint: saved.fingerprint,
+    })
+}
+
+fn export_visible(
+    path: &Path,
+    export: &Export,
+    document: &Document,
+) -> Result<FileResult, Refusal> {
+    let path = with_extension(path, export.extension);
+    let shown = shown_path(&path);
+    let format = Format::to_write(&path).map_err(|error| format!("{shown}: {error}"))?;
+    if format.extension() != export.extension {
+        return Err(Refusal(format!(
+            "{shown}: that would be a {format}: give it the extension .{}",
+            export.extension
+        )));
+    }
+    let polygon = (export.extension == Format::Csv.extension()).then_some(export.polygon);
+    let curves = document.curves().map(|(_, curve)| Curve::clone(curve));
+    let (visible, hidden): (Vec<Curve>, Vec<Curve>) = curves.partition(|curve| curve.visible);
+    let references = document.references().map(|(_, it)| Reference::clone(it));
+    let references: Vec<Reference> = references.filter(|it| it.visible).collect();
+    if visible.is_empty() && references.is_empty() {
+        return Err(Refusal::from(
+            "Everything is hidden: show the curves to export",
+        ));
+    }
+    let mut text = format!(
+        "{} exported to {shown}",
+        counted(visible.len(), "curve", "curves")
+    );
+    if !hidden.is_empty() {
+        let hidden = counted(hidden.len(), "hidden curve", "hidden curves");
+        text += &format!("; {hidden} skipped");
+    }
+    let exported = Document::from_curves(visible)
+        .with_references(references)
+        .with_unit(document.unit())
+        .with_extras(document.extras().clone());
+    let mut saved = disk::write_document(&path, &exported, polygon)?;
+    saved.losses.add_matches(document, |curve| curve.visible);
+    Ok(FileResult::Exported {
+        text: with_lines(text, &saved),
+    })
+}
+
+/// Read the curves of several files, with the remarks on each.
+fn read_together(paths: &[PathBuf]) -> Result<(Reading, String), FileError> {
+    let mut together = Reading::default();
+    let mut lines = Vec::new();
+    for path in paths {
+        let reading = disk::read_file(path)?;
+        let remarks = reading.remarks.to_string();
+        together.append(reading);
+        let named = remarks
+            .lines()
+            .map(|remark| format!("{}: {remark}", shown_path(path)));
+        lines.extend(named);
+    }
+    Ok((together, lines.join("\n")))
+}
+
+/// The line that another window has a file open; empty if none has.
+pub(in crate::editor) fn open_elsewhere(path: &Path, autosaver: Option<&Autosaver>) -> String {
+    match autosaver.is_some_and(|autosaver| autosaver.is_open_elsewhere(path)) {
+        true => "Another window has this file open: the last save wins".to_owned(),
+        false => String::new(),
+    }
+}
+
+/// The path that a document read from it is saved back to: only a project loses nothing there.
+fn own_path(path: &Path) -> Option<PathBuf> {
+    let is_project = Format::to_read(path).is_ok_and(|format| format == Format::Batten);
+    is_project.then(|| path.to_owned())
+}
+
+/// Give a path the extension if it has none that is a format's: what follows the point in
+/// "hull v1.2" is part of the name.
+pub fn with_extension(path: &Path, extension: &str) -> PathBuf {
+    let given = path.extension().map(|given| given.to_string_lossy());
+    match (given.as_deref(), path.file_name()) {
+        (Some(given), _) if Format::find(given).is_some() => path.to_owned(),
+        (Some(""), _) | (None, _) | (_, None) => path.with_extension(extension),
+        (Some(_), Some(name)) => {
+            let mut name = name.to_owned();
+            name.push(".");
+            name.push(extension);
+            path.with_file_name(name)
+        }
+    }
+}
