@@ -15,7 +15,7 @@ use super::progress::Progress as Line;
 use crate::document::{Curve, CurveId, Document, Edit, quoted};
 use crate::geometry::Progress;
 use crate::io::{Reading, json_layout};
-use crate::operations::{ALL, Input, Inputs, Operation, OperationError, Outcome, Report, Value};
+use crate::operations::{ALL, Inputs, Operands, Operation, OperationError, Outcome, Report, Value};
 
 /// The exit code of arguments that cannot be used.
 const MISUSED: u8 = 2;
@@ -115,7 +115,7 @@ impl Application {
         }
     }
 
-    fn input(&self) -> anyhow::Result<Input> {
+    fn input(&self) -> anyhow::Result<Operands> {
         let reading = match &self.source {
             Some(source) => source.read()?,
             None => Reading::default(),
@@ -129,15 +129,15 @@ impl Application {
     }
 
     /// Choose what the operation works on of what was read.
-    fn chosen(&self, reading: Reading, second: Option<Curve>) -> anyhow::Result<Input> {
+    fn chosen(&self, reading: Reading, second: Option<Curve>) -> anyhow::Result<Operands> {
         let document = reading.into_document()?;
         match self.operation.inputs {
-            Inputs::None | Inputs::UpToTwo => Ok(Input::new(&document, [])?),
-            Inputs::OneOrNone if self.source.is_none() => Ok(Input::new(&document, [])?),
-            Inputs::One => Ok(Input::new(&document, [self.curve(&document, 0)?])?),
+            Inputs::None | Inputs::UpToTwo => Ok(Operands::new(&document, [])?),
+            Inputs::OneOrNone if self.source.is_none() => Ok(Operands::new(&document, [])?),
+            Inputs::One => Ok(Operands::new(&document, [self.curve(&document, 0)?])?),
             Inputs::OneOrNone => self.curve_or_reference(&document),
             Inputs::Two => match second {
-                None => Ok(Input::new(&document, self.two_curves(&document)?)?),
+                None => Ok(Operands::new(&document, self.two_curves(&document)?)?),
                 Some(second) => self.with_second(document, second),
             },
             Inputs::Points => {
@@ -149,7 +149,7 @@ impl Application {
                 let Some(points) = tables.pop().filter(|_| count == 1) else {
                     bail!("a table of points is needed, and there are {count} curves and lists");
                 };
-                Ok(Input::new(&Document::default(), [])?.with_points(points))
+                Ok(Operands::new(&Document::default(), [])?.with_points(points))
             }
         }
     }
@@ -171,7 +171,7 @@ impl Application {
     }
 
     /// Choose the curve or reference that was named; without a name, the only one.
-    fn curve_or_reference(&self, document: &Document) -> anyhow::Result<Input> {
+    fn curve_or_reference(&self, document: &Document) -> anyhow::Result<Operands> {
         let mut ids = document.all_ids();
         let id = match (&self.curves[0], ids.next(), ids.next()) {
             (Some(name), ..) => item_named(document, name)?,
@@ -180,9 +180,9 @@ impl Application {
             _ => bail!("choose one with --curve: {}", listed(document.names())),
         };
         Ok(match document.reference(id) {
-            None => Input::new(document, [id])?,
+            None => Operands::new(document, [id])?,
             Some(reference) => {
-                Input::new(document, [])?.with_reference(Some(reference.curve.clone()))
+                Operands::new(document, [])?.with_reference(Some(reference.curve.clone()))
             }
         })
     }
@@ -210,16 +210,16 @@ impl Application {
     }
 
     /// Add the second curve to the document that has the first one.
-    fn with_second(&self, mut document: Document, mut second: Curve) -> anyhow::Result<Input> {
+    fn with_second(&self, mut document: Document, mut second: Curve) -> anyhow::Result<Operands> {
         let first = self.curve(&document, 0)?;
         second.name = document.free_name(&second.name);
         let id = document.next_id();
         document.apply(Edit::Add(Box::new(second)))?;
-        Ok(Input::new(&document, [first, id])?)
+        Ok(Operands::new(&document, [first, id])?)
     }
 
     /// Run the operation on another thread, and tell how far it has come while it takes long.
-    fn applied(&self, input: &Input) -> Result<(Outcome, Report), OperationError> {
+    fn applied(&self, input: &Operands) -> Result<(Outcome, Report), OperationError> {
         let progress = Progress::default();
         thread::scope(|scope| {
             let (sender, receiver) = mpsc::channel();
@@ -245,7 +245,7 @@ impl Application {
 
     fn outcome(
         &self,
-        input: &Input,
+        input: &Operands,
         progress: &Progress,
     ) -> Result<(Outcome, Report), OperationError> {
         let operation = self.operation;

@@ -9,10 +9,11 @@ use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches, val
 
 use super::choice_parser::{Assignments, ChoiceParser, no_such_parameter};
 use super::parsers::format_parser;
+use crate::geometry::parameters::Quantity;
 use crate::geometry::references::{KINDS, ReferenceCurve};
 use crate::io::Format;
 use crate::operations::{
-    ALL, Choice, Inputs, Kind, Operation, OperationError, Parameter, Unit, Value, find,
+    ALL, Choice, Inputs, Kind, Operation, OperationError, Parameter, Value, find,
 };
 
 const LIST: &str = "list";
@@ -357,16 +358,19 @@ fn parameter_argument(parameter: &'static Parameter, all: &'static [Parameter]) 
 }
 
 fn value_name(parameter: &Parameter) -> &'static str {
-    match (&parameter.kind, parameter.unit()) {
+    match (&parameter.kind, parameter.quantity()) {
         (
             Kind::List {
-                count, whole, unit, ..
+                count,
+                whole,
+                quantity,
+                ..
             },
             _,
-        ) => match (*count.end(), *whole, *unit) {
+        ) => match (*count.end(), *whole, *quantity) {
             (1, true, _) => "COUNT",
             (1, ..) => "X",
-            (2, _, Unit::Parameter) => "U,U",
+            (2, _, Quantity::Parameter) => "U,U",
             (2, ..) => "X,Y",
             (3, ..) => "X,Y[,Z]",
             _ => "I,J,…",
@@ -374,11 +378,11 @@ fn value_name(parameter: &Parameter) -> &'static str {
         (Kind::Choice { .. }, _) => "WORD",
         (Kind::Reference { .. }, _) => "REFERENCE",
         (Kind::Switch { .. }, _) => "on|off",
-        (_, Unit::Length) => "LENGTH",
-        (_, Unit::Angle) => "DEGREES",
-        (_, Unit::Parameter) => "U",
-        (Kind::Whole { .. }, Unit::None) => "N",
-        (Kind::Real { .. }, Unit::None) => "X",
+        (_, Quantity::Length) => "LENGTH",
+        (_, Quantity::Angle) => "DEGREES",
+        (_, Quantity::Parameter) => "U",
+        (Kind::Whole(_), _) => "N",
+        (Kind::Real(_), _) => "X",
     }
 }
 

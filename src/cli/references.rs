@@ -21,7 +21,7 @@ fn lines(kind: &ReferenceKind) -> String {
     let mut rows: Vec<(String, String)> = Vec::new();
     for (parameter, default) in kind.parameters.iter().zip(kind.defaults()) {
         let assignment = format!("{}={default}", parameter.name);
-        let limits = parameter.limits_words();
+        let limits = parameter.kind.range_words();
         rows.push((assignment, format!("{}; {limits}", parameter.help)));
     }
     let [from, to] = kind.default_interval();

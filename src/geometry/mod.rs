@@ -30,6 +30,7 @@ mod jet;
 pub mod mineur_farin;
 mod nearest;
 pub mod paper;
+pub mod parameters;
 mod parametric_curve;
 mod pivoted_cholesky;
 pub mod polygon_figures;

@@ -175,6 +175,6 @@ fn analytic(name: &str, values: &BTreeMap<String, f64>) -> Result<AnalyticForm, 
 
 fn given_values(kind: &ReferenceKind, values: &BTreeMap<String, f64>) -> Vec<f64> {
     let parameters = kind.parameters.iter();
-    let value = parameters.map(|it| values.get(it.name).copied().unwrap_or(it.default));
+    let value = parameters.map(|it| values.get(it.name).copied().unwrap_or(it.kind.default));
     value.collect()
 }

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::error::OperationError;
-use super::input::Input;
+use super::operands::Operands;
 
 /// A number that is known once there is an input, and can be described before: a limit of a
 /// parameter, or its default. Angles are in radians.
@@ -20,7 +20,7 @@ pub enum Amount {
         /// What it is, in words.
         words: &'static str,
         /// Find it.
-        value: fn(&Input) -> Result<f64, OperationError>,
+        value: fn(&Operands) -> Result<f64, OperationError>,
     },
 }
 
@@ -29,7 +29,7 @@ impl Amount {
     ///
     /// # Errors
     /// [`OperationError::Inputs`] if it depends on a curve and there is none.
-    pub fn of(&self, input: &Input) -> Result<f64, OperationError> {
+    pub fn of(&self, input: &Operands) -> Result<f64, OperationError> {
         match self {
             Self::Number(number) => Ok(*number),
             Self::Segments => Ok(input.polygon()?.segments() as f64),

@@ -5,21 +5,22 @@ use glam::DVec3;
 use super::alternatives::remark_on_alternatives;
 use super::editable::check_editable;
 use super::error::OperationError;
-use super::input::Input;
+use super::operands::Operands;
 use super::inputs::Inputs;
-use super::lists::{count, given, given_count, number, positive};
+use super::lists::{given, given_count};
 use super::operation::Operation;
-use super::outcome::{Deviation, Figure, Mark, Outcome};
-use super::parameter::{Choice, Kind, Parameter};
+use super::outcome::{Deviation, Figure, Annotation, Outcome};
+use super::parameter::{ANY, Choice, Kind, POSITIVE, Parameter};
 use super::values::Values;
-use super::whole;
 use crate::document::{Curve, Edit, ParameterSpan};
 use crate::geometry::approximation::{
     Approximated, ApproximationRequest, Goal, LevelComparison, MOST_SEGMENTS, Placing, Spacing, Watched,
     approximate_between, approximate_by_steps, approximate_to_tolerance,
 };
 use crate::geometry::references::ReferenceCurve;
-use crate::geometry::{Differentiable, FloatPolygon, Progress, sampled_cusps, significant};
+use crate::geometry::{
+    Differentiable, FloatPolygon, MAX_DEGREE, Progress, sampled_cusps, significant,
+};
 
 /// The most vertices that can be asked for.
 const MOST: usize = 10_000;
@@ -45,16 +46,8 @@ const METHOD: Parameter = Parameter {
     help: "Vertices by quasi-interpolation keep place and shape; vertices on the curve keep the shape alone",
     kind: Kind::Choice {
         options: &[
-            Choice {
-                name: "on-curve",
-                label: "On the curve",
-                parameters: &[],
-            },
-            Choice {
-                name: "quasi",
-                label: "Quasi",
-                parameters: &[],
-            },
+            Choice::new("on-curve", "On the curve"),
+            Choice::new("quasi", "Quasi"),
         ],
         default: 1,
     },
@@ -66,42 +59,42 @@ const DEGREE: Parameter = Parameter {
     name: "degree",
     label: "Degree",
     help: "The degree of the float polygon",
-    kind: whole::degree(8),
+    kind: Kind::whole(1, MAX_DEGREE, 8),
 };
 
 const FROM: Parameter = Parameter {
     name: "from",
     label: "From",
     help: "The parameter where the curve begins; with a step, the one of vertex 0",
-    kind: number(|_| "where the reference begins"),
+    kind: Kind::number(ANY, |_| "where the reference begins"),
 };
 
 const TO: Parameter = Parameter {
     name: "to",
     label: "To",
     help: "The parameter where the curve ends; of a periodic curve that runs once round if it is not given",
-    kind: number(|_| "where the reference ends"),
+    kind: Kind::number(ANY, |_| "where the reference ends"),
 };
 
 const STEP: Parameter = Parameter {
     name: "step",
     label: "Step",
     help: "How far the parameters of neighbouring vertices lie apart: vertex i belongs to from + i · step",
-    kind: number(|_| "even parts from start to end"),
+    kind: Kind::number(POSITIVE, |_| "even parts from start to end"),
 };
 
 const COUNT: Parameter = Parameter {
     name: "count",
     label: "Vertices",
     help: "The number of vertices",
-    kind: count(|_| "from the tolerance; without one 20, up to 640 while corrections grow"),
+    kind: Kind::count(MOST, false, |_| "from the tolerance; without one 20, up to 640 while corrections grow"),
 };
 
 const TOLERANCE: Parameter = Parameter {
     name: "tolerance",
     label: "Tolerance",
     help: "How far the curve may be from the nearest points of the reference, and its ends from those of the part; its levels must have the features of the reference too",
-    kind: number(|_| "none"),
+    kind: Kind::number(POSITIVE, |_| "none"),
 };
 
 const SPACING: Parameter = Parameter {
@@ -110,26 +103,10 @@ const SPACING: Parameter = Parameter {
     help: "Whether even steps follow the parameter, the arc length, or arc length and turning together",
     kind: Kind::Choice {
         options: &[
-            Choice {
-                name: "automatic",
-                label: "Automatic",
-                parameters: &[],
-            },
-            Choice {
-                name: "parameter",
-                label: "Parameter",
-                parameters: &[],
-            },
-            Choice {
-                name: "arc-length",
-                label: "Arc length",
-                parameters: &[],
-            },
-            Choice {
-                name: "curvature",
-                label: "Curvature",
-                parameters: &[],
-            },
+            Choice::new("automatic", "Automatic"),
+            Choice::new("parameter", "Parameter"),
+            Choice::new("arc-length", "Arc length"),
+            Choice::new("curvature", "Curvature"),
         ],
         default: 0,
     },
@@ -146,7 +123,7 @@ const LEVELS: Parameter = Parameter {
     name: "levels",
     label: "Levels",
     help: "How many levels of curvature and torsion are compared with those of the reference. What rises and falls by less than 1e-8 of a level's largest value does not count; nor, above level 1, by less than 1e-5 of what level 1 over the curve's length makes of it; nor ripples below 1e-5 of a curvature that is constant to 1e-5",
-    kind: whole::between(0, crate::geometry::LEVELS, 2),
+    kind: Kind::whole(0, crate::geometry::LEVELS, 2),
 };
 
 const FIT_ENDS: Parameter = Parameter {
@@ -180,7 +157,7 @@ enum Source<'a> {
 }
 
 impl<'a> Source<'a> {
-    fn of(input: &'a Input, values: &'a Values) -> Result<Self, OperationError> {
+    fn of(input: &'a Operands, values: &'a Values) -> Result<Self, OperationError> {
         if let Some(reference) = values.reference(&REFERENCE) {
             return match reference.form().is_smooth() {
                 true => Ok(Self::Reference(reference)),
@@ -238,9 +215,9 @@ impl<'a> Source<'a> {
     }
 }
 
-fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
+fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
     let source = Source::of(input, values)?;
-    let tolerance = positive(values, &TOLERANCE)?;
+    let tolerance = given(values, &TOLERANCE);
     let placing = values.choice(&METHOD, &PLACINGS);
     let curve = Watched::new(source.differentiable(), progress);
     let found = approximated(&source, &curve, values, placing, tolerance, progress);
@@ -253,7 +230,7 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
         Placing::Quasi => None,
     };
     let deviation = Deviation::Measured(found.deviation.largest);
-    let marks = marks(&source, &found);
+    let annotations = annotations(&source, &found);
     let outcome = match source {
         Source::Reference(reference) => {
             let name = reference.form().label().to_lowercase();
@@ -282,7 +259,7 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
     Ok(Outcome {
         reached: tolerance.is_none_or(|tolerance| found.meets(tolerance)),
         figures: figures(&found),
-        marks,
+        annotations,
         equivalence: Some(found.levels),
         remarks,
         ..outcome
@@ -324,7 +301,7 @@ fn approximated(
     progress: &Progress,
 ) -> Result<(Approximated, Option<String>), OperationError> {
     let degree = values.whole(&DEGREE);
-    let count = count_given(values)?;
+    let count = given_count(values, &COUNT);
     let part = Part::of(source, values, tolerance, count)?;
     let asked = ApproximationRequest {
         degree,
@@ -393,17 +370,6 @@ fn by_quasi_interpolation(
     Some(quasi.ok()?.deviation.largest)
 }
 
-fn count_given(values: &Values) -> Result<Option<usize>, OperationError> {
-    match given_count(values, &COUNT) {
-        Some(count) if count > MOST => Err(OperationError::OutOfRange {
-            label: COUNT.label,
-            value: count.to_string(),
-            needed: format!("at most {MOST}"),
-        }),
-        count => Ok(count),
-    }
-}
-
 /// What part of the curve is approximated.
 enum Part {
     /// Vertex i belongs to the first number + i times the second one.
@@ -424,7 +390,7 @@ impl Part {
         let [start, end] = source.interval();
         let from = given(values, &FROM).unwrap_or(start);
         let to = given(values, &TO);
-        let step = positive(values, &STEP)?;
+        let step = given(values, &STEP);
         let excluded = [(&TO, to), (&TOLERANCE, tolerance)];
         let excluded = excluded.iter().find(|(_, other)| other.is_some());
         if let (Some(_), Some((other, _))) = (step, excluded) {
@@ -481,7 +447,7 @@ fn figures(found: &Approximated) -> Vec<Figure> {
 }
 
 /// Where the deviation is largest, and where levels first differ.
-fn marks(source: &Source<'_>, found: &Approximated) -> Vec<Mark> {
+fn annotations(source: &Source<'_>, found: &Approximated) -> Vec<Annotation> {
     let difference = |level: &LevelComparison| {
         let (there, here) = level.side_by_side().nth(level.first_difference()?)?;
         Some(match (there, here) {
@@ -493,7 +459,7 @@ fn marks(source: &Source<'_>, found: &Approximated) -> Vec<Mark> {
     let largest = found.polygon.point(found.deviation.u);
     let differences = found.levels.iter().filter_map(difference);
     let places: Vec<DVec3> = std::iter::once(largest).chain(differences).collect();
-    places.into_iter().map(Mark::Point).collect()
+    places.into_iter().map(Annotation::Point).collect()
 }
 
 /// Say that quasi-interpolation diverges: its corrections grow instead of fading.

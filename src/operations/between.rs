@@ -7,14 +7,15 @@ use glam::{DVec2, DVec3};
 use super::amount::Amount;
 use super::error::OperationError;
 use super::handle::{Handle, Sets};
-use super::input::Input;
+use super::operands::Operands;
 use super::inputs::Inputs;
-use super::lists::{Meaning, given, number};
+use super::lists::given;
 use super::operation::Operation;
-use super::outcome::{Deviation, Figure, Mark, Outcome};
-use super::parameter::{Choice, Kind, Parameter, Unit};
+use super::outcome::{Deviation, Figure, Annotation, Outcome};
+use super::parameter::{ANY, Choice, Kind, POSITIVE, Parameter};
 use super::value::Value;
 use super::values::Values;
+use crate::geometry::parameters::{Number, Quantity};
 use crate::document::{Curve, Edit};
 use crate::geometry::between::{BetweenError, Ends, Segment, SegmentKind, between};
 use crate::geometry::features::Verdict;
@@ -50,16 +51,8 @@ const KIND: Parameter = Parameter {
                 label: "Superspiral",
                 parameters: &["a", "b", "c"],
             },
-            Choice {
-                name: "any",
-                label: "Any monotone",
-                parameters: &[],
-            },
-            Choice {
-                name: "clothoid",
-                label: "Clothoid",
-                parameters: &[],
-            },
+            Choice::new("any", "Any monotone"),
+            Choice::new("clothoid", "Clothoid"),
         ],
         default: 0,
     },
@@ -69,7 +62,7 @@ const ALPHA: Parameter = Parameter {
     name: "alpha",
     label: "Slope α",
     help: "The slope α of the logarithmic curvature graph: −1 clothoid, 0 Nielsen's spiral, 1 logarithmic spiral, 2 circle involute",
-    kind: number(|_| "−1, or from the curvatures"),
+    kind: Kind::number(ANY, |_| "−1, or from the curvatures"),
 };
 
 const A: Parameter = spiral("a", "Superspiral a", 0.5);
@@ -82,12 +75,12 @@ const fn spiral(name: &'static str, label: &'static str, default: f64) -> Parame
         name,
         label,
         help: "Of a superspiral, whose radius of curvature is ₂F₁(a, b; c; −ψ) at direction angle ψ, a > 0 and c > b > 0",
-        kind: Kind::Real {
+        kind: Kind::Real(Number {
             from: Bound::Excluded(Amount::Number(0.0)),
             to: Bound::Included(Amount::Number(20.0)),
             default: Amount::Number(default),
-            unit: Unit::None,
-        },
+            quantity: Quantity::Number,
+        }),
     }
 }
 
@@ -95,42 +88,42 @@ const FROM: Parameter = Parameter {
     name: "from",
     label: "From",
     help: "Where the segment starts",
-    kind: pair(|_| "the end of the chosen curve, or 0, 0"),
+    kind: Kind::list(2..=2, |_| "the end of the chosen curve, or 0, 0"),
 };
 
 const FROM_DIRECTION: Parameter = Parameter {
     name: "from-direction",
     label: "From direction",
     help: "The direction in which it starts",
-    kind: pair(|_| "that of the curve, or 2, 2"),
+    kind: Kind::list(2..=2, |_| "that of the curve, or 2, 2"),
 };
 
 const FROM_CURVATURE: Parameter = Parameter {
     name: "from-curvature",
     label: "From curvature",
     help: "The curvature with which it starts, positive where it turns left",
-    kind: number(|_| "free"),
+    kind: Kind::number(ANY, |_| "free"),
 };
 
 const TO: Parameter = Parameter {
     name: "to",
     label: "To",
     help: "Where the segment ends",
-    kind: pair(|_| "the end of the other chosen curve, or 10, 0"),
+    kind: Kind::list(2..=2, |_| "the end of the other chosen curve, or 10, 0"),
 };
 
 const TO_DIRECTION: Parameter = Parameter {
     name: "to-direction",
     label: "To direction",
     help: "The direction in which it ends",
-    kind: pair(|_| "that of the curve, or 3, -1.5"),
+    kind: Kind::list(2..=2, |_| "that of the curve, or 3, -1.5"),
 };
 
 const TO_CURVATURE: Parameter = Parameter {
     name: "to-curvature",
     label: "To curvature",
     help: "The curvature with which it ends, positive where it turns left",
-    kind: number(|_| "free"),
+    kind: Kind::number(ANY, |_| "free"),
 };
 
 const CURVATURES: Parameter = Parameter {
@@ -144,30 +137,15 @@ const DEGREE: Parameter = Parameter {
     name: "degree",
     label: "Degree",
     help: "The degree of the float polygon",
-    kind: Kind::Whole {
-        from: Amount::Number(3.0),
-        to: Amount::Number(MAX_DEGREE as f64),
-        default: Amount::Number(5.0),
-    },
+    kind: Kind::whole(3, MAX_DEGREE, 5),
 };
 
 const TOLERANCE: Parameter = Parameter {
     name: "tolerance",
     label: "Tolerance",
     help: "How far the curve may be from the true segment",
-    kind: number(|_| "1e-6 of its length"),
+    kind: Kind::number(POSITIVE, |_| "1e-6 of its length"),
 };
-
-/// A point or vector of the plane, or none.
-const fn pair(none: Meaning) -> Kind {
-    Kind::List {
-        count: 2..=2,
-        whole: false,
-        unit: Unit::None,
-        none,
-        in_space: false,
-    }
-}
 
 /// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
@@ -209,17 +187,10 @@ fn unused(values: &Values) -> &'static [&'static str] {
     )
 }
 
-fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
+fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
     let ends = ends(input, values);
     let degree = values.whole(&DEGREE);
     let tolerance = given(values, &TOLERANCE);
-    if let Some(value) = tolerance.filter(|tolerance| *tolerance <= 0.0) {
-        return Err(OperationError::OutOfRange {
-            label: TOLERANCE.label,
-            value: value.to_string(),
-            needed: "a length of more than 0".to_owned(),
-        });
-    }
     let alpha = given(values, &ALPHA);
     let kinds = [
         SegmentKind::LogAesthetic { alpha },
@@ -249,13 +220,13 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
             outcome
         }
     };
-    outcome.marks = marks(&ends);
+    outcome.annotations = annotations(&ends);
     outcome.handles = handles(&ends);
     Ok(outcome)
 }
 
 /// Add the segment's curve, and tell its figures.
-fn made(input: &Input, segment: &Segment) -> Outcome {
+fn made(input: &Operands, segment: &Segment) -> Outcome {
     // Any monotone curve is its own true segment.
     let mut outcome = Outcome::unchanged(match segment.parts[..] {
         [] => Deviation::Exact,
@@ -276,7 +247,7 @@ fn figures(segment: &Segment) -> Vec<Figure> {
         name,
         label,
         value: Value::List(numbers),
-        unit: Unit::None,
+        quantity: Quantity::Number,
     };
     let mut figures = vec![
         Figure::length("length", "Length", segment.length),
@@ -364,7 +335,7 @@ fn curvature(polygon: &FloatPolygon, end: End) -> f64 {
 }
 
 /// The ends that are given; those that are not are the chosen curves'.
-fn ends(input: &Input, values: &Values) -> Ends {
+fn ends(input: &Operands, values: &Values) -> Ends {
     let offered = offered(input);
     let pair = |parameter, offered: DVec2| match *values.list(parameter) {
         [x, y] => DVec2::new(x, y),
@@ -389,7 +360,7 @@ fn ends(input: &Input, values: &Values) -> Ends {
 
 /// The ends that the chosen curves offer, open ones in the plane: of two those that are nearest to each
 /// other, of one its own, so that the segment closes it.
-fn offered(input: &Input) -> Ends {
+fn offered(input: &Operands) -> Ends {
     let polygons = input.curves().iter().map(|(_, curve)| &curve.polygon);
     let polygons = polygons.filter(|polygon| !polygon.is_periodic() && polygon.is_planar());
     let polygons: Vec<&FloatPolygon> = polygons.collect();
@@ -432,9 +403,9 @@ fn joining(first: &FloatPolygon, leaves: End, second: &FloatPolygon, arrives: En
 }
 
 /// An arrow at each end.
-fn marks(ends: &Ends) -> Vec<Mark> {
+fn annotations(ends: &Ends) -> Vec<Annotation> {
     let pairs = ends.points.into_iter().zip(ends.directions);
-    let arrows = pairs.map(|(point, direction)| Mark::Arrow {
+    let arrows = pairs.map(|(point, direction)| Annotation::Arrow {
         from: point.extend(0.0),
         to: (point + direction).extend(0.0),
     });

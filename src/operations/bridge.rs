@@ -1,36 +1,19 @@
 //! What joining two curves and closing one share.
 
 use super::error::OperationError;
-use super::lists::{count, given};
-use super::outcome::{Figure, Mark};
-use super::parameter::{Parameter, Unit};
+use super::outcome::{Annotation, Figure};
+use super::parameter::{Kind, Parameter};
 use super::value::Value;
-use super::values::Values;
 use crate::geometry::fairing::bridging::{BridgeError, Bridged, MAX_BRIDGE, largest_jump};
+use crate::geometry::parameters::Quantity;
 
 /// How many vertices a bridge has.
 pub(super) const BRIDGE: Parameter = Parameter {
     name: "bridge",
     label: "Bridge vertices",
     help: "How many vertices the bridge has; automatic takes the number that makes legs and turning angles most even, with few curvature extrema and inflections and without a long way round",
-    kind: count(|_| "automatic"),
+    kind: Kind::count(MAX_BRIDGE, false, |_| "automatic"),
 };
-
-/// The number of vertices that was given, if one was.
-///
-/// # Errors
-/// [`OperationError::OutOfRange`].
-pub(super) fn vertices(values: &Values) -> Result<Option<usize>, OperationError> {
-    let number = given(values, &BRIDGE);
-    if let Some(value) = number.filter(|number| *number > MAX_BRIDGE as f64) {
-        return Err(OperationError::OutOfRange {
-            label: BRIDGE.label,
-            value: value.to_string(),
-            needed: format!("a number from 0 to {MAX_BRIDGE}"),
-        });
-    }
-    Ok(number.map(|number| number as usize))
-}
 
 /// Refuse what was cancelled as every operation does.
 ///
@@ -52,7 +35,7 @@ pub(super) fn figures(found: &Bridged) -> Vec<Figure> {
             name: "largest_jump",
             label: "Largest jump of a derivative (relative)",
             value: Value::Real(jump),
-            unit: Unit::None,
+            quantity: Quantity::Number,
         },
         Figure::count(
             "bridge_extrema",
@@ -79,11 +62,11 @@ pub(super) fn remarks(found: &Bridged) -> Vec<String> {
     undecided.into_iter().collect()
 }
 
-/// Mark the vertices of a bridge.
-pub(super) fn marks(found: &Bridged) -> Vec<Mark> {
+/// Annotation the vertices of a bridge.
+pub(super) fn annotations(found: &Bridged) -> Vec<Annotation> {
     let vertices = found.bridge.clone();
     vertices
-        .map(|vertex| Mark::Point(found.polygon.vertex(vertex)))
+        .map(|vertex| Annotation::Point(found.polygon.vertex(vertex)))
         .collect()
 }
 

@@ -1,10 +1,11 @@
 //! A curve whose ends are joined, so that it is periodic.
 
-use super::bridge::{BRIDGE, figures, found, joint, marks, remarks, vertices};
+use super::bridge::{BRIDGE, annotations, figures, found, joint, remarks};
 use super::editable::open;
 use super::error::OperationError;
-use super::input::Input;
+use super::operands::Operands;
 use super::inputs::Inputs;
+use super::lists::given_count;
 use super::matches::without_match;
 use super::operation::Operation;
 use super::outcome::{Deviation, Outcome};
@@ -25,9 +26,9 @@ pub static OPERATION: Operation = Operation {
     run,
 };
 
-fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
+fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
     let (id, curve) = input.curve()?;
-    let found = found(close(&curve.polygon, vertices(values)?, progress))?;
+    let found = found(close(&curve.polygon, given_count(values, &BRIDGE), progress))?;
     let document = input.document();
     let mut edits: Vec<Edit> = Vec::new();
     for end in End::BOTH {
@@ -48,7 +49,7 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
     outcome.renumbered = false;
     outcome.figures = figures(&found);
     outcome.remarks.extend(remarks(&found));
-    outcome.marks = marks(&found);
+    outcome.annotations = annotations(&found);
     outcome.joint = Some(joint(&found));
     Ok(outcome)
 }

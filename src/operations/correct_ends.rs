@@ -7,14 +7,15 @@ use glam::DVec3;
 use super::amount::Amount;
 use super::editable::open;
 use super::error::OperationError;
-use super::input::Input;
+use super::operands::Operands;
 use super::inputs::Inputs;
-use super::lists::{LOCKED, given, locked, number, vector, vector_in_space};
+use super::lists::{LOCKED, given, locked};
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
-use super::parameter::{Choice, Kind, Parameter, Unit};
-use super::targets::{corrected, cusp, marks, residual};
+use super::parameter::{ANY, Choice, Kind, Parameter};
+use super::targets::{corrected, cusp, annotations, residual};
 use super::values::Values;
+use crate::geometry::parameters::{Number, Quantity};
 use crate::document::{Curve, CurveId, EditError};
 use crate::geometry::end_correction::{EndOverlap, EndTarget, correct_in_turn};
 use crate::geometry::fairing::joint_correction::{CorrectionError, Disturbance, correct_jointly};
@@ -34,16 +35,8 @@ const METHOD: Parameter = Parameter {
     help: "Move all vertices, as smoothly as possible, or repeat steps 2 to 6 on the terminal vertices",
     kind: Kind::Choice {
         options: &[
-            Choice {
-                name: "joint",
-                label: "Both ends at once",
-                parameters: &[],
-            },
-            Choice {
-                name: "steps",
-                label: "Step by step",
-                parameters: &[],
-            },
+            Choice::new("joint", "Both ends at once"),
+            Choice::new("steps", "Step by step"),
         ],
         default: 0,
     },
@@ -55,26 +48,10 @@ const ORDER: Parameter = Parameter {
     help: "What both ends at once keep small: the first, second or third differences of the vertices' moves, or what is not harmonious",
     kind: Kind::Choice {
         options: &[
-            Choice {
-                name: "1",
-                label: "Order 1",
-                parameters: &[],
-            },
-            Choice {
-                name: "2",
-                label: "Order 2",
-                parameters: &[],
-            },
-            Choice {
-                name: "3",
-                label: "Order 3",
-                parameters: &[],
-            },
-            Choice {
-                name: "harmonious",
-                label: "Harmony",
-                parameters: &[],
-            },
+            Choice::new("1", "Order 1"),
+            Choice::new("2", "Order 2"),
+            Choice::new("3", "Order 3"),
+            Choice::new("harmonious", "Harmony"),
         ],
         default: 0,
     },
@@ -84,7 +61,7 @@ const TOLERANCE: Parameter = Parameter {
     name: "tolerance",
     label: "Tolerance",
     help: "How far an end may stay off its target; angles count as arcs over the size of the polygon, curvatures times its square, slopes times its cube",
-    kind: Kind::Real {
+    kind: Kind::Real(Number {
         from: Bound::Excluded(Amount::Number(0.0)),
         to: Bound::Unbounded,
         default: Amount::Of {
@@ -94,8 +71,8 @@ const TOLERANCE: Parameter = Parameter {
                 Ok(offered.max(f64::MIN_POSITIVE))
             },
         },
-        unit: Unit::Length,
-    },
+        quantity: Quantity::Length,
+    }),
 };
 
 /// What can be asked of one end.
@@ -110,7 +87,7 @@ struct Asked {
 /// Say what an end keeps where nothing is given: what its target asks for, otherwise what it has, or
 /// nothing.
 fn kept(
-    input: Option<&Input>,
+    input: Option<&Operands>,
     end: End,
     asks: fn(&EndTarget) -> bool,
     otherwise: &'static str,
@@ -134,31 +111,31 @@ const START: Asked = Asked {
         name: "start",
         label: "Start point",
         help: "Where the curve begins; without a point it begins where it does",
-        kind: vector(|input| kept(input, End::Start, |_| true, "where it is")),
+        kind: Kind::vector(false, |input| kept(input, End::Start, |_| true, "where it is")),
     },
     direction: Parameter {
         name: "start-direction",
         label: "Start direction",
         help: "The direction at the start, along the curve",
-        kind: vector(|input| kept(input, End::Start, |it| it.direction.is_some(), "as it is")),
+        kind: Kind::vector(false, |input| kept(input, End::Start, |it| it.direction.is_some(), "as it is")),
     },
     curvature: Parameter {
         name: "start-curvature",
         label: "Start curvature",
         help: "The curvature at the start; of a planar curve positive where it turns left",
-        kind: number(|input| kept(input, End::Start, |it| it.curvature.is_some(), "free")),
+        kind: Kind::number(ANY, |input| kept(input, End::Start, |it| it.curvature.is_some(), "free")),
     },
     slope: Parameter {
         name: "start-slope",
         label: "Start slope",
         help: "The slope of the curvature at the start, by arc length",
-        kind: number(|input| kept(input, End::Start, |it| it.slope.is_some(), "free")),
+        kind: Kind::number(ANY, |input| kept(input, End::Start, |it| it.slope.is_some(), "free")),
     },
     normal: Parameter {
         name: "start-normal",
         label: "Start normal",
         help: "The normal of the osculating plane at the start, of a curve in space",
-        kind: vector_in_space(|input| kept(input, End::Start, |it| it.normal.is_some(), "free")),
+        kind: Kind::vector(true, |input| kept(input, End::Start, |it| it.normal.is_some(), "free")),
     },
 };
 
@@ -167,31 +144,31 @@ const FINISH: Asked = Asked {
         name: "end",
         label: "End point",
         help: "Where the curve ends; without a point it ends where it does",
-        kind: vector(|input| kept(input, End::Finish, |_| true, "where it is")),
+        kind: Kind::vector(false, |input| kept(input, End::Finish, |_| true, "where it is")),
     },
     direction: Parameter {
         name: "end-direction",
         label: "End direction",
         help: "The direction at the end, along the curve",
-        kind: vector(|input| kept(input, End::Finish, |it| it.direction.is_some(), "as it is")),
+        kind: Kind::vector(false, |input| kept(input, End::Finish, |it| it.direction.is_some(), "as it is")),
     },
     curvature: Parameter {
         name: "end-curvature",
         label: "End curvature",
         help: "The curvature at the end; of a planar curve positive where it turns left",
-        kind: number(|input| kept(input, End::Finish, |it| it.curvature.is_some(), "free")),
+        kind: Kind::number(ANY, |input| kept(input, End::Finish, |it| it.curvature.is_some(), "free")),
     },
     slope: Parameter {
         name: "end-slope",
         label: "End slope",
         help: "The slope of the curvature at the end, by arc length",
-        kind: number(|input| kept(input, End::Finish, |it| it.slope.is_some(), "free")),
+        kind: Kind::number(ANY, |input| kept(input, End::Finish, |it| it.slope.is_some(), "free")),
     },
     normal: Parameter {
         name: "end-normal",
         label: "End normal",
         help: "The normal of the osculating plane at the end, of a curve in space",
-        kind: vector_in_space(|input| kept(input, End::Finish, |it| it.normal.is_some(), "free")),
+        kind: Kind::vector(true, |input| kept(input, End::Finish, |it| it.normal.is_some(), "free")),
     },
 };
 
@@ -232,7 +209,7 @@ struct Correction {
     reason: String,
 }
 
-fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
+fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
     let (id, curve) = input.curve()?;
     let curve = &asked(input, id, curve, values)?;
     let tolerance = values.real(&TOLERANCE);
@@ -267,7 +244,7 @@ fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, Operatio
         Figure::count("passes", "Passes", passes),
         Figure::count("iterations", "Iterations", passes),
     ];
-    outcome.marks = End::BOTH.map(|end| marks(curve, end)).concat();
+    outcome.annotations = End::BOTH.map(|end| annotations(curve, end)).concat();
     Ok(outcome)
 }
 
@@ -277,7 +254,7 @@ fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, Operatio
 /// [`OperationError::NoTarget`] if nothing is asked for at all, [`EditError::BadTarget`], or
 /// [`EditError::MatchedEnd`].
 fn asked(
-    input: &Input,
+    input: &Operands,
     id: CurveId,
     curve: &Curve,
     values: &Values,

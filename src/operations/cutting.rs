@@ -1,6 +1,5 @@
 //! What splitting and trimming share.
 
-use super::amount::Amount;
 use super::matches::without_match;
 use super::parameter::{Kind, Parameter};
 use crate::document::{Curve, CurveId, Document, Edit};
@@ -11,11 +10,7 @@ pub(super) const SUBDIVISIONS: Parameter = Parameter {
     name: "subdivisions",
     label: "Maximum subdivisions",
     help: "How often segments may be halved to put a knot at the cut, which makes the part exact; without a knot there it is approximate",
-    kind: Kind::Whole {
-        from: Amount::Number(0.0),
-        to: Amount::Number(MAX_SUBDIVISIONS as f64),
-        default: Amount::Number(0.0),
-    },
+    kind: Kind::whole(0, MAX_SUBDIVISIONS as usize, 0),
 };
 
 /// Forget the target of an end that is cut off, if it has one, and its match.

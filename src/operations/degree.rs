@@ -2,7 +2,7 @@
 
 use super::amount::Amount;
 use super::error::OperationError;
-use super::input::Input;
+use super::operands::Operands;
 use super::outcome::{Deviation, Outcome};
 use super::parameter::{Kind, Parameter};
 use crate::document::ParameterSpan;
@@ -14,12 +14,12 @@ pub(super) const fn degree(from: Amount, to: Amount, default: Amount) -> Paramet
         name: "degree",
         label: "Degree",
         help: "The degree that the curve gets",
-        kind: Kind::Whole { from, to, default },
+        kind: Kind::whole_of(from, to, default),
     }
 }
 
 /// Let the curve of this degree stand in for the curve: the same one, or one near it.
-pub(super) fn with_degree(input: &Input, degree: usize) -> Result<Outcome, OperationError> {
+pub(super) fn with_degree(input: &Operands, degree: usize) -> Result<Outcome, OperationError> {
     let polygon = input.polygon()?;
     let changed = polygon.with_degree(degree)?;
     let deviation = Deviation::of(&changed);

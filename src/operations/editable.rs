@@ -1,7 +1,7 @@
 //! What most operations ask of their curve beforehand.
 
 use super::error::OperationError;
-use super::input::Input;
+use super::operands::Operands;
 use crate::document::Curve;
 use crate::geometry::PolygonError;
 
@@ -9,7 +9,7 @@ use crate::geometry::PolygonError;
 ///
 /// # Errors
 /// [`OperationError::Edit`], or [`OperationError::Inputs`] if there is no curve.
-pub(super) fn check_editable(input: &Input) -> Result<(), OperationError> {
+pub(super) fn check_editable(input: &Operands) -> Result<(), OperationError> {
     editable(input).map(drop)
 }
 
@@ -17,7 +17,10 @@ pub(super) fn check_editable(input: &Input) -> Result<(), OperationError> {
 ///
 /// # Errors
 /// As [`check_editable`], and [`PolygonError::PeriodicCurve`].
-pub(super) fn open<'a>(input: &'a Input, done: &'static str) -> Result<&'a Curve, OperationError> {
+pub(super) fn open<'a>(
+    input: &'a Operands,
+    done: &'static str,
+) -> Result<&'a Curve, OperationError> {
     let (_, curve) = input.curve()?;
     open_of(curve, done)?;
     Ok(curve)
@@ -39,7 +42,7 @@ pub(super) fn open_of(curve: &Curve, done: &'static str) -> Result<(), Operation
 ///
 /// # Errors
 /// As [`check_editable`].
-pub(super) fn editable(input: &Input) -> Result<&Curve, OperationError> {
+pub(super) fn editable(input: &Operands) -> Result<&Curve, OperationError> {
     let (_, curve) = input.curve()?;
     curve.check_editable()?;
     Ok(curve)

@@ -4,7 +4,7 @@ use super::amount::Amount;
 use super::degree::{degree, with_degree};
 use super::editable::editable;
 use super::error::OperationError;
-use super::input::Input;
+use super::operands::Operands;
 use super::inputs::Inputs;
 use super::operation::Operation;
 use super::outcome::{Deviation, Outcome};
@@ -33,7 +33,7 @@ pub static OPERATION: Operation = Operation {
     run,
 };
 
-fn check(input: &Input) -> Result<(), OperationError> {
+fn check(input: &Operands) -> Result<(), OperationError> {
     let polygon = &editable(input)?.polygon;
     let degree = polygon.degree();
     if degree >= highest(polygon) {
@@ -42,7 +42,7 @@ fn check(input: &Input) -> Result<(), OperationError> {
     Ok(())
 }
 
-fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
+fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
     let mut outcome = with_degree(input, values.whole(&DEGREE))?;
     if outcome.deviation != Deviation::Exact {
         let why = "With more than one segment, raising the degree would double the knots: a uniform curve can only approximate it";

@@ -10,6 +10,7 @@ use crate::geometry::expressions::ExpressionMistake;
 use crate::geometry::fairing::bridging::BridgeError;
 use crate::geometry::fairing::harmonising::HarmonyError;
 use crate::geometry::fairing::joint_correction::CorrectionError;
+use crate::geometry::parameters::OutOfRange;
 use crate::geometry::references::{ReferenceError, ReferenceTextError};
 use crate::geometry::{End, MAX_DEGREE, PolygonError};
 
@@ -124,15 +125,8 @@ pub enum OperationError {
         label: &'static str,
     },
     /// A value out of the parameter's range.
-    #[error("{label}: {value} is out of range: {needed} is needed")]
-    OutOfRange {
-        /// The parameter, as it is shown.
-        label: &'static str,
-        /// The value given.
-        value: String,
-        /// The range.
-        needed: String,
-    },
+    #[error(transparent)]
+    OutOfRange(#[from] OutOfRange),
     /// The result is no longer wanted.
     #[error("cancelled")]
     Cancelled,

@@ -1,12 +1,11 @@
 //! A longer curve: its end segment's polynomial continued.
 
-use super::amount::Amount;
 use super::editable::open;
 use super::error::OperationError;
-use super::input::Input;
+use super::operands::Operands;
 use super::inputs::Inputs;
 use super::operation::Operation;
-use super::outcome::{Deviation, Figure, Mark, Outcome};
+use super::outcome::{Deviation, Figure, Annotation, Outcome};
 use super::parameter::{Kind, Parameter};
 use super::values::Values;
 use super::which_end::{END, end};
@@ -17,11 +16,7 @@ const SEGMENTS: Parameter = Parameter {
     name: "segments",
     label: "Segments",
     help: "How many segments are added",
-    kind: Kind::Whole {
-        from: Amount::Number(1.0),
-        to: Amount::Number(MAX_ADDED_SEGMENTS as f64),
-        default: Amount::Number(1.0),
-    },
+    kind: Kind::whole(1, MAX_ADDED_SEGMENTS, 1),
 };
 
 /// The operation: its description, and how it is checked and run.
@@ -36,7 +31,7 @@ pub static OPERATION: Operation = Operation {
     run,
 };
 
-fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
+fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
     let (_, curve) = input.curve()?;
     let end = end(values);
     let added = values.whole(&SEGMENTS);
@@ -49,7 +44,7 @@ fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, Operatio
     outcome.renumbered = end == End::Start;
     outcome.figures.push(segments);
     outcome
-        .marks
-        .push(Mark::Point(curve.polygon.end_jet(end).point));
+        .annotations
+        .push(Annotation::Point(curve.polygon.end_jet(end).point));
     Ok(outcome)
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use serde::{Serialize, Serializer};
 
 use super::harmony_json;
-use super::input::Input;
+use super::operands::Operands;
 use super::outcome::Outcome;
 use crate::document::{Curve, CurveId, Document};
 use crate::geometry::features::{Feature, Features, Verdict};
@@ -49,7 +49,7 @@ pub struct FeatureCounts {
 
 impl FeatureComparison {
     /// Prove the features, segment by segment; `None` if `progress` is cancelled meanwhile.
-    pub fn prove(input: &Input, outcome: &Outcome, progress: &Progress) -> Option<Self> {
+    pub fn prove(input: &Operands, outcome: &Outcome, progress: &Progress) -> Option<Self> {
         let after = outcome.after(input);
         let concerned = concerned(input, &after);
         let find = |document: &Document| -> Vec<Arc<Curve>> {
@@ -99,7 +99,7 @@ fn verdict<S: Serializer>(verdict: &Verdict, serializer: S) -> Result<S::Ok, S::
 }
 
 /// List the curves that were chosen, then those whose polygon differs, in the documents' order.
-fn concerned(input: &Input, after: &Document) -> Vec<CurveId> {
+fn concerned(input: &Operands, after: &Document) -> Vec<CurveId> {
     let before = input.document();
     let polygon = |document: &Document, id| document.curve(id).map(|curve| curve.polygon.clone());
     let differs = |id: &CurveId| match (before.curve(*id), after.curve(*id)) {

@@ -2,14 +2,15 @@
 
 use super::amount::Amount;
 use super::error::OperationError;
-use super::input::Input;
+use super::operands::Operands;
 use super::inputs::Inputs;
-use super::lists::{count, given_count, number, positive};
+use super::lists::{given, given_count};
 use super::operation::Operation;
-use super::outcome::{Deviation, Figure, Mark, Outcome};
-use super::parameter::{Kind, Parameter};
+use super::outcome::{Deviation, Figure, Annotation, Outcome};
+use super::parameter::{Kind, POSITIVE, Parameter};
 use super::values::Values;
 use crate::document::{Curve, Edit};
+use crate::geometry::parameters::OutOfRange;
 use crate::geometry::approximation::{FitAsked, FitError, Fitted, fit_points};
 use crate::geometry::{MAX_DEGREE, Progress, counted, significant};
 
@@ -20,35 +21,35 @@ const DEGREE: Parameter = Parameter {
     name: "degree",
     label: "Degree",
     help: "The degree of the float polygon",
-    kind: Kind::Whole {
-        from: Amount::Number(1.0),
-        to: Amount::Number(MAX_DEGREE as f64),
-        default: Amount::Of {
+    kind: Kind::whole_of(
+        Amount::Number(1.0),
+        Amount::Number(MAX_DEGREE as f64),
+        Amount::Of {
             words: "5, or less where there are few points",
             value: |input| Ok(input.points().len().saturating_sub(1).clamp(1, 5) as f64),
         },
-    },
+    ),
 };
 
 const COUNT: Parameter = Parameter {
     name: "count",
     label: "Vertices",
     help: "The number of vertices",
-    kind: count(|_| "from the points or the tolerance"),
+    kind: Kind::count(usize::MAX, false, |_| "from the points or the tolerance"),
 };
 
 const EXTREMA: Parameter = Parameter {
     name: "extrema",
     label: "Curvature extrema",
     help: "How many extrema of the curvature the curve has, proved",
-    kind: count(|_| "any number"),
+    kind: Kind::count(usize::MAX, false, |_| "any number"),
 };
 
 const TOLERANCE: Parameter = Parameter {
     name: "tolerance",
     label: "Tolerance",
     help: "How far points may be from the curve, outliers aside; the curve is as fair as this allows",
-    kind: number(|_| "none"),
+    kind: Kind::number(POSITIVE, |_| "none"),
 };
 
 /// The operation: its description, and how it is run.
@@ -63,12 +64,12 @@ pub static OPERATION: Operation = Operation {
     run,
 };
 
-fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
+fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
     let asked = FitAsked {
         degree: values.whole(&DEGREE),
         count: vertices(input, values)?,
         extrema: given_count(values, &EXTREMA),
-        tolerance: positive(values, &TOLERANCE)?,
+        tolerance: given(values, &TOLERANCE),
     };
     let found = match fit_points(input.points(), &asked, progress) {
         Ok(found) => found,
@@ -76,27 +77,28 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
         Err(error) => return Err(error.into()),
     };
     let name = input.document().free_name("fit");
-    let marks = found.outliers.iter();
-    let marks = marks.filter_map(|index| input.points().get(*index));
+    let annotations = found.outliers.iter();
+    let annotations = annotations.filter_map(|index| input.points().get(*index));
     Ok(Outcome {
         reached: found.reached,
         edits: vec![Edit::Add(Box::new(Curve::new(name, found.polygon.clone())))],
         figures: figures(&asked, &found),
         remarks: remarks(&asked, &found),
-        marks: marks.map(|point| Mark::Point(*point)).collect(),
+        annotations: annotations.map(|point| Annotation::Point(*point)).collect(),
         ..Outcome::unchanged(Deviation::FromPoints(found.largest))
     })
 }
 
 /// The number of vertices asked for, at most as many as there are points.
-fn vertices(input: &Input, values: &Values) -> Result<Option<usize>, OperationError> {
+fn vertices(input: &Operands, values: &Values) -> Result<Option<usize>, OperationError> {
     let most = input.points().len();
     match given_count(values, &COUNT) {
-        Some(count) if count > most => Err(OperationError::OutOfRange {
+        Some(count) if count > most => Err(OutOfRange {
             label: COUNT.label,
             value: count.to_string(),
             needed: format!("at most {most}, the number of points,"),
-        }),
+        }
+        .into()),
         count => Ok(count),
     }
 }

@@ -1,35 +1,30 @@
 //! Harmonising: the least change that leaves the features asked for.
 
+use std::ops::Bound;
+
 use super::editable::{check_editable, editable};
 use super::error::OperationError;
-use super::input::Input;
+use super::operands::Operands;
 use super::inputs::Inputs;
-use super::lists::{LOCKED, Meaning, count, count_in_space, given, given_count, locked, number};
+use super::lists::{LOCKED, given, given_count, locked};
 use super::operation::Operation;
-use super::outcome::{Deviation, Figure, Mark, Outcome};
-use super::parameter::{Choice, Kind, Parameter, Unit};
+use super::outcome::{Deviation, Figure, Annotation, Outcome};
+use super::parameter::{ANY, Choice, Kind, Meaning, Parameter};
 use super::values::Values;
+use crate::geometry::parameters::Quantity;
 use crate::geometry::fairing::harmonising::{Harmonised, Harmony, HarmonyError, Held, harmonise};
 use crate::geometry::features::Features;
 use crate::geometry::{FloatPolygon, Progress, counted, rounded_up};
 
-const WHAT_STANDS_OUT: Meaning = |_| "those that stand out";
+const STANDING_OUT: Meaning = |_| "those that stand out";
 
-const FREE: Choice = option("free", "Free");
-const POSITION: Choice = option("position", "Position");
-const DIRECTION: Choice = option("direction", "Direction");
-const CURVATURE: Choice = option("curvature", "Curvature");
-const SLOPE: Choice = option("slope", "Slope");
-const SAME: Choice = option("same", "Same");
-const ALL: Choice = option("all", "All");
-
-const fn option(name: &'static str, label: &'static str) -> Choice {
-    Choice {
-        name,
-        label,
-        parameters: &[],
-    }
-}
+const FREE: Choice = Choice::new("free", "Free");
+const POSITION: Choice = Choice::new("position", "Position");
+const DIRECTION: Choice = Choice::new("direction", "Direction");
+const CURVATURE: Choice = Choice::new("curvature", "Curvature");
+const SLOPE: Choice = Choice::new("slope", "Slope");
+const SAME: Choice = Choice::new("same", "Same");
+const ALL: Choice = Choice::new("all", "All");
 
 const KEEP: Parameter = Parameter {
     name: "keep",
@@ -78,7 +73,8 @@ const STRETCH: Parameter = Parameter {
     kind: Kind::List {
         count: 2..=2,
         whole: false,
-        unit: Unit::Parameter,
+        limits: ANY,
+        quantity: Quantity::Parameter,
         none: |_| "the whole curve",
         in_space: false,
     },
@@ -88,28 +84,28 @@ const EXTREMA: Parameter = Parameter {
     name: "extrema",
     label: "Curvature extrema",
     help: "How many extrema of the curvature are to be left; those that stand out have a prominence of 5 % of the range of the curvature",
-    kind: count(WHAT_STANDS_OUT),
+    kind: Kind::count(usize::MAX, false, STANDING_OUT),
 };
 
 const INFLECTIONS: Parameter = Parameter {
     name: "inflections",
     label: "Inflections",
     help: "How many inflections are to be left; of a curve in space, zeros of the torsion",
-    kind: count(WHAT_STANDS_OUT),
+    kind: Kind::count(usize::MAX, false, STANDING_OUT),
 };
 
 const TORSION_EXTREMA: Parameter = Parameter {
     name: "torsion-extrema",
     label: "Torsion extrema",
     help: "How many extrema of the torsion of a curve in space are to be left",
-    kind: count_in_space(WHAT_STANDS_OUT),
+    kind: Kind::count(usize::MAX, true, STANDING_OUT),
 };
 
 const MAX_DEVIATION: Parameter = Parameter {
     name: "max-deviation",
     label: "Deviation up to",
     help: "How far the curve may move at most",
-    kind: number(|_| "any"),
+    kind: Kind::number((Bound::Included(0.0), Bound::Unbounded), |_| "any"),
 };
 
 /// The operation: its description, and how it is checked and run.
@@ -134,7 +130,7 @@ pub static OPERATION: Operation = Operation {
     run,
 };
 
-fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
+fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
     let curve = editable(input)?;
     let (id, _) = input.curve()?;
     let keep = values.choice(&KEEP, &LEVELS);
@@ -149,13 +145,6 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
     let asked = |parameter| given_count(values, parameter);
     let locked = locked(curve, values)?;
     let most = given(values, &MAX_DEVIATION);
-    if let Some(value) = most.filter(|most| *most < 0.0) {
-        return Err(OperationError::OutOfRange {
-            label: MAX_DEVIATION.label,
-            value: value.to_string(),
-            needed: "a length of at least 0".to_owned(),
-        });
-    }
     let harmony = Harmony {
         stretch,
         ends: [end(&KEEP_START), end(&KEEP_END)],
@@ -211,7 +200,7 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
         let figure = Figure::count("asked_torsion_extrema", label, asked);
         outcome.figures.push(figure);
     }
-    outcome.marks = stretch_marks(&curve.polygon, stretch);
+    outcome.annotations = stretch_marks(&curve.polygon, stretch);
     Ok(outcome)
 }
 
@@ -303,8 +292,8 @@ fn added_outside([before, after]: [&FloatPolygon; 2], [from, to]: [f64; 2]) -> O
     })
 }
 
-/// Mark the ends of a stretch.
-fn stretch_marks(polygon: &FloatPolygon, stretch: Option<[f64; 2]>) -> Vec<Mark> {
+/// Annotation the ends of a stretch.
+fn stretch_marks(polygon: &FloatPolygon, stretch: Option<[f64; 2]>) -> Vec<Annotation> {
     let ends = stretch.into_iter().flatten();
-    ends.map(|u| Mark::Point(polygon.point(u))).collect()
+    ends.map(|u| Annotation::Point(polygon.point(u))).collect()
 }

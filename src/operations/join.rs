@@ -4,11 +4,12 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use super::bridge::{self, BRIDGE, figures, joint, marks};
+use super::bridge::{self, BRIDGE, figures, joint, annotations};
 use super::editable::open_of;
 use super::error::OperationError;
-use super::input::Input;
+use super::operands::Operands;
 use super::inputs::Inputs;
+use super::lists::given_count;
 use super::locks;
 use super::matches::{handed_over, without_match};
 use super::operation::Operation;
@@ -23,21 +24,9 @@ use crate::geometry::{End, FloatPolygon, Progress};
 
 const ENDS: Kind = Kind::Choice {
     options: &[
-        Choice {
-            name: "nearest",
-            label: "Nearest",
-            parameters: &[],
-        },
-        Choice {
-            name: "start",
-            label: "Start",
-            parameters: &[],
-        },
-        Choice {
-            name: "end",
-            label: "End",
-            parameters: &[],
-        },
+        Choice::new("nearest", "Nearest"),
+        Choice::new("start", "Start"),
+        Choice::new("end", "End"),
     ],
     default: 0,
 };
@@ -85,7 +74,7 @@ pub static OPERATION: Operation = Operation {
 type Part<'a> = (CurveId, &'a Curve);
 
 /// The two curves, if both are open and neither is locked or hidden.
-fn two(input: &Input) -> Result<[Part<'_>; 2], OperationError> {
+fn two(input: &Operands) -> Result<[Part<'_>; 2], OperationError> {
     let needed = Inputs::Two;
     let [first, second] = input.curves() else {
         return Err(OperationError::Inputs { needed });
@@ -96,7 +85,7 @@ fn two(input: &Input) -> Result<[Part<'_>; 2], OperationError> {
     Ok([(first.0, &first.1), (second.0, &second.1)])
 }
 
-fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
+fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
     let [(id, first), (other, second)] = two(input)?;
     let moves = values.switch(&MOVE_SECOND);
     if moves {
@@ -121,7 +110,7 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
         changed.polygon.clone()
     };
     let wanted = Bridge {
-        vertices: bridge::vertices(values)?,
+        vertices: given_count(values, &BRIDGE),
         second_moves: moves,
     };
     // The first curve keeps its direction; joined at its start it comes after the second, and the
@@ -152,7 +141,7 @@ fn run(input: &Input, values: &Values, progress: &Progress) -> Result<Outcome, O
     }
     outcome.remarks = bridge::remarks(&found);
     outcome.remarks.extend(locks::lost(second, &[&part]));
-    outcome.marks = marks(&found);
+    outcome.annotations = annotations(&found);
     outcome.joint = Some(joint(&found));
     Ok(outcome)
 }

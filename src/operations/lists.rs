@@ -1,69 +1,11 @@
 //! Kinds of lists that several operations take.
 
 use super::error::OperationError;
-use super::input::Input;
-use super::parameter::{Kind, Parameter, Unit};
+use super::parameter::{ANY, Kind, Parameter};
 use super::values::Values;
 use crate::document::Curve;
 use crate::geometry::PolygonError;
-
-/// What it means if none is given: for an input, or whatever the input is.
-pub(super) type Meaning = fn(Option<&Input>) -> &'static str;
-
-/// One number, or none.
-pub(super) const fn number(none: Meaning) -> Kind {
-    Kind::List {
-        count: 1..=1,
-        whole: false,
-        unit: Unit::None,
-        none,
-        in_space: false,
-    }
-}
-
-/// One whole number, or none.
-pub(super) const fn count(none: Meaning) -> Kind {
-    Kind::List {
-        count: 1..=1,
-        whole: true,
-        unit: Unit::None,
-        none,
-        in_space: false,
-    }
-}
-
-/// A point or vector of the plane or of space, or none.
-pub(super) const fn vector(none: Meaning) -> Kind {
-    Kind::List {
-        count: 2..=3,
-        whole: false,
-        unit: Unit::None,
-        none,
-        in_space: false,
-    }
-}
-
-/// One whole number of what only curves in space have, or none.
-pub(super) const fn count_in_space(none: Meaning) -> Kind {
-    Kind::List {
-        count: 1..=1,
-        whole: true,
-        unit: Unit::None,
-        none,
-        in_space: true,
-    }
-}
-
-/// A vector that only curves in space have, or none.
-pub(super) const fn vector_in_space(none: Meaning) -> Kind {
-    Kind::List {
-        count: 2..=3,
-        whole: false,
-        unit: Unit::None,
-        none,
-        in_space: true,
-    }
-}
+use crate::geometry::parameters::Quantity;
 
 /// Vertices that an operation must not move, beside those that are locked in the document.
 pub(super) const LOCKED: Parameter = Parameter {
@@ -73,7 +15,8 @@ pub(super) const LOCKED: Parameter = Parameter {
     kind: Kind::List {
         count: 1..=usize::MAX,
         whole: true,
-        unit: Unit::None,
+        limits: ANY,
+        quantity: Quantity::Number,
         none: |_| "those of the curve",
         in_space: false,
     },
@@ -104,22 +47,4 @@ pub(super) fn given(values: &Values, parameter: &Parameter) -> Option<f64> {
 /// The whole number of a list of one, if it is given.
 pub(super) fn given_count(values: &Values, parameter: &Parameter) -> Option<usize> {
     given(values, parameter).map(|count| count as usize)
-}
-
-/// The number of a list of one, if it is given.
-///
-/// # Errors
-/// [`OperationError::OutOfRange`] if it is not positive.
-pub(super) fn positive(
-    values: &Values,
-    parameter: &Parameter,
-) -> Result<Option<f64>, OperationError> {
-    match given(values, parameter) {
-        Some(number) if number <= 0.0 => Err(OperationError::OutOfRange {
-            label: parameter.label,
-            value: number.to_string(),
-            needed: "more than 0".to_owned(),
-        }),
-        number => Ok(number),
-    }
 }

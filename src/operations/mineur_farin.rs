@@ -9,42 +9,38 @@ use super::amount::Amount;
 use super::atlas::Atlas;
 use super::error::OperationError;
 use super::handle::{Handle, Sets};
-use super::input::Input;
+use super::operands::Operands;
 use super::inputs::Inputs;
-use super::lists::vector;
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
-use super::parameter::{Choice, Kind, Parameter, Unit};
+use super::parameter::{Choice, Kind, Parameter};
 use super::value::Value;
 use super::values::Values;
+use crate::geometry::parameters::{Number, OutOfRange, Quantity};
 use crate::document::{Curve, Edit, free_name};
 use crate::geometry::mineur_farin::{self, Configuration, Format};
 use crate::geometry::{MAX_DEGREE, Progress, rounded_up};
 
 /// The most legs.
-const MOST_LEGS: f64 = 1000.0;
+const MOST_LEGS: usize = 1000;
 
 const LEGS: Parameter = Parameter {
     name: "legs",
     label: "Legs",
     help: "How many legs there are, one fewer than points",
-    kind: Kind::Whole {
-        from: Amount::Number(1.0),
-        to: Amount::Number(MOST_LEGS),
-        default: Amount::Number(8.0),
-    },
+    kind: Kind::whole(1, MOST_LEGS, 8),
 };
 
 const RATIO: Parameter = Parameter {
     name: "ratio",
     label: "Length ratio s",
     help: "The length of each leg, as a multiple of that before it",
-    kind: Kind::Real {
+    kind: Kind::Real(Number {
         from: Bound::Excluded(Amount::Number(0.0)),
         to: Bound::Unbounded,
         default: Amount::Number(1.2),
-        unit: Unit::None,
-    },
+        quantity: Quantity::Number,
+    }),
 };
 
 const ANGLE: Parameter = Parameter {
@@ -62,23 +58,19 @@ const TORSION: Parameter = Parameter {
 };
 
 const fn angle(default: f64) -> Kind {
-    Kind::Real {
+    Kind::Real(Number {
         from: Bound::Included(Amount::Number(-PI)),
         to: Bound::Included(Amount::Number(PI)),
         default: Amount::Number(default.to_radians()),
-        unit: Unit::Angle,
-    }
+        quantity: Quantity::Angle,
+    })
 }
 
 const DEGREE: Parameter = Parameter {
     name: "degree",
     label: "Degree",
     help: "The degree of the float S-polygon; a Bézier polygon has as many legs as its degree",
-    kind: Kind::Whole {
-        from: Amount::Number(1.0),
-        to: Amount::Number(MAX_DEGREE as f64),
-        default: Amount::Number(5.0),
-    },
+    kind: Kind::whole(1, MAX_DEGREE, 5),
 };
 
 const POLYGON: Parameter = Parameter {
@@ -87,21 +79,9 @@ const POLYGON: Parameter = Parameter {
     help: "Which control polygon the points are; both, to compare their curves",
     kind: Kind::Choice {
         options: &[
-            Choice {
-                name: "float",
-                label: "Float",
-                parameters: &[],
-            },
-            Choice {
-                name: "bezier",
-                label: "Bézier",
-                parameters: &[],
-            },
-            Choice {
-                name: "both",
-                label: "Both",
-                parameters: &[],
-            },
+            Choice::new("float", "Float"),
+            Choice::new("bezier", "Bézier"),
+            Choice::new("both", "Both"),
         ],
         default: 0,
     },
@@ -111,14 +91,14 @@ const START: Parameter = Parameter {
     name: "start",
     label: "Start",
     help: "The first point",
-    kind: vector(|_| "0, 0"),
+    kind: Kind::vector(false, |_| "0, 0"),
 };
 
 const FIRST_LEG: Parameter = Parameter {
     name: "first-leg",
     label: "First leg",
     help: "The vector from the first point to the second",
-    kind: vector(|_| "1, 0"),
+    kind: Kind::vector(false, |_| "1, 0"),
 };
 
 /// A Bézier curve that is off by a larger share of its size is not the one that was asked for.
@@ -138,7 +118,7 @@ pub static OPERATION: Operation = Operation {
     run,
 };
 
-fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
+fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
     let configuration = configuration(values)?;
     let legs = values.whole(&LEGS);
     let float = Format::Float {
@@ -192,11 +172,12 @@ fn configuration(values: &Values) -> Result<Configuration, OperationError> {
     };
     let first_leg = point(&FIRST_LEG, DVec3::X);
     if first_leg == DVec3::ZERO {
-        return Err(OperationError::OutOfRange {
+        return Err(OutOfRange {
             label: FIRST_LEG.label,
             value: "a vector of length 0".to_owned(),
             needed: "a vector with a direction".to_owned(),
-        });
+        }
+        .into());
     }
     Ok(Configuration {
         start: point(&START, DVec3::ZERO),
@@ -232,13 +213,13 @@ fn closed_form(configuration: &Configuration, legs: usize) -> Vec<Figure> {
         name: "bezier_monotone",
         label: "Bézier monotone, closed form",
         value: Value::Switch(extremum.is_none()),
-        unit: Unit::None,
+        quantity: Quantity::Number,
     };
     let place = extremum.map(|t| Figure {
         name: "bezier_extremum",
         label: "Bézier extremum at t",
         value: Value::Real(t),
-        unit: Unit::Parameter,
+        quantity: Quantity::Parameter,
     });
     [monotone].into_iter().chain(place).collect()
 }

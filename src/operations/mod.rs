@@ -1,8 +1,8 @@
 //! Operations: what makes curves from curves, or from parameters alone, on request.
 //!
 //! An operation is a value ([`Operation`]): its name and words, the inputs it wants, its
-//! parameters described once, and one function from an [`Input`] and checked [`Values`] to an
-//! [`Outcome`]: edits, figures and marks. Menus, the operation panel and the command line all read
+//! parameters described once, and one function from an [`Operands`] and checked [`Values`] to an
+//! [`Outcome`]: edits, figures and annotations. Menus, the operation panel and the command line all read
 //! that description. Nothing in here opens windows or threads, or changes a document.
 //!
 //! A new operation is a file here that exports a `pub static OPERATION`, and a line in the
@@ -19,11 +19,11 @@ mod error;
 mod features;
 mod handle;
 mod harmony_json;
-mod input;
 mod inputs;
 mod lists;
 mod locks;
 mod matches;
+mod operands;
 mod operation;
 mod outcome;
 mod parameter;
@@ -35,18 +35,17 @@ mod targets;
 mod value;
 mod values;
 mod which_end;
-mod whole;
 
 pub use amount::Amount;
 pub use atlas::Atlas;
 pub use error::OperationError;
 pub use features::{FeatureComparison, FeatureCounts};
 pub use handle::{Handle, Sets};
-pub use input::Input;
 pub use inputs::Inputs;
+pub use operands::Operands;
 pub use operation::Operation;
-pub use outcome::{Deviation, Figure, Mark, Outcome};
-pub use parameter::{Choice, Kind, Limits, Parameter, Unit};
+pub use outcome::{Annotation, Deviation, Figure, Outcome};
+pub use parameter::{Choice, Kind, Parameter};
 pub use report::{LargestMove, Report};
 pub use value::Value;
 pub use values::Values;

@@ -3,9 +3,9 @@
 use std::hash::{Hash, Hasher};
 
 use super::error::OperationError;
-use super::input::Input;
 use super::inputs::Inputs;
 use super::matches;
+use super::operands::Operands;
 use super::outcome::Outcome;
 use super::parameter::Parameter;
 use super::value::Value;
@@ -26,11 +26,11 @@ pub struct Operation {
     /// What can be chosen, in the order in which it is offered.
     pub parameters: &'static [Parameter],
     /// Tell why it cannot run on this input, whatever the values.
-    pub(crate) check: fn(&Input) -> Result<(), OperationError>,
+    pub(crate) check: fn(&Operands) -> Result<(), OperationError>,
     /// Name the parameters that mean nothing with these values, as numbers of a kind that is not chosen.
     pub(crate) unused: fn(&Values) -> &'static [&'static str],
     /// Do it.
-    pub(crate) run: fn(&Input, &Values, &Progress) -> Result<Outcome, OperationError>,
+    pub(crate) run: fn(&Operands, &Values, &Progress) -> Result<Outcome, OperationError>,
 }
 
 impl PartialEq for Operation {
@@ -52,7 +52,7 @@ impl Operation {
     /// List the parameters that there is something to give for, with these values of them.
     pub fn parameters_for(
         &self,
-        input: &Input,
+        input: &Operands,
         values: &Values,
     ) -> impl Iterator<Item = &'static Parameter> {
         let unused = (self.unused)(values);
@@ -65,7 +65,7 @@ impl Operation {
     ///
     /// # Errors
     /// [`OperationError`].
-    pub fn check(&self, input: &Input) -> Result<(), OperationError> {
+    pub fn check(&self, input: &Operands) -> Result<(), OperationError> {
         let needed = self.inputs;
         if !input.is(needed) {
             return Err(OperationError::Inputs { needed });
@@ -80,7 +80,7 @@ impl Operation {
     /// As [`Operation::check`], and if a parameter does not exist or its value is not in range.
     pub fn values<'a>(
         &self,
-        input: &Input,
+        input: &Operands,
         given: impl IntoIterator<Item = (&'a str, Value)>,
     ) -> Result<Values, OperationError> {
         self.check(input)?;
@@ -93,7 +93,7 @@ impl Operation {
     /// As [`Operation::values`].
     pub fn values_with<'a>(
         &self,
-        input: &Input,
+        input: &Operands,
         values: &Values,
         given: impl IntoIterator<Item = (&'a str, Value)>,
     ) -> Result<Values, OperationError> {
@@ -112,7 +112,7 @@ impl Operation {
     /// if `progress` was cancelled meanwhile.
     pub fn run(
         &self,
-        input: &Input,
+        input: &Operands,
         values: &Values,
         progress: &Progress,
     ) -> Result<Outcome, OperationError> {

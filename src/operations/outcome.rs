@@ -5,13 +5,13 @@ use glam::DVec3;
 use super::atlas::Atlas;
 use super::error::OperationError;
 use super::handle::Handle;
-use super::input::Input;
 use super::locks;
 use super::matches;
-use super::parameter::Unit;
+use super::operands::Operands;
 use super::value::Value;
 use crate::document::{CurveId, Document, Edit, EditError, ParameterSpan, Renumbering};
 use crate::geometry::approximation::LevelComparison;
+use crate::geometry::parameters::Quantity;
 use crate::geometry::{Approximation, End, FloatPolygon};
 
 /// Hold what an operation comes to.
@@ -35,7 +35,7 @@ pub struct Outcome {
     /// What else is to say: sentences without a full stop at the end.
     pub remarks: Vec<String>,
     /// What to draw on the canvas.
-    pub marks: Vec<Mark>,
+    pub annotations: Vec<Annotation>,
     /// The parameters of the curve between which it was joined; on a periodic curve the second may
     /// lie beyond the end.
     pub joint: Option<[f64; 2]>,
@@ -96,7 +96,7 @@ pub struct Figure {
     /// The figure.
     pub value: Value,
     /// Its unit.
-    pub unit: Unit,
+    pub quantity: Quantity,
 }
 
 impl Figure {
@@ -106,7 +106,7 @@ impl Figure {
             name,
             label,
             value: Value::Whole(count),
-            unit: Unit::None,
+            quantity: Quantity::Number,
         }
     }
 
@@ -116,7 +116,7 @@ impl Figure {
             name,
             label,
             value: Value::Real(length),
-            unit: Unit::Length,
+            quantity: Quantity::Length,
         }
     }
 
@@ -126,7 +126,7 @@ impl Figure {
             name,
             label,
             value: Value::Real(number),
-            unit: Unit::None,
+            quantity: Quantity::Number,
         }
     }
 
@@ -136,7 +136,7 @@ impl Figure {
             name,
             label,
             value: Value::Indices(indices.to_vec()),
-            unit: Unit::None,
+            quantity: Quantity::Number,
         }
     }
 
@@ -146,7 +146,7 @@ impl Figure {
             name,
             label,
             value: Value::Ends(ends),
-            unit: Unit::None,
+            quantity: Quantity::Number,
         }
     }
 
@@ -156,14 +156,14 @@ impl Figure {
             name,
             label,
             value: Value::Real(radians),
-            unit: Unit::Angle,
+            quantity: Quantity::Angle,
         }
     }
 }
 
 /// Something to draw on the canvas, in model space.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Mark {
+pub enum Annotation {
     /// A point, such as one where a curve is cut.
     Point(DVec3),
     /// An arrow, such as one from an end to its target.
@@ -187,7 +187,7 @@ impl Outcome {
     /// Give a curve a polygon of other vertices, with the spans of parameters that both have. Locked vertices that
     /// remain stay locked; remarks count the locks and the matches at places of the curve that are lost.
     pub(super) fn renumbered(
-        input: &Input,
+        input: &Operands,
         polygon: FloatPolygon,
         spans: Vec<ParameterSpan>,
         deviation: Deviation,
@@ -219,7 +219,7 @@ impl Outcome {
             figures: Vec::new(),
             equivalence: None,
             remarks: Vec::new(),
-            marks: Vec::new(),
+            annotations: Vec::new(),
             joint: None,
             handles: Vec::new(),
             atlas: None,

@@ -4,7 +4,7 @@ use super::amount::Amount;
 use super::degree::{degree, with_degree};
 use super::editable::editable;
 use super::error::OperationError;
-use super::input::Input;
+use super::operands::Operands;
 use super::inputs::Inputs;
 use super::operation::Operation;
 use super::outcome::Outcome;
@@ -26,13 +26,13 @@ pub static OPERATION: Operation = Operation {
     run,
 };
 
-fn check(input: &Input) -> Result<(), OperationError> {
+fn check(input: &Operands) -> Result<(), OperationError> {
     if editable(input)?.polygon.degree() <= 1 {
         return Err(OperationError::LowestDegree);
     }
     Ok(())
 }
 
-fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
+fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
     with_degree(input, values.whole(&DEGREE))
 }

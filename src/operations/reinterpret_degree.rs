@@ -4,7 +4,7 @@ use super::amount::Amount;
 use super::degree::degree;
 use super::editable::check_editable;
 use super::error::OperationError;
-use super::input::Input;
+use super::operands::Operands;
 use super::inputs::Inputs;
 use super::operation::Operation;
 use super::outcome::{Deviation, Outcome};
@@ -40,7 +40,7 @@ pub static OPERATION: Operation = Operation {
     run,
 };
 
-fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
+fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
     let (id, curve) = input.curve()?;
     let (polygon, degree) = (&curve.polygon, values.whole(&DEGREE));
     if degree == polygon.degree() {

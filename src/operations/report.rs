@@ -7,7 +7,7 @@ use glam::DVec3;
 use serde::Serialize;
 
 use super::features::FeatureComparison;
-use super::input::Input;
+use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
 use super::value::Value;
@@ -65,7 +65,7 @@ impl Report {
     }
 
     /// Tell at once what an operation did, without features.
-    pub fn new(operation: &Operation, input: &Input, outcome: &Outcome) -> Self {
+    pub fn new(operation: &Operation, input: &Operands, outcome: &Outcome) -> Self {
         Self {
             name: operation.name,
             label: operation.label,
@@ -85,7 +85,7 @@ impl Report {
     /// they are proved.
     pub fn of(
         operation: &Operation,
-        input: &Input,
+        input: &Operands,
         outcome: &Outcome,
         progress: &Progress,
     ) -> Option<Self> {
@@ -100,7 +100,7 @@ impl Report {
 impl Outcome {
     /// The document afterwards; as it was if an edit cannot be made, which [`Operation::run`] has
     /// ruled out.
-    pub(super) fn after(&self, input: &Input) -> Document {
+    pub(super) fn after(&self, input: &Operands) -> Document {
         let document = input.document();
         self.applied_to(document)
             .unwrap_or_else(|_| document.clone())
@@ -109,7 +109,7 @@ impl Outcome {
 
 /// Find the vertex that moves farthest, of all curves that an operation changes and that keep the
 /// number of their vertices; of equal moves the first counts.
-fn largest_move(input: &Input, outcome: &Outcome) -> Option<LargestMove> {
+fn largest_move(input: &Operands, outcome: &Outcome) -> Option<LargestMove> {
     if outcome.renumbered {
         return None;
     }

@@ -37,7 +37,7 @@ impl Serialize for Report {
         for figure in &self.figures {
             let value = match &figure.value {
                 Value::Whole(count) | Value::Choice(count) => json!(count),
-                Value::Real(number) => json!(figure.unit.shown(*number)),
+                Value::Real(number) => json!(figure.quantity.shown(*number)),
                 Value::Switch(on) => json!(on),
                 Value::List(numbers) => json!(numbers),
                 Value::Indices(indices) => json!(indices),

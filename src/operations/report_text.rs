@@ -27,7 +27,7 @@ impl Report {
 fn figure_line(figure: &Figure) -> String {
     let text = match &figure.value {
         Value::Whole(count) | Value::Choice(count) => count.to_string(),
-        Value::Real(number) => significant(figure.unit.shown(*number), 6),
+        Value::Real(number) => significant(figure.quantity.shown(*number), 6),
         Value::Switch(on) => if *on { "yes" } else { "no" }.to_owned(),
         Value::List(numbers) => joined(numbers.iter().map(|it| significant(*it, 6))),
         Value::Indices(indices) => joined(indices.iter().map(usize::to_string)),

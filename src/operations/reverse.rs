@@ -2,7 +2,7 @@
 
 use super::editable::check_editable;
 use super::error::OperationError;
-use super::input::Input;
+use super::operands::Operands;
 use super::inputs::Inputs;
 use super::operation::Operation;
 use super::outcome::{Deviation, Outcome};
@@ -22,7 +22,7 @@ pub static OPERATION: Operation = Operation {
     run,
 };
 
-fn run(input: &Input, _: &Values, _: &Progress) -> Result<Outcome, OperationError> {
+fn run(input: &Operands, _: &Values, _: &Progress) -> Result<Outcome, OperationError> {
     let (id, curve) = input.curve()?;
     let mut outcome = Outcome::unchanged(Deviation::Exact);
     outcome.renumbered = true;

@@ -1,11 +1,11 @@
 //! Step 6 of the end fit: rotate the terminal vertices of an end.
 
 use super::error::OperationError;
-use super::input::Input;
+use super::operands::Operands;
 use super::inputs::Inputs;
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
-use super::targets::{check_targets, corrected, cusp, marks, target};
+use super::targets::{check_targets, corrected, cusp, annotations, target};
 use super::values::Values;
 use super::which_end::{END, end};
 use crate::geometry::Progress;
@@ -23,7 +23,7 @@ pub static OPERATION: Operation = Operation {
     run,
 };
 
-fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
+fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
     let (id, curve) = input.curve()?;
     let end = end(values);
     let target = target(curve, end)?;
@@ -42,6 +42,6 @@ fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, Operatio
     let mut outcome = corrected(id, curve, polygon)?;
     outcome.residual = Some(left.abs() * size);
     outcome.figures = vec![Figure::angle("rotation", "Rotation", angle)];
-    outcome.marks = marks(curve, end);
+    outcome.annotations = annotations(curve, end);
     Ok(outcome)
 }

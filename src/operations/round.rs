@@ -1,9 +1,8 @@
 //! Coordinates rounded to some digits.
 
-use super::amount::Amount;
 use super::editable::check_editable;
 use super::error::OperationError;
-use super::input::Input;
+use super::operands::Operands;
 use super::inputs::Inputs;
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
@@ -20,16 +19,8 @@ const POLYGON: Parameter = Parameter {
     help: "The polygon whose coordinates are rounded",
     kind: Kind::Choice {
         options: &[
-            Choice {
-                name: "float",
-                label: "Float S-polygon",
-                parameters: &[],
-            },
-            Choice {
-                name: "clamped",
-                label: "Closed S-polygon",
-                parameters: &[],
-            },
+            Choice::new("float", "Float S-polygon"),
+            Choice::new("clamped", "Closed S-polygon"),
         ],
         default: 0,
     },
@@ -39,11 +30,7 @@ const DIGITS: Parameter = Parameter {
     name: "digits",
     label: "Digits",
     help: "How many digits each coordinate keeps after the decimal point",
-    kind: Kind::Whole {
-        from: Amount::Number(0.0),
-        to: Amount::Number(17.0),
-        default: Amount::Number(3.0),
-    },
+    kind: Kind::whole(0, 17, 3),
 };
 
 /// The operation: its description, and how it is checked and run.
@@ -58,7 +45,7 @@ pub static OPERATION: Operation = Operation {
     run,
 };
 
-fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
+fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
     let (id, curve) = input.curve()?;
     let rounding = values.choice(&POLYGON, &[float_rounded as Rounding, closed_rounded]);
     let digits = values.whole(&DIGITS);

@@ -6,15 +6,16 @@ use super::amount::Amount;
 use super::cutting::{SUBDIVISIONS, without_target};
 use super::editable::open;
 use super::error::OperationError;
-use super::input::Input;
+use super::operands::Operands;
 use super::inputs::Inputs;
 use super::locks;
 use super::matches::handed_over;
 use super::operation::Operation;
-use super::outcome::{Deviation, Figure, Mark, Outcome};
-use super::parameter::{Kind, Parameter, Unit};
+use super::outcome::{Deviation, Figure, Annotation, Outcome};
+use super::parameter::{Kind, Parameter};
 use super::values::Values;
 use crate::document::{Curve, Edit, EndMatch, MatchPlace, ParameterSpan, Renumbering};
+use crate::geometry::parameters::{Number, Quantity};
 use crate::geometry::{End, Progress};
 
 /// Where a cut is offered: at the knot in the middle.
@@ -23,7 +24,7 @@ const MIDDLE: Amount = Amount::Of {
     value: middle,
 };
 
-fn middle(input: &Input) -> Result<f64, OperationError> {
+fn middle(input: &Operands) -> Result<f64, OperationError> {
     let segments = input.polygon()?.segments();
     Ok(if segments > 1 {
         (segments / 2) as f64
@@ -36,12 +37,12 @@ const AT: Parameter = Parameter {
     name: "at",
     label: "At u",
     help: "Where the curve is cut",
-    kind: Kind::Real {
+    kind: Kind::Real(Number {
         from: Bound::Excluded(Amount::Number(0.0)),
         to: Bound::Excluded(Amount::Segments),
         default: MIDDLE,
-        unit: Unit::Parameter,
-    },
+        quantity: Quantity::Parameter,
+    }),
 };
 
 /// The operation: its description, and how it is checked and run.
@@ -56,7 +57,7 @@ pub static OPERATION: Operation = Operation {
     run,
 };
 
-fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
+fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
     let (id, curve) = input.curve()?;
     let at = values.real(&AT);
     let subdivisions = values.whole(&SUBDIVISIONS) as u32;
@@ -103,6 +104,6 @@ fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, Operatio
         Figure::count("first_vertices", "Vertices of the first part", counts[0]),
         Figure::count("second_vertices", "Vertices of the second part", counts[1]),
     ];
-    outcome.marks.push(Mark::Point(curve.polygon.point(at)));
+    outcome.annotations.push(Annotation::Point(curve.polygon.point(at)));
     Ok(outcome)
 }

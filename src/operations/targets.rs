@@ -2,14 +2,14 @@
 
 use super::editable::open;
 use super::error::OperationError;
-use super::input::Input;
-use super::outcome::{Deviation, Mark, Outcome};
+use super::operands::Operands;
+use super::outcome::{Annotation, Deviation, Outcome};
 use crate::document::{Curve, CurveId};
 use crate::geometry::end_correction::{EndDifference, EndTarget};
 use crate::geometry::{End, FloatPolygon};
 
 /// Refuse a curve that is locked or hidden, has no ends, or no target.
-pub(super) fn check_targets(input: &Input) -> Result<(), OperationError> {
+pub(super) fn check_targets(input: &Operands) -> Result<(), OperationError> {
     let curve = open(input, "corrected at its ends")?;
     if curve.targets.list().is_empty() {
         return Err(OperationError::NoTarget { end: None });
@@ -59,12 +59,12 @@ pub(super) fn corrected(
     Ok(Outcome::reshaped(id, polygon, deviation))
 }
 
-/// Mark the target of an end, and the way to it.
-pub(super) fn marks(curve: &Curve, end: End) -> Vec<Mark> {
+/// Annotation the target of an end, and the way to it.
+pub(super) fn annotations(curve: &Curve, end: End) -> Vec<Annotation> {
     let Some(target) = curve.targets.get(end) else {
         return Vec::new();
     };
     let from = curve.polygon.end_jet(end).point;
     let to = target.point;
-    vec![Mark::Arrow { from, to }, Mark::Point(to)]
+    vec![Annotation::Arrow { from, to }, Annotation::Point(to)]
 }

@@ -6,40 +6,41 @@ use super::amount::Amount;
 use super::cutting::{SUBDIVISIONS, without_target};
 use super::editable::check_editable;
 use super::error::OperationError;
-use super::input::Input;
+use super::operands::Operands;
 use super::inputs::Inputs;
 use super::operation::Operation;
-use super::outcome::{Deviation, Figure, Mark, Outcome};
-use super::parameter::{Kind, Parameter, Unit};
+use super::outcome::{Deviation, Figure, Annotation, Outcome};
+use super::parameter::{Kind, Parameter};
 use super::values::Values;
 use crate::document::ParameterSpan;
+use crate::geometry::parameters::{Number, Quantity};
 use crate::geometry::{End, Progress};
 
 const FROM: Parameter = Parameter {
     name: "from",
     label: "From u",
     help: "Where the part that is kept begins",
-    kind: Kind::Real {
+    kind: Kind::Real(Number {
         from: Bound::Included(Amount::Number(0.0)),
         to: Bound::Excluded(Amount::Segments),
         default: Amount::Number(0.0),
-        unit: Unit::Parameter,
-    },
+        quantity: Quantity::Parameter,
+    }),
 };
 
 const TO: Parameter = Parameter {
     name: "to",
     label: "To u",
     help: "Where the part that is kept ends; on a periodic curve it may lie past the joint, up to one turn after its beginning",
-    kind: Kind::Real {
+    kind: Kind::Real(Number {
         from: Bound::Excluded(Amount::Number(0.0)),
         to: Bound::Included(Amount::Of {
             words: "the number of segments (a periodic curve: twice that)",
             value: last,
         }),
         default: Amount::Segments,
-        unit: Unit::Parameter,
-    },
+        quantity: Quantity::Parameter,
+    }),
 };
 
 /// The operation: its description, and how it is checked and run.
@@ -54,13 +55,13 @@ pub static OPERATION: Operation = Operation {
     run,
 };
 
-fn last(input: &Input) -> Result<f64, OperationError> {
+fn last(input: &Operands) -> Result<f64, OperationError> {
     let polygon = input.polygon()?;
     let turns = if polygon.is_periodic() { 2.0 } else { 1.0 };
     Ok(turns * polygon.segments() as f64)
 }
 
-fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
+fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
     let (id, curve) = input.curve()?;
     let polygon = &curve.polygon;
     let (from, to) = (values.real(&FROM), values.real(&TO));
@@ -69,7 +70,7 @@ fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, Operatio
     let deviation = Deviation::of(&part);
     let segments = part.polygon.segments();
     let vertices = Figure::count("vertices", "Vertices", part.polygon.vertices().len());
-    let ends = End::BOTH.map(|end| Mark::Point(part.polygon.end_jet(end).point));
+    let ends = End::BOTH.map(|end| Annotation::Point(part.polygon.end_jet(end).point));
     let turn = polygon.segments() as f64;
     let scale = segments as f64 / (to - from);
     let span = |old: [f64; 2], turns: f64| ParameterSpan {
@@ -91,6 +92,6 @@ fn run(input: &Input, values: &Values, _: &Progress) -> Result<Outcome, Operatio
         outcome.edits.extend(cut_off);
     }
     outcome.figures.push(vertices);
-    outcome.marks.extend(ends);
+    outcome.annotations.extend(ends);
     Ok(outcome)
 }

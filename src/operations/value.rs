@@ -1,6 +1,7 @@
 //! A value of a parameter, or a figure.
 
 use crate::geometry::End;
+use crate::geometry::parameters::Quantity;
 use crate::geometry::references::ReferenceCurve;
 
 /// A value of a parameter.
@@ -22,4 +23,30 @@ pub enum Value {
     Ends([End; 2]),
     /// A reference, or none.
     Reference(Option<Box<ReferenceCurve>>),
+}
+
+impl Value {
+    /// Write the value, angles in degrees; an option by its index.
+    pub fn text(&self, quantity: Quantity) -> String {
+        let joined = |texts: Vec<String>| texts.join(", ");
+        match self {
+            Self::Whole(number) | Self::Choice(number) => number.to_string(),
+            Self::Real(number) => quantity.shown(*number).to_string(),
+            Self::Switch(on) => if *on { "on" } else { "off" }.to_owned(),
+            Self::Reference(reference) => {
+                let text = reference.as_ref().map(|reference| reference.to_string());
+                text.unwrap_or_default()
+            }
+            Self::List(numbers) => {
+                let shown = numbers.iter();
+                joined(
+                    shown
+                        .map(|number| quantity.shown(*number).to_string())
+                        .collect(),
+                )
+            }
+            Self::Indices(indices) => joined(indices.iter().map(usize::to_string).collect()),
+            Self::Ends(ends) => joined(ends.iter().map(|end| end.name().to_owned()).collect()),
+        }
+    }
 }

@@ -1,7 +1,7 @@
 //! Checked values of an operation's parameters.
 
 use super::error::OperationError;
-use super::input::Input;
+use super::operands::Operands;
 use super::parameter::Parameter;
 use super::value::Value;
 use crate::geometry::references::ReferenceCurve;
@@ -18,7 +18,7 @@ impl Values {
     /// [`OperationError`] if a parameter does not exist or its value is not in range.
     pub(super) fn new<'a>(
         parameters: &[Parameter],
-        input: &Input,
+        input: &Operands,
         given: impl IntoIterator<Item = (&'a str, Value)>,
     ) -> Result<Self, OperationError> {
         let mut values = parameters

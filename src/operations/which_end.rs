@@ -10,18 +10,7 @@ pub(super) const END: Parameter = Parameter {
     label: "End",
     help: "The end of the curve",
     kind: Kind::Choice {
-        options: &[
-            Choice {
-                name: "start",
-                label: "Start",
-                parameters: &[],
-            },
-            Choice {
-                name: "end",
-                label: "End",
-                parameters: &[],
-            },
-        ],
+        options: &[Choice::new("start", "Start"), Choice::new("end", "End")],
         default: 1,
     },
 };

@@ -12,7 +12,8 @@ use super::{figures, widgets};
 use crate::editor::{Editor, OperationInProgress};
 use crate::geometry::features::Verdict;
 use crate::geometry::mineur_farin::{self, ATLAS_SIZE, AtlasVerdicts};
-use crate::operations::{Atlas, Parameter, Unit, Value};
+use crate::geometry::parameters::Quantity;
+use crate::operations::{Atlas, Parameter, Value};
 
 /// The height of the picture.
 const HEIGHT: f32 = 200.0;
@@ -287,15 +288,15 @@ fn describe(response: &Response, in_progress: &OperationInProgress, atlas: &Atla
 
 /// A number at an axis.
 fn number(parameter: &Parameter, number: f64) -> String {
-    let unit = parameter.unit();
-    let text = figures::significant(unit.shown(number), 3);
+    let quantity = parameter.quantity();
+    let text = figures::significant(quantity.shown(number), 3);
     let text = if text.contains('.') && !text.contains('e') {
         text.trim_end_matches('0').trim_end_matches('.')
     } else {
         &text
     };
-    match unit {
-        Unit::Angle => format!("{text}°"),
+    match quantity {
+        Quantity::Angle => format!("{text}°"),
         _ => text.to_owned(),
     }
 }

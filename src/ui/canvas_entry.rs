@@ -15,7 +15,8 @@ use super::widgets::{self, IconButton};
 use super::{figures, inspector};
 use crate::editor::{Editor, Entry, EntryError, Input, Key as EditorKey, LegLocks};
 use crate::geometry::MAX_DEGREE;
-use crate::geometry::expressions::{LengthUnit, Quantity};
+use crate::geometry::expressions::LengthUnit;
+use crate::geometry::parameters::Quantity;
 
 /// What texts begin with that are numbers or points.
 const BEGINNINGS: [char; 5] = ['-', '−', '.', '@', '('];

@@ -12,7 +12,8 @@ use eframe::egui::{
 use super::figures;
 use super::theme::{self, Tokens};
 use crate::document::quoted;
-use crate::geometry::expressions::{ExpressionMistake, LengthUnit, NumberContext, Quantity};
+use crate::geometry::expressions::{ExpressionMistake, LengthUnit, NumberContext};
+use crate::geometry::parameters::Quantity;
 
 /// How long a remark stays, in seconds.
 const SECONDS: f64 = 6.0;

@@ -8,7 +8,7 @@ use super::number_field::{FieldEvent, NumberField, vector_row};
 use super::theme::{ROW, STEP, Tokens};
 use super::{figures, widgets};
 use crate::editor::{EndFitAction, EndFitReport};
-use crate::geometry::expressions::Quantity;
+use crate::geometry::parameters::Quantity;
 
 /// The width of a field.
 const FIELD: f32 = 96.0;

@@ -15,7 +15,8 @@ use super::widgets::IconButton;
 use super::{figures, widgets};
 use crate::editor::{Editor, EndFitAction, EndFitReport, Layer, Refusal, told};
 use crate::geometry::end_correction::EndOverlap;
-use crate::geometry::expressions::{Quantity, sin_cos_of_degrees};
+use crate::geometry::expressions::sin_cos_of_degrees;
+use crate::geometry::parameters::Quantity;
 use crate::geometry::{End, counted};
 use crate::operations::LargestMove;
 

@@ -14,7 +14,7 @@ use super::keyboard::{self, Typing};
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
 use super::{figures, labels, widgets};
 use crate::editor::Editor;
-use crate::geometry::expressions::Quantity;
+use crate::geometry::parameters::Quantity;
 
 /// What the user did to a field. `T` is what the field's number stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,7 +10,8 @@ use super::number_field::{FieldEvent, NumberField};
 use super::theme::{self, STEP, Tokens};
 use super::{figures, widgets};
 use crate::editor::OperationInProgress;
-use crate::operations::{Choice, Kind, Limits, Parameter, Unit, Value};
+use crate::geometry::parameters::{Limits, Quantity};
+use crate::operations::{Choice, Kind, Parameter, Value};
 
 /// The least width of the captions of fields.
 const LABEL: f32 = 72.0;
@@ -184,18 +185,18 @@ impl OperationFields {
         value: &Value,
     ) -> Option<FieldEvent<Value>> {
         let limits = parameter.limits(in_progress.input()).ok().flatten();
-        let number = shown_number(value, parameter.unit());
-        let range = field_range(limits, parameter.unit());
+        let number = shown_number(value, parameter.quantity());
+        let range = field_range(limits, parameter.quantity());
         let whole = matches!(value, Value::Whole(_));
         let shown = figures::short(number);
         let speed = if whole { 0.05 } else { speed(&range, number) };
         let field = NumberField::new(parameter.label, number, shown)
             .range(range)
-            .quantity(parameter.unit().quantity())
+            .quantity(parameter.quantity())
             .speed(speed)
             .width(FIELD);
         let event = field.show(ui);
-        if parameter.unit() == Unit::Angle {
+        if parameter.quantity() == Quantity::Angle {
             widgets::caption(ui, "°");
         }
         match event? {
@@ -204,7 +205,7 @@ impl OperationFields {
                 self.refuse(parameter, needed);
                 None
             }
-            event => Some(event.map(|number| given_number(number, value, parameter.unit()))),
+            event => Some(event.map(|number| given_number(number, value, parameter.quantity()))),
         }
     }
 }
@@ -281,10 +282,10 @@ fn fits_as_buttons(ui: &Ui, options: &[Choice]) -> bool {
 }
 
 /// A number as its field shows it.
-fn shown_number(value: &Value, unit: Unit) -> f64 {
+fn shown_number(value: &Value, quantity: Quantity) -> f64 {
     match value {
         Value::Whole(number) => *number as f64,
-        Value::Real(number) => unit.shown(*number),
+        Value::Real(number) => quantity.shown(*number),
         Value::Choice(_)
         | Value::Switch(_)
         | Value::List(_)
@@ -295,22 +296,22 @@ fn shown_number(value: &Value, unit: Unit) -> f64 {
 }
 
 /// The value that a field's number stands for, of the kind of another value.
-fn given_number(number: f64, like: &Value, unit: Unit) -> Value {
+fn given_number(number: f64, like: &Value, quantity: Quantity) -> Value {
     match like {
         Value::Whole(_) => Value::Whole(number.round().max(0.0) as usize),
-        _ => Value::Real(unit.typed(number)),
+        _ => Value::Real(quantity.stored(number)),
     }
 }
 
-fn field_range(limits: Option<Limits>, unit: Unit) -> RangeInclusive<f64> {
+fn field_range(limits: Option<Limits>, quantity: Quantity) -> RangeInclusive<f64> {
     let (from, to) = limits.unwrap_or((Bound::Unbounded, Bound::Unbounded));
     let from = match from {
         // What is excluded is refused with the words of the parameter.
-        Bound::Included(from) | Bound::Excluded(from) => unit.shown(from),
+        Bound::Included(from) | Bound::Excluded(from) => quantity.shown(from),
         Bound::Unbounded => f64::NEG_INFINITY,
     };
     let to = match to {
-        Bound::Included(to) | Bound::Excluded(to) => unit.shown(to),
+        Bound::Included(to) | Bound::Excluded(to) => quantity.shown(to),
         Bound::Unbounded => f64::INFINITY,
     };
     from..=to

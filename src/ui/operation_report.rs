@@ -10,8 +10,9 @@ use super::steady_rows::SteadyRows;
 use super::theme::Tokens;
 use super::{figures, widgets};
 use crate::editor::OperationInProgress;
+use crate::geometry::parameters::Quantity;
 use crate::geometry::rounded_up;
-use crate::operations::{Deviation, Figure, Report, Unit, Value};
+use crate::operations::{Deviation, Figure, Report, Value};
 
 /// The report of one operation; its rows keep their places.
 #[derive(Default)]
@@ -146,7 +147,7 @@ fn figures_of(report: &Report) -> Vec<(&'static str, String)> {
 fn figure_text(figure: &Figure) -> String {
     match &figure.value {
         Value::Whole(number) => number.to_string(),
-        Value::Real(number) if figure.unit == Unit::Angle => figures::degrees(*number, 4),
+        Value::Real(number) if figure.quantity == Quantity::Angle => figures::degrees(*number, 4),
         Value::Real(number) => figures::significant(*number, 4),
         Value::Choice(index) => index.to_string(),
         Value::List(numbers) => {

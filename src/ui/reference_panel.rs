@@ -10,7 +10,7 @@ use super::widgets;
 use super::{document_unit, figures};
 use crate::document::{CurveId, Reference};
 use crate::editor::{Editor, ReferenceChange, ReferenceReport, told};
-use crate::geometry::expressions::Quantity;
+use crate::geometry::parameters::Quantity;
 use crate::geometry::references::{AnalyticForm, ReferenceCurve, ReferenceForm};
 
 /// The width of a field that stands alone.
@@ -49,7 +49,7 @@ fn parameters_ui(ui: &mut Ui, editor: &mut Editor, form: &AnalyticForm) {
     let parameters = form.kind().parameters.iter().zip(form.values());
     for (index, (parameter, value)) in parameters.enumerate() {
         let row = widgets::form_row(ui, parameter.label, |ui| {
-            let field = field(parameter.label, *value).quantity(parameter.quantity());
+            let field = field(parameter.label, *value).quantity(parameter.kind.quantity);
             let event = field.width(FIELD).show(ui);
             send(editor, event, |value| ReferenceChange::Value(index, value));
         });

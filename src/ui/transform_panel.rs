@@ -7,7 +7,7 @@ use super::figures;
 use super::number_field::NumberField;
 use super::widgets;
 use crate::editor::{Editor, ToolKind, Transformation, told};
-use crate::geometry::expressions::Quantity;
+use crate::geometry::parameters::Quantity;
 
 /// What is typed into the fields, until it is applied.
 pub struct TransformPanel {

@@ -13,7 +13,8 @@ use super::shell::Shell;
 use super::theme::{self, STEP, Tokens};
 use super::widgets;
 use crate::editor::{Command, Editor};
-use crate::geometry::expressions::{LengthUnit, Quantity};
+use crate::geometry::expressions::LengthUnit;
+use crate::geometry::parameters::Quantity;
 
 /// The size of the cell in the status bar.
 pub const CELL: Vec2 = Vec2::new(72.0, 5.0 * STEP);

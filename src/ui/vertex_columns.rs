@@ -7,7 +7,7 @@ use lucide_icons::Icon;
 use super::theme::Tokens;
 use super::{figures, icons, widgets};
 use crate::document::{Curve, CurveId, Edit};
-use crate::geometry::expressions::Quantity;
+use crate::geometry::parameters::Quantity;
 use crate::geometry::{FloatPolygon, PolygonError};
 
 /// What one column of fields holds.

@@ -890,10 +890,6 @@ fn what_the_arguments_alone_get_wrong_is_told_with_the_usage_of_the_operation() 
             "the formulas give one point",
         ),
         (
-            &["approximate", "circle", "out.batten", "--tolerance", "0"],
-            "Tolerance: 0 is out of range",
-        ),
-        (
             &[
                 "approximate",
                 "circle",
@@ -916,6 +912,17 @@ fn what_the_arguments_alone_get_wrong_is_told_with_the_usage_of_the_operation() 
         let usage = format!("Usage: batten apply {} ", arguments[1]);
         assert!(told.contains(&usage), "{told}");
     }
+    folder.misused(
+        &[
+            "apply",
+            "approximate",
+            "circle",
+            "out.batten",
+            "--tolerance",
+            "0",
+        ],
+        "Tolerance: 0 is out of range",
+    );
     assert!(!folder.path("out.batten").exists());
     // What a file must tell first is not.
     folder.refused(

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use batten::document::{Curve, Document};
 use batten::geometry::references::ReferenceCurve;
 use batten::geometry::{FloatPolygon, Progress};
-use batten::operations::{Deviation, Input, OperationError, Outcome, Report, Value, find};
+use batten::operations::{Deviation, Operands, OperationError, Outcome, Report, Value, find};
 use serde_json::json;
 
 use super::runner::Runner;
@@ -15,16 +15,16 @@ use super::runner::Runner;
 const SOON: Duration = Duration::from_secs(5);
 
 /// Run it on nothing but its parameters, as they are typed.
-fn run(given: &[(&str, &str)]) -> Result<(Input, Outcome), OperationError> {
+fn run(given: &[(&str, &str)]) -> Result<(Operands, Outcome), OperationError> {
     run_watched(given, &Progress::default())
 }
 
 fn run_watched(
     given: &[(&str, &str)],
     progress: &Progress,
-) -> Result<(Input, Outcome), OperationError> {
+) -> Result<(Operands, Outcome), OperationError> {
     let operation = find("approximate").expect("it is there");
-    let input = Input::new(&Document::default(), [])?;
+    let input = Operands::new(&Document::default(), [])?;
     let read = |(name, text): &(&'static str, &str)| {
         let mut parameters = operation.parameters.iter();
         let parameter = parameters.find(|parameter| parameter.name == *name);
@@ -44,7 +44,7 @@ fn run_watched(
     Ok((input, outcome))
 }
 
-fn curve(input: &Input, outcome: &Outcome) -> Curve {
+fn curve(input: &Operands, outcome: &Outcome) -> Curve {
     let after = outcome
         .applied_to(input.document())
         .expect("edits that can be made");
@@ -72,7 +72,7 @@ fn a_reference_becomes_a_new_curve() {
         panic!("{:?}", outcome.deviation);
     };
     assert!(deviation > 0.001 && deviation <= 0.0012, "{deviation}");
-    assert!(!outcome.marks.is_empty());
+    assert!(!outcome.annotations.is_empty());
 }
 
 #[test]

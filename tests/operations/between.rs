@@ -2,16 +2,19 @@
 
 use batten::document::{Curve, Document};
 use batten::geometry::features::Verdict;
+use batten::geometry::parameters::OutOfRange;
 use batten::geometry::{End, FloatPolygon, Progress};
-use batten::operations::{Deviation, Input, Mark, OperationError, Outcome, Report, Sets, Value};
+use batten::operations::{
+    Annotation, Deviation, Operands, OperationError, Outcome, Report, Sets, Value,
+};
 use glam::{DVec2, DVec3};
 
 use crate::runner::operation;
 
 const ANY: Value = Value::Choice(2);
 
-fn nothing() -> Input {
-    Input::new(&Document::default(), []).expect("nothing is there")
+fn nothing() -> Operands {
+    Operands::new(&Document::default(), []).expect("nothing is there")
 }
 
 /// Two points with directions, and nothing else.
@@ -25,7 +28,7 @@ fn ends(from: [f64; 4], to: [f64; 4]) -> Vec<(&'static str, Value)> {
     ]
 }
 
-fn run(input: &Input, given: &[(&str, Value)]) -> Result<Outcome, OperationError> {
+fn run(input: &Operands, given: &[(&str, Value)]) -> Result<Outcome, OperationError> {
     let operation = operation("between");
     let values = operation.values(input, given.iter().cloned())?;
     operation.run(input, &values, &Progress::default())
@@ -33,14 +36,14 @@ fn run(input: &Input, given: &[(&str, Value)]) -> Result<Outcome, OperationError
 
 /// Where the arrow of an end begins.
 fn point(outcome: &Outcome, end: usize) -> DVec3 {
-    match outcome.marks[end] {
-        Mark::Arrow { from, .. } => from,
+    match outcome.annotations[end] {
+        Annotation::Arrow { from, .. } => from,
         other => panic!("{other:?}"),
     }
 }
 
 /// The curve that is made.
-fn made(input: &Input, outcome: &Outcome) -> Curve {
+fn made(input: &Operands, outcome: &Outcome) -> Curve {
     let after = outcome.applied_to(input.document()).expect("a document");
     let (_, curve) = after.curves().last().expect("a curve");
     Curve::clone(curve)
@@ -122,10 +125,10 @@ fn a_tolerance_that_is_given_counts() {
     let refused = run(&nothing(), &given).expect_err("no tolerance");
     assert!(matches!(
         refused,
-        OperationError::OutOfRange {
+        OperationError::OutOfRange(OutOfRange {
             label: "Tolerance",
             ..
-        }
+        })
     ));
 }
 
@@ -245,7 +248,7 @@ fn two_curves() -> (Curve, Curve) {
 fn two_curves_offer_their_nearest_ends() {
     let (first, second) = two_curves();
     let document = Document::from_curves(vec![first.clone(), second.clone()]);
-    let input = Input::new(&document, document.ids()).expect("both are there");
+    let input = Operands::new(&document, document.ids()).expect("both are there");
     let outcome = run(&input, &[("kind", ANY)]).expect("a segment");
     let polygon = made(&input, &outcome).polygon;
     let (leaves, arrives) = (
@@ -285,14 +288,14 @@ fn two_curves_offer_their_nearest_ends() {
 fn one_curve_is_closed_and_curves_without_ends_offer_none() {
     let (first, _) = two_curves();
     let document = Document::from_curves(vec![first.clone()]);
-    let input = Input::new(&document, document.ids()).expect("it is there");
+    let input = Operands::new(&document, document.ids()).expect("it is there");
     let outcome = run(&input, &[]).expect("an answer");
     let ends = [End::Finish, End::Start].map(|end| first.polygon.end_jet(end).point);
     assert_eq!([point(&outcome, 0), point(&outcome, 1)], ends);
     let points = (0..8).map(|index| DVec3::from((DVec2::from_angle(f64::from(index)), 0.0)));
     let polygon = FloatPolygon::new(3, points.collect(), None, true).expect("a polygon");
     let document = Document::from_curves(vec![Curve::new("ring", polygon)]);
-    let input = Input::new(&document, document.ids()).expect("it is there");
+    let input = Operands::new(&document, document.ids()).expect("it is there");
     let outcome = run(&input, &[]).expect("a segment");
     assert!(outcome.reached);
     assert_eq!(point(&outcome, 0), DVec3::ZERO);

@@ -4,7 +4,8 @@ use std::collections::HashSet;
 
 use batten::document::Document;
 use batten::geometry::Progress;
-use batten::operations::{ALL, Input, Inputs, Kind, OperationError, Unit, Value, find};
+use batten::geometry::parameters::Quantity;
+use batten::operations::{ALL, Inputs, Kind, Operands, OperationError, Value, find};
 
 use crate::runner::{Runner, examples, operation};
 
@@ -211,7 +212,7 @@ fn what_is_typed_is_read_with_the_limits_that_are_known() {
     );
     assert!(point.read_given("").is_err(), "nothing is no value");
     assert_eq!(point.read_given("1,2"), point.read("1,2"));
-    assert_eq!(tolerance.unit(), Unit::Length);
+    assert_eq!(tolerance.quantity(), Quantity::Length);
     assert_eq!(tolerance.read("1e-6"), Ok(Value::Real(1e-6)));
     for text in ["0", "-1", "inf", "NaN"] {
         assert!(tolerance.read(text).is_err(), "{text}");
@@ -222,8 +223,8 @@ fn what_is_typed_is_read_with_the_limits_that_are_known() {
 fn an_operation_runs_on_nothing_but_the_inputs_it_wants() {
     let runner = Runner::example("arc");
     let document = runner.input.document();
-    let none = Input::new(document, []).expect("none is there");
-    let twice = Input::new(document, [runner.id(), runner.id()]).expect("it is there");
+    let none = Operands::new(document, []).expect("none is there");
+    let twice = Operands::new(document, [runner.id(), runner.id()]).expect("it is there");
     let points = runner.input.clone().with_points(vec![glam::DVec3::ZERO]);
     for operation in ALL {
         let (wrong, expected) = match operation.inputs {
@@ -241,6 +242,6 @@ fn an_operation_runs_on_nothing_but_the_inputs_it_wants() {
             assert!(operation.values(input, []).is_err());
         }
     }
-    let gone = Input::new(&Document::default(), [runner.id()]).expect_err("not there");
+    let gone = Operands::new(&Document::default(), [runner.id()]).expect_err("not there");
     assert_eq!(gone.to_string(), "the curve is no longer in the document");
 }

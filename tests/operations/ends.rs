@@ -2,7 +2,7 @@
 
 use batten::geometry::end_correction::{EndDifference, EndTarget};
 use batten::geometry::{End, FloatPolygon};
-use batten::operations::{Deviation, Mark, Value};
+use batten::operations::{Annotation, Deviation, Value};
 use glam::DVec3;
 
 use crate::runner::{Runner, apart, beside};
@@ -42,11 +42,14 @@ fn a_translation_and_a_rotation_meet_the_target_and_keep_the_curvature() {
         panic!("a length");
     };
     assert!((way / (0.02 * size) - 1.0).abs() <= MET, "{way}");
-    let arrow = Mark::Arrow {
+    let arrow = Annotation::Arrow {
         from: jet.point,
         to: target.point,
     };
-    assert_eq!(translated.marks, [arrow, Mark::Point(target.point)]);
+    assert_eq!(
+        translated.annotations,
+        [arrow, Annotation::Point(target.point)]
+    );
     let Deviation::AtMost(bound) = translated.deviation else {
         panic!("{:?}", translated.deviation);
     };
@@ -74,7 +77,7 @@ fn both_methods_correct_ends_that_share_no_vertex() {
             assert!(residual(&curves[0].polygon, end, target) <= left.max(MET * size));
         }
         assert_eq!(outcome.figures[0].value, Value::Whole(1));
-        assert_eq!(outcome.marks.len(), 4);
+        assert_eq!(outcome.annotations.len(), 4);
     }
 }
 

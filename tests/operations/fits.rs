@@ -2,7 +2,7 @@
 
 use batten::document::Document;
 use batten::geometry::Progress;
-use batten::operations::{Deviation, Input, Report, Value};
+use batten::operations::{Deviation, Operands, Report, Value};
 use glam::DVec3;
 
 use super::runner::operation;
@@ -15,7 +15,7 @@ fn wave(count: usize) -> Vec<DVec3> {
 }
 
 fn report(points: Vec<DVec3>, given: &[(&'static str, f64)]) -> Result<Report, String> {
-    let input = Input::new(&Document::default(), []).map_err(|error| error.to_string())?;
+    let input = Operands::new(&Document::default(), []).map_err(|error| error.to_string())?;
     let input = input.with_points(points);
     let fit = operation("fit");
     let given = given.iter().map(|(name, number)| match *name {

@@ -104,7 +104,7 @@ fn a_stretch_leaves_the_curve_beyond_it() {
         let [a, b] = [runner.polygon(), &after.polygon].map(|polygon| polygon.point(u));
         assert_eq!(a, b, "u = {u}");
     }
-    assert_eq!(outcome.marks.len(), 2);
+    assert_eq!(outcome.annotations.len(), 2);
 }
 
 #[test]
@@ -122,7 +122,7 @@ fn a_stretch_of_a_periodic_curve_goes_over_the_seam() {
         ("inflections", list(&[0.0])),
     ];
     let (outcome, curves) = runner.done("harmonise", &given);
-    assert_eq!(outcome.marks.len(), 2);
+    assert_eq!(outcome.annotations.len(), 2);
     let inside = |polygon: &FloatPolygon| {
         let extrema = Features::new(polygon).curvature_extrema;
         let within = extrema

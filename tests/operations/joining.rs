@@ -3,7 +3,7 @@
 use batten::document::{Curve, Document, Edit, EndMatch, LockedVertices, MatchPlace};
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::{Continuity, End, FloatPolygon, Progress};
-use batten::operations::{Input, Outcome, Report, Value};
+use batten::operations::{Operands, Outcome, Report, Value};
 use glam::DVec3;
 use serde_json::{Value as Json, json};
 
@@ -23,7 +23,7 @@ fn arc(name: &str, degree: usize, from: f64, to: f64) -> Curve {
 
 /// Join the first two curves of a document.
 fn join(document: &Document, given: &[(&str, Value)]) -> (Outcome, Document, Report) {
-    let input = Input::new(document, document.ids().take(2)).expect("two curves");
+    let input = Operands::new(document, document.ids().take(2)).expect("two curves");
     let join = operation("join");
     let values = join.values(&input, given.iter().cloned()).expect("values");
     let progress = Progress::default();
@@ -83,7 +83,7 @@ fn the_first_curve_keeps_its_name_its_direction_and_its_vertices() {
         for vertex in polygon.vertices() {
             assert!((vertex.length() - 10.0).abs() < 1e-3, "{vertex}");
         }
-        assert_eq!(outcome.marks.len(), bridge);
+        assert_eq!(outcome.annotations.len(), bridge);
         // The same ends, given.
         let choice = |end| Value::Choice(1 + usize::from(end == End::Finish));
         let given = [
@@ -166,7 +166,7 @@ fn the_second_curve_moves_only_if_it_may() {
         locked: true,
     };
     locked.apply(edit).expect("a lock");
-    let input = Input::new(&locked, locked.ids()).expect("two curves");
+    let input = Operands::new(&locked, locked.ids()).expect("two curves");
     let join = operation("join");
     let values = join.values(&input, moving).expect("values");
     let refused = join.run(&input, &values, &Progress::default());
@@ -284,7 +284,7 @@ fn a_curve_is_not_joined_with_itself() {
     let first = arc("first", 4, 0.0, 60.0);
     let refusal = |second: FloatPolygon, given: &[(&str, Value)]| {
         let document = Document::from_curves([first.clone(), Curve::new("second", second)]);
-        let input = Input::new(&document, document.ids()).expect("two curves");
+        let input = Operands::new(&document, document.ids()).expect("two curves");
         let join = operation("join");
         let values = join.values(&input, given.iter().cloned()).expect("values");
         join.run(&input, &values, &Progress::default()).err()

@@ -2,7 +2,7 @@
 
 use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace};
 use batten::geometry::{Continuity, End, FloatPolygon, Progress};
-use batten::operations::{Input, OperationError, Outcome, Value};
+use batten::operations::{Operands, OperationError, Outcome, Value};
 
 use crate::runner::operation;
 
@@ -36,7 +36,7 @@ fn run(
     name: &str,
     given: &[(&str, Value)],
 ) -> Result<Outcome, OperationError> {
-    let input = Input::new(document, [curve])?;
+    let input = Operands::new(document, [curve])?;
     let operation = operation(name);
     let values = operation.values(&input, given.iter().cloned())?;
     operation.run(&input, &values, &Progress::default())

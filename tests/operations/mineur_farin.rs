@@ -4,7 +4,9 @@ use batten::document::Document;
 use batten::geometry::Progress;
 use batten::geometry::features::Verdict;
 use batten::geometry::mineur_farin::Format;
-use batten::operations::{Deviation, Input, OperationError, Outcome, Report, Sets, Value, Values};
+use batten::operations::{
+    Deviation, Operands, OperationError, Outcome, Report, Sets, Value, Values,
+};
 use glam::DVec3;
 
 use crate::runner::operation;
@@ -13,8 +15,8 @@ const FLOAT: Value = Value::Choice(0);
 const BEZIER: Value = Value::Choice(1);
 const BOTH: Value = Value::Choice(2);
 
-fn nothing() -> Input {
-    Input::new(&Document::default(), []).expect("nothing is there")
+fn nothing() -> Operands {
+    Operands::new(&Document::default(), []).expect("nothing is there")
 }
 
 fn values(given: &[(&str, Value)]) -> Values {
@@ -96,7 +98,7 @@ fn names_are_free_in_the_document() {
     let mut document = Document::default();
     let mut names = Vec::new();
     for _ in 0..2 {
-        let input = Input::new(&document, []).expect("nothing is chosen");
+        let input = Operands::new(&document, []).expect("nothing is chosen");
         let values = operation.values(&input, figure_2(4, BOTH)).expect("values");
         let outcome = operation.run(&input, &values, &Progress::default());
         document = outcome

@@ -2,7 +2,7 @@
 
 use batten::document::{Colour, Edit};
 use batten::geometry::{ClampedPolygon, End};
-use batten::operations::{Deviation, Mark, Value};
+use batten::operations::{Annotation, Deviation, Value};
 use glam::DVec3;
 
 use crate::runner::{ROUNDING, Runner, apart, beside};
@@ -30,7 +30,10 @@ fn extending_continues_the_polynomial_and_keeps_the_vertices() {
         let off = apart(before, polygon, |u| u + added as f64);
         assert!(off <= ROUNDING * before.size(), "{off:e}");
         assert_eq!(outcome.deviation, Deviation::Exact);
-        assert_eq!(outcome.marks, [Mark::Point(before.end_jet(end).point)]);
+        assert_eq!(
+            outcome.annotations,
+            [Annotation::Point(before.end_jet(end).point)]
+        );
     }
     let message = Runner::example("periodic").refused("extend", &[]);
     assert_eq!(
@@ -59,7 +62,7 @@ fn splitting_at_a_knot_is_exact_and_divides_colour_and_targets() {
     );
     assert_eq!(curves[1].polygon.vertices(), &before.vertices()[1..]);
     assert_eq!(outcome.deviation, Deviation::Exact);
-    assert_eq!(outcome.marks, [Mark::Point(before.point(1.0))]);
+    assert_eq!(outcome.annotations, [Annotation::Point(before.point(1.0))]);
     let counts: Vec<Value> = outcome
         .figures
         .iter()
@@ -105,7 +108,7 @@ fn splitting_between_knots_comes_near_or_halves_segments() {
     assert_eq!(outcome.deviation, Deviation::Exact);
     // The knot in the middle is offered.
     let (outcome, _) = runner.done("split", &[]);
-    assert_eq!(outcome.marks, [Mark::Point(before.point(5.0))]);
+    assert_eq!(outcome.annotations, [Annotation::Point(before.point(5.0))]);
     let message = Runner::example("periodic").refused("split", &[]);
     assert!(message.contains("periodic"), "{message}");
 }

@@ -4,7 +4,7 @@ use std::ops::Bound;
 
 use batten::document::EditError;
 use batten::geometry::Progress;
-use batten::operations::{ALL, Input, Kind, OperationError, Parameter, Report, Value};
+use batten::operations::{ALL, Kind, Operands, OperationError, Parameter, Report, Value};
 
 use crate::common::Random;
 use crate::runner::examples;
@@ -16,7 +16,7 @@ const ROUNDS: usize = 12;
 const MOST: f64 = 60.0;
 
 /// Draw a value that the parameter allows for the input.
-fn value(parameter: &Parameter, input: &Input, random: &mut Random) -> Value {
+fn value(parameter: &Parameter, input: &Operands, random: &mut Random) -> Value {
     let limits = parameter.limits(input).expect("there is a curve");
     let (from, to) = limits.unwrap_or((Bound::Unbounded, Bound::Unbounded));
     let number = |bound| match bound {
@@ -61,8 +61,9 @@ fn value(parameter: &Parameter, input: &Input, random: &mut Random) -> Value {
             let most = (*count.end()).min(4);
             let drawn = count.start() + random.bits() as usize % (most - count.start() + 1);
             let given = random.bits().is_multiple_of(3) && parameter.applies(input);
+            let least = number(from).unwrap_or(if *whole { 0.0 } else { -4.0 });
             let number = |_| {
-                let number = random.between(if *whole { 0.0 } else { -4.0 }, 6.0);
+                let number = random.between(least, 6.0);
                 if *whole { number.floor() } else { number }
             };
             Value::List((0..if given { drawn } else { 0 }).map(number).collect())

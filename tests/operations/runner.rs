@@ -4,14 +4,16 @@ use batten::document::{Curve, CurveId, Document, Edit, LockedVertices};
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::{End, FloatPolygon, Progress};
 use batten::io::examples::{EXAMPLES, Example};
-use batten::operations::{self, Input, Inputs, Operation, OperationError, Outcome, Report, Value};
+use batten::operations::{
+    self, Inputs, Operands, Operation, OperationError, Outcome, Report, Value,
+};
 
 /// Rounding of points on a curve, in units of its size.
 pub const ROUNDING: f64 = 1e-13;
 
 /// A document with one curve, which is chosen.
 pub struct Runner {
-    pub input: Input,
+    pub input: Operands,
 }
 
 impl Runner {
@@ -28,7 +30,7 @@ impl Runner {
     pub fn curves(curves: Vec<Curve>) -> Self {
         let document = Document::from_curves(curves);
         let first = document.ids().next().expect("a curve");
-        let input = Input::new(&document, [first]).expect("it is there");
+        let input = Operands::new(&document, [first]).expect("it is there");
         Self { input }
     }
 
@@ -48,7 +50,7 @@ impl Runner {
     pub fn edited(self, edit: Edit) -> Self {
         let mut document = self.input.document().clone();
         document.apply(edit).expect("an edit that can be made");
-        let input = Input::new(&document, [self.id()]).expect("it is there");
+        let input = Operands::new(&document, [self.id()]).expect("it is there");
         Self { input }
     }
 
@@ -60,12 +62,12 @@ impl Runner {
     }
 
     /// What an operation works on here: the curve, none if it makes its own, or its vertices as points.
-    pub fn input_of(&self, operation: &Operation) -> Input {
+    pub fn input_of(&self, operation: &Operation) -> Operands {
         match operation.inputs {
-            Inputs::None => Input::new(self.input.document(), []).expect("none is there"),
+            Inputs::None => Operands::new(self.input.document(), []).expect("none is there"),
             Inputs::Two => self.with_copy(),
             Inputs::Points => {
-                let none = Input::new(self.input.document(), []).expect("none is there");
+                let none = Operands::new(self.input.document(), []).expect("none is there");
                 none.with_points(self.polygon().vertices().to_vec())
             }
             _ => self.input.clone(),
@@ -73,7 +75,7 @@ impl Runner {
     }
 
     /// Choose the curve and a copy of it that begins beyond its end.
-    fn with_copy(&self) -> Input {
+    fn with_copy(&self) -> Operands {
         let mut copy = self.curve().clone();
         copy.locked_vertices = LockedVertices::default();
         let polygon = &copy.polygon;
@@ -91,7 +93,7 @@ impl Runner {
         let id = document.next_id();
         let added = document.apply(Edit::Add(Box::new(copy)));
         added.expect("a curve that can be added");
-        Input::new(&document, [self.id(), id]).expect("both are there")
+        Operands::new(&document, [self.id(), id]).expect("both are there")
     }
 
     pub fn run(&self, name: &str, given: &[(&str, Value)]) -> Result<Outcome, OperationError> {

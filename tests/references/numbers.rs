@@ -1,8 +1,9 @@
 //! Typed numbers: random expressions against an evaluator of their trees, and what is never taken.
 
 use batten::geometry::expressions::{
-    ExpressionError, LengthUnit, NumberContext, Quantity, sin_cos_of_degrees,
+    ExpressionError, LengthUnit, NumberContext, sin_cos_of_degrees,
 };
+use batten::geometry::parameters::Quantity;
 use proptest::prelude::*;
 
 use crate::common::repeatable;

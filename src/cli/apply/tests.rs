@@ -9,30 +9,31 @@ use super::super::apply_arguments::{Given, command_of};
 use super::*;
 use crate::document::{Curve, Edit};
 use crate::geometry::FloatPolygon;
-use crate::operations::{Amount, Deviation, Kind, Parameter, Unit, Values};
+use crate::geometry::parameters::{Number, Quantity};
+use crate::operations::{Amount, Deviation, Kind, Parameter, Values};
 
 const LENGTH: Parameter = Parameter {
     name: "length",
     label: "Length",
     help: "How long the line is",
-    kind: Kind::Real {
+    kind: Kind::Real(Number {
         from: Bound::Excluded(Amount::Number(0.0)),
         to: Bound::Unbounded,
         default: Amount::Number(10.0),
-        unit: Unit::Length,
-    },
+        quantity: Quantity::Length,
+    }),
 };
 
 const ANGLE: Parameter = Parameter {
     name: "angle",
     label: "Angle",
     help: "Where the line points",
-    kind: Kind::Real {
+    kind: Kind::Real(Number {
         from: Bound::Excluded(Amount::Number(-std::f64::consts::PI)),
         to: Bound::Included(Amount::Number(std::f64::consts::PI)),
         default: Amount::Number(0.0),
-        unit: Unit::Angle,
-    },
+        quantity: Quantity::Angle,
+    }),
 };
 
 const BACK: Parameter = Parameter {
@@ -110,7 +111,7 @@ fn outcome(edits: Vec<Edit>) -> Outcome {
         figures: Vec::new(),
         equivalence: None,
         remarks: Vec::new(),
-        marks: Vec::new(),
+        annotations: Vec::new(),
         joint: None,
         handles: Vec::new(),
         atlas: None,

@@ -4,7 +4,7 @@ use crate::document::CurveId;
 use crate::editor::Editor;
 use crate::editor::operating::{EndFitStep, Operating, OperationInProgress};
 use crate::editor::reply::{Note, Reply};
-use crate::operations::{Input, Inputs, Operation, OperationError, Value};
+use crate::operations::{Inputs, Operands, Operation, OperationError, Value};
 
 impl Editor {
     /// The operation that is previewed or was applied last, unless something else was done since.
@@ -89,7 +89,7 @@ impl Editor {
     pub(in crate::editor) fn input_of(
         &self,
         operation: &Operation,
-    ) -> Result<Input, OperationError> {
+    ) -> Result<Operands, OperationError> {
         let selection = &self.hand.selection;
         let active = selection.active();
         let active = active.filter(|id| self.document().curve(*id).is_some());
@@ -115,7 +115,7 @@ impl Editor {
         let settled = self.workspace.settled();
         let reference = selection.active().and_then(|id| settled.reference(id));
         let reference = reference.map(|reference| reference.curve.clone());
-        let input = Input::new(settled, curves)?.with_reference(reference);
+        let input = Operands::new(settled, curves)?.with_reference(reference);
         let analysis = selection
             .active()
             .and_then(|id| self.view.analyses.reference(id));

@@ -6,7 +6,7 @@ use crate::editor::hand::tools::{DrawSettings, ToolKind, Transformation};
 use crate::editor::hand::typed_point::{EntryError, TypedPoint, read_number};
 use crate::editor::reply::Refusal;
 use crate::geometry::FloatPolygon;
-use crate::geometry::expressions::Quantity;
+use crate::geometry::parameters::Quantity;
 
 /// What the tool in the hand takes that is typed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -9,7 +9,8 @@ use glam::{DVec2, DVec3};
 use thiserror::Error;
 
 use crate::editor::hand::drawing_plane::DrawingPlane;
-use crate::geometry::expressions::{ExpressionMistake, LengthUnit, NumberContext, Quantity, parts};
+use crate::geometry::expressions::{ExpressionMistake, LengthUnit, NumberContext, parts};
+use crate::geometry::parameters::Quantity;
 
 /// Why nothing can be made of a text.
 #[derive(Clone, Debug, Error, PartialEq)]

@@ -6,13 +6,13 @@ use super::Client;
 use super::patience::Patience;
 use crate::document::Curve;
 use crate::geometry::Progress;
-use crate::operations::{Deviation, Input, Operation, Values};
+use crate::operations::{Deviation, Operands, Operation, Values};
 
 /// The most segments of a curve that a frame waits for: a thousand take about a millisecond.
 const MOST_SEGMENTS: usize = 1000;
 
 /// An operation with its input and default values.
-pub(in crate::editor) type Candidate = (&'static Operation, Input, Values);
+pub(in crate::editor) type Candidate = (&'static Operation, Operands, Values);
 
 /// Foresee deviations beside the frame, of one curve at a time.
 #[derive(Debug, Default)]

@@ -9,7 +9,8 @@ use crate::editor::reply::{Message, Refusal};
 use crate::editor::view::scene::{HoverScene, Mark};
 use crate::editor::view::{REACH, Viewport};
 use crate::geometry::figure;
-use crate::operations::{Handle, Parameter, Unit, Value};
+use crate::geometry::parameters::Quantity;
+use crate::operations::{Handle, Parameter, Value};
 
 /// Shift turns angles by multiples of this, in degrees.
 const ANGLE_STEP: f64 = 15.0;
@@ -141,7 +142,8 @@ impl OperationInProgress {
         let shift = context.modifiers.shift;
         let is_angle = |name: &str| {
             let mut parameters = self.operation.parameters.iter();
-            parameters.any(|parameter| parameter.name == name && parameter.unit() == Unit::Angle)
+            parameters
+                .any(|parameter| parameter.name == name && parameter.quantity() == Quantity::Angle)
         };
         let mut values = drag.handle.values(drag.handle.at);
         let turns = values.iter().any(|(name, _)| is_angle(name));
@@ -195,10 +197,10 @@ impl OperationInProgress {
 
 /// The label of a parameter with its value.
 fn told(parameter: &Parameter, value: &Value) -> String {
-    let unit = parameter.unit();
-    let number = |number: &f64| figure(unit.shown(*number));
+    let quantity = parameter.quantity();
+    let number = |number: &f64| figure(quantity.shown(*number));
     let text = match value {
-        Value::Real(angle) if unit == Unit::Angle => format!("{}°", number(angle)),
+        Value::Real(angle) if quantity == Quantity::Angle => format!("{}°", number(angle)),
         Value::Real(length) => number(length),
         Value::List(numbers) => numbers.iter().map(number).collect::<Vec<_>>().join(", "),
         other => parameter.text(other),

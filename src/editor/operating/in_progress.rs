@@ -11,14 +11,14 @@ use crate::editor::view::Viewport;
 use crate::editor::workspace::PreviewId;
 use crate::geometry::Progress;
 use crate::operations::{
-    self, FeatureComparison, Handle, Input, Operation, OperationError, Outcome, Report, Values,
+    self, FeatureComparison, Handle, Operands, Operation, OperationError, Outcome, Report, Values,
 };
 
 /// Hold an operation whose values can be changed: it is previewed, or it made the last step.
 #[derive(Debug)]
 pub struct OperationInProgress {
     pub(super) operation: &'static Operation,
-    pub(super) input: Input,
+    pub(super) input: Operands,
     pub(super) values: Values,
     pub(super) stage: Stage,
     /// The selection before the operation.
@@ -71,7 +71,7 @@ impl OperationInProgress {
     }
 
     /// The input, as it was before the operation.
-    pub fn input(&self) -> &Input {
+    pub fn input(&self) -> &Operands {
         &self.input
     }
 
@@ -166,9 +166,9 @@ impl OperationInProgress {
             return Vec::new();
         };
         let seen = |point| viewport.flatten(point);
-        let marks = run.outcome.marks.iter().map(|mark| match *mark {
-            operations::Mark::Point(point) => Mark::Snap(seen(point)),
-            operations::Mark::Arrow { from, to } => Mark::Ruler([seen(from), seen(to)]),
+        let marks = run.outcome.annotations.iter().map(|mark| match *mark {
+            operations::Annotation::Point(point) => Mark::Snap(seen(point)),
+            operations::Annotation::Arrow { from, to } => Mark::Ruler([seen(from), seen(to)]),
         });
         marks.collect()
     }
@@ -183,7 +183,7 @@ fn is_same(document: &Document, id: CurveId, curve: &Arc<Curve>) -> bool {
 impl Run {
     pub(super) fn new(
         operation: &'static Operation,
-        input: &Input,
+        input: &Operands,
         values: &Values,
         progress: &Progress,
     ) -> Result<Self, OperationError> {

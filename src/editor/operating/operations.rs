@@ -10,7 +10,7 @@ use crate::editor::view::{Look, View};
 use crate::editor::workspace::{Interruption, Workspace};
 use crate::geometry::Progress;
 use crate::operations::{
-    FeatureComparison, Input, Inputs, Operation, OperationError, Value, Values,
+    FeatureComparison, Inputs, Operands, Operation, OperationError, Value, Values,
 };
 
 use super::end_fit_step::EndFitStep;
@@ -101,7 +101,7 @@ impl Operating<'_> {
     pub(in crate::editor) fn preview(
         &mut self,
         operation: &'static Operation,
-        input: Result<Input, OperationError>,
+        input: Result<Operands, OperationError>,
     ) -> Result<(), Refusal> {
         self.begin(operation, input, &[], None)?;
         self.request_run();
@@ -116,7 +116,7 @@ impl Operating<'_> {
     pub(in crate::editor) fn apply_at_once(
         &mut self,
         operation: &'static Operation,
-        input: Result<Input, OperationError>,
+        input: Result<Operands, OperationError>,
         given: &[(&str, Value)],
         end_fit: Option<EndFitStep>,
     ) -> Reply {
@@ -282,7 +282,7 @@ impl Operating<'_> {
     fn begin(
         &mut self,
         operation: &'static Operation,
-        input: Result<Input, OperationError>,
+        input: Result<Operands, OperationError>,
         given: &[(&str, Value)],
         end_fit: Option<EndFitStep>,
     ) -> Result<(), Refusal> {

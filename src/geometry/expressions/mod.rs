@@ -19,5 +19,5 @@ pub use brackets::parts;
 pub use degrees::sin_cos_of_degrees;
 pub use error::{ExpressionError, ExpressionMistake, NoNumber};
 pub(in crate::geometry) use expression::Expression;
-pub use number_context::{NumberContext, Quantity};
+pub use number_context::NumberContext;
 pub use unit::LengthUnit;

@@ -6,22 +6,7 @@ use super::expression::Expression;
 use super::measure::{Conventions, Dimension};
 use super::reading::begins_name;
 use super::unit::{LengthUnit, Unit};
-
-/// What a number measures that is typed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Quantity {
-    /// A mere number: it takes no unit.
-    #[default]
-    Number,
-    /// A length, in the document's unit.
-    Length,
-    /// A curvature, one over a length in the document's unit.
-    Curvature,
-    /// An angle, in degrees.
-    Angle,
-    /// A parameter of a curve: an angle counts in radians.
-    Parameter,
-}
+use crate::geometry::parameters::Quantity;
 
 /// Where a number is typed: what it measures, and what it replaces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

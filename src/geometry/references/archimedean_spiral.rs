@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::kind::{ANY, EVERYWHERE, ReferenceKind, ReferenceParameter};
+use super::kind::{EVERYWHERE, ReferenceKind};
+use crate::geometry::parameters::{Number, Parameter};
 use crate::geometry::power_series::PowerSeries;
 
 /// The Archimedean spiral.
@@ -11,19 +12,17 @@ pub static KIND: ReferenceKind = ReferenceKind {
     label: "Archimedean spiral",
     help: "(a + bt) (cos t, sin t): its windings lie 2πb apart",
     parameters: &[
-        ReferenceParameter {
+        Parameter {
             name: "a",
             label: "Start a",
             help: "The radius at t = 0",
-            default: 1.0,
-            limits: ANY,
+            kind: Number::any(1.0),
         },
-        ReferenceParameter {
+        Parameter {
             name: "b",
             label: "Growth b",
             help: "How fast the radius grows by the angle",
-            default: 0.2,
-            limits: ANY,
+            kind: Number::any(0.2),
         },
     ],
     planar: true,

@@ -1,6 +1,7 @@
 //! The catenary.
 
-use super::kind::{ReferenceKind, ReferenceParameter, SIZE};
+use super::kind::ReferenceKind;
+use crate::geometry::parameters::{Number, Parameter};
 use crate::geometry::power_series::PowerSeries;
 
 /// The catenary is 1e86 times as high as its size at this distance.
@@ -11,12 +12,11 @@ pub static KIND: ReferenceKind = ReferenceKind {
     name: "catenary",
     label: "Catenary",
     help: "(t, a cosh(t/a)), with its vertex at t = 0",
-    parameters: &[ReferenceParameter {
+    parameters: &[Parameter {
         name: "a",
         label: "Size a",
         help: "The radius of curvature at the vertex, and its height",
-        default: 1.0,
-        limits: SIZE,
+        kind: Number::size(1.0),
     }],
     planar: true,
     interval: |values| [-2.0 * values[0], 2.0 * values[0]],

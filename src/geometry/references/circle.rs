@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::kind::{EVERYWHERE, ReferenceKind, ReferenceParameter, SIZE};
+use super::kind::{EVERYWHERE, ReferenceKind};
+use crate::geometry::parameters::{Number, Parameter};
 use crate::geometry::power_series::PowerSeries;
 
 /// The circle.
@@ -10,12 +11,11 @@ pub static KIND: ReferenceKind = ReferenceKind {
     name: "circle",
     label: "Circle",
     help: "(r cos t, r sin t): curvature 1/r",
-    parameters: &[ReferenceParameter {
+    parameters: &[Parameter {
         name: "radius",
         label: "Radius",
         help: "The radius r",
-        default: 1.0,
-        limits: SIZE,
+        kind: Number::size(1.0),
     }],
     planar: true,
     interval: |_| [0.0, TAU],

@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::kind::{EVERYWHERE, ReferenceKind, ReferenceParameter, SIZE};
+use super::kind::{EVERYWHERE, ReferenceKind};
+use crate::geometry::parameters::{Number, Parameter};
 use crate::geometry::power_series::PowerSeries;
 
 /// The involute of a circle.
@@ -10,12 +11,11 @@ pub static KIND: ReferenceKind = ReferenceKind {
     name: "circle-involute",
     label: "Circle involute",
     help: "r (cos t + t sin t, sin t − t cos t): curvature 1/(r t), with a cusp at t = 0",
-    parameters: &[ReferenceParameter {
+    parameters: &[Parameter {
         name: "radius",
         label: "Radius",
         help: "The radius r of the circle",
-        default: 1.0,
-        limits: SIZE,
+        kind: Number::size(1.0),
     }],
     planar: true,
     interval: |_| [1.0, TAU],

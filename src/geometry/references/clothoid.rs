@@ -1,7 +1,8 @@
 //! The clothoid, or Euler spiral.
 
 use super::integral::{MOST_TURNING, unit_speed};
-use super::kind::{ReferenceKind, ReferenceParameter, SIZE};
+use super::kind::ReferenceKind;
+use crate::geometry::parameters::{Number, Parameter};
 use crate::geometry::power_series::PowerSeries;
 
 /// The clothoid by its arc length s from the inflection.
@@ -9,12 +10,11 @@ pub static KIND: ReferenceKind = ReferenceKind {
     name: "clothoid",
     label: "Clothoid",
     help: "Curvature s/a² at arc length s: direction angle s²/(2a²)",
-    parameters: &[ReferenceParameter {
+    parameters: &[Parameter {
         name: "a",
         label: "Clothoid parameter",
         help: "The length a: the radius of curvature is a at arc length a",
-        default: 1.0,
-        limits: SIZE,
+        kind: Number::size(1.0),
     }],
     planar: true,
     interval: |values| [0.0, 2.0 * values[0]],

@@ -1,6 +1,7 @@
 //! The conical spiral (paper, section 5).
 
-use super::kind::{ANY, EVERYWHERE, ReferenceKind, ReferenceParameter};
+use super::kind::{EVERYWHERE, ReferenceKind};
+use crate::geometry::parameters::{Number, Parameter};
 use crate::geometry::power_series::PowerSeries;
 
 /// The conical spiral.
@@ -8,12 +9,11 @@ pub static KIND: ReferenceKind = ReferenceKind {
     name: "conical-spiral",
     label: "Conical spiral",
     help: "(t cos t, t sin t, b t): an Archimedean spiral that rises with its radius",
-    parameters: &[ReferenceParameter {
+    parameters: &[Parameter {
         name: "rise",
         label: "Rise",
         help: "How far b it rises where its radius grows by 1",
-        default: 1.0,
-        limits: ANY,
+        kind: Number::any(1.0),
     }],
     planar: false,
     interval: |_| [0.0, 15.5],

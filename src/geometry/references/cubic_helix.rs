@@ -1,6 +1,7 @@
 //! The cubic helix.
 
-use super::kind::{EVERYWHERE, ReferenceKind, ReferenceParameter, SIZE};
+use super::kind::{EVERYWHERE, ReferenceKind};
+use crate::geometry::parameters::{Number, Parameter};
 use crate::geometry::power_series::PowerSeries;
 
 /// The cubic helix.
@@ -8,12 +9,11 @@ pub static KIND: ReferenceKind = ReferenceKind {
     name: "cubic-helix",
     label: "Cubic helix",
     help: "a (t, t², 2t³/3): of constant slope, curvature and torsion are both 2/(a (1 + 2t²)²)",
-    parameters: &[ReferenceParameter {
+    parameters: &[Parameter {
         name: "a",
         label: "Size a",
         help: "The length a",
-        default: 1.0,
-        limits: SIZE,
+        kind: Number::size(1.0),
     }],
     planar: false,
     interval: |_| [-1.0, 1.0],

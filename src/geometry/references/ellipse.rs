@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::kind::{EVERYWHERE, ReferenceKind, ReferenceParameter, SIZE};
+use super::kind::{EVERYWHERE, ReferenceKind};
+use crate::geometry::parameters::{Number, Parameter};
 use crate::geometry::power_series::PowerSeries;
 
 /// The ellipse.
@@ -11,19 +12,17 @@ pub static KIND: ReferenceKind = ReferenceKind {
     label: "Ellipse",
     help: "(a cos t, b sin t)",
     parameters: &[
-        ReferenceParameter {
+        Parameter {
             name: "a",
             label: "Half axis a",
             help: "Half the axis along x",
-            default: 2.0,
-            limits: SIZE,
+            kind: Number::size(2.0),
         },
-        ReferenceParameter {
+        Parameter {
             name: "b",
             label: "Half axis b",
             help: "Half the axis along y",
-            default: 1.0,
-            limits: SIZE,
+            kind: Number::size(1.0),
         },
     ],
     planar: true,

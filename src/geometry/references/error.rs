@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::geometry::expressions::{ExpressionError, ExpressionMistake};
+use crate::geometry::parameters::OutOfRange;
 
 /// A reason why a form, an interval or a placement makes no curve.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -71,15 +72,8 @@ pub enum ReferenceError {
         needed: usize,
     },
     /// A value is not allowed.
-    #[error("{label}: {value} is out of range: {needed} is needed")]
-    OutOfRange {
-        /// The parameter, as it is shown.
-        label: &'static str,
-        /// The value given.
-        value: f64,
-        /// What is needed.
-        needed: String,
-    },
+    #[error(transparent)]
+    OutOfRange(#[from] OutOfRange),
     /// The interval is empty or not finite.
     #[error(
         "the interval from t = {from} to t = {to} is empty: give two numbers, the smaller one first"

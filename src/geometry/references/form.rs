@@ -42,7 +42,7 @@ impl AnalyticForm {
             });
         }
         for (parameter, value) in kind.parameters.iter().zip(&values) {
-            parameter.check(*value)?;
+            parameter.kind.check(parameter.label, *value)?;
         }
         Ok(Self { kind, values })
     }

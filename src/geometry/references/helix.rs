@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::kind::{ANY, EVERYWHERE, ReferenceKind, ReferenceParameter, SIZE};
+use super::kind::{EVERYWHERE, ReferenceKind};
+use crate::geometry::parameters::{Number, Parameter};
 use crate::geometry::power_series::PowerSeries;
 
 /// The helix on a cylinder.
@@ -11,19 +12,17 @@ pub static KIND: ReferenceKind = ReferenceKind {
     label: "Helix",
     help: "(r cos t, r sin t, p t/2π): curvature and torsion are constant",
     parameters: &[
-        ReferenceParameter {
+        Parameter {
             name: "radius",
             label: "Radius",
             help: "The radius r of the cylinder",
-            default: 1.0,
-            limits: SIZE,
+            kind: Number::size(1.0),
         },
-        ReferenceParameter {
+        Parameter {
             name: "pitch",
             label: "Pitch",
             help: "How far p it rises in a turn",
-            default: 1.0,
-            limits: ANY,
+            kind: Number::any(1.0),
         },
     ],
     planar: false,

@@ -8,7 +8,8 @@
 //!   w = Λ s ψ(Λαs),   θ = (w/Λ) φ((α − 1) w),   and back:   w = Λ θ ψ(Λ(α − 1)θ),   s = (w/Λ) φ(αw).
 
 use super::integral::{MOST_TURNING, unit_speed};
-use super::kind::{ANY, ReferenceKind, ReferenceParameter};
+use super::kind::ReferenceKind;
+use crate::geometry::parameters::{Number, Parameter};
 use crate::geometry::power_series::PowerSeries;
 
 /// The log-aesthetic curve by its arc length s.
@@ -17,19 +18,17 @@ pub static KIND: ReferenceKind = ReferenceKind {
     label: "Log-aesthetic curve",
     help: "Radius of curvature (1 + Λαs)^(1/α) at arc length s: α = −1 is a clothoid, 0 Nielsen's spiral, 1 a logarithmic spiral, 2 a circle involute",
     parameters: &[
-        ReferenceParameter {
+        Parameter {
             name: "alpha",
             label: "α",
             help: "The slope α of the logarithmic curvature graph",
-            default: -1.0,
-            limits: ANY,
+            kind: Number::any(-1.0),
         },
-        ReferenceParameter {
+        Parameter {
             name: "lambda",
             label: "Λ",
             help: "How fast Λ the radius of curvature, 1 at s = 0, changes there",
-            default: 0.5,
-            limits: ANY,
+            kind: Number::any(0.5),
         },
     ],
     planar: true,

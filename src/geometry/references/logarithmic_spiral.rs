@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::kind::{ANY, EVERYWHERE, ReferenceKind, ReferenceParameter, SIZE};
+use super::kind::{EVERYWHERE, ReferenceKind};
+use crate::geometry::parameters::{Number, Parameter};
 use crate::geometry::power_series::PowerSeries;
 
 /// The logarithmic spiral.
@@ -11,19 +12,17 @@ pub static KIND: ReferenceKind = ReferenceKind {
     label: "Logarithmic spiral",
     help: "a e^(bt) (cos t, sin t): turned, it is itself in another size",
     parameters: &[
-        ReferenceParameter {
+        Parameter {
             name: "a",
             label: "Size a",
             help: "The distance from the pole at t = 0",
-            default: 1.0,
-            limits: SIZE,
+            kind: Number::size(1.0),
         },
-        ReferenceParameter {
+        Parameter {
             name: "b",
             label: "Growth b",
             help: "How fast the logarithm of the radius grows by the angle",
-            default: 0.2,
-            limits: ANY,
+            kind: Number::any(0.2),
         },
     ],
     planar: true,

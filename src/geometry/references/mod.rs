@@ -19,7 +19,7 @@ pub use curve::ReferenceCurve;
 pub use error::{ReferenceError, ReferenceTextError};
 pub use form::{AnalyticForm, ReferenceForm};
 pub use formula::Formula;
-pub use kind::{ReferenceKind, ReferenceParameter};
+pub use kind::ReferenceKind;
 pub use placement::Placement;
 pub use point_list::PointList;
 

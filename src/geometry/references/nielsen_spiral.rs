@@ -1,7 +1,8 @@
 //! Nielsen's spiral.
 
 use super::integral::{MOST_TURNING, integrated};
-use super::kind::{ReferenceKind, ReferenceParameter, SIZE};
+use super::kind::ReferenceKind;
+use crate::geometry::parameters::{Number, Parameter};
 use crate::geometry::power_series::PowerSeries;
 
 /// Euler's constant γ.
@@ -12,12 +13,11 @@ pub static KIND: ReferenceKind = ReferenceKind {
     name: "nielsen-spiral",
     label: "Nielsen’s spiral",
     help: "a (Ci t, Si t), cosine and sine integral: direction angle t, curvature t/a",
-    parameters: &[ReferenceParameter {
+    parameters: &[Parameter {
         name: "a",
         label: "Size a",
         help: "The radius of curvature at t = 1",
-        default: 1.0,
-        limits: SIZE,
+        kind: Number::size(1.0),
     }],
     planar: true,
     interval: |_| [0.5, 10.0],

@@ -1,6 +1,7 @@
 //! The parabola.
 
-use super::kind::{EVERYWHERE, ReferenceKind, ReferenceParameter, SIZE};
+use super::kind::{EVERYWHERE, ReferenceKind};
+use crate::geometry::parameters::{Number, Parameter};
 use crate::geometry::power_series::PowerSeries;
 
 /// The parabola.
@@ -8,12 +9,11 @@ pub static KIND: ReferenceKind = ReferenceKind {
     name: "parabola",
     label: "Parabola",
     help: "(t, t²/(4f)), with its vertex at t = 0",
-    parameters: &[ReferenceParameter {
+    parameters: &[Parameter {
         name: "focus",
         label: "Focal length",
         help: "The distance f of the focus from the vertex",
-        default: 1.0,
-        limits: SIZE,
+        kind: Number::size(1.0),
     }],
     planar: true,
     interval: |values| [-2.0 * values[0], 2.0 * values[0]],

@@ -3,8 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use super::error::ReferenceError;
-use super::kind::SIZE;
-use std::ops::RangeBounds;
+use crate::geometry::parameters::SIZES;
 
 /// Hold a similarity: points are rotated about the origin, scaled, and then translated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +32,7 @@ impl Placement {
     /// rotation is 0.
     pub fn new(rotation: DQuat, scale: f64, translation: DVec3) -> Result<Self, ReferenceError> {
         let length = rotation.length();
-        let fits = length.is_finite() && length > 0.0 && SIZE.contains(&scale);
+        let fits = length.is_finite() && length > 0.0 && SIZES.contains(&scale);
         if !fits || !translation.is_finite() {
             return Err(ReferenceError::BadPlacement);
         }

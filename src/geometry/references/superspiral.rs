@@ -13,14 +13,11 @@
 
 use std::cell::RefCell;
 use std::f64::consts::TAU;
-use std::ops::Bound;
 
 use super::integral::MOST_TURNING;
-use super::kind::{ReferenceKind, ReferenceParameter};
+use super::kind::ReferenceKind;
+use crate::geometry::parameters::{Number, Parameter};
 use crate::geometry::power_series::PowerSeries;
-
-/// The numbers a and b that sums converge for without losing digits.
-const MODERATE: (Bound<f64>, Bound<f64>) = (Bound::Included(-20.0), Bound::Included(20.0));
 
 /// From here on the differential equation is solved for the pieces that are integrated, which is quick.
 const SOLVED: f64 = 2.0;
@@ -51,26 +48,23 @@ pub static KIND: ReferenceKind = ReferenceKind {
     label: "Superspiral",
     help: "Radius of curvature ₂F₁(a, b; c; −t) at direction angle t: completely monotone for a > 0, c > b > 0",
     parameters: &[
-        ReferenceParameter {
+        Parameter {
             name: "a",
             label: "a",
             help: "The first parameter of the hypergeometric function",
-            default: 0.5,
-            limits: MODERATE,
+            kind: Number::between(-20.0, 20.0, 0.5),
         },
-        ReferenceParameter {
+        Parameter {
             name: "b",
             label: "b",
             help: "The second parameter",
-            default: 1.0,
-            limits: MODERATE,
+            kind: Number::between(-20.0, 20.0, 1.0),
         },
-        ReferenceParameter {
+        Parameter {
             name: "c",
             label: "c",
             help: "The third parameter",
-            default: 1.5,
-            limits: (Bound::Included(1e-3), Bound::Included(20.0)),
+            kind: Number::between(1e-3, 20.0, 1.5),
         },
     ],
     planar: true,

@@ -116,8 +116,9 @@ fn analytic(
                 known: list(known.chain(INTERVAL)),
             }));
         };
-        let checked = kind.parameters[index].check(number);
-        checked.map_err(|error| value.error(error))?;
+        let parameter = &kind.parameters[index];
+        let checked = parameter.kind.check(parameter.label, number);
+        checked.map_err(|error| value.error(error.into()))?;
         values[index] = number;
     }
     // Every value is checked already.

@@ -12,14 +12,14 @@ use crate::geometry::references::ReferenceCurve;
 
 /// Hold a snapshot of a document with what was chosen in it: curves, or a table of points.
 #[derive(Clone, Debug)]
-pub struct Input {
+pub struct Operands {
     document: Document,
     curves: Vec<(CurveId, Arc<Curve>)>,
     points: Vec<DVec3>,
     reference: Option<ReferenceCurve>,
 }
 
-impl Input {
+impl Operands {
     /// Choose curves of a document, in the order in which the operation takes them.
     ///
     /// # Errors
@@ -99,7 +99,7 @@ impl Input {
     /// The polygon of the first curve that was chosen.
     ///
     /// # Errors
-    /// As [`Input::curve`].
+    /// As [`Operands::curve`].
     pub fn polygon(&self) -> Result<&FloatPolygon, OperationError> {
         Ok(&self.curve()?.1.polygon)
     }
