@@ -107,7 +107,7 @@ pub fn check_limits(
     let needed = bounds_words(limits.0.map(text), limits.1.map(text));
     Err(OutOfRange {
         label,
-        value: text(value),
+        value: quantity.shown(value).to_string(),
         needed: needed.unwrap_or_else(|| "a finite number".to_owned()),
     })
 }
