@@ -33,6 +33,7 @@ const ORDERED: [Layer; 2] = [
             "fairing",
             "rebuilding",
             "approximation",
+            "parameters",
             "expressions",
             "references",
             "between",
