@@ -1,5 +1,9 @@
 //! Making the scene: what the canvas shows for this frame.
 
+use std::sync::Arc;
+
+use glam::DVec2;
+
 use crate::analysis::SampledCurve;
 use crate::document::{Curve, CurveId};
 use crate::editor::view::comb::CombSettings;
@@ -7,16 +11,15 @@ use crate::editor::view::curve_outlines::{CurveOutlines, PieceTrend};
 use crate::editor::view::density::{disc, disc_among_kept};
 use crate::editor::view::end_marks::{self, EndFitMarks};
 use crate::editor::view::feature_report::{FeatureMark, append_marks};
-use crate::editor::view::ghost::Ghost;
 use crate::editor::view::layers::{Layer, Layers};
 use crate::editor::view::orientation::Orientation;
 use crate::editor::view::outline::{GAP, ViewBox};
 use crate::editor::view::overlay::Overlay;
 use crate::editor::view::scene::{ClampedMark, CurveScene, ProposalScene, Scene, VertexMark};
 use crate::editor::view::shown::Shown;
+use crate::editor::view::sketch::Sketch;
 use crate::editor::view::view::View;
 use crate::geometry::{End, FloatPolygon};
-use glam::DVec2;
 
 /// Screen points around the canvas that are drawn too, so that strokes run off it.
 const BORDER: f64 = 16.0;
@@ -224,14 +227,14 @@ impl View {
         let orientation = self.viewport.orientation;
         if let Some(before) = &overlay.before {
             let chains = (&mut scene.ghost, &mut scene.ghost_polygon);
-            self.ghost.append(before, orientation, view, chains);
+            self.ghost.append(before, orientation, view, chains, None);
         }
         let others = &overlay.others_before;
-        self.other_ghosts.resize_with(others.len(), Ghost::default);
+        self.other_ghosts.resize_with(others.len(), Sketch::default);
         for (ghost, other) in self.other_ghosts.iter_mut().zip(others) {
             scene.ghost.push(GAP);
             let chains = (&mut scene.ghost, &mut scene.ghost_polygon);
-            ghost.append(other, orientation, view, chains);
+            ghost.append(other, orientation, view, chains, None);
         }
         if !shown.layers.shows(Layer::Float) {
             scene.ghost_polygon.clear();
@@ -250,9 +253,15 @@ impl View {
         let document = shown.document();
         scene.id = Some(changed.unwrap_or(document.next_id()));
         scene.colour = changed.and_then(|id| document.curve(id)?.colour);
-        let orientation = self.viewport.orientation;
+        let curve = Arc::new(Curve::new(String::new(), polygon));
+        let (orientation, chains) = (
+            self.viewport.orientation,
+            (&mut scene.curve, &mut scene.float),
+        );
+        let clamped = shown.layers.shows(Layer::Clamped);
+        let clamped = clamped.then_some(&mut scene.clamped);
         self.proposed
-            .draw(polygon, orientation, shown.layers, view, scene);
+            .append(&curve, orientation, view, chains, clamped);
     }
 
     /// Draw the targets of all ends, and the marks of the end that the end-fit tool corrects.

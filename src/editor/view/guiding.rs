@@ -103,22 +103,19 @@ impl Sight<'_> {
         if let Some(VertexOf { curve, vertex }) = regions.request()
             && differs_at_most_at(&curve.polygon, &shown.polygon, Some(*vertex))
         {
-            match regions.result() {
-                Some(Err(reason)) => {
-                    let at = curve.polygon.vertex(*vertex).truncate();
-                    let text = format!("No safe region: {reason}");
-                    scene.labels.push(self.guide_label(at, DVec2::Y, text));
+            let failure = match regions.result() {
+                Some(Err(reason)) => Some(format!("No safe region: {reason}")),
+                Some(Ok(step)) => {
+                    self.draw_region(&step.level, scene);
+                    None
                 }
-                _ if regions.failure().is_some() => {
-                    let at = curve.polygon.vertex(*vertex).truncate();
-                    let text = "The safe region could not be found: please report this curve";
-                    scene
-                        .labels
-                        .push(self.guide_label(at, DVec2::Y, text.to_owned()));
-                }
-                Some(Ok(step)) => self.draw_region(&step.level, scene),
-                None => {}
-            }
+                None => regions.failure().map(|_| {
+                    "The safe region could not be found: please report this curve".to_owned()
+                }),
+            };
+            let at = curve.polygon.vertex(*vertex).truncate();
+            let label = failure.map(|text| self.guide_label(at, DVec2::Y, text));
+            scene.labels.extend(label);
         }
         let losses = &self.view.guides.losses;
         if let Some(feature) = losses.request()

@@ -1,18 +1,14 @@
 //! What is under the pointer, in words and marks.
 
-use std::f64::consts::PI;
-
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 use crate::analysis::{ReferenceAnalysis, SampledCurve};
 use crate::document::CurveId;
+use crate::editor::view::osculating_circle::OsculatingCircle;
 use crate::editor::view::overlay::{Hovering, Overlay};
 use crate::editor::view::scene::HoverScene;
 use crate::editor::view::sight::Sight;
-use crate::geometry::{Jet, coordinate, figure, significant};
-
-/// Chords in half of the osculating circle.
-const CIRCLE_STEPS: i32 = 64;
+use crate::geometry::{coordinate, figure, significant};
 
 impl Sight<'_> {
     /// Find what the pointer is over, on the canvas or in a panel.
@@ -60,18 +56,21 @@ impl Sight<'_> {
         self.curve_hover(id, u)
     }
 
+    /// Write the coordinates of a point, a line each.
+    fn coordinates(self, point: DVec3, in_space: bool) -> String {
+        let written = |value| coordinate(value, self.view.viewport.pixel());
+        let mut text = format!("x {}\ny {}", written(point.x), written(point.y));
+        if in_space {
+            text += &format!("\nz {}", written(point.z));
+        }
+        text
+    }
+
     fn vertex_hover(self, (id, index): (CurveId, usize)) -> Option<HoverScene> {
         let curve = self.document().curve(id).filter(|curve| curve.visible)?;
         let vertex = *curve.polygon.vertices().get(index)?;
-        let written = |value| coordinate(value, self.view.viewport.pixel());
-        let mut text = format!(
-            "Vertex {index}\nx {}\ny {}",
-            written(vertex.x),
-            written(vertex.y)
-        );
-        if vertex.z != 0.0 {
-            text += &format!("\nz {}", written(vertex.z));
-        }
+        let place = self.coordinates(vertex, vertex.z != 0.0);
+        let mut text = format!("Vertex {index}\n{place}");
         if let Some(weights) = curve.polygon.weights() {
             text += &format!("\nw {}", figure(*weights.get(index)?));
         }
@@ -91,15 +90,8 @@ impl Sight<'_> {
     fn clamped_hover(self, id: CurveId, index: usize) -> Option<HoverScene> {
         let analysis = self.view.analyses.get(id)?;
         let vertex = *analysis.clamped().vertices().get(index)?;
-        let written = |value| coordinate(value, self.view.viewport.pixel());
-        let mut text = format!(
-            "Closed vertex {index}\nx {}\ny {}",
-            written(vertex.x),
-            written(vertex.y)
-        );
-        if !analysis.is_planar() {
-            text += &format!("\nz {}", written(vertex.z));
-        }
+        let place = self.coordinates(vertex, !analysis.is_planar());
+        let mut text = format!("Closed vertex {index}\n{place}");
         let polygon = &analysis.curve().polygon;
         if let Some(times) = polygon.clamped_vertex_amplification(index) {
             text += &format!("\nfloat × {}", significant(times, 3));
@@ -127,15 +119,7 @@ impl Sight<'_> {
             Some(it) => format!("t {:.4}", it.reference().curve.parameter(u)),
             None => format!("u {u:.4}"),
         };
-        let written = |value| coordinate(value, self.view.viewport.pixel());
-        let mut lines = vec![
-            parameter,
-            format!("x {}", written(jet.point.x)),
-            format!("y {}", written(jet.point.y)),
-        ];
-        if !planar {
-            lines.push(format!("z {}", written(jet.point.z)));
-        }
+        let mut lines = vec![parameter, self.coordinates(jet.point, !planar)];
         if is_smooth {
             lines.push(format!("κ {}", figure(curvature)));
             let radius = Some(radius).filter(|radius| radius.is_finite());
@@ -150,6 +134,9 @@ impl Sight<'_> {
         let centre = jet.centre_of_curvature().filter(|_| is_smooth);
         let seen_as_it_is = planar && self.view.viewport.orientation.is_from_above();
         let circle = centre.filter(|_| !seen_as_it_is);
+        let circle = circle.and_then(|_| OsculatingCircle::of_jet(&jet));
+        let viewport = &self.view.viewport;
+        let reach = 4.0 * (viewport.size.x + viewport.size.y);
         Some(HoverScene::Curve {
             curve: id,
             u,
@@ -159,23 +146,8 @@ impl Sight<'_> {
             centre: centre
                 .filter(|_| seen_as_it_is)
                 .map(|centre| self.view.viewport.flatten(centre)),
-            circle: circle.map_or(Vec::new(), |centre| self.circle(&jet, centre)),
+            circle: circle.map_or(Vec::new(), |circle| circle.chain_within(viewport, reach)),
             text,
         })
-    }
-
-    /// The osculating circle as it is seen; of a large one only the part near its point.
-    fn circle(self, jet: &Jet, centre: DVec3) -> Vec<DVec2> {
-        let arm = jet.point - centre;
-        let reach = 4.0
-            * (self.view.viewport.size.x + self.view.viewport.size.y)
-            * self.view.viewport.pixel();
-        let half = (reach / arm.length()).min(PI);
-        let across = jet.tangent().unwrap_or_default() * arm.length();
-        let angle = |step: i32| half * f64::from(step) / f64::from(CIRCLE_STEPS);
-        let place = |angle: f64| centre + angle.cos() * arm + angle.sin() * across;
-        let steps = -CIRCLE_STEPS..=CIRCLE_STEPS;
-        let points = steps.map(|step| self.view.viewport.flatten(place(angle(step))));
-        points.collect()
     }
 }

@@ -55,104 +55,89 @@ pub enum LayerSample {
     Squares,
 }
 
-/// The tooltip of most switches.
-const SHOW: &str = "Show or hide this layer";
-
 /// Every layer, in the order of the switches, which is that of [`Layer`]'s variants.
 static LAYERS: &[LayerRow] = &[
-    LayerRow {
-        layer: Layer::Float,
-        name: "float",
-        label: "Float S-polygon",
-        help: SHOW,
-        icon: "waypoints",
-        colour: "float",
-        sample: Some(LayerSample::Discs),
-        is_on: true,
-    },
-    LayerRow {
-        layer: Layer::Clamped,
-        name: "closed",
-        label: "Closed S-polygon",
-        help: "Show or hide the clamped control polygon, as CAD programs show it",
-        icon: "pentagon",
-        colour: "clamped",
-        sample: Some(LayerSample::Squares),
-        is_on: true,
-    },
-    LayerRow {
-        layer: Layer::Curve,
-        name: "curve",
-        label: "Curve",
-        help: SHOW,
-        icon: "spline",
-        colour: "curve",
-        sample: Some(LayerSample::Line),
-        is_on: true,
-    },
-    LayerRow {
-        layer: Layer::Evolute,
-        name: "evolute",
-        label: "Evolute",
-        help: SHOW,
-        icon: "origami",
-        colour: "evolute",
-        sample: Some(LayerSample::Line),
-        is_on: true,
-    },
-    LayerRow {
-        layer: Layer::Comb,
-        name: "comb",
-        label: "Curvature comb",
-        help: SHOW,
-        icon: "chart-no-axes-column",
-        colour: "comb",
-        sample: Some(LayerSample::Line),
-        // Together with the evolute it would hide the polygons at first sight.
-        is_on: false,
-    },
-    LayerRow {
-        layer: Layer::Targets,
-        name: "targets",
-        label: "End targets",
-        help: SHOW,
-        icon: "goal",
-        colour: "target",
-        sample: Some(LayerSample::Line),
-        is_on: true,
-    },
-    LayerRow {
-        layer: Layer::Grid,
-        name: "grid",
-        label: "Grid and axes",
-        help: SHOW,
-        icon: "grid-3x3",
-        colour: "joints",
-        sample: None,
-        is_on: true,
-    },
-    LayerRow {
-        layer: Layer::Features,
-        name: "features",
-        label: "Proved features",
-        help: SHOW,
-        icon: "badge-check",
-        colour: "rising",
-        sample: None,
-        is_on: true,
-    },
-    LayerRow {
-        layer: Layer::SafeRegion,
-        name: "safe-region",
-        label: "Safe region",
-        help: "Show or hide where the selected vertex can go without adding a feature",
-        icon: "circle-dashed",
-        colour: "good",
-        sample: None,
-        // It takes work to find.
-        is_on: false,
-    },
+    row(
+        Layer::Float,
+        "float",
+        "Float S-polygon",
+        ["waypoints", "float"],
+    )
+    .sampled(LayerSample::Discs),
+    row(
+        Layer::Clamped,
+        "closed",
+        "Closed S-polygon",
+        ["pentagon", "clamped"],
+    )
+    .sampled(LayerSample::Squares)
+    .help("Show or hide the clamped control polygon, as CAD programs show it"),
+    row(Layer::Curve, "curve", "Curve", ["spline", "curve"]).sampled(LayerSample::Line),
+    row(Layer::Evolute, "evolute", "Evolute", ["origami", "evolute"]).sampled(LayerSample::Line),
+    // Together with the evolute it would hide the polygons at first sight.
+    row(
+        Layer::Comb,
+        "comb",
+        "Curvature comb",
+        ["chart-no-axes-column", "comb"],
+    )
+    .sampled(LayerSample::Line)
+    .off(),
+    row(Layer::Targets, "targets", "End targets", ["goal", "target"]).sampled(LayerSample::Line),
+    row(Layer::Grid, "grid", "Grid and axes", ["grid-3x3", "joints"]),
+    row(
+        Layer::Features,
+        "features",
+        "Proved features",
+        ["badge-check", "rising"],
+    ),
+    // It takes work to find.
+    row(
+        Layer::SafeRegion,
+        "safe-region",
+        "Safe region",
+        ["circle-dashed", "good"],
+    )
+    .help("Show or hide where the selected vertex can go without adding a feature")
+    .off(),
 ];
+
+/// A layer that is shown, has no sample in the legend, and the usual help.
+const fn row(
+    layer: Layer,
+    name: &'static str,
+    label: &'static str,
+    [icon, colour]: [&'static str; 2],
+) -> LayerRow {
+    LayerRow {
+        layer,
+        name,
+        label,
+        help: "Show or hide this layer",
+        icon,
+        colour,
+        sample: None,
+        is_on: true,
+    }
+}
+
+impl LayerRow {
+    const fn sampled(self, sample: LayerSample) -> Self {
+        let sample = Some(sample);
+        Self { sample, ..self }
+    }
+
+    const fn help(self, help: &'static str) -> Self {
+        Self { help, ..self }
+    }
+
+    const fn off(self) -> Self {
+        Self {
+            is_on: false,
+            ..self
+        }
+    }
+}
 
 impl Layer {
     /// Every layer, in the order of the switches.

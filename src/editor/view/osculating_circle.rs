@@ -1,4 +1,4 @@
-//! The osculating circle of a target, as it is seen and dragged.
+//! Osculating circles of targets and of hovered places, as they are seen and dragged.
 
 use std::f64::consts::PI;
 
@@ -6,11 +6,11 @@ use glam::{DMat2, DVec2, DVec3};
 
 use crate::document::Curve;
 use crate::editor::view::viewport::Viewport;
-use crate::geometry::End;
 use crate::geometry::end_correction::EndTarget;
+use crate::geometry::{End, Jet};
 
 /// Chords of the circle.
-const STEPS: i32 = 96;
+const STEPS: i32 = 128;
 
 /// How far along it from the target a large circle is drawn, in screen points.
 const FARTHEST: f64 = 1200.0;
@@ -47,9 +47,26 @@ impl OsculatingCircle {
         })
     }
 
-    /// The circle as it is seen, or a part of it where it is large: a line where it is straight.
+    /// The osculating circle of a curve; `None` where the curve is straight.
+    pub fn of_jet(jet: &Jet) -> Option<Self> {
+        let arm = jet.centre_of_curvature()? - jet.point;
+        Some(Self {
+            point: jet.point,
+            along: jet.tangent()?,
+            across: arm.try_normalize()?,
+            curvature: 1.0 / arm.length(),
+        })
+    }
+
+    /// The circle of a target as it is seen, or the part that is near.
     pub fn chain(&self, viewport: &Viewport) -> Vec<DVec2> {
-        let reach = FARTHEST * viewport.pixel();
+        self.chain_within(viewport, FARTHEST)
+    }
+
+    /// The circle as it is seen, or the part of it within `reach` screen points where it is large: a line where
+    /// it is straight.
+    pub fn chain_within(&self, viewport: &Viewport, reach: f64) -> Vec<DVec2> {
+        let reach = reach * viewport.pixel();
         let turn = (reach * self.curvature).clamp(-PI, PI);
         let steps = (-STEPS / 2)..=(STEPS / 2);
         let chord = |step: i32| {

@@ -51,7 +51,8 @@ impl Outlines {
 }
 
 impl Outlined {
-    fn update(&mut self, analysis: &CurveAnalysis, orientation: Orientation) {
+    /// Bring the outlines up to date with a curve.
+    pub fn update(&mut self, analysis: &CurveAnalysis, orientation: Orientation) {
         self.curve.set_orientation(orientation);
         self.curve.update(analysis.sampled());
         let chains = [
@@ -63,6 +64,7 @@ impl Outlined {
             outlines.update(chain);
         }
     }
+
     fn update_reference(&mut self, reference: &ReferenceAnalysis, orientation: Orientation) {
         self.curve.set_orientation(orientation);
         self.curve.update(reference.sampled());

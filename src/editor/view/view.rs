@@ -11,13 +11,12 @@ use crate::editor::jobs::patience::Patience;
 use crate::editor::jobs::proving::Proving;
 use crate::editor::view::comb::CombSettings;
 use crate::editor::view::feature_report::FeatureReport;
-use crate::editor::view::ghost::Ghost;
 use crate::editor::view::layers::{Layer, Layers};
 use crate::editor::view::outlines::Outlines;
 use crate::editor::view::plot_scene::{MarkSource, PlotKind, PlotScene, PlotSource};
-use crate::editor::view::proposed::ProposedCurve;
 use crate::editor::view::scene::Scene;
 use crate::editor::view::shown::Shown;
+use crate::editor::view::sketch::Sketch;
 use crate::editor::view::viewport::Viewport;
 
 /// Hold how the model is seen, what is hovered, what is known of curves and references, and what canvas and
@@ -65,10 +64,10 @@ pub struct View {
     /// Whether a panel shows the atlas of an operation.
     pub(in crate::editor) shows_atlas: bool,
     pub(in crate::editor) outlines: Outlines,
-    pub(in crate::editor) ghost: Ghost,
-    pub(in crate::editor) proposed: ProposedCurve,
+    pub(in crate::editor) ghost: Sketch,
+    pub(in crate::editor) proposed: Sketch,
     /// The other curves that an operation works on.
-    pub(in crate::editor) other_ghosts: Vec<Ghost>,
+    pub(in crate::editor) other_ghosts: Vec<Sketch>,
 }
 
 /// What panels say is hovered there, to be marked on the canvas.
