@@ -5,7 +5,6 @@ mod commands;
 mod hand;
 mod jobs;
 mod operating;
-mod paper;
 mod reply;
 mod report;
 mod selection;
@@ -24,7 +23,6 @@ pub use hand::{
 };
 pub use jobs::{Autosaver, FileWork, Recoverable, RecoverableDocument, with_extension};
 pub use operating::{Operating, OperationInProgress, Run};
-pub use paper::{PaperError, PaperPage, spiral_deviations};
 pub use reply::{Message, Note, Refusal, Reply, told};
 pub use report::{CurveReport, Export, Readout, ReferenceReport};
 pub use selection::{Selection, VertexId};
@@ -295,6 +293,20 @@ impl Editor {
             format!("The {end} of {name} is no longer matched: what it followed is gone")
         });
         lines.collect::<Vec<String>>().join("\n")
+    }
+
+    /// Change the document without a step and with nothing to save, unless it was edited since it was opened.
+    /// Returns whether it did.
+    pub fn amend_opened(&mut self, edits: &[Edit]) -> bool {
+        let Ok(document) = self.document().edited(edits.to_vec()) else {
+            return false;
+        };
+        let amends = self.workspace.is_as_opened();
+        if amends {
+            self.workspace.replace(document, None);
+            self.document_changed();
+        }
+        amends
     }
 
     /// Show what edits would make, as while a number field is dragged: begins a preview, or goes

@@ -427,8 +427,9 @@ impl App {
             AfterDiscard::Recover(id) => told(self.editor.recover(id)),
             AfterDiscard::OpenExample(index) => told(self.editor.open_example(index)),
             AfterDiscard::OpenPaper(page) => {
-                told(self.editor.open_paper(page));
-                self.paper.open(page);
+                if page.open(&mut self.editor).is_ok() {
+                    self.paper.open(page);
+                }
             }
             AfterDiscard::Quit => {
                 self.leaving = true;

@@ -9,8 +9,9 @@ use eframe::egui::{Align2, Context, Id, Key, Label, Modal, RichText, TextEdit, U
 use super::theme::{ROW, STEP, Tokens};
 use super::widgets;
 use crate::document::quoted;
-use crate::editor::{Export, PaperPage, with_extension};
+use crate::editor::{Export, with_extension};
 use crate::io::{Format, shown_path};
+use crate::paper::PaperPage;
 
 /// A dialog that answers "nothing" sooner than this was never shown.
 const UNAVAILABLE: Duration = Duration::from_millis(250);

@@ -51,7 +51,6 @@ mod operation_report;
 mod overlays;
 mod painting;
 mod palette;
-mod paper_pages;
 mod paper_panel;
 mod plots;
 mod proposal;

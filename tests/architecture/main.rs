@@ -1,7 +1,7 @@
 //! What ARCHITECTURE.md says of the layers and files of the library, read from the sources
 //! themselves.
 //!
-//! `geometry ← document ← { analysis, io, operations } ← editor ← ui`, with `cli` beside the editor.
+//! `geometry ← document ← { analysis, io, operations } ← editor ← paper ← ui`, with `cli` beside the editor.
 
 mod circles;
 mod folders;
@@ -14,7 +14,7 @@ mod words;
 use source::Source;
 
 /// What each folder of src may look at, besides itself.
-const LAYERS: [(&str, &[&str]); 8] = [
+const LAYERS: [(&str, &[&str]); 9] = [
     ("geometry", &[]),
     ("document", &["geometry"]),
     ("analysis", &["document", "geometry"]),
@@ -24,9 +24,11 @@ const LAYERS: [(&str, &[&str]); 8] = [
         "editor",
         &["analysis", "io", "operations", "document", "geometry"],
     ),
+    ("paper", &["editor", "operations", "document", "geometry"]),
     (
         "ui",
         &[
+            "paper",
             "editor",
             "analysis",
             "io",

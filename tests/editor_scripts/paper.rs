@@ -1,10 +1,11 @@
 //! The paper's figures as documents.
 
-use batten::editor::{Command, Editor, PaperPage, ToolKind, spiral_deviations};
+use batten::editor::{Command, Editor, ToolKind};
 use batten::geometry::features::{Feature, Features};
 use batten::geometry::paper::{RoundingTest, Shortening};
 use batten::geometry::{End, FloatPolygon};
 use batten::operations::Value;
+use batten::paper::{Block, PaperPage, has_shortened, show_shortened, spiral_deviations};
 use glam::{DVec2, DVec3};
 
 use super::script::Script;
@@ -14,7 +15,7 @@ const EXACT: f64 = 1e-14;
 
 fn opened(page: PaperPage) -> Script {
     let mut script = Script::example("s-curve");
-    script.editor.open_paper(page).expect("a page");
+    page.open(&mut script.editor).expect("a page");
     script.check();
     script
 }
@@ -48,6 +49,22 @@ fn every_page_opens_its_curves_unmodified() {
 }
 
 #[test]
+fn every_page_has_a_title_text_and_one_place_for_its_figures() {
+    for page in PaperPage::ALL {
+        assert!(!page.title().is_empty() && !page.title().starts_with('#'));
+        let blocks: Vec<Block> = page.blocks().collect();
+        let figures = blocks.iter().filter(|block| **block == Block::Figures);
+        let expected = match page {
+            PaperPage::Steps | PaperPage::Typical | PaperPage::Composite => 0,
+            _ => 1,
+        };
+        assert_eq!(figures.count(), expected, "{page:?}");
+        assert!(matches!(blocks.first(), Some(Block::Text(_))), "{page:?}");
+        assert!(matches!(blocks.last(), Some(Block::Note(_))), "{page:?}");
+    }
+}
+
+#[test]
 fn digits_that_are_dragged_leave_nothing_to_save_but_after_an_edit_they_are_a_step() {
     let mut script = opened(PaperPage::Rounding);
     let arc = RoundingTest::arc().expect("an arc");
@@ -55,7 +72,7 @@ fn digits_that_are_dragged_leave_nothing_to_save_but_after_an_edit_they_are_a_st
     let drag = |script: &mut Script| {
         for digits in [6, 4, 3] {
             let test = RoundingTest::new(digits, Shortening::CutOff).expect("a test");
-            script.editor.show_shortened(&test);
+            show_shortened(&mut script.editor, &test);
             assert_eq!(script.polygon(), test.polygon);
         }
         script.editor.commit_preview();
@@ -68,7 +85,7 @@ fn digits_that_are_dragged_leave_nothing_to_save_but_after_an_edit_they_are_a_st
     assert!(!script.editor.is_enabled(Command::Undo));
 
     let test = RoundingTest::new(9, Shortening::CutOff).expect("a test");
-    script.editor.show_shortened(&test);
+    show_shortened(&mut script.editor, &test);
     script.editor.set_visible(curve, false).expect("an edit");
     script.editor.set_visible(curve, true).expect("an edit");
     let steps = script.steps();
@@ -81,18 +98,18 @@ fn digits_that_are_dragged_leave_nothing_to_save_but_after_an_edit_they_are_a_st
 #[test]
 fn the_rounding_test_waits_for_a_curve_that_it_knows() {
     let mut script = opened(PaperPage::Rounding);
-    assert!(script.editor.has_shortened());
+    assert!(has_shortened(&script.editor));
     script.command(Command::ToggleLocked);
-    assert!(!script.editor.has_shortened());
+    assert!(!has_shortened(&script.editor));
     let before = script.editor.document().clone();
     let test = RoundingTest::new(3, Shortening::Rounded).expect("a test");
-    script.editor.show_shortened(&test);
+    show_shortened(&mut script.editor, &test);
     assert!(script.editor.document().is_same(&before));
     script.command(Command::ToggleLocked);
     script
         .operate("subdivide", &[])
         .expect("it can be subdivided");
-    assert!(!script.editor.has_shortened());
+    assert!(!has_shortened(&script.editor));
 }
 
 #[test]
@@ -178,7 +195,7 @@ fn figure_3_keeps_its_place_by_quasi_interpolation() {
     assert!(first.distance(DVec3::new(2.0, 2.0, 0.0)) < EXACT, "{first}");
     // The next page is seen from above again, by the tool that selects.
     let mut script = script;
-    script.editor.open_paper(PaperPage::Arc).expect("a page");
+    PaperPage::Arc.open(&mut script.editor).expect("a page");
     assert!(!script.editor.sight().is_orbited());
     assert_eq!(script.editor.hand().tool(), ToolKind::Select);
 }

@@ -43,6 +43,18 @@ impl Editor {
         self.start_file_task(FileTask::Open(paths.to_owned()))
     }
 
+    /// Open a document that was made elsewhere in place of the present one. A refusal is told.
+    ///
+    /// # Errors
+    /// [`Refusal`] if that is what is given; nothing is changed then.
+    pub fn open_document(&mut self, document: Result<Document, Refusal>) -> Reply {
+        let reply = document.map(|document| {
+            self.replace(document, None);
+            Note::silent()
+        });
+        self.tell(reply)
+    }
+
     /// Open a built-in example in place of the document, by its number. The reply is told.
     ///
     /// # Errors

@@ -14,7 +14,7 @@ const ARC: (usize, usize) = (9, 12);
 const VERTEX: usize = 1;
 
 /// The way to shorten a coordinate.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Shortening {
     /// Leave out the last digits, as the paper does.
     CutOff,
