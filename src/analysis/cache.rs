@@ -7,7 +7,7 @@ use super::curve_samples::SampledCurve;
 use super::reference_analysis::ReferenceAnalysis;
 use crate::document::{CurveId, Document};
 
-/// Hold one analysis a curve, and one a reference, brought up to date with the document on demand.
+/// Hold one analysis of each curve and of each reference.
 #[derive(Debug, Default)]
 pub struct AnalysisCache {
     analyses: BTreeMap<CurveId, CurveAnalysis>,
@@ -15,8 +15,7 @@ pub struct AnalysisCache {
 }
 
 impl AnalysisCache {
-    /// Bring all analyses up to date: curves that are gone are forgotten, new ones analysed, and
-    /// changed ones redone where they changed.
+    /// Update all analyses: forget removed curves, analyse new ones, and the changed parts of the others.
     pub fn update(&mut self, document: &Document) {
         self.analyses.retain(|id, _| document.curve(*id).is_some());
         for (id, curve) in document.curves() {
@@ -35,7 +34,7 @@ impl AnalysisCache {
         }
     }
 
-    /// A curve or a reference with its samples: all that is asked of either to draw and to hit it.
+    /// A curve or a reference with its samples, which drawing and hit tests need.
     pub fn sampled(&self, id: CurveId) -> Option<SampledCurve<'_>> {
         match self.analyses.get(&id) {
             Some(analysis) => Some(analysis.sampled()),
@@ -48,7 +47,7 @@ impl AnalysisCache {
         self.references.get(&id)
     }
 
-    /// The analysis of one reference, to go on with.
+    /// The analysis of one reference, to append plots from.
     pub fn reference_mut(&mut self, id: CurveId) -> Option<&mut ReferenceAnalysis> {
         self.references.get_mut(&id)
     }
@@ -58,7 +57,7 @@ impl AnalysisCache {
         self.analyses.get(&id)
     }
 
-    /// The analysis of one curve, to go on with.
+    /// The analysis of one curve, to append plots from.
     pub fn get_mut(&mut self, id: CurveId) -> Option<&mut CurveAnalysis> {
         self.analyses.get_mut(&id)
     }

@@ -1,4 +1,4 @@
-//! Which segments of a curve change with its vertices.
+//! The segments of a curve that change with its vertices.
 
 use std::ops::Range;
 

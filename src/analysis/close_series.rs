@@ -1,4 +1,4 @@
-//! Plots of a part of a curve, as closely as it is looked at.
+//! Plots of a part of a curve in detail.
 
 use glam::DVec2;
 
@@ -11,9 +11,9 @@ use super::level_series::{LevelPlot, finite};
 const POINTS: f64 = 1536.0;
 
 impl SampledCurve<'_> {
-    /// Append a plot between two arc lengths, at as many parameters as can be told apart there. Returns whether
-    /// it has: where there are more samples than that, only those of the curvature are thinned; other levels are
-    /// left to the plot of the whole curve. With `normalised` as for the whole curve.
+    /// Append a plot between two arc lengths, at as many parameters as can be told apart there. Returns
+    /// whether it has: where there are more samples than that, only those of the curvature are thinned; other
+    /// levels are left to the plot of the whole curve. With `normalised` as for the whole curve.
     pub fn append_part(
         self,
         plot: LevelPlot,

@@ -1,4 +1,4 @@
-//! All that is known of one curve, kept up to date segment by segment.
+//! The analysis of one curve, updated segment by segment.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -55,8 +55,8 @@ impl CurveAnalysis {
         analysis
     }
 
-    /// Bring the analysis up to date with the curve. Only segments that depend on a vertex that
-    /// moved, or whose weight changed, are sampled again.
+    /// Update the analysis. Only segments that depend on a moved vertex or a changed weight are sampled
+    /// again.
     pub fn update(&mut self, curve: &Arc<Curve>) {
         if Arc::ptr_eq(&self.curve, curve) {
             return;
@@ -142,17 +142,17 @@ impl CurveAnalysis {
         self.redone
     }
 
-    /// What is left to prove of the features: a job for any thread. `None` if all are known.
+    /// The open part of the features' proof, a job for any thread; `None` if all is proved.
     pub fn proof(&self) -> Option<FeatureProof> {
         self.features.proof(&self.curve, self.is_planar())
     }
 
-    /// Changes whenever there is something to prove anew.
+    /// The revision of the proof: it changes whenever there is something to prove.
     pub fn proof_revision(&self) -> Revision {
         self.features.revision()
     }
 
-    /// Take what a proof came to. It counts for segments that have not changed since.
+    /// Take the result of a proof. It counts for segments that have not changed since.
     pub fn take_proof(&mut self, result: ProofResult) {
         self.features.take(result);
     }
@@ -177,8 +177,8 @@ impl CurveAnalysis {
         self.features.proved()
     }
 
-    /// What is to be measured of the curve's harmony: a job for any thread. `None` if it is known, or
-    /// as long as the features are not.
+    /// The measurement of the curve's harmony, a job for any thread; `None` if the harmony is known, and
+    /// until the features are proved.
     pub fn harmony_measurement(&self) -> Option<HarmonyMeasurement> {
         if self.harmony().is_some() {
             return None;
@@ -188,8 +188,7 @@ impl CurveAnalysis {
         Some(HarmonyMeasurement::new(self.curve.clone(), features, known))
     }
 
-    /// Take a harmony that was measured: it counts as long as the curve is the one it was measured of,
-    /// and spares work for others.
+    /// Take the result of a measurement. It counts until the curve changes, and spares work afterwards.
     pub fn take_harmony(&mut self, measured: MeasuredHarmony) {
         self.harmony = Some(Arc::new(measured));
     }

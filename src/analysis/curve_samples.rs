@@ -11,7 +11,7 @@ use crate::geometry::{ParametricCurve, Range as Span};
 /// Pieces in one block.
 pub(super) const BLOCK: usize = 32;
 
-/// Samples that a curve is given in all, shared evenly by its pieces …
+/// The samples of a whole curve, shared evenly by its pieces …
 const SAMPLES: usize = 4096;
 
 /// … but never fewer or more than these a piece.
@@ -27,7 +27,7 @@ pub struct CurveSamples {
     blocks: Vec<Block>,
 }
 
-/// A curve together with its samples: all that plots, outlines and hit tests look at.
+/// A curve with its samples, which plots, outlines and hit tests read.
 #[derive(Clone, Copy)]
 pub struct SampledCurve<'a> {
     /// The curve.
@@ -176,7 +176,8 @@ impl CurveSamples {
         self.samples.iter().all(|sample| !sample.leaps)
     }
 
-    /// Measure the arc length, without leaps and the far ways to and from them: to plotting accuracy, not the exact figure.
+    /// Measure the arc length, without leaps and the far ways to and from them: to plotting accuracy, not the
+    /// exact figure.
     pub fn length(&self) -> f64 {
         self.blocks.iter().map(|block| block.length).sum()
     }

@@ -91,8 +91,7 @@ fn vertices_beyond_an_end(polygon: &FloatPolygon) -> usize {
     }
 }
 
-/// Remember the arc length where the last question ended, so that questions in rising order
-/// walk along the curve once.
+/// Remember the last arc length, so that calls in rising order walk along the curve once.
 #[derive(Debug, Default)]
 pub struct LengthCursor {
     block: usize,

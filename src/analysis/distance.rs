@@ -1,4 +1,4 @@
-//! How far a curve is from another curve or from a reference.
+//! The distance of a curve from another curve or from a reference.
 
 use glam::DVec3;
 
@@ -6,7 +6,7 @@ use crate::analysis::item::Item;
 use crate::geometry::approximation::MeasuredDeviation;
 use crate::geometry::{Differentiable, FloatPolygon, Progress};
 
-/// Hold how far a curve is from another one, or points are from a curve: true distances, to the nearest point.
+/// The distance of a curve from another one, or of points from a curve: true distances, to the nearest point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Distance {
     /// The largest distance.
@@ -22,8 +22,8 @@ pub struct Distance {
 }
 
 impl Distance {
-    /// Measure how far a curve is from what it is compared with; how far points are from the curve, if that is
-    /// a list of points. `None` where the other one has no points, and after a cancellation.
+    /// Measure the distance of a curve from another curve or a reference, or of a list of points from the
+    /// curve. `None` for an empty list, and after a cancellation.
     pub fn measure(polygon: &FloatPolygon, other: &Item, progress: &Progress) -> Option<Self> {
         match other {
             Item::Curve(other) => {

@@ -1,4 +1,4 @@
-//! The proved features of a curve, kept up to date segment by segment.
+//! The proved features of a curve, updated segment by segment.
 
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
@@ -10,17 +10,17 @@ use crate::document::Curve;
 use crate::geometry::Progress;
 use crate::geometry::features::{Features, SegmentFeatures, SegmentProver};
 
-/// Hold what is proved of the segments of a curve.
+/// Hold the proved features of a curve's segments.
 #[derive(Debug)]
 pub struct ProvedFeatures {
     segments: Vec<SegmentFeatures>,
-    /// The segments that are to be proved, and when they last changed.
+    /// The segments to prove, with their revisions.
     open: BTreeMap<usize, Revision>,
-    /// Changes whenever something is to be proved anew.
+    /// The revision of the proof: it changes whenever there is something to prove.
     revision: Revision,
     /// The number of segments that the last proof counted for.
     proved: usize,
-    /// The features of the whole curve, once they were asked for.
+    /// The features of the whole curve, once they are put together.
     assembled: OnceCell<Features>,
 }
 
@@ -32,7 +32,7 @@ pub struct FeatureProof {
     segments: Vec<(usize, Revision)>,
 }
 
-/// What a proof came to: all of it, or as far as it went before it was cancelled.
+/// The result of a proof: all of it, or the part before a cancellation.
 #[derive(Debug)]
 pub struct ProofResult(Vec<(usize, Revision, SegmentFeatures)>);
 
@@ -77,12 +77,12 @@ impl ProvedFeatures {
             .extend(segments.map(|segment| (segment, revision)));
     }
 
-    /// Changes whenever something is to be proved anew.
+    /// The revision of the proof: it changes whenever there is something to prove.
     pub fn revision(&self) -> Revision {
         self.revision
     }
 
-    /// What is left to prove of the curve; `None` if all is known.
+    /// The open part of the proof; `None` if all is proved.
     pub(super) fn proof(&self, curve: &Arc<Curve>, planar: bool) -> Option<FeatureProof> {
         let segments: Vec<_> = self.open.iter().map(|(k, since)| (*k, *since)).collect();
         (!segments.is_empty()).then(|| FeatureProof {
@@ -92,7 +92,7 @@ impl ProvedFeatures {
         })
     }
 
-    /// Take what a proof came to. It counts for segments that have not changed since.
+    /// Take the result of a proof. It counts for segments that have not changed since.
     pub(super) fn take(&mut self, result: ProofResult) {
         self.proved = 0;
         for (index, revision, features) in result.0 {

@@ -1,4 +1,4 @@
-//! The harmony of a curve, kept up to date segment by segment.
+//! The harmony of a curve, updated segment by segment.
 
 use std::sync::Arc;
 
@@ -13,11 +13,11 @@ use crate::geometry::harmony::{Harmony, SegmentFairness};
 pub struct HarmonyMeasurement {
     curve: Arc<Curve>,
     features: Features,
-    /// What was measured last: segments that have not changed since are as they were.
+    /// The last result, which still holds for unchanged segments.
     known: Option<Arc<MeasuredHarmony>>,
 }
 
-/// Hold the harmony of a curve, and what is known of its segments.
+/// Hold the harmony of a curve, with the figures of its segments.
 #[derive(Debug)]
 pub struct MeasuredHarmony {
     curve: Arc<Curve>,

@@ -1,10 +1,11 @@
-//! A state of a curve or of a reference, by which derived data knows what it was made of.
+//! A state of a curve or of a reference, the key of derived data.
 
 use std::sync::Arc;
 
 use crate::document::{Curve, CurveId, Document, Reference};
 
-/// A state of a curve or of a reference. Two are equal if they are the very same state: no vertex is compared.
+/// A state of a curve or of a reference. Two are equal if they are the very same state: no vertex is
+/// compared.
 #[derive(Clone, Debug)]
 pub enum Item {
     /// A curve.

@@ -1,4 +1,4 @@
-//! Where a curve that a formula gives leaps: through infinity, or over a jump.
+//! Leaps of a curve given by a formula: through infinity, or over a jump.
 
 use glam::DVec3;
 
@@ -126,8 +126,9 @@ pub fn mark(curve: &dyn ParametricCurve, piece: usize, samples: &mut [Sample]) {
     }
 }
 
-/// Measure no arc length over the far ways of a curve to a leap and from it either, lest a plot show nothing else:
-/// over steps that are many times as long as half of all steps are. `size` is the number of samples of a piece.
+/// Measure no arc length over the far ways of a curve to a leap and from it either, lest a plot show nothing
+/// else: over steps that are many times as long as half of all steps are. `size` is the number of samples of
+/// a piece.
 pub fn shorten(samples: &mut [Sample], size: usize) {
     let is_first = |index: usize| index.is_multiple_of(size);
     // Behind a leap what was measured from the piece's start has lost its digits; there chords count.

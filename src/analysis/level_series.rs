@@ -7,7 +7,7 @@ use super::curve_samples::SampledCurve;
 use super::revision::Revision;
 use crate::geometry::CurvatureLevels;
 
-/// What is plotted of a curve's levels.
+/// A plot of a curve's levels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LevelPlot {
     /// A level (1 to 4) of the curvature over arc length; level 1 is the curvature itself.
@@ -60,8 +60,8 @@ pub struct LevelSeries {
 
 impl LevelSeries {
     /// Append a plot, thinned so that the whole curve has about a thousand bins with their extrema kept; NaN
-    /// points are gaps, also at joints where the plot may jump. With `normalised`, the values are those of the
-    /// curve scaled to length 1, over the share of its length.
+    /// points are gaps, also at joints where the plot may jump. With `normalised`, the values are those of
+    /// the curve scaled to length 1, over the share of its length.
     pub fn append(
         &mut self,
         sampled: SampledCurve<'_>,

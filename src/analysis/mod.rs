@@ -1,5 +1,5 @@
-//! What is known of a curve besides its polygon, and of a reference: samples, features and plots as
-//! plain series. Kept up to date segment by segment; nothing in here draws, or knows how a curve is seen.
+//! The analyses of curves and references: samples, features, harmony, distances, and plots as plain series.
+//! A change updates only the segments that depend on it. Nothing in here draws or knows the view.
 
 mod bins;
 mod cache;

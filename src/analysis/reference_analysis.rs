@@ -1,4 +1,4 @@
-//! All that is known of one reference: samples, plots and sampled features.
+//! The analysis of one reference: samples, plots and sampled features.
 
 use std::cell::OnceCell;
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use crate::document::Reference;
 use crate::geometry::ParametricCurve;
 use crate::geometry::references::Placement;
 
-/// Samples that a reference is given in all, about: fewer than a curve, for each may take an integral.
+/// The samples of a reference, about: fewer than of a curve, since each may take an integral.
 const SAMPLES: usize = 1024;
 
 /// Hold the samples of a reference, its plots, and its features as far as samples tell them.

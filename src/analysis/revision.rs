@@ -1,8 +1,8 @@
-//! Telling what changed from what did not.
+//! Revisions: names for the states of a part, to tell what changed.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Name one state of something that changes: two states that were made apart never share a name.
+/// Name one state of a part. Two states never share a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Revision(u64);
 

@@ -1,11 +1,11 @@
-//! Samples of a curve: what every drawn layer is made of.
+//! Samples of a curve, of which every layer is drawn.
 
 use glam::DVec3;
 
 use crate::geometry::references::Placement;
 use crate::geometry::{EvenBatch, Jet, ParametricCurve};
 
-/// Hold what is drawn at one parameter of the curve.
+/// Hold the point, normal and curvature at one parameter of the curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     /// The point C(u).
@@ -23,7 +23,7 @@ pub struct Sample {
 }
 
 impl Sample {
-    /// Derive what is drawn from a jet; the arc length is left at 0.
+    /// Derive a sample from a jet; the arc length is left at 0.
     pub fn of(jet: &Jet, planar: bool) -> Self {
         let tangent = jet.tangent();
         let (normal, curvature) = if planar {

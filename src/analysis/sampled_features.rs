@@ -3,8 +3,7 @@
 use super::curve_samples::SampledCurve;
 use crate::geometry::sampled_cusps;
 
-/// What rounding may make of a sampled curvature, in units of the largest one: smaller ups and
-/// downs are none.
+/// The rounding of a sampled curvature, in units of the largest one: smaller ups and downs are noise.
 const ROUNDING: f64 = 1e-9;
 
 /// Steps of a bisection between two samples: to the last digit.
@@ -34,9 +33,9 @@ pub struct SampledFeature {
     pub curvature: f64,
 }
 
-/// List the inflections and the extrema of the curvature within a curve that its samples show, and its cusps, in
-/// the order of u. An extremum must stand out from the samples around it by more than rounding; a cusp, near which
-/// the curvature grows beyond all bounds, is none.
+/// List the inflections and the extrema of the curvature within a curve that its samples show, and its cusps,
+/// in the order of u. An extremum must stand out from the samples around it by more than rounding; a cusp,
+/// near which the curvature grows beyond all bounds, is none.
 pub(super) fn sampled_features(sampled: SampledCurve<'_>) -> Vec<SampledFeature> {
     let cusps = sampled_cusps(sampled.curve);
     let runs = runs(curvatures(sampled), &cusps, sampled);
@@ -140,8 +139,8 @@ fn extrema(points: &[(f64, f64)], noise: f64, sampled: SampledCurve<'_>) -> Vec<
     features
 }
 
-/// Find an extremum between the neighbours of a sample: where the slope of the curvature, an exact derivative,
-/// changes its sign.
+/// Find an extremum between the neighbours of a sample: where the slope of the curvature, an exact
+/// derivative, changes its sign.
 fn extremum(
     kind: SampledKind,
     points: &[(f64, f64)],
@@ -162,7 +161,7 @@ fn extremum(
     Some(SampledFeature { kind, u, curvature })
 }
 
-/// Find where what is positive at the first of two parameters is so no longer.
+/// Find where a function that is positive at the first of two parameters becomes 0 or negative.
 fn bisected([mut from, mut to]: [f64; 2], value: impl Fn(f64) -> f64) -> f64 {
     for _ in 0..HALVINGS {
         let middle = 0.5 * (from + to);

@@ -13,7 +13,7 @@ use crate::geometry::polygon_figures::{discrete_curvature, torsion_angle, turnin
 /// Vertices in one block.
 pub(super) const BLOCK: usize = 64;
 
-/// Hold a polygon's vertices and, block by block, what follows from them.
+/// Hold a polygon's vertices and, block by block, the figures of its legs and corners.
 #[derive(Debug, Default)]
 pub struct VertexChain {
     vertices: Vec<DVec3>,
@@ -21,7 +21,7 @@ pub struct VertexChain {
     blocks: Vec<Block>,
 }
 
-/// What follows from the vertices of one block, and the legs that begin at them.
+/// The figures of the vertices of one block, and of the legs that begin at them.
 #[derive(Clone, Debug, Default)]
 struct Block {
     revision: Revision,

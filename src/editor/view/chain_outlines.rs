@@ -11,7 +11,7 @@ use crate::editor::view::scene::Legs;
 /// Points closer together than this, in screen points, are thinned out.
 const POINT_SPACING: f64 = 7.0;
 
-/// Hold, block by block, what is drawn of a polygon, seen from somewhere.
+/// Hold the outlines of a polygon in one orientation, block by block.
 #[derive(Debug, Default)]
 pub struct ChainOutlines {
     orientation: Orientation,
@@ -20,7 +20,7 @@ pub struct ChainOutlines {
 
 #[derive(Clone, Debug)]
 struct Block {
-    /// What the block was made of.
+    /// The samples or vertices of which the block was made.
     revision: Revision,
     points: ThinnedPoints,
     /// The box around the vertices and the legs that begin at them.
@@ -36,7 +36,7 @@ struct ThinnedPoints {
 }
 
 impl ChainOutlines {
-    /// Choose from where the polygon is seen.
+    /// Set the orientation.
     pub fn set_orientation(&mut self, orientation: Orientation) {
         if self.orientation != orientation {
             self.orientation = orientation;
@@ -44,8 +44,7 @@ impl ChainOutlines {
         }
     }
 
-    /// Forget what was made of blocks that have changed. All else that asks about a polygon comes
-    /// after this.
+    /// Forget blocks that have changed. Call this before any other method after a change of the polygon.
     pub fn update(&mut self, chain: &VertexChain) {
         let revisions = chain.revisions();
         self.blocks.truncate(revisions.len());
@@ -68,8 +67,7 @@ impl ChainOutlines {
         SeenChain { chain, eye }
     }
 
-    /// Append what is visible of the legs. Where they crowd they fade, and those of which both ends lie on
-    /// `covering` are left out.
+    /// Append the visible legs. Where they crowd they fade; legs with both ends on `covering` are left out.
     pub fn append_legs(
         &self,
         chain: &VertexChain,

@@ -1,4 +1,5 @@
-//! What is drawn of a curve: chains of points thinned to the view, sampled anew where it is close.
+//! The outlines of a curve and of what hangs on it: chains of points thinned to the view, sampled anew close
+//! up.
 
 use glam::{DVec2, DVec3};
 
@@ -23,7 +24,7 @@ const LONGEST_CHORD: f64 = 24.0;
 /// The most samples of a piece that is sampled anew for a close view.
 const FINEST: usize = 256;
 
-/// What the curvature does on a piece of the curve, as far as it is proved.
+/// The proved trend of the curvature on a piece of the curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PieceTrend {
     /// It rises.
@@ -34,7 +35,7 @@ pub enum PieceTrend {
     Undecided,
 }
 
-/// Hold, block by block, what is drawn of a curve, seen from somewhere.
+/// Hold the outlines of a curve in one orientation, block by block.
 #[derive(Debug, Default)]
 pub struct CurveOutlines {
     orientation: Orientation,
@@ -42,10 +43,10 @@ pub struct CurveOutlines {
     fine: Option<PieceSampler>,
 }
 
-/// What is drawn of the pieces of one block.
+/// The outlines of the pieces of one block.
 #[derive(Debug)]
 struct Block {
-    /// What the block was made of.
+    /// The samples or vertices of which the block was made.
     revision: Revision,
     bounds: Bounds,
     curve: Outline,
@@ -59,7 +60,7 @@ impl PieceTrend {
     /// Every trend that is drawn.
     pub const ALL: [Self; 3] = [Self::Rising, Self::Falling, Self::Undecided];
 
-    /// What the curvature does on a piece; `None` where it is constant, or has an extremum.
+    /// The trend on a piece; `None` where the curvature is constant, and at an extremum.
     pub(in crate::editor) fn of(piece: &SignPiece) -> Option<Self> {
         match piece.sign {
             Sign::Positive => Some(Self::Rising),
@@ -71,7 +72,7 @@ impl PieceTrend {
 }
 
 impl CurveOutlines {
-    /// Choose from where the curve is seen.
+    /// Set the orientation.
     pub fn set_orientation(&mut self, orientation: Orientation) {
         if self.orientation != orientation {
             self.orientation = orientation;
@@ -79,8 +80,7 @@ impl CurveOutlines {
         }
     }
 
-    /// Forget what was made of blocks that have changed. All else that asks about a curve comes
-    /// after this.
+    /// Forget blocks that have changed. Call this before any other method after a change of the curve.
     pub fn update(&mut self, sampled: SampledCurve<'_>) {
         let samples = sampled.samples;
         self.blocks.truncate(samples.blocks().len());
@@ -110,7 +110,7 @@ impl CurveOutlines {
         all
     }
 
-    /// Append what is visible of the curve, thinned to the view's pixels. Gaps are
+    /// Append the visible part of the curve, thinned to the view's pixels. Gaps are
     /// [`crate::editor::GAP`] points.
     pub fn append_curve(
         &mut self,
@@ -131,8 +131,8 @@ impl CurveOutlines {
         self.append(sampled, view, out, layer);
     }
 
-    /// Append what is visible of the evolute; it breaks where it passes through infinity, and is
-    /// followed more closely where it runs much faster than the curve.
+    /// Append the visible part of the evolute. It breaks where it passes through infinity, and is refined
+    /// where it runs much faster than the curve.
     pub fn append_evolute(
         &mut self,
         sampled: SampledCurve<'_>,
@@ -161,7 +161,7 @@ impl CurveOutlines {
         self.append(sampled, view, out, layer);
     }
 
-    /// Append what is visible of the comb's envelope.
+    /// Append the visible part of the comb's envelope.
     pub fn append_comb(
         &mut self,
         sampled: SampledCurve<'_>,
@@ -182,8 +182,8 @@ impl CurveOutlines {
         self.append(sampled, view, out, layer);
     }
 
-    /// Append what is visible of the pieces of the curve on which its curvature does one thing, as
-    /// the features of its segments tell; gaps lie between them.
+    /// Append the visible pieces of the curve with one trend, by the features of its segments, with gaps
+    /// between them.
     pub fn append_trend(
         &mut self,
         sampled: SampledCurve<'_>,
@@ -358,7 +358,7 @@ impl CurveOutlines {
         self.orientation.flatten(point)
     }
 
-    /// Append what is visible of one layer, made of the samples piece by piece.
+    /// Append the visible part of one layer, made of the samples piece by piece.
     fn append<P, C>(
         &mut self,
         sampled: SampledCurve<'_>,
@@ -486,7 +486,7 @@ enum Kept {
 
 /// How a layer that is a chain of points is drawn.
 struct Drawn<P, C> {
-    /// Whatever else the points depend on.
+    /// A key of other inputs, such as the bits of the comb's scale.
     shape: u64,
     /// Where a block keeps them.
     outline: Kept,

@@ -1,4 +1,4 @@
-//! How much of a polygon is drawn where it crowds on the screen: discs shrink and vanish, then the legs.
+//! The density of a polygon on the screen: where it crowds, discs shrink and vanish, then legs fade.
 
 use glam::{DVec2, DVec3};
 

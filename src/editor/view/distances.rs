@@ -30,9 +30,9 @@ impl View {
 }
 
 impl<'a> Sight<'a> {
-    /// How far the active curve is from what it is compared with, or a curve from the active reference that it
-    /// is compared with; `None` until it is measured, and between two references. While a curve is changed it
-    /// is that of the last state that was measured.
+    /// How far the active curve is from what it is compared with, or a curve from the active reference that
+    /// it is compared with; `None` until it is measured, and between two references. While a curve is changed
+    /// it is that of the last state that was measured.
     pub fn distance(self) -> Option<&'a Distance> {
         self.view.comparing.distance()
     }

@@ -1,4 +1,4 @@
-//! Making the scene: what the canvas shows for this frame.
+//! The scene of one frame, made of analyses and outlines.
 
 use std::sync::Arc;
 

@@ -32,7 +32,7 @@ pub struct EndFitMarks {
     pub target_tip: Option<DVec2>,
     /// The target's osculating circle, or the part of it that is near; only of the chosen end.
     pub circle: Vec<DVec2>,
-    /// Whether what the end is kept matched to is met; `None` if it is not matched.
+    /// Whether the end meets its match; `None` if it has none.
     pub matched: Option<bool>,
     /// The radius of the ring that rotates the terminal vertices, in units of the model.
     pub ring: f64,
@@ -44,7 +44,7 @@ pub struct EndFitMarks {
     pub arc: Vec<DVec2>,
 }
 
-/// Make the marks of one end; `matched` tells whether what it is kept matched to is met.
+/// Make the marks of one end; `matched` tells whether it meets its match.
 pub fn marks(
     curve: &Curve,
     end: End,

@@ -1,4 +1,4 @@
-//! The evolute as a chain of points, however fast it runs.
+//! The evolute as a chain of points, refined where it runs much faster than the curve.
 
 use glam::DVec2;
 
@@ -11,7 +11,7 @@ use crate::geometry::ParametricCurve;
 /// How often a step between two samples is halved at most.
 const DEEPEST: u32 = 7;
 
-/// What the evolute of a curve is followed with.
+/// The inputs of an evolute.
 pub struct Evolute<'a> {
     pub curve: &'a dyn ParametricCurve,
     pub planar: bool,

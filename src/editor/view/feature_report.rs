@@ -11,8 +11,8 @@ use crate::geometry::features::{
     Extremum, ExtremumKind, Feature, Features, Root, Trend, TrendPiece, Verdict,
 };
 
-/// How far marks stay apart, in screen points: so far where few would touch, and farther where they
-/// would cover most of the curve.
+/// The least distance of two marks in screen points: where few would touch, and where they would cover most
+/// of the curve.
 const MARK_SPACING: [f64; 2] = [9.0, 36.0];
 
 /// So many marks never count as a crowd.
@@ -40,7 +40,7 @@ pub enum FeatureKind {
 }
 
 impl FeatureKind {
-    /// What the feature is called on screen.
+    /// The feature's name on screen.
     pub fn label(self) -> &'static str {
         match self {
             Self::Inflection => "Inflection",
@@ -66,7 +66,7 @@ pub struct FeatureRow {
     pub count: usize,
     /// Bounds of the curvature or torsion of an extremum.
     pub value: Option<[f64; 2]>,
-    /// What is not decided, or what is not proved of a cusp, in words.
+    /// The undecided quantity, or a doubt about a cusp.
     pub remark: &'static str,
     /// The parameter in the middle of the interval, within the domain.
     pub middle: f64,
@@ -75,8 +75,8 @@ pub struct FeatureRow {
 }
 
 impl FeatureRow {
-    /// Say of an extremum of the curvature whether the curve bends most or least there: a maximum of negative
-    /// curvature is flattest. `None` of other features, and where the sign is in doubt.
+    /// Whether the curve bends most or least at an extremum of the curvature: a maximum of negative curvature
+    /// is flattest. `None` for other features, and where the sign is in doubt.
     pub fn bend(&self) -> Option<&'static str> {
         let is_maximum = match self.kind {
             FeatureKind::CurvatureMaximum => true,
@@ -95,7 +95,7 @@ impl FeatureRow {
 /// The features of the active curve or reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FeatureReport {
-    /// Whether the features are those that samples show, and nothing is proved.
+    /// Whether the features come from samples and are not proved.
     pub sampled: bool,
     /// Whether the curvature is proved to be monotone; undecided where features are sampled.
     pub monotone: Verdict,

@@ -1,4 +1,4 @@
-//! Fitting what is shown into the canvas, with a comb of legible size.
+//! Fitting the model into the canvas, with a comb of legible size.
 
 use glam::{DVec2, DVec3};
 

@@ -21,8 +21,8 @@ pub fn grid_steps(viewport: &Viewport) -> (f64, f64) {
     (factor * power, factor * power * times)
 }
 
-/// A view whose elevation above the ground has a smaller sine than the first shows no grid on it; from the second
-/// on it is shown in full.
+/// A view whose elevation above the ground has a smaller sine than the first shows no grid on it; from the
+/// second on it is shown in full.
 const GROUND_SEEN: [f64; 2] = [0.1, 0.35];
 
 /// The most lines of one kind: a guard, steps are chosen so that fewer suffice.
@@ -39,7 +39,8 @@ pub struct GroundGrid {
     pub strength: f32,
 }
 
-/// The minor and major steps of the grid on the ground, if it is seen in a view that is turned against the model.
+/// The minor and major steps of the grid on the ground, if it is seen in a view that is turned against the
+/// model.
 pub fn ground_steps(viewport: &Viewport) -> Option<(f64, f64)> {
     let [right, up] = [DVec3::X, DVec3::Y].map(|axis| viewport.flatten(axis));
     let slant = right.perp_dot(up).abs();

@@ -37,7 +37,7 @@ impl View {
         self.chosen.as_ref().map(|feature| feature.u)
     }
 
-    /// What is proved so far of the atlas of an operation, while a panel shows it: its plane, and the verdicts.
+    /// The plane of an operation's atlas and the verdicts proved so far, while a panel shows it.
     pub fn atlas(&self) -> Option<(&Atlas, &AtlasVerdicts)> {
         let step = self.guides.atlas.result()?.as_ref().ok()?;
         Some((self.guides.atlas.request()?, &step.level))
@@ -92,7 +92,7 @@ impl Sight<'_> {
         Some(FeatureOf { curve, quantity, u })
     }
 
-    /// Draw the guides that hold for what is shown.
+    /// Draw the guides that are still valid for the curve on the canvas.
     pub(super) fn draw_guides(self, scene: &mut GuideScene) {
         scene.clear();
         let active = self.active().and_then(|id| self.document().curve(id));

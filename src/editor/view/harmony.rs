@@ -7,7 +7,7 @@ use crate::editor::view::scene::Mark;
 use crate::editor::view::sight::Sight;
 use crate::editor::view::view::View;
 
-/// A second difference of a logarithm or an angle that is no more than this is rounding.
+/// A second difference of a logarithm or an angle up to this is rounding.
 const EVEN: f64 = 1e-9;
 
 impl View {
@@ -67,7 +67,7 @@ impl Sight<'_> {
     }
 }
 
-/// What is said of a vertex beside it.
+/// The label of a vertex, by the sequence in which it is worst.
 fn short_name(flow: Flow) -> &'static str {
     match flow {
         Flow::Legs => "leg",

@@ -1,4 +1,4 @@
-//! What lies under a place on the canvas.
+//! Hit tests: the vertex, leg, curve or feature under a place on the canvas.
 
 use glam::{DVec2, DVec3};
 
@@ -9,11 +9,11 @@ use crate::editor::view::feature_report::FeatureRow;
 use crate::editor::view::layers::Layer;
 use crate::editor::view::sight::Sight;
 
-/// How near the pointer must come to something, in screen points, whatever the zoom.
+/// The reach of the pointer, in screen points.
 pub const REACH: f64 = 8.0;
 
-/// How near to a vertex, in screen points, a press is still meant for it rather than for the tip
-/// of a comb's tooth.
+/// Nearer to a vertex than this, in screen points, a press is meant for the vertex and not for the tip of a
+/// comb's tooth.
 const BESIDE: f64 = 2.0 * REACH;
 
 /// How much farther than a curve a reference counts, in screen points.
@@ -47,7 +47,7 @@ pub struct LegHit {
 }
 
 impl<'a> Sight<'a> {
-    /// Find the vertex under a place; where several overlap, Tab has chosen which.
+    /// Find the vertex under a place; of several that overlap, the one that Tab has chosen.
     pub(in crate::editor) fn vertex(&self, place: DVec2) -> Option<(CurveId, usize)> {
         if !self.shown.layers.shows(Layer::Float) {
             return None;
@@ -62,8 +62,7 @@ impl<'a> Sight<'a> {
         found.get(chosen).map(|hit| hit.2)
     }
 
-    /// Whether a place lies so near to a vertex that is shown, of either S-polygon, that it may
-    /// be the vertex that is meant.
+    /// Whether a place is near a visible vertex of either S-polygon.
     pub(in crate::editor) fn is_beside_vertex(&self, place: DVec2) -> bool {
         let float = self.shown.layers.shows(Layer::Float);
         (float && self.vertices_within(place, BESIDE).next().is_some())
@@ -75,8 +74,8 @@ impl<'a> Sight<'a> {
         self.clamped_vertex_within(place, REACH)
     }
 
-    /// The vertices within some screen points of a place, with their distances in the model. Where a polygon
-    /// crowds so much that even its legs are not drawn, its vertices are not there to be hit: the curve is.
+    /// The vertices within some screen points of a place, with their distances in the model. A polygon that
+    /// crowds so much that its legs are not drawn has none: the curve is hit instead.
     fn vertices_within(
         &self,
         place: DVec2,
@@ -178,7 +177,7 @@ impl<'a> Sight<'a> {
     }
 
     /// Find the tooth of the active curve's comb whose tip is under a place, from its foot to its tip.
-    /// Beside a vertex it was the vertex that was aimed at.
+    /// Beside a vertex there is none: the press is meant for the vertex.
     pub(in crate::editor) fn tooth(&self, place: DVec2) -> Option<[DVec2; 2]> {
         if !self.shown.layers.shows(Layer::Comb) || self.is_beside_vertex(place) {
             return None;

@@ -1,4 +1,4 @@
-//! What is under the pointer, in words and marks.
+//! The text and the marks of what the pointer hovers.
 
 use glam::DVec3;
 
@@ -11,7 +11,7 @@ use crate::editor::view::sight::Sight;
 use crate::geometry::{coordinate, figure, significant};
 
 impl Sight<'_> {
-    /// Find what the pointer is over, on the canvas or in a panel.
+    /// Find what the pointer hovers, on the canvas or in a panel.
     pub(in crate::editor) fn hover(self, overlay: &Overlay) -> Option<HoverScene> {
         if let Some(hover) = self.hover_from_panels().or_else(|| overlay.handle.clone()) {
             return Some(hover);

@@ -155,12 +155,12 @@ impl Layer {
         all
     };
 
-    /// What the table says of the layer.
+    /// The layer's row of the table.
     pub fn row(self) -> &'static LayerRow {
         &LAYERS[self as usize]
     }
 
-    /// What the layer is called on screen.
+    /// The layer's name on screen.
     pub fn label(self) -> &'static str {
         self.row().label
     }

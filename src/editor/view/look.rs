@@ -1,4 +1,4 @@
-//! Changes of how the model is seen.
+//! The changes of the view that commands, tools and panels request.
 
 use glam::DVec2;
 
@@ -17,14 +17,15 @@ const SURROUNDINGS: f64 = 0.6;
 /// Radians that the view turns by for each screen point of a drag.
 const TURN: f64 = 0.008;
 
-/// A change of how the model is seen.
+/// A change of the view.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Look {
     /// Fit everything into the canvas, and give the comb a legible scale.
     All,
     /// Fit the selected vertices, or everything where fewer than two are selected.
     Selection,
-    /// Fit everything where one of these new curves is out of sight; fit them alone where they would be a speck.
+    /// Fit everything where one of these new curves is out of sight; fit them alone where they would be a
+    /// speck.
     New(Vec<CurveId>),
     /// Draw the comb differently.
     Comb(CombSettings),
@@ -32,10 +33,10 @@ pub enum Look {
     ResetComb,
     /// Show the surroundings of a parameter of the active curve or reference, and the layer of its features.
     Around(f64),
-    /// Choose a feature of the active curve by the middle of its interval: the canvas shows the shortest moves
-    /// that lose it, until the curve changes. A feature that is chosen already is no longer.
+    /// Choose a feature of the active curve by the middle of its interval: the canvas shows the shortest
+    /// moves that lose it, until the curve changes. A feature that is chosen already is no longer.
     Feature(f64),
-    /// See the model from somewhere else; the middle of what is shown stays where it is.
+    /// Turn the view to an orientation; the middle of the curves stays in place.
     From(Orientation),
     /// Turn the view by a drag of some screen points.
     Orbit(DVec2),
@@ -45,7 +46,7 @@ pub enum Look {
 }
 
 impl View {
-    /// Change how the model is seen.
+    /// Change the view.
     pub(in crate::editor) fn look(&mut self, look: Look, shown: Shown<'_>) {
         match look {
             Look::All => self.fit_all(shown),

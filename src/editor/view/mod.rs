@@ -1,4 +1,4 @@
-//! What is seen: the viewport, the layers, what is hovered, and the scene in model coordinates.
+//! The view: viewport, layers, hovering, analyses, and the scene in model coordinates.
 
 mod chain_outlines;
 pub(in crate::editor) mod comb;

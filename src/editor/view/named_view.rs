@@ -1,4 +1,4 @@
-//! The views with a name.
+//! The named views: top, front, right and isometric.
 
 use crate::editor::view::orientation::Orientation;
 
@@ -39,7 +39,7 @@ impl NamedView {
         }
     }
 
-    /// What the view is called on screen.
+    /// The view's name on screen.
     pub fn label(self) -> &'static str {
         match self {
             Self::Xy => "Top view (XY)",

@@ -1,4 +1,4 @@
-//! How space is turned before it is seen: the view plane's axes.
+//! The orientation of the view plane in space.
 
 use glam::{DQuat, DVec2, DVec3};
 

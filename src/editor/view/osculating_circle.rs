@@ -63,8 +63,8 @@ impl OsculatingCircle {
         self.chain_within(viewport, FARTHEST)
     }
 
-    /// The circle as it is seen, or the part of it within `reach` screen points where it is large: a line where
-    /// it is straight.
+    /// The circle as it is seen, or the part of it within `reach` screen points where it is large: a line
+    /// where it is straight.
     pub fn chain_within(&self, viewport: &Viewport, reach: f64) -> Vec<DVec2> {
         let reach = reach * viewport.pixel();
         let turn = (reach * self.curvature).clamp(-PI, PI);

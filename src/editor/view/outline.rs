@@ -1,7 +1,7 @@
-//! Outlines: chains of points thinned to what a screen can show, kept block by block.
+//! Outlines: chains of points, thinned to the screen and kept block by block.
 //!
-//! A block is redone only when its source changed or the level of detail did, so a drag redoes
-//! the blocks under the hand and copies the others.
+//! A block is made again only when its source or the level of detail changes: a drag makes the blocks
+//! under the hand and copies the others.
 
 use glam::DVec2;
 
@@ -11,7 +11,7 @@ use crate::editor::view::sleeve::Sleeve;
 /// are not told apart: at most 1/32 of a screen point.
 const FLAT: f64 = 1.0 / 16.0;
 
-/// What is visible: a box in the view plane and the size of a pixel.
+/// The visible box of the view plane, and the size of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ViewBox {
     /// The lower left corner.
@@ -89,7 +89,7 @@ impl Bounds {
         }
     }
 
-    /// What the box has in common with another.
+    /// The common part of two boxes.
     pub fn within(&self, other: &Self) -> Self {
         let common = Self {
             low: self.low.max(other.low),
@@ -123,12 +123,12 @@ impl Bounds {
 /// A point that breaks a chain: what comes after starts anew.
 pub const GAP: DVec2 = DVec2::NAN;
 
-/// What an outline's points were made for.
+/// The level of detail and the inputs of an outline's points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OutlineKey {
     /// The level of detail; `None` keeps no points, only the box around them.
     pub level: Option<i32>,
-    /// Whatever else the points depend on, such as the comb's scale.
+    /// A key of other inputs, such as the bits of the comb's scale.
     pub shape: u64,
 }
 
@@ -179,7 +179,7 @@ impl Outline {
         }
     }
 
-    /// Append points that are made for this view alone, by `make` unless they are known.
+    /// Append points for this view alone; `make` makes them unless they are kept from the frame before.
     pub fn append_close(
         &mut self,
         view: &ViewBox,

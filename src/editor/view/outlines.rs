@@ -1,4 +1,4 @@
-//! The outlines of all curves and references, seen from one side.
+//! The outlines of all curves and references.
 
 use std::collections::BTreeMap;
 
@@ -8,16 +8,16 @@ use crate::editor::view::chain_outlines::ChainOutlines;
 use crate::editor::view::curve_outlines::CurveOutlines;
 use crate::editor::view::orientation::Orientation;
 
-/// Hold what is drawn of each curve and of each reference.
+/// Hold the outlines of each curve and reference.
 #[derive(Debug, Default)]
 pub struct Outlines {
     curves: BTreeMap<CurveId, Outlined>,
 }
 
-/// What is drawn of one curve and its polygons, or of a reference.
+/// The outlines of one curve and its polygons, or of a reference.
 #[derive(Debug, Default)]
 pub struct Outlined {
-    /// The curve itself, and what hangs on it.
+    /// The curve, its comb and its evolute.
     pub curve: CurveOutlines,
     /// The float S-polygon, or the points of a reference.
     pub float: ChainOutlines,
@@ -26,7 +26,7 @@ pub struct Outlined {
 }
 
 impl Outlines {
-    /// Bring all outlines up to date with their curves; what did not change is kept.
+    /// Update all outlines; blocks that did not change are kept.
     pub fn update(&mut self, analyses: &AnalysisCache, orientation: Orientation) {
         self.curves.retain(|id, _| analyses.sampled(*id).is_some());
         for (id, analysis) in analyses.iter() {
@@ -39,12 +39,12 @@ impl Outlines {
         }
     }
 
-    /// What is drawn of one curve or reference.
+    /// The outlines of one curve or reference.
     pub fn get(&self, id: CurveId) -> Option<&Outlined> {
         self.curves.get(&id)
     }
 
-    /// What is drawn of one curve or reference, to go on with.
+    /// The outlines of one curve or reference, to append from.
     pub fn get_mut(&mut self, id: CurveId) -> Option<&mut Outlined> {
         self.curves.get_mut(&id)
     }

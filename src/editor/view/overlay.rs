@@ -1,4 +1,4 @@
-//! What the tool in use and the operation at hand add to the canvas and the plots.
+//! The tool's and the operation's share of the canvas and the plots.
 
 use std::sync::Arc;
 
@@ -7,14 +7,14 @@ use crate::editor::view::scene::{HoverScene, Mark};
 use crate::geometry::mineur_farin::Atlas;
 use crate::geometry::{End, FloatPolygon};
 
-/// Hold what the tool in use and the operation at hand show in one frame.
+/// Hold what the tool and the operation show in one frame.
 #[derive(Debug, Default)]
 pub struct Overlay {
-    /// Their marks.
+    /// Marks on the canvas.
     pub marks: Vec<Mark>,
     /// The handle under the pointer.
     pub handle: Option<HoverScene>,
-    /// What else the pointer can be over.
+    /// What else the pointer can hover.
     pub hovering: Hovering,
     /// Whether the safe region of the selected vertex may be shown.
     pub guides: bool,
@@ -34,7 +34,7 @@ pub struct Overlay {
     pub atlas: Option<Atlas>,
 }
 
-/// What the pointer can be over on the canvas.
+/// What the pointer can hover on the canvas.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Hovering {
     /// Nothing, as while the view is panned or points are set.

@@ -1,4 +1,4 @@
-//! What a plot marks beside its series: features, what the curvature does, what was joined.
+//! The marks of a plot: features, bands of rising and falling curvature, joined parts.
 
 use glam::DVec2;
 
@@ -66,7 +66,7 @@ impl PlottedQuantity {
 }
 
 impl View {
-    /// Mark in the plot what the canvas marks; made anew only if something of it changed.
+    /// Mark features and joined parts in the plot; marks are made again only when their inputs change.
     pub(super) fn mark_plot(
         &mut self,
         plots: &mut PlotScene,

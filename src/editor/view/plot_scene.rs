@@ -1,4 +1,4 @@
-//! What the plots under the canvas show: the ui only paints it.
+//! The contents of the plot under the canvas, ready to paint.
 
 use glam::DVec2;
 
@@ -7,11 +7,11 @@ use crate::document::CurveId;
 use crate::editor::view::curve_outlines::PieceTrend;
 use crate::editor::view::feature_report::FeatureKind;
 
-/// What is plotted of the active curve.
+/// The kind of a plot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlotKind {
-    /// A level of curvature or torsion, or the logarithmic graph. The curvature itself comes with the polygon's
-    /// discrete curvature.
+    /// A level of curvature or torsion, or the logarithmic graph. The curvature itself comes with the
+    /// polygon's discrete curvature.
     Levels {
         /// Which of them.
         plot: LevelPlot,
@@ -44,7 +44,7 @@ pub struct PlotScene {
     /// The part of the curve, between two arc lengths, that is looked at closely and that the series
     /// are of; `None` where they are of the whole curve.
     pub part: Option<[f64; 2]>,
-    /// What the curve or reference to compare with is called.
+    /// The name of the curve or reference to compare with.
     pub compared_name: String,
     /// The features that belong to the plot, in the order of u.
     pub features: Vec<PlotFeature>,
@@ -57,7 +57,7 @@ pub struct PlotScene {
     pub length: f64,
     /// The arc length as the plot shows it: 1 of a curve that is scaled to length 1.
     pub extent: f64,
-    /// The place on the series of what is hovered on the canvas.
+    /// The place on the series that is hovered on the canvas.
     pub hovered: Option<DVec2>,
     /// The vertex that is hovered on the canvas.
     pub hovered_vertex: Option<usize>,
@@ -93,10 +93,10 @@ impl PlotKind {
     };
 }
 
-/// What the series of a plot are made of.
+/// The inputs of a plot's series.
 #[derive(Debug, PartialEq)]
 pub struct PlotSource {
-    /// What is plotted.
+    /// The kind of the plot.
     pub kind: PlotKind,
     /// Of which curve or reference.
     pub id: CurveId,
@@ -119,7 +119,7 @@ pub enum Compared {
     Given(Item),
 }
 
-/// What the marks of a plot are made of, beside its series.
+/// The inputs of a plot's marks, beside those of its series.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MarkSource {
     /// Whether features are known and shown.

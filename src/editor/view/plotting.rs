@@ -1,4 +1,4 @@
-//! Making the plot of the active curve that is shown.
+//! The series of the plot, made again only when the curve or the kind of plot changes.
 
 use std::sync::Arc;
 
@@ -44,7 +44,7 @@ impl View {
         self.plots = plots;
     }
 
-    /// What is to be plotted; `None` if nothing is.
+    /// The inputs of the plot; `None` without an active curve, and while plots are folded.
     fn plot_source(&mut self, shown: Shown<'_>, overlay: &Overlay) -> Option<PlotSource> {
         let (id, kind) = shown.active().zip(self.plot)?;
         Some(PlotSource {
@@ -57,8 +57,8 @@ impl View {
         })
     }
 
-    /// What the active curve is compared with: the reference that the operation at hand was given, or
-    /// what was chosen.
+    /// Find what the active curve is compared with: the reference that an operation was given, or the user's
+    /// choice.
     fn compared_with(
         &mut self,
         id: CurveId,
@@ -86,8 +86,8 @@ impl View {
         }
     }
 
-    /// The reference with the curve that an operation was given: the same as in the frame before, unless it is
-    /// another curve.
+    /// The reference with the curve that an operation was given: the same as in the frame before, unless it
+    /// is another curve.
     pub(in crate::editor) fn given_reference(&self, curve: &ReferenceCurve) -> Arc<Reference> {
         let known = self.given.as_ref().map(ReferenceAnalysis::reference);
         let known = known.filter(|known| known.curve == *curve);

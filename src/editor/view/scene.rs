@@ -1,4 +1,4 @@
-//! What the canvas shows, in model coordinates: the ui only paints it.
+//! The contents of the canvas in model coordinates, ready to paint.
 
 use glam::{DVec2, DVec3};
 
@@ -20,13 +20,13 @@ pub struct Scene {
     pub ghost_polygon: Legs,
     /// The curve that a click would make.
     pub proposal: ProposalScene,
-    /// What the tool in the hand draws.
+    /// The marks of tools, operations and comparisons.
     pub marks: Vec<Mark>,
     /// The end-fit tool's marks, and the targets of all curves.
     pub ends: Vec<EndFitMarks>,
     /// What guides the move of a vertex.
     pub guides: GuideScene,
-    /// What is under the pointer.
+    /// The hovered thing.
     pub hover: Option<HoverScene>,
 }
 
@@ -152,14 +152,14 @@ pub struct VertexMark {
     pub size: f32,
 }
 
-/// Something that a tool draws.
+/// A mark of a tool, an operation or a comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Mark {
     /// A dashed line, such as the leg that a click would add.
     Guide([DVec2; 2]),
     /// A line that measures.
     Ruler([DVec2; 2]),
-    /// What is measured, beside a place.
+    /// The figures of a measurement, beside a place.
     Measured(DVec2, Vec<MeasuredFigure>),
     /// A box that selects, by opposite corners.
     SelectionBox([DVec2; 2]),
@@ -201,13 +201,14 @@ pub enum Mark {
         /// The axis of the model; `None` for a direction of the screen.
         axis: Option<usize>,
     },
-    /// What a drag has done so far, beside what is dragged.
+    /// The readout of a drag, beside the dragged point.
     Drag(DragReadout),
-    /// A place where something is most: the flow of the vertices uneven, or another curve far.
+    /// A place with the largest value: of unevenness in the flow of vertices, or of the distance between
+    /// curves.
     Extreme {
         /// Where it is.
         at: DVec2,
-        /// What is most there, in a few words.
+        /// The quantity that is largest there, in a few words.
         text: String,
     },
     /// A handle that sets parameters of an operation.
@@ -247,7 +248,7 @@ impl MeasuredFigure {
     }
 }
 
-/// How far a point was dragged, and where it is.
+/// The readout of a drag: by how much, and to where.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DragReadout {
     /// Where the point is seen.
@@ -258,13 +259,13 @@ pub struct DragReadout {
     pub by: DVec3,
     /// Where it is.
     pub to: DVec3,
-    /// Whether z is told too.
+    /// Whether the readout shows z.
     pub in_space: bool,
-    /// What else there is to tell, a line each.
+    /// Remarks, a line each.
     pub remarks: Vec<String>,
 }
 
-/// What the pointer is over.
+/// The hovered vertex, place or handle, and its text.
 #[derive(Clone, Debug, PartialEq)]
 pub enum HoverScene {
     /// A vertex of a float S-polygon.

@@ -1,4 +1,4 @@
-//! What the view shows, borrowed from the workspace and the hand.
+//! The workspace and the hand, as far as the view needs them.
 
 use std::sync::Arc;
 
@@ -9,14 +9,14 @@ use crate::editor::selection::Selection;
 use crate::editor::view::layers::Layers;
 use crate::editor::workspace::Workspace;
 
-/// Borrow what the view shows and does not own.
+/// Borrow the document, the selection and the pointer for one call of the view.
 #[derive(Clone, Copy)]
 pub struct Shown<'a> {
     /// The document, with its preview and without.
     pub workspace: &'a Workspace,
     /// The selected vertices, and the active curve or reference.
     pub selection: &'a Selection,
-    /// The layers that are shown: those that the user chose, as the tool in use changes them.
+    /// The visible layers: the user's choice, as the tool in use changes it.
     pub layers: Layers,
     /// The pointer's place on the canvas, in screen points.
     pub pointer: Option<DVec2>,

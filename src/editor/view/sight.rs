@@ -1,4 +1,4 @@
-//! What is seen, for hit tests and panels to read.
+//! Read access to the view for hit tests and panels.
 
 use glam::DVec3;
 
@@ -13,7 +13,8 @@ use crate::editor::view::view::View;
 use crate::geometry::Amplification;
 use crate::geometry::harmony::Harmony;
 
-/// Borrow the view and what it shows. All that it tells is as of the last [`crate::editor::Editor::refresh`].
+/// Borrow the view, the document and the selection. Figures are those of the last
+/// [`crate::editor::Editor::refresh`].
 #[derive(Clone, Copy)]
 pub struct Sight<'a> {
     pub(in crate::editor) view: &'a View,
@@ -21,20 +22,19 @@ pub struct Sight<'a> {
 }
 
 impl View {
-    /// Read what is seen.
+    /// Borrow the view together with the document and the selection.
     pub(in crate::editor) fn sight<'a>(&'a self, shown: Shown<'a>) -> Sight<'a> {
         Sight { view: self, shown }
     }
 }
 
 impl<'a> Sight<'a> {
-    /// The layers that are shown: those that the user chose, as the tool in use changes them.
+    /// The visible layers: the user's choice, as the tool in use changes it.
     pub fn layers(self) -> Layers {
         self.shown.layers
     }
 
-    /// The features of the active curve or reference; `None` until all are known, which in the background may
-    /// take some frames.
+    /// The features of the active curve or reference; `None` until the proof is complete.
     pub fn features(self) -> Option<&'a FeatureReport> {
         let (item, report) = self.view.features.as_ref()?;
         item.is_of(self.document(), self.active()?)
@@ -85,7 +85,7 @@ impl<'a> Sight<'a> {
         Some(self.view.analyses.sampled(id)?.samples.is_planar())
     }
 
-    /// Whether everything that is shown is planar, and seen from elsewhere than from above.
+    /// Whether all visible curves are planar and the view is not from above.
     pub fn is_orbited(self) -> bool {
         let mut shown = self.curves();
         self.view.viewport.orientation != Orientation::XY
@@ -107,7 +107,7 @@ impl<'a> Sight<'a> {
         })
     }
 
-    /// What the status bar reads.
+    /// The contents of the status bar.
     pub fn readout(self) -> Readout {
         let active = self.active();
         let curve = active.and_then(|id| self.document().curve(id));
@@ -155,7 +155,7 @@ impl<'a> Sight<'a> {
         }
     }
 
-    /// Whether z tells something.
+    /// Whether the status bar shows z.
     fn tells_z(self) -> bool {
         let mut all = self.document().all_ids();
         !self.view.viewport.orientation.is_from_above()

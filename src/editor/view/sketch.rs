@@ -1,4 +1,4 @@
-//! Curves that the document does not have: drawn faintly as they were, or as a click would make them.
+//! Curves outside the document: earlier states, drawn faintly, and the curve that a click would make.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::editor::view::outline::ViewBox;
 use crate::editor::view::outlines::Outlined;
 use crate::editor::view::scene::Legs;
 
-/// Keep what is known of a curve from frame to frame: what did not change is not made anew.
+/// Keep the analysis and the outlines of a curve from frame to frame, so that only changes cost time.
 #[derive(Debug, Default)]
 pub struct Sketch {
     analysis: Option<CurveAnalysis>,
@@ -31,8 +31,8 @@ impl Sketch {
         self.analysis.insert(analysis)
     }
 
-    /// Append what is visible of a curve and its float S-polygon, and of its closed one without the legs that lie
-    /// on the float one's.
+    /// Append the visible part of a curve and its float S-polygon, and of its closed one without the legs
+    /// that lie on the float one's.
     pub fn append(
         &mut self,
         curve: &Arc<Curve>,

@@ -29,8 +29,8 @@ impl Sleeve {
     }
 
     /// Add the next point if one line from the first to this one can stand for the chain between them: it
-    /// passes all points within the tolerance, none of them lies farther away, and it is short enough for rounding
-    /// not to matter. Returns whether it can.
+    /// passes all points within the tolerance, none of them lies farther away, and it is short enough for
+    /// rounding not to matter. Returns whether it can.
     pub fn add(&mut self, point: DVec2) -> bool {
         let along = point - self.from;
         let distance = along.length();

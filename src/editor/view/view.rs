@@ -1,4 +1,4 @@
-//! What is seen, and how.
+//! The view's state.
 
 use glam::DVec3;
 
@@ -19,8 +19,8 @@ use crate::editor::view::shown::Shown;
 use crate::editor::view::sketch::Sketch;
 use crate::editor::view::viewport::Viewport;
 
-/// Hold how the model is seen, what is hovered, what is known of curves and references, and what canvas and
-/// plots show.
+/// Hold viewport, layers, hovering, analyses with their background work, and the contents of canvas and
+/// plots.
 #[derive(Debug, Default)]
 pub struct View {
     pub(in crate::editor) analyses: AnalysisCache,
@@ -36,18 +36,18 @@ pub struct View {
     /// The view that last showed everything, and the revision of the document then.
     pub(in crate::editor) fitted: Option<(Viewport, u64)>,
     pub(in crate::editor) layers: Layers,
-    /// Whether bands are left to the plot.
+    /// Whether bands are shown only in the plot.
     bands_only_plotted: bool,
     pub(in crate::editor) comb: CombSettings,
     pub(in crate::editor) hovered: Hovered,
-    /// What panels said in the frame before: those that are shown first read it.
+    /// The marks of panels in the frame before, for panels that come first.
     pub(in crate::editor) hovered_before: Hovered,
     /// The report of features, for the curve or the reference that it was made of.
     pub(in crate::editor) features: Option<(Item, FeatureReport)>,
     /// The feature whose loss is shown.
     pub(in crate::editor) chosen: Option<FeatureOf>,
     pub(in crate::editor) scene: Scene,
-    /// Which plot is shown; `None` while plots are folded.
+    /// The kind of the plot; `None` while plots are folded.
     pub(in crate::editor) plot: Option<PlotKind>,
     pub(in crate::editor) compared: Option<CurveId>,
     /// The part of the plot that is looked at closely, between two arc lengths.
@@ -57,9 +57,9 @@ pub struct View {
     pub(in crate::editor) plotted: Option<PlotSource>,
     /// What its marks were made of.
     pub(in crate::editor) plot_marked: Option<MarkSource>,
-    /// What is known of the reference that an operation was given.
+    /// The analysis of the reference that an operation was given.
     pub(in crate::editor) given: Option<ReferenceAnalysis>,
-    /// Whether a panel shows the harmony of the active curve.
+    /// Whether a panel shows harmony.
     pub(in crate::editor) harmony: bool,
     /// Whether a panel shows the atlas of an operation.
     pub(in crate::editor) shows_atlas: bool,
@@ -70,7 +70,7 @@ pub struct View {
     pub(in crate::editor) other_ghosts: Vec<Sketch>,
 }
 
-/// What panels say is hovered there, to be marked on the canvas.
+/// The rows and places that panels hover, marked on the canvas.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(in crate::editor) struct Hovered {
     pub(in crate::editor) length: Option<f64>,
@@ -78,7 +78,7 @@ pub(in crate::editor) struct Hovered {
 }
 
 impl View {
-    /// Find out what takes time on threads of its own; `wake` is called when something is known later.
+    /// Do slow work on threads of its own; a thread calls `wake` when it has a result.
     pub(in crate::editor) fn run_in_background(
         &mut self,
         wake: impl Fn() + Clone + Send + 'static,
@@ -89,14 +89,14 @@ impl View {
         self.guides = Guides::background(wake);
     }
 
-    /// Bring up to date what hit tests look at.
+    /// Update the analyses and the outlines, which hit tests read.
     pub(in crate::editor) fn analyse(&mut self, document: &Document) {
         self.analyses.update(document);
         let orientation = self.viewport.orientation;
         self.outlines.update(&self.analyses, orientation);
     }
 
-    /// Bring up to date what is known: analyses, features, harmony and distances.
+    /// Update analyses, features, harmony and distances.
     pub(in crate::editor) fn update(&mut self, shown: Shown<'_>, patience: &mut Patience) {
         self.analyse(shown.document());
         if let Some(active) = shown.active() {
@@ -129,22 +129,22 @@ impl View {
         self.features = listed.or_else(|| self.features.take());
     }
 
-    /// What is known of a curve.
+    /// The analysis of a curve.
     pub fn analysis(&self, curve: CurveId) -> Option<&CurveAnalysis> {
         self.analyses.get(curve)
     }
 
-    /// How the model is mapped to the canvas.
+    /// The viewport.
     pub fn viewport(&self) -> &Viewport {
         &self.viewport
     }
 
-    /// How the comb is drawn.
+    /// The comb's settings.
     pub fn comb(&self) -> CombSettings {
         self.comb
     }
 
-    /// Draw the comb differently. A scale that is not a positive number is passed over.
+    /// Set the comb's scale and density. A scale that is not a positive number changes nothing.
     pub fn set_comb(&mut self, comb: CombSettings) {
         if comb.scale > 0.0 && comb.scale.is_finite() {
             self.comb = CombSettings {
@@ -156,7 +156,7 @@ impl View {
         }
     }
 
-    /// Which layers the user has chosen, whatever the tool in the hand makes of them.
+    /// The layers that the user chose, without the changes of a tool.
     pub fn chosen_layers(&self) -> Layers {
         self.layers
     }
@@ -171,33 +171,32 @@ impl View {
         !self.bands_only_plotted
     }
 
-    /// Show bands of rising and falling curvature on the canvas, or leave them to the plot.
+    /// Show bands of rising and falling curvature on the canvas, or only in the plot.
     pub fn show_bands(&mut self, shown: bool) {
         self.bands_only_plotted = !shown;
     }
 
-    /// What the canvas shows.
+    /// The contents of the canvas.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// The plot of the active curve that is shown.
+    /// The contents of the plot.
     pub fn plots(&self) -> &PlotScene {
         &self.plots
     }
 
-    /// Which plot is shown; `None` while plots are folded.
+    /// The kind of the plot; `None` while plots are folded.
     pub fn plot(&self) -> Option<PlotKind> {
         self.plot
     }
 
-    /// Show another plot, or none.
+    /// Choose the kind of the plot; `None` while plots are folded.
     pub fn show_plot(&mut self, plot: Option<PlotKind>) {
         self.plot = plot;
     }
 
-    /// Look closely at a part of the plot, between two arc lengths of the active curve, or at all of
-    /// it.
+    /// Plot a part between two arc lengths of the active curve in detail; `None` for all of it.
     pub fn look_at_part(&mut self, part: Option<[f64; 2]>) {
         self.plot_part = part;
     }
@@ -213,29 +212,27 @@ impl View {
         self.compared = other;
     }
 
-    /// Say whether a panel shows the harmony of the active curve, which is measured only then.
+    /// Tell whether a panel shows harmony: it is measured only then.
     pub fn show_harmony(&mut self, shown: bool) {
         self.harmony = shown;
     }
 
-    /// Say whether a panel shows the atlas of an operation, which is proved only then.
+    /// Tell whether a panel shows the atlas of an operation: it is proved only then.
     pub fn show_atlas(&mut self, shown: bool) {
         self.shows_atlas = shown;
     }
 
-    /// Forget what panels marked, before they are shown anew.
+    /// Forget the marks of panels, before the panels of the next frame.
     pub fn hover_nothing(&mut self) {
         self.hovered_before = std::mem::take(&mut self.hovered);
     }
 
-    /// Mark the point at an arc length of the active curve, as while the plot is hovered, until
-    /// [`View::hover_nothing`].
+    /// Mark the point at an arc length of the active curve until [`View::hover_nothing`].
     pub fn hover_length(&mut self, arc_length: f64) {
         self.hovered.length = Some(arc_length);
     }
 
-    /// Mark a vertex of the active curve, as while its row is hovered, until
-    /// [`View::hover_nothing`].
+    /// Mark a vertex of the active curve until [`View::hover_nothing`].
     pub fn hover_vertex(&mut self, vertex: usize) {
         self.hovered.vertex = Some(vertex);
     }

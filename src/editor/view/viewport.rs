@@ -1,11 +1,11 @@
-//! From where the model is seen, and the part of the view plane that the canvas shows.
+//! The viewport: orientation, centre and scale of the canvas.
 
 use glam::{DVec2, DVec3};
 
 use crate::editor::view::orientation::Orientation;
 use crate::editor::view::outline::{Bounds, ViewBox};
 
-/// Screen points left free around what is fitted.
+/// Screen points left free around a fitted box.
 const MARGIN: f64 = 56.0;
 
 /// A view that looks along a plane more than this (the sine of its elevation) shows the plane as
@@ -103,7 +103,7 @@ impl Viewport {
         1.0 / self.scale
     }
 
-    /// What is visible.
+    /// The visible part of the view plane.
     pub fn view_box(&self) -> ViewBox {
         let half = 0.5 * self.size / self.scale;
         ViewBox {
@@ -123,7 +123,7 @@ impl Viewport {
         self.centre += fixed - self.to_model(place);
     }
 
-    /// Push what is shown by some screen points.
+    /// Move the view by some screen points.
     pub fn pan(&mut self, by: DVec2) {
         let moved = DVec2::new(-by.x, by.y) / self.scale;
         if moved.is_finite() {
