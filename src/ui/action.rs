@@ -1,4 +1,4 @@
-//! The table of actions: the editor's commands, and what only a window can do. Menus, keys,
+//! The table of actions: the editor's commands, and those of the window alone. Menus, keys,
 //! buttons and the command palette all read it.
 
 use crate::editor::{Command, Editor, Key, Modifiers, Shortcut};
@@ -10,7 +10,7 @@ use crate::ui::shell::Shell;
 /// Something that the user can ask for by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Action {
-    /// Do what the editor does.
+    /// A command of the editor.
     Command(Command),
     /// Begin an empty document.
     New,
@@ -36,7 +36,7 @@ pub enum Action {
     Cut,
     /// Copy the selected curve or vertices.
     Copy,
-    /// Add what was copied.
+    /// Add the copied curve or vertices.
     Paste,
     /// Type another name for the active curve in its row of the list.
     Rename,
@@ -56,7 +56,7 @@ pub enum Action {
     Paper,
     /// List the keys.
     Keys,
-    /// Tell what this program is.
+    /// Show version and licence.
     About,
 }
 
@@ -129,7 +129,7 @@ impl Action {
         label.to_owned()
     }
 
-    /// The words by which the action is found: what it is called here, and on the command line.
+    /// The words that find the action in the palette: its label and its name on the command line.
     pub fn words(self) -> String {
         match self {
             Self::Command(Command::Operation(operation)) => {
@@ -139,7 +139,7 @@ impl Action {
         }
     }
 
-    /// What a menu calls the action now: undo and redo name their step.
+    /// The label in a menu now: undo and redo name their step.
     pub fn label_now(self, editor: &Editor) -> String {
         match self {
             Self::Command(command) => editor.label(command),
@@ -148,7 +148,7 @@ impl Action {
         }
     }
 
-    /// One sentence that says what the action does.
+    /// One sentence for the tooltip.
     pub fn tooltip(self) -> String {
         let tooltip = match self {
             Self::Command(command) => return command.tooltip(),
@@ -160,40 +160,32 @@ impl Action {
             Self::Import => "Add the curves of a file to this document",
             Self::Save => "Save the document to its file",
             Self::SaveAs => "Save the document to another file",
-            Self::Reload => {
-                "Read the document's file again, as it is on disk; Undo brings the changes made here back"
-            }
+            Self::Reload => "Read the file again from disk; Undo brings your changes back",
             Self::ExportDxf => {
-                "Write curves and polygons as DXF: clamped splines, and both S-polygons on layers of their own"
+                "Export curves as clamped splines, and both S-polygons on their own layers"
             }
-            Self::ExportCsv(_) => "Write a table of vertices, with degree and kind in its header",
+            Self::ExportCsv(_) => "Export a table of vertices; its header tells degree and kind",
             Self::Quit => "Quit Batten",
             Self::Cut => "Copy the selected vertices and delete them",
             Self::Copy => "Copy the active curve, or only its selected vertices",
-            Self::Paste => "Add what was copied as a curve of its own",
-            Self::Rename => {
-                "Type another name in the list of curves; a double-click on a row does the same"
-            }
+            Self::Paste => "Add the copied curve or vertices as a new curve",
+            Self::Rename => "Rename in the list of curves; a double-click on a row does the same",
             Self::ToggleTheme => "Switch between the dark and the light theme",
             Self::TogglePlots => "Show or hide the plots under the canvas",
-            Self::FitPlot => {
-                "Show the whole plot again after zooming or panning it; a double-click does the same"
-            }
+            Self::FitPlot => "Show the whole plot again; a double-click does the same",
             Self::NormaliseLength => {
-                "Plot the curve scaled to length 1, over shares of its length: curves of different sizes can be compared"
+                "Scale the plotted curve to length 1, to compare curves of different sizes"
             }
             Self::NudgeStep => "Set how far an arrow key moves the selection",
             Self::Palette => "Find a command by typing part of its name",
-            Self::Paper => {
-                "Open the figures and tables of the paper behind Batten as documents, with explanations"
-            }
+            Self::Paper => "Open figures and tables of the paper behind Batten, with explanations",
             Self::Keys => "List all keys and mouse actions",
             Self::About => "Show version and licence",
         };
         tooltip.to_owned()
     }
 
-    /// The key that asks for the action.
+    /// The key of the action.
     pub fn shortcut(self) -> Option<Shortcut> {
         Some(match self {
             Self::Command(command) => return command.shortcut(),
@@ -226,7 +218,7 @@ impl Action {
         })
     }
 
-    /// Whether the action can be asked for now.
+    /// Whether the action is available now.
     pub fn is_enabled(self, editor: &Editor) -> bool {
         match self {
             Self::Command(command) => editor.is_enabled(command),
@@ -237,7 +229,7 @@ impl Action {
         }
     }
 
-    /// One sentence that says what the action does and, if it cannot be asked for now, why not.
+    /// The tooltip, with the reason if the action is not available.
     pub fn tooltip_now(self, editor: &Editor) -> String {
         let tooltip = self.tooltip();
         match self {
@@ -267,7 +259,7 @@ impl Action {
         }
     }
 
-    /// What a screen reader calls the action now.
+    /// The name of the action for screen readers.
     pub fn name_now(self, editor: &Editor) -> String {
         let label = self.label_now(editor);
         match self.foreseen(editor) {

@@ -1,4 +1,4 @@
-//! The application's window: where everything stands, and who is told what.
+//! The application's window: the places of its parts, and the dispatch of actions.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -37,7 +37,7 @@ use crate::io::Format;
 /// Under which name the settings are kept.
 const SETTINGS: &str = "window";
 
-/// The application: the editor, and what only a window has.
+/// The application: the editor, and the state of the window.
 pub struct App {
     editor: Editor,
     shell: Shell,
@@ -57,7 +57,7 @@ pub struct App {
     actions: Vec<Action>,
     /// The title that the window has now.
     title: String,
-    /// Whether the window may close without being asked again.
+    /// Whether the window may close without another question.
     leaving: bool,
     signals: Signals,
 }
@@ -83,7 +83,7 @@ impl Requested {
 
 impl App {
     /// Make the application about an editor. `storage` holds the settings of the last run;
-    /// without `native_dialogs` files are asked for in the window itself.
+    /// without `native_dialogs` the window has its own prompt for files.
     pub fn new(
         context: &Context,
         storage: Option<&dyn eframe::Storage>,
@@ -132,7 +132,7 @@ impl App {
         }
     }
 
-    /// End well when the system asks the program to end: by SIGTERM, SIGINT or SIGHUP.
+    /// End in order on SIGTERM, SIGINT or SIGHUP.
     ///
     /// # Errors
     /// If the system does not let signals be heard.
@@ -171,7 +171,7 @@ impl App {
         let actions = std::mem::take(&mut self.actions);
         for action in actions {
             self.perform(&context, action);
-            // The panels above have shown what was before.
+            // The panels above have shown the state before.
             context.request_repaint();
         }
         self.update_title(&context);
@@ -179,7 +179,7 @@ impl App {
         self.keep(&context);
     }
 
-    /// Keep what is not saved for the case of a crash, and look at the file when the window gets the
+    /// Autosave unsaved changes, and check the file when the window gets the
     /// keyboard again.
     fn keep(&mut self, context: &Context) {
         let (gained, lost) = context.input(|input| {
@@ -216,7 +216,7 @@ impl App {
         let typing = keyboard::typing(context) == Typing::Text;
         let commands = self.keyboard.take_commands(context, &self.editor);
         if typing && !commands.is_empty() {
-            // What is being typed counts: its field gives it up before the command is done.
+            // The field gives up its text before the command runs: that text counts.
             context.memory_mut(|memory| memory.stop_text_input());
         }
         for command in commands {
@@ -330,7 +330,7 @@ impl App {
         if let Some(rect) = self.canvas.rect() {
             layer_strip_ui(context, rect, &mut self.editor, &mut self.actions);
             let entry = self.entry.show(context, rect, &mut self.editor);
-            // The message stands above what is typed.
+            // The message stands above the entry field.
             let above = entry.map_or(rect, |entry| rect.with_max_y(entry.top()));
             message_ui(context, above, &mut self.editor, &mut self.actions);
             if self.editor.sight().is_orbited() {
@@ -418,7 +418,7 @@ impl App {
         }
     }
 
-    /// Go on with what was wanted: nothing is unsaved, or may be lost.
+    /// Take the next step: nothing is unsaved, or it may be lost.
     fn go_on(&mut self, context: &Context, after: AfterDiscard) {
         match after {
             AfterDiscard::New => self.editor.begin_empty(),
@@ -565,7 +565,7 @@ impl App {
         }
     }
 
-    /// Where the window's own prompt was in use, a refusal is told there; otherwise it stays the
+    /// A refusal is shown in the window's own prompt if that was in use; otherwise it stays the
     /// message.
     fn ask_again(&mut self, purpose: Purpose, path: &Path, refusal: Refusal) {
         if !self.files.is_native() {
@@ -589,8 +589,8 @@ impl App {
         }
     }
 
-    /// A window that is closed from outside asks about unsaved changes first; a signal closes it at
-    /// once, as what is not saved is kept.
+    /// A window closed from outside asks about unsaved changes first; a signal closes it at
+    /// once, as autosaving keeps them.
     fn watch_closing(&mut self, context: &Context) {
         if self.signals.have_come() {
             context.send_viewport_cmd(ViewportCommand::Close);

@@ -1,4 +1,4 @@
-//! The atlas of an operation: a plane of two parameters coloured by what is proved, with the present
+//! The atlas of an operation: a plane of two parameters coloured by proved verdicts, with the present
 //! values as a point that can be dragged.
 
 use eframe::egui::{
@@ -38,7 +38,7 @@ pub struct AtlasView {
 /// Values of the operation's parameters, by name.
 pub type Values = Vec<(&'static str, Value)>;
 
-/// What a picture was made of.
+/// The data that a picture was made of.
 #[derive(PartialEq)]
 struct Picture {
     plane: mineur_farin::Atlas,
@@ -77,7 +77,7 @@ impl AtlasView {
         self.event(ui, &response, rect, editor, atlas)
     }
 
-    /// What a click or a drag does to the point. Undo ends a drag in the editor, Esc here.
+    /// Turn a click or a drag into an event. Undo ends a drag in the editor, Esc here.
     fn event(
         &mut self,
         ui: &Ui,
@@ -244,7 +244,7 @@ fn paint_point(painter: &Painter, at: Pos2, hot: bool, tokens: &Tokens) {
     painter.circle(at, POINT, fill, Stroke::new(2.0, tokens.strong_text));
 }
 
-/// Say what the colours and the dashed line mean.
+/// Explain the colours and the dashed line.
 fn legend_ui(ui: &mut Ui, atlas: &Atlas) {
     let tokens = Tokens::of(ui);
     ui.horizontal_wrapped(|ui| {
@@ -276,7 +276,7 @@ fn legend_ui(ui: &mut Ui, atlas: &Atlas) {
     }
 }
 
-/// Tell a screen reader where the point is.
+/// Describe the point to screen readers.
 fn describe(response: &Response, in_progress: &OperationInProgress, atlas: &Atlas) {
     let told = [atlas.across, atlas.up].map(|parameter| {
         let value = in_progress.values().get(parameter);

@@ -1,4 +1,4 @@
-//! What the scene is painted with: lines and arrows between points of the model.
+//! The brush of the scene: lines and arrows between points of the model.
 
 use std::cell::RefCell;
 
@@ -9,7 +9,7 @@ use super::chains::Screen;
 use super::theme::{STEP, Tokens};
 use crate::editor::Legs;
 
-/// What the parts of the scene are painted with.
+/// The state that all parts of the scene are painted with.
 pub struct Brush<'a> {
     /// The painter, clipped to the canvas.
     pub painter: &'a Painter,

@@ -56,7 +56,7 @@ impl Canvas {
     }
 
     /// Send this frame's events to the editor. Called before any panel is shown, so that all of
-    /// them show what the events have made.
+    /// them show the result.
     pub fn send_events(&mut self, context: &Context, editor: &mut Editor) {
         let Some(rect) = self.rect else {
             return;
@@ -163,7 +163,7 @@ impl Canvas {
         }
     }
 
-    /// Whether egui gives a press to the canvas rather than to what lies over its edge, such as
+    /// Whether egui gives a press to the canvas rather than to a widget over its edge, such as
     /// the handle that resizes a panel.
     fn has_the_press(&self, context: &Context) -> bool {
         let is_up_again = context.input(|input| !input.pointer.any_down());
@@ -265,8 +265,8 @@ impl Canvas {
         }
     }
 
-    /// Whether keys are the canvas's: it had the keyboard before this frame's events. What has it
-    /// now is no guide, for Esc has already taken it from the field that Esc was meant for, and has
+    /// Whether keys are the canvas's: it had the keyboard before this frame's events. The present focus
+    /// is no guide, for Esc has already taken it from the field that Esc was meant for, and has
     /// ended the field's drag.
     pub fn has_keyboard(&self, context: &Context) -> bool {
         let dragged = context.dragged_id().or(context.drag_stopped_id());
@@ -360,7 +360,7 @@ impl Canvas {
             tokens,
             texts: RefCell::default(),
         };
-        // Panels may have changed what is shown.
+        // Panels may have changed the scene.
         editor.refresh();
         let scene = editor.view().scene();
         painting::paint(&brush, scene);

@@ -1,5 +1,5 @@
-//! What is typed on the canvas: a point, an angle or a factor for the tool in the hand, and the
-//! figures of the leg that is drawn.
+//! The entry field on the canvas, for a point, an angle or a factor of the tool in hand, and the
+//! figures of the leg in progress.
 
 use eframe::egui::{
     Align2, Area, Context, Event, Frame, Id, Key, Order, Rect, Stroke, TextEdit, Ui, vec2,
@@ -27,7 +27,7 @@ const CAPTION: f32 = 48.0;
 const FIGURE: f32 = 76.0;
 const SO_FAR: f32 = 56.0;
 
-/// The field for what is typed, which the canvas's digits go to.
+/// The field that digits typed on the canvas go to.
 #[derive(Debug, Default)]
 pub struct CanvasEntry {
     text: String,
@@ -121,7 +121,7 @@ impl CanvasEntry {
         self.follow_keyboard(ui, editor, response.has_focus());
     }
 
-    /// Show what is typed while it is, do it on Enter, and give the canvas back after that and on Esc.
+    /// Preview the text, apply it on Enter, and return the keyboard to the canvas after that and on Esc.
     fn follow_keyboard(&mut self, ui: &Ui, editor: &mut Editor, has_keyboard: bool) {
         let was_typed = std::mem::replace(&mut self.is_typed, has_keyboard);
         if has_keyboard && ui.input(|input| input.key_pressed(Key::Enter)) {
@@ -129,7 +129,7 @@ impl CanvasEntry {
         }
         let text = if has_keyboard { self.text.as_str() } else { "" };
         if editor.type_entry(text) {
-            // What is typed moves the leg that is drawn, which this frame has shown already.
+            // The text moves the leg in progress, which this frame has shown already.
             ui.ctx().request_repaint();
         }
         let called_off = || ui.input(|input| input.key_pressed(Key::Escape));
@@ -142,7 +142,7 @@ impl CanvasEntry {
     fn enter(&mut self, ui: &Ui, editor: &mut Editor) {
         let is_empty = self.text.trim().is_empty();
         let entered = if is_empty {
-            // As on the canvas: it ends what is drawn.
+            // As on the canvas, it ends the drawing.
             editor.input(Input::Key(EditorKey::Enter));
             Ok(())
         } else {
@@ -168,7 +168,7 @@ fn begins(text: &str) -> bool {
     first.is_some_and(|first| first.is_ascii_digit() || BEGINNINGS.contains(&first))
 }
 
-/// The caption of the field, its name and what can be typed there.
+/// The caption of the field, its name and its hint.
 fn words(entry: Entry) -> (&'static str, &'static str, String) {
     match entry {
         Entry::Point([x, y]) => {
@@ -185,7 +185,7 @@ fn caption_ui(ui: &mut Ui, caption: &str) {
     widgets::label_in(ui, rect, caption, Tokens::of(ui).faint_text);
 }
 
-/// Degree, length and angle of what is drawn.
+/// Degree, length and angle of the drawing.
 fn leg_ui(ui: &mut Ui, editor: &mut Editor) {
     degree_ui(ui, editor);
     let Some(locks) = editor.leg_locks() else {
@@ -279,8 +279,7 @@ fn through_ends_ui(ui: &mut Ui, editor: &mut Editor) {
     let Some(mut settings) = editor.draw_settings() else {
         return;
     };
-    let tooltip =
-        "Vertices are added so that the curve begins at the first click and ends at the last";
+    let tooltip = "Add vertices so that the curve starts at the first click and ends at the last";
     let response = ui.checkbox(&mut settings.through_ends, "Through ends");
     if response.on_hover_text(tooltip).changed() {
         editor.set_draw_settings(settings);

@@ -1,4 +1,4 @@
-//! A number of a table that is being typed, and which number it is.
+//! The edit of a number in a table.
 
 use super::draft::{Accepted, Draft, Fault};
 use super::vertex_columns::Column;
@@ -16,7 +16,7 @@ pub struct Cell {
     pub column: Column,
 }
 
-/// A number that is being typed, with all that tells which number it is.
+/// The edit of a number, with its curve and its cell.
 pub struct Entry {
     /// The curve it is typed for.
     pub curve: CurveId,
@@ -24,7 +24,7 @@ pub struct Entry {
     pub cell: Cell,
     /// The number that the cell has had so far.
     pub before: f64,
-    /// What is typed.
+    /// The text so far.
     pub draft: Draft,
     /// Whether it is yet to be shown.
     pub is_new: bool,
@@ -56,7 +56,7 @@ impl Entry {
         })
     }
 
-    /// The numbers that can be typed, as far as the field can tell.
+    /// The numbers that the field accepts, as far as it knows.
     pub fn accepted(&self, unit: Option<LengthUnit>) -> Accepted {
         Accepted {
             quantity: self.cell.column.quantity(),

@@ -1,4 +1,4 @@
-//! What keys mean while a cell of a table has the keyboard.
+//! The meaning of keys while a cell of a table has the keyboard.
 
 use eframe::egui::{Event, Key, Modifiers, Ui};
 
@@ -31,14 +31,14 @@ pub enum Step {
     Last,
 }
 
-/// What a key asks of a table.
+/// The effect of a key on a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum CellKey {
     /// Take the number that is being typed, and go on.
     Step(Step),
     /// Edit the number as it stands.
     Edit,
-    /// Put what is typed next in the number's place.
+    /// Replace the number by the next text.
     Replace,
     /// Copy the number.
     Copy,
@@ -94,7 +94,7 @@ fn begins_number(text: &str) -> bool {
     first.is_some_and(|first| first.is_ascii_alphanumeric() || "+-−.,*/(π".contains(first))
 }
 
-/// What a key stands for; those that a text needs for itself only while there is none.
+/// The meaning of a key; keys that a text needs count only while there is none.
 fn key_of(event: &Event, is_idle: bool) -> Option<CellKey> {
     let Event::Key {
         key,

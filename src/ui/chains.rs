@@ -51,14 +51,14 @@ impl<'a> Screen<'a> {
         place.cmpge(self.low).all() && place.cmple(self.high).all()
     }
 
-    /// Map a segment, keeping what is on the canvas or close to it.
+    /// Map a segment, if it is on the canvas or close to it.
     pub fn segment(&self, [from, to]: [DVec2; 2]) -> Option<[Pos2; 2]> {
         let (from, to) = (self.exact(from), self.exact(to));
         let (from, to) = self.clip(from, to)?;
         Some([single(from), single(to)])
     }
 
-    /// Map a chain to one line for each of its pieces: gaps and what is far outside break it.
+    /// Map a chain to one line for each of its pieces: gaps and far points break it.
     pub fn lines(&self, chain: &[DVec2]) -> Vec<Vec<Pos2>> {
         let mut lines = Vec::new();
         let mut line: Vec<Pos2> = Vec::new();

@@ -1,4 +1,4 @@
-//! Menus about what is under the pointer, read from the table of commands.
+//! Menus of the item under the pointer, read from the table of commands.
 
 use eframe::egui::{
     Align, Context, Id, LayerId, Layout, Popup, PopupKind, Pos2, SetOpenCommand, containers,
@@ -11,7 +11,7 @@ use super::shell::Shell;
 use crate::editor::{Command, Editor, Follow, Layer, MenuSubject, NamedView, ToolKind};
 use crate::operations::{self, Inputs, Operation};
 
-/// Show the menu that is asked for.
+/// The open context menu.
 #[derive(Default)]
 pub struct ContextMenu {
     open: Option<Shown>,
@@ -27,7 +27,7 @@ struct Shown {
 }
 
 impl ContextMenu {
-    /// Show the menu that is asked for, or that is still open; `canvas` is the canvas's upper left corner.
+    /// Show the requested menu, or the open one; `canvas` is the canvas's upper left corner.
     pub fn show(
         &mut self,
         context: &Context,
@@ -86,7 +86,7 @@ fn operation(operation: &'static Operation) -> Entry {
     command(Command::Operation(operation))
 }
 
-/// What applies to a subject.
+/// The entries of a subject.
 fn entries(subject: MenuSubject, editor: &Editor) -> Vec<Entry> {
     use Entry::Divider;
     match subject {

@@ -146,7 +146,7 @@ impl CurveList {
     }
 }
 
-/// Select the whole name: what is typed takes its place.
+/// Select the whole name: typing replaces it.
 fn select_all(context: &Context, text: &str) {
     let mut state = TextEditState::load(context, field_id()).unwrap_or_default();
     let all = CCursorRange::two(CCursor::new(0), CCursor::new(text.chars().count()));
@@ -283,7 +283,7 @@ impl Row {
             .widget_info(|| WidgetInfo::selected(Role::ListItem, true, self.active, label.clone()));
     }
 
-    /// The name; of one that does not fit, all of it is told on hovering.
+    /// Show the name; a tooltip shows all of one that does not fit.
     fn name_ui(&self, ui: &Ui, rect: Rect, response: Response) {
         let tokens = Tokens::of(ui);
         let colour = match (self.active, self.visible) {
@@ -325,7 +325,7 @@ impl Row {
     fn switches_ui(&self, ui: &mut Ui, editor: &mut Editor, row: Rect) {
         let tokens = Tokens::of(ui);
         let is_hovered = ui.rect_contains_pointer(row);
-        // Switches at rest stay out of sight, unless they tell something.
+        // Switches in their default state are hidden until the row is hovered.
         let faint = if is_hovered || self.active {
             tokens.faint_text
         } else {
@@ -337,7 +337,11 @@ impl Row {
         };
         let label = format!("Lock {}", self.name);
         let button = IconButton::new(icon, &label).colour(colour);
-        if button.tooltip("Protect the shape").show(ui).clicked() {
+        if button
+            .tooltip("Protect the shape from edits")
+            .show(ui)
+            .clicked()
+        {
             told(editor.set_locked(self.id, !self.locked));
         }
         let (icon, colour) = match self.visible {

@@ -10,21 +10,21 @@ use super::widgets;
 use crate::document::quoted;
 use crate::editor::Editor;
 
-/// What is asked or told.
+/// The contents of a modal dialog.
 #[derive(Debug)]
 pub enum Dialog {
     /// Save, discard or go back, before something replaces the document.
     Unsaved(AfterDiscard),
     /// Reload, save elsewhere, overwrite or go back, before a file is overwritten that another
-    /// program has changed; and what goes on once the document is saved.
+    /// program has changed; then the next step.
     Changed(Option<AfterDiscard>),
-    /// What keys and mouse do.
+    /// The list of keys and mouse actions.
     Keys,
     /// What this program is.
     About,
 }
 
-/// What the user decided.
+/// The user's decision.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Decision {
     /// Save, then go on.
@@ -35,13 +35,13 @@ pub enum Decision {
     Reload,
     /// Save to another file, then go on.
     SaveAs(Option<AfterDiscard>),
-    /// Save over what another program has written, then go on.
+    /// Save over another program's changes, then go on.
     Overwrite(Option<AfterDiscard>),
     /// Close the dialog.
     Close,
 }
 
-/// Show a dialog; returns what was decided, once something is.
+/// Show a dialog; returns the user's decision.
 pub fn dialog_ui(context: &Context, dialog: &mut Dialog, editor: &Editor) -> Option<Decision> {
     let frame = widgets::dialog_frame(&context.global_style());
     let modal = Modal::new(Id::unique("dialog"))
@@ -88,14 +88,11 @@ fn changed_ui(ui: &mut Ui, after: &Option<AfterDiscard>, editor: &Editor) -> Opt
     let name = name_of(editor);
     let what = match editor.workspace().is_modified() {
         true => {
-            "Reloading replaces the changes made here, and Undo brings them back; overwriting loses those made there."
+            "Reload replaces your changes (Undo brings them back). Overwrite loses the other program's changes."
         }
-        false => "Overwriting loses the changes made there.",
+        false => "Overwrite loses its changes.",
     };
-    widgets::note(
-        ui,
-        &format!("Another program has changed {name} since it was read or saved here. {what}"),
-    );
+    widgets::note(ui, &format!("Another program has changed {name}. {what}"));
     let mut decision = None;
     ui.horizontal(|ui| {
         widgets::at_right(ui, |ui| {
@@ -135,9 +132,8 @@ fn about_ui(ui: &mut Ui) -> Option<Decision> {
     ui.strong(format!("Batten {}", env!("CARGO_PKG_VERSION")));
     widgets::note(
         ui,
-        "A batten is the thin strip that loftsmen bend to draw a fair line. Batten is an editor \
-         for fair curves: shape them by their float S-polygons, and see on every frame what that \
-         does to curvature and evolute.",
+        "Batten is an editor for fair curves. Shape a curve by its float S-polygon; curvature and \
+         evolute follow on every frame. A batten is the thin strip that loftsmen bend to draw a fair line.",
     );
     widgets::note(
         ui,

@@ -1,4 +1,4 @@
-//! How far what is active is from another curve or reference, in the inspector.
+//! The distance from the active curve or reference to another one, in the inspector.
 
 use eframe::egui::Ui;
 
@@ -7,7 +7,7 @@ use crate::analysis::Distance;
 use crate::document::CurveId;
 use crate::editor::Editor;
 
-/// Show the choice of what to measure against, and the distances from it.
+/// Show the choice of the other curve and the distances to it.
 pub fn distance_ui(ui: &mut Ui, editor: &mut Editor) {
     if editor.document().all_ids().count() < 2 {
         return;

@@ -8,7 +8,7 @@ fn id() -> Id {
     Id::unique("document unit")
 }
 
-/// Tell the fields of this frame the document's unit.
+/// Set the document's unit for the fields of this frame.
 pub fn set(context: &Context, unit: Option<LengthUnit>) {
     context.data_mut(|data| data.insert_temp(id(), unit));
 }

@@ -24,7 +24,7 @@ const CARET: f32 = 5.0;
 /// The numbers that a field takes.
 #[derive(Clone, Debug)]
 pub struct Accepted {
-    /// What they measure.
+    /// The quantity they measure.
     pub quantity: Quantity,
     /// The document's unit of length.
     pub unit: Option<LengthUnit>,
@@ -46,7 +46,7 @@ pub struct Draft {
     text: String,
     /// The text that it began with, and its number.
     before: (String, f64),
-    /// Why Enter did not take it; what is typed next takes this away.
+    /// Why Enter did not take it, until the text changes.
     refusal: Option<Fault>,
 }
 
@@ -54,7 +54,7 @@ impl Accepted {
     /// Read a number that takes the place of `before`.
     ///
     /// # Errors
-    /// [`Fault`]: what is wrong, and where.
+    /// [`Fault`]: the reason, and the column.
     pub fn read(&self, text: &str, before: f64) -> Result<f64, Fault> {
         let value = self.context(before).read(text)?;
         let range = &self.range;
@@ -138,12 +138,12 @@ impl Draft {
         accepted.read(&self.text, *number).map(Some)
     }
 
-    /// Keep the text, to be changed, and say why it is not taken.
+    /// Keep the text for correction and show why it is not taken.
     pub fn refuse(&mut self, fault: Fault) {
         self.refusal = Some(fault);
     }
 
-    /// Say why the text was not taken when its field was left, though it is not seen any more; `shown` stays.
+    /// The remark on a text that was left without being taken; the field shows `shown` again.
     pub fn left(&self, ui: &Ui, fault: &Fault, shown: &str) -> Remark {
         let Fault { column, reason } = fault;
         let text = quoted(self.text.trim());
@@ -206,7 +206,7 @@ impl Draft {
         response
     }
 
-    /// What is wrong with the text so far. What may still become a number is not wrong yet.
+    /// The fault of the text so far. A text that may still become a number has none.
     fn fault(&self, accepted: &Accepted) -> Option<Fault> {
         if self.refusal.is_some() {
             return self.refusal.clone();
@@ -226,13 +226,13 @@ pub struct Remark {
 }
 
 impl Remark {
-    /// Say something from now on.
+    /// Show a text from now on.
     pub fn new(ui: &Ui, text: String) -> Self {
         let until = ui.input(|input| input.time) + SECONDS;
         Self { text, until }
     }
 
-    /// Show it beside its field; tells whether it is to be kept.
+    /// Show it beside its field; returns whether to keep it.
     pub fn show(&self, ui: &Ui, id: Id, rect: Rect) -> bool {
         let left = self.until - ui.input(|input| input.time);
         if left > 0.0 {
@@ -248,7 +248,7 @@ impl Remark {
 pub fn caret_ui(ui: &Ui, field: &TextEditOutput, column: usize) {
     let cursor = CCursor::new(column.saturating_sub(1));
     let place = field.galley.pos_from_cursor(cursor);
-    // What is aligned to the right begins left of its origin.
+    // A right-aligned text begins left of its origin.
     let origin = field.galley_pos - vec2(field.galley.rect.left(), 0.0);
     let mut tip = place.translate(origin.to_vec2()).left_bottom();
     // A long text is scrolled.
@@ -259,7 +259,7 @@ pub fn caret_ui(ui: &Ui, field: &TextEditOutput, column: usize) {
     ui.painter().line(caret.to_vec(), stroke);
 }
 
-/// Say something beside a field.
+/// Show a remark beside a field.
 pub fn remark_ui(ui: &Ui, id: Id, rect: Rect, text: &str) {
     let tooltip = Tooltip::always_open(ui.ctx().clone(), ui.layer_id(), id, rect);
     tooltip.show(|ui| {

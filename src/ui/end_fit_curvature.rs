@@ -1,4 +1,4 @@
-//! The end-fit panel's fields for what a target has beyond its direction: curvature, osculating plane
+//! The end-fit panel's fields for the target beyond its direction: curvature, osculating plane
 //! and curvature slope.
 
 use eframe::egui::{Checkbox, Role, Sense, Ui, WidgetInfo, vec2};

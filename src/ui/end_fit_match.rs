@@ -20,14 +20,13 @@ pub fn match_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 2.0 * STEP;
         let pick = ui.add(Button::new("Pick from curve").selected(report.picking));
-        let tooltip = "Then click another curve, at its end or at any point: what it has there \
-                       becomes the target";
+        let tooltip = "Then click another curve: the target takes its place and direction there";
         if pick.on_hover_text(tooltip).clicked() {
             action = Some(EndFitAction::PickFromCurve);
         }
         let mut live = report.matched.is_some() || report.live;
         let keep = ui.add(Checkbox::new(&mut live, "Keep matched"));
-        let tooltip = "Let the end follow when the other curve changes, as part of the same step";
+        let tooltip = "Match the end again whenever the other curve changes";
         if keep.on_hover_text(tooltip).clicked() {
             action = Some(EndFitAction::KeepMatched(live));
         }
@@ -36,7 +35,7 @@ pub fn match_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
         action = matched_ui(ui, matched).or(action);
         if !matched.met {
             let why = match &report.refusal {
-                Some(_) => "Not met: the curve follows once it is unlocked.",
+                Some(_) => "Not met: unlock the curve to match it.",
                 None => "Not met: match a lower level, unlock vertices, or add more.",
             };
             let error = Tokens::of(ui).error;
@@ -44,7 +43,11 @@ pub fn match_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
         }
     }
     for (name, end) in &report.followers {
-        let text = format!("The {} of {} follows this curve", end.name(), quoted(name));
+        let text = format!(
+            "The {} of {} is matched to this curve",
+            end.name(),
+            quoted(name)
+        );
         widgets::note(ui, &text);
     }
     action
@@ -68,7 +71,7 @@ fn level_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
     action
 }
 
-/// What the end follows, and what is missing of each level.
+/// The source of a matched end, and the error of each level.
 fn matched_ui(ui: &mut Ui, report: &MatchReport) -> Option<EndFitAction> {
     let mut action = None;
     let place = match report.matched.place {
@@ -79,7 +82,7 @@ fn matched_ui(ui: &mut Ui, report: &MatchReport) -> Option<EndFitAction> {
         ui.spacing_mut().item_spacing.x = 1.5 * STEP;
         let tokens = Tokens::of(ui);
         ui.label(icons::text(Icon::Link).color(tokens.target));
-        let text = format!("Follows {} at {place}", quoted(&report.source));
+        let text = format!("Matched to {} at {place}", quoted(&report.source));
         let text = RichText::new(text).color(tokens.strong_text);
         let width = ui.available_width() - BUTTONS;
         let label = Label::new(text).truncate();

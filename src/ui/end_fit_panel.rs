@@ -23,10 +23,10 @@ use crate::operations::LargestMove;
 /// The width of a field for a coordinate.
 const FIELD: f32 = 72.0;
 
-/// The height of the place where it is told what the last action came to.
+/// The height of the place for the last action's message.
 const OUTCOME: f32 = 10.0 * STEP;
 
-/// Show the panel: the steps, and below them, in a place of its own, what the last one came to.
+/// Show the panel: the steps, and below them, in a place of its own, the last action's message.
 pub fn end_fit_panel_ui(ui: &mut Ui, editor: &mut Editor) {
     let Some(report) = editor.end_fit() else {
         empty_ui(ui, editor);
@@ -44,7 +44,7 @@ pub fn end_fit_panel_ui(ui: &mut Ui, editor: &mut Editor) {
         event: None,
     };
     widgets::scrolling(ui, "end fit", |ui| {
-        // Fields of their own for each end of each curve: what is typed is for no other.
+        // Each end of each curve has fields of its own, so that no text goes to another end.
         ui.push_id((editor.active(), report.end), |ui| panel.show(ui));
     });
     if let Some(event) = panel.event {
@@ -59,7 +59,7 @@ fn empty_ui(ui: &mut Ui, editor: &Editor) {
     let periodic = editor.active().and_then(|id| editor.document().curve(id));
     let text = match periodic {
         Some(curve) if curve.polygon.is_periodic() => {
-            "This curve is periodic: it has no ends. Open it (Curve menu) to correct its ends."
+            "A periodic curve has no ends. Open it first (Curve menu)."
         }
         Some(_) => "This curve cannot be corrected.",
         None => "Select an open curve to correct its ends.",
@@ -86,7 +86,7 @@ impl Panel<'_> {
         self.shape_ui(ui);
         self.closed_ui(ui);
         self.difference_ui(ui);
-        step_ui(ui, 4, "Back to the float S-polygon", false, |_| {});
+        step_ui(ui, 4, "Back to float", false, |_| {});
         self.translate_ui(ui);
         self.rotate_ui(ui);
         self.repeat_ui(ui);
@@ -116,7 +116,7 @@ impl Panel<'_> {
         let report = self.report;
         self.actual_ui(ui);
         if let Some(point) = report.target_point {
-            // A matched end's target is what the other curve makes it.
+            // The source sets a matched end's target.
             ui.add_enabled_ui(report.matched.is_none(), |ui| {
                 self.point_ui(ui, point);
                 self.direction_ui(ui);
@@ -214,7 +214,7 @@ impl Panel<'_> {
     fn fixed_ui(&mut self, ui: &mut Ui) {
         let mut fixed = self.report.target_direction.is_some();
         let free = ui.add(Checkbox::new(&mut fixed, "Lock direction"));
-        let tooltip = "Give the tangent a direction";
+        let tooltip = "Require a tangent direction at the end";
         if free.on_hover_text(tooltip).clicked() {
             let actual = self.report.tangent.unwrap_or(DVec3::X);
             self.ask(EndFitAction::SetDirection(fixed.then_some(actual)));
@@ -239,7 +239,7 @@ impl Panel<'_> {
 
     fn shape_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
-        step_ui(ui, 1, "Shape the float S-polygon", false, |_| {});
+        step_ui(ui, 1, "Shape float S-polygon", false, |_| {});
         indented(ui, |ui| {
             let plain = |value: f64| figures::significant(value, 6);
             widgets::figure_row(ui, "Polygon legs", &range(report.legs, plain));
@@ -266,7 +266,7 @@ impl Panel<'_> {
     fn difference_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
         let is_met = self.is_in_place() && self.is_aligned() && report.is_met();
-        step_ui(ui, 3, "Difference to the target", is_met, |_| {});
+        step_ui(ui, 3, "Difference to target", is_met, |_| {});
         indented(ui, |ui| {
             if report.target_point.is_none() {
                 widgets::note(ui, "Set a target first.");
@@ -322,7 +322,8 @@ impl Panel<'_> {
         step_ui(ui, 6, &title, has_target && self.is_aligned(), |ui| {
             let response = step_button(ui, "Rotate", has_target && report.can_move())
                 .accessible_name("Rotate terminal vertices");
-            let tooltip = "Rotate them about the end point by the difference angle";
+            let tooltip =
+                "Rotate the terminal vertices about the end point by the difference angle";
             if response.on_hover_text(tooltip).clicked() {
                 self.ask(EndFitAction::Rotate);
             }
@@ -348,7 +349,7 @@ impl Panel<'_> {
                 ),
             };
             let passes = report.passes.to_string();
-            let tooltip = "Of the end that is farther from its target";
+            let tooltip = "The error of the end that is farther from its target";
             widgets::figure_row(ui, "Remaining error, distance", &distance).on_hover_text(tooltip);
             widgets::figure_row(ui, "Remaining error, angle", &angle).on_hover_text(tooltip);
             widgets::figure_row(ui, "Passes", &passes);
@@ -384,7 +385,7 @@ impl Panel<'_> {
                 ui.add_sized(size, button)
             })
             .inner;
-        let tooltip = "Meet all targets together by the least disturbance of the vertices";
+        let tooltip = "Meet all targets at once, with the smallest moves of vertices";
         if response.on_hover_text(tooltip).clicked() {
             self.ask(EndFitAction::BothAtOnce);
         }
@@ -395,7 +396,7 @@ impl Panel<'_> {
     }
 }
 
-/// Tell what the last action came to.
+/// Show the last action's message.
 fn outcome_ui(ui: &mut Ui, report: &EndFitReport) {
     let (text, failed) = match &report.outcome {
         None => return,
@@ -413,21 +414,17 @@ fn outcome_ui(ui: &mut Ui, report: &EndFitReport) {
     }
 }
 
-/// Where the groups of vertices overlap, say what that does to the loop.
+/// Warn where the groups of vertices of both ends overlap.
 fn overlap_ui(ui: &mut Ui, report: &EndFitReport) {
-    let (count, degree) = (report.vertices, report.degree);
     let text = match report.overlap {
         EndOverlap::None => return,
         EndOverlap::Partial { shared } => format!(
-            "N = {count} is less than 2n = {}: the two ends share {}. Repeating converges \
-             slowly, if at all; “both ends at once” is exact.",
-            2 * degree,
+            "Both ends share {}. Repeating converges slowly, if at all: use “Both ends at once”.",
             counted(shared, "vertex", "vertices")
         ),
-        EndOverlap::OneSegment => format!(
-            "N = {count} is n + 1: both ends share all but two vertices. Repeating does not \
-             converge; use “both ends at once”."
-        ),
+        EndOverlap::OneSegment => {
+            "Too few vertices to move each end on its own: use “Both ends at once”.".to_owned()
+        }
     };
     let warning = Tokens::of(ui).warning;
     indented(ui, |ui| remark_ui(ui, Icon::Info, &text, warning));

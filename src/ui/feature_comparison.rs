@@ -19,7 +19,7 @@ const COLUMN: f32 = 96.0;
 /// How many features of a kind there are.
 type Count = fn(&FeatureCounts) -> usize;
 
-/// What is shown of an operation's features: rows keep their places.
+/// The features before and after an operation: rows keep their places.
 #[derive(Default)]
 pub struct Comparison {
     rows: SteadyRows,
@@ -60,7 +60,7 @@ fn rows(before: &[FeatureCounts], after: &[FeatureCounts]) -> Vec<(&'static str,
     let mut rows = Vec::new();
     for (number, (name, count)) in kinds.into_iter().enumerate() {
         let mut all = before.iter().chain(after);
-        // Extrema of the curvature are what a curve is judged by: told even if there are none.
+        // Curvature extrema are the measure of a curve: their row stays even without any.
         if number == 0 || all.any(|counts| count(counts) > 0) {
             let listed = |counts: &[FeatureCounts]| joined(counts, |c| count(c).to_string());
             rows.push((name, [listed(before), listed(after)]));
@@ -115,7 +115,7 @@ const HARMONY: [(&str, HarmonyText); 10] = [
     }),
 ];
 
-/// Say whether a polygon's extrema and changes of sign are those of its curve.
+/// The row on whether a polygon's extrema and sign changes are those of its curve.
 fn follows(verdict: Match) -> String {
     match verdict {
         Match::Agrees => "yes",
@@ -161,7 +161,7 @@ pub fn monotone_ui(ui: &mut Ui, in_progress: &OperationInProgress) {
     });
 }
 
-/// One row of figures in two columns: what was, and what is.
+/// One row of figures in two columns: before and after.
 fn before_after_ui(ui: &mut Ui, name: &str, [before, after]: [&str; 2], is_wide: bool) {
     let told = format!("{name}: {before} before, {after} after");
     let line = 5.0 * STEP;

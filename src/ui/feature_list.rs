@@ -1,4 +1,4 @@
-//! The list of features in the inspector, and the chip that tells the verdict.
+//! The list of features in the inspector, and the chip with the verdict.
 
 use std::time::Duration;
 
@@ -86,7 +86,7 @@ fn verdict_ui(ui: &mut Ui, report: &FeatureReport) {
     });
 }
 
-/// The verdict's icon and words. It counts; only what is undecided is a doubt.
+/// The verdict's icon and words. Only undecided features are a doubt.
 fn verdict(report: &FeatureReport) -> (Icon, String) {
     if report.polyline {
         let text = match report.sampled {
@@ -148,20 +148,20 @@ fn counts(report: &FeatureReport) -> String {
     parts.collect::<Vec<String>>().join(" · ")
 }
 
-/// What the torsion of a curve in space has.
+/// The features of the torsion.
 const TORSION: [FeatureKind; 3] = [
     FeatureKind::TorsionMaximum,
     FeatureKind::TorsionMinimum,
     FeatureKind::TorsionZero,
 ];
 
-/// Features that are no extrema of the curvature, counted: what stands before those, and what after.
+/// Counts of features other than curvature extrema: those named before the extrema, and those after.
 struct Others {
     inflections: Option<String>,
     rest: Vec<String>,
 }
 
-/// Count what is no extremum of the curvature: inflections, and what stands after the extrema.
+/// Count inflections, and the features named after the extrema.
 fn others(report: &FeatureReport) -> Others {
     let said = |kinds: &[FeatureKind], one: &str, several: &str| {
         let count = report.count(kinds);
@@ -187,7 +187,7 @@ fn colour_of(icon: Icon, tokens: &Tokens) -> Color32 {
     }
 }
 
-/// Tell how far the proofs of a long curve have come.
+/// Show the progress of the proofs of a long curve.
 fn proving_ui(ui: &mut Ui, editor: &Editor) -> Option<Response> {
     if let Some(progress) = editor.sight().proof_progress() {
         ui.ctx().request_repaint_after(PROGRESS);
@@ -228,7 +228,7 @@ pub fn chip_ui(ui: &mut Ui, editor: &mut Editor) -> Option<Response> {
     Some(response.on_hover_ui(|ui| legend_ui(ui, &remark)))
 }
 
-/// What a feature is called where there is little room.
+/// The short name of a feature.
 fn short_name(kind: FeatureKind) -> &'static str {
     match kind {
         FeatureKind::CurvatureMaximum => "κ maximum",
@@ -299,7 +299,7 @@ fn row_ui(ui: &mut Ui, row: &FeatureRow, sampled: bool, is_chosen: bool) -> Resp
     }
     let width = figures::significant(high - low, 2);
     response.on_hover_text(format!(
-        "{}{bend}\nu from {low}\nto {high}\n{width} wide. Click to go there and to see the shortest moves found that lose it.",
+        "{}{bend}\nu from {low}\nto {high}\n{width} wide. Click to go there and see the shortest moves that remove it.",
         row.kind.label()
     ))
 }

@@ -30,8 +30,8 @@ fn colour(kind: FeatureKind, tokens: &Tokens) -> Color32 {
 }
 
 /// Paint a feature's glyph: triangles for extrema, upwards for maxima; a diamond for an
-/// inflection, a square for a zero of the torsion, a cross for a cusp, a ring for what is
-/// undecided.
+/// inflection, a square for a zero of the torsion, a cross for a cusp, a ring for an
+/// undecided feature.
 pub fn glyph(painter: &Painter, at: Pos2, kind: FeatureKind, tokens: &Tokens) {
     let own = colour(kind, tokens);
     let stroke = Stroke::new(1.5, own);

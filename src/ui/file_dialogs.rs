@@ -16,7 +16,7 @@ use crate::paper::PaperPage;
 /// A dialog that answers "nothing" sooner than this was never shown.
 const UNAVAILABLE: Duration = Duration::from_millis(250);
 
-/// What goes on once unsaved changes are saved or given up.
+/// The step after unsaved changes are saved or discarded.
 #[derive(Clone, Debug, PartialEq)]
 pub enum AfterDiscard {
     /// Begin an empty document.
@@ -25,7 +25,7 @@ pub enum AfterDiscard {
     Open,
     /// Open this file.
     OpenFile(PathBuf),
-    /// Open what an earlier session has left unsaved.
+    /// Open a recovered document.
     Recover(usize),
     /// Open a built-in example.
     OpenExample(usize),
@@ -35,14 +35,14 @@ pub enum AfterDiscard {
     Quit,
 }
 
-/// What a path is wanted for.
+/// The purpose of a path.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Purpose {
     /// To open in place of the document.
     Open,
     /// To add its curves.
     Import,
-    /// To save under, and what goes on afterwards.
+    /// Save under it, then go on.
     Save(Option<AfterDiscard>),
     /// To export to.
     Export(Export),
@@ -51,7 +51,7 @@ pub enum Purpose {
 /// What came of asking.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chosen {
-    /// What the paths were wanted for.
+    /// The purpose of the paths.
     pub purpose: Purpose,
     /// The paths: at least one.
     pub paths: Vec<PathBuf>,
@@ -163,7 +163,7 @@ impl FileDialogs {
         } = self.waiting.remove(place);
         if let [path] = paths.as_slice() {
             let complete = completed(&purpose, path);
-            // The system's dialog asked about the path as it was typed, without an extension.
+            // The system's dialog asked about the typed path, which had no extension.
             if complete != *path && replaces(&purpose, &complete) {
                 self.open_prompt(purpose, &complete);
                 if let Some(prompt) = &mut self.prompt {
@@ -203,7 +203,7 @@ impl FileDialogs {
     }
 }
 
-/// What was decided in the prompt.
+/// The user's decision in the prompt.
 enum Answer {
     Cancel,
     Path(PathBuf),
@@ -255,7 +255,7 @@ impl Prompt {
         Answer::Path(completed(&self.purpose, &from_home(self.text.trim())))
     }
 
-    /// Whether a path can be used as it is; otherwise the remark says what is the matter.
+    /// Whether a path can be used as it is; otherwise the remark says why not.
     fn accepts(&mut self, path: &Path) -> bool {
         self.error = refused(&self.purpose, path);
         if self.error.is_some() {
@@ -268,7 +268,7 @@ impl Prompt {
         false
     }
 
-    /// Below the field: what was wrong, or what would happen.
+    /// Below the field: the error, or the effect of Enter.
     fn remark_ui(&self, ui: &mut Ui) {
         let tokens = Tokens::of(ui);
         let (text, colour) = match (&self.error, &self.replacing) {
@@ -287,7 +287,7 @@ impl Prompt {
     }
 }
 
-/// The path with the extension that what is written has.
+/// The path with the extension of the written format.
 fn completed(purpose: &Purpose, path: &Path) -> PathBuf {
     let is_name = path.file_name().is_some() && !path.is_dir();
     match purpose {
@@ -311,7 +311,7 @@ fn from_home(text: &str) -> PathBuf {
     }
 }
 
-/// Why a path cannot be used, if that can be told without trying.
+/// Why a path cannot be used, as far as its text shows.
 fn refused(purpose: &Purpose, path: &Path) -> Option<String> {
     if path.as_os_str().is_empty() {
         return Some("Type the path of a file.".to_owned());

@@ -1,5 +1,5 @@
-//! Fields for the formulas of a reference: what is typed is shown as soon as it can be, and a mistake
-//! is told under the place where it is.
+//! Fields for the formulas of a reference. Each text is previewed as soon as it is valid; a caret
+//! marks the place of a mistake.
 
 use eframe::egui::{Key, TextEdit, Ui, vec2};
 
@@ -13,7 +13,7 @@ use crate::geometry::references::{Formula, ReferenceError};
 /// The coordinates, as their fields are called and as mistakes name them.
 const COORDINATES: [(&str, &str); 3] = [("x(t)", "x"), ("y(t)", "y"), ("z(t)", "z")];
 
-/// What is being typed into the fields of a reference.
+/// The texts in the fields of a reference.
 #[derive(Default)]
 pub struct FormulaFields {
     draft: Option<Draft>,
@@ -52,7 +52,7 @@ impl Draft {
         }
     }
 
-    /// Show the field of one coordinate; tells whether it has the keyboard.
+    /// Show the field of one coordinate; returns whether it has the keyboard.
     fn field_ui(&mut self, ui: &mut Ui, editor: &mut Editor, coordinate: usize) -> bool {
         let (label, name) = COORDINATES[coordinate];
         let tokens = Tokens::of(ui);
@@ -97,8 +97,8 @@ impl Draft {
         response.has_focus()
     }
 
-    /// The mistake in one coordinate: its column and what is wrong; of what is wrong with the whole
-    /// curve no column is known.
+    /// The mistake in one coordinate: its column and its reason. A mistake of the whole
+    /// curve has no column.
     fn mistake(&self, name: &str) -> Option<(usize, String)> {
         match self.error.as_ref()? {
             ReferenceError::InFormula {

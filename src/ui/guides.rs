@@ -15,7 +15,7 @@ const CLEARANCE: f32 = 8.0;
 /// A move shorter than this, in points, is marked by a ring.
 const SHORT: f32 = 10.0;
 
-/// What lies further from the window than this, in points, is not filled.
+/// Regions farther from the window than this, in points, are not filled.
 const FARTHEST: f64 = 1e5;
 
 /// How far texts stay from the canvas's edge, where the grid's numbers are.

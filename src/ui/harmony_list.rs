@@ -17,7 +17,7 @@ use crate::geometry::harmony::{
     Match, Mismatch, Regularity, VertexFigure,
 };
 
-/// How often it is asked whether the harmony is known.
+/// How often the list checks whether the measurement is done.
 const PROGRESS: Duration = Duration::from_millis(100);
 
 /// A change that is no more than this is rounding.
@@ -30,8 +30,8 @@ enum Place {
     Parameter(f64),
 }
 
-/// What is said, whether that is as it should be (`None` of what is no judgement), and of which
-/// place.
+/// A sentence with its judgement (`None` for a mere figure) and the place that it is
+/// about.
 #[derive(Clone, Debug, PartialEq)]
 struct Sentence {
     text: String,
@@ -39,7 +39,7 @@ struct Sentence {
     place: Option<Place>,
 }
 
-/// What the pointer is on.
+/// The place under the pointer.
 #[derive(Clone, Copy, Debug)]
 struct Pointed {
     place: Place,
@@ -75,17 +75,16 @@ pub fn harmony_list_ui(ui: &mut Ui, editor: &mut Editor) {
         })
     };
     widgets::figure_row(ui, "Bending energy", &energy(fairness.bending_energy))
-        .on_hover_text("∫κ² ds times the length: it does not depend on the curve's size");
-    widgets::figure_row(ui, "Variation", &energy(fairness.variation)).on_hover_text(
-        "∫(dκ/ds)² ds times the length cubed: it does not depend on the curve's size",
-    );
+        .on_hover_text("∫κ² ds times the length: independent of the curve's size");
+    widgets::figure_row(ui, "Variation", &energy(fairness.variation))
+        .on_hover_text("∫(dκ/ds)² ds times the length cubed: independent of the curve's size");
     pointed = pieces_ui(ui, &harmony.slopes).or(pointed);
     if let Some(pointed) = pointed {
         follow(editor, pointed);
     }
 }
 
-/// Mark the place of what is hovered, and go to that of what is chosen.
+/// Mark the hovered place, and go to the chosen one.
 fn follow(editor: &mut Editor, Pointed { place, chosen }: Pointed) {
     let Some(id) = editor.active() else {
         return;
@@ -129,8 +128,8 @@ fn sentences(harmony: &Harmony) -> Vec<Sentence> {
     sentences
 }
 
-/// Say whether a polygon's extrema and changes of sign are those of its curve. `zeros` is what
-/// changes of sign are called, one and several; `None` where there are none.
+/// Compare a polygon's extrema and sign changes with those of its curve. `zeros` names
+/// sign changes, one and several; `None` where there are none.
 fn isogeometry(name: &str, zeros: Option<[&str; 2]>, isogeometry: &Isogeometry) -> Sentence {
     let counts = |counts: EventCounts| {
         let all = |count: usize, [one, several]: [&str; 2]| match count {
@@ -177,7 +176,7 @@ fn isogeometry(name: &str, zeros: Option<[&str; 2]>, isogeometry: &Isogeometry) 
         },
         Match::Undecided([low, _]) => Sentence {
             text: format!(
-                "{name} cannot be compared: the curve is undecided at u {}",
+                "{name} not compared: the curve's features are undecided at u {}",
                 figures::to_resolution(low, 0.01)
             ),
             is_good: Some(false),
@@ -229,7 +228,7 @@ fn ordinal(number: usize) -> String {
     format!("{number}{ending}")
 }
 
-/// Say where the flow is least even.
+/// Name the vertices where the flow is least even.
 fn evenness(figures: &HarmonyFigures) -> Vec<Sentence> {
     let even = |name: &str, figure: Option<VertexFigure>, text: &dyn Fn(f64) -> String| {
         let figure = figure?;
@@ -315,8 +314,7 @@ fn sentence_ui(ui: &mut Ui, sentence: &Sentence) -> Option<Pointed> {
 
 /// Show the slope of the logarithmic curvature graph on each monotone piece.
 fn pieces_ui(ui: &mut Ui, pieces: &[LogarithmicPiece]) -> Option<Pointed> {
-    let tooltip = "The slope of the logarithmic curvature graph on each piece of monotone \
-                   curvature, and how straight it is: a log-aesthetic curve has R² = 1";
+    let tooltip = "Slope α of the logarithmic curvature graph, and R²: 1 on a log-aesthetic curve";
     widgets::fact_row(ui, "Logarithmic graph", "slope α and R²");
     let mut pointed = None;
     if pieces.is_empty() {

@@ -1,4 +1,4 @@
-//! Icons by what they stand for, from one set.
+//! The icons of tools, layers and actions, from one set.
 
 use eframe::egui::RichText;
 use lucide_icons::Icon;

@@ -46,7 +46,7 @@ impl Inspector {
             );
             return document_section_ui(ui, editor, true);
         };
-        // Fields of their own for each curve: what is typed into one is for no other.
+        // Each curve has fields of its own, so that no text goes to another curve.
         ui.push_id(id, |ui| self.curve_ui(ui, editor, id, &curve));
         widgets::section(ui, "Properties", true, |ui| {
             if let Some(report) = editor.sight().report() {
@@ -154,7 +154,7 @@ impl Inspector {
     }
 }
 
-/// The document's properties beside those of what is active; without that they are `open` at first.
+/// The document's properties below those of the active curve; without one they are `open` at first.
 fn document_section_ui(ui: &mut Ui, editor: &mut Editor, open: bool) {
     let id = if open { "empty" } else { "beside" };
     ui.push_id(id, |ui| {
@@ -168,7 +168,7 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor, curve: &Curve) {
     ui.spacing_mut().item_spacing.x = STEP;
     let lower = format!("Reinterpret as degree {}", degree.saturating_sub(1));
     let lower = IconButton::new(Icon::Minus, &lower)
-        .tooltip("The polygon stays, the curve follows it more closely")
+        .tooltip("Keep the polygon; the curve follows it more closely")
         .enabled(degree > 1);
     if lower.show(ui).clicked() {
         set_degree(editor, degree as f64 - 1.0);
@@ -181,9 +181,7 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor, curve: &Curve) {
     }
     let raise = format!("Reinterpret as degree {}", degree + 1);
     let raise = IconButton::new(Icon::Plus, &raise)
-        .tooltip(
-            "The polygon stays, the curve becomes smoother; Curve > Elevate degree keeps the curve",
-        )
+        .tooltip("Keep the polygon; the curve becomes smoother (Elevate degree keeps the curve)")
         .enabled(degree < MAX_DEGREE);
     if raise.show(ui).clicked() {
         set_degree(editor, degree as f64 + 1.0);
@@ -192,7 +190,7 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor, curve: &Curve) {
 
 /// Give the active curve another degree; the polygon stays.
 pub fn set_degree(editor: &mut Editor, degree: f64) {
-    // The operation refuses what is no whole number.
+    // The operation refuses a fraction.
     let degree = match degree.fract() == 0.0 {
         true => Value::Whole(degree as usize),
         false => Value::Real(degree),
@@ -212,7 +210,7 @@ fn ends_ui(ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
     }
 }
 
-/// Switches for what a curve or a reference is: visible, locked.
+/// Switches of a curve or a reference: visible, locked.
 fn state_ui(ui: &mut Ui, editor: &mut Editor, id: CurveId, [visible, locked]: [bool; 2]) {
     let mut shown = visible;
     if ui.checkbox(&mut shown, "Visible").clicked() {
@@ -296,8 +294,7 @@ fn figures_ui(ui: &mut Ui, curve: &Curve, report: &CurveReport) {
         figures::significant(report.amplification.largest, 4)
     );
     let tooltip = format!(
-        "How much an error in one vertex of the closed S-polygon can grow in the float S-polygon; \
-         errors in all of them together by up to {}",
+        "Growth of an error from closed to float S-polygon: of one vertex; of all vertices up to {}",
         figures::significant(report.amplification.norm, 4)
     );
     widgets::figure_row(ui, "Error gain", &text).on_hover_text(tooltip);

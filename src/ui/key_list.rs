@@ -1,4 +1,4 @@
-//! What keys and mouse do, in groups: the window's help.
+//! The list of keys and mouse actions, in groups.
 
 use eframe::egui::{Label, RichText, ScrollArea, Ui, vec2};
 
@@ -6,10 +6,10 @@ use super::action::Action;
 use super::keyboard;
 use super::theme::{STEP, Tokens};
 
-/// What is done, and what that does.
+/// A gesture and its effect.
 type Row = (&'static str, &'static str);
 
-/// What the table of commands does not hold.
+/// The gestures that the table of commands does not hold.
 const GROUPS: [(&str, &[Row]); 8] = [
     (
         "View",
@@ -65,7 +65,7 @@ const GROUPS: [(&str, &[Row]); 8] = [
         &[
             ("x,y", "Draw, Add, Insert: a point; in space x,y,z"),
             ("@dx,dy", "A point relative to the last vertex"),
-            ("@length<angle", "A point by length and angle from there"),
+            ("@length<angle", "A point by length and angle from it"),
             ("Number", "Rotate: an angle in degrees. Scale: a factor"),
             ("Enter, Esc", "Confirm, cancel"),
         ],
@@ -75,7 +75,7 @@ const GROUPS: [(&str, &[Row]); 8] = [
         &[
             ("Drag a number", "Change it; type for an exact value"),
             ("2*pi, 10*cos(30deg)", "Arithmetic and functions"),
-            ("+=2, -=1, *=1.1, /=2", "Change the number that is there"),
+            ("+=2, -=1, *=1.1, /=2", "Change the current number"),
             ("12mm, 2.5cm, 1/2in", "Convert to the document's unit"),
         ],
     ),
@@ -110,7 +110,7 @@ const GROUPS: [(&str, &[Row]); 8] = [
 /// The width of a column, and of the keys in it.
 const COLUMN: [f32; 2] = [340.0, 132.0];
 
-/// A group: its heading, and what is done with what that does.
+/// A group: its heading, and its gestures with their effects.
 type Group = (&'static str, Vec<(String, String)>);
 
 /// Show the list in as many columns as the window has room for; it scrolls where it is too long.
@@ -148,7 +148,7 @@ fn groups() -> Vec<Group> {
     groups.chain([("Commands", commands.collect())]).collect()
 }
 
-/// Fill so many columns evenly. Only a group that is longer than what is left of a column goes on in the next.
+/// Fill so many columns evenly. Only a group longer than the rest of a column continues in the next.
 fn in_columns(groups: Vec<Group>, count: usize) -> Vec<Vec<Group>> {
     let lines = |group: &Group| group.1.len() + 1;
     let long = groups.iter().map(lines).sum::<usize>().div_ceil(count);
@@ -225,7 +225,7 @@ mod tests {
                 let ends = column.iter().map(|group| group.0);
                 assert!(ends.collect::<Vec<&str>>().is_sorted_by(|a, b| a != b));
             }
-            // What is set in the source is short: only the commands go on in another column.
+            // The groups in the source are short: only the commands continue in another column.
             let headings = columns.concat().into_iter().map(|group| group.0);
             let commands = headings.clone().filter(|heading| *heading == "Commands");
             assert_eq!(headings.count() - commands.count(), GROUPS.len());

@@ -107,8 +107,7 @@ fn is_key(event: &Event) -> bool {
     }
 }
 
-/// Pass over what a held key sends faster than frames are shown: it would go on when the key is
-/// up again.
+/// Drop repeats of a held key that outrun the frames: they would continue after its release.
 fn drop_repeats(shown: &[Event], waiting: &mut Vec<Event>) {
     let mut held: Vec<Key> = Vec::new();
     let mut is_repeat = |event: &Event| {

@@ -84,7 +84,7 @@ pub fn with_key(name: &str, shortcut: Option<Shortcut>) -> String {
     format!("{name}{}", key.unwrap_or_default())
 }
 
-/// What keys that are typed go into.
+/// The target of typed keys.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Typing {
     /// Nothing: they are commands, or the canvas's.
@@ -95,7 +95,7 @@ pub enum Typing {
     Text,
 }
 
-/// What the widget that has the keyboard takes keys for.
+/// The target of keys in the widget that has the keyboard.
 pub fn typing(context: &Context) -> Typing {
     match claimed(context) {
         Some(claim) => claim.typing,
@@ -104,15 +104,15 @@ pub fn typing(context: &Context) -> Typing {
     }
 }
 
-/// What a widget that takes numbers has told.
+/// The claim of a widget that takes numbers.
 #[derive(Clone, Copy, Debug)]
 struct Claim {
     typing: Typing,
     rect: Rect,
 }
 
-/// Tell what keys are for while a widget has the keyboard, and where it is. Told before it has:
-/// from the first key on they are not commands.
+/// Claim keys for a widget while it has the keyboard. The claim comes before the focus:
+/// even the first key is no command then.
 pub fn claim(context: &Context, id: Id, typing: Typing, rect: Rect) {
     context.data_mut(|data| data.insert_temp(id, Claim { typing, rect }));
 }
@@ -143,7 +143,7 @@ pub fn asks_for_menu(context: &Context) -> bool {
     })
 }
 
-/// What keys stand for.
+/// The meaning of keys.
 pub enum KeyCommand {
     /// An action of the window's table.
     Action(Action),
@@ -157,7 +157,7 @@ pub enum KeyCommand {
 /// pressed meanwhile.
 #[derive(Debug, Default)]
 pub struct Keyboard {
-    /// What the key that is held steers, and the command that waits for its release.
+    /// The effect of the held key, and the command that waits for its release.
     waiting: Option<(Steering, Action)>,
 }
 
@@ -170,7 +170,7 @@ impl Keyboard {
         }
         let typing = typing(context);
         let holding = editor.hand().is_holding();
-        // What is typed while a tool takes numbers is meant for it.
+        // Digits typed while a tool takes numbers are meant for it.
         let is_number = |shortcut: &Shortcut| {
             shortcut.modifiers == Modifiers::NONE
                 && matches!(shortcut.key, Key::Character('0'..='9' | '+' | '-'))
@@ -219,7 +219,7 @@ impl Keyboard {
     }
 }
 
-/// What a key does to a drag while it is held.
+/// The effect of a held key on a drag.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Steering {
     /// It keeps the drag to an axis of the model: 0 x, 1 y, 2 z.
@@ -228,7 +228,7 @@ pub enum Steering {
     Features,
 }
 
-/// What the key that an event is about does to a drag, and whether it is held.
+/// The effect of an event's key on a drag, and whether it is held.
 pub fn steering(event: &Event) -> Option<(Steering, bool)> {
     let Event::Key {
         key,
@@ -303,7 +303,7 @@ fn alias(shortcut: Shortcut) -> Option<Action> {
     (shortcut == redo).then_some(Command::Redo.into())
 }
 
-/// Whether what is typed into needs the key for itself.
+/// Whether the text being edited needs the key.
 fn belongs_to(typing: Typing, shortcut: Shortcut) -> bool {
     let edits: &[char] = match typing {
         Typing::Nothing => return false,

@@ -67,7 +67,7 @@ fn covered(rect: &Rect, points: &[Pos2]) -> usize {
     points.iter().filter(|point| near.contains(**point)).count()
 }
 
-/// Name what is at a point, in small type below it.
+/// Name a point in small type below it.
 pub fn name(painter: &Painter, canvas: Rect, point: Pos2, text: &str, tokens: &Tokens) {
     let font = theme::small_font();
     let size = size(painter, text, font.clone());

@@ -1,4 +1,4 @@
-//! The legend: what the colours and marks on the canvas mean.
+//! The legend: the meaning of colours and marks on the canvas.
 
 use eframe::egui::{
     Color32, Label, Painter, Pos2, Rect, RichText, Sense, Shape, Stroke, StrokeKind, TextWrapMode,
@@ -9,13 +9,13 @@ use super::feature_marks::glyph;
 use super::theme::{STEP, Tokens};
 use crate::editor::{FeatureKind, Layer, LayerSample};
 
-/// The width of what a row shows beside its words.
+/// The width of the sample in a row.
 const SAMPLE: f32 = 7.0 * STEP;
 
 /// The height of a row.
 const HEIGHT: f32 = 5.0 * STEP;
 
-/// What a row shows.
+/// The sample in a row.
 #[derive(Clone, Copy)]
 enum Sample {
     /// A band along the curve.

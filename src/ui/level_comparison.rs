@@ -10,7 +10,7 @@ use crate::geometry::counted;
 /// The height of a row.
 const LINE: f32 = 4.5 * STEP;
 
-/// Show whether each level has the features of what the curve stands for, and below that both lists in two
+/// Show whether each level has the features of its reference, and below that both lists in two
 /// columns; the first difference is marked.
 pub fn level_comparisons_ui(ui: &mut Ui, levels: &[LevelComparison]) {
     for level in levels {
@@ -48,13 +48,13 @@ fn level_ui(ui: &mut Ui, level: &LevelComparison) {
     ui.add_space(STEP);
 }
 
-/// What a feature is, and at which parameter.
+/// A feature's kind and parameter.
 fn told(parameter: &str, at: f64, feature: LevelFeature) -> String {
     let at = figures::significant(at, 4);
     format!("{} at {parameter} = {at}", feature.name())
 }
 
-/// What a row shows.
+/// The contents of a row.
 #[derive(Clone, Copy, PartialEq)]
 enum Row {
     Heading,

@@ -46,7 +46,7 @@ pub fn item_ui(
     response
 }
 
-/// What stands at the right of an action: its key, or how far a change of degree would move the curve.
+/// The text at the right of an action: its key, or the error of a change of degree.
 pub fn beside(action: Action, editor: &Editor) -> Option<String> {
     let key = action.shortcut().map(keyboard::shortcut_text);
     key.or_else(|| action.foreseen(editor))

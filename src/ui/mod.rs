@@ -1,4 +1,4 @@
-//! The window: egui only. It shows what the editor says and sends what the hand does; it
+//! The window: egui only. It shows the editor's state and sends the user's events; it
 //! computes no geometry.
 
 mod action;
@@ -94,7 +94,7 @@ const AUTOSAVE_PERIOD: Duration = Duration::from_secs(30);
 /// The variable that sets another period, in seconds: for tests.
 const AUTOSAVE_VARIABLE: &str = "BATTEN_AUTOSAVE_SECONDS";
 
-/// How long a frame waits for what is worked out beside it.
+/// How long a frame waits for background jobs.
 const PATIENCE: Duration = Duration::from_millis(4);
 
 /// Open the editor with some files, and return when its window is closed.
@@ -130,10 +130,10 @@ pub fn run(files: &[PathBuf]) -> anyhow::Result<()> {
         Ok(Box::new(app))
     });
     eframe::run_native("Batten", options, create).map_err(|error| {
-        // The last part says what failed; what comes before is about the sources of libraries.
+        // The last part is the failure; those before name the sources of libraries.
         let text = error.to_string();
         let cause = text.rsplit(": ").next().unwrap_or_default();
-        anyhow!("the window cannot be opened: {cause}. Is there a display that can be reached?")
+        anyhow!("cannot open the window: {cause}. Is a display reachable?")
     })
 }
 
@@ -143,7 +143,7 @@ fn seconds_of(variable: &str) -> Option<Duration> {
     Duration::try_from_secs_f64(seconds).ok()
 }
 
-/// On Linux and its like, say what is missing instead of failing deep inside.
+/// Name the missing display on Linux and its like: libraries fail with less clear messages.
 fn check_display() -> anyhow::Result<()> {
     let names = ["WAYLAND_DISPLAY", "WAYLAND_SOCKET", "DISPLAY"];
     let is_set = |name: &&str| std::env::var_os(name).is_some_and(|value| !value.is_empty());

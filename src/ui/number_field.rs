@@ -16,7 +16,7 @@ use super::{figures, labels, widgets};
 use crate::editor::Editor;
 use crate::geometry::parameters::Quantity;
 
-/// What the user did to a field. `T` is what the field's number stands for.
+/// A user's action on a field. `T` is the meaning of the field's number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FieldEvent<T = f64> {
     /// Drag to a value, which is a preview.
@@ -30,7 +30,7 @@ pub enum FieldEvent<T = f64> {
 }
 
 impl<T> FieldEvent<T> {
-    /// Turn the number into what it stands for.
+    /// Turn the number into its meaning.
     pub fn map<U>(self, of: impl FnOnce(T) -> U) -> FieldEvent<U> {
         match self {
             Self::Preview(value) => FieldEvent::Preview(of(value)),
@@ -56,8 +56,8 @@ impl<T> FieldEvent<T> {
     }
 }
 
-/// Show a form row with a field for each of the first `axes` components of a vector. `name` is what a
-/// screen reader calls the vector.
+/// Show a form row with a field for each of the first `axes` components of a vector. `name` names the
+/// vector for screen readers.
 pub fn vector_row(
     ui: &mut Ui,
     (caption, name): (&str, &str),
@@ -107,8 +107,8 @@ pub struct NumberField<'a> {
     help: Option<&'a str>,
 }
 
-/// What is being typed into the field that has the keyboard, and the pass in which it was shown
-/// last: what was left longer ago does not count.
+/// The draft in the field that has the keyboard, and the pass in which it was last shown: an older
+/// draft does not count.
 #[derive(Clone, Default)]
 struct Kept {
     draft: Draft,
@@ -124,7 +124,7 @@ struct Drag {
 }
 
 impl<'a> NumberField<'a> {
-    /// A field that shows `shown` for `value`; `name` is what a screen reader calls it.
+    /// A field that shows `shown` for `value`; `name` is its name for screen readers.
     pub fn new(name: &'a str, value: f64, shown: String) -> Self {
         Self {
             name,
@@ -177,7 +177,7 @@ impl<'a> NumberField<'a> {
         self
     }
 
-    /// What a tooltip says of it.
+    /// The text of its tooltip.
     pub fn help(mut self, help: &'a str) -> Self {
         self.help = Some(help);
         self
@@ -189,7 +189,7 @@ impl<'a> NumberField<'a> {
         self
     }
 
-    /// Show the field; returns what the user did to it.
+    /// Show the field; returns the user's action on it.
     pub fn show(self, ui: &mut Ui) -> Option<FieldEvent> {
         let (_, rect) = ui.allocate_space(Vec2::new(self.width, ROW));
         let id = ui.make_persistent_id(self.name);
@@ -239,7 +239,7 @@ impl<'a> NumberField<'a> {
         let is_left = !response.has_focus();
         let entered = !is_left && ui.input(|input| input.key_pressed(Key::Enter));
         match draft.value(&accepted) {
-            // What was typed stays, to be changed.
+            // The text stays, for correction.
             Err(fault) if entered => draft.refuse(fault),
             _ if entered || is_left => {
                 ui.memory_mut(|memory| memory.surrender_focus(id));
@@ -358,8 +358,8 @@ impl<'a> NumberField<'a> {
         painter.text(at, Align2::RIGHT_CENTER, text, theme::number_font(), colour);
     }
 
-    /// What is shown: of a number too long for the field fewer digits, and if that is not enough
-    /// its end, and that something is missing.
+    /// The text that fits: a number too long for the field gets fewer digits, and if that is not enough
+    /// an ellipsis before its end.
     fn fitting(&self, painter: &Painter, width: f32) -> String {
         let fits = |text: &str| labels::size(painter, text, theme::number_font()).x <= width;
         if fits(&self.shown) {
@@ -376,8 +376,8 @@ impl<'a> NumberField<'a> {
         text
     }
 
-    /// The number with fewer and fewer digits, while they tell it from 0; without its unit there
-    /// is nothing to write anew.
+    /// The number with fewer and fewer digits, down to the last that differs from 0; a text with a unit
+    /// has no shorter form.
     fn shorter(&self) -> impl Iterator<Item = String> {
         let value = self.value;
         let is_plain = self.shown.ends_with(|last: char| last.is_ascii_digit());
@@ -471,7 +471,7 @@ impl<'a> NumberField<'a> {
         (moved != 0.0).then(|| FieldEvent::Preview(self.dragged_to(drag, fine)))
     }
 
-    /// The value under the hand, rounded to what one point of the drag can tell apart.
+    /// The dragged value, rounded to the step of one point of the drag.
     fn dragged_to(&self, drag: &Drag, fine: f64) -> f64 {
         let value = drag.start + drag.points * self.speed;
         let step = 10f64.powf((self.speed * fine).log10().floor());

@@ -36,7 +36,7 @@ pub struct OperationFields {
 pub struct Refused {
     /// The parameter whose field that belongs to, if it is of one.
     pub parameter: Option<&'static str>,
-    /// What is wrong, and how to mend it.
+    /// The reason, and the remedy.
     pub text: String,
 }
 
@@ -48,7 +48,7 @@ struct TypedList {
 }
 
 impl OperationFields {
-    /// Show the field of a parameter; returns what the user did to it.
+    /// Show the field of a parameter; returns the user's action on it.
     pub fn show(
         &mut self,
         ui: &mut Ui,
@@ -82,8 +82,8 @@ impl OperationFields {
         row.inner
     }
 
-    /// Below a field: what an empty one means, where that does not fit into it, and why its last value was not
-    /// accepted.
+    /// Below a field: the meaning of an empty one, where the field is too narrow for it, and the refusal of
+    /// its last value.
     fn below_ui(
         &self,
         ui: &mut Ui,
@@ -120,7 +120,7 @@ impl OperationFields {
         });
     }
 
-    /// A field for numbers with commas between them, which may stay empty. What is typed counts at once,
+    /// A field for numbers with commas between them, which may stay empty. A text is previewed at once,
     /// as far as it is a list that can be given.
     fn list_ui(
         &mut self,
@@ -147,7 +147,7 @@ impl OperationFields {
             .desired_width(f32::INFINITY);
         let field = ui.add(field);
         field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, parameter.label));
-        // A text as it was means the same, with what no text tells, such as where a reference lies.
+        // An unchanged text keeps the value, with parts that no text shows, such as a reference's placement.
         let read = match text == parameter.text(&before) {
             true => Ok(before.clone()),
             false => parameter.read(&text),
@@ -232,7 +232,7 @@ fn fits(ui: &Ui, text: &str, width: f32) -> bool {
     text_width(ui, text) + 4.0 * STEP <= width
 }
 
-/// What an empty field means, of parameters that may be left empty.
+/// The meaning of an empty field, for parameters that may be empty.
 fn hint_of(in_progress: &OperationInProgress, parameter: &Parameter) -> &'static str {
     match parameter.kind {
         Kind::List { none, .. } => none(Some(in_progress.input())),
@@ -306,7 +306,7 @@ fn given_number(number: f64, like: &Value, quantity: Quantity) -> Value {
 fn field_range(limits: Option<Limits>, quantity: Quantity) -> RangeInclusive<f64> {
     let (from, to) = limits.unwrap_or((Bound::Unbounded, Bound::Unbounded));
     let from = match from {
-        // What is excluded is refused with the words of the parameter.
+        // The parameter's own message refuses an excluded bound.
         Bound::Included(from) | Bound::Excluded(from) => quantity.shown(from),
         Bound::Unbounded => f64::NEG_INFINITY,
     };

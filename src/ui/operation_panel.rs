@@ -1,4 +1,4 @@
-//! The operation panel: the parameters of the operation that is tried out, and what it does.
+//! The operation panel: the parameters and the result of the operation in progress.
 
 use eframe::egui::{Frame, Panel, ProgressBar, Ui, vec2};
 use lucide_icons::Icon;
@@ -12,7 +12,7 @@ use super::widgets::{self, IconButton};
 use crate::editor::{Editor, OperationInProgress, told};
 use crate::operations::{Atlas, Value};
 
-/// The heights of the places for the summary, for what is wrong and for the buttons, one below the other.
+/// The heights of the places for the summary, the error and the buttons, one below the other.
 const FOOT: [f32; 3] = [16.0 * STEP, 9.0 * STEP, 9.0 * STEP];
 
 /// The panel's own state.
@@ -32,8 +32,8 @@ enum PanelAction {
 }
 
 impl OperationPanel {
-    /// Show the panel of the operation that is tried out, or was applied last: its fields and below them what
-    /// it came to, which scroll together, and what matters most of it with the buttons in a place of their own.
+    /// Show the panel of the operation in progress: its fields and result, which scroll together, and in a
+    /// place of their own the summary and the buttons.
     pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor) {
         let Some(in_progress) = editor.operation() else {
             *self = Self::default();
@@ -59,7 +59,7 @@ impl OperationPanel {
             }
             self.report.show(ui, in_progress);
         });
-        // A click on a button also leaves a field: what was typed there counts first.
+        // A click on a button also leaves a field: its text counts first.
         actions.extend(foot);
         editor.view_mut().show_atlas(shows_atlas);
         for action in actions {
@@ -135,7 +135,7 @@ impl OperationPanel {
             });
             ui.allocate_ui(vec2(ui.available_width(), wrong), |ui| {
                 ui.set_height(wrong);
-                // What is wrong in a field stands below that.
+                // A field's own error stands below the field.
                 let refused = self.fields.refusal.as_ref();
                 let refused = refused.filter(|refused| refused.parameter.is_none());
                 let refused = refused.map(|refused| refused.text.clone());

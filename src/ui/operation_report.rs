@@ -1,4 +1,4 @@
-//! What the operation at hand came to: its report, its figures and the features before and afterwards.
+//! The result of the operation in progress: report, figures, and features before and after.
 
 use eframe::egui::text::LayoutJob;
 use eframe::egui::{Label, TextStyle, Ui};
@@ -23,7 +23,7 @@ pub struct ReportView {
 }
 
 impl ReportView {
-    /// Show what the operation came to, faintly while other values are being tried.
+    /// Show the result, faintly while other values run.
     pub fn show(&mut self, ui: &mut Ui, in_progress: &OperationInProgress) {
         let operation = in_progress.operation().name;
         if self.operation != operation {
@@ -60,7 +60,7 @@ impl ReportView {
     }
 }
 
-/// Say why nothing comes of the values, or not all that was asked for.
+/// Say why the values have no result, or only a partial one.
 pub fn failure(in_progress: &OperationInProgress) -> Option<String> {
     match in_progress.run()? {
         Err(error) => Some(sentence(&error.to_string())),
@@ -70,8 +70,8 @@ pub fn failure(in_progress: &OperationInProgress) -> Option<String> {
     }
 }
 
-/// Show what matters most of what the operation came to: how far the curve moves, and its vertices, or whether it
-/// has the shape of what it follows; and whether its curvature is monotone. There are always as many rows.
+/// Show the summary, always of as many rows: how far the curve moves and its vertices, or whether it has
+/// the shape of its source; and whether its curvature is monotone.
 pub fn summary_ui(ui: &mut Ui, in_progress: &OperationInProgress) {
     let Some(run) = in_progress.run() else {
         return;
@@ -118,7 +118,7 @@ fn largest_move(report: &Report) -> Option<String> {
     })
 }
 
-/// Whether the curve has the shape of what it follows, in words.
+/// Whether the curve has the shape of its source, in words.
 fn shape(report: &Report) -> String {
     let differing = report.differing_level();
     differing.map_or_else(
@@ -169,7 +169,7 @@ fn figure_text(figure: &Figure) -> String {
     }
 }
 
-/// Show an error on two lines; one that needs more is told on hovering.
+/// Show an error on two lines; a tooltip shows a longer one.
 pub fn error_ui(ui: &mut Ui, text: &str) {
     let font = TextStyle::Body.resolve(ui.style());
     let width = ui.available_width();

@@ -1,4 +1,4 @@
-//! What lies over the canvas for a moment: an empty document's advice, and files about to drop.
+//! Overlays of the canvas: the advice for an empty document, and files about to drop.
 
 use eframe::egui::{
     Align2, Area, Button, Context, Id, LayerId, Order, Rect, RichText, Stroke, StrokeKind,
@@ -10,7 +10,7 @@ use super::theme::{RADIUS, STEP, Tokens};
 use super::{gizmo, keyboard};
 use crate::editor::{Command, NamedView};
 
-/// Tell what to do with an empty document.
+/// Show the first steps in an empty document.
 pub fn empty_ui(context: &Context, canvas: Rect) {
     let area = Area::new(Id::unique("empty document"))
         .order(Order::Background)
@@ -33,7 +33,7 @@ pub fn empty_ui(context: &Context, canvas: Rect) {
     });
 }
 
-/// Say that a planar drawing is seen at an angle, with the way back.
+/// Warn that a planar drawing is seen at an angle, with the way back.
 pub fn orbited_ui(context: &Context, canvas: Rect, commands: &mut Vec<Action>) {
     let top = gizmo::name_place(canvas).map_or(canvas.top(), |name| name.bottom());
     let area = Area::new(Id::unique("orbited"))
@@ -57,7 +57,7 @@ pub fn orbited_ui(context: &Context, canvas: Rect, commands: &mut Vec<Action>) {
     }
 }
 
-/// While files hover over the window, say what dropping them does.
+/// Explain the effect of dropping while files hover over the window.
 pub fn drop_ui(context: &Context, canvas: Rect) {
     if context.input(|input| input.raw.hovered_files.is_empty()) {
         return;

@@ -17,7 +17,7 @@ use crate::geometry::coordinate;
 /// Half the length of the tick across a joint, in points.
 const TICK: f32 = 5.0;
 
-/// The width of the bands that tell what the curvature does.
+/// The width of the bands for rising and falling curvature.
 const BAND: f32 = 7.0;
 
 /// How strong these bands are: the curve on them is brighter.
@@ -82,7 +82,7 @@ pub fn paint(brush: &Brush<'_>, scene: &Scene) {
     guides::paint(brush, &scene.guides);
 }
 
-/// Paint what belongs to the hand: marks of the tool and what is hovered.
+/// Paint the tool's marks and the hovered item.
 pub fn paint_hand(brush: &Brush<'_>, scene: &Scene) {
     proposal::paint(brush, &scene.proposal);
     let others = kept_clear(brush, scene);
@@ -112,7 +112,7 @@ fn kept_clear(brush: &Brush<'_>, scene: &Scene) -> Vec<Pos2> {
 }
 
 impl Brush<'_> {
-    /// Comb, evolute and closed polygon: what is derived from the curve, behind it.
+    /// Paint comb, evolute and closed polygon behind the curve they derive from.
     fn derived(&self, curve: &CurveScene) {
         let fade = fading(curve);
         let tokens = self.tokens;
@@ -141,7 +141,7 @@ impl Brush<'_> {
         }
     }
 
-    /// What the curvature does, in bands that the curve lies on and keeps its own colour.
+    /// Paint bands of rising and falling curvature; the curve on them keeps its colour.
     fn bands(&self, curve: &CurveScene) {
         let tokens = self.tokens;
         let trends = [tokens.rising, tokens.falling, tokens.undecided];
@@ -290,7 +290,7 @@ impl Brush<'_> {
         }
     }
 
-    /// Mark a vertex, and say what is uneven there on a side of it that is free, if one is.
+    /// Mark a vertex with a remark on its free side, if it has one.
     fn extreme(&self, at: DVec2, text: &str) {
         let Some(at) = self.screen.point(at) else {
             return;
@@ -375,7 +375,7 @@ impl Brush<'_> {
         }
     }
 
-    /// Tell what a drag did, on the other side of where it goes.
+    /// Write the figures of a drag on the side away from its direction.
     fn drag_readout(&self, readout: &DragReadout, others: &[Pos2]) {
         let Some(at) = self.screen.point(readout.at) else {
             return;
@@ -526,7 +526,7 @@ impl Brush<'_> {
     }
 }
 
-/// What a drag did, in lines: the difference, then the place, with the digits of the table of vertices.
+/// The figures of a drag in lines: difference, then place, with the digits of the vertex table.
 fn drag_text(readout: &DragReadout, pixel: f64) -> String {
     let axes = if readout.in_space { 3 } else { 2 };
     let cell = |axis: usize, value: f64| Column::Axis(axis).shown(value, pixel).0;

@@ -197,7 +197,7 @@ fn row_ui(ui: &mut Ui, editor: &Editor, action: Action, chosen: bool) -> eframe:
     response.on_hover_text(action.tooltip_now(editor))
 }
 
-/// The commands whose names resemble what was typed, best first; all of them if nothing was.
+/// The commands whose names resemble the typed text, best first; all of them without a text.
 fn matches(typed: &str) -> Vec<Action> {
     let all = Action::all();
     if typed.trim().is_empty() {

@@ -1,4 +1,4 @@
-//! The curve that a click would make: fainter than what is there.
+//! The preview of the curve that a click would make, fainter than the drawing.
 
 use eframe::egui::Stroke;
 

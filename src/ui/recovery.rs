@@ -22,7 +22,7 @@ const WIDTH: f32 = 460.0;
 /// The height from which on the list scrolls.
 const HEIGHT: f32 = 320.0;
 
-/// What the user wants with what was left.
+/// The user's choice among recovered documents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Choice {
     /// Open it.
@@ -33,7 +33,7 @@ pub enum Choice {
     Later,
 }
 
-/// Show what earlier sessions have left, if there is anything; returns what was chosen.
+/// Show the recovered documents, if there are any; returns the user's choice.
 pub fn recovery_ui(context: &Context, canvas: Rect, all: &[Recoverable]) -> Option<Choice> {
     if all.is_empty() {
         return None;
@@ -56,7 +56,7 @@ pub fn recovery_ui(context: &Context, canvas: Rect, all: &[Recoverable]) -> Opti
         ui.set_width(WIDTH);
         ui.spacing_mut().item_spacing.y = 2.0 * STEP;
         ui.strong("Recovered documents");
-        widgets::note(ui, "Batten ended before these documents were saved.");
+        widgets::note(ui, "Batten closed before these documents were saved.");
         let area = ScrollArea::vertical().max_height(HEIGHT);
         let chosen = area.show(ui, |ui| {
             let rows = all.iter().map(|recoverable| row_ui(ui, recoverable));
@@ -68,7 +68,7 @@ pub fn recovery_ui(context: &Context, canvas: Rect, all: &[Recoverable]) -> Opti
             widgets::at_right(ui, |ui| {
                 let button = ui
                     .button("Later")
-                    .on_hover_text("Offer these at the next start (Esc)");
+                    .on_hover_text("Offer them again at the next start (Esc)");
                 later = button.clicked().then_some(Choice::Later);
                 folder_ui(ui, all);
             });
@@ -130,7 +130,7 @@ fn row_ui(ui: &mut Ui, recoverable: &Recoverable) -> Option<Choice> {
     choice
 }
 
-/// What is told of a document: its name, and what else is known.
+/// The name and the facts of a document.
 fn texts(recoverable: &Recoverable) -> [String; 2] {
     match &recoverable.content {
         Ok(content) => {
@@ -146,12 +146,12 @@ fn facts(content: &RecoverableDocument, now: SystemTime) -> Vec<String> {
     let vertices = counted(content.vertices, "vertex", "vertices");
     let mut facts = vec![ago(content.time, now), format!("{curves} · {vertices}")];
     if content.is_file_changed {
-        facts.push("Its file has changed since".to_owned());
+        facts.push("The file has changed since".to_owned());
     }
     facts
 }
 
-/// Say how long ago something was.
+/// The time since a save, in words.
 fn ago(time: SystemTime, now: SystemTime) -> String {
     let seconds = now.duration_since(time).unwrap_or_default().as_secs();
     let minutes = usize::try_from(seconds / 60).unwrap_or(usize::MAX);
@@ -178,7 +178,7 @@ fn picture_ui(ui: &mut Ui, chains: &[Vec<DVec2>]) {
     }
 }
 
-/// Map what the chains extend over into a box, upright and undistorted.
+/// Map the bounds of the chains into a box, upright and undistorted.
 fn placing(rect: Rect, chains: &[Vec<DVec2>]) -> impl Fn(DVec2) -> Pos2 {
     let points = || chains.iter().flatten().copied();
     let least = points().reduce(DVec2::min).unwrap_or_default();

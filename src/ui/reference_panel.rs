@@ -1,4 +1,4 @@
-//! The inspector of a reference: what it is, where it lies, and its figures.
+//! The inspector of a reference: its shape, its placement and its figures.
 
 use eframe::egui::Ui;
 use glam::{DQuat, EulerRot};
@@ -19,7 +19,7 @@ const FIELD: f32 = 120.0;
 /// The width of fields that stand side by side.
 const NARROW: f32 = 64.0;
 
-/// Show what a reference is, in fields made from its kind's table of parameters, or for its formulas.
+/// Show the shape of a reference: fields from its kind's table of parameters, or its formulas.
 pub fn shape_ui(
     ui: &mut Ui,
     editor: &mut Editor,
@@ -133,7 +133,7 @@ fn angle_field(name: &str, degrees: f64) -> NumberField<'_> {
         .quantity(Quantity::Angle)
 }
 
-/// Send what was done in a field to the editor. A preview that is impossible leaves the last one.
+/// Send a field's event to the editor. A preview that is impossible leaves the last one.
 fn send<T>(
     editor: &mut Editor,
     event: Option<FieldEvent<T>>,

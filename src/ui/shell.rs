@@ -1,4 +1,4 @@
-//! What the window shows beside the document.
+//! The parts of the window beside the document.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::editor::{Layer, Layers};
 
-/// What the window shows beside the document, kept from run to run.
+/// The parts of the window beside the document; the settings keep them from run to run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Shell {
@@ -63,7 +63,7 @@ impl Shell {
         self.hidden = None;
     }
 
-    /// Whether a layer was shown; `None` if the settings do not say.
+    /// Whether a layer was shown; `None` if the settings do not name it.
     pub fn shows(&self, layer: Layer) -> Option<bool> {
         let old = || {
             let place = OLD_PLACES.iter().position(|old| *old == layer)?;

@@ -1,5 +1,5 @@
 //! The side panel: the list of curves, and below it, one at a time, the inspector, the vertices and what
-//! the operation or the tool at hand asks for.
+//! the fields of the operation or the tool.
 
 use eframe::egui::{
     Button, CentralPanel, Context, CursorIcon, Frame, Id, Margin, Panel, Rangef, Rect, Role, Sense,
@@ -28,7 +28,7 @@ const LEAST: f32 = 5.0 * ROW;
 /// The height of the bar of tabs, and the width of a tab.
 const TABS: [f32; 2] = [ROW + 3.0 * STEP, 92.0];
 
-/// What a tab shows.
+/// The tabs of the panel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Tab {
     #[default]
@@ -36,10 +36,10 @@ enum Tab {
     Vertices,
 }
 
-/// What asks for values of its own.
+/// A task with fields of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Task {
-    /// An operation that is tried out.
+    /// An operation with a preview.
     Preview(&'static str),
     /// An operation that was applied last: its values can still be changed.
     Applied(&'static str),
@@ -83,7 +83,7 @@ impl Side {
         self.curves.rename_active(context, editor);
     }
 
-    /// A task that begins comes to the front. An operation that was applied stays where it was tried out.
+    /// Bring a new task to the front. An applied operation keeps the place of its preview.
     fn notice_task(&mut self, editor: &Editor) {
         let task = task(editor);
         if task == self.task {
@@ -185,7 +185,7 @@ impl Task {
     }
 }
 
-/// The task at hand: an operation that is tried out, then the tool, then the operation applied last.
+/// The current task: an operation with a preview, then the tool, then the operation applied last.
 fn task(editor: &Editor) -> Option<Task> {
     let in_progress = editor.operation();
     if let Some(in_progress) = in_progress.filter(|_| editor.previewed_operation().is_some()) {
@@ -239,7 +239,7 @@ fn list_ui(ui: &mut Ui, edge: Edge, name: &str, contents: impl FnOnce(&mut Ui)) 
     }
 }
 
-/// The edge of a list, which can be dragged; tells to where.
+/// The edge of a list, which can be dragged; returns the place it is dragged to.
 fn handle_ui(ui: &mut Ui, name: &str, across: Rangef, line: f32) -> Option<f32> {
     let place = Rect::from_x_y_ranges(across, Rangef::point(line).expand(0.5 * STEP));
     let handle = ui.interact(place, Id::unique(name).with("edge"), Sense::drag());

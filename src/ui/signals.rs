@@ -8,7 +8,7 @@ use eframe::egui::Context;
 
 use crate::editor::Autosaver;
 
-/// Whether a signal has asked the program to end.
+/// Whether a signal has requested the end of the program.
 #[derive(Clone, Debug, Default)]
 pub struct Signals(Arc<AtomicBool>);
 

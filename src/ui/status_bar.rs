@@ -1,4 +1,4 @@
-//! The status bar: what the mouse will do now, and where it is.
+//! The status bar: the mouse's next action, and its place.
 
 use eframe::egui::{Label, Response, RichText, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
 
@@ -23,7 +23,7 @@ const GAP: f32 = 4.0 * STEP;
 /// The cells that give way where there is too little room, the first one first.
 const GIVING_WAY: [&str; 3] = ["u", "t", "κ"];
 
-/// Show the bar; `hint` says what the mouse will do now.
+/// Show the bar; `hint` describes the mouse's next action.
 pub fn status_bar_ui(
     ui: &mut Ui,
     editor: &mut Editor,

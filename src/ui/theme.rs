@@ -25,7 +25,7 @@ pub const ICON: f32 = 16.0;
 /// The name of the icons' font family.
 const ICON_FAMILY: &str = "icons";
 
-/// The colours of one theme, by what they are for.
+/// The colours of one theme, by purpose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tokens {
     /// The canvas.
@@ -40,13 +40,13 @@ pub struct Tokens {
     pub text: Color32,
     /// Captions, hints and units.
     pub faint_text: Color32,
-    /// Headings and what is selected.
+    /// Headings and selected items.
     pub strong_text: Color32,
     /// A button at rest, hovered and pressed.
     pub button: [Color32; 3],
-    /// Behind what is selected.
+    /// Behind selected items.
     pub selection: Color32,
-    /// What has the keyboard, links.
+    /// Keyboard focus, links.
     pub accent: Color32,
     /// The grid's minor lines.
     pub grid_minor: Color32,
@@ -83,9 +83,9 @@ pub struct Tokens {
     pub comb_teeth: Color32,
     /// Target points and directions.
     pub target: Color32,
-    /// What is within its tolerance.
+    /// Within tolerance.
     pub good: Color32,
-    /// What is not yet.
+    /// Outside tolerance.
     pub warning: Color32,
     /// What failed.
     pub error: Color32,
@@ -393,7 +393,7 @@ fn style(dark: bool) -> Style {
         // Beside the contents, never over their numbers.
         floating_allocated_width: 12.0,
         bar_outer_margin: 2.0,
-        // At rest it tells that there is more to see.
+        // At rest it shows that there is more to see.
         dormant_handle_opacity: 0.4,
         ..ScrollStyle::floating()
     };
@@ -409,7 +409,7 @@ mod tests {
     /// Linear light, red to blue.
     type Light = [f64; 3];
 
-    /// What an eye without one kind of cones sees of linear light (Machado, Oliveira and Fernandes 2009): long,
+    /// Linear light as seen without one kind of cones (Machado, Oliveira and Fernandes 2009): long,
     /// middle, short; and every eye.
     const EYES: [[Light; 3]; 4] = [
         [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],

@@ -20,7 +20,7 @@ const GAP: f32 = 0.5 * STEP;
 /// The height of a line between groups, with the space below it.
 const DIVIDER: f32 = 1.0 + GAP;
 
-/// Show the tools, then what makes curves of its own, and below what acts on every tool. The buttons
+/// Show the tools, then the operations that create curves, and below the switches for every tool. The buttons
 /// are as large as all of them fit.
 pub fn tool_rail_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<Action>) {
     ui.spacing_mut().item_spacing = Vec2::splat(GAP);

@@ -12,14 +12,14 @@ const SQUARE: f32 = 9.0;
 const DISC: f32 = 6.0;
 const SIDE: f32 = 4.5;
 
-/// How faint lines and what is swept are.
+/// The opacity of lines and of the swept sector.
 const LINE: f32 = 0.6;
 const SWEPT: f32 = 0.16;
 
-/// The angle between two points of the border of what is swept, at most.
+/// The largest angle between two points of the sector's border.
 const STEP: f64 = 0.05;
 
-/// Paint the ring about a centre, with its handle, and what the handle has swept to come there.
+/// Paint the ring about a centre, with its handle and the sector that it has swept.
 pub fn ring(brush: &Brush<'_>, centre: DVec2, handle: DVec2, swept: f64) {
     let (Some(at), Some(end)) = (brush.screen.point(centre), brush.screen.point(handle)) else {
         return;

@@ -9,7 +9,7 @@ use super::widgets;
 use crate::editor::{Editor, ToolKind, Transformation, told};
 use crate::geometry::parameters::Quantity;
 
-/// What is typed into the fields, until it is applied.
+/// The numbers in the fields, until they are applied.
 pub struct TransformPanel {
     degrees: f64,
     factor: f64,

@@ -1,4 +1,4 @@
-//! The columns of the table of vertices: what they hold, and the edits that change it.
+//! The columns of the vertex table: their numbers, and the edits that change them.
 
 use eframe::egui::{Checkbox, Ui};
 use glam::DVec3;
@@ -20,7 +20,7 @@ pub enum Column {
 }
 
 impl Column {
-    /// What the column is called.
+    /// The name of the column.
     pub fn name(self) -> &'static str {
         match self {
             Self::Axis(0) => "x",
@@ -130,14 +130,13 @@ impl MoreColumns {
         widgets::form_row(ui, "Columns", |ui| {
             let z = (
                 "z",
-                "Show heights: a height other than 0 turns a planar curve into a space curve",
+                "Show heights: a height other than 0 makes a space curve",
                 "This curve is in space",
             );
             switch_ui(ui, &mut self.z, !polygon.is_planar(), z);
             let weights = (
                 "Weights",
-                "Show weights: typing one that is not 1 makes the curve rational; with all of \
-                 them 1 it is polynomial again",
+                "Show weights: a weight other than 1 makes the curve rational",
                 "This curve is rational",
             );
             switch_ui(ui, &mut self.weights, polygon.is_rational(), weights);

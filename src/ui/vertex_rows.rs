@@ -16,7 +16,7 @@ const NUMBER: f32 = 44.0;
 /// The width of the column of locks.
 const LOCK: f32 = 24.0;
 
-/// The width of what stands before the columns of numbers.
+/// The width before the columns of numbers.
 pub const HEAD: f32 = NUMBER + LOCK;
 
 /// The size of a lock.
@@ -25,7 +25,7 @@ const SIGN: f32 = 12.0;
 /// Dragging takes weights down to this: 0 is none.
 const LEAST_WEIGHT: f64 = 0.01;
 
-/// The identity of what has the keyboard: one for all cells, so that the keyboard stays when
+/// The identity of the table's focus: one for all cells, so that the keyboard stays when
 /// another cell is gone to, and when a row scrolls out of sight.
 pub fn id() -> Id {
     Id::unique("vertex table")
@@ -43,7 +43,7 @@ pub enum RowAction {
     Field(Cell, FieldEvent),
 }
 
-/// What the rows share while they are shown.
+/// The data that the rows share.
 pub struct Rows<'a> {
     /// The curve.
     pub curve: &'a Curve,
@@ -62,7 +62,7 @@ pub struct Rows<'a> {
 }
 
 impl Rows<'_> {
-    /// Paint what is behind a row.
+    /// Paint the background of a row.
     pub fn paint(&self, ui: &Ui, vertex: usize, rect: Rect) {
         let tokens = Tokens::of(ui);
         if self.is_selected(vertex) {
@@ -110,7 +110,7 @@ impl Rows<'_> {
         let response = response.on_hover_text(if self.is_locked(vertex) {
             "Unlock the vertex"
         } else {
-            "Lock the vertex so that nothing moves it"
+            "Lock the vertex in place"
         });
         let tokens = Tokens::of(ui);
         let shown = match (self.is_locked(vertex), response.hovered()) {
@@ -170,7 +170,7 @@ fn cell_key(cell: Cell) -> (usize, Column) {
     (cell.vertex, cell.column)
 }
 
-/// What a screen reader calls a cell.
+/// The name of a cell for screen readers.
 pub fn name(cell: Cell) -> String {
     format!("vertex {} {}", cell.vertex, cell.column.name())
 }

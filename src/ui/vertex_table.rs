@@ -29,7 +29,7 @@ const KEYS: EventFilter = EventFilter {
 
 /// The table's own state.
 pub struct VertexTable {
-    /// What was selected in the last frame: a change from elsewhere is scrolled to.
+    /// The selection in the last frame: a change from elsewhere is scrolled to.
     selected: Vec<usize>,
     /// The rows that were visible in the last frame, and how far they were scrolled.
     visible: Range<usize>,
@@ -116,7 +116,7 @@ impl VertexTable {
     }
 
     /// Take the keys that are the table's. Returns the one that ends an edit: it counts after
-    /// the text field has taken what was typed before it.
+    /// the text field has taken the text typed before it.
     fn take_keys(
         &mut self,
         ui: &mut Ui,
@@ -147,7 +147,7 @@ impl VertexTable {
         self.entry.as_ref().and_then(|_| cell_keys::for_text(ui))
     }
 
-    /// Do what keys ask for while no number is being typed.
+    /// Handle keys while no number is edited.
     fn idle_keys(
         &mut self,
         ui: &mut Ui,
@@ -192,7 +192,7 @@ impl VertexTable {
         self.entry = Entry::new(curve_id, &curve.polygon, self.cell, text);
     }
 
-    /// A key ends the edit: the number is taken, or the field says why not.
+    /// End the edit by a key: take the number, or show why not.
     fn end_entry(
         &mut self,
         ui: &mut Ui,
@@ -212,7 +212,7 @@ impl VertexTable {
         }
     }
 
-    /// Take the number over and tell whether it can be; otherwise it is edited on.
+    /// Apply the number and return whether that succeeds; otherwise the edit goes on.
     fn finish(&mut self, ui: &mut Ui, editor: &mut Editor, mut entry: Entry) -> bool {
         let taken = entry.take_over(editor);
         let is_taken = taken.is_ok();
@@ -224,7 +224,7 @@ impl VertexTable {
         is_taken
     }
 
-    /// The keyboard is elsewhere: the number is taken, or a remark says why not.
+    /// End the edit because the keyboard left: apply the number, or remark why not.
     fn leave(&mut self, ui: &mut Ui, editor: &mut Editor, entry: Entry) {
         let is_shown = editor.active() == Some(entry.curve);
         if let Err(fault) = entry.take_over(editor)
@@ -275,8 +275,8 @@ impl VertexTable {
         self.follow = true;
     }
 
-    /// Show the rows in sight; tells which one is hovered, what is action for, and where the cell
-    /// is that keys are for.
+    /// Show the visible rows; returns the hovered one, the user's action, and the place of the cell
+    /// that has the keyboard.
     fn rows_ui(
         &mut self,
         ui: &mut Ui,
@@ -336,8 +336,8 @@ impl VertexTable {
         is_news.then_some((first as f32 * ROW - 0.4 * height).max(0.0))
     }
 
-    /// Show a row; tells what it asks for and, if it is in this row, where the cell is that keys
-    /// are for.
+    /// Show a row; returns the user's action and, if it is in this row, the place of the cell that
+    /// has the keyboard.
     fn row_ui(
         &mut self,
         ui: &mut Ui,

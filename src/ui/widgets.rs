@@ -25,7 +25,7 @@ pub struct IconButton<'a> {
 }
 
 impl<'a> IconButton<'a> {
-    /// A button with an icon; `name` is what a screen reader calls it, and its tooltip.
+    /// A button with an icon; `name` is its tooltip and its name for screen readers.
     pub fn new(icon: Icon, name: &'a str) -> Self {
         Self {
             icon,
@@ -37,7 +37,7 @@ impl<'a> IconButton<'a> {
         }
     }
 
-    /// Say more on hover than the name.
+    /// Set another tooltip than the name.
     pub fn tooltip(mut self, tooltip: impl Into<String>) -> Self {
         self.tooltip = tooltip.into();
         self
@@ -96,14 +96,14 @@ pub fn icon(ui: &Ui, rect: Rect, icon: Icon, colour: Color32) {
     );
 }
 
-/// Outline what has the keyboard.
+/// Outline the widget that has the keyboard.
 pub fn focus_ring(ui: &Ui, rect: Rect) {
     let stroke = Stroke::new(1.0, Tokens::of(ui).accent);
     ui.painter()
         .rect_stroke(rect, RADIUS, stroke, StrokeKind::Inside);
 }
 
-/// A caption that is cut short where there is too little room; all of it is told on hovering.
+/// A caption that is cut short where there is too little room; a tooltip shows all of it.
 pub fn remark(ui: &mut Ui, text: &str) -> Response {
     let text = RichText::new(text)
         .font(theme::small_font())
@@ -135,8 +135,8 @@ pub fn filling<R>(ui: &mut Ui, contents: impl FnOnce(&mut Ui) -> R) -> R {
     contents(&mut inside)
 }
 
-/// Show contents that scroll where they do not fit. Room for the bar is always kept, and what is shown
-/// gets no shorter while the pointer is pressed: nothing moves under it.
+/// Show contents that scroll where they do not fit. Room for the bar is always kept, and the contents
+/// get no shorter while the pointer is pressed: nothing moves under it.
 pub fn scrolling<R>(ui: &mut Ui, name: &str, contents: impl FnOnce(&mut Ui) -> R) -> R {
     let area = ScrollArea::vertical()
         .id_salt(name)
@@ -218,7 +218,7 @@ pub fn fact_row(ui: &mut Ui, name: &str, fact: &str) {
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{name}: {fact}")));
 }
 
-/// Write a text at the left of a box. Where there is too little room it ends with an ellipsis; tells
+/// Write a text at the left of a box. Where there is too little room it ends with an ellipsis; returns
 /// whether it does.
 pub fn label_in(ui: &Ui, rect: Rect, text: &str, colour: Color32) -> bool {
     let galley = cut_short(ui, text, rect.width(), colour);
@@ -238,7 +238,7 @@ pub fn cut_short(ui: &Ui, text: &str, width: f32, colour: Color32) -> Arc<Galley
     ui.painter().layout_job(job)
 }
 
-/// Show a tooltip at the right of what is hovered, whether it is enabled or not.
+/// Show a tooltip at the right of a widget, whether it is enabled or not.
 pub fn tooltip_at_right(response: &Response, text: &str) {
     let mut tooltip = match response.enabled() {
         true => Tooltip::for_enabled(response),

@@ -23,7 +23,7 @@ pub fn compare_ui(ui: &mut Ui, editor: &mut Editor) {
     }
 }
 
-/// Show the choice; `name` is what a screen reader calls it.
+/// Show the choice; `name` is its name for screen readers.
 pub fn choice_ui(ui: &mut Ui, editor: &mut Editor, name: &str) {
     let width = (ui.available_width() - BESIDE).clamp(WIDTH[0], WIDTH[1]);
     let others = others(editor);
@@ -45,7 +45,7 @@ pub fn choice_ui(ui: &mut Ui, editor: &mut Editor, name: &str) {
         });
         let response = choice.response.accessible_name(name);
         response.on_hover_text(
-            "Show the plots of another curve or reference beside those of this one, and how far they are apart",
+            "Plot another curve or reference beside this one, and measure their distance",
         );
     });
 }

@@ -35,12 +35,12 @@ const ARROW: f64 = 6.0;
 /// Curvatures that differ by less than this, times the length of the curve, look constant.
 const ROUNDING: f64 = 1e-9;
 
-/// Say what the dots are, and what the shaded flanks hold.
+/// The legend of the dots and of the shaded flanks.
 fn legend(flank: f64) -> &'static str {
     if flank > 0.0 {
-        "Dots: discrete curvature; one for each vertex of the float S-polygon; arrows: beyond the plot; shaded: vertices beyond the ends, evenly spaced"
+        "Dots: discrete curvature; one for each float vertex; arrows: beyond the plot; shaded: beyond the ends"
     } else {
-        "Dots: discrete curvature; one for each vertex of the float S-polygon; arrows: beyond the plot"
+        "Dots: discrete curvature; one for each float vertex; arrows: beyond the plot"
     }
 }
 
@@ -55,7 +55,7 @@ impl Plots {
             self.legend = cut.map_or_else(|| legend(scene.flank).to_owned(), peaks);
         }
         let mut frame = self.frame((LevelPlot::Curvature(1), normalised));
-        // A part tells nothing of the whole.
+        // The bounds of a part are not those of the whole plot.
         let whole_plot = frame.whole().filter(|_| scene.part.is_some());
         let bounds = frame.settle(whole_plot.unwrap_or(padded(wanted)), held);
         let area = area(ui);
@@ -223,7 +223,7 @@ fn points_compared(plot: &mut PlotUi<'_>, other: &PlotScene, pane: &Pane, tokens
     plot.points(dots.radius(2.0).allow_hover(false));
 }
 
-/// Say what a glyph stands for.
+/// The tooltip of a feature's glyph.
 fn feature_label(feature: &PlotFeature) -> String {
     let (x, y) = (
         figures::significant(feature.at.x, 5),
@@ -232,7 +232,7 @@ fn feature_label(feature: &PlotFeature) -> String {
     format!("{}\nκ {y}\nat {x}", feature.kind.label())
 }
 
-/// Say which vertex a dot belongs to.
+/// The tooltip of a vertex's dot.
 fn discrete_label(scene: &PlotScene, dot: usize) -> String {
     let Some((vertex, at)) = scene.discrete.get(dot) else {
         return String::new();
@@ -255,7 +255,7 @@ fn nearest_dot(scene: &PlotScene, x: f64) -> Option<usize> {
     scene.discrete.iter().min_by(nearest).map(|dot| dot.0)
 }
 
-/// Shade what lies beyond the curve's ends.
+/// Shade the plot beyond the curve's ends.
 fn flanks(plot: &mut PlotUi<'_>, scene: &PlotScene, bounds: PlotBounds, tokens: &Tokens) {
     if !(scene.flank > 0.0) {
         return;

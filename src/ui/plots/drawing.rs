@@ -1,4 +1,4 @@
-//! What all plots are drawn of: axes, lines, dots, cursors.
+//! The elements of all plots: axes, lines, dots, cursors.
 
 use std::ops::RangeInclusive;
 
@@ -19,13 +19,13 @@ const HALF_LETTER: f64 = 3.2;
 const HALF_LINE: f64 = 7.0;
 
 /// Points of a line that are nearer to the last one than this, in points of the screen, are left
-/// out: they could not be told apart.
+/// out: the eye cannot distinguish them.
 const FINE: f64 = 0.7;
 
 /// What rounding may add to a range, as a share of it.
 const SLACK: f64 = 1e-9;
 
-/// What the axes of a plot are called, across and upwards, and what their numbers are.
+/// The names of a plot's axes, across and upwards, and the meaning of their numbers.
 pub struct Axes<'a> {
     pub names: [&'a str; 2],
     pub scale: Scale,
@@ -35,7 +35,7 @@ pub struct Axes<'a> {
     pub numbered: [f64; 2],
 }
 
-/// A plot that shows the bounds it is given; whoever shows it moves them.
+/// A plot of the given bounds; the caller moves them.
 pub fn plot<'a>(id: &'a str, axes: &Axes<'a>, pane: &Pane, tokens: &Tokens) -> Plot<'a> {
     let (scale, size, [first, last]) = (axes.scale, pane.size, axes.numbered);
     let least = axes.least;
@@ -124,7 +124,7 @@ pub fn lines(plot: &mut PlotUi<'_>, name: &str, chain: &[DVec2], colour: Color32
     }
 }
 
-/// The pieces of a chain between its gaps, with the points that can be told apart on the screen.
+/// The pieces of a chain between its gaps, thinned to points that differ on screen.
 fn pieces(plot: &PlotUi<'_>, chain: &[DVec2]) -> Vec<PlotPoints<'static>> {
     let bounds = plot.plot_bounds();
     let size = plot.transform().frame().size();
@@ -137,7 +137,7 @@ fn pieces(plot: &PlotUi<'_>, chain: &[DVec2]) -> Vec<PlotPoints<'static>> {
         .collect()
 }
 
-/// Leave out points that cannot be told from the one before; `point` is the extent of a point of
+/// Leave out points less than a screen point from the last one; `point` is the extent of a point of
 /// the screen.
 fn told_apart(piece: &[DVec2], point: DVec2) -> Vec<DVec2> {
     let mut kept: Vec<DVec2> = Vec::with_capacity(piece.len());
@@ -155,7 +155,7 @@ fn told_apart(piece: &[DVec2], point: DVec2) -> Vec<DVec2> {
     kept
 }
 
-/// Draw a chain as it was, faintly; it tells nothing when it is hovered.
+/// Draw a chain before the change, faintly and without a tooltip.
 pub fn before_lines(plot: &mut PlotUi<'_>, chain: &[DVec2], tokens: &Tokens) {
     for piece in pieces(plot, chain) {
         let line = Line::new("before", piece)
@@ -195,7 +195,7 @@ pub fn series(points: &[DVec2]) -> PlotPoints<'static> {
     )
 }
 
-/// Mark what is hovered on the canvas.
+/// Mark the place that is hovered on the canvas.
 pub fn cursor(plot: &mut PlotUi<'_>, at: DVec2, tokens: &Tokens) {
     let line = VLine::new("hovered", at.x)
         .color(tokens.accent.gamma_multiply(0.6))

@@ -7,7 +7,7 @@ use glam::DVec2;
 const MARGIN: f64 = 0.08;
 
 /// Values that differ by less than this share of their size are shown as equal: a plot that
-/// blows up the last digits of a constant tells nothing.
+/// magnifies the last digits of a constant shows only rounding.
 const FLAT: f64 = 1e-3;
 
 /// The least share of a plot's whole extent that can be zoomed to …
@@ -61,7 +61,7 @@ impl Frame {
         self.chosen = [None; 2];
     }
 
-    /// Whether the user has chosen what is shown.
+    /// Whether the user has zoomed or moved the plot.
     pub fn is_chosen(&self) -> bool {
         self.chosen.iter().any(Option::is_some)
     }
@@ -86,7 +86,7 @@ impl Frame {
         }
     }
 
-    /// Move what is shown by so much: 0 leaves an axis as it is.
+    /// Pan by so much: 0 leaves an axis as it is.
     pub fn pan(&mut self, shown: &PlotBounds, by: DVec2) {
         for axis in 0..2 {
             if by[axis] != 0.0 {

@@ -28,7 +28,7 @@ const EDGE: f64 = 0.08;
 /// not drawn.
 const CROWDED: [f32; 2] = [14.0, 6.0];
 
-/// What a strip shows.
+/// The name of a strip.
 fn name(flow: Flow) -> &'static str {
     match flow {
         Flow::Legs => "Leg length",
@@ -108,7 +108,7 @@ impl Plots {
     }
 }
 
-/// The curves that a strip shows, from back to front; which of them is what it is named by.
+/// The curves of a strip, from back to front.
 fn shown(scene: &PlotScene) -> [Option<&PlotScene>; 3] {
     [
         scene.before.as_deref(),

@@ -2,7 +2,7 @@
 
 use crate::analysis::LevelPlot;
 
-/// What the tab of a plot is called; `short` where there is little room.
+/// The label of a tab; `short` where there is little room.
 pub fn tab_name(plot: LevelPlot, short: bool) -> String {
     match plot {
         LevelPlot::Curvature(level) if short => format!("κ {level}"),
@@ -16,12 +16,11 @@ pub fn tab_name(plot: LevelPlot, short: bool) -> String {
     }
 }
 
-/// What a plot shows, in a sentence.
+/// The tooltip of a tab.
 pub fn explanation(plot: LevelPlot) -> String {
     let graph_of = |quantity: &str, level: usize| {
         format!(
-            "Level {level} of the {quantity}: the curvature g″/(1 + g′²)^(3/2) of the graph of \
-             level {} over arc length",
+            "Level {level}: curvature g″/(1 + g′²)^(3/2) of the graph of {quantity} level {}",
             level - 1
         )
     };
@@ -30,14 +29,13 @@ pub fn explanation(plot: LevelPlot) -> String {
         LevelPlot::Curvature(level) => graph_of("curvature", level.max(2)),
         LevelPlot::Torsion(level) => graph_of("torsion", level),
         LevelPlot::Logarithmic => {
-            "The logarithmic curvature graph, |ρ ds/dρ| over ρ, both on logarithmic axes: a \
-                                   straight line of slope α on a log-aesthetic curve"
+            "|ρ ds/dρ| over ρ, both logarithmic: a straight line of slope α on a log-aesthetic curve"
                 .to_owned()
         }
     }
 }
 
-/// What the horizontal axis is called.
+/// The name of the horizontal axis.
 pub fn across_name(normalised: bool, units: &str) -> String {
     match normalised {
         true => "share of the arc length".to_owned(),
@@ -45,7 +43,7 @@ pub fn across_name(normalised: bool, units: &str) -> String {
     }
 }
 
-/// What the vertical axis is called.
+/// The name of the vertical axis.
 pub fn axis_name(plot: LevelPlot, normalised: bool, unit: &str) -> String {
     let unit = match (plot, normalised) {
         (_, true) => ", length 1".to_owned(),

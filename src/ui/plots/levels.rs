@@ -42,7 +42,7 @@ impl Plots {
         Self::remark_ui(ui, remark);
     }
 
-    /// Show a remark where there is room: what stands before its first semicolon, and on hovering all of it.
+    /// Show the remark up to its first semicolon where there is room; a tooltip shows all of it.
     pub(super) fn remark_ui(ui: &mut Ui, remark: &str) {
         if ui.available_width() < REMARK {
             return;
@@ -90,7 +90,7 @@ impl Plots {
             wanted.1.x = wanted.1.x.max(extent);
         }
         let mut frame = self.frame((which, normalised));
-        // A part tells nothing of the whole.
+        // The bounds of a part are not those of the whole plot.
         let whole = frame.whole().filter(|_| scene.part.is_some());
         let bounds = frame.settle(whole.unwrap_or(padded(wanted)), held);
         let area = area(ui);
@@ -147,7 +147,7 @@ impl Plots {
     }
 }
 
-/// Say how straight the logarithmic graph is on the longest piece of monotone curvature.
+/// The slope and straightness of the logarithmic graph on its longest monotone piece.
 fn slope_remark(editor: &Editor) -> String {
     let Some(harmony) = editor.sight().harmony() else {
         return String::new();
@@ -174,7 +174,7 @@ fn noise(plot: LevelPlot, length: f64) -> f64 {
     1e-9 * length.powi(-power)
 }
 
-/// Let a plot tell the figures of the place that is marked in it; of the graph, which has none, of
+/// Label a plot with the figures of the marked place; label the graph, which marks none, with those of
 /// the point near the pointer.
 fn labelled<'a>(
     plot: Plot<'a>,

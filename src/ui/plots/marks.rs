@@ -22,7 +22,7 @@ const APART: [f64; 2] = [11.0, 44.0];
 /// How near the pointer must be to a glyph, in points.
 const NEAR: f32 = 8.0;
 
-/// What lies behind the lines: bands, and the parts that were joined.
+/// Paint behind the lines: bands, and the parts that a join added.
 pub fn behind(scene: &PlotScene, transform: &PlotTransform, tokens: &Tokens) -> Shape {
     let frame = transform.frame();
     let part = |[from, to]: [f64; 2]| {

@@ -55,7 +55,7 @@ pub enum Tab {
     Harmony,
 }
 
-/// What a tab is called; `short` where there is little room.
+/// The label of a tab; `short` where there is little room.
 fn name(tab: Tab, short: bool) -> String {
     match tab {
         Tab::Curvature => "Curvature".to_owned(),
@@ -64,7 +64,7 @@ fn name(tab: Tab, short: bool) -> String {
     }
 }
 
-/// What a tab is called where there is no other to tell it from: the inspector has a section of
+/// The name of a tab for screen readers: the inspector has a section of
 /// harmony too.
 fn full_name(tab: Tab) -> String {
     match tab {
@@ -73,18 +73,18 @@ fn full_name(tab: Tab) -> String {
     }
 }
 
-/// What the strips show, in a sentence.
-const STRIPS: &str = "Leg lengths, turning angles, discrete curvature and, in space, torsion angles \
-                      of the float S-polygon over its vertices; circles mark where each is least even";
+/// The tooltip of the strips.
+const STRIPS: &str =
+    "Leg lengths, angles and discrete curvature over the vertices; circles: least even";
 
-/// The plots' own state: what they show now, so that they keep still while the curve is dragged.
+/// The plots' own state: their bounds, which keep still while the curve is dragged.
 #[derive(Default)]
 pub struct Plots {
     tab: Tab,
     strips: [Frame; Flow::ALL.len()],
-    /// What the curvature plot's dots are, or how far its peaks reach.
+    /// The legend of the curvature plot's dots, or the reach of its peaks.
     legend: String,
-    /// What a plot of levels has to say.
+    /// The remark of a plot of levels.
     remark: String,
     /// Whether levels are those of the curve scaled to length 1.
     normalised: bool,
@@ -107,7 +107,7 @@ fn is_held(ui: &Ui, editor: &Editor) -> bool {
 /// A part of a plot is looked at closely if it is less than this share of the whole …
 const CLOSE: f64 = 0.4;
 
-/// … with as much of it again at either side, and anew if what is seen is less than this share of it.
+/// … with as much again at either side, until less than this share of it is seen.
 const STALE: f64 = 0.15;
 
 /// The part of a curve, between two arc lengths, to look at closely when a range of it is seen: the
@@ -125,7 +125,7 @@ fn close_part(known: Option<[f64; 2]>, [from, to]: [f64; 2], length: f64) -> Opt
     known.filter(does).or_else(|| Some(part()))
 }
 
-/// What the mouse does to a plot.
+/// The status bar's hint over a plot.
 const HINT: &str = "Wheel zooms, drag pans, double-click fits; right-click for more";
 
 /// The area of a plot with its numbers.
@@ -135,8 +135,8 @@ fn area(ui: &Ui) -> Rect {
 }
 
 impl Plots {
-    /// Mark on a plot that was drawn what the canvas marks, `back` behind its lines, and let it be zoomed and
-    /// panned in its area. Returns where it is hovered.
+    /// Add the canvas's marks to a plot that was drawn, `back` behind its lines, and let the user zoom and
+    /// pan it. Returns the hovered abscissa.
     fn marked(
         &mut self,
         ui: &Ui,
@@ -158,13 +158,13 @@ impl Plots {
             self.near = near;
             ui.ctx().request_repaint();
         }
-        // What a glyph stands for is marked exactly there.
+        // A hovered glyph is marked at its own place.
         let feature = near.and_then(|index| scene.features.get(index));
         feature.map_or(shown.inner, |feature| Some(feature.at.x))
     }
 }
 
-/// Say how far peaks reach that the plot cuts off.
+/// The reach of peaks that the plot cuts off.
 fn peaks((low, high): (f64, f64)) -> String {
     format!(
         "Peaks beyond the plot: {} … {}",
@@ -204,24 +204,24 @@ impl Plots {
         }
     }
 
-    /// Say whether plots show curves scaled to length 1.
+    /// Set whether plots show curves scaled to length 1.
     pub fn set_normalised(&mut self, normalised: bool) {
         self.normalised = normalised;
     }
 
-    /// What the mouse does to the plot that it is over.
+    /// The status bar's hint while the pointer is over a plot.
     pub fn hint(&self, context: &Context) -> Option<&'static str> {
         let pointer = context.pointer_hover_pos()?;
         let is_over = self.rect?.contains(pointer) && !is_covered(context);
         is_over.then_some(HINT)
     }
 
-    /// Say whether fingers on a touchpad turn the wheel: they move a plot.
+    /// Set whether a touchpad turns the wheel: its fingers pan a plot.
     pub fn set_fingers(&mut self, fingers: bool) {
         self.navigation.fingers = fingers;
     }
 
-    /// Forget what was chosen to be seen of another curve.
+    /// Forget the zoom of another curve.
     fn follow_active(&mut self, editor: &Editor) {
         let active = editor.active();
         if self.shown_of != active {
@@ -231,7 +231,7 @@ impl Plots {
         }
     }
 
-    /// Look closely at what is seen of the active curve; `scale` is how many of its units are one of
+    /// Sample the visible part of the active curve more finely; `scale` is the number of its units in one of
     /// the plot's.
     fn look_closely(&self, ui: &Ui, editor: &mut Editor, bounds: &PlotBounds, scale: f64) {
         let plots = editor.view().plots();
@@ -334,7 +334,7 @@ impl Plots {
         });
     }
 
-    /// What the tab in front plots.
+    /// The kind of plot of the tab in front.
     fn kind(&self) -> PlotKind {
         match self.tab {
             Tab::Curvature => PlotKind::Levels {
@@ -370,7 +370,7 @@ impl Plots {
             && (self.tab == Tab::Harmony || !reference.curve.form().is_smooth())
         {
             let text = match self.tab {
-                Tab::Harmony => "A reference has no S-polygon whose flow could be shown.",
+                Tab::Harmony => "A reference has no S-polygon to plot.",
                 _ => "Points have no curvature. Fit a curve to them to see its plots.",
             };
             widgets::note(ui, text);

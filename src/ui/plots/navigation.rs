@@ -1,4 +1,4 @@
-//! Zooming and moving what a plot shows.
+//! Zooming and panning of a plot.
 
 use eframe::egui::{CursorIcon, PointerButton, Pos2, Rect, Response, Ui, Vec2};
 use egui_plot::PlotTransform;
@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::frame::Frame;
 use crate::ui::canvas::WHEEL_POINTS;
 
-/// What is remembered of the pointer between frames.
+/// The pointer's state between frames.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Navigation {
     /// Whether fingers on a touchpad turn the wheel: they move a plot.
@@ -17,7 +17,7 @@ pub struct Navigation {
 }
 
 impl Navigation {
-    /// Read what the pointer does over a plot: the wheel zooms to the pointer, with Shift or below
+    /// Zoom and pan by the pointer: the wheel zooms to the pointer, with Shift or below
     /// the plot only across, at its left only upwards; a drag moves it; a double click shows all of
     /// it. `area` is the plot with its numbers.
     pub fn navigate(

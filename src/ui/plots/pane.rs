@@ -4,16 +4,16 @@ use eframe::egui::Vec2;
 use egui_plot::PlotBounds;
 use glam::DVec2;
 
-/// The room at the left of every plot, for its numbers and what they are, in points.
+/// The room at the left of every plot for its numbers and the axis name, in points.
 pub const LEFT: f32 = 76.0;
 
-/// The room below a plot, for its numbers and what they are, in points.
+/// The room below a plot for its numbers and the axis name, in points.
 pub const BELOW: f32 = 38.0;
 
 /// The room at the right of a plot, for the half of its last number, in points.
 pub const RIGHT: f32 = 16.0;
 
-/// What a plot shows, and how large.
+/// The bounds and the size of a plot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pane {
     /// The values at its edges.

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use egui_plot::{GridInput, GridMark};
 
-/// Points between the marks that a plot asks for at least; rooms are multiples of it.
+/// The least distance of marks that a plot requests, in points; rooms are multiples of it.
 const UNIT: f64 = 8.0;
 
 /// The room for a tick across, in points.
@@ -25,15 +25,15 @@ const FARTHEST: f64 = 280.0;
 /// The most decimals that a number is written with before it gets an exponent.
 const DECIMALS: i32 = 4;
 
-/// What is left of a step where it is compared with a number that rounding has changed.
+/// The share of a step by which rounding may change a number.
 const SLACK: f64 = 1e-9;
 
-/// What the numbers along an axis are.
+/// The meaning of the numbers along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
     /// The values themselves.
     Even,
-    /// The logarithms to base 10 of what is written beside the ticks.
+    /// Logarithms to base 10 of the numbers beside the ticks.
     Logarithmic,
 }
 
@@ -61,7 +61,7 @@ impl Scale {
         }
     }
 
-    /// Write the number of a mark, so that it can be told from its neighbours.
+    /// Write the number of a mark with enough digits to differ from its neighbours.
     pub fn number(self, mark: GridMark, range: &RangeInclusive<f64>) -> String {
         match self {
             Self::Even => {
@@ -86,7 +86,7 @@ fn round_step(least: f64) -> f64 {
 fn even_marks((low, high): (f64, f64), least: f64) -> Vec<GridMark> {
     let step = round_step(least.max(f64::MIN_POSITIVE));
     let (first, last) = ((low / step).ceil(), (high / step).floor());
-    // Where a step is less than the rounding of the numbers there is nothing to tell apart.
+    // Rounding is larger than the step: there are no ticks.
     if !(step.is_finite() && last - first < 1e4 && first.abs().max(last.abs()) < 1e15) {
         return Vec::new();
     }
@@ -141,7 +141,7 @@ fn close_marks([low, high]: [f64; 2], least: f64) -> Vec<GridMark> {
         .collect()
 }
 
-/// Write a number with the digits that tell multiples of `step` apart: plainly, or with an exponent
+/// Write a number with enough digits to distinguish multiples of `step`: plainly, or with an exponent
 /// where the largest of them is very large, or all are very small: all with the same one.
 pub fn number(value: f64, step: f64, largest: f64) -> String {
     if !(value.abs() >= SLACK * step) {
@@ -161,7 +161,7 @@ pub fn number(value: f64, step: f64, largest: f64) -> String {
     format!("{:.digits$}e{exponent}", value * first * second)
 }
 
-/// Write the number whose logarithm is given, with the digits that tell its neighbours apart.
+/// Write the number of a logarithm with enough digits to distinguish its neighbours.
 fn power(logarithm: f64, step: f64) -> String {
     let value = 10f64.powf(logarithm);
     let apart = value * (10f64.powf(step) - 1.0);
@@ -171,7 +171,7 @@ fn power(logarithm: f64, step: f64) -> String {
     without_zeros(&text)
 }
 
-/// Leave out zeros that tell nothing: those at the end of the decimals.
+/// Remove trailing zeros of the decimals.
 fn without_zeros(text: &str) -> String {
     let (digits, exponent) = match text.find('e') {
         Some(at) => text.split_at(at),
