@@ -109,7 +109,7 @@ impl App {
         plots.set_tab(if shell.harmony {
             Tab::Harmony
         } else {
-            Tab::Curvature
+            Tab::CURVATURE
         });
         Self {
             editor,

@@ -5,6 +5,7 @@ use crate::analysis::LevelPlot;
 /// The label of a tab; `short` where there is little room.
 pub fn tab_name(plot: LevelPlot, short: bool) -> String {
     match plot {
+        LevelPlot::CURVATURE => "Curvature".to_owned(),
         LevelPlot::Curvature(level) if short => format!("κ {level}"),
         LevelPlot::Torsion(1) if short => "τ".to_owned(),
         LevelPlot::Torsion(level) if short => format!("τ {level}"),
@@ -25,8 +26,9 @@ pub fn explanation(plot: LevelPlot) -> String {
         )
     };
     match plot {
+        LevelPlot::CURVATURE => "The curvature over arc length".to_owned(),
         LevelPlot::Torsion(1) => "The torsion over arc length".to_owned(),
-        LevelPlot::Curvature(level) => graph_of("curvature", level.max(2)),
+        LevelPlot::Curvature(level) => graph_of("curvature", level),
         LevelPlot::Torsion(level) => graph_of("torsion", level),
         LevelPlot::Logarithmic => {
             "|ρ ds/dρ| over ρ, both logarithmic: a straight line of slope α on a log-aesthetic curve"
@@ -44,13 +46,15 @@ pub fn across_name(normalised: bool, units: &str) -> String {
 }
 
 /// The name of the vertical axis.
-pub fn axis_name(plot: LevelPlot, normalised: bool, unit: &str) -> String {
+pub fn axis_name(plot: LevelPlot, planar: bool, normalised: bool, unit: &str) -> String {
     let unit = match (plot, normalised) {
         (_, true) => ", length 1".to_owned(),
-        (LevelPlot::Torsion(1), _) => format!(" (1/{unit})"),
+        (LevelPlot::CURVATURE | LevelPlot::Torsion(1), _) => format!(" (1/{unit})"),
         _ => String::new(),
     };
     match plot {
+        LevelPlot::CURVATURE if planar => format!("signed κ{unit}"),
+        LevelPlot::CURVATURE => format!("κ{unit}"),
         LevelPlot::Curvature(level) => format!("κ level {level}{unit}"),
         LevelPlot::Torsion(1) => format!("torsion τ{unit}"),
         LevelPlot::Torsion(level) => format!("τ level {level}{unit}"),

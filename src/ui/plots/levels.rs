@@ -1,17 +1,19 @@
-//! The plots of curvature and torsion levels, and the logarithmic curvature graph.
+//! The plots over arc length: curvature with the polygon's discrete curvature, levels of curvature and
+//! torsion; and the logarithmic curvature graph.
 
 use eframe::egui::{Checkbox, Shape, Ui};
-use egui_plot::{HoverPosition, Plot};
+use egui_plot::HoverPosition;
 use glam::DVec2;
 
+use super::dots::Dots;
 use super::drawing::*;
 use super::frame::{most_of, padded, within_reason};
 use super::level_names::{across_name, axis_name};
 use super::pane::Pane;
 use super::ticks::Scale;
-use super::{Plots, area, is_held, peaks};
+use super::{Plots, area, discrete, is_held, peaks};
 use crate::analysis::LevelPlot;
-use crate::editor::{Editor, PlotFeature};
+use crate::editor::{Editor, PlotFeature, PlotScene};
 use crate::ui::action::Action;
 use crate::ui::theme::{STEP, Tokens};
 use crate::ui::widgets;
@@ -23,8 +25,18 @@ const SWITCH: f32 = 150.0;
 /// Where the bar leaves less room than this, in points, nothing of a remark could be read.
 const REMARK: f32 = 120.0;
 
-/// How far beyond the others a peak may reach and still be shown, in units of their extent.
-const TALLEST: f64 = 4.0;
+/// How far beyond the others a peak may reach and still be shown, in units of their extent: of levels,
+/// and of the curvature.
+const TALLEST: [f64; 2] = [4.0, 20.0];
+
+/// How far beyond the curve dots may reach and still be shown, in units of its extent …
+const DOTS: f64 = 0.5;
+
+/// … or of its curvature, for one that is nearly constant.
+const DOTS_OF_SIZE: f64 = 0.1;
+
+/// The share of the plot's height that is kept free beyond the outermost dots.
+const DOT_ROOM: f64 = 0.06;
 
 impl Plots {
     /// The switch that scales the curve to length 1, and a remark beside it, where there is room.
@@ -60,8 +72,10 @@ impl Plots {
         let normalised = self.normalises(which);
         let scene = editor.view().plots();
         let is_graph = which == LevelPlot::Logarithmic;
+        let is_curvature = which == LevelPlot::CURVATURE;
         let (length, extent) = (scene.length, scene.extent);
-        if scene.part.is_none() && scene.series.iter().all(|point| point.is_nan()) {
+        let is_nowhere = scene.series.iter().all(|point| point.is_nan());
+        if is_nowhere && scene.part.is_none() && !is_curvature {
             self.remark.clear();
             let text = match which {
                 LevelPlot::Torsion(_) if scene.planar => "A planar curve has no torsion.",
@@ -72,79 +86,140 @@ impl Plots {
             ui.take_available_space();
             return;
         }
-        let other = scene.compared.as_deref();
-        let other = other.map_or(&[][..], |other| &other.series);
-        let all: Vec<DVec2> = scene.series.iter().chain(other).copied().collect();
-        let (mut wanted, cut) = if is_graph {
-            (most_of(&all), None)
-        } else {
-            within_reason(&all, noise(which, extent), TALLEST)
-        };
+        let (wanted, cut) = wanted(scene, which);
         self.remark = match cut {
             _ if is_graph => slope_remark(editor),
             Some(cut) => peaks(cut),
+            None if is_curvature && !scene.discrete.is_empty() => {
+                discrete::legend(scene.flank).to_owned()
+            }
             None => String::new(),
         };
-        if !is_graph {
-            wanted.0.x = wanted.0.x.min(0.0);
-            wanted.1.x = wanted.1.x.max(extent);
-        }
         let mut frame = self.frame((which, normalised));
         // The bounds of a part are not those of the whole plot.
         let whole = frame.whole().filter(|_| scene.part.is_some());
         let bounds = frame.settle(whole.unwrap_or(padded(wanted)), held);
         let area = area(ui);
         let pane = Pane::within(area.size(), bounds);
+        let series: Vec<DVec2> = scene.discrete.iter().map(|(_, at)| *at).collect();
+        let hovered_dot = scene.hovered_vertex.and_then(|vertex| {
+            let mut dots = scene.discrete.iter();
+            dots.position(|(index, _)| *index == vertex)
+        });
+        let dots = Dots::new(&series, &pane, hovered_dot);
         let [unit, units] = document_unit::names(ui.ctx());
         let across = match is_graph {
             true => format!("radius of curvature ρ ({units})"),
             false => across_name(normalised, units),
         };
-        let upwards = axis_name(which, normalised, unit);
+        let upwards = axis_name(which, scene.planar, normalised, unit);
         let axes = Axes {
             names: [&across, &upwards],
             scale: match is_graph {
                 true => Scale::Logarithmic,
                 false => Scale::Even,
             },
-            least: f64::MIN,
+            least: match is_curvature && !scene.planar {
+                true => 0.0,
+                false => f64::MIN,
+            },
             numbered: match is_graph {
                 true => [f64::MIN, f64::MAX],
                 false => [0.0, extent],
             },
         };
-        let marked = scene.hovered.filter(|_| !is_graph);
         let near = self.near.and_then(|index| scene.features.get(index));
         let back = ui.painter().add(Shape::Noop);
-        let plot = plot("levels", &axes, &pane, tokens);
-        let plot = plot.width(area.width()).height(area.height());
-        let shown = labelled(plot, marked, near, is_graph).show(ui, |plot| {
+        let plot = plot("levels", &axes, &pane, tokens)
+            .width(area.width())
+            .height(area.height())
+            .label_formatter(|hover| {
+                let dot = discrete::hovered_place(hover, &dots).filter(|_| near.is_none());
+                match dot {
+                    Some(dot) => Some(discrete::discrete_label(scene, dot)),
+                    None => label(which, scene.hovered, near, hover),
+                }
+            });
+        let shown = plot.show(ui, |plot| {
             plot.set_plot_bounds(bounds);
             if !is_graph {
+                discrete::flanks(plot, scene, bounds, tokens);
                 zero_line(plot, tokens);
             }
             if let Some(before) = &scene.before {
                 before_lines(plot, &before.series, tokens);
             }
-            lines(plot, "compared", other, tokens.joints);
+            if let Some(other) = &scene.compared {
+                lines(plot, "compared", &other.series, tokens.joints);
+                discrete::points_compared(plot, other, &pane, tokens);
+            }
+            // Where there are many dots the curve is on top.
+            if dots.crowded {
+                discrete::show_dots(plot, &series, &dots, &pane, tokens);
+            }
             lines(plot, "level", &scene.series, tokens.comb);
+            if !dots.crowded {
+                discrete::show_dots(plot, &series, &dots, &pane, tokens);
+            }
             if let Some(at) = scene.hovered {
                 cursor(plot, at, tokens);
+            }
+            if let Some(at) = hovered_dot.and_then(|dot| series.get(dot)) {
+                let [low, high] = pane.corners();
+                plot.points(ring(at.clamp(low, high), tokens));
             }
             hovered_x(plot)
         });
         let hovered = self.marked(ui, scene, &shown, (back, area), &mut frame);
-        let along = hovered
-            .filter(|x| !is_graph && (0.0..=extent).contains(x))
-            .map(|x| x * length / extent);
         self.levels.insert((which, normalised), frame);
-        if !is_graph {
-            self.look_closely(ui, editor, &bounds, length / extent);
+        if is_graph {
+            return;
         }
+        let is_along = |x: &f64| (0.0..=extent).contains(x);
+        let along = hovered.filter(is_along);
+        let beyond = hovered.filter(|x| !is_along(x));
+        let vertex = beyond.and_then(|x| discrete::nearest_dot(scene, x));
+        self.look_closely(ui, editor, &bounds, length / extent);
         if let Some(along) = along {
-            editor.view_mut().hover_length(along);
+            editor.view_mut().hover_length(along * length / extent);
+        }
+        if let Some(vertex) = vertex {
+            editor.view_mut().hover_vertex(vertex);
         }
     }
+}
+
+/// The bounds that hold the series, and dots near it; if peaks are cut off, also how far they reach.
+fn wanted(scene: &PlotScene, which: LevelPlot) -> ((DVec2, DVec2), Option<(f64, f64)>) {
+    let is_curvature = which == LevelPlot::CURVATURE;
+    let before = scene.before.as_deref().filter(|_| is_curvature);
+    let overlaid = [before, scene.compared.as_deref()];
+    let overlaid = overlaid.into_iter().flatten();
+    let overlaid = overlaid.flat_map(|scene| &scene.series);
+    let points: Vec<DVec2> = scene.series.iter().chain(overlaid).copied().collect();
+    if which == LevelPlot::Logarithmic {
+        return (most_of(&points), None);
+    }
+    let tallest = TALLEST[usize::from(is_curvature)];
+    let noise = noise(which, scene.extent.max(f64::MIN_POSITIVE));
+    let ((mut low, mut high), cut) = within_reason(&points, noise, tallest);
+    let size = low.y.abs().max(high.y.abs());
+    let reach = (DOTS * (high.y - low.y)).max(DOTS_OF_SIZE * size);
+    let reached = low.y - reach..=high.y + reach;
+    let [bottom, top] = [low.y, high.y];
+    for (_, dot) in &scene.discrete {
+        if reached.contains(&dot.y) {
+            low.y = low.y.min(dot.y);
+            high.y = high.y.max(dot.y);
+        }
+    }
+    // Dots at the edge are whole.
+    let room = DOT_ROOM * (high.y - low.y);
+    low.y -= if low.y < bottom { room } else { 0.0 };
+    high.y += if high.y > top { room } else { 0.0 };
+    low.x = low.x.min(-scene.flank);
+    high.x = high.x.max(scene.extent + scene.flank);
+    ((low, high), cut)
 }
 
 /// The slope and straightness of the logarithmic graph on its longest monotone piece.
@@ -174,36 +249,31 @@ fn noise(plot: LevelPlot, length: f64) -> f64 {
     1e-9 * length.powi(-power)
 }
 
-/// Label a plot with the figures of the marked place; label the graph, which marks none, with those of
-/// the point near the pointer.
-fn labelled<'a>(
-    plot: Plot<'a>,
+/// The figures of the feature near the pointer, or of the marked place, which is no sample near it. The
+/// graph marks no place: its figures are those of the point near the pointer.
+fn label(
+    which: LevelPlot,
     marked: Option<DVec2>,
-    near: Option<&'a PlotFeature>,
-    is_graph: bool,
-) -> Plot<'a> {
-    plot.label_formatter(move |hover| {
-        if let Some(feature) = near {
-            let [x, y] = [feature.at.x, feature.at.y].map(|value| figures::significant(value, 6));
-            return Some(format!("{}\n{y}\nat {x}", feature.kind.label()));
-        }
-        let at = match hover {
-            HoverPosition::NearDataPoint { position, .. } if is_graph => {
-                Some(DVec2::new(position.x, position.y))
-            }
-            _ => marked.filter(|at| at.is_finite()),
-        };
-        let at = at?;
-        let at = if is_graph {
-            DVec2::new(10f64.powf(at.x), 10f64.powf(at.y))
-        } else {
-            at
-        };
-        let (x, y) = (figures::significant(at.x, 5), figures::significant(at.y, 6));
-        Some(if is_graph {
-            format!("ρ {x}\n|ρ ds/dρ| {y}")
-        } else {
-            format!("{y}\nat {x}")
-        })
-    })
+    near: Option<&PlotFeature>,
+    hover: &HoverPosition<'_>,
+) -> Option<String> {
+    let kappa = match which == LevelPlot::CURVATURE {
+        true => "κ ",
+        false => "",
+    };
+    let figures = |x: f64, y: f64| (figures::significant(x, 5), figures::significant(y, 6));
+    if let Some(feature) = near {
+        let (x, y) = figures(feature.at.x, feature.at.y);
+        return Some(format!("{}\n{kappa}{y}\nat {x}", feature.kind.label()));
+    }
+    if which != LevelPlot::Logarithmic {
+        let at = marked.filter(|at| at.is_finite())?;
+        let (x, y) = figures(at.x, at.y);
+        return Some(format!("{kappa}{y}\nat {x}"));
+    }
+    let HoverPosition::NearDataPoint { position, .. } = hover else {
+        return None;
+    };
+    let (x, y) = figures(10f64.powf(position.x), 10f64.powf(position.y));
+    Some(format!("ρ {x}\n|ρ ds/dρ| {y}"))
 }

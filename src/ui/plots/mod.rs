@@ -1,7 +1,7 @@
 //! The plots under the canvas: curvature over arc length, and the flow of the polygon's vertices.
 
 mod compare;
-mod curvature;
+mod discrete;
 mod dots;
 mod drawing;
 mod frame;
@@ -44,21 +44,28 @@ pub const BAR: f32 = 32.0;
 const SHORT: f32 = 105.0;
 
 /// Which plots are shown.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tab {
-    /// Curvature over arc length.
-    #[default]
-    Curvature,
     /// A level of curvature or torsion, or the logarithmic graph.
     Levels(LevelPlot),
     /// The flow of the polygon's vertices, in strips.
     Harmony,
 }
 
+impl Tab {
+    /// Curvature over arc length.
+    pub const CURVATURE: Self = Self::Levels(LevelPlot::CURVATURE);
+}
+
+impl Default for Tab {
+    fn default() -> Self {
+        Self::CURVATURE
+    }
+}
+
 /// The label of a tab; `short` where there is little room.
 fn name(tab: Tab, short: bool) -> String {
     match tab {
-        Tab::Curvature => "Curvature".to_owned(),
         Tab::Levels(plot) => tab_name(plot, short),
         Tab::Harmony => "Harmony".to_owned(),
     }
@@ -82,9 +89,7 @@ const STRIPS: &str =
 pub struct Plots {
     tab: Tab,
     strips: [Frame; Flow::ALL.len()],
-    /// The legend of the curvature plot's dots, or the reach of its peaks.
-    legend: String,
-    /// The remark of a plot of levels.
+    /// The legend of the plot in front, or the reach of its peaks.
     remark: String,
     /// Whether levels are those of the curve scaled to length 1.
     normalised: bool,
@@ -198,7 +203,6 @@ impl Plots {
     /// Under which key the frame of the plot in front is kept; `None` for the strips.
     fn frame_key(&self) -> Option<(LevelPlot, bool)> {
         match self.tab {
-            Tab::Curvature => Some((LevelPlot::Curvature(1), self.normalised)),
             Tab::Levels(plot) => Some((plot, self.normalises(plot))),
             Tab::Harmony => None,
         }
@@ -255,8 +259,8 @@ impl Plots {
 
     /// The tabs that the active curve has: a planar one has no torsion.
     fn tabs(&self, editor: &Editor) -> Vec<Tab> {
-        let mut tabs = vec![Tab::Harmony, Tab::Curvature];
-        tabs.extend((2..=LEVELS).map(|level| Tab::Levels(LevelPlot::Curvature(level))));
+        let mut tabs = vec![Tab::Harmony];
+        tabs.extend((1..=LEVELS).map(|level| Tab::Levels(LevelPlot::Curvature(level))));
         let is_own = |tab: &Tab| self.tab == *tab;
         let torsion = (1..=LEVELS).map(|level| Tab::Levels(LevelPlot::Torsion(level)));
         let planar = editor.active().and_then(|id| editor.sight().is_planar(id));
@@ -276,7 +280,6 @@ impl Plots {
         shown: bool,
         commands: &mut Vec<Action>,
     ) {
-        let is_reference = editor.active_reference_id().is_some();
         if !shown {
             self.rect = None;
         }
@@ -288,7 +291,6 @@ impl Plots {
                 let button = Button::selectable(shown && self.tab == tab, name(tab, short));
                 let mut response = ui.add(button).accessible_name(full_name(tab));
                 match tab {
-                    Tab::Curvature => {}
                     Tab::Levels(plot) => response = response.on_hover_text(explanation(plot)),
                     Tab::Harmony => response = response.on_hover_text(STRIPS),
                 }
@@ -324,8 +326,6 @@ impl Plots {
                 }
                 match self.tab {
                     _ if !shown => {}
-                    Tab::Curvature if is_reference => self.normalised_ui(ui, "", commands),
-                    Tab::Curvature => self.normalised_ui(ui, &self.legend, commands),
                     Tab::Levels(LevelPlot::Logarithmic) => Self::remark_ui(ui, &self.remark),
                     Tab::Levels(_) => self.normalised_ui(ui, &self.remark, commands),
                     Tab::Harmony => {}
@@ -337,10 +337,6 @@ impl Plots {
     /// The kind of plot of the tab in front.
     fn kind(&self) -> PlotKind {
         match self.tab {
-            Tab::Curvature => PlotKind::Levels {
-                plot: LevelPlot::CURVATURE,
-                normalised: self.normalised,
-            },
             Tab::Levels(plot) => PlotKind::Levels {
                 plot,
                 normalised: self.normalises(plot),
@@ -385,7 +381,6 @@ impl Plots {
             editor.refresh();
         }
         match self.tab {
-            Tab::Curvature => self.curvature_ui(ui, editor),
             Tab::Levels(plot) => self.levels_ui(ui, editor, plot),
             Tab::Harmony => self.harmony_ui(ui, editor),
         }
