@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use eframe::egui::{Painter, Rect, Shape, Stroke};
+use eframe::egui::{Color32, Painter, Rect, Shape, Stroke, StrokeKind, Vec2};
 use glam::DVec2;
 
 use super::chains::Screen;
@@ -67,6 +67,23 @@ impl Brush<'_> {
     /// Paint a dashed line between two model points.
     pub fn dashed(&self, segment: [DVec2; 2], stroke: Stroke) {
         self.dashed_chain(&segment, stroke);
+    }
+
+    /// Paint a disc at a model point, with its radius in points.
+    pub fn disc(&self, at: DVec2, radius: f32, fill: Color32, outline: Stroke) {
+        if let Some(at) = self.screen.point(at) {
+            self.painter.circle(at, radius, fill, outline);
+        }
+    }
+
+    /// Paint a square at a model point, with its side in points.
+    pub fn square(&self, at: DVec2, side: f32, fill: Color32, outline: Stroke) {
+        if let Some(at) = self.screen.point(at) {
+            let rect = Rect::from_center_size(at, Vec2::splat(side));
+            let rounding = u8::from(fill != Color32::TRANSPARENT);
+            self.painter
+                .rect(rect, rounding, fill, outline, StrokeKind::Middle);
+        }
     }
 
     /// Paint an arrow between two model points, its head at the second.

@@ -257,17 +257,7 @@ impl Row {
 
     fn paint(&self, ui: &Ui, rect: Rect, response: &Response) {
         let tokens = Tokens::of(ui);
-        if self.active || response.hovered() {
-            let fill = if self.active {
-                tokens.selection
-            } else {
-                tokens.button[0]
-            };
-            ui.painter().rect_filled(rect, RADIUS, fill);
-        }
-        if response.has_focus() {
-            widgets::focus_ring(ui, rect);
-        }
+        widgets::row_background(ui, rect, response, self.active);
         let centre = rect.left_center() + vec2(4.0 * STEP, 0.0);
         let swatch = Rect::from_center_size(centre, Vec2::splat(3.0 * STEP));
         let own = self.colour.map(theme::of_document);

@@ -1,6 +1,6 @@
 //! The end-fit tool on the canvas: actual end, target, what differs, and the ring that rotates.
 
-use eframe::egui::{Align2, Pos2, Shape, Stroke, vec2};
+use eframe::egui::{Align2, Color32, Pos2, Shape, Stroke, vec2};
 use glam::DVec2;
 use lucide_icons::Icon;
 
@@ -75,11 +75,8 @@ fn link(brush: &Brush<'_>, at: Pos2, met: bool) {
 fn actual(brush: &Brush<'_>, marks: &EndFitMarks) {
     let tokens = brush.tokens;
     for vertex in &marks.terminal {
-        if let Some(at) = brush.screen.point(*vertex) {
-            brush
-                .painter
-                .circle_stroke(at, 7.0, Stroke::new(1.0, tokens.target));
-        }
+        let outline = Stroke::new(1.0, tokens.target);
+        brush.disc(*vertex, 7.0, Color32::TRANSPARENT, outline);
     }
     if let Some(tip) = marks.tangent_tip {
         brush.arrow([marks.actual, tip], Stroke::new(1.5, tokens.curve));
@@ -92,9 +89,8 @@ fn actual(brush: &Brush<'_>, marks: &EndFitMarks) {
     }
     if let Some(at) = brush.screen.point(marks.actual) {
         ring(brush, marks, at);
-        brush
-            .painter
-            .circle(at, 3.5, tokens.background, Stroke::new(1.5, tokens.curve));
+        let outline = Stroke::new(1.5, tokens.curve);
+        brush.disc(marks.actual, 3.5, tokens.background, outline);
     }
 }
 
@@ -117,10 +113,9 @@ fn ring(brush: &Brush<'_>, marks: &EndFitMarks, at: Pos2) {
     if marks.angle.abs() > VISIBLE {
         angle(brush, marks);
     }
-    if let Some(handle) = brush.screen.point(marks.actual + along * marks.ring) {
-        let stroke = Stroke::new(1.5, tokens.target);
-        brush.painter.circle(handle, 5.5, tokens.background, stroke);
-    }
+    let handle = marks.actual + along * marks.ring;
+    let outline = Stroke::new(1.5, tokens.target);
+    brush.disc(handle, 5.5, tokens.background, outline);
 }
 
 fn angle(brush: &Brush<'_>, marks: &EndFitMarks) {

@@ -10,7 +10,7 @@ use lucide_icons::Icon;
 
 use super::feature_marks::glyph;
 use super::legend::legend_ui;
-use super::theme::{self, RADIUS, ROW, STEP, Tokens};
+use super::theme::{self, ROW, STEP, Tokens};
 use super::{figures, icons, widgets};
 use crate::editor::{Editor, FeatureKind, FeatureReport, FeatureRow, Look, MenuSubject};
 use crate::geometry::counted;
@@ -245,14 +245,7 @@ fn short_name(kind: FeatureKind) -> &'static str {
 fn row_ui(ui: &mut Ui, row: &FeatureRow, sampled: bool, is_chosen: bool) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
     let tokens = Tokens::of(ui);
-    if is_chosen {
-        ui.painter().rect_filled(rect, RADIUS, tokens.selection);
-    } else if response.hovered() {
-        ui.painter().rect_filled(rect, RADIUS, tokens.button[0]);
-    }
-    if response.has_focus() {
-        widgets::focus_ring(ui, rect);
-    }
+    widgets::row_background(ui, rect, &response, is_chosen);
     let at = pos2(rect.left() + 3.0 * STEP, rect.center().y);
     glyph(ui.painter(), at, row.kind, tokens);
     let bend = row.bend().map_or(String::new(), |bend| format!(", {bend}"));

@@ -2,9 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use eframe::egui::{
-    Align2, Color32, Mesh, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, pos2, vec2,
-};
+use eframe::egui::{Align2, Color32, Mesh, Pos2, Rect, Shape, Stroke, StrokeKind, pos2, vec2};
 use glam::DVec2;
 
 use super::brush::Brush;
@@ -203,9 +201,7 @@ impl Brush<'_> {
             (true, false) => 2.5,
         };
         for point in &reference.points {
-            if let Some(at) = self.screen.point(*point) {
-                self.painter.circle_filled(at, radius, colour);
-            }
+            self.disc(*point, radius, colour, Stroke::NONE);
         }
     }
 
@@ -213,14 +209,10 @@ impl Brush<'_> {
     fn vertices(&self, curve: &CurveScene) {
         let fade = fading(curve);
         for vertex in &curve.clamped_vertices {
-            if let Some(at) = self.screen.point(vertex.at) {
-                let side = Vec2::splat(2.0 * SQUARE * vertex.size);
-                let width = 1.25 * vertex.size.max(0.5);
-                let square = Stroke::new(width, fade(self.tokens.clamped));
-                let rect = Rect::from_center_size(at, side);
-                self.painter
-                    .rect_stroke(rect, 0, square, StrokeKind::Middle);
-            }
+            let width = 1.25 * vertex.size.max(0.5);
+            let outline = Stroke::new(width, fade(self.tokens.clamped));
+            let side = 2.0 * SQUARE * vertex.size;
+            self.square(vertex.at, side, Color32::TRANSPARENT, outline);
         }
         let colour = fade(self.tokens.float);
         let size = if curve.active { 1.0 } else { INACTIVE_DISC };
@@ -242,38 +234,32 @@ impl Brush<'_> {
     }
 
     fn vertex(&self, vertex: &VertexMark, colour: Color32, locked: bool) {
-        let Some(at) = self.screen.point(vertex.at) else {
-            return;
-        };
-        let size = vertex.size;
+        let (at, size) = (vertex.at, vertex.size);
         if vertex.locked {
-            self.locked_vertex(vertex, at, colour);
+            self.locked_vertex(vertex, colour);
         } else if vertex.selected {
             let [disc, ring] = SELECTED.map(|radius| radius * size);
             let stroke = Stroke::new(1.5 * size, self.tokens.strong_text);
-            self.painter.circle_filled(at, disc, colour);
-            self.painter.circle_stroke(at, ring, stroke);
+            self.disc(at, disc, colour, Stroke::NONE);
+            self.disc(at, ring, Color32::TRANSPARENT, stroke);
         } else if locked {
             let stroke = Stroke::new(1.25 * size, colour);
-            let radius = (DISC - 0.5) * size;
-            self.painter
-                .circle(at, radius, self.tokens.background, stroke);
+            self.disc(at, (DISC - 0.5) * size, self.tokens.background, stroke);
         } else {
-            self.painter.circle_filled(at, DISC * size, colour);
+            self.disc(at, DISC * size, colour, Stroke::NONE);
         }
     }
 
     /// A locked vertex has a square ring, a free one none or a round one.
-    fn locked_vertex(&self, vertex: &VertexMark, at: Pos2, colour: Color32) {
+    fn locked_vertex(&self, vertex: &VertexMark, colour: Color32) {
         let (radius, side, ring) = if vertex.selected {
             (5.0, 16.0, self.tokens.strong_text)
         } else {
             (3.0, 13.0, colour)
         };
-        self.painter.circle_filled(at, radius, colour);
-        let rect = Rect::from_center_size(at, Vec2::splat(side));
-        self.painter
-            .rect_stroke(rect, 0, Stroke::new(1.5, ring), StrokeKind::Middle);
+        self.disc(vertex.at, radius, colour, Stroke::NONE);
+        let outline = Stroke::new(1.5, ring);
+        self.square(vertex.at, side, Color32::TRANSPARENT, outline);
     }
 
     /// Paint many hair lines as one mesh: a shape for each would cost half the frame rate.
@@ -322,10 +308,7 @@ impl Brush<'_> {
             Mark::Ruler(segment) => self.ruler(*segment),
             Mark::SelectionBox([a, b]) => self.selection_box(*a, *b),
             Mark::NewVertex(at) => {
-                if let Some(at) = self.screen.point(*at) {
-                    let stroke = Stroke::new(1.5, tokens.float);
-                    self.painter.circle(at, 4.5, tokens.background, stroke);
-                }
+                self.disc(*at, 4.5, tokens.background, Stroke::new(1.5, tokens.float));
             }
             Mark::Pivot(at) => self.pivot(*at),
             Mark::Ring {
@@ -334,14 +317,8 @@ impl Brush<'_> {
                 swept,
             } => transform_marks::ring(self, *centre, *handle, *swept),
             Mark::Corners { corners, sides } => transform_marks::corners(self, corners, sides),
-            Mark::Frame { corners, arm } => self.frame(corners, *arm),
-            Mark::Snap(at) => {
-                if let Some(at) = self.screen.point(*at) {
-                    let rect = Rect::from_center_size(at, Vec2::splat(14.0));
-                    self.painter
-                        .rect_stroke(rect, 0, accent, StrokeKind::Middle);
-                }
-            }
+            Mark::Frame { corners, arm } => transform_marks::frame(self, corners, *arm),
+            Mark::Snap(at) => self.square(*at, 14.0, Color32::TRANSPARENT, accent),
             Mark::Name(at, name) => {
                 if let Some(at) = self.screen.point(*at) {
                     labels::name(self.painter, self.rect, at, name, tokens);
@@ -387,43 +364,13 @@ impl Brush<'_> {
         labels::behind(self.painter, around, (at, way), &text, self.tokens);
     }
 
-    /// The frame of a reference: squares scale, the disc above rotates.
-    fn frame(&self, corners: &[DVec2; 4], arm: [DVec2; 2]) {
-        let accent = self.tokens.accent;
-        let line = Stroke::new(1.0, accent.gamma_multiply(0.6));
-        let sides = corners.iter().zip(corners.iter().cycle().skip(1));
-        for side in sides.map(|(from, to)| [*from, *to]).chain([arm]) {
-            if let Some(side) = self.screen.segment(side) {
-                self.painter.line_segment(side, line);
-            }
-        }
-        let outline = Stroke::new(1.5, accent);
-        for corner in corners {
-            if let Some(at) = self.screen.point(*corner) {
-                let square = Rect::from_center_size(at, Vec2::splat(9.0));
-                let fill = self.tokens.background;
-                self.painter
-                    .rect(square, 1, fill, outline, StrokeKind::Middle);
-            }
-        }
-        if let Some(at) = self.screen.point(arm[1]) {
-            self.painter
-                .circle(at, 5.5, self.tokens.background, outline);
-        }
-    }
-
     fn handle(&self, at: DVec2, marked: bool) {
-        let Some(at) = self.screen.point(at) else {
-            return;
-        };
         let tokens = self.tokens;
-        let ring = Stroke::new(2.0, tokens.accent);
-        let fill = if marked {
-            tokens.accent
-        } else {
-            tokens.background
+        let fill = match marked {
+            true => tokens.accent,
+            false => tokens.background,
         };
-        self.painter.circle(at, HANDLE, fill, ring);
+        self.disc(at, HANDLE, fill, Stroke::new(2.0, tokens.accent));
     }
 
     fn ruler(&self, segment: [DVec2; 2]) {
@@ -520,9 +467,7 @@ impl Brush<'_> {
         let faint = self.tokens.evolute.gamma_multiply(0.6);
         self.chain(&chain, Stroke::new(1.0, faint));
         self.dashed([at, centre], Stroke::new(1.0, faint));
-        if let Some(centre) = self.screen.point(centre) {
-            self.painter.circle_filled(centre, 2.5, self.tokens.evolute);
-        }
+        self.disc(centre, 2.5, self.tokens.evolute, Stroke::NONE);
     }
 }
 

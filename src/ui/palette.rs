@@ -9,7 +9,7 @@ use nucleo_matcher::{Config, Matcher, Utf32Str};
 
 use super::action::Action;
 use super::menu_item::beside;
-use super::theme::{self, RADIUS, ROW, STEP, Tokens};
+use super::theme::{self, ROW, STEP, Tokens};
 use super::{icons, widgets};
 use crate::editor::Editor;
 
@@ -161,14 +161,7 @@ fn row_ui(ui: &mut Ui, editor: &Editor, action: Action, chosen: bool) -> eframe:
     let enabled = action.is_enabled(editor);
     let (rect, response) = ui.allocate_exact_size(Vec2::new(width, ROW), Sense::click());
     let tokens = Tokens::of(ui);
-    if chosen || response.hovered() {
-        let fill = if chosen {
-            tokens.selection
-        } else {
-            tokens.button[0]
-        };
-        ui.painter().rect_filled(rect, RADIUS, fill);
-    }
+    widgets::row_background(ui, rect, &response, chosen);
     let label = action.label_now(editor);
     let colour = match (enabled, chosen) {
         (false, _) => tokens.faint_text,

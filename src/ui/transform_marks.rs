@@ -1,6 +1,6 @@
 //! The ring that rotates, and the box that scales.
 
-use eframe::egui::{Color32, Mesh, Rect, Shape, Stroke, StrokeKind, Vec2};
+use eframe::egui::{Color32, Mesh, Shape, Stroke};
 use glam::DVec2;
 
 use super::brush::Brush;
@@ -62,21 +62,23 @@ pub fn corners(brush: &Brush<'_>, corners: &[DVec2; 4], handles: &[DVec2]) {
         brush.painter.line_segment(side, line);
     }
     let (fill, outline) = handle_colours(brush);
-    for at in handles
-        .iter()
-        .filter_map(|handle| brush.screen.point(*handle))
-    {
-        brush.painter.circle(at, SIDE, fill, outline);
+    for handle in handles {
+        brush.disc(*handle, SIDE, fill, outline);
     }
-    for at in corners
-        .iter()
-        .filter_map(|corner| brush.screen.point(*corner))
-    {
-        let square = Rect::from_center_size(at, Vec2::splat(SQUARE));
-        brush
-            .painter
-            .rect(square, 1, fill, outline, StrokeKind::Middle);
+    for corner in corners {
+        brush.square(*corner, SQUARE, fill, outline);
     }
+}
+
+/// Paint the frame of a reference: its squares scale, the disc at the end of its arm rotates.
+pub fn frame(brush: &Brush<'_>, box_corners: &[DVec2; 4], arm: [DVec2; 2]) {
+    let line = Stroke::new(1.0, brush.tokens.accent.gamma_multiply(LINE));
+    if let Some(arm) = brush.screen.segment(arm) {
+        brush.painter.line_segment(arm, line);
+    }
+    corners(brush, box_corners, &[]);
+    let (fill, outline) = handle_colours(brush);
+    brush.disc(arm[1], DISC, fill, outline);
 }
 
 fn handle_colours(brush: &Brush<'_>) -> (Color32, Stroke) {

@@ -103,6 +103,19 @@ pub fn focus_ring(ui: &Ui, rect: Rect) {
         .rect_stroke(rect, RADIUS, stroke, StrokeKind::Inside);
 }
 
+/// Paint the background of a row that is selected or hovered, and outline it while it has the keyboard.
+pub fn row_background(ui: &Ui, rect: Rect, response: &Response, is_selected: bool) {
+    let tokens = Tokens::of(ui);
+    if is_selected {
+        ui.painter().rect_filled(rect, RADIUS, tokens.selection);
+    } else if response.hovered() {
+        ui.painter().rect_filled(rect, RADIUS, tokens.button[0]);
+    }
+    if response.has_focus() {
+        focus_ring(ui, rect);
+    }
+}
+
 /// A caption that is cut short where there is too little room; a tooltip shows all of it.
 pub fn remark(ui: &mut Ui, text: &str) -> Response {
     let text = RichText::new(text)
