@@ -12,7 +12,7 @@ use std::time::Duration;
 
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::fairing::joint_correction::{Disturbance, correct_jointly};
-use batten::geometry::{Batch, End, Sampler, basis};
+use batten::geometry::{Batch, End, Progress, Sampler, basis};
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, Throughput, measurement::WallTime};
 use criterion::{criterion_group, criterion_main};
 use glam::DVec3;
@@ -214,6 +214,7 @@ fn correction(criterion: &mut Criterion) {
                     &targets,
                     Disturbance::Differences(1),
                     &[],
+                    &Progress::default(),
                 )
             });
         });

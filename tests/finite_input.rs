@@ -12,7 +12,8 @@ use batten::geometry::polygon_figures::{
     discrete_curvature, discrete_torsion, torsion_angle, turning_angle,
 };
 use batten::geometry::{
-    Batch, BezierPolygon, ClampedPolygon, End, FloatPolygon, MAX_DEGREE, Sampler, segment_bezier,
+    Batch, BezierPolygon, ClampedPolygon, End, FloatPolygon, MAX_DEGREE, Progress, Sampler,
+    segment_bezier,
 };
 use glam::DVec3;
 use proptest::prelude::*;
@@ -59,7 +60,13 @@ fn call_everything(polygon: &FloatPolygon, target: DVec3, direction: DVec3) {
         };
         (end, target)
     });
-    let _ = correct_jointly(polygon, &both, Disturbance::Differences(1), &[]);
+    let _ = correct_jointly(
+        polygon,
+        &both,
+        Disturbance::Differences(1),
+        &[],
+        &Progress::default(),
+    );
     if polygon.is_periodic() {
         return;
     }

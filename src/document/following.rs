@@ -12,7 +12,7 @@ use crate::geometry::fairing::joint_correction::{
     Corrector, Disturbance, correct_hastily, correct_jointly,
 };
 use crate::geometry::fairing::near_end::{correct_near_end, has_ends_apart};
-use crate::geometry::{Continuity, End, FloatPolygon};
+use crate::geometry::{Continuity, End, FloatPolygon, Progress};
 
 /// What is left where only rounding is left, in units of the end's size.
 const ROUNDING: f64 = 1e-12;
@@ -269,7 +269,9 @@ fn met(curve: &Curve, matched: &[(End, EndTarget)], correct: Corrector) -> Optio
     } else {
         let least = Disturbance::Differences(1);
         let targets = with_kept_ends(polygon, matched);
-        correct(polygon, &targets, least, &locked).ok()?.polygon
+        correct(polygon, &targets, least, &locked, &Progress::default())
+            .ok()?
+            .polygon
     };
     curve.check_held(&corrected).ok()?;
     Some(corrected)

@@ -209,12 +209,12 @@ struct Correction {
     reason: String,
 }
 
-fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
+fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
     let (id, curve) = input.curve()?;
     let curve = &asked(input, id, curve, values)?;
     let tolerance = values.real(&TOLERANCE);
     let correction = if values.choice(&METHOD, &[true, false]) {
-        at_once(curve, values, tolerance)?
+        at_once(curve, values, tolerance, progress)?
     } else {
         step_by_step(curve, values, tolerance)?
     };
@@ -311,7 +311,12 @@ impl Asked {
 
 /// Correct both ends by the least disturbance. An end without a target keeps its point and
 /// direction.
-fn at_once(curve: &Curve, values: &Values, tolerance: f64) -> Result<Correction, OperationError> {
+fn at_once(
+    curve: &Curve,
+    values: &Values,
+    tolerance: f64,
+    progress: &Progress,
+) -> Result<Correction, OperationError> {
     let kept = |end: End| {
         let jet = curve.polygon.end_jet(end);
         EndTarget {
@@ -337,7 +342,7 @@ fn at_once(curve: &Curve, values: &Values, tolerance: f64) -> Result<Correction,
         Disturbance::Harmony,
     ];
     let disturbance = values.choice(&ORDER, &disturbances);
-    match correct_jointly(&curve.polygon, &targets, disturbance, &locked) {
+    match correct_jointly(&curve.polygon, &targets, disturbance, &locked, progress) {
         Ok(joint) => Ok(Correction {
             residual: joint.residual,
             polygon: Some(joint.polygon).filter(|_| joint.residual <= tolerance),
@@ -350,6 +355,7 @@ fn at_once(curve: &Curve, values: &Values, tolerance: f64) -> Result<Correction,
             passes: 1,
             reason: error.to_string(),
         }),
+        Err(CorrectionError::Cancelled) => Err(OperationError::Cancelled),
         Err(error) => Err(error.into()),
     }
 }

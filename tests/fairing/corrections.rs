@@ -10,7 +10,7 @@ use batten::geometry::fairing::joint_correction::{
     CorrectionError, Disturbance, JointCorrection, correct_jointly,
 };
 use batten::geometry::paper::regular_polygon;
-use batten::geometry::{End, FloatPolygon, rotation_between};
+use batten::geometry::{End, FloatPolygon, Progress, rotation_between};
 use glam::{DMat3, DVec3};
 use nalgebra::{DMatrix, DVector};
 
@@ -142,7 +142,13 @@ fn more_vertices_make_the_loop_converge_faster() {
 
 #[track_caller]
 fn check_joint(polygon: &FloatPolygon, targets: &[(End, EndTarget)]) -> JointCorrection {
-    let found = match correct_jointly(polygon, targets, Disturbance::Differences(1), &[]) {
+    let found = match correct_jointly(
+        polygon,
+        targets,
+        Disturbance::Differences(1),
+        &[],
+        &Progress::default(),
+    ) {
         Ok(found) => found,
         Err(error) => panic!("{error}: {polygon:?} {targets:?}"),
     };
@@ -326,7 +332,13 @@ fn tangents_are_never_flipped_by_large_targets() {
     let mut solved = 0;
     for _ in 0..TRIALS {
         let targets = targets_near(&mut random, &arc, 0.5, 3.0, false);
-        if let Ok(found) = correct_jointly(&arc, &targets, Disturbance::Differences(1), &[]) {
+        if let Ok(found) = correct_jointly(
+            &arc,
+            &targets,
+            Disturbance::Differences(1),
+            &[],
+            &Progress::default(),
+        ) {
             solved += 1;
             for (end, target) in &targets {
                 let direction = target.direction.expect("a direction");
@@ -364,7 +376,13 @@ fn what_cannot_be_solved_says_so() {
     // Two points and two directions in space are ten conditions, three vertices nine numbers.
     let polygon = arc(&mut random, 2, 3, true, false);
     let targets = targets_near(&mut random, &polygon, 0.01, 0.03, true);
-    match correct_jointly(&polygon, &targets, Disturbance::Differences(1), &[]) {
+    match correct_jointly(
+        &polygon,
+        &targets,
+        Disturbance::Differences(1),
+        &[],
+        &Progress::default(),
+    ) {
         Err(error @ CorrectionError::NotSolvable { .. }) => {
             let message = error.to_string();
             let start = "10 end conditions cannot be met by 9 coordinates that may change (off by";
@@ -374,11 +392,23 @@ fn what_cannot_be_solved_says_so() {
     }
     let vertices = polygon.vertices().to_vec();
     let periodic = FloatPolygon::new(2, vertices, None, true).expect("valid");
-    let refused = correct_jointly(&periodic, &targets, Disturbance::Differences(1), &[]);
+    let refused = correct_jointly(
+        &periodic,
+        &targets,
+        Disturbance::Differences(1),
+        &[],
+        &Progress::default(),
+    );
     assert_eq!(refused, Err(CorrectionError::Periodic));
     let mut nowhere = targets;
     nowhere[1].1.direction = Some(DVec3::ZERO);
-    let refused = correct_jointly(&polygon, &nowhere, Disturbance::Differences(1), &[]);
+    let refused = correct_jointly(
+        &polygon,
+        &nowhere,
+        Disturbance::Differences(1),
+        &[],
+        &Progress::default(),
+    );
     assert_eq!(
         refused,
         Err(CorrectionError::NoDirection { end: End::Finish })
@@ -460,7 +490,13 @@ fn curvature_and_slope_are_met_where_they_can_be() {
         let targets = End::BOTH.map(|end| (end, target_of(&perturbed, end, level)));
         for order in 1..=3 {
             let disturbance = Disturbance::Differences(order);
-            let found = match correct_jointly(&polygon, &targets, disturbance, &[]) {
+            let found = match correct_jointly(
+                &polygon,
+                &targets,
+                disturbance,
+                &[],
+                &Progress::default(),
+            ) {
                 Ok(found) => found,
                 Err(error) => {
                     missed.push(format!("{trial} order {order} degree {degree} N {count} space {in_space} rational {rational} level {level}: {error}"));
@@ -591,7 +627,14 @@ fn locked_vertices_are_held_by_corrections() {
             3 => Disturbance::Harmony,
             order => Disturbance::Differences(1 + order),
         };
-        let found = correct_jointly(&polygon, &targets, disturbance, &locked).expect("room");
+        let found = correct_jointly(
+            &polygon,
+            &targets,
+            disturbance,
+            &locked,
+            &Progress::default(),
+        )
+        .expect("room");
         for vertex in locked {
             assert_eq!(found.polygon.vertex(vertex), polygon.vertex(vertex));
         }
@@ -601,7 +644,13 @@ fn locked_vertices_are_held_by_corrections() {
     let arc = regular_polygon(3, 12, 10.0).expect("a valid arc");
     let targets = targets_near(&mut random, &arc, 0.01, 0.03, false);
     let all = [0, 1, 2, 3];
-    let refused = correct_jointly(&arc, &targets, Disturbance::Differences(1), &all);
+    let refused = correct_jointly(
+        &arc,
+        &targets,
+        Disturbance::Differences(1),
+        &all,
+        &Progress::default(),
+    );
     assert!(
         matches!(
             refused,
@@ -623,7 +672,13 @@ fn ends_of_space_curves_are_straightened() {
             };
             (end, target)
         });
-        let found = correct_jointly(&polygon, &targets, Disturbance::Differences(1), &[]);
+        let found = correct_jointly(
+            &polygon,
+            &targets,
+            Disturbance::Differences(1),
+            &[],
+            &Progress::default(),
+        );
         let found = found.unwrap_or_else(|error| panic!("trial {trial}: {error}"));
         for end in End::BOTH {
             let curvature = found.polygon.end_jet(end).curvature() * polygon.size();
@@ -645,7 +700,23 @@ fn an_end_does_not_stop_to_have_a_curvature_that_it_cannot_have() {
         &[(End::Start, target)],
         Disturbance::Differences(1),
         &[],
+        &Progress::default(),
     );
     let message = refused.expect_err("polylines are straight").to_string();
     assert!(message.contains("contradict each other"), "{message}");
+}
+
+#[test]
+fn a_cancelled_correction_gives_no_polygon() {
+    let mut random = Random(26);
+    let polygon = arc(&mut random, 3, 12, false, false);
+    let targets = targets_near(&mut random, &polygon, 0.01, 0.03, false);
+    let cancelled = Progress::default();
+    cancelled.cancel();
+    for disturbance in [Disturbance::Differences(1), Disturbance::Harmony] {
+        let correct =
+            |progress: &Progress| correct_jointly(&polygon, &targets, disturbance, &[], progress);
+        assert!(correct(&Progress::default()).is_ok());
+        assert_eq!(correct(&cancelled), Err(CorrectionError::Cancelled));
+    }
 }

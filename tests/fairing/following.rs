@@ -6,7 +6,7 @@ use batten::geometry::fairing::following::{
 };
 use batten::geometry::fairing::joint_correction::{CorrectionError, Disturbance, correct_jointly};
 use batten::geometry::polygon_figures::{discrete_curvature, turning_angle};
-use batten::geometry::{ClampedPolygon, Continuity, End, FloatPolygon};
+use batten::geometry::{ClampedPolygon, Continuity, End, FloatPolygon, Progress};
 use glam::{DQuat, DVec3};
 
 use crate::check_ends;
@@ -209,7 +209,13 @@ fn following_a_target_is_smoother_than_the_least_disturbance() {
     };
     let followed = follow_target(&polygon, End::Finish, &target, 10, 1e-6, &[]);
     let targets = [(End::Finish, target)];
-    let least = correct_jointly(&polygon, &targets, Disturbance::Differences(1), &[]);
+    let least = correct_jointly(
+        &polygon,
+        &targets,
+        Disturbance::Differences(1),
+        &[],
+        &Progress::default(),
+    );
     let followed = roughness(&followed.expect("reached"));
     let least = roughness(&least.expect("reached").polygon);
     assert!(followed < 0.5 * least, "{followed} {least}");

@@ -422,8 +422,13 @@ impl<'a> Placed<'a> {
                 (end, target)
             });
             let targets: Vec<(End, EndTarget)> = targets.collect();
-            let corrected =
-                correct_jointly(&self.polygon, &targets, Disturbance::Differences(3), &[])?;
+            let corrected = correct_jointly(
+                &self.polygon,
+                &targets,
+                Disturbance::Differences(3),
+                &[],
+                &Progress::default(),
+            )?;
             self.polygon = corrected.polygon;
         }
         Ok(self)

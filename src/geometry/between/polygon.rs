@@ -194,7 +194,7 @@ pub(super) fn exact_ends(
         ..EndTarget::default()
     };
     let targets = [(End::Start, target(0)), (End::Finish, target(1))];
-    let corrected = correct_jointly(polygon, &targets, DISTURBANCE, &[])?;
+    let corrected = correct_jointly(polygon, &targets, DISTURBANCE, &[], &Progress::default())?;
     Ok((corrected.polygon, corrected.residual))
 }
 

@@ -10,6 +10,7 @@ use crate::geometry::end::End;
 use crate::geometry::end_correction::{EndDifference, EndTarget, align_end, translate_end};
 use crate::geometry::error::PolygonError;
 use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::progress::Progress;
 
 /// The order of the differences of curvature that are kept small.
 const ORDER: usize = 2;
@@ -156,7 +157,14 @@ pub fn follow_target(
     let held = (0..near.len()).filter(|vertex| !moves(*vertex));
     let held: Vec<usize> = held.collect();
     let begun = carried(polygon, end, target, span, locked)?;
-    let met = correct_jointly(&begun, &targets, Disturbance::Differences(1), &held)?.polygon;
+    let met = correct_jointly(
+        &begun,
+        &targets,
+        Disturbance::Differences(1),
+        &held,
+        &Progress::default(),
+    )?
+    .polygon;
     let planar = polygon.is_planar() && met.is_planar();
     let mut problem = Problem::new(&met, planar, moves);
     for (end, target) in &targets {

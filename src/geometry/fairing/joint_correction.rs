@@ -9,6 +9,7 @@ use crate::geometry::end::End;
 use crate::geometry::end_correction::{EndDifference, EndTarget};
 use crate::geometry::error::PolygonError;
 use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::progress::Progress;
 use crate::geometry::vector;
 
 /// The weight μ of the moves themselves; a correction fades over about 1/√μ vertices.
@@ -64,6 +65,9 @@ pub enum CorrectionError {
     /// A vertex would leave the range of numbers.
     #[error(transparent)]
     Polygon(#[from] PolygonError),
+    /// The caller cancelled the correction.
+    #[error("the correction was cancelled")]
+    Cancelled,
 }
 
 fn unsolved(conditions: usize, freedoms: usize) -> String {
@@ -93,6 +97,7 @@ pub type Corrector = fn(
     &[(End, EndTarget)],
     Disturbance,
     &[usize],
+    &Progress,
 ) -> Result<JointCorrection, CorrectionError>;
 
 /// The result of a joint correction.
@@ -116,15 +121,16 @@ pub struct JointCorrection {
 /// tangent's old length prescribed.
 ///
 /// # Errors
-/// [`CorrectionError`] if the curve is periodic, a direction is 0, or the conditions cannot be
-/// met.
+/// [`CorrectionError`] if the curve is periodic, a direction is 0, the conditions cannot be met, or
+/// `progress` is cancelled.
 pub fn correct_jointly(
     polygon: &FloatPolygon,
     targets: &[(End, EndTarget)],
     disturbance: Disturbance,
     locked: &[usize],
+    progress: &Progress,
 ) -> Result<JointCorrection, CorrectionError> {
-    let correction = Correction::checked(polygon, targets, disturbance, locked)?;
+    let correction = Correction::checked(polygon, targets, disturbance, locked, progress)?;
     let free = correction.solve(Speed::Free);
     match free {
         // A backward tangent is half a turn away from its target, so the target counts as missed.
@@ -144,8 +150,9 @@ pub fn correct_hastily(
     targets: &[(End, EndTarget)],
     disturbance: Disturbance,
     locked: &[usize],
+    progress: &Progress,
 ) -> Result<JointCorrection, CorrectionError> {
-    let correction = Correction::checked(polygon, targets, disturbance, locked)?;
+    let correction = Correction::checked(polygon, targets, disturbance, locked, progress)?;
     let problem = correction.problem(targets, Speed::Free);
     let found = correction.finish(&problem, problem.before(), HASTY_STEPS)?;
     if points_forward(&found.polygon, targets) {
@@ -182,6 +189,7 @@ struct Correction<'a> {
     targets: &'a [(End, EndTarget)],
     disturbance: Disturbance,
     locked: &'a [usize],
+    progress: &'a Progress,
 }
 
 impl<'a> Correction<'a> {
@@ -191,6 +199,7 @@ impl<'a> Correction<'a> {
         targets: &'a [(End, EndTarget)],
         disturbance: Disturbance,
         locked: &'a [usize],
+        progress: &'a Progress,
     ) -> Result<Self, CorrectionError> {
         if polygon.is_periodic() {
             return Err(CorrectionError::Periodic);
@@ -206,6 +215,7 @@ impl<'a> Correction<'a> {
                 targets,
                 disturbance,
                 locked,
+                progress,
             }),
         }
     }
@@ -233,6 +243,7 @@ impl<'a> Correction<'a> {
         let planar = polygon.is_planar() && targets_and_own.all(|(_, target)| target.is_planar());
         let moves = |vertex| !self.locked.contains(&vertex);
         let mut problem = Problem::new(polygon, planar, moves);
+        problem.end_with(self.progress);
         for (end, target) in targets {
             let kept = (speed == Speed::Kept).then(|| polygon.end_jet(*end).speed());
             problem.hold(end.parameter(polygon), target, kept);
@@ -260,6 +271,9 @@ impl<'a> Correction<'a> {
             let faired = problem.descend(objective, &found.vertices, MOST_STEPS);
             found.steps += faired.steps;
             found.vertices = faired.vertices;
+        }
+        if self.progress.is_cancelled() {
+            return Err(CorrectionError::Cancelled);
         }
         // Steps that lead nowhere may lead out of the range of numbers.
         let polygon = problem.polygon(&found.vertices);
@@ -299,7 +313,7 @@ impl<'a> Correction<'a> {
         let begun = problem.polygon(&reached.vertices).ok()?;
         let (mut done, mut part) = (0.0, 0.5);
         let mut steps = reached.steps;
-        while done < 1.0 && part * MOST_PARTS >= 1.0 {
+        while done < 1.0 && part * MOST_PARTS >= 1.0 && !self.progress.is_cancelled() {
             let share: f64 = f64::min(1.0, done + part);
             let targets: Vec<(End, EndTarget)> = self
                 .targets

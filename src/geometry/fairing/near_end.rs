@@ -6,6 +6,7 @@ use super::joint_correction::{CorrectionError, Corrector, Disturbance};
 use crate::geometry::end::End;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::progress::Progress;
 
 /// How many vertices are moved at least, the farthest of which are held: a correction has faded there.
 const REACH: usize = 64;
@@ -24,7 +25,7 @@ pub fn has_ends_apart(polygon: &FloatPolygon) -> bool {
 /// the curve its smoothness.
 ///
 /// # Errors
-/// As `correct`.
+/// As `correct`, which nothing cancels here.
 pub fn correct_near_end(
     polygon: &FloatPolygon,
     end: End,
@@ -63,7 +64,14 @@ pub fn correct_near_end(
         .map(|index| index - near.start)
         .collect();
     let least = Disturbance::Differences(1);
-    let corrected = correct(&part, &[(end, target)], least, &held_here)?.polygon;
+    let corrected = correct(
+        &part,
+        &[(end, target)],
+        least,
+        &held_here,
+        &Progress::default(),
+    )?
+    .polygon;
     let moves = near.clone().filter(|index| !held(index));
     let moves: Vec<(usize, DVec3)> = moves
         .map(|index| (index, origin + corrected.vertex(index - near.start)))

@@ -13,6 +13,7 @@ use crate::geometry::end_correction::EndTarget;
 use crate::geometry::error::PolygonError;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::pivoted_cholesky::PivotedCholesky;
+use crate::geometry::progress::Progress;
 
 /// Pivots of the conditions' Gram matrix below this share of the largest count as zero.
 const RANK_TOLERANCE: f64 = 1e-13;
@@ -54,6 +55,8 @@ pub(super) struct Problem<'a> {
     held: Vec<(JetWeights, Vec<Condition>)>,
     /// The vertices whose harmony counts.
     counts: Vec<bool>,
+    /// Ends the steps early.
+    progress: Progress,
 }
 
 /// The vertices that a descent found.
@@ -103,7 +106,13 @@ impl<'a> Problem<'a> {
             before: vertices.map(|vertex| (*vertex - origin) / scale).collect(),
             held: Vec::new(),
             counts: vec![true; polygon.vertices().len()],
+            progress: Progress::default(),
         }
+    }
+
+    /// Take no further steps once the computation is cancelled.
+    pub(super) fn end_with(&mut self, progress: &Progress) {
+        self.progress = progress.clone();
     }
 
     /// Hold the curve at a parameter to a target; with a `speed`, |C′| too.
@@ -247,7 +256,7 @@ impl<'a> Problem<'a> {
         let mut steps = 0;
         let (_, mut factors) = self.squares(objective, &vertices).factor()?;
         let mut conditions = self.linearise(&factors, &vertices)?;
-        while steps < most {
+        while steps < most && !self.progress.is_cancelled() {
             let step = conditions.step(&factors);
             let missing = conditions.missing(&conditions.left);
             let mut share = 1.0;
@@ -282,7 +291,7 @@ impl<'a> Problem<'a> {
         let mut vertices = begin.to_vec();
         let mut value = self.value(objective, &vertices);
         let mut steps = 0;
-        while steps < most {
+        while steps < most && !self.progress.is_cancelled() {
             let Some((gradient, factors)) = self.squares(objective, &vertices).factor() else {
                 break;
             };

@@ -5,6 +5,7 @@ use crate::geometry::end_correction::{EndDifference, EndTarget};
 use crate::geometry::fairing::joint_correction::{Disturbance, correct_jointly};
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::jet::Jet;
+use crate::geometry::progress::Progress;
 
 /// What is left of an end's difference by rounding, in units of the curve's size.
 const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
@@ -31,7 +32,13 @@ pub(super) fn with_ends(polygon: FloatPolygon, jets: [Jet; 2]) -> FloatPolygon {
     if met {
         return polygon;
     }
-    match correct_jointly(&polygon, &targets, Disturbance::Differences(1), &[]) {
+    match correct_jointly(
+        &polygon,
+        &targets,
+        Disturbance::Differences(1),
+        &[],
+        &Progress::default(),
+    ) {
         Ok(correction) => correction.polygon,
         Err(_) => polygon,
     }
