@@ -1,4 +1,4 @@
-//! How smoothly one curve goes on from another.
+//! Continuity of two curves at a common point.
 
 use super::end_correction::EndTarget;
 use super::jet::Jet;

@@ -1,4 +1,4 @@
-//! What all polygons of a curve have: degree, vertices and weights.
+//! Degree, vertices and weights: the common data of all polygons of a curve.
 
 use glam::DVec3;
 

@@ -10,9 +10,9 @@ use super::vector;
 /// One end of an open curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum End {
-    /// Where u = 0.
+    /// The end at u = 0.
     Start,
-    /// Where u = L.
+    /// The end at u = L.
     Finish,
 }
 

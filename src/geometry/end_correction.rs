@@ -23,10 +23,10 @@ const PATIENCE: usize = 4;
 /// The most passes that the loop makes.
 const MOST_PASSES: usize = 100;
 
-/// What an end of the curve is to be.
+/// Target of an end of the curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EndTarget {
-    /// Where the end point shall lie.
+    /// The wanted end point.
     pub point: DVec3,
     /// The direction that the tangent shall have, along rising u; of any length but 0. `None`
     /// leaves the direction free.
@@ -82,7 +82,7 @@ impl EndTarget {
     }
 }
 
-/// What an end of the curve lacks of its target: the paper's third step.
+/// Difference of an end from its target: the paper's third step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EndDifference {
     /// The position difference vector, target minus actual end point.
@@ -215,7 +215,7 @@ pub fn align_end(
     }
 }
 
-/// How the vertices of the two ends share the polygon, and so whether the loop converges.
+/// Overlap of the two ends' vertices, which decides whether the loop converges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EndOverlap {
     /// N ≥ 2n: no vertex is shared, and one pass is exact.
@@ -246,7 +246,7 @@ impl EndOverlap {
     }
 }
 
-/// How the loop over steps 2 to 6 ended.
+/// Result of the loop over steps 2 to 6.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoopOutcome {
     /// The corrected polygon if the loop converged; otherwise the polygon that it began with.

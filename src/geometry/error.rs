@@ -1,4 +1,4 @@
-//! What can be wrong with a polygon, a parameter or a condition, and where.
+//! Errors of polygons, parameters and conditions, with their place.
 
 use thiserror::Error;
 
@@ -84,7 +84,7 @@ pub enum PolygonError {
     NotSmooth {
         /// The worst vertex, counted from 0.
         index: usize,
-        /// How far it is from the curve's own Bézier vertex.
+        /// Its distance from the curve's own Bézier vertex.
         distance: f64,
     },
     /// The float polygon of a curve is too large for its size.
@@ -94,7 +94,7 @@ pub enum PolygonError {
     DigitsLost {
         /// The worst of the vertices given, counted from 0.
         index: usize,
-        /// How far it would move.
+        /// The distance it would move.
         distance: f64,
     },
     /// A polygon does not close as a periodic curve does.
@@ -106,7 +106,7 @@ pub enum PolygonError {
         from: PolygonKind,
         /// The worst vertex, counted from 0.
         index: usize,
-        /// How far it is from the periodic curve's own vertex.
+        /// Its distance from the periodic curve's own vertex.
         distance: f64,
     },
     /// A conversion gives a vertex without a positive weight.
@@ -152,9 +152,9 @@ pub enum PolygonError {
         "there is no part from u = {from} to u = {to}: u runs from 0 to {segments}, and a part begins before it ends"
     )]
     NoSuchPart {
-        /// Where the part should begin.
+        /// The requested start.
         from: f64,
-        /// Where it should end.
+        /// The requested end.
         to: f64,
         /// The number of segments of the curve.
         segments: usize,
@@ -170,7 +170,7 @@ pub enum PolygonError {
     /// A periodic curve was given to what needs ends.
     #[error("a periodic curve has no ends and cannot be {done}: open it first")]
     PeriodicCurve {
-        /// What was to be done.
+        /// The refused action.
         done: &'static str,
     },
 }

@@ -35,7 +35,7 @@ pub(in crate::geometry) struct Expansion<const K: usize, T = f64>([T; K]);
 /// A number of twice the digits.
 pub(in crate::geometry) type DoubleDouble = Expansion<2>;
 
-/// What the parts of an expansion are: doubles, or vectors of them.
+/// Parts of an expansion: doubles, or vectors of them.
 pub(in crate::geometry) trait Part:
     Copy
     + Default
@@ -176,7 +176,7 @@ impl DoubleDouble {
         self.0[0]
     }
 
-    /// What the nearest double leaves out.
+    /// The remainder beside the nearest double.
     #[inline(always)]
     pub(in crate::geometry) fn low(self) -> f64 {
         self.0[1]

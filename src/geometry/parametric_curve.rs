@@ -1,4 +1,4 @@
-//! What any parametric curve can answer: all that sampling, hit tests and plots ask for.
+//! Interface of parametric curves to sampling, hit tests and plots.
 
 use glam::DVec3;
 
@@ -21,7 +21,7 @@ pub trait ParametricCurve {
     /// Whether the curve lies in the plane z = 0, and its curvature is therefore signed.
     fn is_planar(&self) -> bool;
 
-    /// How many derivatives are continuous where two pieces meet.
+    /// Number of continuous derivatives where two pieces meet.
     fn continuity(&self) -> usize;
 
     /// Fill `values` with the point and as many derivatives by t as there is room for, at the local
@@ -109,7 +109,7 @@ pub trait ParametricCurve {
 pub struct EvenBatch {
     steps: usize,
     batch: Batch,
-    /// What evaluates float polygons of one degree.
+    /// Evaluator of float polygons of one degree.
     sampler: Option<Sampler>,
 }
 

@@ -1,4 +1,4 @@
-//! How far a long computation has come, and the wish that it ends early.
+//! Progress and cancellation of a long computation.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};

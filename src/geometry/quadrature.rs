@@ -27,7 +27,7 @@ const MOST_HALVINGS: usize = 500;
 pub(super) struct Integrals<const COUNT: usize> {
     /// The integrals.
     pub values: [f64; COUNT],
-    /// By how much the last halves disagree with their wholes, all intervals together.
+    /// Difference of the last halves from their wholes, all intervals together.
     pub disagreement: [f64; COUNT],
 }
 
@@ -76,7 +76,7 @@ pub(super) fn settled_quadrature<const COUNT: usize>(
 
 struct Halving<'a, F, const COUNT: usize> {
     functions: &'a F,
-    /// How much an integral may err over the whole interval.
+    /// Error bound of an integral over the whole interval.
     allowed: [f64; COUNT],
     disagreement: [f64; COUNT],
     halvings: usize,

@@ -5,7 +5,7 @@ pub fn counted(count: usize, one: &str, many: &str) -> String {
     format!("{count} {}", noun(count, one, many))
 }
 
-/// What so many things are called.
+/// Singular or plural noun for a count.
 pub fn noun<'a>(count: usize, one: &'a str, many: &'a str) -> &'a str {
     if count == 1 { one } else { many }
 }

@@ -29,14 +29,14 @@ const FINE: usize = 128;
 /// The spacings that are tried for a tolerance, the simplest first.
 const SPACINGS: [Spacing; 3] = [Spacing::Parameter, Spacing::ArcLength, Spacing::Curvature];
 
-/// What an approximation is to be like.
+/// Request for an approximation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ApproximationRequest {
     /// The degree.
     pub degree: usize,
-    /// How the vertices are placed.
+    /// The placing of the vertices.
     pub placing: Placing,
-    /// How many levels of curvature and torsion are compared.
+    /// The number of compared levels of curvature and torsion.
     pub levels: usize,
     /// Whether the part is the whole period of a periodic curve, so that the approximation is periodic too.
     pub periodic: bool,
@@ -71,12 +71,12 @@ impl ApproximationRequest {
     }
 }
 
-/// What an approximation is to reach, and by what means.
+/// Goal of an approximation, and the means to reach it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Goal {
-    /// How far the curve may be off, its ends too.
+    /// Tolerance of the curve, its ends included.
     pub tolerance: f64,
-    /// How the vertices are spaced; the best of all spacings without one.
+    /// The spacing of the vertices; without one the best of all.
     pub spacing: Option<Spacing>,
     /// The most segments that are tried.
     pub most_segments: usize,
@@ -89,15 +89,15 @@ pub struct Approximated {
     pub polygon: FloatPolygon,
     /// The part of the curve, by its own parameter, that the approximation runs along.
     pub interval: [f64; 2],
-    /// How far it is from the curve.
+    /// Its distance from the curve.
     pub deviation: MeasuredDeviation,
-    /// How far its ends are from those of the part, point from point; a periodic curve has none.
+    /// Distances of its ends from those of the part; a periodic curve has none.
     pub end_errors: Option<[f64; 2]>,
     /// The levels of both.
     pub levels: Vec<LevelComparison>,
-    /// How the vertices are spaced.
+    /// The spacing of the vertices.
     pub spacing: Spacing,
-    /// How the corrections of quasi-interpolation behave, from degree 4 on.
+    /// The corrections of quasi-interpolation, from degree 4 on.
     pub corrections: Option<Corrections>,
 }
 
@@ -121,7 +121,7 @@ impl Approximated {
         self.levels.iter().find(|level| !level.is_equal())
     }
 
-    /// How far it is off: beside the curve, or at an end along it.
+    /// The larger distance: beside the curve, or at an end along it.
     pub fn distance(&self) -> f64 {
         let ends = self.end_errors.into_iter().flatten();
         ends.fold(self.deviation.largest, f64::max)
@@ -459,7 +459,7 @@ impl<'a> Placed<'a> {
     }
 }
 
-/// How levels are compared.
+/// Comparison of levels.
 type Compare =
     fn(&FloatPolygon, &dyn Differentiable, &dyn Fn(f64) -> f64, usize) -> Vec<LevelComparison>;
 

@@ -1,4 +1,4 @@
-//! How far a curve is from the one that it approximates.
+//! Distance of a curve from the one that it approximates.
 
 use glam::DVec3;
 
@@ -160,7 +160,7 @@ struct Block {
     first: usize,
     low: DVec3,
     high: DVec3,
-    /// What the curve may leave the box by: no more than half of the longest step.
+    /// Margin of the box: the curve leaves it by at most half of the longest step.
     margin: f64,
 }
 

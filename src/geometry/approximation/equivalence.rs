@@ -11,7 +11,7 @@ use crate::geometry::segment_expansion::SegmentExpansion;
 /// Samples a segment at which levels are compared.
 const SAMPLES: usize = 32;
 
-/// What rises and falls by less than this share of a level's largest value is rounding.
+/// Rises and falls below this share of a level's largest value count as rounding.
 const SHARE: f64 = 1e-8;
 
 /// A level above the first that stays below this share of what the first would bend by if it changed within
@@ -19,7 +19,7 @@ const SHARE: f64 = 1e-8;
 /// than this share of itself is constant, as that of a circle, and so is one that ripples by no more.
 const STRAIGHT: f64 = 1e-5;
 
-/// What a level has at a place of a curve.
+/// A feature of a level at a place of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LevelFeature {
     /// It changes its sign.
@@ -31,7 +31,7 @@ pub enum LevelFeature {
 }
 
 impl LevelFeature {
-    /// What it is called.
+    /// Its name.
     pub fn name(self) -> &'static str {
         match self {
             Self::Inflection => "inflection",
@@ -48,7 +48,7 @@ pub struct LevelComparison {
     pub torsion: bool,
     /// Which level, counted from 1.
     pub level: usize,
-    /// What rises and falls by no more than this is no feature.
+    /// Rises and falls up to this are no features.
     pub least: f64,
     /// The features of the curve that is approximated, sampled, in their order along it, with its own
     /// parameters t.
@@ -59,7 +59,7 @@ pub struct LevelComparison {
 }
 
 impl LevelComparison {
-    /// What the level is called: "curvature level 2".
+    /// The name of the level: "curvature level 2".
     pub fn name(&self) -> String {
         let quantity = if self.torsion { "torsion" } else { "curvature" };
         format!("{quantity} level {}", self.level)
@@ -122,7 +122,7 @@ pub(super) fn compare_levels_at_samples(
     compared(polygon, curve, parameter, levels, Places::Samples)
 }
 
-/// How exactly places are told.
+/// Precision of places.
 #[derive(Clone, Copy, PartialEq)]
 enum Places {
     Samples,

@@ -21,7 +21,7 @@ pub enum ApproximationError {
     NotFinite {
         /// The vertex, counted from 0.
         vertex: usize,
-        /// Where the curve was expanded.
+        /// The parameter of the expansion.
         parameter: f64,
     },
     /// The curve has no point somewhere.
@@ -29,7 +29,7 @@ pub enum ApproximationError {
         "the curve has no point at parameter {parameter}: choose a part of the curve without this place"
     )]
     NoPoint {
-        /// Where.
+        /// The parameter.
         parameter: f64,
     },
     /// The curve stops somewhere, so no length or turning grows there.

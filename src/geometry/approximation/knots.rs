@@ -119,7 +119,7 @@ impl UniformKnots {
         [0, self.count - 1].map(|index| self.vertex_parameter(index))
     }
 
-    /// Where the curve begins and ends.
+    /// The start and end of the curve.
     pub fn interval(&self) -> [f64; 2] {
         let segments = match self.periodic {
             true => self.count,

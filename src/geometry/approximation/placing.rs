@@ -8,7 +8,7 @@ use crate::geometry::conversion::quasi_interpolation::greville_factors;
 use crate::geometry::differentiable::Differentiable;
 use crate::geometry::float_polygon::FloatPolygon;
 
-/// How the vertices of an approximation are placed.
+/// Placing of the vertices of an approximation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Placing {
     /// On the curve (paper, section 5): this keeps the shape but not the place, as turns of the polygon
@@ -24,7 +24,7 @@ pub enum Placing {
     Quasi,
 }
 
-/// How the corrections of quasi-interpolation behave at the vertex where they grow most.
+/// Corrections of quasi-interpolation at the vertex where they grow most.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Corrections {
     /// The vertex, counted from 0.

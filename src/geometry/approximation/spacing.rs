@@ -14,10 +14,10 @@ const STEPS: usize = 128;
 /// Newton's steps from there, whole ones and shortened ones: far more than it takes where the curve goes on.
 const NEWTON_STEPS: usize = 100;
 
-/// What the measure may err in the end, as a share of the whole: rounding where steps still go to and fro.
+/// Final error of the measure, as a share of the whole: rounding where steps oscillate.
 const ROUNDING: f64 = 1e-12;
 
-/// How even steps of the new parameter run along the curve.
+/// Spacing of even steps of the new parameter along the curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Spacing {
     /// By the curve's own parameter.
@@ -129,7 +129,7 @@ impl<'a> Respaced<'a> {
         if is_there { t } else { f64::NAN }
     }
 
-    /// How much the measure grows from one parameter to another.
+    /// Growth of the measure from one parameter to another.
     fn measure(&self, from: f64, to: f64) -> f64 {
         let [more] = quadrature(from, to, &|t| [self.weight(t, 0).value()]);
         more

@@ -9,10 +9,10 @@ use glam::DVec2;
 use super::root::root;
 use crate::geometry::quadrature::{quadrature, settled_quadrature};
 
-/// In how many steps the root is looked for.
+/// Steps of the search for a root.
 const STEPS: usize = 64;
 
-/// How exactly the integrals are computed.
+/// Precision of the integrals.
 const EXACT: f64 = 4.0 * f64::EPSILON;
 
 /// A clothoid of length 1, up to a similarity.

@@ -1,4 +1,4 @@
-//! What is given of a segment: its two ends.
+//! Given data of a segment: its two ends.
 
 use std::ops::RangeInclusive;
 
@@ -20,7 +20,7 @@ pub(super) const SAME: f64 = 1e-9;
 /// Hold the two ends that a segment runs between, in the plane z = 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ends {
-    /// Where it starts and where it ends.
+    /// Its start and its end.
     pub points: [DVec2; 2],
     /// Its directions there, along the segment; of any length but 0.
     pub directions: [DVec2; 2],

@@ -55,9 +55,9 @@ pub enum BetweenError {
     OtherCurvature {
         /// The end.
         end: &'static str,
-        /// What the segment has.
+        /// The segment's curvature.
         found: f64,
-        /// What is asked for.
+        /// The requested value.
         asked: f64,
     },
     /// The curvature that is asked for turns the other way.
@@ -65,7 +65,7 @@ pub enum BetweenError {
     OtherTurn {
         /// The end.
         end: &'static str,
-        /// What is asked for.
+        /// The requested value.
         asked: f64,
     },
     /// No α gives the curvature.
@@ -73,9 +73,9 @@ pub enum BetweenError {
     CurvatureOutOfReach {
         /// The end.
         end: &'static str,
-        /// What is asked for.
+        /// The requested value.
         asked: f64,
-        /// What there is.
+        /// The possible range.
         range: [f64; 2],
     },
     /// No curve with monotone curvature has these curvatures at its ends.

@@ -16,20 +16,20 @@ use glam::DVec2;
 use super::root::root;
 use crate::geometry::quadrature::{quadrature, settled_quadrature};
 
-/// How far ln ρ may grow: radii a million times apart.
+/// Largest growth of ln ρ: radii a million times apart.
 const MOST_GROWTH: f64 = 13.8;
 
 /// How far ln ρ^α and ln ρ^{α−1} may change: their exponential stays in the range of numbers, and the lean is at its
 /// limit but for rounding long before.
 const MOST_STRETCH: f64 = 600.0;
 
-/// How exactly chords are integrated, relative to the length.
+/// Precision of chords, relative to the length.
 const EXACT: f64 = 4.0 * f64::EPSILON;
 
-/// The α among which one is looked for.
+/// Range of α to search.
 const ALPHAS: [f64; 2] = [-10.0, 10.0];
 
-/// In how many steps.
+/// Number of steps between them.
 const ALPHA_STEPS: usize = 80;
 
 /// A log-aesthetic segment that turns left, up to a similarity.
@@ -37,7 +37,7 @@ const ALPHA_STEPS: usize = 80;
 pub(super) struct LogAesthetic {
     /// The slope of its logarithmic curvature graph.
     pub(super) alpha: f64,
-    /// By how much ln ρ grows from its start to its end; negative where it falls.
+    /// Growth of ln ρ from start to end; negative where it falls.
     pub(super) growth: f64,
     /// The angle that it turns by, positive.
     pub(super) turning: f64,
@@ -121,7 +121,7 @@ impl LogAesthetic {
         [chord, chord * (-self.growth).exp()]
     }
 
-    /// By how much its chord leans from the direction half way towards that at the end.
+    /// Lean of its chord from the direction half way towards that at the end.
     fn lean(&self) -> f64 {
         self.chord_half_way().to_angle()
     }

@@ -20,10 +20,10 @@ use super::log_aesthetic::LogAesthetic;
 /// Steps of Newton's method from one beginning.
 const STEPS: usize = 60;
 
-/// How often a step is halved.
+/// Most halvings of a step.
 const HALVINGS: usize = 20;
 
-/// What is left of a chord of 1 that counts as met: what rounding leaves, with room.
+/// Residual of a chord of 1 that counts as met: rounding, with room.
 const MET: f64 = 1e-13;
 
 /// The step of differences.
@@ -44,7 +44,7 @@ const MOST_SPREAD: f64 = 2.0;
 /// The e at which searches begin, over the growth of ln ρ.
 const SPREADS: [f64; 3] = [0.0, 1.0, -1.0];
 
-/// How much longer than an arc three clothoids are where searches begin.
+/// Length of three clothoids at the start of searches, relative to an arc.
 const LONGER: [f64; 4] = [1.0, 1.1, 1.3, 1.7];
 
 /// The shares that the first and the last of three clothoids have of the length.
@@ -55,7 +55,7 @@ const OUTER: [f64; 5] = [0.3, 0.2, 0.4, 0.15, 0.1];
 pub(super) struct Chain<S> {
     /// The segments.
     pub(super) segments: Vec<S>,
-    /// Where they begin and end: one point more than there are segments.
+    /// Their ends: one point more than segments.
     pub(super) points: Vec<DVec2>,
 }
 
@@ -172,7 +172,7 @@ fn chain<S: Copy>(
     }
 }
 
-/// By how much segments miss the end of the chord.
+/// Difference of the segments' end from the end of the chord.
 fn missing<S>(chain: &Chain<S>) -> DVec2 {
     chain
         .points

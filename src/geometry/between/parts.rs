@@ -6,10 +6,10 @@ use crate::geometry::differentiable::Differentiable;
 use crate::geometry::quadrature::{quadrature, settled_quadrature};
 use crate::geometry::references::ReferenceCurve;
 
-/// What rounding may make of a curvature, relative to it.
+/// Relative rounding error of a curvature.
 const ROUNDING: f64 = 1e-9;
 
-/// How exactly lengths are integrated, relative to them.
+/// Relative precision of integrated lengths.
 const EXACT: f64 = 1e-12;
 
 /// A reference curve, or a piece of one, and which way it is passed through.
@@ -26,9 +26,9 @@ pub struct Part {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Parts {
     parts: Vec<Part>,
-    /// Where each begins.
+    /// The start of each.
     begins: Vec<f64>,
-    /// Where the last ends.
+    /// The end of the last.
     end: f64,
 }
 
@@ -88,7 +88,7 @@ impl Parts {
         self.parts
     }
 
-    /// Where the parameter ends; it begins at 0.
+    /// The end of the parameter, which begins at 0.
     pub(super) fn end(&self) -> f64 {
         self.end
     }

@@ -20,7 +20,7 @@ use crate::geometry::progress::Progress;
 /// The numbers of segments that are tried.
 const COUNTS: [usize; 13] = [8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512];
 
-/// What both ends are bent by least: third differences keep the curvature even.
+/// The disturbance of the end correction: third differences keep the curvature even.
 const DISTURBANCE: Disturbance = Disturbance::Differences(3);
 
 /// Hold a polygon with what it lacks of the true segment.
@@ -28,7 +28,7 @@ const DISTURBANCE: Disturbance = Disturbance::Differences(3);
 pub(super) struct Fit {
     /// The polygon, whose ends are exact.
     pub(super) polygon: FloatPolygon,
-    /// What is left of the ends, as a length.
+    /// Residual of the ends, as a length.
     pub(super) residual: f64,
     /// The largest distance to the true segment.
     pub(super) deviation: f64,
@@ -90,7 +90,7 @@ impl Fit {
     }
 }
 
-/// What a polygon is looked for by.
+/// Search for a polygon.
 struct Search<'a> {
     parts: &'a Parts,
     ends: &'a Ends,
@@ -182,7 +182,7 @@ pub(super) fn quasi(
     Ok(float_polygon(curve, &knots, Placing::Quasi)?)
 }
 
-/// Give a polygon exact ends, and the curvatures there that are asked for.
+/// Give a polygon exact ends with the requested curvatures.
 pub(super) fn exact_ends(
     polygon: &FloatPolygon,
     ends: &Ends,

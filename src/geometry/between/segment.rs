@@ -14,13 +14,13 @@ use crate::geometry::progress::Progress;
 /// The tolerance that is offered, in units of the length.
 const SHARE_OF_LENGTH: f64 = 1e-6;
 
-/// How exactly lengths are measured.
+/// Precision of lengths.
 const LENGTH: f64 = 1e-12;
 
 /// The number of segments of a straight one.
 const STRAIGHT: usize = 8;
 
-/// What segment is wanted.
+/// Request for a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SegmentKind {
     /// A log-aesthetic segment, with α or with the one that gives an end its curvature, and the
@@ -46,7 +46,7 @@ pub struct Segment {
     /// The true segment, in one part or two that meet with one curvature; none for any monotone curve,
     /// which is its own, unless it is an arc.
     pub parts: Vec<Part>,
-    /// What is left of points, directions and curvatures asked for, as a length.
+    /// Residual of the requested points, directions and curvatures, as a length.
     pub residual: f64,
     /// The largest distance from the true segment, 0 where there is none.
     pub deviation: f64,

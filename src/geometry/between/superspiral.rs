@@ -18,7 +18,7 @@ use crate::geometry::references::{
 /// it is all but a circular arc.
 const BEGINS: [f64; 2] = [-0.9, 60.0];
 
-/// How exactly the beginning is found; correcting the ends does the rest.
+/// Precision of the start; correcting the ends does the rest.
 const EXACT: f64 = 1e-14;
 
 /// A segment of a superspiral.

@@ -1,4 +1,4 @@
-//! How much an error in one vertex grows on the way to another polygon.
+//! Growth of vertex errors in a conversion.
 
 use super::knots::unclamp;
 
@@ -6,9 +6,9 @@ use super::knots::unclamp;
 /// the homogeneous vertices.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Amplification {
-    /// How much an error in one vertex can grow in another: the largest |∂output_i/∂input_j|.
+    /// Largest growth of an error of one vertex in another: the largest |∂output_i/∂input_j|.
     pub largest: f64,
-    /// How much errors in all vertices can grow together: the largest Σ_j |∂output_i/∂input_j|.
+    /// Largest growth of errors of all vertices together: the largest Σ_j |∂output_i/∂input_j|.
     pub norm: f64,
 }
 
@@ -51,7 +51,7 @@ pub(in crate::geometry) fn double_factorial(degree: usize) -> f64 {
 mod tests {
     use super::*;
 
-    /// What the sums of the entries' magnitudes may lose in double arithmetic.
+    /// Rounding error of the sums of the entries' magnitudes.
     const ROUNDINGS: f64 = 1e-13;
 
     #[track_caller]

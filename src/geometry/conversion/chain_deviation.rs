@@ -17,7 +17,7 @@ use crate::geometry::vector::{self, larger};
 /// terms.
 const LOST: f64 = 1.0 / (1_u128 << 96) as f64;
 
-/// What a bound taken in doubles may lose of itself.
+/// Relative rounding error of a bound in doubles.
 const ROUNDINGS: f64 = 1.0 + 16.0 * f64::EPSILON;
 
 /// Bound the largest distance at equal parameters between the curve of given Bézier polygons and

@@ -15,7 +15,7 @@ use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::tables::binomials;
 use crate::geometry::vector::{self, larger};
 
-/// How far, relatively, a bound may lie above what is attained.
+/// Relative gap between a bound and the attained distance.
 const GAP: f64 = 1e-3;
 
 /// How often a piece is halved at most. The gap falls to a quarter each time, so it closes long

@@ -16,7 +16,7 @@ pub(in crate::geometry) struct ConvertedEnds<const K: usize> {
     /// The first n and the last n vertices, or all where that is fewer: a curve of so few
     /// vertices has the same ends.
     vertices: ExactVertices<K>,
-    /// What the magnitudes that entered each coordinate's numbers sum up to at most.
+    /// Bound of the sum of magnitudes that entered each coordinate's numbers.
     entered: [f64; 4],
     /// The exact vertices, if some have lost too much.
     whole: Option<WholeVertices>,

@@ -24,7 +24,7 @@ pub struct ExactPolygon {
     kind: PolygonKind,
     degree: usize,
     vertices: ExactVertices<3>,
-    /// What a weight may have lost.
+    /// Possible error of a weight.
     weight_loss: f64,
 }
 

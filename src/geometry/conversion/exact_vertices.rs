@@ -13,10 +13,10 @@ use crate::geometry::polygon_kind::PolygonKind;
 /// smaller than this cannot be told from 0.
 const LOST: f64 = 1.0 / (1u128 << 75) as f64 / (1u128 << 75) as f64;
 
-/// How many units of the last of K doubles the steps of a conversion may lose.
+/// Rounding error of a conversion's steps, in units of the last of K doubles.
 const STEPS: f64 = 1024.0;
 
-/// What a number may lose of itself so that rounding it is rounding the exact one: 2⁻⁶⁰.
+/// Relative error below which rounding a number is rounding the exact one: 2⁻⁶⁰.
 const SURE: f64 = f64::EPSILON / 256.0;
 
 /// Hold the homogeneous coordinates w·x, w·y, w·z and w of some vertices.

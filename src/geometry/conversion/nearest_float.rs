@@ -28,7 +28,7 @@ const SMOOTHNESS_TOLERANCE: f64 = 1e-9;
 /// The same where a curve that has a float polygon is farther off for want of digits.
 const DIGITS_TOLERANCE: f64 = 1e-6;
 
-/// How much farther off the curve may be of a polygon that is to be preferred.
+/// Factor by which the curve of a preferred polygon may be farther off.
 const PREFERENCE: f64 = 4.0;
 
 /// The force of a fit, in units of the curve's own: half a unit in the last place of 1, which

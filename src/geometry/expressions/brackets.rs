@@ -1,4 +1,4 @@
-//! What stands inside and outside the brackets of a text.
+//! Text inside and outside brackets.
 
 /// Split a text at the separators outside all brackets: each part with the number of characters before
 /// it, so that the column of a mistake in a part can be told for the whole text. Parts keep their spaces.

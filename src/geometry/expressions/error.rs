@@ -1,4 +1,4 @@
-//! What can be wrong with an expression, and where.
+//! Mistakes in expressions, with their columns.
 
 use thiserror::Error;
 
@@ -12,7 +12,7 @@ pub enum ExpressionError {
     Syntax {
         /// The character found; none at the end.
         found: Option<String>,
-        /// What could stand there.
+        /// The allowed text.
         expected: &'static str,
     },
     /// A name that means nothing.
@@ -26,10 +26,10 @@ pub enum ExpressionError {
         /// The names that there are.
         known: &'static str,
     },
-    /// What stands after a number is no unit.
+    /// The word after a number is no unit.
     #[error("“{name}” is no unit here: write {units}, or * to multiply")]
     UnknownUnit {
-        /// What is given.
+        /// The given one.
         name: String,
         /// The units that there are.
         units: &'static str,
@@ -45,26 +45,26 @@ pub enum ExpressionError {
     ArgumentCount {
         /// The function.
         name: &'static str,
-        /// What it needs.
+        /// The needed one.
         needed: &'static str,
-        /// How many are given.
+        /// The given number.
         found: usize,
     },
     /// Something is not what is needed, such as an angle instead of a length.
     #[error("{found} is given where {needed} is needed")]
     WrongQuantity {
-        /// What is given.
+        /// The given one.
         found: &'static str,
-        /// What is needed.
+        /// The needed one.
         needed: &'static str,
     },
     /// Quantities that cannot be added, subtracted or compared.
     #[error("{} and {} do not go together: give both the same kind of unit", .0[0], .0[1])]
     Mixed([&'static str; 2]),
-    /// What is given comes to no finite real number.
+    /// The value is no finite real number.
     #[error("“{text}” {}", .reason.words())]
     NotANumber {
-        /// What is given.
+        /// The given one.
         text: String,
         /// Why it does not.
         reason: NoNumber,
@@ -72,7 +72,7 @@ pub enum ExpressionError {
     /// There is no value before that could be changed.
     #[error("there is no value to change: leave “{operator}” out")]
     NothingBefore {
-        /// How the text begins.
+        /// The start of the text.
         operator: &'static str,
     },
     /// It is too long to read.
@@ -116,9 +116,9 @@ impl NoNumber {
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error("column {column}: {error}")]
 pub struct ExpressionMistake {
-    /// Where the mistake begins: the number of its first character, counted from 1.
+    /// The column of the mistake's first character, counted from 1.
     pub column: usize,
-    /// What is wrong.
+    /// The mistake.
     pub error: ExpressionError,
 }
 

@@ -29,7 +29,7 @@ pub(super) enum Node {
     InUnit(Unit, usize, Box<Self>),
 }
 
-/// What combines two expressions.
+/// Operator between two expressions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Operator {
     Plus,

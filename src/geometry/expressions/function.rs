@@ -7,15 +7,15 @@ use crate::geometry::power_series::PowerSeries;
 /// A function that expressions can name.
 #[derive(Clone, Copy)]
 pub(super) struct Function {
-    /// How it is written.
+    /// Its spelling.
     pub(super) name: &'static str,
-    /// What it asks of its arguments, and what it gives.
+    /// The dimensions of its arguments and its value.
     pub(super) kind: FunctionKind,
     /// Its power series, of those of its arguments.
     of: Body,
 }
 
-/// What a function asks of its arguments, and what it gives.
+/// The dimensions of a function's arguments and value.
 #[derive(Clone, Copy)]
 pub(super) enum FunctionKind {
     /// A number of an angle; this is it for degrees.
@@ -166,7 +166,7 @@ impl Function {
         functions.find(|function| function.name == name).copied()
     }
 
-    /// How many arguments it has.
+    /// The number of arguments.
     pub(super) fn arguments(self) -> usize {
         match self.of {
             Body::One(..) => 1,

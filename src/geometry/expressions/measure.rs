@@ -1,4 +1,4 @@
-//! What an expression of numbers with units comes to.
+//! Values of expressions whose numbers have units.
 
 use super::error::{ExpressionError, ExpressionMistake};
 use super::expression::{Node, Operator};
@@ -30,7 +30,7 @@ impl Dimension {
         Self { length, angle }
     }
 
-    /// What it is called.
+    /// Its name.
     pub(super) fn name(self) -> &'static str {
         match (self.length, self.angle) {
             (0.0, 0.0) => "a plain number",
@@ -67,7 +67,7 @@ impl Measure {
     }
 }
 
-/// What numbers without a unit stand for.
+/// The meaning of numbers without a unit.
 #[derive(Clone, Copy)]
 pub(super) struct Conventions {
     /// The document's unit of length, which lengths are converted to.

@@ -8,10 +8,10 @@ use super::reading::begins_name;
 use super::unit::{LengthUnit, Unit};
 use crate::geometry::parameters::Quantity;
 
-/// Where a number is typed: what it measures, and what it replaces.
+/// Context of a typed number: its quantity, and the number it replaces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct NumberContext {
-    /// What the number measures.
+    /// The quantity of the number.
     pub quantity: Quantity,
     /// The document's unit of length; without one no unit of length can be converted.
     pub unit: Option<LengthUnit>,
@@ -28,7 +28,7 @@ enum Change {
     Divide,
 }
 
-/// How changes are written.
+/// The spellings of changes.
 const CHANGES: [(&str, Change); 7] = [
     ("+=", Change::Add),
     ("-=", Change::Subtract),

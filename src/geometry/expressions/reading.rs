@@ -38,7 +38,7 @@ struct Reader<'a> {
     sort: &'static Sort,
 }
 
-/// What an expression may hold, and words for it.
+/// Allowed contents of an expression, and their description.
 struct Sort {
     is_formula: bool,
     names: &'static str,

@@ -27,7 +27,7 @@ impl LengthUnit {
         }
     }
 
-    /// What it is called: millimetres, centimetres, metres or inches.
+    /// Its name: millimetres, centimetres, metres or inches.
     pub fn name(self) -> &'static str {
         match self {
             Self::Millimetre => "millimetres",
@@ -42,7 +42,7 @@ impl LengthUnit {
         Self::ALL.into_iter().find(|unit| unit.symbol() == symbol)
     }
 
-    /// How many millimetres it is long.
+    /// Its length in millimetres.
     pub fn millimetres(self) -> f64 {
         match self {
             Self::Millimetre => 1.0,
@@ -61,7 +61,7 @@ pub(super) enum Unit {
     Radian,
 }
 
-/// How units are written.
+/// The spellings of units.
 const UNITS: [(&str, Unit); 10] = [
     ("mm", Unit::Length(LengthUnit::Millimetre)),
     ("cm", Unit::Length(LengthUnit::Centimetre)),

@@ -19,7 +19,7 @@ use crate::geometry::progress::Progress;
 /// The most vertices that a bridge may have.
 pub const MAX_BRIDGE: usize = 2000;
 
-/// How many numbers of vertices are tried at most, where the number is not given.
+/// Most numbers of vertices to try where the number is not given.
 const MOST_TRIALS: usize = 24;
 
 /// The orders of the differences of curvature that are tried.
@@ -31,13 +31,13 @@ const CLOSENESS: f64 = 1e-9;
 /// The most Gauss–Newton steps of one descent.
 const MOST_STEPS: usize = 60;
 
-/// How many pieces the length of a first guess is measured by.
+/// Pieces that measure the length of a first guess.
 const PIECES: usize = 64;
 
-/// What a bridge is to be.
+/// Request for a bridge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Bridge {
-    /// How many vertices it has; `None` for as many as it takes.
+    /// The number of vertices; `None` for the best number.
     pub vertices: Option<usize>,
     /// Whether the second part may move rigidly into its best place.
     pub second_moves: bool,
@@ -52,9 +52,9 @@ pub struct Bridged {
     pub bridge: Range<usize>,
     /// The proved features of what depends on the bridge.
     pub counts: ShapeCounts,
-    /// How many places there are undecided, cusps among them.
+    /// The number of undecided places, cusps included.
     pub undecided: usize,
-    /// How many Gauss–Newton steps were made in all.
+    /// The number of Gauss–Newton steps in all.
     pub iterations: usize,
 }
 
@@ -74,7 +74,7 @@ pub enum BridgeError {
         "a bridge of legs like those beside the gap takes about {needed} vertices, {MAX_BRIDGE} are the most: give their number, or bring the ends closer"
     )]
     TooFar {
-        /// How many it would have.
+        /// The number it would have.
         needed: usize,
     },
     /// The computation was ended early.
@@ -188,7 +188,7 @@ impl Bridged {
     }
 }
 
-/// What is joined.
+/// The two parts to join.
 struct Parts<'a> {
     first: &'a FloatPolygon,
     second: &'a FloatPolygon,
@@ -200,7 +200,7 @@ struct Parts<'a> {
 struct Trial {
     polygon: FloatPolygon,
     bridge: Range<usize>,
-    /// What is to be small, then what decides between equals.
+    /// The criterion, then the one that decides between equals.
     rank: (f64, usize),
 }
 
@@ -498,7 +498,7 @@ fn bending(flow: &VertexFlow) -> f64 {
     energy * legs.iter().sum::<f64>()
 }
 
-/// How many features are seen in what depends on a bridge.
+/// The number of features seen in the segments that depend on a bridge.
 fn features(polygon: &FloatPolygon, bridge: &Range<usize>) -> Result<usize, PolygonError> {
     let (around, stretch) = around(polygon, bridge)?;
     let counts = seen(&around, stretch);

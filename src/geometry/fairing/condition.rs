@@ -1,4 +1,4 @@
-//! What a curve is held to at a parameter: conditions on its point and derivatives there.
+//! Conditions on a curve's point and derivatives at a parameter.
 
 use glam::DVec3;
 

@@ -1,4 +1,4 @@
-//! How many features a curve has, or a stretch of it, and how many of them are more than ripple.
+//! Numbers of features of a curve or a stretch of it, ripple apart.
 
 use crate::geometry::features::{Extremum, Features, Root};
 use crate::geometry::float_polygon::FloatPolygon;
@@ -8,7 +8,7 @@ use crate::geometry::sampler::{BATCH_ORDER, Batch, Sampler};
 /// Extrema with a smaller prominence, as a share of the range of values, count as ripple.
 const RIPPLE: f64 = 0.05;
 
-/// How many samples a segment is looked at before it is proved.
+/// Samples of a segment, taken before its proof.
 const SAMPLES: usize = 8;
 
 /// Slopes below this share of the largest have no certain sign in doubles.
@@ -26,7 +26,7 @@ pub struct ShapeCounts {
 }
 
 impl ShapeCounts {
-    /// How many features there are too many, or too few of a kind that is asked for in number.
+    /// The number of features too many, or too few of a kind with an exact request.
     pub(super) fn distance(self, request: CountRequest) -> usize {
         let apart = |has: usize, most: usize, exact: bool| {
             if exact {
@@ -49,12 +49,12 @@ impl ShapeCounts {
     }
 }
 
-/// How many features are to be left.
+/// The requested numbers of features.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct CountRequest {
     pub(super) counts: ShapeCounts,
-    /// Whether just so many inflections, extrema and torsion extrema are asked for, or at most so
-    /// many.
+    /// Whether the numbers of inflections, extrema and torsion extrema are exact requests, or
+    /// largest numbers.
     pub(super) exact: [bool; 3],
 }
 
@@ -66,12 +66,12 @@ pub(super) struct ProvedCounts {
 }
 
 impl ProvedCounts {
-    /// Whether it is what is asked for.
+    /// Whether the request is met.
     pub(super) fn has(self, request: CountRequest) -> bool {
         self.excess(request) == 0
     }
 
-    /// How many features there are too many or too few, undecided ones among them.
+    /// The number of features too many or too few, with the undecided ones.
     pub(super) fn excess(self, request: CountRequest) -> usize {
         self.counts.distance(request) + self.undecided
     }

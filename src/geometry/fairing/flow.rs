@@ -29,7 +29,7 @@ pub(super) struct Member {
 }
 
 impl Sequence {
-    /// How many successive vertices a member depends on.
+    /// Number of successive vertices that a member depends on.
     pub(super) fn width(self) -> usize {
         match self {
             Self::LogLeg => 2,

@@ -15,7 +15,7 @@ use crate::geometry::progress::Progress;
 /// The order of the differences of curvature that are kept small.
 const ORDER: usize = 2;
 
-/// How much the moves weigh, beside their differences, where followers first meet what is held.
+/// Weight of the moves beside their differences while followers first meet the held conditions.
 const FIDELITY: f64 = 1e-3;
 
 /// The most Gauss–Newton steps: what a frame has time for.
@@ -24,7 +24,7 @@ const MOST_STEPS: usize = 8;
 /// The residual, in units of the curve's size, up to which an end counts as held.
 const HELD: f64 = 1e-9;
 
-/// What is moved by hand.
+/// The vertices that the user moves.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Moved {
     /// Vertices of the float polygon, with their new places.
@@ -252,7 +252,7 @@ pub fn follow_softly(
     Ok(followed)
 }
 
-/// What an end has, as a target.
+/// The present point and direction of an end, as a target.
 fn kept(polygon: &FloatPolygon, end: End) -> Option<EndTarget> {
     if polygon.is_periodic() {
         return None;

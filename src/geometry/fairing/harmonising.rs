@@ -23,7 +23,7 @@ const LEAST_CLOSENESS: f64 = 1e-24;
 /// The factor between the weights of the first sweep.
 const SWEEP: f64 = 0.1;
 
-/// How close the largest ε is found, as a factor.
+/// Precision of the largest ε, as a factor.
 const FOUND: f64 = 1.2;
 
 /// The most steps for one ε.
@@ -62,17 +62,17 @@ pub struct Harmony<'a> {
     pub ends: [Held; 2],
     /// The vertices that stay where they are.
     pub locked: &'a [usize],
-    /// How many extrema of the curvature shall be left.
+    /// Wanted number of extrema of the curvature.
     pub extrema: Option<usize>,
-    /// How many inflections, or in space zeros of the torsion.
+    /// Wanted number of inflections; in space, of zeros of the torsion.
     pub inflections: Option<usize>,
-    /// How many extrema of the torsion, in space.
+    /// Wanted number of extrema of the torsion, in space.
     pub torsion_extrema: Option<usize>,
-    /// How far the curve may move.
+    /// Largest move of the curve, as a length.
     pub largest_deviation: Option<f64>,
 }
 
-/// What harmonising found.
+/// Result of harmonising.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Harmonised {
     /// The polygon with the least change found that has what is asked for, or else the one that
@@ -80,15 +80,15 @@ pub struct Harmonised {
     pub polygon: FloatPolygon,
     /// Whether it has what is asked for: proved features, held ends, deviation.
     pub reached: bool,
-    /// How many features were asked for.
+    /// The requested numbers of features.
     pub request: ShapeCounts,
-    /// How many are proved.
+    /// The proved numbers of features.
     pub counts: ShapeCounts,
-    /// How many places are undecided, cusps among them.
+    /// The number of undecided places, cusps included.
     pub undecided: usize,
     /// A bound of how far the curve moves.
     pub deviation: f64,
-    /// How many Gauss–Newton steps were made in all.
+    /// The number of Gauss–Newton steps in all.
     pub iterations: usize,
 }
 
@@ -101,11 +101,11 @@ pub enum HarmonyError {
         if *periodic { "different numbers" } else { "rising numbers" }
     )]
     BadStretch {
-        /// Where it would begin.
+        /// Its start.
         from: f64,
-        /// Where it would end.
+        /// Its end.
         to: f64,
-        /// Where the curve ends.
+        /// The largest parameter of the curve.
         end: f64,
         /// Whether the curve is periodic.
         periodic: bool,
@@ -115,9 +115,9 @@ pub enum HarmonyError {
         "a stretch from u = {from} over the seam to {to} leaves less than a segment: let a whole number lie between {to} and {from}, or harmonise the whole curve"
     )]
     NothingBeyond {
-        /// Where it would begin.
+        /// Its start.
         from: f64,
-        /// Where it would end.
+        /// Its end.
         to: f64,
     },
     /// No vertex may move.
@@ -307,7 +307,7 @@ fn may_move(polygon: &FloatPolygon, stretch: [f64; 2], ends: [Held; 2], vertex: 
     }
 }
 
-/// What a curve has at a parameter, as a target, as far as it is held.
+/// The held values of a curve at a parameter, as a target.
 fn kept(polygon: &FloatPolygon, u: f64, held: Held) -> Option<EndTarget> {
     if held == Held::Free || held == Held::All {
         return None;
@@ -329,27 +329,27 @@ fn kept(polygon: &FloatPolygon, u: f64, held: Held) -> Option<EndTarget> {
 /// A polygon that was found.
 struct Candidate {
     harmonised: Harmonised,
-    /// How many features there are too many or too few, undecided ones among them.
+    /// The number of features too many or too few, with the undecided ones.
     excess: usize,
     largest_move: f64,
 }
 
 impl Candidate {
-    /// How far it is from what is asked; the largest move decides between equals.
+    /// Distance from the request; the largest move decides between equals.
     fn rank(&self) -> (bool, usize, f64) {
         let found = &self.harmonised;
         (!found.reached, self.excess, self.largest_move)
     }
 }
 
-/// What one ε leaves.
+/// Comparison of the counts after one ε with the request.
 #[derive(Clone, Copy, PartialEq)]
 enum CountVerdict {
-    /// More features of some kind than asked for, or undecided places.
+    /// More features of some kind than requested, or undecided places.
     TooMany,
-    /// Just those.
+    /// The requested features.
     Met,
-    /// None too many of any kind, and of some too few.
+    /// Too few of some kind, too many of none.
     TooFew,
 }
 
@@ -361,13 +361,13 @@ struct Search<'a> {
     most: f64,
     progress: &'a Progress,
     best: Candidate,
-    /// What looks closest of what is certainly not what is asked, by how many features too many.
+    /// The closest polygon that misses the request, and its number of features too many.
     promising: Option<(usize, FloatPolygon)>,
     iterations: usize,
 }
 
 impl Search<'_> {
-    /// Search with differences of one order; so much was done before.
+    /// Search with differences of one order; `done` is the progress before.
     fn run(&mut self, order: usize, done: f64) -> Result<(), HarmonyError> {
         let sweeps = self.problem.sweeps(order);
         let share = 1.0 / (ORDERS.len() * sweeps.len()) as f64;
@@ -377,7 +377,7 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Let ε fall until what is asked is left; the work is the second share, after the first.
+    /// Reduce ε until the request is met. `[done, work]` are shares of the progress.
     fn sweep(&mut self, sweep: &Sweep, [done, work]: [f64; 2]) -> Result<(), HarmonyError> {
         let (first, last) = (FIRST_CLOSENESS, self.last_closeness(sweep.order));
         let decades = (last / first).ln() / SWEEP.ln();

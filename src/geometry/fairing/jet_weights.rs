@@ -1,4 +1,4 @@
-//! How the vertices enter a point of the curve and its derivatives.
+//! Weights of the vertices in a point of the curve and its derivatives.
 
 use glam::DVec3;
 

@@ -37,7 +37,7 @@ const MOST_STEPS: usize = 50;
 /// The weight ε of the moves in a harmonious correction.
 const CLOSENESS: f64 = 1.0;
 
-/// Into how many parts the way to a curvature is divided at most.
+/// Largest number of parts of the way to a curvature.
 const MOST_PARTS: f64 = 256.0;
 
 /// Why both ends cannot be corrected at once.
@@ -57,7 +57,7 @@ pub enum CorrectionError {
     NotSolvable {
         /// The number of conditions.
         conditions: usize,
-        /// How many coordinates of vertices may change.
+        /// The number of vertex coordinates that may change.
         freedoms: usize,
         /// The largest residual left, as a length.
         residual: f64,
@@ -81,7 +81,7 @@ fn unsolved(conditions: usize, freedoms: usize) -> String {
     }
 }
 
-/// What a correction disturbs as little as possible.
+/// The disturbance that a correction minimises.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Disturbance {
     /// The k-th differences of the vertices' moves, k = 1, 2 or 3: 1 moves the vertices least, 3

@@ -1,4 +1,4 @@
-//! How a sequence is best divided into runs that rise and fall by turns.
+//! Best division of a sequence into runs that rise and fall by turns.
 
 /// The sequence is thinned out to about so many numbers, and to so many a run where there are many runs.
 const ENOUGH: usize = 300;

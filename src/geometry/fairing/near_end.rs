@@ -8,10 +8,10 @@ use crate::geometry::end_correction::EndTarget;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
 
-/// How many vertices are moved at least, the farthest of which are held: a correction has faded there.
+/// Least number of vertices near an end. The farthest are held: a correction has faded there.
 const REACH: usize = 64;
 
-/// How many vertices, in units of the degree, are moved at least.
+/// Least number of vertices near an end, in units of the degree.
 const REACH_OF_DEGREE: usize = 4;
 
 /// Whether both ends of a curve can be corrected by vertices of their own.

@@ -25,7 +25,7 @@ pub(in crate::geometry) struct NearPoints {
     pub(in crate::geometry) places: Vec<f64>,
 }
 
-/// What a curve is to be near, and how it is measured.
+/// The points near a curve, and their distance from it.
 #[derive(Clone, Copy)]
 pub(in crate::geometry) struct Points<'a> {
     /// The points in their order along the curve.

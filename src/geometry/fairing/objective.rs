@@ -1,4 +1,4 @@
-//! What is made as small as possible.
+//! Objectives of a fairing step, to be minimised.
 
 use glam::DVec3;
 
@@ -21,7 +21,7 @@ pub(super) enum Objective {
     /// The harmony Σ(ΔᵐK)² ℓ² + w Σ(Δ² log leg)² + ε Σ|p − p⁰|² / ℓ², with ℓ the mean leg and more
     /// or other measures in space.
     Harmony {
-        /// What is measured beside the legs.
+        /// The measure beside the legs.
         measure: Measure,
         /// The order m of its differences.
         order: usize,
@@ -32,7 +32,7 @@ pub(super) enum Objective {
     },
 }
 
-/// What makes a polygon harmonious beside its legs.
+/// Measure of harmony beside the legs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Measure {
     /// The signed discrete curvature of a planar polygon.
@@ -47,11 +47,11 @@ pub(super) enum Measure {
 /// The weight w of the legs' lengths beside the curvature.
 const LEGS: f64 = 0.01;
 
-/// Where an objective is evaluated.
+/// The polygon at which an objective is evaluated.
 #[derive(Clone, Copy)]
 pub(super) struct Shape<'a> {
     pub(super) polygon: &'a FloatPolygon,
-    /// Where the vertices were.
+    /// The vertices before the step.
     pub(super) before: &'a [DVec3],
     /// The vertices whose harmony counts: differences over others do not.
     pub(super) counts: &'a [bool],

@@ -1,4 +1,4 @@
-//! A curve that is reshaped: which vertices move, what is held, and steps towards the smallest
+//! Reshaping problem: moving vertices, held conditions, and steps towards the smallest
 //! objective under these conditions.
 
 use glam::DVec3;
@@ -18,10 +18,10 @@ use crate::geometry::progress::Progress;
 /// Pivots of the conditions' Gram matrix below this share of the largest count as zero.
 const RANK_TOLERANCE: f64 = 1e-13;
 
-/// Solutions repeated on what is left: they bring linear conditions down to rounding.
+/// Repeated solutions on the residual: they bring linear conditions down to rounding.
 const REFINEMENTS: usize = 4;
 
-/// The most steps towards conditions that are not linear, where they are to be met if they can be.
+/// The most steps towards nonlinear conditions; then they count as contradictory.
 pub(super) const MOST_STEPS: usize = 60;
 
 /// Steps below this share of the curve's size count as none.
@@ -74,7 +74,7 @@ pub(super) struct Sweep {
     pub(super) measure: Measure,
     /// The order of the differences.
     pub(super) order: usize,
-    /// Where descents begin.
+    /// Start of each descent.
     pub(super) begin: Vec<DVec3>,
     /// Whether each descent begins where the one before ended.
     pub(super) goes_on: bool,
@@ -165,7 +165,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// What a polygon is measured by where nothing else is wanted.
+    /// The default measure of the polygon.
     pub(super) fn measure(&self) -> Measure {
         if self.planar {
             Measure::SignedCurvature
@@ -199,12 +199,12 @@ impl<'a> Problem<'a> {
         sweeps
     }
 
-    /// How many numbers may change.
+    /// The number of unknowns.
     pub(super) fn freedoms(&self) -> usize {
         self.unknowns.len()
     }
 
-    /// How many numbers are prescribed.
+    /// The number of conditions.
     pub(super) fn conditions(&self) -> usize {
         self.held
             .iter()
@@ -368,7 +368,7 @@ impl<'a> Problem<'a> {
         objective.gather(self.shape(), &self.unknowns, &self.local(vertices))
     }
 
-    /// What the conditions miss.
+    /// Residuals of the conditions.
     fn left(&self, vertices: &[DVec3]) -> Vec<f64> {
         let vertices = &self.local(vertices);
         let conditions = self.held.iter().flat_map(|(weights, conditions)| {
@@ -460,7 +460,7 @@ impl Linearised {
         step
     }
 
-    /// What is left of the conditions, each in its own unit.
+    /// The largest residual of the conditions, each in its own unit.
     fn missing(&self, left: &[f64]) -> f64 {
         let scaled = left.iter().zip(&self.units);
         scaled.fold(0.0, |most, (left, unit)| most.max((left * unit).abs()))

@@ -6,7 +6,7 @@ use super::dual::{Dual, DualVector, differentiate};
 use super::jet_weights::{JetWeights, ORDERS};
 use crate::geometry::float_polygon::FloatPolygon;
 
-/// How far slopes stay from 0, in their units.
+/// Least distance of slopes from 0, in their units.
 const MARGIN: f64 = 1e-3;
 
 /// A condition is active where the slope is at most so many margins, and its multiplier at least so large.

@@ -19,7 +19,7 @@ use crate::geometry::float_polygon::FloatPolygon;
 /// The order k of the differences, if there are points enough.
 const ORDER: usize = 3;
 
-/// How often what rounding leaves of the conditions is taken off.
+/// Repetitions that remove the rounding errors of the conditions.
 const REFINEMENTS: usize = 3;
 
 impl FloatPolygon {
@@ -52,9 +52,9 @@ impl FloatPolygon {
 /// Which vertices are added, and what holds for them.
 struct Layout {
     degree: usize,
-    /// How many vertices are added at each end.
+    /// Vertices added at each end.
     added: usize,
-    /// How many there are between them.
+    /// Vertices between them.
     between: usize,
     /// The basis of degree n at an end knot: n numbers, the same from both sides.
     basis: Vec<f64>,

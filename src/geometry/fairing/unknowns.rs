@@ -11,7 +11,7 @@ pub(super) struct Unknowns {
     places: Vec<Option<usize>>,
     /// The vertices that may move, by place.
     vertices: Vec<usize>,
-    /// How many coordinates a vertex has: 2 in the plane.
+    /// Coordinates of a vertex: 2 in the plane.
     axes: usize,
 }
 
@@ -44,7 +44,7 @@ impl Unknowns {
         self.axes * self.vertices.len()
     }
 
-    /// How many coordinates of a vertex are unknowns.
+    /// Unknown coordinates of a vertex.
     pub(super) fn axes(&self) -> usize {
         self.axes
     }

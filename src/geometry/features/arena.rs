@@ -18,7 +18,7 @@ use crate::geometry::tables::{bernstein_matrix, binomials};
 /// 2¹² in a sum.
 const SLACK: f64 = 1.0 + f64::EPSILON * 4096.0;
 
-/// What one step of subdivision rounds in its bound.
+/// Rounding error of one step of subdivision.
 const STEP_SLACK: f64 = 1.0 + f64::EPSILON * 8.0;
 
 /// Hold the coefficients of any number of polynomials, in one place that is used again.
@@ -68,7 +68,7 @@ impl<T: Scalar> Arena<T> {
         self.release(0);
     }
 
-    /// How far the arena is filled: what [`Arena::release`] goes back to.
+    /// Fill level of the arena, to which [`Arena::release`] returns.
     pub(super) fn mark(&self) -> usize {
         self.values.len()
     }

@@ -5,7 +5,7 @@ use super::numerators::Numerators;
 use super::scalar::Scalar;
 use super::segment_shape::SegmentShape;
 
-/// What a dozen operations round, with room to spare.
+/// Rounding error of a dozen operations, with room to spare.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// An interval that is known to hold a number.

@@ -66,7 +66,7 @@ impl ExactPolynomial {
 struct Isolation<'a> {
     polynomial: &'a ExactPolynomial,
     pieces: &'a mut Vec<SignPiece>,
-    /// What may still be done.
+    /// Remaining budget of work.
     work: Cell<u64>,
 }
 
@@ -155,7 +155,7 @@ impl Isolation<'_> {
     }
 }
 
-/// What came of cutting a piece.
+/// Result of cutting a piece.
 enum Cut {
     /// Both parts, and the parameter between them.
     Parts([ExactPolynomial; 2], f64),

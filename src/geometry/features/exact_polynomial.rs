@@ -112,9 +112,9 @@ impl ExactPolynomial {
         [left, self.behind(place, bits)]
     }
 
-    /// How many additions of single digits a cut takes, roughly.
+    /// Rough number of single-digit additions of a cut.
     pub(super) fn cost(&self) -> u64 {
-        /// What one addition costs besides.
+        /// Overhead of one addition.
         const LEAST: u64 = 8;
         let size = self.0.len() as u64;
         size * size * (self.bits() / 64 + LEAST)

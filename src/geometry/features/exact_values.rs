@@ -15,13 +15,13 @@ use crate::geometry::whole_numbers::fraction;
 /// by twice as many the next time.
 const STEP: u32 = 32;
 
-/// Where it does not, the interval is cut in two so often.
+/// Otherwise the interval is halved this often.
 const BISECTIONS: usize = 6;
 
 /// Beyond so many binary digits it is not narrowed.
 const MOST_BITS: u64 = 1024;
 
-/// What rounding adds to the relative error of one polynomial, and to that of the result.
+/// Relative rounding errors of one polynomial and of the result.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// The relative error at which an enclosure is narrow enough.

@@ -1,4 +1,4 @@
-//! What can be told of a whole curve.
+//! Proved features of a whole curve.
 
 /// Hold the proved features of a curve, each list in the order of u.
 ///
@@ -10,18 +10,18 @@
 /// different signs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Features {
-    /// Where the signed curvature of a planar curve changes its sign.
+    /// Sign changes of the signed curvature of a planar curve.
     pub inflections: Vec<Root>,
     /// Where the curvature — signed in the plane, ≥ 0 in space — turns from rising to falling
     /// or back. In space that may be a point where it is 0.
     pub curvature_extrema: Vec<Extremum>,
-    /// Where the torsion of a space curve changes its sign.
+    /// Sign changes of the torsion of a space curve.
     pub torsion_zeros: Vec<Root>,
-    /// Where the torsion of a space curve turns from rising to falling or back.
+    /// Extrema of the torsion of a space curve.
     pub torsion_extrema: Vec<Extremum>,
-    /// Where the tangent vanishes or may vanish, so that curvature is not defined.
+    /// Places where the tangent vanishes or may vanish: the curvature is undefined.
     pub cusps: Vec<Cusp>,
-    /// Where a function may have roots or not; elsewhere all are counted.
+    /// Intervals where a function may have uncounted roots.
     pub undecided: Vec<Undecided>,
     /// Pieces of the domain on which the curvature is proved to rise, to fall or to be
     /// constant. What they leave out are the intervals of extrema, undecided pieces and cusps, and
@@ -37,7 +37,7 @@ pub struct Features {
 pub struct Root {
     /// The interval that holds it.
     pub u: [f64; 2],
-    /// How many changes the interval holds: 1 unless doubles of u cannot tell them apart.
+    /// Number of changes in the interval: 1 unless doubles of u cannot separate them.
     pub count: usize,
 }
 
@@ -122,11 +122,11 @@ pub enum Feature {
 pub struct TrendPiece {
     /// The piece.
     pub u: [f64; 2],
-    /// What the curvature does in it.
+    /// The trend of the curvature in it.
     pub trend: Trend,
 }
 
-/// Say what the curvature does as u grows: signed in the plane, ≥ 0 in space.
+/// Trend of the curvature as u grows: signed in the plane, ≥ 0 in space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trend {
     /// It falls strictly.

@@ -17,7 +17,7 @@ pub(super) struct Floating {
 impl Floating {
     /// Write `number` · 2^exponent.
     pub(super) fn new(number: &BigInt, exponent: i64) -> Self {
-        /// What a double holds, and more.
+        /// Beyond the precision of a double.
         const KEPT: u64 = 64;
         let spare = number.bits().saturating_sub(KEPT);
         let digits = (number >> spare).to_f64().unwrap_or_default();

@@ -17,7 +17,7 @@ const SMALLEST_PIECE: f64 = 1.0 / (1_u64 << 31) as f64;
 /// the sign at one place cannot be told the next is tried.
 const FIRST_CUTS: [f64; 3] = [125.0 / 256.0, 139.0 / 256.0, 107.0 / 256.0];
 
-/// Where to cut its pieces. Few binary digits keep the ends of all pieces exact.
+/// Cut of its pieces. Few binary digits keep the ends of all pieces exact.
 const CUTS: [f64; 3] = [0.5, 0.375, 0.625];
 
 /// Says that rounding leaves signs in doubt.

@@ -47,7 +47,7 @@ pub(super) struct Numerators {
 /// Name a function of which the signs are wanted.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Function {
-    /// What a quantity changes its sign with.
+    /// The function whose sign changes make the feature.
     Feature(Feature),
     /// The speed: the square of A.
     Speed,

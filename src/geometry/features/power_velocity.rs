@@ -23,7 +23,7 @@ use super::segment_features::SegmentProver;
 use super::sign_piece::{Sign, SignPiece};
 use crate::geometry::expansion::DoubleDouble;
 
-/// How far from 0 and 1 the square of the cosine must be, so that q has no zero.
+/// Least distance of the squared cosine from 0 and 1 at which q has no zero.
 const CLEAR: f64 = 1e-12;
 
 /// What the arithmetic of wide numbers adds to what the coefficients of P and q are made of, relative to their

@@ -17,10 +17,10 @@ const SAMPLES: usize = 31;
 /// segment's parameter. On a knot itself a root would change the signs of both of its sides at once.
 const BESIDE_KNOTS: [f64; 3] = [1e-5, 1e-3, 1e-2];
 
-/// How exactly a change is found, as a share of the ray.
+/// Precision of a change, as a share of the ray.
 const PRECISION: f64 = 1e-6;
 
-/// Where to cut: off the middle, where a root would lie on the cut of symmetrical curves.
+/// Cut off the middle, where a root of symmetrical curves would lie on it.
 const CUT: f64 = 0.53125;
 
 /// Foresee what a vertex does to the signs of curvature and its slope at samples of a planar curve.

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use super::variations::certain_sign;
 
-/// How far the secant may fall behind bisection before it must follow: half of 2⁵, five steps.
+/// Lag of the secant behind bisection that forces a bisection: half of 2⁵, five steps.
 const LEAD: f64 = 16.0;
 
 /// Hold an interval at whose ends a function has opposite signs.

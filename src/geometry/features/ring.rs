@@ -1,4 +1,4 @@
-//! What multiplying polynomials out needs of them.
+//! Rings over which polynomials are multiplied out.
 
 /// The arithmetic that the numerators are multiplied out in.
 pub(super) trait Ring {

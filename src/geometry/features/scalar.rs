@@ -1,4 +1,4 @@
-//! What the polynomial arithmetic needs of a number type.
+//! Number types of the polynomial arithmetic.
 
 use std::ops::{Add, Div, Mul};
 

@@ -35,7 +35,7 @@ pub struct SegmentFeatures {
     pub torsion: Vec<SignPiece>,
     /// The sign of the derivative of the torsion; [`Sign::Zero`] throughout in the plane.
     pub torsion_slope: Vec<SignPiece>,
-    /// Where the tangent is proved to vanish, or where it may.
+    /// Places where the tangent vanishes or may vanish.
     pub cusps: Vec<LocalCusp>,
     /// Bounds of the curvature at t = 0 and t = 1, seen from inside.
     pub end_curvature: [[f64; 2]; 2],

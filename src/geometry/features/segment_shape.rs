@@ -8,7 +8,7 @@ use crate::geometry::expansion::DoubleDouble;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::whole_numbers;
 
-/// What the arithmetic of wide numbers adds to a product or a sum of three: 2⁻⁹⁸.
+/// Rounding error of a product or a sum of three wide numbers: 2⁻⁹⁸.
 const WIDE_ROUNDING: f64 = f64::EPSILON * f64::EPSILON * 64.0;
 
 /// Products of doubles further apart than this share of their size are different in truth.
@@ -25,7 +25,7 @@ pub(super) struct SegmentShape {
     pub(super) count: usize,
     /// The control values, axis by axis: x, y, z and the weight.
     pub(super) controls: [[DoubleDouble; MAX_DEGREE + 1]; 4],
-    /// How far the control values may be from the true ones.
+    /// Error bound of the control values.
     pub(super) bounds: [[f64; MAX_DEGREE + 1]; 4],
     /// Whether the weights differ.
     pub(super) rational: bool,

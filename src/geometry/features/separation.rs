@@ -15,7 +15,7 @@ use crate::geometry::whole_numbers::fraction;
 pub(super) struct ChangeInterval<'a> {
     /// The interval.
     pub(super) u: [f64; 2],
-    /// How many they are.
+    /// Their number.
     pub(super) count: usize,
     /// The first one.
     pub(super) change: &'a Change,

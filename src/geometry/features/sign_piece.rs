@@ -1,4 +1,4 @@
-//! What is proved of a function's sign on a piece of a segment.
+//! Proved signs of a function on pieces of a segment.
 
 use super::enclosure::UNKNOWN;
 
@@ -13,7 +13,7 @@ pub enum Sign {
     Zero,
     /// It changes its sign: it has one root, of odd multiplicity.
     Root {
-        /// How many such roots there are: 1 unless doubles cannot tell them apart.
+        /// The number of such roots: 1 unless doubles cannot separate them.
         count: usize,
         /// Bounds of the curvature or torsion at the first one, if the function is its
         /// derivative.
@@ -54,7 +54,7 @@ impl Sign {
 /// t = 0, and the last ends at t = 1. A piece may be a single point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SignPiece {
-    /// What the function does inside the piece.
+    /// The sign of the function inside the piece.
     pub sign: Sign,
     /// The local parameter, in \[0, 1\], where the piece ends.
     pub until: f64,

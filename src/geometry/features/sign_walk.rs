@@ -49,7 +49,7 @@ pub(super) struct Change {
     pub(super) places: [Place; 2],
     /// The sign before the change.
     pub(super) from: i8,
-    /// How many changes there are.
+    /// The number of changes.
     pub(super) count: usize,
     /// Whether they are roots inside a segment.
     pub(super) is_root: bool,
@@ -84,7 +84,7 @@ pub(super) struct SignWalk {
     pub(super) runs: Vec<Run>,
 }
 
-/// What lies between the last piece with a sign and the next one.
+/// The stretch between the last piece with a sign and the next one.
 #[derive(Clone, Copy, Debug)]
 struct Gap {
     start: Place,

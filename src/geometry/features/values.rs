@@ -7,7 +7,7 @@ use super::numerators::Numerators;
 use super::scalar::Scalar;
 use super::segment_shape::SegmentShape;
 
-/// What rounding may add to a bound that is small itself.
+/// Absolute rounding error of a bound that is small itself.
 const ROUNDING: f64 = 1.0 + 1e-9;
 
 /// Bounds are close enough if they differ by this share of the value.

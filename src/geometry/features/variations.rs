@@ -2,7 +2,7 @@
 
 use super::scalar::Scalar;
 
-/// What the comparison of a value with its error bound may round.
+/// Rounding error of comparing a value with its error bound.
 const COMPARISON: f64 = 1.0 - f64::EPSILON * 16.0;
 
 /// Find the sign of a number known up to an error bound: `None` if it cannot be told, 0 if the

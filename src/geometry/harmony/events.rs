@@ -1,4 +1,4 @@
-//! What a sequence of numbers does in its course: it turns round, and it changes its sign.
+//! Events of a sequence of numbers: extrema and changes of sign.
 
 use super::flow::VertexSequence;
 use crate::geometry::features::ExtremumKind;
@@ -16,7 +16,7 @@ pub enum Event {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SequenceEvent {
     pub(super) event: Event,
-    /// Where it is, in numbers of vertices: a half in the middle of two.
+    /// Its place in numbers of vertices: a half in the middle of two.
     pub(super) at: f64,
 }
 

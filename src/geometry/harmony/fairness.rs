@@ -4,14 +4,14 @@ use super::graph_moments::GraphMoments;
 use crate::geometry::parametric_curve::ParametricCurve;
 use crate::geometry::quadrature::{quadrature, settled_quadrature};
 
-/// How far the fairness figures may be off, relative to themselves.
+/// Relative precision of the fairness figures.
 const TOLERANCE: f64 = 1e-9;
 
 /// Roundings of the terms that a curvature is made of that a quadrature may differ by from that of
 /// its halves.
 const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
 
-/// How often an estimate that turns out too large is put right.
+/// Most corrections of an estimate that is too large.
 const MOST_ESTIMATES: usize = 4;
 
 /// Hold what one segment adds to the fairness of a curve.
@@ -40,7 +40,7 @@ pub struct Fairness {
     pub variation: Option<f64>,
 }
 
-/// What is integrated over a segment, and what rounding does to it.
+/// The integrands over a segment, with their rounding errors.
 const LENGTH: usize = 0;
 const BENDING: usize = 1;
 const VARIATION: usize = 2;

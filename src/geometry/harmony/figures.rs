@@ -24,7 +24,7 @@ pub struct HarmonyFigures {
     /// The largest |Δ² torsion angle| in radians of a polygon in space, at the vertex where the
     /// middle leg begins.
     pub torsions: Option<VertexFigure>,
-    /// How many extrema the discrete curvature has; a plateau counts once.
+    /// Number of extrema of the discrete curvature; a plateau counts once.
     pub curvature_extrema: usize,
     /// The sharpest of them, with its |Δ²K|.
     pub sharpest: Option<VertexFigure>,

@@ -21,7 +21,7 @@ pub struct Isogeometry {
     pub polygon: EventCounts,
     /// Those of the curve.
     pub curve: EventCounts,
-    /// What the comparison comes to.
+    /// Result of the comparison.
     pub verdict: Match,
 }
 
@@ -41,14 +41,14 @@ pub enum Match {
 pub enum Mismatch {
     /// The polygon has it at this vertex, and the curve does not.
     OfPolygon {
-        /// What it is.
+        /// The event.
         event: Event,
         /// The vertex, counted from 0; of a change of sign between vertices the one before.
         vertex: usize,
     },
     /// The curve has it at this parameter, and the polygon does not.
     OfCurve {
-        /// What it is.
+        /// The event.
         event: Event,
         /// The parameter.
         u: f64,
@@ -59,15 +59,15 @@ pub enum Mismatch {
 pub(super) struct PolygonEvents {
     /// In the order of vertices.
     pub(super) events: Vec<SequenceEvent>,
-    /// What is added to the number of a vertex to give its parameter on the curve.
+    /// Offset from a vertex's number to its parameter on the curve.
     pub(super) shift: f64,
     /// The number of vertices of a periodic polygon: its sequence goes round.
     pub(super) period: Option<f64>,
-    /// How far from a vertex, in parameters, the curve still feels it.
+    /// Reach of a vertex along the curve, in parameters.
     pub(super) reach: f64,
 }
 
-/// What the curve does at a parameter.
+/// Event of the curve at a parameter.
 #[derive(Clone, Copy)]
 struct CurveEvent {
     event: Event,

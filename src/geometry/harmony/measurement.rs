@@ -16,7 +16,7 @@ const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
 /// Hold the harmony of a float polygon and its curve, in numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Harmony {
-    /// How evenly the polygon runs.
+    /// Evenness of the polygon.
     pub figures: HarmonyFigures,
     /// Whether the discrete curvature does what the curvature does.
     pub curvature: Isogeometry,

@@ -18,14 +18,14 @@ pub struct Regularity {
     pub order: usize,
     /// The highest order that is looked at, n − 1.
     pub highest: usize,
-    /// What is wrong with the next difference polygon; `None` if the order is the highest.
+    /// The defect of the next difference polygon; `None` at the highest order.
     pub irregularity: Option<Irregularity>,
 }
 
 /// Hold where the difference polygon Δᵏ P is irregular first, k one more than the regular order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Irregularity {
-    /// What is wrong there.
+    /// The defect there.
     pub kind: IrregularityKind,
     /// The vertex of the polygon in the middle of those that the difference is made of.
     pub vertex: usize,
@@ -43,10 +43,10 @@ pub enum IrregularityKind {
 /// The legs of a difference polygon.
 struct Legs {
     vectors: Vec<DVec3>,
-    /// How many vertices of the polygon each is a difference of, less 1.
+    /// The order of the difference: its number of vertices, less 1.
     order: usize,
     closed: bool,
-    /// How far rounding may have changed one of them.
+    /// Rounding error of one of them.
     rounding: f64,
 }
 
@@ -115,7 +115,7 @@ impl Legs {
         }
     }
 
-    /// How often one vector follows another.
+    /// Number of successive vectors.
     fn corners(&self) -> usize {
         self.vectors.len().saturating_sub(usize::from(!self.closed))
     }

@@ -8,13 +8,13 @@ use super::configuration::{Configuration, Format};
 use crate::geometry::features::{Features, SegmentProver, Verdict};
 use crate::geometry::progress::Progress;
 
-/// How many places an atlas has across and up.
+/// Number of places of an atlas across and up.
 pub const ATLAS_SIZE: usize = 200;
 
-/// How far apart the places of the coarse picture are.
+/// Spacing of the coarse picture's places.
 const COARSE: usize = 8;
 
-/// How many points the drawn bound of Bézier curves has.
+/// Points of the drawn bound of Bézier curves.
 const BOUND_POINTS: usize = 128;
 
 /// Describe an atlas: turning angles from 0° to 180° across, length ratios from 2⁻ᵒ to 2ᵒ up on a
@@ -27,19 +27,19 @@ pub struct Atlas {
     pub legs: usize,
     /// The torsion angle, in radians.
     pub torsion: f64,
-    /// How many octaves of ratios there are on either side of 1.
+    /// Octaves of ratios on either side of 1.
     pub octaves: f64,
     /// Whether the angles turn to the right: they count as negative then.
     pub clockwise: bool,
 }
 
-/// What is proved of the places of an atlas so far.
+/// Proofs of an atlas's places so far.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AtlasVerdicts {
     /// One a place, row by row from the lowest ratio up; those not proved yet have the verdict of
     /// the nearest place that is.
     verdicts: Vec<Verdict>,
-    /// How far apart the places are that are proved.
+    /// Spacing of the proved places.
     stride: usize,
 }
 
@@ -155,7 +155,7 @@ impl AtlasVerdicts {
         self.verdicts[row * ATLAS_SIZE + column]
     }
 
-    /// How many cells apart those are that have a proof of their own.
+    /// Spacing in cells of the places with a proof of their own.
     pub fn stride(&self) -> usize {
         self.stride
     }
@@ -205,7 +205,7 @@ impl AtlasSearch {
         true
     }
 
-    /// What is proved so far.
+    /// The proofs so far.
     pub fn found(&self) -> &AtlasVerdicts {
         &self.found
     }

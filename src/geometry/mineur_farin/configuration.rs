@@ -12,7 +12,7 @@ use crate::geometry::float_polygon::FloatPolygon;
 /// this.
 const UPRIGHT: f64 = 1e-9;
 
-/// In how many steps the last point is led to a place.
+/// Steps that lead the last point to a place.
 const WAY: usize = 32;
 
 /// The most corrections a step of that.

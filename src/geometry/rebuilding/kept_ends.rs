@@ -7,7 +7,7 @@ use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::jet::Jet;
 use crate::geometry::progress::Progress;
 
-/// What is left of an end's difference by rounding, in units of the curve's size.
+/// Rounding error of an end's difference, in units of the curve's size.
 const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
 
 /// Move the vertices of an open curve as little as possible to bring both ends to the points of

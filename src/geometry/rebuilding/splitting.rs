@@ -9,10 +9,10 @@ use crate::geometry::conversion::quasi_interpolation::{NewKnots, quasi_interpola
 use crate::geometry::error::PolygonError;
 use crate::geometry::float_polygon::FloatPolygon;
 
-/// How often a curve is subdivided at most to bring a knot to where it is cut.
+/// Most subdivisions that bring a knot to a cut.
 pub const MAX_SUBDIVISIONS: u32 = 12;
 
-/// How many segments a part may have: more than enough for any curve that is drawn.
+/// Most segments of a part: more than any drawn curve needs.
 pub const MAX_PART_SEGMENTS: usize = 100_000;
 
 impl FloatPolygon {

@@ -101,7 +101,7 @@ impl ReferenceCurve {
         self.interval
     }
 
-    /// Where it lies.
+    /// Its placement.
     pub fn placement(&self) -> &Placement {
         &self.placement
     }

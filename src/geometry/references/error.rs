@@ -1,4 +1,4 @@
-//! What can be wrong with a reference, and where in its text.
+//! Errors of references, with their columns in the text.
 
 use thiserror::Error;
 
@@ -79,9 +79,9 @@ pub enum ReferenceError {
         "the interval from t = {from} to t = {to} is empty: give two numbers, the smaller one first"
     )]
     EmptyInterval {
-        /// Where it begins.
+        /// Its start.
         from: f64,
-        /// Where it ends.
+        /// Its end.
         to: f64,
     },
     /// The interval leaves where the curve can be computed.
@@ -99,7 +99,7 @@ pub enum ReferenceError {
         "the curve has no point, or no direction, at t = {t}: give an interval without this place with the reference, such as from=1 and to=2"
     )]
     NotFinite {
-        /// Where.
+        /// The parameter.
         t: f64,
     },
     /// The curve is a single point.
@@ -128,9 +128,9 @@ pub enum ReferenceError {
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error("column {column}: {error}")]
 pub struct ReferenceTextError {
-    /// Where the mistake begins: the number of its first character, counted from 1.
+    /// The column of the mistake's first character, counted from 1.
     pub column: usize,
-    /// What is wrong.
+    /// The mistake.
     pub error: ReferenceError,
 }
 

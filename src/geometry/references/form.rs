@@ -1,4 +1,4 @@
-//! What a reference is, apart from where it lies.
+//! Form of a reference, without its placement.
 
 use glam::DVec3;
 
@@ -68,7 +68,7 @@ impl AnalyticForm {
 }
 
 impl ReferenceForm {
-    /// What the command line calls it.
+    /// Its name in the command line.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Analytic(form) => form.kind.name,
@@ -77,7 +77,7 @@ impl ReferenceForm {
         }
     }
 
-    /// What menus and lists call it.
+    /// Its label in menus and lists.
     pub fn label(&self) -> &'static str {
         match self {
             Self::Analytic(form) => form.kind.label,
@@ -114,7 +114,7 @@ impl ReferenceForm {
         }
     }
 
-    /// Where t may run.
+    /// The domain of t.
     pub fn domain(&self) -> [f64; 2] {
         match self {
             Self::Analytic(form) => (form.kind.domain)(&form.values),

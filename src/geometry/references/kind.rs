@@ -8,11 +8,11 @@ use crate::geometry::power_series::PowerSeries;
 /// Describe a kind of curve.
 #[derive(Debug)]
 pub struct ReferenceKind {
-    /// What the command line calls it.
+    /// Its name in the command line.
     pub name: &'static str,
-    /// What menus and panels call it.
+    /// Its label in menus and panels.
     pub label: &'static str,
-    /// What it is, in one line, with its formula.
+    /// One line with its formula.
     pub help: &'static str,
     /// The numbers that shape it, in the order in which they are offered.
     pub parameters: &'static [Parameter<Number>],
@@ -20,7 +20,7 @@ pub struct ReferenceKind {
     pub planar: bool,
     /// The interval of its parameter t that is drawn if none is given, for checked values.
     pub(super) interval: fn(&[f64]) -> [f64; 2],
-    /// Where t may run, for checked values.
+    /// The domain of t, for checked values.
     pub(super) domain: fn(&[f64]) -> [f64; 2],
     /// Expand the coordinates about t, to the given order; values are checked.
     pub(super) series: fn(&[f64], f64, usize) -> [PowerSeries; 3],

@@ -42,7 +42,7 @@ fn interval(values: &[f64]) -> [f64; 2] {
     [0.0, (0.9 * domain(values)[1]).min(1.0)]
 }
 
-/// Where 1 + Λαs > 0 and the direction turns by as much as can be computed.
+/// The s with 1 + Λαs > 0 and a direction angle of at most [`MOST_TURNING`].
 fn domain(values: &[f64]) -> [f64; 2] {
     let [alpha, lambda] = [values[0], values[1]];
     let end = |turning: f64| {

@@ -1,4 +1,4 @@
-//! Where a reference lies.
+//! Placement of a reference: a similarity in space.
 
 use glam::{DQuat, DVec3};
 

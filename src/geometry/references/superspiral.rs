@@ -19,7 +19,7 @@ use super::kind::ReferenceKind;
 use crate::geometry::parameters::{Number, Parameter};
 use crate::geometry::power_series::PowerSeries;
 
-/// From here on the differential equation is solved for the pieces that are integrated, which is quick.
+/// From this ψ on the pieces to integrate come from the differential equation, which is quick.
 const SOLVED: f64 = 2.0;
 
 /// Up to here the series is summed for the derivatives at a place: near 0, where its other solution is
@@ -30,16 +30,16 @@ const SUMMED: f64 = 4.0;
 /// of the way from their middle to the singularity at −1 they err by 4⁻³⁰.
 const ORDER: usize = 30;
 
-/// How far a piece may reach from its middle, in units of the distance from its start to the singularity.
+/// Largest reach of a piece from its middle, in units of the distance from its start to the singularity.
 const REACH: f64 = 0.2;
 
-/// How far a piece may reach at most, so that e^{iψ} converges as well.
+/// Largest reach of a piece for which e^{iψ} converges as well.
 const HALF_STEP: f64 = 0.5;
 
 /// Terms of a series: far more than it takes where ψ ≥ −0.99.
 const MOST_TERMS: usize = 20_000;
 
-/// Where ψ can be: nearer to the singularity at −1 there are ever more pieces.
+/// The domain of ψ: nearer to the singularity at −1 there are ever more pieces.
 const DOMAIN: [f64; 2] = [-0.99, MOST_TURNING];
 
 /// The superspiral by its direction angle.
@@ -93,7 +93,7 @@ fn series(values: &[f64], psi: f64, order: usize) -> [PowerSeries; 3] {
     })
 }
 
-/// A superspiral as far as it was evaluated: pieces from 0 on in either direction.
+/// The evaluated part of a superspiral: pieces from 0 on in either direction.
 struct Spiral {
     radius: Radius,
     ahead: Vec<Piece>,
@@ -102,7 +102,7 @@ struct Spiral {
 
 /// A piece of a superspiral.
 struct Piece {
-    /// Where it begins, nearer to 0, and where it ends.
+    /// Its start, nearer to 0, and its end.
     span: [f64; 2],
     /// The point where it ends.
     end: [f64; 2],

@@ -11,7 +11,7 @@ use super::placement::Placement;
 use super::{KINDS, find};
 use crate::geometry::expressions::{self, Expression, ExpressionError, NoNumber};
 
-/// What stands before formulas.
+/// Prefix of formulas.
 const FORMULA: &str = "formula";
 
 /// The names of coordinates.

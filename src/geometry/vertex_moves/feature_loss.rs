@@ -14,7 +14,7 @@ use crate::geometry::float_polygon::FloatPolygon;
 /// The rays that are tried first.
 const RAYS: usize = 16;
 
-/// How often the angle to the best ray's neighbours is halved afterwards.
+/// Later halvings of the angle to the best ray's neighbours.
 const HALVINGS: usize = 4;
 
 /// The even steps in which each ray is tried.
@@ -29,16 +29,16 @@ const STEPS: usize = 12;
 pub struct FeatureLoss {
     /// The vertex.
     pub vertex: usize,
-    /// Where it is.
+    /// Its place.
     pub from: DVec3,
-    /// Where it goes; `None` if no move was found.
+    /// Its new place; `None` if no move was found.
     pub to: Option<DVec3>,
     /// The radius in which moves were looked for: [`super::reach`].
     pub limit: f64,
 }
 
 impl FeatureLoss {
-    /// How far the vertex goes.
+    /// Distance of the vertex's move.
     pub fn distance(&self) -> Option<f64> {
         Some(self.to?.distance(self.from))
     }
@@ -52,9 +52,9 @@ pub struct LossSearch<'a> {
     pub polygon: &'a FloatPolygon,
     /// The features of all of its segments.
     pub proved: &'a [SegmentFeatures],
-    /// What the feature is: an inflection or an extremum of the curvature.
+    /// The feature: an inflection or an extremum of the curvature.
     pub quantity: Feature,
-    /// Where it is: the middle of its interval.
+    /// Its place: the middle of its interval.
     pub u: f64,
 }
 
@@ -137,7 +137,7 @@ struct Trial {
     prover: RayProver,
     quantity: Feature,
     u: f64,
-    /// Where the order of the features begins: opposite to what the vertex moves.
+    /// Start of the order of features: opposite to the moved segments.
     origin: f64,
     /// The length of a periodic curve's domain.
     period: Option<f64>,

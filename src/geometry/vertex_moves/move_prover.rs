@@ -29,7 +29,7 @@ pub enum MoveError {
     /// Only the features of planar curves are compared.
     #[error("the curve is in space: this is for planar curves, with z = 0 throughout")]
     Space,
-    /// What is undecided before cannot be compared with.
+    /// Undecided features before the move allow no comparison.
     #[error("some features of the curve are undecided: move a vertex at one of these places first")]
     Undecided,
     /// A vertex does not exist, or cannot be there.

@@ -7,13 +7,13 @@ use crate::geometry::features::{Features, RayForecast, SegmentFeatures};
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::vector;
 
-/// How exactly a border on a ray is found: by this share of its distance.
+/// Precision of a border on a ray, as a share of its distance.
 pub const PRECISION: f64 = 0.01;
 
 /// A border nearer than this share of the limit is taken to be at the vertex.
 const NEAREST: f64 = 1e-9;
 
-/// How far on either side of a change that is foreseen a place is tried, as a share of its distance.
+/// Distance of the tried places from a foreseen change, as a share of its own.
 const ASIDE: f64 = 0.4 * PRECISION;
 
 /// The most changes that are tried on one ray, the nearest first.
@@ -79,7 +79,7 @@ impl RayProver {
         self.prover.dependent()
     }
 
-    /// Where the vertex is at a distance along a ray.
+    /// The place of the vertex at a distance along a ray.
     pub(super) fn place(&self, direction: DVec2, distance: f64) -> DVec3 {
         self.centre + (distance * direction).extend(0.0)
     }

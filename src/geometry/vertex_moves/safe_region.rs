@@ -31,9 +31,9 @@ const LEAST_ANGLE: f64 = TAU / 8192.0;
 pub struct SafeRegion {
     /// The vertex.
     pub vertex: usize,
-    /// Where the vertex is.
+    /// The vertex.
     pub centre: DVec3,
-    /// How far rays are followed: [`super::reach`].
+    /// Length of rays: [`super::reach`].
     pub limit: f64,
     /// The borders on the rays, anticlockwise from the x axis. They are closer where the border is
     /// further away.
@@ -57,7 +57,7 @@ pub struct RayBorder {
 pub struct RegionSearch {
     prover: RayProver,
     region: SafeRegion,
-    /// How many levels are done.
+    /// Number of finished levels.
     level: usize,
 }
 

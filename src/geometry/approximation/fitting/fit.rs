@@ -1,4 +1,4 @@
-//! What a fit is to be like, and how it is found.
+//! Fits of float polygons to points.
 
 use std::cmp::{Ordering, Reverse};
 
@@ -31,7 +31,7 @@ const MORE: f64 = 1.25;
 /// The points of a curve, by segments or vertices, by which it gets another number of vertices.
 const SAMPLES: usize = 4;
 
-/// What a fit is to be like.
+/// Request for a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FitAsked {
     /// The degree.
@@ -40,7 +40,7 @@ pub struct FitAsked {
     pub count: Option<usize>,
     /// The number of curvature extrema; `None` for any.
     pub extrema: Option<usize>,
-    /// How far points may be from the curve, outliers aside.
+    /// Tolerance of points, outliers aside.
     pub tolerance: Option<f64>,
 }
 

@@ -10,7 +10,7 @@ use crate::geometry::progress::Progress;
 /// Outliers are looked for with so many points a vertex: such a curve is not stiff.
 const POINTS_A_VERTEX: usize = 8;
 
-/// How often outliers are looked for: a curve without those that are known shows the others.
+/// Searches for outliers: a curve without the known ones shows the others.
 const SEARCHES: usize = 8;
 
 /// While outliers are looked for no chord counts for more than so many times those about it, as the long
@@ -65,7 +65,7 @@ pub(super) fn leave_out_outliers(
     Ok(())
 }
 
-/// How far the offset of each point is from the median of those of its neighbours that count.
+/// Distance of each point's offset from the median of its counted neighbours' offsets.
 fn standing_out(list: &PointList, offsets: &[DVec3]) -> Vec<f64> {
     let stands_out = |index: usize| {
         let near: Vec<DVec3> = list.neighbours(index).map(|it| offsets[it]).collect();

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-/// How many neighbours on either side a point is compared with.
+/// Neighbours on either side that a point is compared with.
 const NEIGHBOURS: usize = 3;
 
 /// The points of a fit.

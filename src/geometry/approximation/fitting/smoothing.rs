@@ -10,7 +10,7 @@ use crate::geometry::fairing::near_points::{FAIR_ORDER, NearPoints};
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
 
-/// How often the parameters are refined.
+/// Refinements of the parameters.
 const ROUNDS: i32 = 8;
 
 /// The fairness weights, by points a vertex, with the factor between them: the least only keeps what no point

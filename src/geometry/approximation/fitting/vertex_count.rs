@@ -1,4 +1,4 @@
-//! How many vertices points call for.
+//! Number of vertices that points need.
 
 use super::error::FitError;
 use super::point_list::PointList;
