@@ -42,6 +42,7 @@ use hand::gesture::Gesture;
 use hand::snapping::snap_name;
 use hand::tools::Tools;
 use jobs::autosaving::Autosaving;
+use commands::UnitQuestion;
 use jobs::filing::Filing;
 use jobs::foreseeing::Foreseeing;
 use jobs::patience::Patience;
@@ -62,6 +63,7 @@ pub struct Editor {
     filing: Filing,
     /// The reply to the last request for files, until the window takes it.
     file_reply: Option<FileReply>,
+    unit_question: Option<UnitQuestion>,
     message: Option<Message>,
 }
 

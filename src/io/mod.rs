@@ -38,7 +38,7 @@ pub use file_match::{FileMatch, MatchSource};
 pub use fingerprint::Fingerprint;
 pub use format::{Format, FormatError};
 pub use loss::{Export, Loss, LossReport};
-pub use reading::{Owner, Reading, Remark, Remarks};
+pub use reading::{Owner, Reading, Remark, Remarks, counted_items};
 pub use sessions::{AbandonedSession, Session, Sessions};
 
 #[cfg(test)]

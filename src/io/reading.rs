@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::fmt;
 
-use super::file_match::{FileMatch, MatchSource};
+use super::file_match::FileMatch;
 use crate::document::{Curve, CurveId, Document, EditError, EndMatch, Extras, Reference, quoted};
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::{PolygonKind, counted, rounded_up};
@@ -122,36 +122,18 @@ impl Reading {
 
     /// Count the curves, and the references if there are any, in words.
     pub fn counted(&self) -> String {
-        let [curves, references] = [self.curves.len(), self.references.len()];
-        let curves_told = counted(curves, "curve", "curves");
-        let references_told = counted(references, "reference", "references");
-        match (curves, references) {
-            (_, 0) => curves_told,
-            (0, _) => references_told,
-            _ => format!("{curves_told} and {references_told}"),
-        }
+        counted_items(self.curves.len(), self.references.len())
     }
+}
 
-    /// Add what was read of another file: curves, references and the matches between them. The unit stays if
-    /// both have the same.
-    pub fn append(&mut self, other: Self) {
-        if self.is_empty() {
-            self.unit = other.unit;
-        } else if self.unit != other.unit {
-            self.unit = None;
-        }
-        let [curves, references] = [self.curves.len(), self.references.len()];
-        self.curves.extend(other.curves);
-        self.references.extend(other.references);
-        let matches = other.matches.into_iter();
-        self.matches.extend(matches.map(|matched| FileMatch {
-            curve: curves + matched.curve,
-            source: match matched.source {
-                MatchSource::Curve(index) => MatchSource::Curve(curves + index),
-                MatchSource::Reference(index) => MatchSource::Reference(references + index),
-            },
-            ..matched
-        }));
+/// Count curves, and references if there are any, in words.
+pub fn counted_items(curves: usize, references: usize) -> String {
+    let curves_told = counted(curves, "curve", "curves");
+    let references_told = counted(references, "reference", "references");
+    match (curves, references) {
+        (_, 0) => curves_told,
+        (0, _) => references_told,
+        _ => format!("{curves_told} and {references_told}"),
     }
 }
 

@@ -96,16 +96,6 @@ fn drawings_say_it_and_claim_none_that_nobody_said() {
 }
 
 #[test]
-fn files_that_are_read_together_keep_a_unit_that_all_of_them_have() {
-    let read = |unit| Format::Csv.read(written(Format::Csv, unit).as_bytes());
-    for (first, second) in units().flat_map(|first| units().map(move |second| (first, second))) {
-        let mut reading = read(first).expect("a table");
-        reading.append(read(second).expect("a table"));
-        assert_eq!(reading.unit, first.filter(|_| first == second));
-    }
-}
-
-#[test]
 fn a_unit_is_an_edit() {
     let changed = document(None).edited([Edit::SetUnit(Some(LengthUnit::Metre))]);
     assert!(

@@ -349,6 +349,11 @@ impl App {
         if let Some(chosen) = self.files.show(context) {
             self.use_chosen(context, chosen);
         }
+        if let Some(incoming) = self.editor.unit_question()
+            && let Some(answer) = dialogs::unit_ui(context, incoming)
+        {
+            told(self.editor.answer_unit(answer));
+        }
         let canvas = self.canvas.rect().unwrap_or(context.content_rect());
         match recovery::recovery_ui(context, canvas, self.editor.recoverable()) {
             Some(Choice::Open(id)) => self.confirm(context, AfterDiscard::Recover(id)),

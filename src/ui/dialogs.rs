@@ -9,6 +9,7 @@ use super::theme::STEP;
 use super::widgets;
 use crate::document::quoted;
 use crate::editor::Editor;
+use crate::geometry::expressions::LengthUnit;
 
 /// The contents of a modal dialog.
 #[derive(Debug)]
@@ -57,6 +58,40 @@ pub fn dialog_ui(context: &Context, dialog: &mut Dialog, editor: &Editor) -> Opt
         });
     let closes = modal.should_close();
     modal.inner.or(closes.then_some(Decision::Close))
+}
+
+/// Ask for the unit of a document that receives curves in another unit. Returns the answer once there is one:
+/// `None` adds nothing.
+pub fn unit_ui(context: &Context, incoming: LengthUnit) -> Option<Option<LengthUnit>> {
+    let frame = widgets::dialog_frame(&context.global_style());
+    let modal = Modal::new(Id::unique("unit"))
+        .frame(frame)
+        .show(context, |ui| {
+            ui.spacing_mut().item_spacing.y = 2.0 * STEP;
+            ui.set_width(400.0);
+            ui.strong("Choose the document's unit");
+            let name = incoming.name();
+            widgets::note(
+                ui,
+                &format!("The curves to add are in {name}; the document states no unit."),
+            );
+            let mut answer = None;
+            ui.horizontal(|ui| {
+                for unit in LengthUnit::ALL {
+                    if ui.button(unit.name()).clicked() {
+                        answer = Some(Some(unit));
+                    }
+                }
+                widgets::at_right(ui, |ui| {
+                    if ui.button("Cancel").clicked() {
+                        answer = Some(None);
+                    }
+                });
+            });
+            answer
+        });
+    let closes = modal.should_close();
+    modal.inner.or(closes.then_some(None))
 }
 
 fn unsaved_ui(ui: &mut Ui, after: &AfterDiscard, editor: &Editor) -> Option<Decision> {

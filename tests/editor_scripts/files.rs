@@ -3,9 +3,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use batten::document::Extras;
-use batten::editor::{Command, Export, Note};
-use batten::geometry::PolygonKind;
+use batten::document::{Curve, Document, Extras};
+use batten::editor::{Command, Editor, Export, Note};
+use batten::geometry::expressions::LengthUnit;
+use batten::geometry::{FloatPolygon, PolygonKind};
 use batten::io::disk;
 use glam::DVec2;
 use tempfile::TempDir;
@@ -218,4 +219,81 @@ fn several_projects_become_one_without_what_each_says_of_itself() {
             .iter()
             .all(|curve| curve.extras.iter().count() == 1)
     );
+}
+
+/// A document with a curve from x = 0 to x = 2.
+fn in_unit(unit: Option<LengthUnit>) -> Document {
+    let polygon = FloatPolygon::planar(2, &[(0.0, 0.0), (1.0, 1.0), (2.0, 0.0)]);
+    let curve = Curve::new("arc".to_owned(), polygon.expect("a polygon"));
+    Document::from_curves([curve]).with_unit(unit)
+}
+
+/// Write such a document to a project.
+fn project_in(folder: &TempDir, name: &str, unit: Option<LengthUnit>) -> PathBuf {
+    let path = folder.path().join(name);
+    disk::write_document(&path, &in_unit(unit), None).expect("a project");
+    path
+}
+
+/// The widths of all curves, and the unit.
+fn widths(editor: &Editor) -> (Vec<f64>, Option<LengthUnit>) {
+    let curves = editor.document().curves();
+    let width = |curve: &Curve| curve.polygon.vertex(2).x - curve.polygon.vertex(0).x;
+    let widths = curves.map(|(_, curve)| width(curve)).collect();
+    (widths, editor.document().unit())
+}
+
+const MM: Option<LengthUnit> = Some(LengthUnit::Millimetre);
+const INCH: Option<LengthUnit> = Some(LengthUnit::Inch);
+
+#[test]
+fn files_in_several_units_are_imported_in_that_of_the_document() {
+    let folder = folder();
+    let [inch, mm, none] = [("inch", INCH), ("mm", MM), ("none", None)]
+        .map(|(name, unit)| project_in(&folder, &format!("{name}.batten"), unit));
+    let mut editor = Editor::with_document(in_unit(MM));
+    let note = editor.import(&[inch.clone(), mm, none]).expect("curves");
+    assert_eq!(widths(&editor), (vec![2.0, 50.8, 2.0, 2.0], MM));
+    let [converted, counted] = [
+        "inch.batten: converted from inches to millimetres",
+        "none.batten: no unit given: the numbers count in millimetres",
+    ];
+    assert!(note.text.contains(converted) && note.text.contains(counted), "{}", note.text);
+    editor.execute(Command::Undo).expect("one step");
+    assert_eq!(widths(&editor), (vec![2.0], MM));
+    // Opened together, the first file states the unit.
+    editor.open(&[inch.clone(), project_in(&folder, "b.batten", MM)]).expect("curves");
+    let (opened, unit) = widths(&editor);
+    assert!(unit == INCH && (opened[1] - 2.0 / 25.4).abs() < 1e-15, "{opened:?}");
+}
+
+#[test]
+fn a_document_without_a_unit_is_asked_for_it() {
+    let folder = folder();
+    let inch = project_in(&folder, "inch.batten", INCH);
+    for (answer, expected) in [
+        (None, (vec![2.0], None)),
+        (MM, (vec![2.0, 50.8], MM)),
+        (INCH, (vec![2.0, 2.0], INCH)),
+    ] {
+        let mut editor = Editor::with_document(in_unit(None));
+        editor.import(std::slice::from_ref(&inch)).expect("a question");
+        assert_eq!(editor.unit_question(), Some(LengthUnit::Inch));
+        assert_eq!(widths(&editor), (vec![2.0], None));
+        editor.answer_unit(answer).expect("an answer");
+        assert_eq!(editor.unit_question(), None);
+        assert_eq!(widths(&editor), expected);
+    }
+}
+
+#[test]
+fn the_clipboard_keeps_the_size_of_curves() {
+    let mut copied = Editor::with_document(in_unit(INCH));
+    let curve = copied.document().ids().next().expect("a curve");
+    copied.activate(curve);
+    let text = copied.copy().expect("a text");
+    let mut editor = Editor::with_document(in_unit(MM));
+    editor.paste_text(&text).expect("a curve");
+    let (pasted, unit) = widths(&editor);
+    assert!(unit == MM && (pasted[1] - 50.8).abs() < 1e-12, "{pasted:?}");
 }

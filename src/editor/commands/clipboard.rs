@@ -5,10 +5,11 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::document::{
-    Curve, CurveId, Document, Extras, LockedVertices, Reference, free_name, quoted,
+    Curve, CurveId, Document, Edit, Extras, LockedVertices, Reference, free_name, quoted,
 };
 use crate::editor::Editor;
-use crate::editor::reply::{Note, Refusal, Reply, with_lines};
+use crate::editor::jobs::filing::{Incoming, Purpose, ReadDocument};
+use crate::editor::reply::{Note, Refusal, Reply};
 use crate::geometry::references::Placement;
 use crate::geometry::{FloatPolygon, PolygonKind, counted};
 use crate::io::{Export as Exported, Format, Reading, WriteError};
@@ -75,9 +76,17 @@ impl Editor {
         if read.is_empty() {
             return Ok(Note::told("There are no curves on the clipboard"));
         }
-        let text = with_lines(format!("{} pasted", read.counted()), &read.remarks);
-        self.add_copies("Paste", read.curves, read.references)?;
-        Ok(Note::done(text))
+        let remarks = read.remarks.to_string();
+        let read = ReadDocument {
+            document: read.into_document()?,
+            name: String::new(),
+            remarks,
+        };
+        let incoming = Incoming {
+            purpose: Purpose::Paste,
+            documents: vec![read],
+        };
+        self.merge(incoming, None)
     }
 
     fn text_of_selection(&self) -> Result<String, Refusal> {
@@ -90,13 +99,14 @@ impl Editor {
         let is_whole = |(id, curve): &(CurveId, Arc<Curve>)| {
             self.hand.selection.of_curve(*id).count() == curve.polygon.vertices().len()
         };
+        let unit = self.document().unit();
         let reference = self.active_reference().filter(|_| selected.is_empty());
         let text = if let Some((_, reference)) = reference {
             let copied = Reference {
                 extras: Extras::default(),
                 ..Reference::clone(&reference)
             };
-            let document = Document::default().with_references([copied]);
+            let document = Document::default().with_references([copied]).with_unit(unit);
             text_of(Format::Batten.write_document(&document, None))
         } else if selected.iter().all(is_whole) {
             let whole = selected.into_iter().map(|(_, curve)| curve);
@@ -108,7 +118,8 @@ impl Editor {
             for curve in &mut copied {
                 curve.extras = Extras::default();
             }
-            text_of(Format::Batten.write(&copied, &Extras::default(), None))
+            let document = Document::from_curves(copied).with_unit(unit);
+            text_of(Format::Batten.write_document(&document, None))
         } else {
             let tables = selected
                 .iter()
@@ -130,12 +141,13 @@ impl Editor {
     }
 
     /// Add copies a little aside, named anew, they and their vertices unlocked, and not matched. What their file said of the curves
-    /// that Batten does not know, such as a number of their own, is not copied.
+    /// that Batten does not know, such as a number of their own, is not copied. The step begins with other edits.
     pub(in crate::editor) fn add_copies(
         &mut self,
         label: &str,
         curves: Vec<Curve>,
         references: Vec<Reference>,
+        before: Vec<Edit>,
     ) -> Reply {
         let offset = OFFSET * self.view.viewport.pixel() * DVec3::new(1.0, -1.0, 0.0);
         let mut names: Vec<String> = self.document().names().map(str::to_owned).collect();
@@ -179,7 +191,7 @@ impl Editor {
                 ..reference
             });
         }
-        self.add(label, copies)
+        self.add(label, before, copies)
     }
 
     /// The selected vertices of a curve as a table, with a header line if they make a curve: its
@@ -203,7 +215,8 @@ impl Editor {
         let part = FloatPolygon::new(degree, vertices, weights, false);
         let part = part.map_err(|error| format!("{}: {error}", quoted(&curve.name)))?;
         let part = Curve::new(curve.name.clone(), part);
-        text_of(Format::Csv.write(&[part], &Extras::default(), Some(PolygonKind::Float)))
+        let part = Document::from_curves([part]).with_unit(self.document().unit());
+        text_of(Format::Csv.write_document(&part, Some(PolygonKind::Float)))
     }
 }
 

@@ -262,7 +262,7 @@ impl Editor {
     fn execute_on(&mut self, command: Command, id: CurveId, curve: &Arc<Curve>) -> Reply {
         match command {
             Command::Duplicate => {
-                self.add_copies("Duplicate curve", vec![Curve::clone(curve)], Vec::new())
+                self.add_copies("Duplicate curve", vec![Curve::clone(curve)], Vec::new(), Vec::new())
             }
             Command::DeleteCurve => {
                 curve.check_unlocked()?;
@@ -285,7 +285,7 @@ impl Editor {
         match command {
             Command::Duplicate => {
                 let copy = vec![Reference::clone(reference)];
-                self.add_copies("Duplicate reference", Vec::new(), copy)
+                self.add_copies("Duplicate reference", Vec::new(), copy, Vec::new())
             }
             Command::DeleteCurve => {
                 reference.check_unlocked()?;

@@ -4,10 +4,8 @@ use std::path::{Path, PathBuf};
 
 use crate::document::{Curve, CurveId, Document, Edit, EndMatch, Reference};
 use crate::editor::jobs::filing::{FileResult, FileTask, FileWork};
-use crate::editor::reply::{Message, Note, Refusal, Reply, with_lines};
-use crate::editor::view::Look;
+use crate::editor::reply::{Message, Note, Refusal, Reply};
 use crate::editor::{Editor, Export};
-use crate::geometry::expressions::LengthUnit;
 use crate::io::Reading;
 use crate::io::examples::EXAMPLES;
 
@@ -213,7 +211,7 @@ impl Editor {
                 self.document_changed();
                 Ok(Note::done(text))
             }
-            FileResult::Imported { reading, remarks } => self.add_files(reading, &remarks),
+            FileResult::Read(incoming) => self.merge(incoming, None),
             FileResult::Saved {
                 path,
                 document,
@@ -239,23 +237,15 @@ impl Editor {
         self.workspace.revision() != work.revision
     }
 
-    fn add_files(&mut self, reading: Reading, remarks: &str) -> Reply {
-        let mut text = format!("{} added", reading.counted());
-        let foreign = |unit: &LengthUnit| self.document().unit() != Some(*unit);
-        if let Some(unit) = reading.unit.filter(foreign) {
-            let name = unit.name();
-            text += &format!("; what is added is in {name}, and its numbers stay as they are");
-        }
-        self.add("Import curves", reading)?;
-        self.look(Look::All);
-        Ok(Note::done(with_lines(text, &remarks)))
-    }
-
-    /// Add curves and references, with the matches between them, as one step and make the first of them
+    /// Make some edits, and add curves and references with the matches between them, as one step and make the first of them
     /// active.
-    pub(in crate::editor) fn add(&mut self, label: &str, added: Reading) -> Reply {
+    pub(in crate::editor) fn add(
+        &mut self,
+        label: &str,
+        before: Vec<Edit>,
+        added: Reading,
+    ) -> Reply {
         self.interrupt();
-        let first = self.document().next_id();
         let mut ids = self.document().next_ids();
         let curves: Vec<CurveId> = ids.by_ref().take(added.curves.len()).collect();
         let references: Vec<CurveId> = ids.take(added.references.len()).collect();
@@ -266,10 +256,18 @@ impl Editor {
         let reference = |reference: Reference| Edit::AddReference(Box::new(reference));
         let curves = added.curves.into_iter().map(curve);
         let references = added.references.into_iter().map(reference);
-        let edits = curves
+        let edits = before
+            .into_iter()
+            .chain(curves)
             .chain(references)
             .chain(matches.into_iter().map(Edit::SetMatch))
             .collect();
+        self.add_by(label, edits)
+    }
+
+    /// Make edits that add items as one step, and make the first of them active.
+    pub(in crate::editor) fn add_by(&mut self, label: &str, edits: Vec<Edit>) -> Reply {
+        let first = self.document().next_id();
         let added = self.make(label, edits, false)?;
         if self.document().name(first).is_some() {
             self.hand.selection.clear();
@@ -281,6 +279,7 @@ impl Editor {
     /// Put another document in the place of this one.
     pub(in crate::editor) fn replace(&mut self, document: Document, path: Option<PathBuf>) {
         self.interrupt();
+        self.unit_question = None;
         self.workspace.replace(document, path);
         self.document_replaced();
     }

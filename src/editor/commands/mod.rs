@@ -7,6 +7,7 @@ mod execute;
 mod files;
 mod foreseen;
 mod locking;
+mod merging;
 mod operating;
 pub(in crate::editor) mod polygon_edits;
 mod recovering;
@@ -15,4 +16,5 @@ mod units;
 
 pub use command::{Command, Shortcut};
 pub use files::FileReply;
+pub(in crate::editor) use merging::UnitQuestion;
 pub use references::ReferenceChange;

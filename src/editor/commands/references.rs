@@ -146,7 +146,7 @@ impl Editor {
             references,
             ..Reading::default()
         };
-        self.add("Add reference", added)?;
+        self.add("Add reference", Vec::new(), added)?;
         if let Some(id) = self.active_reference_id() {
             self.look(Look::New(vec![id]));
         }

@@ -10,7 +10,7 @@ use crate::editor::reply::{Refusal, with_lines};
 use crate::editor::report::Export;
 use crate::editor::workspace::Workspace;
 use crate::geometry::counted;
-use crate::io::{FileError, Fingerprint, Format, Reading, disk, shown_path};
+use crate::io::{Fingerprint, Format, disk, shown_path};
 
 /// Read and write files, and watch the document's own file.
 #[derive(Debug, Default)]
@@ -68,10 +68,8 @@ pub(in crate::editor) enum FileResult {
         fingerprint: Fingerprint,
         text: String,
     },
-    Imported {
-        reading: Reading,
-        remarks: String,
-    },
+    /// Documents to be merged.
+    Read(Incoming),
     Saved {
         path: PathBuf,
         document: Document,
@@ -83,6 +81,33 @@ pub(in crate::editor) enum FileResult {
     Exported {
         text: String,
     },
+}
+
+/// Documents that were read, to be merged by the rule for units.
+#[derive(Clone, Debug)]
+pub(in crate::editor) struct Incoming {
+    pub purpose: Purpose,
+    pub documents: Vec<ReadDocument>,
+}
+
+/// A document that was read, with the remarks on it.
+#[derive(Clone, Debug)]
+pub(in crate::editor) struct ReadDocument {
+    pub document: Document,
+    /// The prefix of its remarks, as "hull.csv: ".
+    pub name: String,
+    pub remarks: String,
+}
+
+/// What becomes of merged documents.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::editor) enum Purpose {
+    /// They replace the document.
+    Open,
+    /// They are added.
+    Import,
+    /// Copies of them are added.
+    Paste,
 }
 
 impl Filing {
@@ -164,6 +189,17 @@ impl Filing {
     }
 }
 
+impl FileResult {
+    /// Whether the result takes the place of the document.
+    pub fn replaces(&self) -> bool {
+        match self {
+            Self::Opened { .. } | Self::Reloaded { .. } => true,
+            Self::Read(incoming) => incoming.purpose == Purpose::Open,
+            _ => false,
+        }
+    }
+}
+
 impl FileTask {
     /// What the window says while the task is not finished.
     fn text(&self) -> String {
@@ -188,13 +224,10 @@ impl FileTask {
         match self {
             Self::Open(paths) => match paths.as_slice() {
                 [path] => open(path, autosaver),
-                paths => open_together(paths),
+                paths => read_all(paths, Purpose::Open),
             },
             Self::Reload(path) => reload(&path),
-            Self::Import(paths) => {
-                let (reading, remarks) = read_together(&paths)?;
-                Ok(FileResult::Imported { reading, remarks })
-            }
+            Self::Import(paths) => read_all(&paths, Purpose::Import),
             Self::Save {
                 path,
                 document,
@@ -224,16 +257,6 @@ fn open(path: &Path, autosaver: Option<&Autosaver>) -> Result<FileResult, Refusa
         document,
         own: own.map(|own| (own, fingerprint)),
         text: with_lines(text, &elsewhere.unwrap_or_default()),
-    })
-}
-
-fn open_together(paths: &[PathBuf]) -> Result<FileResult, Refusal> {
-    let (reading, remarks) = read_together(paths)?;
-    let text = format!("{} read from {} files", reading.counted(), paths.len());
-    Ok(FileResult::Opened {
-        document: reading.into_document()?,
-        own: None,
-        text: with_lines(text, &remarks),
     })
 }
 
@@ -322,20 +345,19 @@ fn export_visible(
     })
 }
 
-/// Read the curves of several files, with the remarks on each.
-fn read_together(paths: &[PathBuf]) -> Result<(Reading, String), FileError> {
-    let mut together = Reading::default();
-    let mut lines = Vec::new();
-    for path in paths {
-        let reading = disk::read_file(path)?;
-        let remarks = reading.remarks.to_string();
-        together.append(reading);
-        let named = remarks
-            .lines()
-            .map(|remark| format!("{}: {remark}", shown_path(path)));
-        lines.extend(named);
-    }
-    Ok((together, lines.join("\n")))
+/// Read several files, to be merged.
+fn read_all(paths: &[PathBuf], purpose: Purpose) -> Result<FileResult, Refusal> {
+    let documents = paths.iter().map(|path| {
+        let mut reading = disk::read_file(path)?;
+        let remarks = std::mem::take(&mut reading.remarks).to_string();
+        Ok(ReadDocument {
+            document: reading.into_document()?,
+            name: format!("{}: ", shown_path(path)),
+            remarks,
+        })
+    });
+    let documents = documents.collect::<Result<_, Refusal>>()?;
+    Ok(FileResult::Read(Incoming { purpose, documents }))
 }
 
 /// The line that another window has a file open; empty if none has.

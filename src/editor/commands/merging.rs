@@ -1,0 +1,128 @@
+//! Adding documents that were read, in the document's unit. Where only they state a unit, the window asks
+//! for that of the document.
+
+use crate::document::{Curve, Document, Edit, MergeError, Reference};
+use crate::editor::Editor;
+use crate::editor::jobs::filing::{Incoming, Purpose};
+use crate::editor::reply::{Note, Refusal, Reply, with_lines};
+use crate::editor::view::Look;
+use crate::geometry::expressions::LengthUnit;
+use crate::io::counted_items;
+
+/// A question for the unit of the document, with what waits for the answer.
+#[derive(Debug)]
+pub(in crate::editor) struct UnitQuestion {
+    /// The unit of the incoming document.
+    incoming: LengthUnit,
+    waiting: Incoming,
+}
+
+/// Merged documents: the edits that add them, their remarks, and the receiving document afterwards.
+struct Merged {
+    edits: Vec<Edit>,
+    lines: Vec<String>,
+    document: Document,
+}
+
+impl Editor {
+    /// The unit of documents that cannot be added until [`Editor::answer_unit`] gives the unit of the
+    /// document that receives them.
+    pub fn unit_question(&self) -> Option<LengthUnit> {
+        self.unit_question.as_ref().map(|asked| asked.incoming)
+    }
+
+    /// Answer the question for the document's unit; `None` adds nothing. The reply is told.
+    ///
+    /// # Errors
+    /// [`Refusal`] if the documents cannot be added; nothing is changed then.
+    pub fn answer_unit(&mut self, unit: Option<LengthUnit>) -> Reply {
+        let reply = match (self.unit_question.take(), unit) {
+            (Some(question), Some(_)) => self.merge(question.waiting, unit),
+            _ => Ok(Note::silent()),
+        };
+        self.tell(reply)
+    }
+
+    /// Merge documents by the one rule for units; `assumed` is the unit of those that state none.
+    pub(in crate::editor) fn merge(
+        &mut self,
+        incoming: Incoming,
+        assumed: Option<LengthUnit>,
+    ) -> Reply {
+        self.interrupt();
+        let receiving = match incoming.purpose {
+            Purpose::Open => Document::default(),
+            Purpose::Import | Purpose::Paste => self.document().clone(),
+        };
+        let merged = match merged(receiving, &incoming, assumed) {
+            Err(MergeError::NoUnit { incoming: unit }) => {
+                self.unit_question = Some(UnitQuestion {
+                    incoming: unit,
+                    waiting: incoming,
+                });
+                return Ok(Note::silent());
+            }
+            merged => merged.map_err(|error| Refusal(error.to_string()))?,
+        };
+        let documents = incoming.documents.iter().map(|read| &read.document);
+        let [curves, references] = documents.fold([0, 0], |[curves, references], document| {
+            let [more_curves, more_references] =
+                [document.curves().count(), document.references().count()];
+            [curves + more_curves, references + more_references]
+        });
+        let counted = counted_items(curves, references);
+        let lines = merged.lines.join("\n");
+        match incoming.purpose {
+            Purpose::Open => {
+                self.replace(merged.document, None);
+                let files = incoming.documents.len();
+                let text = format!("{counted} read from {files} files");
+                Ok(Note::told(with_lines(text, &lines)))
+            }
+            Purpose::Import => {
+                self.add_by("Import curves", merged.edits)?;
+                self.look(Look::All);
+                Ok(Note::done(with_lines(format!("{counted} added"), &lines)))
+            }
+            Purpose::Paste => {
+                self.paste_merged(merged.edits)?;
+                Ok(Note::done(with_lines(format!("{counted} pasted"), &lines)))
+            }
+        }
+    }
+
+    /// Paste the items that edits would add, in the unit that they set. Matches are not pasted.
+    fn paste_merged(&mut self, edits: Vec<Edit>) -> Reply {
+        let (mut curves, mut references, mut others) = (Vec::new(), Vec::new(), Vec::new());
+        for edit in edits {
+            match edit {
+                Edit::Add(curve) => curves.push(Curve::clone(&curve)),
+                Edit::AddReference(reference) => references.push(Reference::clone(&reference)),
+                Edit::SetMatch(_) => {}
+                other => others.push(other),
+            }
+        }
+        self.add_copies("Paste", curves, references, others)
+    }
+}
+
+fn merged(
+    mut document: Document,
+    incoming: &Incoming,
+    assumed: Option<LengthUnit>,
+) -> Result<Merged, MergeError> {
+    let (mut edits, mut lines) = (Vec::new(), Vec::new());
+    for read in &incoming.documents {
+        let merge = document.merging(&read.document, assumed)?;
+        document = document.edited(merge.edits.clone())?;
+        edits.extend(merge.edits);
+        let remark = merge.remark.map(|remark| remark.to_string());
+        let remarks = read.remarks.lines().map(str::to_owned).chain(remark);
+        lines.extend(remarks.map(|remark| format!("{}{remark}", read.name)));
+    }
+    Ok(Merged {
+        edits,
+        lines,
+        document,
+    })
+}
