@@ -38,11 +38,11 @@ pub use workspace::{Interruption, PreviewId, Workspace};
 
 use crate::document::{CurveId, Document, Edit, quoted};
 use crate::io::examples::{EXAMPLES, FIRST};
+use commands::UnitQuestion;
 use hand::gesture::Gesture;
 use hand::snapping::snap_name;
 use hand::tools::Tools;
 use jobs::autosaving::Autosaving;
-use commands::UnitQuestion;
 use jobs::filing::Filing;
 use jobs::foreseeing::Foreseeing;
 use jobs::patience::Patience;

@@ -3,8 +3,8 @@
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
-use batten::document::Edit;
-use batten::editor::{Command, FeatureKind};
+use batten::document::{Curve, Document, Edit};
+use batten::editor::{Command, Editor, FeatureKind, Look};
 use batten::geometry::FloatPolygon;
 use batten::geometry::features::Features;
 use glam::{DVec2, DVec3};
@@ -28,10 +28,11 @@ fn long() -> Script {
         .map(|index| (f64::from(index), (0.37 * f64::from(index)).sin()))
         .collect();
     let polygon = FloatPolygon::planar(3, &points).expect("a polygon");
-    let mut script = Script::example("arc");
-    let curve = script.curve();
-    let edit = Edit::SetPolygon { curve, polygon };
-    script.editor.apply("long", vec![edit]).expect("an edit");
+    let document = Document::from_curves([Curve::new("long", polygon)]);
+    let mut editor = Editor::with_document(document);
+    editor.look(Look::Canvas(DVec2::new(1000.0, 700.0)));
+    let mut script = Script { editor };
+    script.check();
     script
 }
 

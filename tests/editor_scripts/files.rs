@@ -258,13 +258,22 @@ fn files_in_several_units_are_imported_in_that_of_the_document() {
         "inch.batten: converted from inches to millimetres",
         "none.batten: no unit given: the numbers count in millimetres",
     ];
-    assert!(note.text.contains(converted) && note.text.contains(counted), "{}", note.text);
+    assert!(
+        note.text.contains(converted) && note.text.contains(counted),
+        "{}",
+        note.text
+    );
     editor.execute(Command::Undo).expect("one step");
     assert_eq!(widths(&editor), (vec![2.0], MM));
     // Opened together, the first file states the unit.
-    editor.open(&[inch.clone(), project_in(&folder, "b.batten", MM)]).expect("curves");
+    editor
+        .open(&[inch.clone(), project_in(&folder, "b.batten", MM)])
+        .expect("curves");
     let (opened, unit) = widths(&editor);
-    assert!(unit == INCH && (opened[1] - 2.0 / 25.4).abs() < 1e-15, "{opened:?}");
+    assert!(
+        unit == INCH && (opened[1] - 2.0 / 25.4).abs() < 1e-15,
+        "{opened:?}"
+    );
 }
 
 #[test]
@@ -277,7 +286,9 @@ fn a_document_without_a_unit_is_asked_for_it() {
         (INCH, (vec![2.0, 2.0], INCH)),
     ] {
         let mut editor = Editor::with_document(in_unit(None));
-        editor.import(std::slice::from_ref(&inch)).expect("a question");
+        editor
+            .import(std::slice::from_ref(&inch))
+            .expect("a question");
         assert_eq!(editor.unit_question(), Some(LengthUnit::Inch));
         assert_eq!(widths(&editor), (vec![2.0], None));
         editor.answer_unit(answer).expect("an answer");

@@ -106,7 +106,9 @@ impl Editor {
                 extras: Extras::default(),
                 ..Reference::clone(&reference)
             };
-            let document = Document::default().with_references([copied]).with_unit(unit);
+            let document = Document::default()
+                .with_references([copied])
+                .with_unit(unit);
             text_of(Format::Batten.write_document(&document, None))
         } else if selected.iter().all(is_whole) {
             let whole = selected.into_iter().map(|(_, curve)| curve);

@@ -261,9 +261,12 @@ impl Editor {
     /// Do what is done to the active curve.
     fn execute_on(&mut self, command: Command, id: CurveId, curve: &Arc<Curve>) -> Reply {
         match command {
-            Command::Duplicate => {
-                self.add_copies("Duplicate curve", vec![Curve::clone(curve)], Vec::new(), Vec::new())
-            }
+            Command::Duplicate => self.add_copies(
+                "Duplicate curve",
+                vec![Curve::clone(curve)],
+                Vec::new(),
+                Vec::new(),
+            ),
             Command::DeleteCurve => {
                 curve.check_unlocked()?;
                 self.delete_whole(id, &curve.name)

@@ -188,9 +188,9 @@ impl Editor {
     /// Apply the result of a task to the document.
     fn take_files(&mut self, work: &FileWork, result: FileResult) -> Reply {
         match result {
-            FileResult::Opened { .. } | FileResult::Reloaded { .. } if self.is_later(work) => Err(
-                Refusal::from("The document was changed while the file was read: open it again"),
-            ),
+            result if result.replaces() && self.is_later(work) => Err(Refusal::from(
+                "The document was changed while the file was read: open it again",
+            )),
             FileResult::Opened {
                 document,
                 own,
