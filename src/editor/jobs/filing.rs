@@ -389,3 +389,54 @@ pub fn with_extension(path: &Path, extension: &str) -> PathBuf {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc::channel;
+    use std::time::Duration;
+
+    use super::*;
+    use crate::document::Edit;
+    use crate::editor::Editor;
+
+    /// Longer than any job here takes.
+    const LONG: Duration = Duration::from_secs(60);
+
+    #[test]
+    fn a_document_that_is_changed_while_a_file_is_read_stays() {
+        let mut editor = Editor::new();
+        let (sender, woken) = channel();
+        editor.run_in_background(Duration::ZERO, move || sender.send(()).unwrap_or_default());
+        // A file that is read as slowly as the test wants.
+        let (lets_go, held) = channel::<()>();
+        let job = move |_: &_| {
+            held.recv().unwrap_or_default();
+            Some(Ok(FileResult::Opened {
+                document: Document::default(),
+                own: None,
+                text: "read".to_owned(),
+            }))
+        };
+        let work = FileWork {
+            text: "Opening slow.batten…".to_owned(),
+            revision: editor.workspace().revision(),
+            opening: editor.workspace().opening(),
+        };
+        editor.filing.client.start(work, job, None);
+        let busy = editor.save(Path::new("other.batten"));
+        let busy = busy.expect_err("one task at a time").to_string();
+        assert!(busy.starts_with("Opening slow.batten…"), "{busy}");
+        let curve = editor.active().expect("a curve");
+        let name = "renamed".to_owned();
+        let renamed = editor.apply("Rename", vec![Edit::Rename { curve, name }]);
+        renamed.expect("an edit");
+        lets_go.send(()).expect("the job is held");
+        while editor.file_work().is_some() {
+            woken.recv_timeout(LONG).expect("the frame is woken");
+            editor.begin_frame();
+        }
+        let reply = editor.take_file_reply().expect("the final reply").reply;
+        assert!(reply.is_err_and(|refusal| refusal.0.contains("changed while")));
+        assert_eq!(editor.document().name(curve), Some("renamed"));
+    }
+}
