@@ -6,15 +6,15 @@ use std::thread;
 use std::time::Duration;
 
 use anyhow::{Context, anyhow, bail};
-use glam::DVec3;
 
 use super::apply_arguments::misused;
 use super::ends::{Destination, Source};
 use super::output;
 use super::progress::Progress as Line;
-use crate::document::{Curve, CurveId, Document, Edit, quoted};
+use crate::document::{Curve, CurveId, Document, Edit, MergeError, quoted};
 use crate::geometry::Progress;
-use crate::io::{Reading, json_layout};
+use crate::geometry::expressions::LengthUnit;
+use crate::io::json_layout;
 use crate::operations::{ALL, Inputs, Operands, Operation, OperationError, Outcome, Report, Value};
 
 /// The exit code of arguments that cannot be used.
@@ -37,6 +37,8 @@ pub(super) struct Application {
     pub(super) curves: [Option<String>; 2],
     /// The values of the parameters that are given.
     pub(super) values: Vec<(&'static str, Value)>,
+    /// The unit of what states none.
+    pub(super) assumed_unit: Option<LengthUnit>,
     /// Whether the best found is written where what was asked for is not reached.
     pub(super) best: bool,
     /// Whether the report is printed as text, not as JSON.
@@ -116,106 +118,94 @@ impl Application {
     }
 
     fn input(&self) -> anyhow::Result<Operands> {
-        let reading = match &self.source {
-            Some(source) => source.read()?,
-            None => Reading::default(),
+        let document = match &self.source {
+            Some(source) => source.document(self.assumed_unit)?,
+            None => Document::default(),
         };
         let second = self.second.as_ref().map(|source| {
-            let document = source.read()?.into_document()?;
-            self.second_curve(&document).with_context(|| source.name())
+            let document = source.document(self.assumed_unit)?;
+            let chosen = self.only_second(&document);
+            chosen.with_context(|| source.name())
         });
         let second = second.transpose()?;
-        self.chosen(reading, second).with_context(|| self.place())
+        self.chosen(document, second).with_context(|| self.place())
     }
 
-    /// Choose what the operation works on of what was read.
-    fn chosen(&self, reading: Reading, second: Option<Curve>) -> anyhow::Result<Operands> {
-        let document = reading.into_document()?;
-        match self.operation.inputs {
-            Inputs::None | Inputs::UpToTwo => Ok(Operands::new(&document, [])?),
-            Inputs::OneOrNone if self.source.is_none() => Ok(Operands::new(&document, [])?),
-            Inputs::One => Ok(Operands::new(&document, [self.curve(&document, 0)?])?),
-            Inputs::OneOrNone => self.curve_or_reference(&document),
-            Inputs::Two => match second {
-                None => Ok(Operands::new(&document, self.two_curves(&document)?)?),
-                Some(second) => self.with_second(document, second),
-            },
-            Inputs::Points => {
-                let curves = document.curves();
-                let curves = curves.map(|(_, curve)| curve.polygon.vertices().to_vec());
-                let lists = document.references().filter_map(|(_, it)| it.points());
-                let mut tables: Vec<Vec<DVec3>> = curves.chain(lists).collect();
-                let count = tables.len();
-                let Some(points) = tables.pop().filter(|_| count == 1) else {
-                    bail!("a table of points is needed, and there are {count} curves and lists");
-                };
-                Ok(Operands::new(&Document::default(), [])?.with_points(points))
+    /// Choose what the operation works on in a document and, if it is given, in that of a second file.
+    fn chosen(&self, document: Document, second: Option<Document>) -> anyhow::Result<Operands> {
+        let inputs = self.operation.inputs;
+        let choose =
+            |active, others: &[CurveId]| Ok(Operands::choose(&document, inputs, active, others)?);
+        match (inputs, second) {
+            (Inputs::None | Inputs::UpToTwo, _) => choose(None, &[]),
+            (Inputs::OneOrNone, _) if self.source.is_none() => choose(None, &[]),
+            (Inputs::Two, Some(second)) => self.with_second(document, &second),
+            (Inputs::Two, None) => {
+                let items = items(&document, inputs);
+                let named = |name: &String| found(&items, inputs, name);
+                match (&self.curves, &items[..]) {
+                    ([Some(first), Some(second)], _) => {
+                        choose(Some(named(first)?), &[named(second)?])
+                    }
+                    ([Some(first), None], [_, _]) => choose(Some(named(first)?), &[]),
+                    ([None, None], [(first, _), _]) => choose(Some(*first), &[]),
+                    (_, []) => bail!("there is no curve"),
+                    _ => bail!("choose two with --curve and --with: {}", listed(&items)),
+                }
             }
+            _ => choose(Some(self.item(&document, inputs, 0)?), &[]),
         }
     }
 
-    /// Find the curve that was named as the first or second; without a name, the only one.
-    fn curve(&self, document: &Document, place: usize) -> anyhow::Result<CurveId> {
-        if document.curves().len() == 0 {
-            bail!("there is no curve");
-        }
-        let mut ids = document.ids();
-        match (&self.curves[place], ids.next(), ids.next()) {
-            (Some(name), ..) => curve_named(document, name),
-            (None, Some(only), None) => Ok(only),
+    /// Find the item that was named as the first or second; without a name, the only one.
+    fn item(&self, document: &Document, inputs: Inputs, place: usize) -> anyhow::Result<CurveId> {
+        let items = items(document, inputs);
+        match (&self.curves[place], &items[..]) {
+            (_, []) => bail!(match inputs {
+                Inputs::OneOrNone => "there is neither a curve nor a reference",
+                Inputs::Points => "there is neither a curve nor a list of points",
+                _ => "there is no curve",
+            }),
+            (Some(name), _) => found(&items, inputs, name),
+            (None, [(only, _)]) => Ok(*only),
             _ => {
                 let option = ["--curve", "--with"][place];
-                bail!("choose one with {option}: {}", there_are(document))
+                bail!("choose one with {option}: {}", listed(&items))
             }
         }
     }
 
-    /// Choose the curve or reference that was named; without a name, the only one.
-    fn curve_or_reference(&self, document: &Document) -> anyhow::Result<Operands> {
-        let mut ids = document.all_ids();
-        let id = match (&self.curves[0], ids.next(), ids.next()) {
-            (Some(name), ..) => item_named(document, name)?,
-            (None, Some(only), None) => only,
-            (None, None, _) => bail!("there is neither a curve nor a reference"),
-            _ => bail!("choose one with --curve: {}", listed(document.names())),
-        };
-        Ok(match document.reference(id) {
-            None => Operands::new(document, [id])?,
-            Some(reference) => {
-                Operands::new(document, [])?.with_reference(Some(reference.curve.clone()))
-            }
-        })
+    /// Reduce the document of a second file to the second curve.
+    fn only_second(&self, document: &Document) -> anyhow::Result<Document> {
+        let id = self.item(document, Inputs::Two, 1)?;
+        let curve = document.curve(id).context("there is no curve")?;
+        Ok(Document::from_curves([Curve::clone(curve)]).with_unit(document.unit()))
     }
 
-    /// Find the two curves that were named; without names, both if there are just two.
-    fn two_curves(&self, document: &Document) -> anyhow::Result<Vec<CurveId>> {
-        match &self.curves {
-            [Some(first), Some(second)] => [first, second]
-                .into_iter()
-                .map(|name| curve_named(document, name))
-                .collect(),
-            [None, None] if document.curves().len() == 2 => Ok(document.ids().collect()),
-            _ if document.curves().len() == 0 => bail!("there is no curve"),
-            _ => bail!(
-                "choose two with --curve and --with: {}",
-                there_are(document)
-            ),
-        }
-    }
-
-    /// Find the second curve in a file of its own.
-    fn second_curve(&self, document: &Document) -> anyhow::Result<Curve> {
-        let curve = document.curve(self.curve(document, 1)?);
-        Ok(Curve::clone(curve.context("there is no curve")?))
-    }
-
-    /// Add the second curve to the document that has the first one.
-    fn with_second(&self, mut document: Document, mut second: Curve) -> anyhow::Result<Operands> {
-        let first = self.curve(&document, 0)?;
-        second.name = document.free_name(&second.name);
+    /// Merge the second curve into the document that has the first one.
+    fn with_second(&self, mut document: Document, second: &Document) -> anyhow::Result<Operands> {
+        let first = self.item(&document, Inputs::Two, 0)?;
         let id = document.next_id();
-        document.apply(Edit::Add(Box::new(second)))?;
-        Ok(Operands::new(&document, [first, id])?)
+        let name = |document: &Document| document.names().map(str::to_owned).next();
+        let name = document.free_name(&name(second).unwrap_or_default());
+        let merge = document.merging(second, self.assumed_unit);
+        let merge = merge.map_err(|error| match error {
+            MergeError::NoUnit { .. } => anyhow!("{error} with --assume-unit"),
+            error => error.into(),
+        })?;
+        if let (Some(remark), Some(source)) = (merge.remark, &self.second) {
+            output::message(&format!("{}: {remark}", source.name()));
+        }
+        for edit in merge.edits {
+            document.apply(edit)?;
+        }
+        document.apply(Edit::Rename { curve: id, name })?;
+        Ok(Operands::choose(
+            &document,
+            Inputs::Two,
+            Some(first),
+            &[id],
+        )?)
     }
 
     /// Run the operation on another thread, and tell how far it has come while it takes long.
@@ -256,53 +246,42 @@ impl Application {
     }
 }
 
-fn curve_named(document: &Document, name: &str) -> anyhow::Result<CurveId> {
-    let named = document.curves().filter(|(_, curve)| curve.name == name);
-    let found: Vec<CurveId> = named.map(|(id, _)| id).collect();
-    match found[..] {
-        [id] => Ok(id),
-        [] => Err(anyhow!(
-            "there is no curve {}: {}",
-            quoted(name),
-            there_are(document)
-        )),
-        _ => Err(anyhow!(
-            "there are {} curves {}: give them different names first",
-            found.len(),
-            quoted(name)
-        )),
+/// The curves of a document, and the references that an operation can work on, with their names.
+fn items(document: &Document, inputs: Inputs) -> Vec<(CurveId, &str)> {
+    let curves = document.curves();
+    let curves = curves.map(|(id, curve)| (id, curve.name.as_str()));
+    let references = document.references().filter(|(_, reference)| match inputs {
+        Inputs::OneOrNone => true,
+        Inputs::Points => reference.points().is_some(),
+        _ => false,
+    });
+    let references = references.map(|(id, reference)| (id, reference.name.as_str()));
+    curves.chain(references).collect()
+}
+
+/// Find an item by its name or, if none has this name, by its number, counted from 1.
+fn found(items: &[(CurveId, &str)], inputs: Inputs, name: &str) -> anyhow::Result<CurveId> {
+    let named = items.iter().filter(|(_, known)| *known == name);
+    let named: Vec<CurveId> = named.map(|(id, _)| *id).collect();
+    let number = name.parse::<usize>().ok();
+    let numbered = number.and_then(|number| items.get(number.checked_sub(1)?));
+    let [one, several] = match inputs {
+        Inputs::One | Inputs::Two => ["curve", "curves"],
+        _ => ["curve or reference", "curves and references"],
+    };
+    let name = quoted(name);
+    match (&named[..], numbered) {
+        ([id], _) | ([], Some((id, _))) => Ok(*id),
+        ([], None) => bail!("there is no {one} {name}: {}", listed(items)),
+        (several_named, _) => {
+            let count = several_named.len();
+            bail!("there are {count} {several} {name}: give them different names first")
+        }
     }
 }
 
-/// Find a curve or reference by its name.
-fn item_named(document: &Document, name: &str) -> anyhow::Result<CurveId> {
-    let named = document.all_ids().zip(document.names());
-    let found: Vec<CurveId> = named
-        .filter(|(_, known)| *known == name)
-        .map(|(id, _)| id)
-        .collect();
-    match found[..] {
-        [id] => Ok(id),
-        [] => Err(anyhow!(
-            "there is no curve or reference {}: {}",
-            quoted(name),
-            listed(document.names())
-        )),
-        _ => Err(anyhow!(
-            "there are {} curves and references {}: give them different names first",
-            found.len(),
-            quoted(name)
-        )),
-    }
-}
-
-/// List the curves of a document by their names.
-fn there_are(document: &Document) -> String {
-    listed(document.curves().map(|(_, curve)| curve.name.as_str()))
-}
-
-fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
-    let names: Vec<String> = names.map(quoted).collect();
+fn listed(items: &[(CurveId, &str)]) -> String {
+    let names: Vec<String> = items.iter().map(|(_, name)| quoted(name)).collect();
     match &names[..] {
         [name] => format!("there is {name}"),
         names => format!("there are {}", names.join(", ")),

@@ -8,7 +8,8 @@ use clap::error::ErrorKind;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches, value_parser};
 
 use super::choice_parser::{Assignments, ChoiceParser, no_such_parameter};
-use super::parsers::format_parser;
+use super::parsers::{format_parser, unit_parser};
+use crate::geometry::expressions::LengthUnit;
 use crate::geometry::parameters::Quantity;
 use crate::geometry::references::{KINDS, ReferenceCurve};
 use crate::io::Format;
@@ -24,6 +25,7 @@ const CURVE: &str = "curve";
 const WITH: &str = "with";
 const FROM_FORMAT: &str = "from-format";
 const TO_FORMAT: &str = "to-format";
+const ASSUME_UNIT: &str = "assume-unit";
 const BEST: &str = "best";
 const TEXT: &str = "text";
 
@@ -55,6 +57,8 @@ pub(super) struct Given {
     pub(super) curves: [Option<String>; 2],
     /// The values of the parameters that are given.
     pub(super) values: Vec<(&'static str, Value)>,
+    /// The unit of what states none.
+    pub(super) assumed_unit: Option<LengthUnit>,
     /// Whether the best found is written where what was asked for is not reached.
     pub(super) best: bool,
     /// Whether the report is printed as text.
@@ -150,6 +154,7 @@ impl Given {
             to_format: format(TO_FORMAT),
             curves: [CURVE, WITH].map(name),
             values,
+            assumed_unit: matches.try_get_one(ASSUME_UNIT).ok().flatten().copied(),
             best: matches.get_flag(BEST),
             text: matches.get_flag(TEXT),
         })
@@ -204,7 +209,7 @@ pub(super) fn command_of(operation: &'static Operation) -> Command {
         Inputs::OneOrNone => (Some(REFERENCE_OR_CURVES), true, false),
         Inputs::One => (Some(CURVES), true, false),
         Inputs::Two => (Some(CURVES), true, true),
-        Inputs::Points => (Some(POINTS), false, false),
+        Inputs::Points => (Some(POINTS), true, false),
     };
     let mut command = Command::new(operation.name).about(operation.help);
     if let Some(help) = input {
@@ -219,6 +224,9 @@ pub(super) fn command_of(operation: &'static Operation) -> Command {
             "The format to read, whatever the file's extension; needed for the standard input",
             format_parser(Format::readable()),
         ));
+        let unit = option(ASSUME_UNIT).value_name("UNIT");
+        let unit = unit.value_parser(unit_parser());
+        command = command.arg(unit.help("The unit of a file that states none"));
     }
     if has_other {
         command = command
@@ -234,6 +242,7 @@ pub(super) fn command_of(operation: &'static Operation) -> Command {
     if has_curves {
         let curve = match operation.inputs {
             Inputs::OneOrNone => "The curve or reference; needed where the file has several",
+            Inputs::Points => "The curve or list of points; needed where the file has several",
             _ => "The curve; needed where the file has several",
         };
         command = command.arg(name_argument(CURVE, curve));
@@ -303,7 +312,7 @@ const CURVES: &str =
     "The file to read, or - for the standard input; its extension tells the format";
 const SECOND_FILE: &str =
     "The file that the second curve comes from; if left out, both come from one file";
-const POINTS: &str = "The table of points to read, or - for the standard input: a .csv file with the columns x,y or x,y,z, or the vertices of a file with one curve";
+const POINTS: &str = "The file with the points, or - for the standard input: a list of points, or the vertices of a curve";
 
 fn path_argument(name: &'static str, help: &'static str) -> Arg {
     let parser = value_parser!(PathBuf);

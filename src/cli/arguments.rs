@@ -8,9 +8,10 @@ use clap::{CommandFactory, Error, Parser, Subcommand};
 use super::apply::Application;
 use super::apply_arguments::ApplyArguments;
 use super::ends::{Destination, Source};
-use super::parsers::{example_parser, format_parser, parameter, polygon_parser};
+use super::parsers::{example_parser, format_parser, parameter, polygon_parser, unit_parser};
 use crate::document::quoted;
 use crate::geometry::PolygonKind;
+use crate::geometry::expressions::LengthUnit;
 use crate::io::Format;
 use crate::io::examples::Example;
 
@@ -79,6 +80,9 @@ enum Command {
         /// clamped); the curve itself is always a spline on clamped knots.
         #[arg(long, value_parser = polygon_parser())]
         polygon: Option<PolygonKind>,
+        /// The unit of a file that states none
+        #[arg(long, value_name = "UNIT", value_parser = unit_parser())]
+        assume_unit: Option<LengthUnit>,
         /// Write a polygon even if it cannot be read back as the curve
         #[arg(long)]
         force: bool,
@@ -130,6 +134,8 @@ pub(super) enum Task {
         destination: Destination,
         /// The polygon to write.
         polygon: Option<PolygonKind>,
+        /// The unit of what states none.
+        assumed_unit: Option<LengthUnit>,
         /// Whether to write what cannot be read back.
         force: bool,
     },
@@ -178,11 +184,13 @@ impl Arguments {
                 from_format,
                 to_format,
                 polygon,
+                assume_unit,
                 force,
             }) => Task::Convert {
                 source: source("convert", input, from_format)?,
                 destination: destination("convert", out, to_format)?,
                 polygon,
+                assumed_unit: assume_unit,
                 force,
             },
             Some(Command::Apply(ApplyArguments::List)) => Task::Operations,
@@ -199,6 +207,7 @@ impl Arguments {
                 destination: destination("apply", given.out, given.to_format)?,
                 curves: given.curves,
                 values: given.values,
+                assumed_unit: given.assumed_unit,
                 best: given.best,
                 text: given.text,
             }),

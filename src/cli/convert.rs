@@ -3,9 +3,11 @@
 use anyhow::{Context, bail};
 
 use super::ends::{Destination, Source};
+use crate::document::Document;
 use crate::geometry::PolygonKind;
+use crate::geometry::expressions::LengthUnit;
 use crate::io::examples::Example;
-use crate::io::{Export, Format, Reading};
+use crate::io::{Export, Format};
 
 /// Write the curves of a source. What cannot be read back is refused without `force`.
 ///
@@ -15,6 +17,7 @@ pub(super) fn convert(
     source: &Source,
     destination: &Destination,
     polygon: Option<PolygonKind>,
+    assumed_unit: Option<LengthUnit>,
     force: bool,
 ) -> anyhow::Result<()> {
     if destination.is(source) {
@@ -23,8 +26,8 @@ pub(super) fn convert(
             destination.name()
         );
     }
-    let reading = source.read()?;
-    let (export, format) = exported(&reading, destination, polygon)?;
+    let document = source.document(assumed_unit)?;
+    let (export, format) = exported(&document, destination, polygon)?;
     // The float polygon is what is read: nothing can happen to it.
     let is_converted = polygon.is_some_and(|kind| kind != PolygonKind::Float);
     if is_converted
@@ -45,17 +48,16 @@ pub(super) fn convert(
 /// # Errors
 /// If the destination cannot be written.
 pub(super) fn example(example: &Example, destination: &Destination) -> anyhow::Result<()> {
-    let reading = example.read()?;
-    destination.write(exported(&reading, destination, None)?.0)
+    let document = example.read()?.into_document()?;
+    destination.write(exported(&document, destination, None)?.0)
 }
 
 fn exported(
-    reading: &Reading,
+    document: &Document,
     destination: &Destination,
     polygon: Option<PolygonKind>,
 ) -> anyhow::Result<(Export, Format)> {
     let format = destination.format()?;
-    let document = reading.clone().into_document()?;
-    let export = format.write_document(&document, polygon);
+    let export = format.write_document(document, polygon);
     Ok((export.with_context(|| destination.name())?, format))
 }

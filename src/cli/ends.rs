@@ -4,6 +4,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::output;
+use crate::document::Document;
+use crate::geometry::expressions::LengthUnit;
 use crate::io::{Export, FileError, Format, Reading, disk, shown_path};
 
 /// The name that stands for the standard input or output.
@@ -39,6 +41,16 @@ impl Source {
         }?;
         output::report(&self.name(), &reading.remarks);
         Ok(reading)
+    }
+
+    /// Read it as a document, in an assumed unit if it states none.
+    ///
+    /// # Errors
+    /// As [`Source::read`].
+    pub(super) fn document(&self, assumed: Option<LengthUnit>) -> anyhow::Result<Document> {
+        let document = self.read()?.into_document()?;
+        let unit = document.unit().or(assumed);
+        Ok(document.with_unit(unit))
     }
 
     /// What messages call it.

@@ -49,8 +49,9 @@ pub fn run(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> 
             source,
             destination,
             polygon,
+            assumed_unit,
             force,
-        }) => convert::convert(&source, &destination, polygon, force),
+        }) => convert::convert(&source, &destination, polygon, assumed_unit, force),
         Ok(Task::Operations) => apply::list(),
         Ok(Task::References) => references::list(),
         Ok(Task::Apply(application)) => {

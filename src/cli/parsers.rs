@@ -3,6 +3,7 @@
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use crate::geometry::PolygonKind;
+use crate::geometry::expressions::LengthUnit;
 use crate::io::Format;
 use crate::io::examples::{EXAMPLES, Example};
 
@@ -22,6 +23,11 @@ pub(super) fn example_parser() -> impl TypedValueParser<Value = Example> {
 pub(super) fn polygon_parser() -> impl TypedValueParser<Value = PolygonKind> {
     let names = PossibleValuesParser::new(PolygonKind::ALL.map(PolygonKind::name));
     names.try_map(|name| PolygonKind::from_name(&name).ok_or("no such polygon"))
+}
+
+pub(super) fn unit_parser() -> impl TypedValueParser<Value = LengthUnit> {
+    let symbols = PossibleValuesParser::new(LengthUnit::ALL.map(LengthUnit::symbol));
+    symbols.try_map(|symbol| LengthUnit::of_symbol(&symbol).ok_or("no such unit"))
 }
 
 pub(super) fn parameter(text: &str) -> Result<f64, String> {

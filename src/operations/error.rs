@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use super::inputs::Inputs;
-use crate::document::EditError;
+use crate::document::{EditError, quoted};
 use crate::geometry::approximation::{ApproximationError, FitError};
 use crate::geometry::between::BetweenError;
 use crate::geometry::expressions::ExpressionMistake;
@@ -61,6 +61,14 @@ pub enum OperationError {
         "both curves are the same: close the curve to join its two ends, or move one copy away"
     )]
     JoinedWithItself,
+    /// The joined curve would follow itself through another curve.
+    #[error("{} would follow {}, which follows it: “Drop match” (--drop-match) drops that match", quoted(.name), quoted(.source_name))]
+    MatchCircle {
+        /// The curve that would follow.
+        name: String,
+        /// The curve that it would follow.
+        source_name: String,
+    },
     /// Two parameters exclude each other.
     #[error("{first} and {second} cannot both be given")]
     Exclude {

@@ -16,9 +16,7 @@ use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
 use super::parameter::{Choice, Kind, Parameter};
 use super::values::Values;
-use crate::document::{
-    Curve, CurveId, Document, Edit, EndMatch, MatchPlace, ParameterSpan, Renumbering,
-};
+use crate::document::{Curve, CurveId, Document, Edit, EditError, EndMatch, MatchPlace, ParameterSpan, Renumbering, quoted};
 use crate::geometry::fairing::bridging::{Bridge, join};
 use crate::geometry::{End, FloatPolygon, Progress};
 
@@ -58,13 +56,20 @@ const MOVE_SECOND: Parameter = Parameter {
     kind: Kind::Switch { default: false },
 };
 
+const DROP_MATCH: Parameter = Parameter {
+    name: "drop-match",
+    label: "Drop match",
+    help: "Drop a match by which the joined curve would follow itself through other curves",
+    kind: Kind::Switch { default: false },
+};
+
 /// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
     name: "join",
     label: "Join curves",
     help: "Make one curve of two open ones by a harmonious bridge between their ends; both stay as they are",
     inputs: Inputs::Two,
-    parameters: &[BRIDGE, FIRST_END, SECOND_END, MOVE_SECOND],
+    parameters: &[BRIDGE, FIRST_END, SECOND_END, MOVE_SECOND, DROP_MATCH],
     check: |input| two(input).map(drop),
     unused: |_| &[],
     run,
@@ -130,7 +135,9 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         second: &part,
     };
     let mut outcome = Outcome::unchanged(deviation);
-    outcome.edits = composite.edits();
+    let (edits, dropped) =
+        without_circles(input.document(), composite.edits(), values.switch(&DROP_MATCH))?;
+    outcome.edits = edits;
     outcome.renumbered = true;
     outcome.figures = vec![Figure::ends("joined", "Joined", ends)];
     outcome.figures.extend(figures(&found));
@@ -140,10 +147,48 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         outcome.figures.push(figure);
     }
     outcome.remarks = bridge::remarks(&found);
+    outcome.remarks.extend(dropped);
     outcome.remarks.extend(locks::lost(second, &[&part]));
     outcome.annotations = annotations(&found);
     outcome.joint = Some(joint(&found));
     Ok(outcome)
+}
+
+/// Remove the matches from some edits that would let curves follow each other in a circle; the texts name those
+/// that no curve had before.
+///
+/// # Errors
+/// [`OperationError::MatchCircle`] if there is such a match and `drops` is false.
+fn without_circles(
+    document: &Document,
+    edits: Vec<Edit>,
+    drops: bool,
+) -> Result<(Vec<Edit>, Vec<String>), OperationError> {
+    let mut after = document.clone();
+    let (mut kept, mut dropped) = (Vec::new(), Vec::new());
+    for edit in edits {
+        match (after.apply(edit.clone()), &edit) {
+            (Err(EditError::MatchCycle { name, source_name }), Edit::SetMatch(matched)) => {
+                if !drops {
+                    return Err(OperationError::MatchCircle { name, source_name });
+                }
+                let (curve, end) = (matched.curve, matched.end);
+                if after.match_of(curve, end).is_some() {
+                    let remove = Edit::RemoveMatch { curve, end };
+                    after.apply(remove.clone())?;
+                    kept.push(remove);
+                } else {
+                    let [name, source] = [name, source_name].map(|name| quoted(&name));
+                    dropped.push(format!("{name} does not follow {source}, which follows it"));
+                }
+            }
+            (result, _) => {
+                result?;
+                kept.push(edit);
+            }
+        }
+    }
+    Ok((kept, dropped))
 }
 
 /// The ends that are joined: those that are given, and of the others those that lie closest. Of pairs as

@@ -41,6 +41,41 @@ impl Operands {
         })
     }
 
+    /// Choose the operands of an operation from an active curve or reference and other curves.
+    ///
+    /// The active curve comes first. Where an operation needs two curves and there are just two, the second
+    /// needs no choice. Points are those of a reference, or the vertices of a curve.
+    ///
+    /// # Errors
+    /// [`EditError::NoSuchCurve`] if the document lacks a curve.
+    pub fn choose(
+        document: &Document,
+        inputs: Inputs,
+        active: Option<CurveId>,
+        others: &[CurveId],
+    ) -> Result<Self, OperationError> {
+        let curve = active.and_then(|id| document.curve(id).map(|curve| (id, curve)));
+        let reference = active.and_then(|id| document.reference(id));
+        let mut curves: Vec<CurveId> = curve.map(|(id, _)| id).into_iter().collect();
+        match inputs {
+            Inputs::None | Inputs::Points => curves.clear(),
+            Inputs::One | Inputs::OneOrNone => {}
+            Inputs::Two | Inputs::UpToTwo => curves.extend(others),
+        }
+        if let (Inputs::Two, [only]) = (inputs, &curves[..]) {
+            let rest: Vec<CurveId> = document.ids().filter(|id| id != only).collect();
+            curves.extend(rest.first().filter(|_| rest.len() == 1));
+        }
+        let operands = Self::new(document, curves)?;
+        let operands = operands.with_reference(reference.map(|it| it.curve.clone()));
+        let points = match (inputs, reference, curve) {
+            (Inputs::Points, Some(reference), _) => reference.points(),
+            (Inputs::Points, None, Some((_, curve))) => Some(curve.polygon.vertices().to_vec()),
+            _ => None,
+        };
+        Ok(operands.with_points(points.unwrap_or_default()))
+    }
+
     /// Add a table of points with finite coordinates.
     pub fn with_points(self, points: Vec<DVec3>) -> Self {
         Self { points, ..self }

@@ -100,8 +100,7 @@ fn every_operation_is_listed_has_help_and_reports_by_one_schema() {
         for word in [source, "--from-format"] {
             assert_eq!(help.contains(word), reads, "{name}: {word} in {help}");
         }
-        let chooses = reads && name != "fit";
-        assert_eq!(help.contains("--curve <NAME>"), chooses, "{name}: {help}");
+        assert_eq!(help.contains("--curve <NAME>"), reads, "{name}: {help}");
         let read = match name {
             "mineur-farin" | "between" => &[name, "out.batten"][..],
             // A copy goes on from its curve where it may move.
@@ -961,4 +960,117 @@ fn a_cusp_is_said_in_the_report_and_places_are_exact() {
     assert_eq!(first["reference"][0]["feature"], "maximum");
     let t = first["reference"][0]["t"].as_f64().unwrap();
     assert!((t - 1.5).abs() < 1e-12, "{t}");
+}
+
+/// Read a project file.
+fn project_in(folder: &Folder, file: &str) -> Value {
+    let text = fs::read_to_string(folder.path(file)).expect("a file");
+    serde_json::from_str(&text).expect("a project")
+}
+
+/// A project of one straight curve from x on, in a unit if one is given.
+fn straight(name: &str, x: f64, unit: Option<&str>) -> String {
+    let vertices = [0.0, 1.0, 2.0, 3.0, 4.0].map(|along| [x + along, 0.0]);
+    let curves = json!([{"name": name, "degree": 3, "vertices": vertices}]);
+    let mut project = json!({"format": "batten", "version": 2, "curves": curves});
+    if let Some(unit) = unit {
+        project["unit"] = json!(unit);
+    }
+    project.to_string()
+}
+
+#[test]
+fn a_fit_is_appended_to_everything_that_its_file_holds() {
+    let points: Vec<[f64; 2]> = (0..12)
+        .map(|x| [f64::from(x), f64::from(x * x) / 20.0])
+        .collect();
+    let given = json!({"format": "batten", "version": 2, "unit": "cm", "note": "kept",
+    "curves": [{"name": "line", "degree": 1, "vertices": [[0, 0], [0, 4], [1, 5]]}],
+    "references": [
+        {"name": "wave", "formula": {"x": "t", "y": "sin(t)"}, "interval": [0, 6]},
+        {"name": "scan", "points": points},
+    ]});
+    let folder = Folder::new().with("in.batten", given.to_string());
+    let fit = |curve: &str| {
+        report(
+            &folder,
+            &["fit", "in.batten", "out.batten", "--curve", curve],
+        )
+    };
+    assert_eq!(fit("scan")["reached"], true);
+    let written = project_in(&folder, "out.batten");
+    assert_eq!(
+        (&written["unit"], &written["note"]),
+        (&json!("cm"), &json!("kept"))
+    );
+    let curves = written["curves"].as_array().expect("curves");
+    let names: Vec<&Value> = curves.iter().map(|curve| &curve["name"]).collect();
+    assert_eq!(names, ["line", "fit"]);
+    assert_eq!(
+        written["references"].as_array().expect("references").len(),
+        2
+    );
+    assert_eq!(written["references"][0]["formula"]["y"], "sin(t)");
+    // By its number: the line is the first, the points are the second that can be fitted.
+    fit("2");
+    assert_eq!(project_in(&folder, "out.batten"), written);
+    folder.refused(
+        &["apply", "fit", "in.batten", "none.batten"],
+        "in.batten: choose one with --curve: there are “line”, “scan”",
+    );
+}
+
+#[test]
+fn units_are_kept_or_converted_by_join_fit_and_convert() {
+    let folder = Folder::new()
+        .with("cm.batten", straight("a", 0.0, Some("cm")))
+        .with("mm.batten", straight("b", 90.0, Some("mm")))
+        .with("none.batten", straight("c", 9.0, None));
+    let last_x = |file: &str| -> f64 {
+        let vertices = &project_in(&folder, file)["curves"][0]["vertices"];
+        let vertices = vertices.as_array().expect("vertices");
+        numbers(&vertices[vertices.len() - 1])[0]
+    };
+    let join = ["apply", "join", "cm.batten"];
+    // 94 mm are 9.4 cm.
+    let converted = [&join[..], &["mm.batten", "out.batten"]].concat();
+    let (_, told) = folder.done(&converted);
+    assert!(
+        told.contains("mm.batten: converted from millimetres to centimetres"),
+        "{told}"
+    );
+    assert!((last_x("out.batten") - 9.4).abs() < 1e-9);
+    assert_eq!(project_in(&folder, "out.batten")["unit"], "cm");
+    let counted = [&join[..], &["none.batten", "out.batten"]].concat();
+    let (_, told) = folder.done(&counted);
+    assert!(
+        told.contains("none.batten: no unit given: the numbers count in centimetres"),
+        "{told}"
+    );
+    assert!((last_x("out.batten") - 13.0).abs() < 1e-9);
+    let assumed = [&counted[..], &["--assume-unit", "in"]].concat();
+    folder.done(&assumed);
+    assert!((last_x("out.batten") - 13.0 * 2.54).abs() < 1e-9);
+    // Where only the incoming unit is known, the document's must be told.
+    let unknown = ["apply", "join", "none.batten", "cm.batten", "new.batten"];
+    folder.refused(
+        &unknown,
+        "the curves to add are in centimetres, the document states no unit: choose the document's unit with --assume-unit",
+    );
+    assert!(!folder.path("new.batten").exists());
+    folder.done(&[&unknown[..], &["--assume-unit", "cm"]].concat());
+    assert_eq!(project_in(&folder, "new.batten")["unit"], "cm");
+    folder.done(&["apply", "fit", "cm.batten", "out.batten"]);
+    assert_eq!(project_in(&folder, "out.batten")["unit"], "cm");
+    let convert = [
+        "convert",
+        "none.batten",
+        "out.batten",
+        "--assume-unit",
+        "in",
+    ];
+    folder.done(&convert);
+    assert_eq!(project_in(&folder, "out.batten")["unit"], "in");
+    folder.done(&["convert", "cm.batten", "out.batten", "--assume-unit", "in"]);
+    assert_eq!(project_in(&folder, "out.batten")["unit"], "cm");
 }

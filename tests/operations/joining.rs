@@ -297,3 +297,48 @@ fn a_curve_is_not_joined_with_itself() {
         assert_eq!(refusal(copy, &moving), None);
     }
 }
+
+#[test]
+fn a_match_by_which_the_composite_would_follow_itself_is_dropped_on_demand() {
+    let [first, second] = [arc("first", 4, 0.0, 60.0), arc("second", 4, 100.0, 160.0)];
+    let mut document = Document::from_curves([first, second, arc("third", 3, 160.0, 200.0)]);
+    let ids: Vec<_> = document.ids().collect();
+    let follow = |curve, source, place| {
+        Edit::SetMatch(EndMatch {
+            curve,
+            end: End::Finish,
+            source,
+            place,
+            continuity: Continuity::G0,
+            reversed: false,
+        })
+    };
+    for edit in [
+        follow(ids[1], ids[2], MatchPlace::End(End::Start)),
+        follow(ids[2], ids[0], MatchPlace::Parameter(1.0)),
+    ] {
+        document.apply(edit).expect("a match");
+    }
+    let join = operation("join");
+    let input = Operands::new(&document, ids[..2].iter().copied()).expect("two curves");
+    let run = |drops| {
+        let values = join.values(&input, [("drop-match", Value::Switch(drops))]);
+        join.run(&input, &values.expect("values"), &Progress::default())
+    };
+    let refused = run(false).expect_err("a circle").to_string();
+    assert_eq!(
+        refused,
+        "“first” would follow “third”, which follows it: “Drop match” (--drop-match) drops that match"
+    );
+    let outcome = run(true).expect("a composite");
+    let after = outcome.applied_to(&document).expect("edits");
+    assert_eq!(after.match_of(ids[0], End::Finish), None);
+    let kept = after.match_of(ids[2], End::Finish).expect("a match");
+    assert_eq!(kept.source, ids[0]);
+    let told = "“first” does not follow “third”, which follows it";
+    assert!(
+        outcome.remarks.iter().any(|it| it == told),
+        "{:?}",
+        outcome.remarks
+    );
+}

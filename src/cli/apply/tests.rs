@@ -141,15 +141,12 @@ fn apply(
         destination: destination.expect("a file"),
         curves: given.curves,
         values: given.values,
+        assumed_unit: None,
         best: false,
         text: false,
     };
-    let curves = curves.to_vec();
-    let reading = Reading {
-        curves,
-        ..Reading::default()
-    };
-    let input = application.chosen(reading, None);
+    let document = Document::from_curves(curves.to_vec());
+    let input = application.chosen(document, None);
     let input = input.map_err(|error| error.to_string())?;
     let done = application.applied(&input);
     let (outcome, report) = done.map_err(|error| error.to_string())?;
@@ -244,10 +241,14 @@ fn a_table_of_points_is_read() {
     let table = line("points", &points);
     let files = ["points.csv", "out.batten"];
     let (curves, _) = apply(&POLYLINE, &files, std::slice::from_ref(&table)).expect("applied");
-    assert_eq!(curves, [line("line", &points)]);
+    assert_eq!(curves, [table.clone(), line("line", &points)]);
+    let second = [&files[..], &["--curve", "2"]].concat();
+    let two = [line("other", &points[..2]), table.clone()];
+    let (curves, _) = apply(&POLYLINE, &second, &two).expect("applied");
+    assert_eq!(curves[2], line("line", &points));
     let error = apply(&POLYLINE, &files, &[table.clone(), table]).expect_err("refused");
     assert_eq!(
         error,
-        "a table of points is needed, and there are 2 curves and lists"
+        "choose one with --curve: there are “points”, “points”"
     );
 }

@@ -90,39 +90,14 @@ impl Editor {
         &self,
         operation: &Operation,
     ) -> Result<Operands, OperationError> {
-        let selection = &self.hand.selection;
-        let active = selection.active();
-        let active = active.filter(|id| self.document().curve(*id).is_some());
-        let curves: Vec<CurveId> = match operation.inputs {
-            Inputs::None | Inputs::Points => Vec::new(),
-            Inputs::One | Inputs::OneOrNone => active.into_iter().collect(),
-            // The active curve comes first.
-            Inputs::Two | Inputs::UpToTwo => {
-                let others = self.document().ids().filter(|id| Some(*id) != active);
-                let others: Vec<CurveId> = others.collect();
-                let is_selected = |id: &&CurveId| selection.of_curve(**id).next().is_some();
-                let selected: Vec<CurveId> = others.iter().filter(is_selected).copied().collect();
-                // Where two are needed and there are two, there is no choice.
-                let needed = operation.inputs == Inputs::Two;
-                let chosen = if needed && selected.is_empty() && others.len() == 1 {
-                    others
-                } else {
-                    selected
-                };
-                active.into_iter().chain(chosen).collect()
-            }
-        };
-        let settled = self.workspace.settled();
-        let reference = selection.active().and_then(|id| settled.reference(id));
-        let reference = reference.map(|reference| reference.curve.clone());
-        let input = Operands::new(settled, curves)?.with_reference(reference);
-        let analysis = selection
-            .active()
-            .and_then(|id| self.view.analyses.reference(id));
-        let points = analysis.map_or(&[][..], |analysis| analysis.points().vertices());
-        Ok(match operation.inputs {
-            Inputs::Points if !points.is_empty() => input.with_points(points.to_vec()),
-            _ => input,
-        })
+        let (selection, document) = (&self.hand.selection, self.workspace.settled());
+        // The panel fits references of points; the vertices of a curve are fitted from a shell.
+        let fits =
+            |id: &CurveId| operation.inputs != Inputs::Points || document.reference(*id).is_some();
+        let active = selection.active().filter(fits);
+        let others = self.document().ids().filter(|id| Some(*id) != active);
+        let others = others.filter(|id| selection.of_curve(*id).next().is_some());
+        let others: Vec<CurveId> = others.collect();
+        Operands::choose(document, operation.inputs, active, &others)
     }
 }
