@@ -990,12 +990,14 @@ fn a_fit_is_appended_to_everything_that_its_file_holds() {
         {"name": "wave", "formula": {"x": "t", "y": "sin(t)"}, "interval": [0, 6]},
         {"name": "scan", "points": points},
     ]});
-    let folder = Folder::new().with("in.batten", given.to_string());
-    let fit = |curve: &str| {
-        report(
-            &folder,
-            &["fit", "in.batten", "out.batten", "--curve", curve],
-        )
+    let mut plain = given.clone();
+    plain.as_object_mut().expect("an object").remove("note");
+    let folder = Folder::new()
+        .with("in.batten", given.to_string())
+        .with("plain.batten", plain.to_string());
+    let fit = |curve: &str| -> Value {
+        let arguments = ["apply", "fit", "in.batten", "out.batten", "--curve", curve];
+        serde_json::from_str(&folder.done(&arguments).0).expect("a report")
     };
     assert_eq!(fit("scan")["reached"], true);
     let written = project_in(&folder, "out.batten");
@@ -1015,8 +1017,8 @@ fn a_fit_is_appended_to_everything_that_its_file_holds() {
     fit("2");
     assert_eq!(project_in(&folder, "out.batten"), written);
     folder.refused(
-        &["apply", "fit", "in.batten", "none.batten"],
-        "in.batten: choose one with --curve: there are “line”, “scan”",
+        &["apply", "fit", "plain.batten", "none.batten"],
+        "plain.batten: choose one with --curve: there are “line”, “scan”",
     );
 }
 
@@ -1055,7 +1057,7 @@ fn units_are_kept_or_converted_by_join_fit_and_convert() {
     let unknown = ["apply", "join", "none.batten", "cm.batten", "new.batten"];
     folder.refused(
         &unknown,
-        "the curves to add are in centimetres, the document states no unit: choose the document's unit with --assume-unit",
+        "none.batten: the curves to add are in centimetres, the document states no unit: choose the document's unit with --assume-unit",
     );
     assert!(!folder.path("new.batten").exists());
     folder.done(&[&unknown[..], &["--assume-unit", "cm"]].concat());
