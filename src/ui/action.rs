@@ -54,6 +54,8 @@ pub enum Action {
     Palette,
     /// Explain the paper's figures, with their curves.
     Paper,
+    /// Open the manual.
+    Manual,
     /// List the keys.
     Keys,
     /// Show version and licence.
@@ -90,6 +92,7 @@ impl Action {
             Self::NudgeStep,
             Self::Palette,
             Self::Paper,
+            Self::Manual,
             Self::Keys,
             Self::About,
         ]);
@@ -123,6 +126,7 @@ impl Action {
             Self::NudgeStep => "Nudge step…",
             Self::Palette => "Find a command…",
             Self::Paper => "The paper",
+            Self::Manual => "Manual",
             Self::Keys => "Keys and mouse",
             Self::About => "About Batten",
         };
@@ -179,6 +183,7 @@ impl Action {
             Self::NudgeStep => "Set how far an arrow key moves the selection",
             Self::Palette => "Find a command by typing part of its name",
             Self::Paper => "Open figures and tables of the paper behind Batten, with explanations",
+            Self::Manual => "Open the manual; F1 over a panel or menu opens its page",
             Self::Keys => "List all keys and mouse actions",
             Self::About => "Show version and licence",
         };
@@ -214,6 +219,7 @@ impl Action {
             | Self::NormaliseLength
             | Self::NudgeStep
             | Self::Paper
+            | Self::Manual
             | Self::About => return None,
         })
     }

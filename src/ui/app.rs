@@ -13,6 +13,7 @@ use super::dialogs::{self, Decision, Dialog};
 use super::document_unit;
 use super::file_dialogs::{AfterDiscard, Chosen, FileDialogs, Purpose};
 use super::gizmo::gizmo_ui;
+use super::help::{self, Help, Topic};
 use super::keyboard::{self, KeyCommand, Keyboard, Typing};
 use super::layer_strip::layer_strip_ui;
 use super::menu::menu_ui;
@@ -49,6 +50,7 @@ pub struct App {
     context_menu: ContextMenu,
     palette: Palette,
     paper: PaperPanel,
+    help: Help,
     files: FileDialogs,
     /// The request for files whose reply is not there.
     requested: Option<Requested>,
@@ -94,7 +96,10 @@ impl App {
         context.add_plugin(super::key_order::KeyOrder::default());
         context.options_mut(|options| options.quit_shortcuts.clear());
         let kept = storage.and_then(|storage| eframe::get_value(storage, SETTINGS));
-        let shell: Shell = kept.unwrap_or_default();
+        let shell: Shell = kept.unwrap_or_else(|| Shell {
+            offers_tour: storage.is_some(),
+            ..Shell::default()
+        });
         theme::choose(context, shell.dark);
         if let Some(step) = shell.nudge_step {
             editor.set_nudge_step(step);
@@ -122,6 +127,7 @@ impl App {
             context_menu: ContextMenu::default(),
             palette: Palette::default(),
             paper: PaperPanel::default(),
+            help: Help::default(),
             files: FileDialogs::new(native_dialogs),
             requested: None,
             dialog: None,
@@ -203,6 +209,9 @@ impl App {
     }
 
     fn take_keys(&mut self, context: &Context) {
+        if let Some(topic) = help::take_key(context) {
+            self.help.open_topic(topic);
+        }
         if self.palette.is_open() {
             return;
         }
@@ -256,7 +265,7 @@ impl App {
                 menu_ui(ui, &mut self.editor, &self.shell, &mut self.actions);
             });
         let status = Panel::bottom("status").frame(bar(12, 0)).resizable(false);
-        status.exact_size(status_bar::HEIGHT).show(ui, |ui| {
+        let status = status.exact_size(status_bar::HEIGHT).show(ui, |ui| {
             let hint = self.plots.hint(ui.ctx());
             let hint = hint.map_or_else(|| self.editor.hint(), str::to_owned);
             status_bar_ui(
@@ -266,10 +275,12 @@ impl App {
                 (&hint, &mut self.actions),
             );
         });
+        help::mark(ui, status.response.rect, Topic::StatusBar);
         let rail = Panel::left("tools").frame(bar(4, 4)).resizable(false);
-        rail.exact_size(tool_rail::WIDTH).show(ui, |ui| {
+        let rail = rail.exact_size(tool_rail::WIDTH).show(ui, |ui| {
             tool_rail_ui(ui, &self.editor, &mut self.actions);
         });
+        help::mark(ui, rail.response.rect, Topic::Tools);
         if let Some(page) = self.paper.show(ui, &mut self.editor) {
             self.confirm(&ui.ctx().clone(), AfterDiscard::OpenPaper(page));
         }
@@ -321,6 +332,11 @@ impl App {
                     self.plots.show(ui, &mut self.editor);
                 });
             });
+        let topic = match self.plots.tab() {
+            Tab::Harmony => Topic::Harmony,
+            _ => Topic::Plots,
+        };
+        help::mark(ui, shown.response.rect, topic);
         if is_menu_asked_for(ui, shown.response.rect) {
             self.editor.ask_for_menu(MenuSubject::Plot);
         }
@@ -336,6 +352,9 @@ impl App {
             if self.editor.sight().is_orbited() {
                 overlays::orbited_ui(context, rect, &mut self.actions);
             }
+            if self.shell.offers_tour && overlays::tour_ui(context, rect, &mut self.actions) {
+                self.shell.offers_tour = false;
+            }
             overlays::drop_ui(context, rect);
             if self.editor.document().is_empty() && self.editor.hand().tool() != ToolKind::Draw {
                 overlays::empty_ui(context, rect);
@@ -346,6 +365,7 @@ impl App {
         self.context_menu
             .show(context, canvas, &mut self.editor, shell, actions);
         self.palette.show(context, &self.editor, &mut self.actions);
+        self.help.show(context);
         if let Some(chosen) = self.files.show(context) {
             self.use_chosen(context, chosen);
         }
@@ -408,6 +428,7 @@ impl App {
             Action::NormaliseLength => self.shell.normalised = !self.shell.normalised,
             Action::NudgeStep => unit_menu::open(context),
             Action::Palette => self.palette.open(),
+            Action::Manual => self.help.open(),
             Action::Keys => self.dialog = Some(Dialog::Keys),
             Action::About => self.dialog = Some(Dialog::About),
         }

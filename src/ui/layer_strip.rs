@@ -6,6 +6,7 @@ use eframe::egui::{
 use lucide_icons::Icon;
 
 use super::action::Action;
+use super::help::{self, Topic};
 use super::number_field::NumberField;
 use super::theme::{RADIUS, ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
@@ -55,6 +56,7 @@ pub fn layer_strip_ui(
             if is_narrow {
                 ui.horizontal(|ui| comb_ui(ui, editor, commands));
             }
+            help::mark(ui, ui.min_rect(), Topic::Layers);
         });
     });
 }

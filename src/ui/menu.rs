@@ -4,6 +4,7 @@ use eframe::egui::{Button, MenuBar, Response, Ui, vec2};
 
 use super::action::Action;
 use super::feature_list::chip_ui;
+use super::help::{self, Topic};
 use super::menu_item::{WIDTH, blank, item_ui};
 use super::plots::others;
 use super::shell::Shell;
@@ -47,6 +48,7 @@ pub fn menu_ui(ui: &mut Ui, editor: &mut Editor, shell: &Shell, commands: &mut V
             ui.menu_button(title, |ui| {
                 ui.set_min_width(WIDTH);
                 entries_ui(ui, editor, shell, entries, commands);
+                help::mark(ui, ui.min_rect(), Topic::Menu(title));
             });
         }
         widgets::at_right(ui, |ui| {
@@ -184,8 +186,9 @@ fn menus() -> [(&'static str, Vec<Entry>); 6] {
         .map(|tool| command(Command::Tool(tool)))
         .into();
     let help = vec![
-        Item(Action::Palette),
+        Item(Action::Manual),
         Item(Action::Keys),
+        Item(Action::Palette),
         Item(Action::Paper),
         Divider,
         Item(Action::About),

@@ -4,10 +4,11 @@ use eframe::egui::{Button, Color32, Response, RichText, Ui, vec2};
 use lucide_icons::Icon;
 
 use super::action::Action;
+use super::help::{self, Topic};
 use super::shell::Shell;
 use super::theme::Tokens;
 use super::{icons, keyboard};
-use crate::editor::Editor;
+use crate::editor::{Command, Editor};
 
 /// The least width of an open menu.
 pub const WIDTH: f32 = 240.0;
@@ -39,6 +40,9 @@ pub fn item_ui(
     let response = response
         .on_hover_text(&tooltip)
         .on_disabled_hover_text(&tooltip);
+    if let Action::Command(Command::Operation(operation)) = action {
+        help::mark(ui, response.rect, Topic::Operation(operation));
+    }
     if response.clicked() {
         commands.push(action);
         ui.close();

@@ -1,14 +1,17 @@
-//! Overlays of the canvas: the advice for an empty document, and files about to drop.
+//! Overlays of the canvas: the advice for an empty document, the offer of the tour, and files about to drop.
 
 use eframe::egui::{
-    Align2, Area, Button, Context, Id, LayerId, Order, Rect, RichText, Stroke, StrokeKind,
-    TextWrapMode, pos2,
+    Align2, Area, Button, Context, Frame, Id, LayerId, Order, Rect, RichText, Stroke, StrokeKind,
+    TextWrapMode, Vec2, pos2,
 };
 
 use super::action::Action;
 use super::theme::{RADIUS, STEP, Tokens};
-use super::{gizmo, keyboard};
+use super::{gizmo, keyboard, widgets};
 use crate::editor::{Command, NamedView};
+
+/// The width of the card that offers the tour.
+const TOUR: f32 = 280.0;
 
 /// Show the first steps in an empty document.
 pub fn empty_ui(context: &Context, canvas: Rect) {
@@ -55,6 +58,33 @@ pub fn orbited_ui(context: &Context, canvas: Rect, commands: &mut Vec<Action>) {
     if clicked.inner {
         commands.push(Command::View(NamedView::Xy).into());
     }
+}
+
+/// Offer the tour of the paper in the lower right corner. Returns whether the user answered.
+pub fn tour_ui(context: &Context, canvas: Rect, commands: &mut Vec<Action>) -> bool {
+    let area = Area::new(Id::unique("tour"))
+        .order(Order::Middle)
+        .pivot(Align2::RIGHT_BOTTOM)
+        .fixed_pos(canvas.right_bottom() - Vec2::splat(2.0 * STEP))
+        .constrain(false);
+    let shown = area.show(context, |ui| {
+        let frame = Frame::popup(ui.style()).inner_margin(2.0 * STEP);
+        let shown = frame.show(ui, |ui| {
+            ui.set_max_width(TOUR);
+            ui.label("New to Batten? A tour of seven pages opens curves and explains them.");
+            ui.horizontal(|ui| {
+                widgets::at_right(ui, |ui| {
+                    let starts = widgets::primary_button(ui, "Start the tour").clicked();
+                    if starts {
+                        commands.push(Action::Paper);
+                    }
+                    starts | ui.button("Not now").clicked()
+                })
+            })
+        });
+        shown.inner.inner
+    });
+    shown.inner
 }
 
 /// Explain the effect of dropping while files hover over the window.

@@ -6,6 +6,7 @@ use eframe::egui::{
 };
 use lucide_icons::Icon;
 
+use super::help::{self, Topic};
 use super::theme::{self, STEP, Tokens};
 use super::widgets::{self, IconButton};
 use crate::editor::Editor;
@@ -56,6 +57,7 @@ impl PaperPanel {
         let panel = panel.default_size(WIDTH[0]).size_range(WIDTH[1]..=520.0);
         let request = panel.show(ui, |ui| {
             widgets::filling(ui, |ui| {
+                help::mark(ui, ui.max_rect(), Topic::Paper);
                 let request = heading_ui(ui, page);
                 let opened = widgets::scrolling(ui, page.title(), |ui| {
                     ui.spacing_mut().item_spacing.y = 2.0 * STEP;

@@ -25,6 +25,8 @@ pub struct Shell {
     pub(super) nudge_step: Option<f64>,
     /// Whether bands of rising and falling curvature are shown on the canvas.
     pub(super) bands: bool,
+    /// Whether a card offers the tour of the paper: from the first start until it is answered.
+    pub(super) offers_tour: bool,
 }
 
 impl Default for Shell {
@@ -38,6 +40,7 @@ impl Default for Shell {
             hidden: None,
             nudge_step: None,
             bands: true,
+            offers_tour: false,
         }
     }
 }

@@ -10,6 +10,7 @@ use super::action::Action;
 use super::curve_list::CurveList;
 use super::end_fit_panel::end_fit_panel_ui;
 use super::feature_list::feature_list_ui;
+use super::help::{self, Topic};
 use super::inspector::Inspector;
 use super::operation_panel::OperationPanel;
 use super::theme::{ROW, STEP, Tokens};
@@ -17,6 +18,7 @@ use super::transform_panel::TransformPanel;
 use super::vertex_table::VertexTable;
 use super::widgets;
 use crate::editor::{Editor, ToolKind};
+use crate::operations;
 
 /// The share of the height that the list of curves takes at first, that of features, and the most that
 /// either takes.
@@ -66,6 +68,7 @@ impl Side {
     /// Show the panel in all the room that there is.
     pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
         list_ui(ui, Edge::Top, "curves", |ui| {
+            help::mark(ui, ui.max_rect(), Topic::Curves);
             self.curves.show(ui, editor, commands);
         });
         self.notice_task(editor);
@@ -135,12 +138,25 @@ impl Side {
         let task = self.task.filter(|_| self.is_task_in_front);
         if task.is_none() && self.tab == Tab::Inspector {
             list_ui(ui, Edge::Bottom, "features", |ui| {
+                help::mark(ui, ui.max_rect(), Topic::Features);
                 ui.strong("Features");
                 feature_list_ui(ui, editor);
             });
         }
         let body = CentralPanel::default().frame(pad);
         body.show(ui, |ui| {
+            let reference = editor.active_reference_id().is_some();
+            let topic = match (task, self.tab) {
+                (Some(Task::Preview(name) | Task::Applied(name)), _) => {
+                    operations::find(name).map_or(Topic::Menu("Curve"), Topic::Operation)
+                }
+                (Some(Task::Tool(ToolKind::EndFit)), _) => Topic::EndFit,
+                (Some(Task::Tool(_)), _) => Topic::Tools,
+                (None, Tab::Inspector) if reference => Topic::Reference,
+                (None, Tab::Inspector) => Topic::Inspector,
+                (None, Tab::Vertices) => Topic::Vertices,
+            };
+            help::mark(ui, ui.max_rect(), topic);
             widgets::filling(ui, |ui| match (task, self.tab) {
                 (Some(task), _) => self.task_ui(ui, editor, task),
                 (None, Tab::Inspector) => {

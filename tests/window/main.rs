@@ -10,6 +10,7 @@ mod files;
 mod generating;
 mod hand;
 mod harmony;
+mod help;
 mod inspecting;
 mod locking;
 mod matching;
@@ -387,6 +388,8 @@ fn every_panel_and_dialog_has_names_in_both_themes_and_when_it_is_small() {
             }
             press(&mut window, Modifiers::NONE, Key::F8);
             press(&mut window, Modifiers::NONE, Key::F8);
+            let canvas = window.state().canvas_rect().expect("a canvas");
+            window.hover_at(canvas.center());
             press(&mut window, Modifiers::NONE, Key::F1);
             click(&mut window, "Close");
             click(&mut window, "Help");

@@ -15,6 +15,7 @@ fn main() -> Result<()> {
     let mut display = Display::start(1600, 1000)?;
     let mut window = Window::open(&mut display, &[], 1.0)?;
     window.resize(1480, 920)?;
+    window.click("Not now")?;
     window.key(Key::H, Modifiers::NONE)?;
     window.picture(&folder.join("dark.png"))?;
     arc::open(&mut window)?;

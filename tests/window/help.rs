@@ -1,0 +1,78 @@
+//! The manual, and the page that F1 opens.
+
+use eframe::egui::{Event, Key, Modifiers};
+use egui_kittest::kittest::Queryable;
+
+use crate::hand::*;
+
+fn press_f1_over(window: &mut Window, label: &str) {
+    let at = window.get_by_label(label).rect().center();
+    window.hover_at(at);
+    window.run();
+    press(window, Modifiers::NONE, Key::F1);
+}
+
+#[test]
+fn f1_over_a_panel_opens_its_page() {
+    for (label, text) in [
+        ("Curvature", "level 1 is the curvature"),
+        ("Features", "A feature is an interval"),
+        ("Inspector", "A curve is a B-spline"),
+        ("Measure", "continue the polygon at an end"),
+    ] {
+        let mut window = open_window();
+        press_f1_over(&mut window, label);
+        assert!(
+            window.query_all_by_label_contains(text).count() > 0,
+            "{label}: {text}"
+        );
+    }
+}
+
+#[test]
+fn f1_over_the_canvas_lists_the_keys() {
+    let mut window = open_window();
+    let at = window.state().canvas_rect().expect("a canvas").center();
+    window.hover_at(at);
+    window.run();
+    press(&mut window, Modifiers::NONE, Key::F1);
+    window.get_by_label("@length<angle");
+    assert!(window.query_by_label("Search the manual").is_none());
+}
+
+#[test]
+fn f1_in_an_open_menu_opens_the_page_of_the_operation_under_the_pointer() {
+    let mut window = open_window();
+    click(&mut window, "Curve");
+    press_f1_over(&mut window, "Reverse direction");
+    assert!(
+        window
+            .query_all_by_label_contains("batten apply reverse")
+            .count()
+            > 0
+    );
+}
+
+#[test]
+fn links_and_search_lead_to_pages() {
+    let mut window = open_window();
+    choose(&mut window, &["Help", "Manual"]);
+    window.get_by_label_contains("Click six times");
+    click(&mut window, "Proofs");
+    assert!(
+        window
+            .query_all_by_label_contains("A feature is an interval")
+            .count()
+            > 0
+    );
+    click(&mut window, "Search the manual");
+    window.event(Event::Text("osculating plane".to_owned()));
+    window.run();
+    click(&mut window, "Curvature at an end");
+    assert!(
+        window
+            .query_all_by_label_contains("drag its dashed circle")
+            .count()
+            > 0
+    );
+}
