@@ -244,7 +244,7 @@ impl App {
         });
         match dropped.as_slice() {
             [] => {}
-            [one] if is_project(one) => {
+            [one] if Format::to_read(one) == Ok(Format::Batten) => {
                 self.confirm(context, AfterDiscard::OpenFile(one.clone()));
             }
             several => told(self.editor.import(several)),
@@ -668,11 +668,6 @@ fn copy(context: &Context, copied: Result<String, Refusal>) {
     if let Ok(text) = copied {
         context.copy_text(text);
     }
-}
-
-fn is_project(path: &Path) -> bool {
-    path.extension()
-        .is_some_and(|extension| extension.eq_ignore_ascii_case("batten"))
 }
 
 /// F6: the keyboard goes on from the canvas to the panels, and back.

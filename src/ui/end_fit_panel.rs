@@ -12,7 +12,7 @@ use super::message::sentence;
 use super::number_field::{FieldEvent, NumberField, vector_row};
 use super::theme::{ROW, STEP, Tokens};
 use super::widgets::IconButton;
-use super::{figures, widgets};
+use super::{document_unit, figures, widgets};
 use crate::editor::{Editor, EndFitAction, EndFitReport, Layer, Refusal, told};
 use crate::geometry::end_correction::EndOverlap;
 use crate::geometry::expressions::sin_cos_of_degrees;
@@ -87,8 +87,7 @@ impl Panel<'_> {
         self.closed_ui(ui);
         self.difference_ui(ui);
         step_ui(ui, 4, "Back to float", false, |_| {});
-        self.translate_ui(ui);
-        self.rotate_ui(ui);
+        self.corrections_ui(ui);
         self.repeat_ui(ui);
     }
 
@@ -278,7 +277,8 @@ impl Panel<'_> {
             if !report.planar {
                 pairs.push(("Δz", plain(d.z)));
             }
-            pairs.push(("Length", plain(d.length())));
+            let length = document_unit::length(ui.ctx(), plain(d.length()));
+            pairs.push(("Length", length));
             pairs.push(("Angle", angle_text(report.angle)));
             if let (Some(target), Some(missing)) = (report.target, report.missing) {
                 let asked = [
@@ -301,50 +301,65 @@ impl Panel<'_> {
         self.report.angle.abs() <= 1e-9
     }
 
-    fn translate_ui(&mut self, ui: &mut Ui) {
-        let report = self.report;
-        let has_target = report.target_point.is_some() && report.can_move();
-        let title = format!("Move {}", counted(report.terminal, "vertex", "vertices"));
-        step_ui(ui, 5, &title, self.is_in_place(), |ui| {
-            let response = step_button(ui, "Translate", has_target)
-                .accessible_name("Translate terminal vertices");
-            let tooltip = "Translate the terminal vertices, as one body, by the difference vector";
-            if response.on_hover_text(tooltip).clicked() {
-                self.ask(EndFitAction::Translate);
+    /// Show a step whose button performs an action; `name` is the button's name for screen readers.
+    fn action_ui(
+        &mut self,
+        ui: &mut Ui,
+        (number, title, done): (usize, &str, bool),
+        [label, name, tooltip]: [&str; 3],
+        action: Option<EndFitAction>,
+    ) {
+        step_ui(ui, number, title, done, |ui| {
+            let response = step_button(ui, label, action.is_some()).accessible_name(name);
+            let clicked = response.on_hover_text(tooltip).clicked();
+            if let Some(action) = action.filter(|_| clicked) {
+                self.ask(action);
             }
         });
     }
 
-    fn rotate_ui(&mut self, ui: &mut Ui) {
+    fn corrections_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
-        let has_target = report.target_direction.is_some() && report.tangent.is_some();
-        let title = format!("Turn {}", counted(report.terminal, "vertex", "vertices"));
-        step_ui(ui, 6, &title, has_target && self.is_aligned(), |ui| {
-            let response = step_button(ui, "Rotate", has_target && report.can_move())
-                .accessible_name("Rotate terminal vertices");
-            let tooltip =
-                "Rotate the terminal vertices about the end point by the difference angle";
-            if response.on_hover_text(tooltip).clicked() {
-                self.ask(EndFitAction::Rotate);
-            }
-        });
+        let count = counted(report.terminal, "vertex", "vertices");
+        let has_point = report.target_point.is_some() && report.can_move();
+        let texts = [
+            "Translate",
+            "Translate terminal vertices",
+            "Translate the terminal vertices, as one body, by the difference vector",
+        ];
+        let action = has_point.then_some(EndFitAction::Translate);
+        let title = format!("Move {count}");
+        self.action_ui(ui, (5, &title, self.is_in_place()), texts, action);
+        let has_direction = report.target_direction.is_some() && report.tangent.is_some();
+        let texts = [
+            "Rotate",
+            "Rotate terminal vertices",
+            "Rotate the terminal vertices about the end point by the difference angle",
+        ];
+        let action = (has_direction && report.can_move()).then_some(EndFitAction::Rotate);
+        let is_done = has_direction && self.is_aligned();
+        self.action_ui(ui, (6, &format!("Turn {count}"), is_done), texts, action);
     }
 
     fn repeat_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
-        step_ui(ui, 7, "Refine and repeat", report.within, |ui| {
-            let response = step_button(ui, "Repeat", report.targets > 0 && report.can_move());
-            let tooltip = "Repeat steps 2 to 6 on both ends until within the tolerance";
-            if response.on_hover_text(tooltip).clicked() {
-                self.ask(EndFitAction::Repeat);
-            }
-        });
+        let can_repeat = report.targets > 0 && report.can_move();
+        let texts = [
+            "Repeat",
+            "Repeat",
+            "Repeat steps 2 to 6 on both ends until within the tolerance",
+        ];
+        let action = can_repeat.then_some(EndFitAction::Repeat);
+        self.action_ui(ui, (7, "Refine and repeat", report.within), texts, action);
         indented(ui, |ui| {
             self.both_ui(ui);
             let (distance, angle) = match report.targets {
                 0 => ("–".to_owned(), "–".to_owned()),
                 _ => (
-                    figures::significant(report.remaining_distance, 4),
+                    document_unit::length(
+                        ui.ctx(),
+                        figures::significant(report.remaining_distance, 4),
+                    ),
                     angle_text(report.remaining_angle),
                 ),
             };
@@ -390,7 +405,8 @@ impl Panel<'_> {
             self.ask(EndFitAction::BothAtOnce);
         }
         let largest = report.largest_move.map(|LargestMove { distance, vertex }| {
-            format!("{} at vertex {vertex}", figures::significant(distance, 4))
+            let distance = document_unit::length(ui.ctx(), figures::significant(distance, 4));
+            format!("{distance} at vertex {vertex}")
         });
         widgets::figure_row(ui, "Largest move", &largest.unwrap_or("–".to_owned()));
     }

@@ -48,7 +48,7 @@ pub enum Purpose {
     Export(Export),
 }
 
-/// What came of asking.
+/// The paths that the user chose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chosen {
     /// The purpose of the paths.
@@ -245,7 +245,7 @@ impl Prompt {
             });
         });
         if entered {
-            // Should the path be refused, it can be mended at once.
+            // A refused path can be corrected at once.
             response.request_focus();
         }
         answer
@@ -363,7 +363,7 @@ fn native_dialog(purpose: &Purpose, proposal: &Path) -> Vec<PathBuf> {
     if let Some(name) = proposal.file_name() {
         dialog = dialog.set_file_name(name.to_string_lossy());
     }
-    let readable = ["batten", "csv"];
+    let readable: Vec<&str> = Format::readable().map(Format::extension).collect();
     match purpose {
         Purpose::Open => dialog
             .add_filter("Curves", &readable)
@@ -375,7 +375,7 @@ fn native_dialog(purpose: &Purpose, proposal: &Path) -> Vec<PathBuf> {
             .pick_files()
             .unwrap_or_default(),
         Purpose::Save(_) => dialog
-            .add_filter("Batten project", &["batten"])
+            .add_filter(Format::Batten.name(), &[Format::Batten.extension()])
             .save_file()
             .into_iter()
             .collect(),
