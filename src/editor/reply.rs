@@ -1,4 +1,4 @@
-//! What something that was asked for came to, and the message on screen that says so.
+//! Replies to requests of the user, and the message on screen.
 
 use std::fmt;
 
@@ -7,28 +7,28 @@ use thiserror::Error;
 use crate::document::EditError;
 use crate::io::FileError;
 
-/// What something that was asked for came to.
+/// The reply to a request of the user: a note, or the reason of a refusal.
 pub type Reply = Result<Note, Refusal>;
 
-/// Leave a reply to the message on screen, which tells it: there is nothing more to do about it.
+/// Ignore a reply that the message on screen already tells.
 pub fn told<T>(_: Result<T, Refusal>) {}
 
-/// What there is to tell of something that was done.
+/// A note on something that was done.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Note {
     /// The text; empty if there is nothing to tell.
     pub text: String,
-    /// Whether it tells of a step that can be undone on the spot.
+    /// Whether the message offers to undo the step.
     pub offers_undo: bool,
 }
 
 impl Note {
-    /// There is nothing to tell.
+    /// A note without a text.
     pub fn silent() -> Self {
         Self::default()
     }
 
-    /// Tell something.
+    /// A note with a text.
     pub fn told(text: impl Into<String>) -> Self {
         Self {
             text: text.into(),
@@ -36,7 +36,7 @@ impl Note {
         }
     }
 
-    /// Tell of the step that was just made, with the offer to undo it.
+    /// A note on the last step, with the offer to undo it.
     pub fn done(text: impl Into<String>) -> Self {
         Self {
             text: text.into(),
@@ -50,7 +50,7 @@ pub(in crate::editor) fn with_lines(text: String, lines: &impl fmt::Display) -> 
     format!("{text}\n{lines}").trim_end().to_owned()
 }
 
-/// Why something that was asked for was not done, in words; nothing is changed then.
+/// The reason why a request was refused; nothing is changed then.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("{0}")]
 pub struct Refusal(pub String);
@@ -84,18 +84,18 @@ impl From<FileError> for Refusal {
 pub struct Message {
     /// The text.
     pub text: String,
-    /// Whether something failed.
+    /// Whether it tells of a failure.
     pub is_error: bool,
-    /// Whether it tells of a step that can be undone on the spot.
+    /// Whether it offers to undo the last step.
     pub offers_undo: bool,
-    /// Whether it tells that the document's file has changed and can be read again.
+    /// Whether it offers to reload the document's file.
     pub offers_reload: bool,
-    /// Whether it tells of an update of the preview: the next one that succeeds takes it away.
+    /// Whether it tells of a failed update of the preview: the next success takes it away.
     pub(in crate::editor) of_update: bool,
 }
 
 impl Message {
-    /// The message that tells of a reply, if there is anything to tell.
+    /// The message of a reply; `None` for a note without a text.
     pub(in crate::editor) fn of(reply: &Reply) -> Option<Self> {
         let (text, is_error, offers_undo) = match reply {
             Ok(note) => (note.text.clone(), false, note.offers_undo),
@@ -121,7 +121,7 @@ impl Message {
         };
     }
 
-    /// The message that the document's file has changed and can be read again.
+    /// The message of a changed file, with the offer to reload it.
     pub(in crate::editor) fn file_changed(text: String) -> Self {
         Self {
             text,

@@ -1,11 +1,11 @@
-//! The document that is worked on: its history, its file, and the one preview.
+//! The open document: its history, its file, and the one preview.
 
 use std::path::{Path, PathBuf};
 
 use crate::document::{Document, Edit, EditError, History};
 use crate::io::Fingerprint;
 
-/// Hold the document with its history and its file, and what is being tried out on it.
+/// Hold the document with its history, its file and its preview.
 ///
 /// Drags, number fields and operations share one preview: it is begun, updated any number of
 /// times from the document as it was then, and committed as one step or aborted.
@@ -13,29 +13,29 @@ use crate::io::Fingerprint;
 pub struct Workspace {
     history: History,
     path: Option<PathBuf>,
-    /// What the file held when it was last read or written.
+    /// The fingerprint of the file when it was last read or written.
     fingerprint: Option<Fingerprint>,
-    /// What the file was seen to hold since then.
+    /// The fingerprint of the file in the last look since then.
     seen: Option<Fingerprint>,
     preview: Option<Preview>,
     /// How many previews there have been.
     previews: u64,
-    /// How often the document was changed for good.
+    /// The number of steps, undos and redos.
     revision: u64,
-    /// How often another document was put in its place.
+    /// The number of documents that were opened before.
     opening: u64,
 }
 
-/// A preview, which is told from every other.
+/// The identity of a preview.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PreviewId(u64);
 
-/// What becomes of a preview when something else is begun.
+/// What happens to a preview when something else begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interruption {
-    /// It is kept as a step: what a number field shows counts.
+    /// It becomes a step, as the value of a number field.
     Commits,
-    /// It is taken back: a drag or an operation has not come to its end.
+    /// It is cancelled, as an unfinished drag or operation.
     Aborts,
 }
 
@@ -55,7 +55,7 @@ impl Workspace {
         }
     }
 
-    /// Put another document in this one's place. Nothing of the old one can be undone.
+    /// Replace the document and its history.
     pub fn replace(&mut self, document: Document, path: Option<PathBuf>) {
         *self = Self {
             previews: self.previews,
@@ -77,12 +77,12 @@ impl Workspace {
         self.history.replace("Reload", document);
     }
 
-    /// The document, with what is being tried out.
+    /// The document, with the preview.
     pub fn document(&self) -> &Document {
         self.history.document()
     }
 
-    /// The document without what is being tried out.
+    /// The document, without the preview.
     pub fn settled(&self) -> &Document {
         self.history.settled()
     }
@@ -102,7 +102,7 @@ impl Workspace {
         self.history.is_modified()
     }
 
-    /// Whether nothing was done to the document since it was opened, which is not of a file.
+    /// Whether the document has no file and no step yet.
     pub fn is_as_opened(&self) -> bool {
         let history = &self.history;
         let has_steps = history.undo_steps() > 0 || history.redo_label().is_some();
@@ -119,7 +119,7 @@ impl Workspace {
         self.opening
     }
 
-    /// Whether there is something to save besides what is being tried out.
+    /// Whether there is something to save, without the preview.
     pub fn is_settled_modified(&self) -> bool {
         self.history.is_settled_modified()
     }
@@ -131,17 +131,17 @@ impl Workspace {
         self.history.mark_saved(saved);
     }
 
-    /// Take the document as one that was not saved.
+    /// Count the document as unsaved.
     pub fn mark_unsaved(&mut self) {
         self.history.mark_unsaved();
     }
 
-    /// What the document's file held when it was last read or written.
+    /// The fingerprint of the document's file when it was last read or written.
     pub fn fingerprint(&self) -> Option<Fingerprint> {
         self.fingerprint
     }
 
-    /// Tell what the document's file held when it was last read or written.
+    /// Set the fingerprint of the document's file, after it was read or written.
     pub fn set_fingerprint(&mut self, fingerprint: Option<Fingerprint>) {
         self.fingerprint = fingerprint;
         self.seen = None;
@@ -159,12 +159,12 @@ impl Workspace {
         self.preview.map(|preview| preview.id)
     }
 
-    /// What becomes of the preview that runs when something else is begun.
+    /// What happens to the running preview when something else begins.
     pub fn interruption(&self) -> Option<Interruption> {
         self.preview.map(|preview| preview.interruption)
     }
 
-    /// Begin a preview; one that still runs is interrupted.
+    /// Begin a preview; a running one is interrupted.
     pub fn begin(&mut self, label: &str, interruption: Interruption) -> PreviewId {
         self.interrupt();
         self.previews += 1;
@@ -183,7 +183,7 @@ impl Workspace {
         self.history.preview(edits)
     }
 
-    /// What edits would show.
+    /// The document that edits would show in the preview.
     ///
     /// # Errors
     /// As [`Workspace::update`].
@@ -211,7 +211,7 @@ impl Workspace {
         }
     }
 
-    /// End the preview because something else is begun. Returns what became of it, if one ran.
+    /// End the preview because something else begins. Returns what happened to it, if one ran.
     pub fn interrupt(&mut self) -> Option<Interruption> {
         let ended = self.interruption();
         match ended {

@@ -1,4 +1,4 @@
-//! What is not saved: kept for the case of a crash, and recovered afterwards.
+//! Autosaves, and the recovery of documents after a crash.
 
 use std::time::{Duration, Instant};
 
@@ -6,14 +6,14 @@ use crate::document::quoted;
 use crate::editor::Editor;
 use crate::editor::jobs::filing::open_elsewhere;
 use crate::editor::jobs::{Autosaver, Recoverable};
-use crate::editor::reply::{Message, Note, Refusal, Reply};
+use crate::editor::reply::{Message, Note, Refusal, Reply, with_lines};
 use crate::io::{FileError, Sessions};
 
 impl Editor {
-    /// Keep what is not saved in a session from now on, and find what earlier ones have left. At most
-    /// a `period`'s work is lost when the program ends badly. That there can be no session is told.
+    /// Begin a session with autosaves, and find the autosaves of earlier sessions. A crash loses the work
+    /// of at most one `period`. A failure is told.
     ///
-    /// Without this nothing is kept.
+    /// Without this there are no autosaves.
     pub fn autosave_in(&mut self, sessions: Sessions, period: Duration) {
         self.recoverable = Recoverable::find(&sessions);
         match self.autosaving.begin(sessions, period) {
@@ -23,24 +23,25 @@ impl Editor {
                 let elsewhere = elsewhere.unwrap_or_default();
                 if !elsewhere.is_empty() {
                     let told = self.message.take().map_or(String::new(), |told| told.text);
-                    self.tell_line(&told, &elsewhere);
+                    let text = with_lines(told, &elsewhere);
+                    self.message = Message::of(&Ok(Note::told(text.trim_start())));
                 }
             }
-            Err(error) => self.tell_failure(&error),
+            Err(error) => self.message = failure(&error),
         }
     }
 
-    /// See to it that what is not saved is written in time, at once if the window `lost_focus`.
-    /// Returns how soon to ask again, if that matters.
+    /// Write the autosave when it is due, at once if the window `lost_focus`. Returns the time until the
+    /// next call, if one is due.
     pub fn autosave(&mut self, now: Instant, lost_focus: bool) -> Option<Duration> {
-        let failure = self.autosaving.advance(&self.workspace, now, lost_focus);
-        if let Some(error) = failure {
-            self.tell_failure(&error);
+        let error = self.autosaving.advance(&self.workspace, now, lost_focus);
+        if let Some(error) = error {
+            self.message = failure(&error);
         }
         self.autosaving.wait(now)
     }
 
-    /// Write what is not saved, and return when it is on the disk. The reply is told.
+    /// Write unsaved changes, and return when they are on the disk. The reply is told.
     ///
     /// # Errors
     /// [`Refusal`] if it cannot be written.
@@ -50,23 +51,23 @@ impl Editor {
         self.tell(written.map(|()| Note::silent()).map_err(Refusal::from))
     }
 
-    /// What writes the newest autosave from other threads, if there is a session.
+    /// The autosaver for other threads, if there is a session.
     pub fn autosaver(&self) -> Option<Autosaver> {
         self.autosaving.autosaver().cloned()
     }
 
-    /// End the session: nothing is unsaved, or it may be lost.
+    /// End the session and remove its autosave.
     pub fn close_session(&mut self) {
         self.autosaving.close();
     }
 
-    /// What earlier sessions have left unsaved, the newest first.
+    /// The autosaves of earlier sessions, the newest first.
     pub fn recoverable(&self) -> &[Recoverable] {
         &self.recoverable
     }
 
-    /// Open what an earlier session has left, in place of the document: it counts as modified, and is
-    /// saved to the file that it had. The reply is told.
+    /// Open the autosave of an earlier session in place of the document. It counts as modified and keeps
+    /// its file. The reply is told.
     ///
     /// # Errors
     /// [`Refusal`] if it is damaged, or not there.
@@ -75,14 +76,14 @@ impl Editor {
         self.tell(reply)
     }
 
-    /// Give up what an earlier session has left.
+    /// Remove the autosave of an earlier session.
     pub fn discard_recoverable(&mut self, id: usize) {
         if let Some(recoverable) = self.take_recoverable(id) {
             recoverable.session.remove();
         }
     }
 
-    /// Leave what earlier sessions have left for the next start.
+    /// Leave the autosaves of earlier sessions for the next start.
     pub fn leave_recoverable(&mut self) {
         self.recoverable.clear();
     }
@@ -106,17 +107,11 @@ impl Editor {
         let place = all.position(|recoverable| recoverable.id == id)?;
         Some(self.recoverable.remove(place))
     }
+}
 
-    fn tell_line(&mut self, told: &str, line: &str) {
-        let text = format!("{told}\n{line}");
-        let note = Note::told(text.trim_start());
-        self.message = Message::of(&Ok(note));
-    }
-
-    fn tell_failure(&mut self, error: &FileError) {
-        let refusal = Refusal(format!(
-            "Changes are not kept for a crash, save often: {error}"
-        ));
-        self.message = Message::of(&Err(refusal));
-    }
+/// The message that autosaves fail.
+fn failure(error: &FileError) -> Option<Message> {
+    Message::of(&Err(Refusal(format!(
+        "Changes are not kept for a crash, save often: {error}"
+    ))))
 }

@@ -1,4 +1,4 @@
-//! Saving what is not saved yet: every so often, beside the frame, for the case of a crash.
+//! Autosaves of unsaved changes, written beside the frame for recovery after a crash.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -32,19 +32,19 @@ pub struct Autosaving {
     has_failed: bool,
 }
 
-/// What an autosave depends on.
+/// The state of the document that an autosave depends on.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct State {
-    /// The revision of the document, if it is not saved.
+    /// The revision of the document; `None` if it is saved.
     unsaved: Option<u64>,
     path: Option<PathBuf>,
 }
 
-/// Write the newest autosave of a session, from whichever thread asks.
+/// Write the newest autosave of a session, from any thread.
 #[derive(Clone, Debug)]
 pub struct Autosaver(Arc<Shared>);
 
-/// What threads share. The frame waits for `newest` alone, which nobody holds for long.
+/// State shared by threads. The frame locks `newest` only, which no thread holds for long.
 #[derive(Debug)]
 struct Shared {
     newest: Mutex<Newest>,
@@ -52,17 +52,17 @@ struct Shared {
     sessions: Sessions,
 }
 
-/// What is to be written.
+/// The state to write.
 #[derive(Debug, Default)]
 struct Newest {
-    /// The document, if it is not saved.
+    /// The document with the fingerprint of its file; `None` if it is saved.
     unsaved: Option<(Document, Option<Fingerprint>)>,
     state: State,
-    /// Sessions whose documents were taken over: they are removed when this one's is on the disk.
+    /// Recovered sessions: they are removed once this session's autosave is on the disk.
     superseded: Vec<AbandonedSession>,
 }
 
-/// What is written.
+/// The state on the disk.
 #[derive(Debug)]
 struct Kept {
     /// `None` once the session is closed.
@@ -71,7 +71,7 @@ struct Kept {
 }
 
 impl Autosaver {
-    /// Write what is not saved, unless it is written already. Returns when it is on the disk.
+    /// Write unsaved changes, unless the disk has them. Returns when they are on the disk.
     ///
     /// # Errors
     /// [`FileError`] if it cannot be written; the autosave before is unchanged then.
@@ -161,32 +161,32 @@ fn write(
 }
 
 impl Autosaving {
-    /// Write on a thread of its own from now on; `wake` is called when something was written.
+    /// Write on a thread from now on, which calls `wake` after each write.
     pub fn run_in_background(&mut self, wake: impl Fn() + Send + 'static) {
         self.client = Client::background("autosave", wake);
     }
 
-    /// Keep what is not saved in a session of its own from now on; at most a `period`'s work is lost.
+    /// Begin a session: from now on a crash loses the work of at most one `period`.
     ///
     /// # Errors
-    /// [`FileError`] if there can be no session: nothing is kept then.
+    /// [`FileError`] if there can be no session; then there are no autosaves.
     pub fn begin(&mut self, sessions: Sessions, period: Duration) -> Result<(), FileError> {
         self.autosaver = Some(Autosaver::begin(sessions)?);
         self.period = period;
         Ok(())
     }
 
-    /// What writes from other threads, if there is a session.
+    /// The autosaver for other threads, if there is a session.
     pub fn autosaver(&self) -> Option<&Autosaver> {
         self.autosaver.as_ref()
     }
 
-    /// Remove a session whose document was put into the workspace, once this one holds it: soon.
+    /// Remove a recovered session once this session's autosave holds its document.
     pub fn supersede(&mut self, session: AbandonedSession) {
         self.superseded.push(session);
     }
 
-    /// How long it is until something is written, if anything is.
+    /// The time until the next write; `None` if there is nothing to write.
     pub fn wait(&self, now: Instant) -> Option<Duration> {
         Some(self.due?.saturating_duration_since(now))
     }
@@ -198,8 +198,8 @@ impl Autosaving {
         }
     }
 
-    /// See to it that what has changed is written in time, at once if it is `urgent`. Returns why what
-    /// was tried since the last time has failed, unless the attempt before it had too.
+    /// Start the writes that are due, all at once if it is `urgent`. Returns the error of the last write,
+    /// unless the write before it failed too.
     pub fn advance(
         &mut self,
         workspace: &Workspace,
@@ -247,7 +247,7 @@ impl Autosaving {
 }
 
 impl Drop for Autosaving {
-    /// When the program panics, write what is not saved.
+    /// Write unsaved changes when the program panics.
     fn drop(&mut self) {
         if let Some(autosaver) = &self.autosaver
             && thread::panicking()

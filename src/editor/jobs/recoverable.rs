@@ -1,4 +1,4 @@
-//! What an earlier session has left unsaved, and a look at it.
+//! Unsaved documents of earlier sessions, with a small picture.
 
 use std::path::PathBuf;
 use std::time::SystemTime;
@@ -10,40 +10,40 @@ use crate::geometry::ParametricCurve;
 use crate::io::autosave::Origin;
 use crate::io::{AbandonedSession, FileError, Sessions, disk};
 
-/// How many chords show a curve in a small picture.
+/// The chords of a curve in a small picture: enough to look smooth at its size.
 const CHORDS: usize = 120;
 
-/// What an earlier session has left unsaved.
+/// An autosave of an earlier session.
 #[derive(Debug)]
 pub struct Recoverable {
-    /// A number that tells it from the others.
+    /// Its number among the others.
     pub id: usize,
-    /// What it holds, or why that cannot be read.
+    /// Its document, or the reason why it cannot be read.
     pub content: Result<RecoverableDocument, FileError>,
     pub(in crate::editor) session: AbandonedSession,
 }
 
-/// A document that an earlier session has left unsaved.
+/// An unsaved document of an earlier session.
 #[derive(Debug)]
 pub struct RecoverableDocument {
     /// The name of its file; `None` if it was never saved.
     pub name: Option<String>,
-    /// When it was written.
+    /// The time of the autosave.
     pub time: SystemTime,
-    /// Whether its file was changed since.
+    /// Whether its file has changed since.
     pub is_file_changed: bool,
     /// The number of its curves.
     pub curves: usize,
     /// The number of their vertices.
     pub vertices: usize,
-    /// Its visible curves as chains of points, seen from where they are widest.
+    /// Its visible curves as chains of points, seen along the axis in which they extend least.
     pub picture: Vec<Vec<DVec2>>,
     pub(in crate::editor) origin: Origin,
     pub(in crate::editor) document: Document,
 }
 
 impl Recoverable {
-    /// Find what earlier sessions have left, and read it: the newest first, damaged ones last.
+    /// Find and read the autosaves of earlier sessions: the newest first, damaged ones last.
     pub fn find(sessions: &Sessions) -> Vec<Self> {
         let found = sessions.abandoned().into_iter();
         let mut found: Vec<Self> = found.map(Self::new).collect();
@@ -57,7 +57,7 @@ impl Recoverable {
         found
     }
 
-    /// The folder of the sessions that it was found in.
+    /// The folder with all sessions.
     pub fn folder(&self) -> PathBuf {
         let autosave = self.session.path();
         let folder = autosave.ancestors().nth(2);
@@ -95,7 +95,7 @@ impl RecoverableDocument {
     }
 }
 
-/// Draw the visible curves as chains, without the coordinate in which they extend least.
+/// The visible curves as chains, without the coordinate in which they extend least.
 fn picture(document: &Document) -> Vec<Vec<DVec2>> {
     let visible = document.curves().filter(|(_, curve)| curve.visible);
     let chains: Vec<Vec<DVec3>> = visible.map(|(_, curve)| chain(curve)).collect();
