@@ -32,7 +32,7 @@ impl Continuity {
         }
     }
 
-    /// What is shared at this level beyond the one before.
+    /// The shared property beyond the level before.
     pub fn label(self) -> &'static str {
         match self {
             Self::G0 => "position",

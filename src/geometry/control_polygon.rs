@@ -88,7 +88,7 @@ impl ControlPolygon {
     }
 }
 
-/// Refuse what does not make a polygon, whatever its knots.
+/// Refuse data that make no polygon, whatever its knots.
 fn check_polygon(
     degree: usize,
     vertices: &[DVec3],

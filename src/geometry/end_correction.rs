@@ -42,6 +42,15 @@ pub struct EndTarget {
 }
 
 impl EndTarget {
+    /// Keep an end at its point, in its direction if it has one.
+    pub fn keeping(jet: &Jet) -> Self {
+        Self {
+            point: jet.point,
+            direction: jet.tangent(),
+            ..Self::default()
+        }
+    }
+
     /// Turn the target round, as when the curve, `planar` or not, is passed through the other way:
     /// the direction points back. The signed curvature of a planar curve changes its sign, and its
     /// slope stays; in space the curvature stays, its slope and the normal change their signs.
@@ -101,13 +110,13 @@ pub struct EndDifference {
 }
 
 impl EndDifference {
-    /// Measure what one end lacks of its target.
+    /// Measure the difference of an end from its target.
     pub fn between(polygon: &FloatPolygon, end: End, target: &EndTarget) -> Self {
         let planar = polygon.is_planar() && target.is_planar();
         Self::of_jet(&polygon.end_jet(end), planar, target)
     }
 
-    /// Measure what a point of a curve, `planar` or not, lacks of a target.
+    /// Measure the difference of a point of a curve, `planar` or not, from a target.
     pub fn of_jet(jet: &Jet, planar: bool, target: &EndTarget) -> Self {
         let angle = match (jet.tangent(), target.direction) {
             (Some(actual), Some(wanted)) => angle_between(actual, wanted),

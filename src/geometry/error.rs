@@ -30,7 +30,7 @@ pub enum PolygonError {
         needed: usize,
         /// The degree given.
         degree: usize,
-        /// Whether a periodic curve was asked for.
+        /// Whether the curve is periodic.
         periodic: bool,
     },
     /// A coordinate is infinite or not a number.
@@ -114,7 +114,7 @@ pub enum PolygonError {
         "the {to} polygon would have weight {weight:e} at vertex {index}: a curve with these weights has no {to} polygon with positive weights"
     )]
     WeightLost {
-        /// The polygon that was asked for.
+        /// The requested polygon.
         to: PolygonKind,
         /// The vertex, counted from 0.
         index: usize,
@@ -124,7 +124,7 @@ pub enum PolygonError {
     /// A conversion gives a coordinate too large to hold.
     #[error("the {to} polygon would have vertex {index} outside the range of numbers")]
     Overflow {
-        /// The polygon that was asked for.
+        /// The requested polygon.
         to: PolygonKind,
         /// The vertex, counted from 0.
         index: usize,
@@ -132,7 +132,7 @@ pub enum PolygonError {
     /// A vertex number that the polygon does not have.
     #[error("vertex {index} does not exist: the polygon has {count} vertices, counted from 0")]
     NoSuchVertex {
-        /// The vertex asked for.
+        /// The requested vertex.
         index: usize,
         /// The number of vertices.
         count: usize,
@@ -162,12 +162,12 @@ pub enum PolygonError {
     /// An extension or a part would be too long.
     #[error("{segments} segments are too many at once: at most {most} can be made")]
     TooManySegments {
-        /// The number of segments asked for.
+        /// The requested number of segments.
         segments: usize,
         /// The largest number.
         most: usize,
     },
-    /// A periodic curve was given to what needs ends.
+    /// A periodic curve has no ends.
     #[error("a periodic curve has no ends and cannot be {done}: open it first")]
     PeriodicCurve {
         /// The refused action.

@@ -1,4 +1,4 @@
-//! A point of a curve with its first three derivatives, and what follows from them.
+//! A point of a curve with its first three derivatives, curvature and torsion.
 
 use glam::DVec3;
 

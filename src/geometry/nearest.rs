@@ -19,7 +19,7 @@ pub struct Nearest {
     pub u: f64,
     /// The point C(u).
     pub point: DVec3,
-    /// Its distance from the point asked for.
+    /// Its distance from the given point.
     pub distance: f64,
 }
 

@@ -128,7 +128,7 @@ impl EvenBatch {
         self.steps
     }
 
-    /// The point and the derivatives at one parameter; those that were not asked for are 0.
+    /// The point and the derivatives at one parameter; those beyond the order are 0.
     ///
     /// # Panics
     /// If the batch has no parameter with this number.

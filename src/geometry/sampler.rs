@@ -1,4 +1,4 @@
-//! Batches of points and derivatives: what every view of a curve is drawn from.
+//! Batches of points and derivatives, from which all views of a curve are drawn.
 //!
 //! All segments of a float polygon share one basis, so the basis is computed once, for all
 //! parameters of the batch, and every segment is a small product of that table and its own
@@ -108,7 +108,7 @@ impl Batch {
         &self.values[first..first + self.stride]
     }
 
-    /// Make room for so many parameters.
+    /// Make room for `count` parameters.
     #[inline]
     fn prepare(&mut self, count: usize) {
         let stride = count.next_multiple_of(LANES);
@@ -126,7 +126,7 @@ impl Batch {
         self.order = 0;
     }
 
-    /// Clear what an earlier evaluation left in rows that this one skipped.
+    /// Clear the rows that this evaluation skipped.
     fn clear_skipped(&mut self, order: usize, flat: bool) {
         let stride = self.stride;
         if flat && !self.flat {

@@ -317,14 +317,7 @@ fn at_once(
     tolerance: f64,
     progress: &Progress,
 ) -> Result<Correction, OperationError> {
-    let kept = |end: End| {
-        let jet = curve.polygon.end_jet(end);
-        EndTarget {
-            point: jet.point,
-            direction: jet.tangent(),
-            ..EndTarget::default()
-        }
-    };
+    let kept = |end: End| EndTarget::keeping(&curve.polygon.end_jet(end));
     let targets = End::BOTH.map(|end| (end, curve.targets.get(end).unwrap_or_else(|| kept(end))));
     let locked = locked(curve, values)?;
     if residual(curve, &curve.polygon) <= tolerance {

@@ -46,7 +46,7 @@ pub struct ApproximationRequest {
 }
 
 impl ApproximationRequest {
-    /// The knots of so many vertices for a part of a curve.
+    /// The knots of `count` vertices for a part of a curve.
     fn knots(&self, part: [f64; 2], count: usize) -> Result<UniformKnots, ApproximationError> {
         match self.periodic {
             true => UniformKnots::around(self.degree, part, count),
@@ -54,7 +54,7 @@ impl ApproximationRequest {
         }
     }
 
-    /// The number of vertices that make so many segments.
+    /// The number of vertices of a number of segments.
     fn vertices(&self, segments: usize) -> usize {
         match self.periodic {
             true => segments,
@@ -82,7 +82,7 @@ pub struct Goal {
     pub most_segments: usize,
 }
 
-/// An approximation, and what is known of it.
+/// An approximation with its distances.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Approximated {
     /// The float polygon.
@@ -185,7 +185,7 @@ pub fn approximate_to_tolerance(
     request: &ApproximationRequest,
     progress: &Progress,
 ) -> Result<Approximated, ApproximationError> {
-    // The simplest knots say at once what cannot be made at all.
+    // The simplest knots refuse impossible requests at once.
     request.knots(interval, request.degree + 1)?;
     let spacings = goal
         .spacing
@@ -268,7 +268,7 @@ impl Search<'_> {
         Ok(found)
     }
 
-    /// The first spacing that reaches what is asked for with so many segments, or the nearest.
+    /// The first spacing that meets the request with `segments` segments, or the nearest.
     fn best_of(&self, segments: usize) -> Result<Approximated, ApproximationError> {
         let count = self.request.vertices(segments);
         let mut best: Option<Result<Approximated, ApproximationError>> = None;
@@ -325,7 +325,7 @@ impl Search<'_> {
             Some(respaced) => Placed::respaced(self.curve, respaced, spacing, count, self.request)?,
         };
         let measured = placed.measured()?;
-        // Levels take time, and are asked for only where the place is right.
+        // Levels take time: compare them only within the tolerance.
         if measured.found.distance() <= self.goal.tolerance {
             Ok(measured.compared_by(compare_levels_at_samples))
         } else {
@@ -405,7 +405,7 @@ impl<'a> Placed<'a> {
         placed.with_ends()
     }
 
-    /// Bring the ends to the curve's points and directions, if that is asked for.
+    /// Bring the ends to the curve's points and directions, if requested.
     fn with_ends(mut self) -> Result<Self, ApproximationError> {
         if self.request.fit_ends && self.polygon.is_periodic() {
             return Err(ApproximationError::NoEnds);

@@ -34,7 +34,7 @@ pub struct Corrections {
     pub growth: f64,
 }
 
-/// A float polygon near a curve, and what is known of its making.
+/// A float polygon near a curve, with the corrections of quasi-interpolation.
 pub(super) struct PlacedPolygon {
     pub(super) polygon: FloatPolygon,
     /// Of quasi-interpolation, from degree 4 on, where there are two corrections or more.

@@ -113,7 +113,7 @@ impl Task {
         self.angles.into_iter().chain(given).all(|it| it > 0.0)
     }
 
-    /// Whether both directions follow the chord but for rounding, and no curvature is asked for.
+    /// Whether both directions follow the chord but for rounding, and no curvature is requested.
     pub(super) fn is_straight(&self) -> bool {
         let bends = self.curvatures.into_iter().flatten();
         let follow = self.angles.into_iter().all(|it| it.abs() <= ROUNDING);

@@ -47,7 +47,7 @@ pub enum BetweenError {
         turning: f64,
         /// The angles between the direction at the start and the chord that there are.
         reach: [f64; 2],
-        /// The angle that is asked for.
+        /// The requested angle.
         angle: f64,
     },
     /// There is a segment, and it has another curvature.
@@ -60,7 +60,7 @@ pub enum BetweenError {
         /// The requested value.
         asked: f64,
     },
-    /// The curvature that is asked for turns the other way.
+    /// The requested curvature turns the other way.
     #[error("the curvature {} at the {end} is that of a turn to the {}, and between these ends every such segment turns to the {} there: give it the other sign, or turn a direction", significant(*.asked, 6), side(*.asked), side(-.asked))]
     OtherTurn {
         /// The end.

@@ -89,7 +89,7 @@ fn best_harmonised(
 }
 
 /// Harmonise a polygon so that no extrema of the curvature are left, and an inflection only where
-/// the ends ask for one; the ends keep what is asked of them.
+/// the ends ask for one; the ends keep their requested values.
 fn harmonised(
     polygon: &FloatPolygon,
     task: &Task,

@@ -15,6 +15,7 @@ use glam::DVec2;
 
 use super::root::root;
 use crate::geometry::quadrature::{quadrature, settled_quadrature};
+use crate::geometry::references::log_aesthetic::{lambda_and_length, relative_exponential};
 
 /// Largest growth of ln ρ: radii a million times apart.
 const MOST_GROWTH: f64 = 13.8;
@@ -99,15 +100,9 @@ impl LogAesthetic {
         segment(alpha).ok_or(None)
     }
 
-    /// The parameter Λ of the standard form, in which the first radius is 1.
-    pub(super) fn lambda(&self) -> f64 {
-        self.growth * relative((self.alpha - 1.0) * self.growth) / self.turning
-    }
-
-    /// Its length in units of the first radius.
-    pub(super) fn length(&self) -> f64 {
-        let stretch = (self.alpha - 1.0) * self.growth;
-        self.turning * relative(self.alpha * self.growth) / relative(stretch)
+    /// The parameter Λ of the standard form, in which the first radius is 1, and the length in it.
+    pub(super) fn lambda_and_length(&self) -> [f64; 2] {
+        lambda_and_length(self.alpha, self.growth, self.turning)
     }
 
     /// Its chord in units of the first radius, where it starts along (1, 0).
@@ -134,20 +129,16 @@ impl LogAesthetic {
             turning,
         } = *self;
         let stretch = (alpha - 1.0) * growth;
-        let whole = relative(stretch);
+        let whole = relative_exponential(stretch);
         let functions = |w: f64| {
-            let share = w * relative(stretch * w) / whole;
+            let share = w * relative_exponential(stretch * w) / whole;
             let speed = turning * (alpha * growth * w).exp() / whole;
             let (sine, cosine) = (turning * (share - 0.5)).sin_cos();
             [speed * cosine, speed * sine]
         };
         let first = quadrature(0.0, 1.0, &functions);
-        let allowed = [EXACT * self.length(); 2];
+        let [_, length] = self.lambda_and_length();
+        let allowed = [EXACT * length; 2];
         DVec2::from(settled_quadrature([0.0, 1.0], first, allowed, &functions).values)
     }
-}
-
-/// Compute φ(y) = (eʸ − 1) / y.
-fn relative(y: f64) -> f64 {
-    if y == 0.0 { 1.0 } else { y.exp_m1() / y }
 }

@@ -23,7 +23,7 @@ const COUNTS: [usize; 13] = [8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 
 /// The disturbance of the end correction: third differences keep the curvature even.
 const DISTURBANCE: Disturbance = Disturbance::Differences(3);
 
-/// Hold a polygon with what it lacks of the true segment.
+/// A polygon with its differences from the true segment.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Fit {
     /// The polygon, whose ends are exact.
@@ -37,7 +37,7 @@ pub(super) struct Fit {
 }
 
 /// Find the polygon with the fewest segments that stays within a tolerance of the true segment and
-/// has monotone curvature; without one, that which comes closest.
+/// has monotone curvature; without one, the closest.
 ///
 /// Vertices belong to even steps of the parts' own parameter. Where no number of them does, they belong to even
 /// steps of ln ρ if the segment is log-aesthetic, or else of arc length and turning together: both are fine where
@@ -171,7 +171,7 @@ impl Search<'_> {
     }
 }
 
-/// Quasi-interpolate a curve from parameter 0 to an end by so many segments.
+/// Quasi-interpolate a curve from parameter 0 to `end` by `segments` segments.
 pub(super) fn quasi(
     curve: &dyn Differentiable,
     end: f64,

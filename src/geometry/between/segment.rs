@@ -79,7 +79,7 @@ impl Segment {
 /// the direction angle, and log-aesthetic segments that bend too sharply for that of ln ρ; then both ends are made exact by the least disturbance.
 ///
 /// # Errors
-/// [`BetweenError`]: where there is no such segment it tells what there is.
+/// [`BetweenError`]: where there is no such segment it names the possible ones.
 pub fn between(
     ends: &Ends,
     kind: SegmentKind,

@@ -89,7 +89,7 @@ enum Single {
 }
 
 impl Single {
-    /// Refuse if it does not have the curvatures that are asked for.
+    /// Refuse if it does not have the requested curvatures.
     fn check(&self, task: &Task) -> Result<(), BetweenError> {
         let found = match self {
             Self::LogAesthetic(segment) => segment.curvatures(),
@@ -202,7 +202,7 @@ fn name(alpha: f64) -> String {
     format!("a log-aesthetic curve with α = {alpha}")
 }
 
-/// Refuse if curvatures differ from those that are asked for.
+/// Refuse if curvatures differ from the requested ones.
 fn check_curvatures(task: &Task, found: [f64; 2]) -> Result<(), BetweenError> {
     let asked = task.curvatures.map(|it| it.map(|it| task.curvature(it)));
     for ((end, found), asked) in ENDS.into_iter().zip(found).zip(asked) {
@@ -221,14 +221,9 @@ fn log_aesthetic_part(
     segment: LogAesthetic,
     wanted: [DVec2; 2],
 ) -> Result<Part, BetweenError> {
-    let form = AnalyticForm::new(&log_aesthetic::KIND, vec![segment.alpha, segment.lambda()])?;
-    placed(
-        task,
-        form,
-        [0.0, segment.length()],
-        wanted,
-        Turned::default(),
-    )
+    let [lambda, length] = segment.lambda_and_length();
+    let form = AnalyticForm::new(&log_aesthetic::KIND, vec![segment.alpha, lambda])?;
+    placed(task, form, [0.0, length], wanted, Turned::default())
 }
 
 /// Place a clothoid: far from its inflection as a log-aesthetic curve, whose numbers stay moderate

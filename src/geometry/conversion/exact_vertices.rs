@@ -191,7 +191,7 @@ impl<const K: usize> ExactVertices<K> {
 /// Points and, of a rational curve, weights.
 pub(in crate::geometry) type RoundedVertices = (Vec<DVec3>, Option<Vec<f64>>);
 
-/// Bound what computing a weight of numbers whose magnitudes sum up to `total` loses.
+/// Bound the error of a weight computed from numbers whose magnitudes sum up to `total`.
 pub(in crate::geometry) fn weight_loss(total: f64) -> f64 {
     total * LOST
 }

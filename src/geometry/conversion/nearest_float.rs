@@ -169,7 +169,7 @@ impl ClampedPolygon {
         )
     }
 
-    /// Leave out what lies in the middle: ends convert alike where 2n vertices of each are there.
+    /// Leave out the middle: ends convert alike where 2n vertices of each are there.
     fn ends(&self) -> Result<Self, PolygonError> {
         let (kept, count) = (2 * self.degree(), self.vertices().len());
         if count <= 2 * kept {

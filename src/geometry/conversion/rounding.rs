@@ -10,7 +10,7 @@ use crate::geometry::vector;
 /// The most digits that a double has after the decimal point.
 const DIGITS: usize = 1074;
 
-/// Hold a polygon with rounded coordinates, and what rounding did.
+/// Polygon with rounded coordinates, and the effect of rounding.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rounded<P> {
     /// The polygon; its weights are those of the polygon given.
@@ -23,7 +23,7 @@ pub struct Rounded<P> {
 }
 
 impl FloatPolygon {
-    /// Round every coordinate to so many digits behind the decimal point, halves to even.
+    /// Round every coordinate to `digits` digits behind the decimal point, halves to even.
     ///
     /// # Errors
     /// [`PolygonError::BadCoordinate`] if a coordinate at the very end of the range of numbers
@@ -68,7 +68,7 @@ fn rounded(vertices: &[DVec3], digits: usize) -> Vec<DVec3> {
     vertices.iter().map(round).collect()
 }
 
-/// Round a number as it is written with so many digits: the decimal nearest to the exact double,
+/// Round a number as it is written with `digits` digits: the decimal nearest to the exact double,
 /// then the double nearest to that.
 pub(in crate::geometry) fn rounded_off(value: f64, digits: usize) -> f64 {
     let written = format!("{value:.digits$}", digits = digits.min(DIGITS));

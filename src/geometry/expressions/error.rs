@@ -50,7 +50,7 @@ pub enum ExpressionError {
         /// The given number.
         found: usize,
     },
-    /// Something is not what is needed, such as an angle instead of a length.
+    /// A value has another dimension than needed, such as an angle instead of a length.
     #[error("{found} is given where {needed} is needed")]
     WrongQuantity {
         /// The given one.
@@ -82,7 +82,7 @@ pub enum ExpressionError {
     TooLong,
 }
 
-/// Why something comes to no finite real number.
+/// Reason why a value is no finite real number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoNumber {
     /// A divisor is 0.
@@ -94,7 +94,7 @@ pub enum NoNumber {
 }
 
 impl NoNumber {
-    /// Tell why a value is not finite that an expression comes to.
+    /// Find the reason why an expression's value is not finite.
     pub(in crate::geometry) fn of(value: f64, divides_by_zero: bool) -> Self {
         match value.is_nan() {
             _ if divides_by_zero => Self::DivisionByZero,
@@ -132,7 +132,7 @@ impl ExpressionMistake {
         }
     }
 
-    /// The same mistake in a text with so many characters more at its beginning.
+    /// Shift the mistake to a text with `characters` characters more at its beginning.
     #[must_use]
     pub fn shifted(self, characters: usize) -> Self {
         Self {

@@ -6,7 +6,7 @@ use super::function::{Function, FunctionKind};
 use super::unit::{LengthUnit, Unit};
 use crate::geometry::power_series::PowerSeries;
 
-/// A number and what it measures: lengths in the document's unit, angles in degrees.
+/// A number with its dimension: lengths in the document's unit, angles in degrees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Measure {
     pub(super) number: f64,
@@ -79,7 +79,7 @@ pub(super) struct Conventions {
 type MeasureResult = Result<Measure, ExpressionMistake>;
 
 impl Conventions {
-    /// Compute what a part of an expression without t comes to.
+    /// Compute the value of a part of an expression without t.
     ///
     /// # Errors
     /// [`ExpressionMistake`] where units do not go together.
@@ -224,7 +224,7 @@ impl Conventions {
     }
 }
 
-/// Check what a number measures.
+/// Check the dimension of a number.
 fn needed(column: usize, found: Measure, needed: Dimension) -> Result<(), ExpressionMistake> {
     if found.dimension == needed {
         return Ok(());

@@ -136,7 +136,7 @@ impl NumberContext {
     }
 }
 
-/// Check that a text comes to a finite number.
+/// Check that a text has a finite value.
 fn finite(value: f64, text: &str, divides_by_zero: bool) -> Result<f64, ExpressionMistake> {
     if value.is_finite() {
         return Ok(value);

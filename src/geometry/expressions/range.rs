@@ -15,7 +15,7 @@ pub(super) struct ValueRange {
 /// Why an expression may have no value or derivative somewhere in an interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Gap {
-    /// It is divided by what may be 0, or grows beyond all bounds.
+    /// Its divisor may be 0, or it grows beyond all bounds.
     Pole,
     /// A function may be at the border of where it is defined.
     Border,
@@ -39,7 +39,7 @@ impl ValueRange {
         Self::new(FRAC_PI_2.next_down(), FRAC_PI_2.next_up())
     }
 
-    /// Leave room for the rounding of what was computed; what is beyond all numbers is a pole.
+    /// Leave room for rounding; an infinite bound is a pole.
     fn rounded(low: f64, high: f64) -> RangeResult {
         if low.is_finite() && high.is_finite() {
             Ok(Self::new(low.next_down(), high.next_up()))
@@ -48,7 +48,7 @@ impl ValueRange {
         }
     }
 
-    /// Refuse what is too large for a coordinate.
+    /// Refuse values too large for a coordinate.
     pub(super) fn of_coordinate(self) -> RangeResult {
         match self.abs().high <= MAX_MAGNITUDE {
             true => Ok(self),

@@ -76,7 +76,7 @@ const UNITS: [(&str, Unit); 10] = [
 ];
 
 impl Unit {
-    /// Find what is written so.
+    /// Find the unit with this spelling.
     pub(super) fn written(text: &str) -> Option<Self> {
         let mut units = UNITS.iter();
         units.find(|(name, _)| *name == text).map(|(_, unit)| *unit)

@@ -50,7 +50,7 @@ pub struct Bridged {
     pub polygon: FloatPolygon,
     /// The numbers of the bridge's vertices.
     pub bridge: Range<usize>,
-    /// The proved features of what depends on the bridge.
+    /// The proved features of the segments that depend on the bridge.
     pub counts: ShapeCounts,
     /// The number of undecided places, cusps included.
     pub undecided: usize,
@@ -372,7 +372,7 @@ impl Parts<'_> {
         FloatPolygon::new(self.first.degree(), vertices, weights, self.closes)
     }
 
-    /// The best bridges of so many vertices with both parts in their places.
+    /// The best bridges of `count` vertices with both parts in their places.
     fn fixed(
         &self,
         count: usize,
@@ -402,7 +402,7 @@ impl Parts<'_> {
         Ok(trials)
     }
 
-    /// The best bridge of so many vertices with the second part where it fits best.
+    /// The best bridge of `count` vertices with the second part where it fits best.
     fn moving(&self, count: usize, order: usize) -> Result<Trial, BridgeError> {
         let weights = self.guess(count).into_iter().map(|(_, weight)| weight);
         let parts = [self.first.vertices(), self.second.vertices()];

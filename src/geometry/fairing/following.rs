@@ -18,7 +18,7 @@ const ORDER: usize = 2;
 /// Weight of the moves beside their differences while followers first meet the held conditions.
 const FIDELITY: f64 = 1e-3;
 
-/// The most Gauss–Newton steps: what a frame has time for.
+/// The most Gauss–Newton steps: a frame has no time for more.
 const MOST_STEPS: usize = 8;
 
 /// The residual, in units of the curve's size, up to which an end counts as held.
@@ -33,7 +33,7 @@ pub enum Moved {
     Clamped(usize, DVec3),
 }
 
-/// Let the neighbours of what is moved follow so that the polygon is harmonious there.
+/// Let the neighbours of moved vertices follow so that the polygon is harmonious there.
 ///
 /// The vertices up to `span` places from a moved one minimise the functional of
 /// [`harmonise`](super::harmonising::harmonise), with their own moves weighed by `stiffness` > 0.
@@ -110,7 +110,7 @@ pub fn follow_in_harmony(
         let harmony = problem.harmony(problem.measure(), ORDER, stiffness);
         let followed = problem.descend(harmony, &met, MOST_STEPS);
         let followed = problem.polygon(&followed.vertices)?;
-        // An end that too few vertices could hold is let go.
+        // Release an end that too few vertices could hold.
         let lost = ends.iter().position(|end| {
             let target = &held[usize::from(*end == End::Finish)];
             target.is_some_and(|target| {
@@ -254,15 +254,7 @@ pub fn follow_softly(
 
 /// The present point and direction of an end, as a target.
 fn kept(polygon: &FloatPolygon, end: End) -> Option<EndTarget> {
-    if polygon.is_periodic() {
-        return None;
-    }
-    let jet = polygon.end_jet(end);
-    Some(EndTarget {
-        point: jet.point,
-        direction: jet.tangent(),
-        ..EndTarget::default()
-    })
+    (!polygon.is_periodic()).then(|| EndTarget::keeping(&polygon.end_jet(end)))
 }
 
 /// Free what a moved vertex of the closed S-polygon is itself: the point, or the direction.

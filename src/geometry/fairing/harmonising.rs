@@ -1,4 +1,4 @@
-//! Harmonising: the least change that leaves the features asked for.
+//! Harmonising: the least change that leaves the requested features. The method is Batten's own.
 
 use glam::DVec3;
 use thiserror::Error;
@@ -33,7 +33,7 @@ const MOST_STEPS: usize = 20;
 /// curvature, third ones keep a bend of it.
 const ORDERS: [usize; 2] = [2, 3];
 
-/// To what an end is held.
+/// Held values of an end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Held {
     /// Nothing.
@@ -50,7 +50,7 @@ pub enum Held {
     All,
 }
 
-/// What is asked of harmonising. Where no number of features is given, no more are to be left than
+/// Request for harmonising. Without a requested number of features no more may remain than
 /// stand out: extrema with a prominence of at least 5 % of the range of values, and the inflections
 /// between them.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,7 +58,7 @@ pub struct Harmony<'a> {
     /// The stretch [u₀, u₁] of the curve, of a periodic one with u₀ > u₁ over the seam; `None` for all
     /// of it.
     pub stretch: Option<[f64; 2]>,
-    /// To what its two ends are held.
+    /// The held values of its two ends.
     pub ends: [Held; 2],
     /// The vertices that stay where they are.
     pub locked: &'a [usize],
@@ -75,10 +75,10 @@ pub struct Harmony<'a> {
 /// Result of harmonising.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Harmonised {
-    /// The polygon with the least change found that has what is asked for, or else the one that
+    /// The polygon with the least change that meets the request, or else the one that
     /// comes closest.
     pub polygon: FloatPolygon,
-    /// Whether it has what is asked for: proved features, held ends, deviation.
+    /// Whether it meets the request: proved features, held ends, deviation.
     pub reached: bool,
     /// The requested numbers of features.
     pub request: ShapeCounts,
@@ -131,7 +131,7 @@ pub enum HarmonyError {
     Polygon(#[from] PolygonError),
 }
 
-/// Move vertices as little as possible so that the features asked for are left, proved.
+/// Move vertices as little as possible so that the requested features remain, proved.
 ///
 /// Minimises Σ(ΔᵐK)² ℓ² + w Σ(Δ² log leg)² + ε Σ|P − P⁰|²/ℓ² with the ends held, K the discrete
 /// curvature and ℓ the mean leg (in space with the torsion angles), for falling ε until the
@@ -259,7 +259,7 @@ fn over_the_seam(
     })
 }
 
-/// The ends of a stretch with what holds them; a whole periodic curve has none.
+/// The ends of a stretch with their held values; a whole periodic curve has none.
 fn ends(polygon: &FloatPolygon, stretch: [f64; 2], harmony: &Harmony) -> Vec<(f64, Held)> {
     if polygon.is_periodic() && stretch == domain(polygon) {
         return Vec::new();
@@ -431,7 +431,7 @@ impl Search<'_> {
         Ok(reached)
     }
 
-    /// Go down for one ε, and tell whether what is found is what is asked.
+    /// Descend for one ε, and compare the features with the request.
     fn try_out(
         &mut self,
         sweep: &Sweep,
@@ -464,7 +464,7 @@ impl Search<'_> {
         self.rank(polygon)
     }
 
-    /// Prove what looked closest, unless what is asked is reached.
+    /// Prove the polygon that looked closest, unless the request is met.
     fn prove_most_promising(&mut self) -> Result<(), HarmonyError> {
         match self.promising.take() {
             Some((_, polygon)) if !self.best.harmonised.reached => self.rank(polygon).map(drop),
@@ -472,7 +472,7 @@ impl Search<'_> {
         }
     }
 
-    /// Prove a polygon, keep it if it is better, and tell whether it is what is asked.
+    /// Prove a polygon, keep it if it is better, and compare it with the request.
     fn rank(&mut self, polygon: FloatPolygon) -> Result<CountVerdict, HarmonyError> {
         let features = prove(&polygon, self.progress)?;
         let proved = counted(&features, polygon.is_planar(), self.stretch);

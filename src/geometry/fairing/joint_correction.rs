@@ -22,7 +22,7 @@ const MET: f64 = 1e-11;
 /// size, and over its square.
 const CURVATURE_MET: f64 = 1e-10;
 
-/// The rounding of a vertex, and what its coordinates are combined to, in units of the largest.
+/// Rounding error of a vertex and of combinations of its coordinates, in units of the largest.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// The share of its speed with which an end counts as stopped: a cusp in the making.
@@ -140,11 +140,11 @@ pub fn correct_jointly(
     }
 }
 
-/// Do as [`correct_jointly`] does in most cases, by the first steps alone: what could not be met a moment
-/// ago hardly costs anything then.
+/// Correct as [`correct_jointly`] does, by its first steps alone: targets that could not be met a moment
+/// ago cost hardly anything then.
 ///
 /// # Errors
-/// As [`correct_jointly`], [`CorrectionError::NotSolvable`] also where that would go on.
+/// As [`correct_jointly`]; [`CorrectionError::NotSolvable`] also where that takes more steps.
 pub fn correct_hastily(
     polygon: &FloatPolygon,
     targets: &[(End, EndTarget)],
@@ -251,7 +251,7 @@ impl<'a> Correction<'a> {
         problem
     }
 
-    /// Meet the targets, beginning at some vertices, by at most so many steps, and check what is left.
+    /// Meet the targets from given vertices by at most `most` steps, and check the residual.
     fn finish(
         &self,
         problem: &Problem,

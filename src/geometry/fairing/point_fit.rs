@@ -1,4 +1,4 @@
-//! The curve nearest to points among those whose curvature rises and falls by turns as asked.
+//! Nearest curve to points among those whose curvature rises and falls as requested.
 //!
 //! Makes Σ |C(uᵢ) − pᵢ|² + λ Σ |Δ³P|² small while the slope of the curvature keeps its sign between
 //! two turns, at samples: the conditions press by multipliers, which are found by turns with the
@@ -30,7 +30,7 @@ const GROWTH: f64 = 3.0;
 const ROUNDS: usize = 40;
 const STEPS: usize = 8;
 
-/// After so many rounds in a row without a step nothing changes any more.
+/// Rounds in a row without a step after which nothing changes any more.
 const STUCK: usize = 4;
 
 /// A relative decrease below this ends the steps, and one of the sum of squares below the second the rounds.

@@ -286,7 +286,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Go down to a smallest objective along vertices that meet the conditions, beginning at some
-    /// that do, by at most so many Gauss–Newton steps.
+    /// that do, by at most `most` Gauss–Newton steps.
     pub(super) fn descend(&self, objective: Objective, begin: &[DVec3], most: usize) -> Descent {
         let mut vertices = begin.to_vec();
         let mut value = self.value(objective, &vertices);
@@ -326,7 +326,7 @@ impl<'a> Problem<'a> {
         Descent { vertices, steps }
     }
 
-    /// Take back by what a step misses the conditions.
+    /// Correct the residuals of the conditions after a step.
     fn restored(&self, conditions: &Linearised, mut vertices: Vec<DVec3>) -> Vec<DVec3> {
         if self.held.is_empty() {
             return vertices;
@@ -444,7 +444,7 @@ impl Linearised {
         parts.map(|(correction, down)| correction - down).collect()
     }
 
-    /// The smallest step that takes away what is left of the conditions.
+    /// The smallest step that cancels the residuals of the conditions.
     fn correction(&self, left: &[f64]) -> Vec<f64> {
         let scaled = left.iter().zip(&self.units);
         let scaled: Vec<f64> = scaled.map(|(left, unit)| -left * unit).collect();

@@ -9,7 +9,7 @@ use crate::geometry::float_polygon::FloatPolygon;
 /// Least distance of slopes from 0, in their units.
 const MARGIN: f64 = 1e-3;
 
-/// A condition is active where the slope is at most so many margins, and its multiplier at least so large.
+/// A condition is active up to this slope, in margins, and from this multiplier on.
 const ACTIVE: [f64; 2] = [10.0, 0.01];
 
 /// A multiplier changes at most by this factor at a time, and never falls below the least.

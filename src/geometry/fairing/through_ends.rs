@@ -49,7 +49,7 @@ impl FloatPolygon {
     }
 }
 
-/// Which vertices are added, and what holds for them.
+/// The added vertices and their conditions.
 struct Layout {
     degree: usize,
     /// Vertices added at each end.

@@ -149,7 +149,7 @@ impl Features {
     }
 }
 
-/// A curve and what is known of its segments.
+/// A curve with the proofs of its segments.
 struct Assembly<'a> {
     polygon: &'a FloatPolygon,
     segments: &'a [SegmentFeatures],

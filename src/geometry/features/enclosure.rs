@@ -98,7 +98,7 @@ fn times(a: Enclosure, b: Enclosure, factor: f64) -> Enclosure {
     }
 }
 
-/// Widen bounds by what computing them rounded.
+/// Widen bounds by the rounding of their computation.
 pub(super) fn widened([low, high]: Enclosure) -> Enclosure {
     // An exact 0 stays exact.
     let tiny = |bound: f64| if bound == 0.0 { 0.0 } else { f64::MIN_POSITIVE };

@@ -1,4 +1,4 @@
-//! The numerators in whole numbers: what rounded numbers leave in doubt.
+//! The numerators in whole numbers, where rounded numbers leave a doubt.
 //!
 //! Doubles are whole numbers times powers of two, and so is, but for a common positive factor,
 //! a segment in Bernstein form.

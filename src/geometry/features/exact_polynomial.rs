@@ -1,4 +1,4 @@
-//! Polynomials on \[0, 1\] with whole coefficients, for what rounded numbers leave in doubt.
+//! Polynomials on \[0, 1\] with whole coefficients, where rounded numbers leave a doubt.
 
 use num_bigint::BigInt;
 use num_traits::{One, Zero};

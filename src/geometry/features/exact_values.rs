@@ -18,7 +18,7 @@ const STEP: u32 = 32;
 /// Otherwise the interval is halved this often.
 const BISECTIONS: usize = 6;
 
-/// Beyond so many binary digits it is not narrowed.
+/// Most binary digits of a narrowed interval.
 const MOST_BITS: u64 = 1024;
 
 /// Relative rounding errors of one polynomial and of the result.

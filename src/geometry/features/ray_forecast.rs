@@ -23,7 +23,7 @@ const PRECISION: f64 = 1e-6;
 /// Cut off the middle, where a root of symmetrical curves would lie on it.
 const CUT: f64 = 0.53125;
 
-/// Foresee what a vertex does to the signs of curvature and its slope at samples of a planar curve.
+/// Forecast of a vertex's effect on the signs of curvature and its slope at samples of a planar curve.
 ///
 /// All derivatives of the curve are linear in the vertex, so along a ray the numerator of the
 /// curvature is linear in the distance at every sample, and that of its slope of degree 3: their

@@ -98,7 +98,7 @@ impl Bracket {
         }
     }
 
-    /// Come as near as possible from both sides to a place whose sign cannot be told.
+    /// Approach a place of unknown sign from both sides.
     fn enclose(&mut self, t: f64, target: f64, evaluate: &impl Fn(f64) -> (f64, f64)) {
         for direction in [-1.0, 1.0] {
             let mut step = 0.375 * target;
@@ -120,7 +120,7 @@ mod tests {
     use super::*;
     use std::cell::Cell;
 
-    /// Widths that are asked for.
+    /// The requested widths.
     const TARGET: f64 = 1e-12;
 
     fn refined(function: impl Fn(f64) -> f64, error: f64) -> ([f64; 2], u32) {

@@ -140,7 +140,7 @@ impl Search<'_> {
         }
     }
 
-    /// Find the signs of a function, and what they took.
+    /// Find the signs of a function, and the effort.
     fn signs(&mut self, function: Function) -> (Vec<SignPiece>, Tier) {
         let mut pieces = Vec::new();
         let polynomial = self.quick.of(function);
@@ -266,7 +266,7 @@ impl Search<'_> {
     }
 }
 
-/// Say what it took to find the signs of a function.
+/// Effort of finding the signs of a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Tier {
     /// Rounded numbers were enough: all roots are simple.

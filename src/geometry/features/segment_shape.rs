@@ -14,7 +14,7 @@ const WIDE_ROUNDING: f64 = f64::EPSILON * f64::EPSILON * 64.0;
 /// Products of doubles further apart than this share of their size are different in truth.
 const APART: f64 = 8.0 * f64::EPSILON;
 
-/// Hold what the features of one segment depend on.
+/// The part of a segment's data that its features depend on.
 ///
 /// Of a polynomial segment these are its n legs, the control vectors of C′; of a rational
 /// one the n + 1 homogeneous vertices about one of its own. Both are divided by a power of two,
@@ -79,7 +79,7 @@ impl SegmentShape {
     }
 
     /// Divide by the power of two that brings the largest coordinate to between 1 and 2, and
-    /// replace what is too small to be multiplied by a bound of it.
+    /// replace numbers too small to be multiplied by a bound of them.
     fn normalise(&mut self) {
         let coordinates = self.controls[..3].iter().flatten();
         let largest = coordinates.fold(0.0, |largest: f64, value| largest.max(value.high().abs()));

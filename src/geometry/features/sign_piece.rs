@@ -2,7 +2,7 @@
 
 use super::enclosure::UNKNOWN;
 
-/// Say what a function does on a piece of a segment.
+/// Sign of a function on a piece of a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Sign {
     /// It is above 0, but for single points where it may touch 0 (roots of even multiplicity).

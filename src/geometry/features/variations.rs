@@ -18,7 +18,7 @@ pub(super) fn certain_sign(value: f64, error: f64) -> Option<i8> {
     }
 }
 
-/// Say what the signs of a row of Bernstein coefficients allow.
+/// Signs that a row of Bernstein coefficients allows.
 ///
 /// By Descartes' rule a polynomial has no more roots in the open interval, each counted as often
 /// as its multiplicity, than its coefficients change sign, and as many but for an even number.

@@ -3,7 +3,7 @@
 use super::flow::VertexSequence;
 use crate::geometry::features::ExtremumKind;
 
-/// Name what a curvature or torsion does at one place.
+/// Event of a curvature or torsion at one place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Event {
     /// It has an extremum.
@@ -20,7 +20,7 @@ pub(super) struct SequenceEvent {
     pub(super) at: f64,
 }
 
-/// A number, with what rounding may have done to it.
+/// A number with its rounding error.
 #[derive(Clone, Copy)]
 struct Rounded {
     vertex: f64,

@@ -14,7 +14,7 @@ const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
 /// Most corrections of an estimate that is too large.
 const MOST_ESTIMATES: usize = 4;
 
-/// Hold what one segment adds to the fairness of a curve.
+/// Share of one segment in the fairness of a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SegmentFairness {
     /// The arc length.
@@ -33,7 +33,7 @@ pub struct Fairness {
     /// The arc length.
     pub length: f64,
     /// The bending energy ∫κ² ds times the length: (2π)² of a circle. `None` where it is infinite,
-    /// as at a cusp or the corners of a polyline, or cannot be told from rounding.
+    /// as at a cusp or the corners of a polyline, or is lost in rounding.
     pub bending_energy: Option<f64>,
     /// The variation ∫(dκ/ds)² ds times the cube of the length. `None` as for the bending energy,
     /// and below degree 3, where the curvature jumps.

@@ -39,7 +39,7 @@ impl VertexFlow {
     pub fn of(polygon: &FloatPolygon) -> Self {
         let count = polygon.vertices().len();
         let closed = polygon.is_periodic();
-        // Beyond an open polygon's ends nothing is asked for.
+        // Beyond an open polygon's ends nothing is evaluated.
         let vertex = |index: usize| polygon.vertex(index % count);
         let sequence = |first: usize, missing: usize, value: &dyn Fn(usize) -> f64| {
             let (first, number) = if closed {

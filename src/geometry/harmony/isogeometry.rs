@@ -4,7 +4,7 @@
 use super::events::{Event, SequenceEvent};
 use crate::geometry::features::{Extremum, ExtremumKind, Feature, Features, Root};
 
-/// Count what a curvature or torsion does.
+/// Numbers of events of a curvature or torsion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct EventCounts {
     /// Extrema.
@@ -32,7 +32,7 @@ pub enum Match {
     Agrees,
     /// They do not, and this is the first that has no counterpart.
     Differs(Mismatch),
-    /// It cannot be told: on this piece of the curve it is not known what there is.
+    /// Unknown: the features on this piece of the curve are undecided.
     Undecided([f64; 2]),
 }
 

@@ -18,9 +18,9 @@ const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
 pub struct Harmony {
     /// Evenness of the polygon.
     pub figures: HarmonyFigures,
-    /// Whether the discrete curvature does what the curvature does.
+    /// Whether the discrete curvature has the events of the curvature.
     pub curvature: Isogeometry,
-    /// Whether the discrete torsion of a polygon in space does what the torsion does.
+    /// Whether the discrete torsion of a polygon in space has the events of the torsion.
     pub torsion: Option<Isogeometry>,
     /// To which order the polygon is regular.
     pub regularity: Regularity,
@@ -79,7 +79,7 @@ impl Harmony {
     }
 }
 
-/// The fairness of the curve; what the curvature comes to at a cusp is not told.
+/// The fairness of the curve; it leaves out the curvature at a cusp.
 fn fairness(polygon: &FloatPolygon, features: &Features, segments: &[SegmentFairness]) -> Fairness {
     let fairness = Fairness::of(segments, polygon.degree() - 1);
     if features.cusps.is_empty() {

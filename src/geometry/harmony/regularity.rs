@@ -34,7 +34,7 @@ pub struct Irregularity {
 /// Say how a difference polygon is irregular.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum IrregularityKind {
-    /// It has a leg without length, or with one that cannot be told from rounding.
+    /// It has a leg without length, or one lost in rounding.
     ZeroLeg,
     /// It turns to the other side, or straight back, though the polygon does not.
     TurnsBack,

@@ -194,7 +194,7 @@ impl Configuration {
         inside.then(|| (1.0 - ratio * cosine) / speed)
     }
 
-    /// Tell how the velocity of the Bézier curve on so many legs turns. The rotation M of a leg to the next one
+    /// Prove how the velocity of the Bézier curve on `legs` legs turns. The rotation M of a leg to the next one
     /// turns by θ about the binormal after turning by the torsion angle τ about the leg: as a quaternion
     /// (sin τ/2 cos θ/2, sin τ/2 sin θ/2, cos τ/2 sin θ/2, cos τ/2 cos θ/2), in the frame of the leg.
     pub(super) fn bezier_velocity(&self, legs: usize) -> PowerVelocity {

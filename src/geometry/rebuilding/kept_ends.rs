@@ -16,15 +16,12 @@ const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
 /// Ends that differ by no more than rounding stay, and so does the curve where the vertices are too
 /// few to meet both ends.
 pub(super) fn with_ends(polygon: FloatPolygon, jets: [Jet; 2]) -> FloatPolygon {
-    let target = |jet: Jet| EndTarget {
-        point: jet.point,
-        direction: jet.tangent().filter(|_| polygon.degree() > 1),
-        ..EndTarget::default()
-    };
-    let targets = [
-        (End::Start, target(jets[0])),
-        (End::Finish, target(jets[1])),
-    ];
+    let [start, finish] = jets.map(|jet| {
+        let mut target = EndTarget::keeping(&jet);
+        target.direction = target.direction.filter(|_| polygon.degree() > 1);
+        target
+    });
+    let targets = [(End::Start, start), (End::Finish, finish)];
     let size = polygon.size();
     let met = targets.iter().all(|(end, target)| {
         EndDifference::between(&polygon, *end, target).residual(size) <= ROUNDINGS * size

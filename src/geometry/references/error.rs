@@ -61,7 +61,7 @@ pub enum ReferenceError {
         /// The coordinate.
         coordinate: &'static str,
     },
-    /// The number of values is not that of the parameters.
+    /// The numbers of values and parameters differ.
     #[error("{found} values for the {needed} parameters of {kind}")]
     ValueCount {
         /// The kind's name.

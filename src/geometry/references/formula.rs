@@ -12,7 +12,7 @@ pub struct Formula {
     pub(super) z: Option<Coordinate>,
 }
 
-/// A formula as it was typed, and what it means.
+/// A formula as typed, with its expression.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Coordinate {
     pub(super) text: String,

@@ -30,7 +30,7 @@ pub struct ReferenceKind {
 pub(super) const EVERYWHERE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 impl PartialEq for ReferenceKind {
-    /// Kinds are told apart by their names.
+    /// Kinds with equal names are equal.
     fn eq(&self, other: &Self) -> bool {
         self.name == other.name
     }

@@ -88,12 +88,20 @@ fn length(alpha: f64, lambda: f64, angle: f64) -> f64 {
     relative * relative_exponential(alpha * lambda * relative)
 }
 
+/// Compute Λ and the length of the segment from s = 0 along which ln ρ grows by `growth` and the
+/// direction turns by `turning`: the formulas above for w = `growth`.
+pub(in crate::geometry) fn lambda_and_length(alpha: f64, growth: f64, turning: f64) -> [f64; 2] {
+    let turned = relative_exponential((alpha - 1.0) * growth);
+    let lambda = growth * turned / turning;
+    [lambda, turning * relative_exponential(alpha * growth) / turned]
+}
+
 /// ψ(x) = ln(1 + x)/x.
 fn relative_logarithm(x: f64) -> f64 {
     if x == 0.0 { 1.0 } else { x.ln_1p() / x }
 }
 
 /// φ(x) = (eˣ − 1)/x.
-fn relative_exponential(x: f64) -> f64 {
+pub(in crate::geometry) fn relative_exponential(x: f64) -> f64 {
     if x == 0.0 { 1.0 } else { x.exp_m1() / x }
 }

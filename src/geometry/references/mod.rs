@@ -23,7 +23,7 @@ pub use kind::ReferenceKind;
 pub use placement::Placement;
 pub use point_list::PointList;
 
-/// Declare the modules of kinds, and list what they export in this order.
+/// Declare the modules of kinds, and list their `KIND`s in this order.
 macro_rules! table {
     ($($module:ident,)*) => {
         $(pub(super) mod $module;)*

@@ -64,7 +64,7 @@ impl Placement {
         self.translation
     }
 
-    /// Turn what is placed about a point.
+    /// Rotate the placed curve about a point.
     ///
     /// # Errors
     /// [`ReferenceError::BadPlacement`] if the numbers leave their range.
@@ -74,7 +74,7 @@ impl Placement {
         Self::new(rotation, self.scale, translation)
     }
 
-    /// Scale what is placed about a point, by a factor > 0.
+    /// Scale the placed curve about a point, by a factor > 0.
     ///
     /// # Errors
     /// [`ReferenceError::BadPlacement`] if the factor is not positive, or the numbers leave their

@@ -20,7 +20,7 @@ const HALVINGS: usize = 4;
 /// The even steps in which each ray is tried.
 const STEPS: usize = 12;
 
-/// Hold what was found for a vertex: a move of it that is proved to lose a feature, and to add none.
+/// Result for a vertex: a move of it that is proved to lose a feature, and to add none.
 ///
 /// The features of the curve with the vertex at `to` are proved. That it is the chosen feature that is
 /// lost, not another, follows from the places tried on the straight way there, at which nothing is

@@ -33,7 +33,7 @@ impl FeatureRise {
         self == Self::default()
     }
 
-    /// Name what was added: "+1 curvature extremum, +2 inflections", "undecided".
+    /// Name the added features: "+1 curvature extremum, +2 inflections", "undecided".
     pub fn text(self) -> String {
         let added = |count: usize, one: &str, many: &str| {
             (count > 0).then(|| format!("+{count} {}", noun(count, one, many)))

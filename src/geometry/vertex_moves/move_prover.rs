@@ -1,4 +1,4 @@
-//! Proving what a move of some vertices does, from what is proved of the rest of the curve.
+//! Proofs of moves of some vertices, from the proofs of the rest of the curve.
 
 use glam::DVec3;
 use thiserror::Error;
@@ -100,7 +100,7 @@ impl MoveProver {
         Ok(Features::assemble(&self.polygon, &self.segments))
     }
 
-    /// Prove what is added with the vertices at these places.
+    /// Prove the added features with the vertices at these places.
     ///
     /// # Errors
     /// As [`MoveProver::features`].

@@ -41,7 +41,7 @@ pub fn reach(polygon: &FloatPolygon, vertex: usize) -> f64 {
     }
 }
 
-/// Prove what a vertex does on rays from where it is.
+/// Proofs of a vertex's moves along rays from its place.
 #[derive(Debug)]
 pub(super) struct RayProver {
     prover: MoveProver,

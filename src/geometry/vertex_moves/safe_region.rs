@@ -47,7 +47,7 @@ pub struct RayBorder {
     pub direction: DVec2,
     /// The greatest distance proved to be safe before the border, or before the limit.
     pub safe: f64,
-    /// The least distance proved not to be safe, and what is added there; `None` if the border lies
+    /// The least distance proved not to be safe, and the added features; `None` if the border lies
     /// beyond the limit.
     pub beyond: Option<(f64, FeatureRise)>,
 }

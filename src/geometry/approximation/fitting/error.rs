@@ -24,13 +24,13 @@ pub enum FitError {
         "{extrema} curvature extrema are too many for {count} {of}: the discrete curvature of a polygon has at most as many extrema as vertices less 4, so {needed} are needed"
     )]
     TooManyExtrema {
-        /// The number of extrema asked for.
+        /// The requested number of extrema.
         extrema: usize,
         /// The number of vertices or points.
         count: usize,
         /// Of which of them there are too few.
         of: &'static str,
-        /// The least number that can hold so many.
+        /// The least number that can hold them.
         needed: usize,
     },
     /// There are more vertices than points.
@@ -38,7 +38,7 @@ pub enum FitError {
         "{count} vertices are too many for {points} points: give at most as many vertices as points"
     )]
     TooManyVertices {
-        /// The number of vertices asked for.
+        /// The requested number of vertices.
         count: usize,
         /// The number of points.
         points: usize,

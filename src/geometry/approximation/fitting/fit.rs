@@ -44,12 +44,12 @@ pub struct FitAsked {
     pub tolerance: Option<f64>,
 }
 
-/// A fit, and what is known of it.
+/// A fit with its figures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fitted {
     /// The float polygon.
     pub polygon: FloatPolygon,
-    /// Whether what was asked for is reached: extrema, proved, and the tolerance.
+    /// Whether the request is met: extrema, proved, and the tolerance.
     pub reached: bool,
     /// The number of curvature extrema, proved.
     pub extrema: usize,
@@ -147,7 +147,7 @@ struct Fit<'a> {
 }
 
 impl Fit<'_> {
-    /// The number of vertices asked for, or else the best.
+    /// The requested number of vertices, or else the best.
     fn count(&self, tolerance: Option<f64>) -> Result<usize, FitError> {
         let best = || best_count(self.list, &self.smoothing, self.asked.degree, tolerance);
         self.asked.count.map_or_else(best, Ok)
@@ -319,7 +319,7 @@ impl Fit<'_> {
 }
 
 impl Fitted {
-    /// Whether it is what was asked for, and near enough.
+    /// Whether it meets the request and the tolerance.
     fn is_near(&self, enough: f64) -> bool {
         self.reached && self.rms <= enough
     }

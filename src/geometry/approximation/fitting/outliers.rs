@@ -7,7 +7,7 @@ use super::point_list::{PointList, median};
 use super::smoothing::Smoothing;
 use crate::geometry::progress::Progress;
 
-/// Outliers are looked for with so many points a vertex: such a curve is not stiff.
+/// Points a vertex while searching for outliers: such a curve is not stiff.
 const POINTS_A_VERTEX: usize = 8;
 
 /// Searches for outliers: a curve without the known ones shows the others.
@@ -17,7 +17,7 @@ const SEARCHES: usize = 8;
 /// chords to an outlier would leave it a part of the curve of its own.
 const CAP: f64 = 2.0;
 
-/// An outlier is off by at least so many standard deviations.
+/// Least distance of an outlier, in standard deviations.
 const OUTLYING: f64 = 6.0;
 
 /// Points that are off by less than this share of the mean distance of neighbours are no outliers.

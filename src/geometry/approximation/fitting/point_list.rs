@@ -90,7 +90,7 @@ impl<'a> PointList<'a> {
         near.filter(move |other| *other != index && self.counts[*other])
     }
 
-    /// The root of the mean square and the largest of the lengths of those offsets that count.
+    /// The root mean square and the largest length of the counted offsets.
     pub(super) fn errors(&self, offsets: &[DVec3]) -> [f64; 2] {
         let kept = offsets.iter().zip(&self.counts);
         let kept = kept.filter_map(|(offset, counts)| counts.then_some(offset.length()));

@@ -61,7 +61,7 @@ impl<'a> Smoothing<'a> {
         }
     }
 
-    /// Find the curve with so many vertices that is nearest to the points.
+    /// Find the nearest curve to the points with `count` vertices.
     pub(super) fn least(&self, count: usize) -> Result<Smoothed, FitError> {
         self.solved(count, LEAST)
     }
