@@ -134,7 +134,13 @@ impl Sight<'_> {
         }
         if let Some(analysis) = analyses.get(id)
             && let Some(segments) = analysis.proved_segments()
-            && matches!(kind, PlotKind::Levels { plot, .. } if plot == LevelPlot::CURVATURE)
+            && matches!(
+                kind,
+                PlotKind::Levels {
+                    plot: LevelPlot::CURVATURE,
+                    ..
+                }
+            )
         {
             append_bands(sampled, segments, to - from, &mut plots.bands);
             for band in &mut plots.bands {
@@ -152,7 +158,10 @@ impl Sight<'_> {
             return;
         };
         match kind {
-            PlotKind::Levels { plot, .. } if plot == LevelPlot::Logarithmic => return,
+            PlotKind::Levels {
+                plot: LevelPlot::Logarithmic,
+                ..
+            } => return,
             PlotKind::Levels { .. } => {}
             PlotKind::Harmony => {
                 let degree = self.document().curve(id).map(|it| it.polygon.degree());
