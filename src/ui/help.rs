@@ -25,7 +25,7 @@ pub enum Topic {
     Menu(&'static str),
     /// An operation, in a menu or at hand.
     Operation(&'static Operation),
-    /// The list of curves.
+    /// The side panel, unless a part of it has its own topic.
     Curves,
     /// The inspector of a curve.
     Inspector,

@@ -67,8 +67,8 @@ pub struct Side {
 impl Side {
     /// Show the panel in all the room that there is.
     pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
+        help::mark(ui, ui.max_rect(), Topic::Curves);
         list_ui(ui, Edge::Top, "curves", |ui| {
-            help::mark(ui, ui.max_rect(), Topic::Curves);
             self.curves.show(ui, editor, commands);
         });
         self.notice_task(editor);
