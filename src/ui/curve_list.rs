@@ -52,6 +52,7 @@ impl CurveList {
             );
             return;
         }
+        let mut renamed = None;
         // Room for the bar is always kept.
         let width = ui.available_width() - ui.spacing().scroll.allocated_width();
         ScrollArea::vertical()
@@ -60,10 +61,16 @@ impl CurveList {
                 ui.set_max_width(width);
                 ui.spacing_mut().item_spacing.y = 0.0;
                 for row in rows(editor) {
-                    self.row_ui(ui, editor, &row);
+                    if self.row_ui(ui, editor, &row) {
+                        renamed = Some(row.id);
+                    }
                 }
                 self.in_sight = editor.active();
             });
+        // The field takes the keyboard after the row that was clicked has had it.
+        if let Some(curve) = renamed {
+            self.begin_renaming(ui.ctx(), editor, curve);
+        }
     }
 
     /// Open the field for a name; from now on keys are the field's.
@@ -81,7 +88,8 @@ impl CurveList {
         context.memory_mut(|memory| memory.request_focus(field_id()));
     }
 
-    fn row_ui(&mut self, ui: &mut Ui, editor: &mut Editor, row: &Row) {
+    /// Show a row; returns whether a double-click renames it.
+    fn row_ui(&mut self, ui: &mut Ui, editor: &mut Editor, row: &Row) -> bool {
         let (rect, response) =
             ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click_and_drag());
         row.paint(ui, rect, &response);
@@ -89,9 +97,8 @@ impl CurveList {
             ui.scroll_to_rect(rect, None);
         }
         row.reorder(ui, editor, rect, &response);
-        if response.double_clicked() {
-            self.begin_renaming(ui.ctx(), editor, row.id);
-        } else if response.clicked() {
+        let renames = response.double_clicked();
+        if response.clicked() && !renames {
             editor.activate(row.id);
         }
         if response.secondary_clicked() {
@@ -118,6 +125,7 @@ impl CurveList {
         } else {
             row.name_ui(ui, name, response);
         }
+        renames
     }
 
     fn renaming_ui(&mut self, ui: &mut Ui, editor: &mut Editor, rect: Rect) {
