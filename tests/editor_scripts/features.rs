@@ -1,7 +1,6 @@
 //! Proved features on the canvas and in the list.
 
 use batten::analysis::LevelPlot;
-use batten::document::Edit;
 use batten::editor::{Command, FeatureKind, HoverScene, Layer, Look, PieceTrend};
 use batten::geometry::features::Verdict;
 use batten::geometry::{FloatPolygon, LEVELS};
@@ -60,9 +59,7 @@ fn lines_and_circles_are_told_from_monotone_curves() {
     for (polygon, constant) in [(circle, true), (line, true), (spiral, false)] {
         let polygon = polygon.expect("a valid polygon");
         let mut script = Script::example("arc");
-        let curve = script.curve();
-        let edit = Edit::SetPolygon { curve, polygon };
-        script.editor.apply("another", vec![edit]).expect("an edit");
+        script.set_polygon(polygon);
         let report = script.features().expect("features");
         assert_eq!(report.monotone, Verdict::Proved);
         assert_eq!(report.constant, constant);

@@ -138,12 +138,10 @@ fn the_region_stays_where_it_is_while_its_vertex_is_dragged() {
 #[test]
 fn curves_that_have_no_region_say_why() {
     let mut script = shown("arc");
-    let curve = script.curve();
     let place = |i: u32| DVec3::new(f64::from(i), f64::from(i * i) / 9.0, f64::from(i % 3));
     let polygon = FloatPolygon::new(4, (0..9).map(place).collect(), None, false);
     let polygon = polygon.expect("a polygon");
-    let edit = Edit::SetPolygon { curve, polygon };
-    script.editor.apply("space", vec![edit]).expect("an edit");
+    script.set_polygon(polygon);
     script.command(Command::FitAll);
     select(&mut script, 4);
     let guides = finest(&mut script);

@@ -1,7 +1,7 @@
 //! A hand that works the editor without a window: every step leaves a valid document.
 
 use batten::analysis::LevelPlot;
-use batten::document::CurveId;
+use batten::document::{CurveId, Edit, Renumbering};
 use batten::editor::{
     Button, Command, Editor, EndFitAction, EndFitReport, FeatureReport, Input, Key, Look,
     Modifiers, OperationInProgress, PlotKind, PlotScene, Reply, Scene, ToolKind, told,
@@ -40,6 +40,19 @@ impl Script {
     pub fn polygon(&self) -> FloatPolygon {
         let curve = self.editor.document().curve(self.curve());
         curve.expect("the active curve").polygon.clone()
+    }
+
+    /// Give the active curve another polygon, of any degree and number of vertices.
+    pub fn set_polygon(&mut self, polygon: FloatPolygon) {
+        let id = self.curve();
+        let curve = self.editor.document().curve(id).expect("the active curve");
+        let renumbering = Renumbering::of_vertices(curve, &polygon, |_| None);
+        let edit = Edit::Renumber {
+            curve: id,
+            polygon,
+            renumbering,
+        };
+        self.editor.apply("another", vec![edit]).expect("an edit");
     }
 
     /// The selected vertices of the active curve.

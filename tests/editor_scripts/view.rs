@@ -274,11 +274,8 @@ fn only_segments_that_depend_on_a_vertex_are_redone() {
         })
         .collect();
     let polygon = FloatPolygon::new(9, points, None, false).expect("a polygon");
+    script.set_polygon(polygon);
     let curve = script.curve();
-    script
-        .editor
-        .apply("long", vec![Edit::SetPolygon { curve, polygon }])
-        .expect("an edit");
     prove(&mut script);
     let weigh = |weight| Edit::SetWeight {
         curve,
