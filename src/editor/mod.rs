@@ -2,9 +2,11 @@
 //! (how it is seen) and the hand (what works on it). Nothing in here knows of egui.
 
 mod commands;
+mod dispatch;
 mod hand;
 mod jobs;
 mod operating;
+mod polygon_edits;
 mod reply;
 mod report;
 mod selection;
@@ -16,6 +18,7 @@ use std::time::Duration;
 use glam::DVec2;
 
 pub use commands::{Command, FileReply, ReferenceChange, Shortcut};
+pub use dispatch::MenuOf;
 pub use hand::{
     Button, Cursor, DrawSettings, EndFitAction, EndFitReport, Entry, EntryError, Follow, Following,
     Hand, Input, Key, Leg, LegLocks, MatchReport, MenuRequest, MenuSubject, Modifiers, ToolKind,
@@ -138,7 +141,7 @@ impl Editor {
         self.view
             .look(look, self.hand.shown(&self.workspace, layers));
         if self.view.viewport.orientation != before {
-            self.set_pivot(None);
+            self.hand.set_pivot(None);
         }
     }
 
@@ -196,7 +199,13 @@ impl Editor {
             before: before(),
             others_before: previewed
                 .map_or_else(Vec::new, |it| it.others_before(active, self.document())),
-            proposal: self.proposal().map(|polygon| (polygon, alters)),
+            proposal: match previewed {
+                Some(_) => None,
+                None => self
+                    .hand
+                    .proposal(&context)
+                    .map(|polygon| (polygon, alters)),
+            },
             given: given.map(|curve| self.view.given_reference(curve)),
             joint: run.and_then(|run| run.outcome.joint),
             atlas: run.and_then(|run| Some(run.outcome.atlas.as_ref()?.plane)),
@@ -206,6 +215,11 @@ impl Editor {
     /// What works on it: the tool, the selection, and which keys are held.
     pub fn hand(&self) -> &Hand {
         &self.hand
+    }
+
+    /// The hand, to set its tools.
+    pub fn hand_mut(&mut self) -> &mut Hand {
+        &mut self.hand
     }
 
     /// The document, with what is being tried out.
@@ -264,7 +278,9 @@ impl Editor {
     /// kept; nothing is changed then.
     pub fn apply(&mut self, label: &str, edits: Vec<Edit>) -> Reply {
         self.interrupt();
-        let kept = self.check_kept(&edits);
+        let kept = self
+            .hand
+            .check_kept(&edits, &self.workspace, &self.view.analyses);
         let reply = kept.and_then(|()| self.make(label, edits, false));
         self.tell(reply)
     }
@@ -284,17 +300,7 @@ impl Editor {
             self.look(Look::All);
         }
         made?;
-        Ok(Note::told(self.dissolved_since(&before)))
-    }
-
-    /// Say which matches are gone because the places are that they followed, a line each.
-    fn dissolved_since(&self, before: &Document) -> String {
-        let dissolved = self.document().dissolved_since(before);
-        let lines = dissolved.map(|(matched, curve)| {
-            let (end, name) = (matched.end.name(), quoted(&curve.name));
-            format!("The {end} of {name} is no longer matched: what it followed is gone")
-        });
-        lines.collect::<Vec<String>>().join("\n")
+        Ok(Note::told(dissolved(self.document(), &before)))
     }
 
     /// Change the document without a step and with nothing to save, unless it was edited since it was opened.
@@ -319,7 +325,7 @@ impl Editor {
             self.hand.keeping.end();
             self.workspace.begin(label, Interruption::Commits);
         }
-        let edits = self.kept(edits);
+        let edits = self.hand.kept(edits, &self.workspace, &self.view.analyses);
         self.update(edits);
         let held_back = self.hand.keeping.held_back();
         if let Some(reason) = held_back.filter(|_| self.hand.keeps_features()) {
@@ -328,15 +334,11 @@ impl Editor {
         }
     }
 
-    /// End what is being tried out because something else is begun.
-    pub fn end_preview(&mut self) {
-        self.interrupt();
-    }
-
     /// Keep what a number field shows as one step.
     pub fn commit_preview(&mut self) {
         if self.workspace.interruption() == Some(Interruption::Commits) {
-            self.commit_kept();
+            self.hand
+                .commit_kept(&mut self.workspace, &self.view.analyses);
         }
     }
 
@@ -367,9 +369,9 @@ impl Editor {
         reply
     }
 
-    /// End what is being tried out because something else is begun: a number field's value is
-    /// kept, a drag is taken back. Returns whether anything was taken back.
-    fn interrupt(&mut self) -> bool {
+    /// End the preview because something else begins: the value of a number field is kept, a drag or an operation
+    /// is taken back. Returns whether anything was taken back.
+    pub fn interrupt(&mut self) -> bool {
         let drags = self.hand.is_dragging();
         if drags {
             self.deliver(Gesture::Cancel, false);
@@ -410,4 +412,13 @@ impl Editor {
             self.look(Look::All);
         }
     }
+}
+
+/// Name the matches that are gone since an earlier state because their places are, a line each.
+fn dissolved(document: &Document, before: &Document) -> String {
+    let lines = document.dissolved_since(before).map(|(matched, curve)| {
+        let (end, name) = (matched.end.name(), quoted(&curve.name));
+        format!("The {end} of {name} is no longer matched: what it followed is gone")
+    });
+    lines.collect::<Vec<String>>().join("\n")
 }

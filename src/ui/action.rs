@@ -147,7 +147,7 @@ impl Action {
     pub fn label_now(self, editor: &Editor) -> String {
         match self {
             Self::Command(command) => editor.label(command),
-            Self::Rename if editor.active_reference_id().is_some() => "Rename reference".to_owned(),
+            Self::Rename if editor.active_reference().is_some() => "Rename reference".to_owned(),
             _ => self.label(),
         }
     }

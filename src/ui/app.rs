@@ -30,7 +30,7 @@ use super::theme::{self, Tokens};
 use super::tool_rail::{self, tool_rail_ui};
 use super::{canvas, overlays, unit_menu, widgets};
 use crate::editor::{
-    Command, Editor, Export, FileReply, Layer, MenuSubject, Refusal, Reply, ToolKind, told,
+    Command, Editor, Export, FileReply, Layer, MenuOf, MenuSubject, Refusal, Reply, ToolKind, told,
 };
 use crate::geometry::PolygonKind;
 use crate::io::Format;
@@ -102,7 +102,7 @@ impl App {
         });
         theme::choose(context, shell.dark);
         if let Some(step) = shell.nudge_step {
-            editor.set_nudge_step(step);
+            editor.hand_mut().set_nudge_step(step);
         }
         for layer in Layer::ALL {
             if let Some(shown) = shell.shows(layer) {
@@ -220,7 +220,7 @@ impl App {
         }
         self.entry.take_keys(context, &self.editor, &self.canvas);
         if keyboard::asks_for_menu(context) {
-            self.editor.ask_for_menu_of_selection();
+            self.editor.ask_for_menu(MenuOf::Selection);
         }
         let typing = keyboard::typing(context) == Typing::Text;
         let commands = self.keyboard.take_commands(context, &self.editor);
@@ -338,7 +338,7 @@ impl App {
         };
         help::mark(ui, shown.response.rect, topic);
         if is_menu_asked_for(ui, shown.response.rect) {
-            self.editor.ask_for_menu(MenuSubject::Plot);
+            self.editor.hand_mut().ask_for_menu(MenuSubject::Plot);
         }
     }
 
@@ -436,7 +436,7 @@ impl App {
 
     /// Ask about unsaved changes if there are any, otherwise go on.
     fn confirm(&mut self, context: &Context, after: AfterDiscard) {
-        self.editor.end_preview();
+        self.editor.interrupt();
         if self.editor.workspace().is_modified() {
             self.dialog = Some(Dialog::Unsaved(after));
         } else {

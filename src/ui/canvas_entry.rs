@@ -46,7 +46,8 @@ impl CanvasEntry {
     /// Give the keyboard to the field when something is typed on the canvas that the tool takes.
     /// Called before keys are looked at as commands.
     pub fn take_keys(&mut self, context: &Context, editor: &Editor, canvas: &Canvas) {
-        if editor.entry().is_none() || !canvas.has_keyboard(context) {
+        if editor.hand().entry(editor.view().viewport()).is_none() || !canvas.has_keyboard(context)
+        {
             return;
         }
         let begins = |event: &Event| matches!(event, Event::Text(text) if begins(text));
@@ -62,7 +63,7 @@ impl CanvasEntry {
     /// Show the field, with the figures of the leg that is drawn, at the canvas's lower edge. Returns
     /// where.
     pub fn show(&mut self, context: &Context, canvas: Rect, editor: &mut Editor) -> Option<Rect> {
-        let Some(entry) = editor.entry() else {
+        let Some(entry) = editor.hand().entry(editor.view().viewport()) else {
             *self = Self::default();
             return None;
         };
@@ -188,10 +189,10 @@ fn caption_ui(ui: &mut Ui, caption: &str) {
 /// Degree, length and angle of the drawing.
 fn leg_ui(ui: &mut Ui, editor: &mut Editor) {
     degree_ui(ui, editor);
-    let Some(locks) = editor.leg_locks() else {
+    let Some(locks) = editor.hand().leg_locks() else {
         return;
     };
-    let leg = editor.leg();
+    let leg = editor.hand().leg(&editor.context());
     let pixel = editor.view().viewport().pixel();
     let length = leg.map(|leg| leg.length);
     let unit = editor.document().unit().map(LengthUnit::symbol);
@@ -214,12 +215,12 @@ fn leg_ui(ui: &mut Ui, editor: &mut Editor) {
     );
     let new = LegLocks { length, degrees };
     if new != locks {
-        editor.lock_leg(new);
+        editor.hand_mut().lock_leg(new);
     }
 }
 
 fn degree_ui(ui: &mut Ui, editor: &mut Editor) {
-    let Some(degree) = editor.drawn_degree() else {
+    let Some(degree) = editor.hand().drawn_degree(&editor.context()) else {
         return;
     };
     caption_ui(ui, "Degree");
@@ -228,17 +229,17 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor) {
         .range(1.0..=MAX_DEGREE as f64);
     if let Some(value) = field.typed(ui) {
         let degree = value.round() as usize;
-        match editor.draw_settings() {
+        match editor.hand().draw_settings() {
             Some(mut settings) => {
                 settings.degree = Some(degree);
-                editor.set_draw_settings(settings);
+                editor.hand_mut().set_draw_settings(settings);
             }
             None => inspector::set_degree(editor, degree as f64),
         }
     }
     // What it has so far stands in a place of its own, so that nothing moves.
     let (_, rect) = ui.allocate_space(vec2(SO_FAR, ROW));
-    if let Some(degree) = editor.degree_so_far() {
+    if let Some(degree) = editor.hand().degree_so_far(&editor.context()) {
         let text = format!("{degree} so far");
         widgets::label_in(ui, rect, &text, Tokens::of(ui).faint_text);
     }
@@ -276,12 +277,12 @@ fn figure_ui(
 
 /// Whether the curve that is drawn begins and ends at clicks.
 fn through_ends_ui(ui: &mut Ui, editor: &mut Editor) {
-    let Some(mut settings) = editor.draw_settings() else {
+    let Some(mut settings) = editor.hand().draw_settings() else {
         return;
     };
     let tooltip = "Add vertices so that the curve starts at the first click and ends at the last";
     let response = ui.checkbox(&mut settings.through_ends, "Through ends");
     if response.on_hover_text(tooltip).changed() {
-        editor.set_draw_settings(settings);
+        editor.hand_mut().set_draw_settings(settings);
     }
 }

@@ -36,7 +36,7 @@ impl ContextMenu {
         shell: &Shell,
         commands: &mut Vec<Action>,
     ) {
-        let asked = editor.take_menu();
+        let asked = editor.hand_mut().take_menu();
         if let Some(asked) = asked {
             let pointer = context.input(|input| input.pointer.latest_pos());
             let by_key = asked

@@ -13,7 +13,7 @@ use super::keyboard::{self, Typing};
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
 use crate::document::{Colour, Curve, CurveId, Edit, Reference};
-use crate::editor::{Command, Editor, told};
+use crate::editor::{Command, Editor, MenuOf, told};
 
 /// The list's own state: the name that is being typed.
 #[derive(Default)]
@@ -102,7 +102,7 @@ impl CurveList {
             editor.activate(row.id);
         }
         if response.secondary_clicked() {
-            editor.ask_for_menu_of(row.id);
+            editor.ask_for_menu(MenuOf::Item(row.id));
         }
         let inner = rect.shrink2(vec2(2.0 * STEP, 0.0));
         let builder = UiBuilder::new().max_rect(inner).id_salt(row.id);
@@ -149,7 +149,10 @@ impl CurveList {
         if let Some(Renaming { curve, text, .. }) = self.renaming.take()
             && !is_cancelled
         {
-            told(editor.rename(curve, text));
+            told(editor.change(Edit::Rename {
+                curve: curve,
+                name: text,
+            }));
         }
     }
 }
@@ -340,7 +343,10 @@ impl Row {
             .show(ui)
             .clicked()
         {
-            told(editor.set_locked(self.id, !self.locked));
+            told(editor.change(Edit::SetLocked {
+                curve: self.id,
+                locked: !self.locked,
+            }));
         }
         let (icon, colour) = match self.visible {
             true => (Icon::Eye, faint),
@@ -350,7 +356,10 @@ impl Row {
         let tooltip = format!("Show or hide the {}", self.noun());
         let button = IconButton::new(icon, &label).colour(colour);
         if button.tooltip(tooltip).show(ui).clicked() {
-            told(editor.set_visible(self.id, !self.visible));
+            told(editor.change(Edit::SetVisible {
+                curve: self.id,
+                visible: !self.visible,
+            }));
         }
     }
 }

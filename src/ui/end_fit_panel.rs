@@ -28,7 +28,7 @@ const OUTCOME: f32 = 10.0 * STEP;
 
 /// Show the panel: the steps, and below them, in a place of its own, the last action's message.
 pub fn end_fit_panel_ui(ui: &mut Ui, editor: &mut Editor) {
-    let Some(report) = editor.end_fit() else {
+    let Some(report) = editor.hand().end_fit(editor.workspace(), editor.view()) else {
         empty_ui(ui, editor);
         return;
     };

@@ -43,7 +43,7 @@ pub fn feature_list_ui(ui: &mut Ui, editor: &mut Editor) {
             if chosen != Some(u) {
                 editor.look(Look::Feature(u));
             }
-            editor.ask_for_menu(MenuSubject::Feature);
+            editor.hand_mut().ask_for_menu(MenuSubject::Feature);
         }
         Some((u, _)) => {
             editor.look(Look::Feature(u));

@@ -17,8 +17,8 @@ use super::reference_panel;
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
 use super::{document_unit, figures};
-use crate::document::{Colour, Curve, CurveId, Reference};
-use crate::editor::{CurveReport, Editor, told};
+use crate::document::{Colour, Curve, CurveId, Edit, Reference};
+use crate::editor::{Command, CurveReport, Editor, told};
 use crate::geometry::MAX_DEGREE;
 use crate::operations::{Value, reinterpret_degree};
 
@@ -111,7 +111,7 @@ impl Inspector {
         });
         ui.add_enabled_ui(curve.check_editable().is_ok(), |ui| {
             widgets::form_row(ui, "Degree", |ui| degree_ui(ui, editor, curve));
-            widgets::form_row(ui, "Ends", |ui| ends_ui(ui, editor, id, curve));
+            widgets::form_row(ui, "Ends", |ui| ends_ui(ui, editor, curve));
         });
         widgets::form_row(ui, "State", |ui| {
             state_ui(ui, editor, id, [curve.visible, curve.locked]);
@@ -146,7 +146,10 @@ impl Inspector {
         if response.lost_focus() {
             let called_off = ui.input(|input| input.key_pressed(Key::Escape));
             if !called_off && text.trim() != name {
-                told(editor.rename(id, text));
+                told(editor.change(Edit::Rename {
+                    curve: id,
+                    name: text,
+                }));
             }
         } else if response.has_focus() {
             self.name = Some((id, text));
@@ -199,13 +202,13 @@ pub fn set_degree(editor: &mut Editor, degree: f64) {
     told(editor.apply_operation(&reinterpret_degree::OPERATION, &values));
 }
 
-fn ends_ui(ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
+fn ends_ui(ui: &mut Ui, editor: &mut Editor, curve: &Curve) {
     let periodic = curve.polygon.is_periodic();
     ui.spacing_mut().item_spacing.x = STEP;
     for (name, wanted) in [("Open", false), ("Periodic", true)] {
         let response = ui.add(Button::selectable(periodic == wanted, name));
         if response.clicked() && periodic != wanted {
-            told(editor.set_periodic(id, wanted));
+            told(editor.execute(Command::TogglePeriodic));
         }
     }
 }
@@ -214,11 +217,17 @@ fn ends_ui(ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
 fn state_ui(ui: &mut Ui, editor: &mut Editor, id: CurveId, [visible, locked]: [bool; 2]) {
     let mut shown = visible;
     if ui.checkbox(&mut shown, "Visible").clicked() {
-        told(editor.set_visible(id, shown));
+        told(editor.change(Edit::SetVisible {
+            curve: id,
+            visible: shown,
+        }));
     }
     let mut protected = locked;
     if ui.checkbox(&mut protected, "Locked").clicked() {
-        told(editor.set_locked(id, protected));
+        told(editor.change(Edit::SetLocked {
+            curve: id,
+            locked: protected,
+        }));
     }
 }
 
@@ -246,7 +255,7 @@ fn colour_ui(
             chosen = Some(None);
         }
         if let Some(colour) = chosen {
-            told(editor.recolour(id, colour));
+            told(editor.change(Edit::Recolour { curve: id, colour }));
             ui.close();
         }
     });

@@ -175,7 +175,7 @@ impl Keyboard {
             shortcut.modifiers == Modifiers::NONE
                 && matches!(shortcut.key, Key::Character('0'..='9' | '+' | '-'))
         };
-        let takes_numbers = editor.entry().is_some();
+        let takes_numbers = editor.hand().entry(editor.view().viewport()).is_some();
         let table: Vec<(Shortcut, Action)> = Action::all()
             .into_iter()
             .filter_map(|command| Some((command.shortcut()?, command)))

@@ -145,7 +145,7 @@ impl Side {
         }
         let body = CentralPanel::default().frame(pad);
         body.show(ui, |ui| {
-            let reference = editor.active_reference_id().is_some();
+            let reference = editor.active_reference().is_some();
             let topic = match (task, self.tab) {
                 (Some(Task::Preview(name) | Task::Applied(name)), _) => {
                     operations::find(name).map_or(Topic::Menu("Curve"), Topic::Operation)

@@ -61,7 +61,7 @@ impl TransformPanel {
 }
 
 fn pivot_ui(ui: &mut Ui, editor: &mut Editor) {
-    let Some(pivot) = editor.pivot() else {
+    let Some(pivot) = editor.hand().pivot(&editor.context()) else {
         widgets::note(
             ui,
             "Select vertices, or a curve that is neither locked nor hidden.",
@@ -78,7 +78,9 @@ fn pivot_ui(ui: &mut Ui, editor: &mut Editor) {
                 .speed(pixel)
                 .quantity(Quantity::Length);
             if let Some(changed) = field.changed(ui) {
-                editor.set_pivot(Some(pivot + axis * (changed - value)));
+                editor
+                    .hand_mut()
+                    .set_pivot(Some(pivot + axis * (changed - value)));
             }
         }
     });
@@ -86,6 +88,6 @@ fn pivot_ui(ui: &mut Ui, editor: &mut Editor) {
 
 fn apply_ui(ui: &mut Ui, editor: &Editor, name: &str) -> bool {
     let button = Button::new("Apply");
-    let response = ui.add_enabled(editor.pivot().is_some(), button);
+    let response = ui.add_enabled(editor.hand().pivot(&editor.context()).is_some(), button);
     response.accessible_name(name).clicked()
 }

@@ -12,7 +12,7 @@ use super::number_field::NumberField;
 use super::shell::Shell;
 use super::theme::{self, STEP, Tokens};
 use super::widgets;
-use crate::editor::{Command, Editor};
+use crate::editor::{Command, Editor, Hand};
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::parameters::Quantity;
 
@@ -93,11 +93,11 @@ fn nudge_ui(ui: &mut Ui, editor: &mut Editor) {
     let row = widgets::form_row(ui, "Nudge step", |ui| {
         let step = editor.hand().nudge_step();
         let field = NumberField::new("Nudge step", step, figures::short(step))
-            .range(Editor::NUDGE_STEPS)
+            .range(Hand::NUDGE_STEPS)
             .quantity(Quantity::Length)
             .speed(0.02 * step);
         if let Some(step) = field.changed(ui) {
-            editor.set_nudge_step(step);
+            editor.hand_mut().set_nudge_step(step);
         }
     });
     let tooltip = "How far an arrow key moves the selection, at any zoom; Shift ×10, Ctrl ×0.1";

@@ -16,7 +16,7 @@ use super::keyboard::{self, Typing};
 use super::theme::{RADIUS, ROW, STEP, Tokens};
 use super::vertex_columns::{Column, MoreColumns};
 use super::vertex_rows::{HEAD, RowAction, Rows, heading_ui, id, name};
-use crate::document::{Curve, CurveId};
+use crate::document::{Curve, CurveId, Edit};
 use crate::editor::{Editor, told};
 
 /// The keys that egui leaves to the table.
@@ -417,7 +417,11 @@ impl VertexTable {
                 return editor.select_vertex(curve_id, vertex, add);
             }
             RowAction::Lock { vertex, locked } => {
-                return told(editor.lock_vertices(curve_id, vec![vertex], locked));
+                return told(editor.change(Edit::SetVerticesLocked {
+                    curve: curve_id,
+                    vertices: vec![vertex],
+                    locked,
+                }));
             }
             RowAction::Focus { cell, edit } => {
                 self.cell = cell;

@@ -45,17 +45,16 @@ const ORDERED: [Layer; 2] = [
     },
     Layer {
         name: "editor",
-        folders: &[BASE, "jobs", "view", "hand", "operating", "files", COMMANDS],
-        exceptions: &[
-            ("hand/dispatch.rs", "commands"),
-            ("hand/dispatch.rs", "operating"),
-            ("hand/end_fit_actions.rs", "commands"),
-            ("hand/end_fit_actions.rs", "operating"),
-            ("hand/entering.rs", "commands"),
-            ("hand/menu.rs", "commands"),
-            ("hand/tools/vertices.rs", "commands"),
-            ("hand/transforming.rs", "commands"),
+        folders: &[
+            BASE,
+            "jobs",
+            "view",
+            "hand",
+            "operating",
+            COMMANDS,
+            "dispatch",
         ],
+        exceptions: &[],
     },
 ];
 

@@ -1,6 +1,7 @@
 //! Deleting: only what is seen selected, never a curve by a command for vertices.
 
 use batten::document::Document;
+use batten::document::Edit;
 use batten::editor::{Command, Editor, Key, Modifiers, Refusal, ToolKind};
 use glam::DVec2;
 
@@ -126,7 +127,13 @@ fn hiding_the_active_curve_leaves_no_unseen_selection() {
     let (mut script, [arc, other]) = two();
     script.command(Command::SelectAll);
     script.command(Command::SelectAll);
-    script.editor.set_visible(arc, false).expect("a curve");
+    script
+        .editor
+        .change(Edit::SetVisible {
+            curve: arc,
+            visible: false,
+        })
+        .expect("a curve");
     assert_eq!(script.curve(), other);
     assert_eq!(script.selected().len(), 9);
 }

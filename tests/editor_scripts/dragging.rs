@@ -219,7 +219,7 @@ fn nudges_by_decimals_leave_no_rounding() {
     let mut script = two();
     script.click(script.at_vertex(1));
     let before = script.polygon().vertex(1);
-    script.editor.set_nudge_step(0.01);
+    script.editor.hand_mut().set_nudge_step(0.01);
     let decimal = |number: f64| format!("{number:.2}").parse::<f64>().expect("a number");
     for step in 1..=300 {
         script.key(Key::Right);

@@ -114,7 +114,15 @@ fn the_curve_that_a_click_would_make_follows_the_pointer_and_what_is_typed() {
     script.editor.type_entry("@5<0");
     let typed = proposed(&mut script);
     assert_ne!(typed, second);
-    assert_eq!(script.editor.leg().expect("a leg").length, 5.0);
+    assert_eq!(
+        script
+            .editor
+            .hand()
+            .leg(&script.editor.context())
+            .expect("a leg")
+            .length,
+        5.0
+    );
     script.editor.type_entry("@5<");
     assert_eq!(
         proposed(&mut script),
@@ -164,13 +172,20 @@ fn locks_hold_the_leg_and_a_click_keeps_to_them() {
         .viewport()
         .to_screen(DVec2::new(4.0, 5.1));
     let lock = |length, degrees| LegLocks { length, degrees };
-    script.editor.lock_leg(lock(Some(2.5), None));
+    script.editor.hand_mut().lock_leg(lock(Some(2.5), None));
     script.move_to(at);
-    let leg = script.editor.leg().expect("a leg");
+    let leg = script
+        .editor
+        .hand()
+        .leg(&script.editor.context())
+        .expect("a leg");
     assert!((leg.length - 2.5).abs() < NEAR);
-    script.editor.lock_leg(lock(Some(2.5), Some(90.0)));
+    script
+        .editor
+        .hand_mut()
+        .lock_leg(lock(Some(2.5), Some(90.0)));
     script.click(at);
-    script.editor.lock_leg(lock(None, Some(180.0)));
+    script.editor.hand_mut().lock_leg(lock(None, Some(180.0)));
     script.click(
         script
             .editor
@@ -179,8 +194,11 @@ fn locks_hold_the_leg_and_a_click_keeps_to_them() {
             .to_screen(DVec2::new(-3.3, 50.0)),
     );
     // Neither 0 nor what is no number can be locked.
-    script.editor.lock_leg(lock(Some(0.0), Some(f64::NAN)));
-    assert_eq!(script.editor.leg_locks(), Some(LegLocks::default()));
+    script
+        .editor
+        .hand_mut()
+        .lock_leg(lock(Some(0.0), Some(f64::NAN)));
+    assert_eq!(script.editor.hand().leg_locks(), Some(LegLocks::default()));
     script.key(Key::Enter);
     let vertices = script.polygon().vertices().to_vec();
     assert_eq!(vertices[1], DVec3::new(1.0, 3.5, 0.0));
@@ -335,7 +353,7 @@ fn drawn_through_ends_a_curve_begins_and_ends_at_clicks() {
                 degree: Some(degree),
                 through_ends: true,
             };
-            script.editor.set_draw_settings(settings);
+            script.editor.hand_mut().set_draw_settings(settings);
             for text in ["1,2", "@3,1", "@4<-40"] {
                 enter(&mut script, text);
             }
@@ -359,7 +377,7 @@ fn drawn_through_ends_a_curve_begins_and_ends_at_clicks() {
             assert_eq!(script.steps(), 1);
             // The next one is drawn in the same way.
             script.tool(ToolKind::Draw);
-            assert_eq!(script.editor.draw_settings(), Some(settings));
+            assert_eq!(script.editor.hand().draw_settings(), Some(settings));
         }
     }
 }
@@ -376,7 +394,11 @@ fn shift_keeps_to_fifteen_degrees_while_it_is_shown() {
             .viewport()
             .to_screen(DVec2::new(5.0, 3.1)),
     );
-    let degrees = script.editor.leg().and_then(|leg| leg.degrees);
+    let degrees = script
+        .editor
+        .hand()
+        .leg(&script.editor.context())
+        .and_then(|leg| leg.degrees);
     assert!(
         (degrees.expect("an angle") - 30.0).abs() < 1e-9,
         "{degrees:?}"

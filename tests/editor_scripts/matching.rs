@@ -490,7 +490,10 @@ fn an_export_names_the_matches_of_what_it_holds() {
         assert!(message.contains(line), "{message}");
     }
     // A curve that is hidden is not exported, and nothing of it is lost.
-    told(script.editor.set_visible(ids[1], false));
+    told(script.editor.change(Edit::SetVisible {
+        curve: ids[1],
+        visible: false,
+    }));
     let (path, extension) = (folder.path().join("one.csv"), "csv");
     let polygon = PolygonKind::Float;
     told(script.editor.export(&path, &Export { extension, polygon }));
@@ -588,7 +591,12 @@ fn fields_of_a_target_depend_on_each_other() {
 fn a_match_that_cannot_be_met_is_shown_and_met_once_it_can_be() {
     let (mut script, ids) = script();
     let all = (0..8).collect::<Vec<usize>>();
-    told(script.editor.lock_vertices(ids[1], all.clone(), true));
+    let lock = |vertices, locked| Edit::SetVerticesLocked {
+        curve: ids[1],
+        vertices,
+        locked,
+    };
+    told(script.editor.change(lock(all.clone(), true)));
     let before = curve(&script, ids[1]).polygon;
     pick_end(&mut script, ids, Continuity::G1, true);
     let matched = first_match(&script);
@@ -603,11 +611,7 @@ fn a_match_that_cannot_be_met_is_shown_and_met_once_it_can_be() {
     assert_eq!(marks(&mut script), [Some(false)]);
 
     // Some of the vertices are enough.
-    told(
-        script
-            .editor
-            .lock_vertices(ids[1], all[..5].to_vec(), false),
-    );
+    told(script.editor.change(lock(all[..5].to_vec(), false)));
     assert!(script.editor.document().meets(&matched));
     assert_eq!(marks(&mut script), [Some(true)]);
     let after = curve(&script, ids[1]).polygon;

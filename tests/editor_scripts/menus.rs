@@ -1,6 +1,6 @@
 //! Clicks with the second button: what the menu that is asked for is about, and what is selected then.
 
-use batten::editor::{Button, Command, Input, MenuSubject, ToolKind};
+use batten::editor::{Button, Command, Input, MenuOf, MenuSubject, ToolKind};
 use batten::geometry::End;
 use batten::geometry::references::find;
 use glam::DVec2;
@@ -17,8 +17,12 @@ fn ask(script: &mut Script, at: DVec2) -> Option<MenuSubject> {
     script.move_to(at);
     script.input(Input::Pressed { button, at });
     script.input(Input::Released { button, at });
-    let asked = script.editor.take_menu();
-    assert_eq!(script.editor.take_menu(), None, "it is asked for once");
+    let asked = script.editor.hand_mut().take_menu();
+    assert_eq!(
+        script.editor.hand_mut().take_menu(),
+        None,
+        "it is asked for once"
+    );
     asked.map(|asked| asked.subject)
 }
 
@@ -103,8 +107,8 @@ fn curves_references_and_the_canvas_have_menus_of_their_own() {
     assert_eq!(script.curve(), circle);
     // A row of the list asks for the same.
     for (id, subject) in [(arc, MenuSubject::Curve), (circle, MenuSubject::Reference)] {
-        script.editor.ask_for_menu_of(id);
-        let asked = script.editor.take_menu().expect("a menu");
+        script.editor.ask_for_menu(MenuOf::Item(id));
+        let asked = script.editor.hand_mut().take_menu().expect("a menu");
         assert_eq!((asked.subject, script.curve()), (subject, id));
     }
 }
@@ -114,7 +118,7 @@ fn a_drag_with_the_second_button_and_the_end_of_drawing_ask_for_none() {
     let mut script = Script::example("s-curve");
     let vertex = script.at_vertex(2);
     script.drag_with(Button::Secondary, vertex, vertex + DVec2::new(30.0, 0.0));
-    assert_eq!(script.editor.take_menu(), None);
+    assert_eq!(script.editor.hand_mut().take_menu(), None);
     assert_eq!(script.selected(), [0; 0]);
     let mut script = Script::example("arc");
     script.editor.begin_empty();
@@ -140,16 +144,16 @@ fn a_drag_with_the_second_button_and_the_end_of_drawing_ask_for_none() {
 fn the_menu_key_asks_for_a_menu_beside_what_is_selected() {
     let mut script = Script::example("s-curve");
     script.editor.select_vertex(script.curve(), 3, false);
-    script.editor.ask_for_menu_of_selection();
-    let asked = script.editor.take_menu().expect("a menu");
+    script.editor.ask_for_menu(MenuOf::Selection);
+    let asked = script.editor.hand_mut().take_menu().expect("a menu");
     assert_eq!(asked.subject, MenuSubject::Vertex);
     assert_eq!(asked.at, Some(script.at_vertex(3)));
     script.command(Command::SelectNone);
-    script.editor.ask_for_menu_of_selection();
-    let asked = script.editor.take_menu().expect("a menu");
+    script.editor.ask_for_menu(MenuOf::Selection);
+    let asked = script.editor.hand_mut().take_menu().expect("a menu");
     assert_eq!(asked.subject, MenuSubject::Curve);
     script.editor.begin_empty();
-    script.editor.ask_for_menu_of_selection();
-    let asked = script.editor.take_menu().expect("a menu");
+    script.editor.ask_for_menu(MenuOf::Selection);
+    let asked = script.editor.hand_mut().take_menu().expect("a menu");
     assert_eq!(asked.subject, MenuSubject::Canvas);
 }

@@ -1,5 +1,6 @@
 //! The paper's figures as documents.
 
+use batten::document::Edit;
 use batten::editor::{Command, Editor, ToolKind};
 use batten::geometry::features::{Feature, Features};
 use batten::geometry::paper::{RoundingTest, Shortening};
@@ -86,8 +87,12 @@ fn digits_that_are_dragged_leave_nothing_to_save_but_after_an_edit_they_are_a_st
 
     let test = RoundingTest::new(9, Shortening::CutOff).expect("a test");
     show_shortened(&mut script.editor, &test);
-    script.editor.set_visible(curve, false).expect("an edit");
-    script.editor.set_visible(curve, true).expect("an edit");
+    for visible in [false, true] {
+        script
+            .editor
+            .change(Edit::SetVisible { curve, visible })
+            .expect("an edit");
+    }
     let steps = script.steps();
     drag(&mut script);
     assert_eq!(script.steps(), steps + 1);

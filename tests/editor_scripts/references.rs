@@ -250,7 +250,11 @@ fn the_rotate_and_the_scale_tool_take_a_reference_as_one_step() {
     let (mut script, id) = with("clothoid");
     let (before, steps) = (curve(&script, id), script.steps());
     script.tool(ToolKind::Rotate);
-    let pivot = script.editor.pivot().expect("a pivot");
+    let pivot = script
+        .editor
+        .hand()
+        .pivot(&script.editor.context())
+        .expect("a pivot");
     let at = script.editor.view().viewport().to_screen(pivot);
     let arm = DVec2::new(80.0, 0.0);
     script.drag(at + arm, at + DVec2::from_angle(-0.5).rotate(arm));
@@ -297,7 +301,7 @@ fn the_rotate_and_the_scale_tool_take_a_reference_as_one_step() {
     // What is locked stays.
     script.command(Command::ToggleLocked);
     script.tool(ToolKind::Rotate);
-    assert_eq!(script.editor.pivot(), None);
+    assert_eq!(script.editor.hand().pivot(&script.editor.context()), None);
     assert!(
         script
             .editor

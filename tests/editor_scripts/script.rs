@@ -257,14 +257,18 @@ impl Script {
     /// The figures of the end-fit panel.
     pub fn end_fit(&mut self) -> Option<EndFitReport> {
         self.editor.refresh();
-        self.editor.end_fit()
+        self.editor
+            .hand()
+            .end_fit(self.editor.workspace(), self.editor.view())
     }
 
     /// Check that all that panels and canvas read can be made, and that the document is valid.
     pub fn check(&mut self) {
         self.editor.refresh();
         self.editor.sight().report();
-        self.editor.end_fit();
+        self.editor
+            .hand()
+            .end_fit(self.editor.workspace(), self.editor.view());
         self.editor.sight().readout();
         assert!(!self.editor.hint().is_empty());
         let document = self.editor.document();

@@ -111,7 +111,13 @@ fn what_cannot_be_cut_is_not_copied() {
     assert!(script.editor.cut().is_err());
     assert!(script.message().contains("too few"), "{}", script.message());
     // Neither are vertices of a locked curve.
-    script.editor.set_locked(other, true).expect("a curve");
+    script
+        .editor
+        .change(Edit::SetLocked {
+            curve: other,
+            locked: true,
+        })
+        .expect("a curve");
     script.editor.select_vertex(other, 0, false);
     assert!(script.editor.cut().is_err());
     assert!(script.message().contains("locked"), "{}", script.message());
@@ -155,7 +161,13 @@ fn a_leg_of_a_selection_takes_the_selection_along() {
 #[test]
 fn what_is_hidden_is_not_edited() {
     let (mut script, [arc, _]) = two();
-    script.editor.set_visible(arc, false).expect("a curve");
+    script
+        .editor
+        .change(Edit::SetVisible {
+            curve: arc,
+            visible: false,
+        })
+        .expect("a curve");
     script.editor.activate(arc);
     let before = script.editor.document().clone();
     for tool in ToolKind::ALL
@@ -311,7 +323,13 @@ fn targets_of_any_direction_survive_a_file() {
 #[test]
 fn select_all_says_that_the_active_curve_is_hidden_and_takes_no_other() {
     let (mut script, [arc, _]) = two();
-    script.editor.set_visible(arc, false).expect("a curve");
+    script
+        .editor
+        .change(Edit::SetVisible {
+            curve: arc,
+            visible: false,
+        })
+        .expect("a curve");
     script.editor.activate(arc);
     script.command(Command::SelectAll);
     assert_eq!(script.curve(), arc);

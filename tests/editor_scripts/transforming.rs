@@ -63,7 +63,7 @@ fn typed_figures_rotate_and_scale_as_dragging_does() {
     let mut script = Script::example("s-curve");
     let before = script.polygon();
     script.tool(ToolKind::Rotate);
-    script.editor.set_pivot(Some(DVec2::ZERO));
+    script.editor.hand_mut().set_pivot(Some(DVec2::ZERO));
     script
         .editor
         .transform(Transformation::Rotate(0.5_f64.to_radians()))
@@ -74,7 +74,11 @@ fn typed_figures_rotate_and_scale_as_dragging_does() {
         assert!(vertex.truncate().distance(expected) < 1e-12 * before.size());
     }
     script.tool(ToolKind::Scale);
-    let pivot = script.editor.pivot().expect("a pivot");
+    let pivot = script
+        .editor
+        .hand()
+        .pivot(&script.editor.context())
+        .expect("a pivot");
     let turned = script.polygon();
     script
         .editor
@@ -119,7 +123,11 @@ fn a_typed_number_is_shown_and_takes_the_place_of_a_drag() {
     let mut script = Script::example("s-curve");
     let before = script.polygon();
     script.tool(ToolKind::Scale);
-    let pivot = script.editor.pivot().expect("a pivot");
+    let pivot = script
+        .editor
+        .hand()
+        .pivot(&script.editor.context())
+        .expect("a pivot");
     let scaled = |by: f64| {
         let vertices = before.vertices().iter();
         let scaled = vertices.map(|vertex| pivot + by * (vertex.truncate() - pivot));
@@ -188,7 +196,11 @@ fn a_handle_at_a_side_scales_one_axis_and_a_corner_both() {
         });
         let handle = sides.next().expect("a box")[2 * axis];
         let viewport = *script.editor.view().viewport();
-        let pivot = script.editor.pivot().expect("a pivot");
+        let pivot = script
+            .editor
+            .hand()
+            .pivot(&script.editor.context())
+            .expect("a pivot");
         let places = [handle, pivot + 3.0 * (handle - pivot)];
         let [from, to] = places.map(|place| viewport.to_screen(place));
         let fixed = viewport.grounded(pivot);
@@ -211,7 +223,11 @@ fn a_pivot_that_is_dragged_names_what_it_snaps_to() {
         .execute(Command::ToggleSnapping)
         .expect("snapping");
     script.tool(ToolKind::Rotate);
-    let pivot = script.editor.pivot().expect("a pivot");
+    let pivot = script
+        .editor
+        .hand()
+        .pivot(&script.editor.context())
+        .expect("a pivot");
     let from = script.editor.view().viewport().to_screen(pivot);
     let to = script.at_vertex(2) + DVec2::new(4.0, 3.0);
     hold(&mut script, from, to);

@@ -399,10 +399,28 @@ fn operations_are_offered_where_they_can_run() {
     let makers = ALL.iter().filter(|operation| is_maker(operation));
     let makers: Vec<&str> = makers.map(|operation| operation.name).collect();
     let curve = script.curve();
-    script.editor.set_locked(curve, true).expect("a curve");
+    script
+        .editor
+        .change(Edit::SetLocked {
+            curve: curve,
+            locked: true,
+        })
+        .expect("a curve");
     assert_eq!(offered(&script), makers);
-    script.editor.set_locked(curve, false).expect("a curve");
-    script.editor.set_visible(curve, false).expect("a curve");
+    script
+        .editor
+        .change(Edit::SetLocked {
+            curve: curve,
+            locked: false,
+        })
+        .expect("a curve");
+    script
+        .editor
+        .change(Edit::SetVisible {
+            curve: curve,
+            visible: false,
+        })
+        .expect("a curve");
     assert_eq!(offered(&script), makers);
     let script = Script::example("periodic");
     for (name, is_offered) in [
@@ -436,7 +454,13 @@ fn what_cannot_run_is_not_begun() {
     for operation in on_one {
         let (mut script, _) = s_curve();
         let curve = script.curve();
-        script.editor.set_locked(curve, true).expect("a curve");
+        script
+            .editor
+            .change(Edit::SetLocked {
+                curve: curve,
+                locked: true,
+            })
+            .expect("a curve");
         let (before, made) = (script.editor.document().clone(), script.steps());
         let given = script.editor.execute(Command::Operation(operation));
         assert_eq!(given, Ok(Note::silent()), "it is not offered");
@@ -667,7 +691,7 @@ fn the_panel_of_what_was_applied_ends_with_the_next_step_undo_or_redo() {
         let shown = script.editor.document().clone();
         assert_eq!(script.set("digits", Value::Whole(0)), Ok(()));
         check_is(&script, &shown);
-        script.editor.end_preview();
+        script.editor.interrupt();
         script.undo_all();
         check_is(&script, &before);
     }

@@ -269,7 +269,7 @@ impl Window {
 
     /// The pivot of the tool that has one.
     pub fn pivot(&self) -> Option<DVec2> {
-        self.editor.pivot()
+        self.editor.hand().pivot(&self.editor.context())
     }
 
     /// The message's text, if there is one.
@@ -315,7 +315,9 @@ impl Window {
         }
         self.editor.sight().features();
         self.editor.sight().report();
-        self.editor.end_fit();
+        self.editor
+            .hand()
+            .end_fit(self.editor.workspace(), self.editor.view());
         self.editor.sight().readout();
         self.editor.cursor();
         self.editor.sight().hovered_vertex();
@@ -405,7 +407,7 @@ impl Window {
             }
             Panel::EndFit(action) => told(self.editor.end_fit_action(*action)),
             Panel::Transform(transformation) => told(self.editor.transform(*transformation)),
-            Panel::SetPivot(pivot) => self.editor.set_pivot(*pivot),
+            Panel::SetPivot(pivot) => self.editor.hand_mut().set_pivot(*pivot),
             Panel::Hover(length, vertex) => {
                 self.editor.view_mut().hover_nothing();
                 length
@@ -454,9 +456,20 @@ impl Window {
                 let given = [("degree", Value::Whole(degree))];
                 return told(self.editor.apply_operation(operation, &given));
             }
-            OfCurve::SetPeriodic(is) => return told(self.editor.set_periodic(curve, is)),
-            OfCurve::SetVisible(is) => return told(self.editor.set_visible(curve, is)),
-            OfCurve::SetLocked(is) => return told(self.editor.set_locked(curve, is)),
+            OfCurve::SetPeriodic(is) => {
+                self.editor.activate(curve);
+                let toggle = Command::TogglePeriodic;
+                if self.editor.is_checked(toggle) == Some(!is) {
+                    told(self.editor.execute(toggle));
+                }
+                return;
+            }
+            OfCurve::SetVisible(is) => {
+                return told(self.editor.change(Edit::SetVisible { curve, visible: is }));
+            }
+            OfCurve::SetLocked(is) => {
+                return told(self.editor.change(Edit::SetLocked { curve, locked: is }));
+            }
             OfCurve::Rename(name) => {
                 let name = name.to_owned();
                 ("Rename", Edit::Rename { curve, name })

@@ -126,6 +126,7 @@ fn length_angle_and_degree_are_typed_into_their_fields() {
         window
             .state()
             .editor()
+            .hand()
             .leg_locks()
             .expect("locks")
             .length
@@ -191,9 +192,11 @@ fn the_degree_so_far_and_the_unit_are_told_and_an_empty_enter_leaves() {
     }
     window.hover_at(canvas.center() + vec2(150.0, -60.0));
     window.run();
-    let drawn = window.state().editor().drawn_degree();
-    assert_eq!(drawn, Some(9), "that of the active curve");
-    assert_eq!(window.state().editor().degree_so_far(), Some(3));
+    let editor = window.state().editor();
+    let (hand, context) = (editor.hand(), editor.context());
+    let degree = hand.drawn_degree(&context);
+    assert_eq!(degree, Some(9), "that of the active curve");
+    assert_eq!(hand.degree_so_far(&context), Some(3));
     let length = window
         .get_by_label("leg length")
         .value()

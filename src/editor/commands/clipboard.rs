@@ -10,6 +10,8 @@ use crate::document::{
 use crate::editor::Editor;
 use crate::editor::jobs::filing::{Incoming, Purpose, ReadDocument};
 use crate::editor::reply::{Note, Refusal, Reply};
+use crate::editor::selection::Selection;
+use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::Placement;
 use crate::geometry::{FloatPolygon, PolygonKind, counted};
 use crate::io::{Export as Exported, Format, Reading, WriteError};
@@ -24,7 +26,22 @@ impl Editor {
     /// # Errors
     /// [`Refusal`] if the text cannot be read; nothing is changed then.
     pub fn paste_text(&mut self, text: &str) -> Reply {
-        let reply = self.paste(text);
+        let reply = read(text).and_then(|read| {
+            if read.is_empty() {
+                return Ok(Note::told("There are no curves on the clipboard"));
+            }
+            let remarks = read.remarks.to_string();
+            let read = ReadDocument {
+                document: read.into_document()?,
+                name: String::new(),
+                remarks,
+            };
+            let incoming = Incoming {
+                purpose: Purpose::Paste,
+                documents: vec![read],
+            };
+            self.merge(incoming, None)
+        });
         self.tell(reply)
     }
 
@@ -35,8 +52,9 @@ impl Editor {
     /// # Errors
     /// [`Refusal`] if there is nothing to copy.
     pub fn copy(&mut self) -> Result<String, Refusal> {
-        let copied = self.text_of_selection();
-        let reply = copied.clone().map(|_| self.copied());
+        let copied = text_of(&self.hand.selection, self.document());
+        let reply = copied.clone();
+        let reply = reply.map(|_| copied_note(&self.hand.selection, self.document()));
         self.tell(reply)?;
         copied
     }
@@ -47,7 +65,7 @@ impl Editor {
     /// [`Refusal`] if they cannot be removed; nothing is changed then.
     pub fn cut(&mut self) -> Result<String, Refusal> {
         self.interrupt();
-        let copied = self.text_of_selection();
+        let copied = text_of(&self.hand.selection, self.document());
         let whole = self.active_reference();
         let reply = copied.clone().and_then(|_| match whole {
             Some((id, reference)) => {
@@ -58,88 +76,6 @@ impl Editor {
         });
         self.tell(reply)?;
         copied
-    }
-
-    fn paste(&mut self, text: &str) -> Reply {
-        let project = Format::Batten.read(text.as_bytes());
-        let read = match &project {
-            Ok(_) => project,
-            // Text that begins like a project is judged as one.
-            Err(_) if text.trim_start().starts_with('{') => project,
-            Err(_) => Format::Csv.read(text.as_bytes()),
-        };
-        let read = read.map_err(|error| {
-            Refusal(format!(
-                "The clipboard holds no curve that can be read: {error}"
-            ))
-        })?;
-        if read.is_empty() {
-            return Ok(Note::told("There are no curves on the clipboard"));
-        }
-        let remarks = read.remarks.to_string();
-        let read = ReadDocument {
-            document: read.into_document()?,
-            name: String::new(),
-            remarks,
-        };
-        let incoming = Incoming {
-            purpose: Purpose::Paste,
-            documents: vec![read],
-        };
-        self.merge(incoming, None)
-    }
-
-    fn text_of_selection(&self) -> Result<String, Refusal> {
-        let selected: Vec<(CurveId, Arc<Curve>)> = self
-            .document()
-            .curves()
-            .filter(|(id, _)| self.hand.selection.of_curve(*id).next().is_some())
-            .map(|(id, curve)| (id, curve.clone()))
-            .collect();
-        let is_whole = |(id, curve): &(CurveId, Arc<Curve>)| {
-            self.hand.selection.of_curve(*id).count() == curve.polygon.vertices().len()
-        };
-        let unit = self.document().unit();
-        let reference = self.active_reference().filter(|_| selected.is_empty());
-        let text = if let Some((_, reference)) = reference {
-            let copied = Reference {
-                extras: Extras::default(),
-                ..Reference::clone(&reference)
-            };
-            let document = Document::default()
-                .with_references([copied])
-                .with_unit(unit);
-            text_of(Format::Batten.write_document(&document, None))
-        } else if selected.iter().all(is_whole) {
-            let whole = selected.into_iter().map(|(_, curve)| curve);
-            let mut copied: Vec<Curve> = whole.map(Arc::unwrap_or_clone).collect();
-            if copied.is_empty() {
-                let (_, curve) = self.active_curve().ok_or("There is no curve")?;
-                copied.push(Curve::clone(&curve));
-            }
-            for curve in &mut copied {
-                curve.extras = Extras::default();
-            }
-            let document = Document::from_curves(copied).with_unit(unit);
-            text_of(Format::Batten.write_document(&document, None))
-        } else {
-            let tables = selected
-                .iter()
-                .map(|(id, curve)| self.selected_table(*id, curve));
-            let tables: Result<Vec<String>, String> = tables.collect();
-            tables.map(|tables| tables.join("\n"))
-        };
-        text.map_err(Refusal)
-    }
-
-    /// What was copied.
-    fn copied(&self) -> Note {
-        let count = self.hand.selection.vertices().len();
-        let active = self.active().and_then(|id| self.document().name(id));
-        Note::told(match active {
-            Some(name) if count == 0 => format!("{} copied", quoted(name)),
-            _ => format!("{} copied", counted(count, "vertex", "vertices")),
-        })
     }
 
     /// Add copies a little aside, named anew, they and their vertices unlocked, and not matched. What their file said of the curves
@@ -195,35 +131,110 @@ impl Editor {
         }
         self.add(label, before, copies)
     }
+}
 
-    /// The selected vertices of a curve as a table, with a header line if they make a curve: its
-    /// degree is lowered if they are few. A single vertex is just its coordinates.
-    fn selected_table(&self, id: CurveId, curve: &Curve) -> Result<String, String> {
-        let polygon = &curve.polygon;
-        let indices: Vec<usize> = self.hand.selection.of_curve(id).collect();
-        if let [only] = indices.as_slice() {
-            let DVec3 { x, y, z } = polygon.vertex(*only);
-            return Ok(if polygon.is_planar() {
-                format!("{x},{y}\n")
-            } else {
-                format!("{x},{y},{z}\n")
-            });
+/// Read a text from the clipboard: a project or a table.
+fn read(text: &str) -> Result<Reading, Refusal> {
+    let project = Format::Batten.read(text.as_bytes());
+    let read = match &project {
+        Ok(_) => project,
+        // A text that begins like a project is read as one only.
+        Err(_) if text.trim_start().starts_with('{') => project,
+        Err(_) => Format::Csv.read(text.as_bytes()),
+    };
+    read.map_err(|error| {
+        Refusal(format!(
+            "The clipboard holds no curve that can be read: {error}"
+        ))
+    })
+}
+
+/// The text of what is selected, or of the active curve or reference.
+fn text_of(selection: &Selection, document: &Document) -> Result<String, Refusal> {
+    let selected: Vec<(CurveId, Arc<Curve>)> = document
+        .curves()
+        .filter(|(id, _)| selection.of_curve(*id).next().is_some())
+        .map(|(id, curve)| (id, curve.clone()))
+        .collect();
+    let is_whole = |(id, curve): &(CurveId, Arc<Curve>)| {
+        selection.of_curve(*id).count() == curve.polygon.vertices().len()
+    };
+    let unit = document.unit();
+    let active = selection.active();
+    let reference = active.and_then(|id| document.reference(id));
+    let reference = reference.filter(|_| selected.is_empty());
+    let text = if let Some(reference) = reference {
+        let copied = Reference {
+            extras: Extras::default(),
+            ..Reference::clone(reference)
+        };
+        let document = Document::default().with_references([copied]);
+        exported(Format::Batten.write_document(&document.with_unit(unit), None))
+    } else if selected.iter().all(is_whole) {
+        let whole = selected.into_iter().map(|(_, curve)| curve);
+        let mut copied: Vec<Curve> = whole.map(Arc::unwrap_or_clone).collect();
+        if copied.is_empty() {
+            let active = selection.active().and_then(|id| document.curve(id));
+            let curve = active.ok_or("There is no curve")?;
+            copied.push(Curve::clone(curve));
         }
-        let vertices: Vec<DVec3> = indices.iter().map(|index| polygon.vertex(*index)).collect();
-        let weights = polygon
-            .is_rational()
-            .then(|| indices.iter().map(|index| polygon.weight(*index)).collect());
-        let degree = polygon.degree().min(indices.len().saturating_sub(1)).max(1);
-        let part = FloatPolygon::new(degree, vertices, weights, false);
-        let part = part.map_err(|error| format!("{}: {error}", quoted(&curve.name)))?;
-        let part = Curve::new(curve.name.clone(), part);
-        let part = Document::from_curves([part]).with_unit(self.document().unit());
-        text_of(Format::Csv.write_document(&part, Some(PolygonKind::Float)))
+        for curve in &mut copied {
+            curve.extras = Extras::default();
+        }
+        let document = Document::from_curves(copied).with_unit(unit);
+        exported(Format::Batten.write_document(&document, None))
+    } else {
+        let tables = selected
+            .iter()
+            .map(|(id, curve)| selected_table(selection, unit, *id, curve));
+        let tables: Result<Vec<String>, String> = tables.collect();
+        tables.map(|tables| tables.join("\n"))
+    };
+    text.map_err(Refusal)
+}
+
+/// The note of what was copied.
+fn copied_note(selection: &Selection, document: &Document) -> Note {
+    let count = selection.vertices().len();
+    let active = selection.active().and_then(|id| document.name(id));
+    Note::told(match active {
+        Some(name) if count == 0 => format!("{} copied", quoted(name)),
+        _ => format!("{} copied", counted(count, "vertex", "vertices")),
+    })
+}
+
+/// The selected vertices of a curve as a table, with a header line if they make a curve: its
+/// degree is lowered if they are few. A single vertex is just its coordinates.
+fn selected_table(
+    selection: &Selection,
+    unit: Option<LengthUnit>,
+    id: CurveId,
+    curve: &Curve,
+) -> Result<String, String> {
+    let polygon = &curve.polygon;
+    let indices: Vec<usize> = selection.of_curve(id).collect();
+    if let [only] = indices.as_slice() {
+        let DVec3 { x, y, z } = polygon.vertex(*only);
+        return Ok(if polygon.is_planar() {
+            format!("{x},{y}\n")
+        } else {
+            format!("{x},{y},{z}\n")
+        });
     }
+    let vertices: Vec<DVec3> = indices.iter().map(|index| polygon.vertex(*index)).collect();
+    let weights = polygon
+        .is_rational()
+        .then(|| indices.iter().map(|index| polygon.weight(*index)).collect());
+    let degree = polygon.degree().min(indices.len().saturating_sub(1)).max(1);
+    let part = FloatPolygon::new(degree, vertices, weights, false);
+    let part = part.map_err(|error| format!("{}: {error}", quoted(&curve.name)))?;
+    let part = Curve::new(curve.name.clone(), part);
+    let part = Document::from_curves([part]).with_unit(unit);
+    exported(Format::Csv.write_document(&part, Some(PolygonKind::Float)))
 }
 
 /// The text of an export, or why there is none.
-fn text_of(export: Result<Exported, WriteError>) -> Result<String, String> {
+fn exported(export: Result<Exported, WriteError>) -> Result<String, String> {
     let export = export.map_err(|error| error.to_string())?;
     Ok(String::from_utf8_lossy(&export.bytes).into_owned())
 }

@@ -1,10 +1,11 @@
 //! Removing vertices and curves: never one by a command that is meant for the other.
 
-use crate::document::{CurveId, Edit, EditError, quoted};
+use crate::document::{CurveId, Document, Edit, EditError, quoted};
 use crate::editor::Editor;
 use crate::editor::commands::command::Command;
-use crate::editor::commands::polygon_edits::deletion;
+use crate::editor::polygon_edits::deletion;
 use crate::editor::reply::{Note, Reply, with_lines};
+use crate::editor::selection::Selection;
 use crate::geometry::counted;
 
 impl Editor {
@@ -17,57 +18,56 @@ impl Editor {
             let name = reference.name.clone();
             return self.delete_whole(id, &name);
         }
-        let edits = self.deletion()?;
+        let edits = edits(&self.hand.selection, self.document())?;
         let count = counted(self.hand.selection.vertices().len(), "vertex", "vertices");
         self.apply(&format!("{verb} {count}"), edits)?;
         self.hand.selection.clear();
         Ok(Note::done(format!("{count} {done}")))
     }
 
-    /// The edits that remove the selected vertices. A curve is never removed that way.
-    fn deletion(&self) -> Result<Vec<Edit>, String> {
-        if self.hand.selection.is_empty() {
-            let active = self.active().and_then(|id| self.document().name(id));
-            let Some(name) = active else {
-                return Err("There is no curve".into());
-            };
-            return Err(format!(
-                "No vertex is selected. To remove {} as a whole, use “{}”",
-                quoted(name),
-                Command::DeleteCurve.label()
-            ));
-        }
-        let mut edits = Vec::new();
-        for (id, curve) in self.document().curves() {
-            let indices: Vec<usize> = self.hand.selection.of_curve(id).collect();
-            if indices.is_empty() {
-                continue;
-            }
-            curve
-                .check_editable()
-                .map_err(|refused| refused.to_string())?;
-            if indices.len() == curve.polygon.vertices().len() {
-                return Err(format!(
-                    "The selection holds all vertices of {}. To remove it as a whole, use “{}”",
-                    quoted(&curve.name),
-                    Command::DeleteCurve.label()
-                ));
-            }
-            edits.push(
-                deletion(id, curve, &indices).map_err(|refused| match refused {
-                    EditError::Polygon { .. } => format!("{refused}; lower its degree first"),
-                    refused => refused.to_string(),
-                })?,
-            );
-        }
-        Ok(edits)
-    }
-
     /// Remove a curve or a reference.
     pub(in crate::editor) fn delete_whole(&mut self, id: CurveId, name: &str) -> Reply {
-        let label = format!("Delete {}", self.noun(id));
-        let note = self.apply(&label, vec![Edit::Remove(id)])?;
+        let note = self.change(Edit::Remove(id))?;
         let deleted = format!("{} deleted", quoted(name));
         Ok(Note::done(with_lines(deleted, &note.text)))
     }
+}
+
+/// The edits that remove the selected vertices. A curve is never removed that way.
+fn edits(selection: &Selection, document: &Document) -> Result<Vec<Edit>, String> {
+    if selection.is_empty() {
+        let active = selection.active().and_then(|id| document.name(id));
+        let Some(name) = active else {
+            return Err("There is no curve".into());
+        };
+        return Err(format!(
+            "No vertex is selected. To remove {} as a whole, use “{}”",
+            quoted(name),
+            Command::DeleteCurve.label()
+        ));
+    }
+    let mut edits = Vec::new();
+    for (id, curve) in document.curves() {
+        let indices: Vec<usize> = selection.of_curve(id).collect();
+        if indices.is_empty() {
+            continue;
+        }
+        curve
+            .check_editable()
+            .map_err(|refused| refused.to_string())?;
+        if indices.len() == curve.polygon.vertices().len() {
+            return Err(format!(
+                "The selection holds all vertices of {}. To remove it as a whole, use “{}”",
+                quoted(&curve.name),
+                Command::DeleteCurve.label()
+            ));
+        }
+        edits.push(
+            deletion(id, curve, &indices).map_err(|refused| match refused {
+                EditError::Polygon { .. } => format!("{refused}; lower its degree first"),
+                refused => refused.to_string(),
+            })?,
+        );
+    }
+    Ok(edits)
 }

@@ -2,16 +2,19 @@
 
 use std::sync::Arc;
 
-use crate::document::{Colour, Curve, CurveId, Edit, Reference, quoted};
+use crate::document::{Curve, CurveId, Document, Edit, Reference, quoted};
 use crate::editor::commands::command::Command;
-use crate::editor::commands::polygon_edits::periodicity;
+use crate::editor::commands::locking;
+use crate::editor::commands::references::{new_formula, new_reference};
 use crate::editor::operating::OperationInProgress;
+use crate::editor::polygon_edits::periodicity;
 use crate::editor::reply::{Note, Reply};
-use crate::editor::selection::VertexId;
+use crate::editor::selection::{Selection, VertexId};
 use crate::editor::view::Look;
 use crate::editor::view::layers::Layer;
 use crate::editor::workspace::Interruption;
 use crate::editor::{Editor, Refusal};
+use crate::geometry::counted;
 
 /// The factor by which the zoom commands change the scale.
 const ZOOM: f64 = 1.25;
@@ -48,6 +51,8 @@ impl Editor {
         let editable = curve
             .as_ref()
             .is_some_and(|(_, curve)| curve.check_editable().is_ok());
+        let can_compare =
+            |id: CurveId| self.active() != Some(id) && self.document().name(id).is_some();
         match command {
             Command::Undo => self.undo_label().is_some(),
             Command::Redo => {
@@ -69,7 +74,7 @@ impl Editor {
                 before.is_some_and(|before| before != unit)
             }
             Command::GoToFeature => self.view.chosen_feature().is_some(),
-            Command::Compare(other) => active && other.is_none_or(|id| self.can_compare(id)),
+            Command::Compare(other) => active && other.is_none_or(can_compare),
             // What is dragged is dragged in the plane that is seen.
             Command::View(_) => !self.hand.is_dragging(),
             _ => true,
@@ -79,10 +84,12 @@ impl Editor {
     /// Whether a switch is on; `None` for commands that are no switches.
     pub fn is_checked(&self, command: Command) -> Option<bool> {
         let curve = self.active_curve().map(|(_, curve)| curve);
+        let can_compare =
+            |id: CurveId| self.active() != Some(id) && self.document().name(id).is_some();
         match command {
             Command::ToggleLayer(layer) => Some(self.sight().layers().shows(layer)),
             Command::Compare(other) => {
-                let compared = self.view.compared().filter(|id| self.can_compare(*id));
+                let compared = self.view.compared().filter(|id| can_compare(*id));
                 Some(compared == other)
             }
             Command::ToggleBands => Some(self.view.shows_bands()),
@@ -133,23 +140,23 @@ impl Editor {
             Command::Compare(Some(id)) => self.document().name(id).map(str::to_owned),
             Command::Undo => self.undo_label().map(named),
             Command::Redo => self.workspace.history().redo_label().map(named),
-            Command::ToggleVerticesLocked => Some(self.locking_label().to_owned()),
+            Command::ToggleVerticesLocked => {
+                let label = locking::command_label(&self.hand.selection, self.document());
+                Some(label.to_owned())
+            }
             _ => None,
         }
         .unwrap_or_else(|| command.label())
     }
 
-    /// Whether there is such a curve or reference beside the active one.
-    fn can_compare(&self, id: CurveId) -> bool {
-        self.active() != Some(id) && self.document().name(id).is_some()
-    }
-
-    pub(in crate::editor) fn active_curve(&self) -> Option<(CurveId, Arc<Curve>)> {
+    /// The active curve.
+    pub fn active_curve(&self) -> Option<(CurveId, Arc<Curve>)> {
         let id = self.hand.selection.active()?;
         Some((id, self.document().curve(id)?.clone()))
     }
 
-    pub(in crate::editor) fn active_reference(&self) -> Option<(CurveId, Arc<Reference>)> {
+    /// The active reference.
+    pub fn active_reference(&self) -> Option<(CurveId, Arc<Reference>)> {
         let id = self.hand.selection.active()?;
         Some((id, self.document().reference(id)?.clone()))
     }
@@ -224,7 +231,13 @@ impl Editor {
                 }
             }
             Command::Compare(other) => self.view.compare(other),
-            Command::ToggleLayer(layer) => self.toggle_layer(layer),
+            Command::ToggleLayer(layer) => {
+                let shown = self.sight().layers().shows(layer);
+                if matches!(layer, Layer::Float | Layer::Clamped) {
+                    self.hand.tools.end_fit.settings.closed = false;
+                }
+                self.view.layers.set(layer, !shown);
+            }
             Command::ToggleBands => self.view.show_bands(!self.view.shows_bands()),
             Command::ToggleSnapping => self.hand.snapping = !self.hand.snapping,
             Command::Follow(follow) => self.hand.following.toggle(follow),
@@ -236,13 +249,24 @@ impl Editor {
     fn execute_idle(&mut self, command: Command) -> Reply {
         match command {
             Command::Delete => return self.delete("Delete", "deleted"),
-            Command::ToggleVerticesLocked => return self.toggle_vertices_locked(),
-            Command::SelectAll => self.select_all()?,
+            Command::ToggleVerticesLocked => {
+                let selection = &self.hand.selection;
+                let count = counted(selection.vertices().len(), "vertex", "vertices");
+                let (edits, locked) = locking::edits(selection, self.document());
+                self.apply(locking::label(locked), edits)?;
+                let done = if locked { "locked" } else { "unlocked" };
+                return Ok(Note::done(format!("{count} {done}")));
+            }
+            Command::SelectAll => {
+                select_all(&mut self.hand.selection, self.workspace.document())?;
+            }
             Command::SelectNone => self.hand.selection.clear(),
             Command::Tool(tool) => self.use_tool(tool),
             Command::Operation(operation) => return self.preview_operation(operation),
-            Command::AddReference(kind) => return self.add_reference(kind),
-            Command::AddFormula => return self.add_formula(),
+            Command::AddReference(kind) => {
+                return self.add_reference(kind.label, new_reference(kind));
+            }
+            Command::AddFormula => return self.add_reference("Formula", new_formula()),
             Command::SetUnit(unit) => return self.set_unit(unit),
             Command::ConvertUnit(unit) => return self.convert_unit(unit),
             _ => {
@@ -271,9 +295,26 @@ impl Editor {
                 curve.check_unlocked()?;
                 self.delete_whole(id, &curve.name)
             }
-            Command::TogglePeriodic => self.set_periodic(id, !curve.polygon.is_periodic()),
-            Command::ToggleVisible => self.set_visible(id, !curve.visible),
-            Command::ToggleLocked => self.set_locked(id, !curve.locked),
+            Command::TogglePeriodic => {
+                let periodic = !curve.polygon.is_periodic();
+                let label = if periodic {
+                    "Make periodic"
+                } else {
+                    "Open curve"
+                };
+                match periodicity(id, curve, periodic) {
+                    Ok(edit) => self.apply(label, vec![edit]),
+                    Err(error) => Err(Refusal(format!("{}: {error}", quoted(&curve.name)))),
+                }
+            }
+            Command::ToggleVisible => self.change(Edit::SetVisible {
+                curve: id,
+                visible: !curve.visible,
+            }),
+            Command::ToggleLocked => self.change(Edit::SetLocked {
+                curve: id,
+                locked: !curve.locked,
+            }),
             _ => Ok(Note::silent()),
         }
     }
@@ -294,119 +335,63 @@ impl Editor {
                 reference.check_unlocked()?;
                 self.delete_whole(id, &reference.name)
             }
-            Command::ToggleVisible => self.set_visible(id, !reference.visible),
-            Command::ToggleLocked => self.set_locked(id, !reference.locked),
+            Command::ToggleVisible => self.change(Edit::SetVisible {
+                curve: id,
+                visible: !reference.visible,
+            }),
+            Command::ToggleLocked => self.change(Edit::SetLocked {
+                curve: id,
+                locked: !reference.locked,
+            }),
             _ => Ok(Note::silent()),
         }
     }
 
-    fn toggle_layer(&mut self, layer: Layer) {
-        let shown = self.sight().layers().shows(layer);
-        if matches!(layer, Layer::Float | Layer::Clamped) {
-            self.hand.tools.end_fit.settings.closed = false;
-        }
-        self.view.layers.set(layer, !shown);
-    }
-
-    /// Show or hide a curve or a reference, as one step. The reply is told.
+    /// Make one edit as a step that is named after it. The reply is told.
     ///
     /// # Errors
-    /// [`Refusal`] if there is no such curve.
-    pub fn set_visible(&mut self, curve: CurveId, visible: bool) -> Reply {
-        let verb = if visible { "Show" } else { "Hide" };
-        let label = format!("{verb} {}", self.noun(curve));
-        self.apply(&label, vec![Edit::SetVisible { curve, visible }])
+    /// [`Refusal`] if it cannot be made.
+    pub fn change(&mut self, edit: Edit) -> Reply {
+        let label = step_label(&edit, self.document());
+        self.apply(&label, vec![edit])
     }
+}
 
-    /// Protect the shape of a curve or a reference or release it, as one step. The reply is told.
-    ///
-    /// # Errors
-    /// [`Refusal`] if there is no such curve.
-    pub fn set_locked(&mut self, curve: CurveId, locked: bool) -> Reply {
-        let verb = if locked { "Lock" } else { "Unlock" };
-        let label = format!("{verb} {}", self.noun(curve));
-        self.apply(&label, vec![Edit::SetLocked { curve, locked }])
+/// Name the step that an edit of a curve or reference makes.
+fn step_label(edit: &Edit, document: &Document) -> String {
+    let of = |verb: &str, id: CurveId| format!("{verb} {}", noun(document, id));
+    match edit {
+        Edit::SetVisible { curve, visible } => of(if *visible { "Show" } else { "Hide" }, *curve),
+        Edit::SetLocked { curve, locked } => of(if *locked { "Lock" } else { "Unlock" }, *curve),
+        Edit::Rename { curve, .. } => of("Rename", *curve),
+        Edit::Recolour { curve, .. } => of("Recolour", *curve),
+        Edit::Remove(curve) => of("Delete", *curve),
+        Edit::SetVerticesLocked { locked, .. } => locking::label(*locked).to_owned(),
+        _ => "Edit curve".to_owned(),
     }
+}
 
-    /// Give a curve or a reference another name, as one step. The reply is told.
-    ///
-    /// # Errors
-    /// [`Refusal`] if the name is empty.
-    pub fn rename(&mut self, curve: CurveId, name: String) -> Reply {
-        let label = format!("Rename {}", self.noun(curve));
-        self.apply(&label, vec![Edit::Rename { curve, name }])
+/// The word for a curve or a reference in labels.
+fn noun(document: &Document, id: CurveId) -> &'static str {
+    match document.reference(id) {
+        Some(_) => "reference",
+        None => "curve",
     }
+}
 
-    /// Give a curve or a reference another colour, as one step. The reply is told.
-    ///
-    /// # Errors
-    /// [`Refusal`] if there is no such curve.
-    pub fn recolour(&mut self, curve: CurveId, colour: Option<Colour>) -> Reply {
-        let label = format!("Recolour {}", self.noun(curve));
-        self.apply(&label, vec![Edit::Recolour { curve, colour }])
+/// Select all vertices of the active curve; if they are selected, those of all visible curves.
+fn select_all(selection: &mut Selection, document: &Document) -> Result<(), Refusal> {
+    let active = selection.active();
+    if let Some(curve) = active.and_then(|id| document.curve(id)) {
+        curve.check_visible()?;
     }
-
-    /// What steps of undo call a curve or a reference.
-    pub(in crate::editor) fn noun(&self, id: CurveId) -> &'static str {
-        match self.document().reference(id) {
-            Some(_) => "reference",
-            None => "curve",
-        }
-    }
-
-    fn select_all(&mut self) -> Result<(), Refusal> {
-        if let Some((_, curve)) = self.active_curve() {
-            curve.check_visible()?;
-        }
-        let all_of = |(id, curve): (CurveId, &Arc<Curve>)| {
-            let count = if curve.visible {
-                curve.polygon.vertices().len()
-            } else {
-                0
-            };
-            (0..count)
-                .map(move |index| (id, index))
-                .collect::<Vec<VertexId>>()
-        };
-        let active = self.hand.selection.active();
-        let own: Vec<VertexId> = self
-            .document()
-            .curves()
-            .filter(|(id, _)| Some(*id) == active)
-            .flat_map(all_of)
-            .collect();
-        if own
-            .iter()
-            .all(|vertex| self.hand.selection.contains(*vertex))
-        {
-            let all: Vec<VertexId> = self.document().curves().flat_map(all_of).collect();
-            self.hand.selection.set(all);
-        } else {
-            self.hand.selection.set(own);
-        }
-        Ok(())
-    }
-
-    /// Make a curve periodic, or open it; the polygon stays. The reply is told.
-    ///
-    /// # Errors
-    /// [`Refusal`] if the curve cannot be so.
-    pub fn set_periodic(&mut self, id: CurveId, periodic: bool) -> Reply {
-        let Some(curve) = self.document().curve(id).cloned() else {
-            return Ok(Note::silent());
-        };
-        if periodic == curve.polygon.is_periodic() {
-            return Ok(Note::silent());
-        }
-        let label = if periodic {
-            "Make periodic"
-        } else {
-            "Open curve"
-        };
-        let reply = match periodicity(id, &curve, periodic) {
-            Ok(edit) => return self.apply(label, vec![edit]),
-            Err(error) => Err(Refusal(format!("{}: {error}", quoted(&curve.name)))),
-        };
-        self.tell(reply)
-    }
+    let visible = document.curves().filter(|(_, curve)| curve.visible);
+    let all = visible
+        .flat_map(|(id, curve)| (0..curve.polygon.vertices().len()).map(move |index| (id, index)));
+    let all: Vec<VertexId> = all.collect();
+    let own = all.iter().copied().filter(|(id, _)| Some(*id) == active);
+    let own: Vec<VertexId> = own.collect();
+    let is_selected = own.iter().all(|vertex| selection.contains(*vertex));
+    selection.set(if is_selected { all } else { own });
+    Ok(())
 }

@@ -3,13 +3,13 @@
 mod clipboard;
 pub(in crate::editor) mod command;
 mod deleting;
+mod end_fit;
 mod execute;
 mod files;
 mod foreseen;
 mod locking;
 mod merging;
 mod operating;
-pub(in crate::editor) mod polygon_edits;
 mod recovering;
 mod references;
 mod units;

@@ -1,6 +1,7 @@
 //! Adding references, and changing what they are and where they lie.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
@@ -44,6 +45,18 @@ impl ReferenceChange {
             Self::Rotate(_) => "Rotate reference",
             Self::Scale(_) => "Scale reference",
         }
+    }
+
+    /// The edit that changes a reference, if there is one.
+    fn edit(
+        &self,
+        active: Option<(CurveId, Arc<Reference>)>,
+    ) -> Result<Option<Edit>, ReferenceError> {
+        let Some((reference, found)) = active else {
+            return Ok(None);
+        };
+        let curve = self.applied_to(&found.curve)?;
+        Ok(Some(Edit::SetReference { reference, curve }))
     }
 
     /// Make the changed curve.
@@ -91,7 +104,7 @@ impl Editor {
     /// # Errors
     /// [`Refusal`] if there is none, or it cannot be so; nothing is changed then.
     pub fn change_reference(&mut self, change: &ReferenceChange) -> Reply {
-        match self.reference_edit(change) {
+        match change.edit(self.active_reference()) {
             Ok(Some(edit)) => self.apply(change.label(), vec![edit]),
             Ok(None) => Ok(Note::silent()),
             Err(error) => {
@@ -106,40 +119,19 @@ impl Editor {
     /// # Errors
     /// [`ReferenceError`] if it cannot be so; what was shown last stays.
     pub fn preview_reference(&mut self, change: &ReferenceChange) -> Result<(), ReferenceError> {
-        if let Some(edit) = self.reference_edit(change)? {
+        if let Some(edit) = change.edit(self.active_reference())? {
             self.preview(change.label(), vec![edit]);
         }
         Ok(())
     }
 
-    /// The edit that changes the active reference, if there is one.
-    fn reference_edit(&self, change: &ReferenceChange) -> Result<Option<Edit>, ReferenceError> {
-        let Some((reference, found)) = self.active_reference() else {
-            return Ok(None);
-        };
-        let curve = change.applied_to(&found.curve)?;
-        Ok(Some(Edit::SetReference { reference, curve }))
-    }
-
-    /// Add a curve by formulas, to be changed, and make it active.
-    pub(in crate::editor) fn add_formula(&mut self) -> Reply {
-        let [x, y] = FORMULAS;
-        let curve = Formula::new(x, y, None).and_then(|formula| {
-            let form = ReferenceForm::Formula(formula);
-            ReferenceCurve::new(form, [0.0, TAU], Placement::default())
-        });
-        self.add_reference_curve("Formula", curve.map_err(|error| error.to_string())?)
-    }
-
-    /// Add a reference of a kind, with its defaults, and make it active.
-    pub(in crate::editor) fn add_reference(&mut self, kind: &'static ReferenceKind) -> Reply {
-        let form = AnalyticForm::new(kind, kind.defaults()).map_err(|error| error.to_string())?;
-        let curve = ReferenceCurve::of(ReferenceForm::Analytic(form));
-        self.add_reference_curve(kind.label, curve.map_err(|error| error.to_string())?)
-    }
-
     /// Add a reference where its formula puts it, in units of the document; the view follows if it would not be seen.
-    fn add_reference_curve(&mut self, label: &str, curve: ReferenceCurve) -> Reply {
+    pub(super) fn add_reference(
+        &mut self,
+        label: &str,
+        curve: Result<ReferenceCurve, ReferenceError>,
+    ) -> Reply {
+        let curve = curve.map_err(|error| error.to_string())?;
         let name = self.document().free_name(&label.to_lowercase());
         let references = vec![Reference::new(name, curve)];
         let added = Reading {
@@ -147,14 +139,24 @@ impl Editor {
             ..Reading::default()
         };
         self.add("Add reference", Vec::new(), added)?;
-        if let Some(id) = self.active_reference_id() {
+        if let Some((id, _)) = self.active_reference() {
             self.look(Look::New(vec![id]));
         }
         Ok(Note::silent())
     }
+}
 
-    /// The active reference, if it is one.
-    pub fn active_reference_id(&self) -> Option<CurveId> {
-        self.active_reference().map(|(id, _)| id)
-    }
+/// A curve by formulas, to be changed.
+pub(super) fn new_formula() -> Result<ReferenceCurve, ReferenceError> {
+    let [x, y] = FORMULAS;
+    let form = ReferenceForm::Formula(Formula::new(x, y, None)?);
+    ReferenceCurve::new(form, [0.0, TAU], Placement::default())
+}
+
+/// A reference of a kind, with its defaults.
+pub(super) fn new_reference(
+    kind: &'static ReferenceKind,
+) -> Result<ReferenceCurve, ReferenceError> {
+    let form = AnalyticForm::new(kind, kind.defaults())?;
+    ReferenceCurve::of(ReferenceForm::Analytic(form))
 }

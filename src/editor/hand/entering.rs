@@ -1,14 +1,17 @@
-//! What can be typed on the canvas while a tool is used, and the leg that is drawn.
+//! What can be typed on the canvas while a tool is in use, and the leg that a tool draws.
 
-use crate::editor::Editor;
+use glam::DVec2;
+
 use crate::editor::hand::drawing_plane::{DrawingPlane, Leg, LegLocks};
-use crate::editor::hand::tools::{DrawSettings, ToolKind, Transformation};
-use crate::editor::hand::typed_point::{EntryError, TypedPoint, read_number};
-use crate::editor::reply::Refusal;
+use crate::editor::hand::hand::Hand;
+use crate::editor::hand::tools::{Context, DrawSettings, ToolKind, Transformation};
+use crate::editor::hand::typed_point::{EntryError, read_number};
+use crate::editor::view::viewport::Viewport;
 use crate::geometry::FloatPolygon;
+use crate::geometry::expressions::LengthUnit;
 use crate::geometry::parameters::Quantity;
 
-/// What the tool in the hand takes that is typed.
+/// What the tool in use takes from the keyboard.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Entry {
     /// A point, by the names of the two axes that it is drawn along.
@@ -19,13 +22,12 @@ pub enum Entry {
     Factor,
 }
 
-impl Editor {
-    /// What can be typed on the canvas now.
-    pub fn entry(&self) -> Option<Entry> {
-        match self.hand.tool() {
+impl Hand {
+    /// Find what can be typed on the canvas with the tool in use.
+    pub fn entry(&self, viewport: &Viewport) -> Option<Entry> {
+        match self.tool() {
             ToolKind::Draw | ToolKind::AddVertex | ToolKind::Insert => {
-                let plane = DrawingPlane::of(&self.view.viewport);
-                Some(Entry::Point(plane.names()))
+                Some(Entry::Point(DrawingPlane::of(viewport).names()))
             }
             ToolKind::Rotate => Some(Entry::Angle),
             ToolKind::Scale => Some(Entry::Factor),
@@ -33,151 +35,98 @@ impl Editor {
         }
     }
 
-    /// Show what a text would do as far as it can be read: the vertex that it would set, or the rotation or scaling.
-    /// Without one that is the vertex at the pointer, or nothing. Returns whether that is something else than before.
-    pub fn type_entry(&mut self, text: &str) -> bool {
-        if let Some(Entry::Angle | Entry::Factor) = self.entry() {
-            let typed = self.typed_transformation(text).ok();
-            // A drag and what is typed would say different things: the drag goes as soon as typing begins.
-            let interrupts = !text.is_empty() && self.hand.is_dragging();
-            let shows = self
-                .hand
-                .tools
-                .transform()
-                .is_some_and(|tool| tool.shows_typed());
-            return (shows || typed.is_some() || interrupts) && self.type_transformation(typed);
-        }
-        let is_point = matches!(self.entry(), Some(Entry::Point(_)));
-        let typed = TypedPoint::read(text, self.document().unit())
-            .ok()
-            .filter(|_| is_point);
-        let before = std::mem::replace(&mut self.hand.typed, typed);
-        before != typed
-    }
-
-    /// Do what was typed: set a vertex, rotate or scale. It ends a drag that goes on.
-    ///
-    /// # Errors
-    /// [`EntryError`] if the text means nothing, or nothing can be done; nothing is changed then.
-    pub fn enter(&mut self, text: &str) -> Result<(), EntryError> {
-        let unit = self.document().unit();
-        match self.entry() {
-            Some(Entry::Point(_)) => self.enter_point(TypedPoint::read(text, unit)?),
-            Some(Entry::Angle | Entry::Factor) => {
-                let transformation = self.typed_transformation(text)?;
-                self.type_transformation(None);
-                self.enter_transformation(transformation)
-            }
-            None => Ok(()),
-        }
-    }
-
-    /// The rotation or the scaling that a text says.
-    fn typed_transformation(&self, text: &str) -> Result<Transformation, EntryError> {
-        let unit = self.document().unit();
-        match self.entry() {
-            Some(Entry::Angle) => {
+    /// Read a typed rotation or scaling.
+    pub(in crate::editor) fn typed_transformation(
+        &self,
+        text: &str,
+        unit: Option<LengthUnit>,
+    ) -> Result<Transformation, EntryError> {
+        match self.tool() {
+            ToolKind::Rotate => {
                 let angle = read_number(text, Quantity::Angle, unit)?;
                 Ok(Transformation::Rotate(angle.to_radians()))
             }
-            _ => Ok(Transformation::Scale(read_number(
-                text,
-                Quantity::Number,
-                unit,
-            )?)),
+            _ => {
+                let factor = read_number(text, Quantity::Number, unit)?;
+                Ok(Transformation::Scale(factor))
+            }
         }
     }
 
-    fn enter_transformation(&mut self, transformation: Transformation) -> Result<(), EntryError> {
-        let refused = self.transform(transformation).err();
-        let Some(Refusal(reason)) = refused else {
-            return Ok(());
-        };
-        // It is told beside the field.
-        self.message = None;
-        Err(EntryError::Refused(reason))
-    }
-
-    fn enter_point(&mut self, typed: TypedPoint) -> Result<(), EntryError> {
-        if self.previewed_operation().is_some() {
-            self.operating().interrupt();
-        }
-        self.view.analyse(self.workspace.document());
-        let mut tools = std::mem::take(&mut self.hand.tools);
-        let entered = tools
-            .drawing_mut()
-            .map(|tool| tool.enter(typed, &self.context()));
-        self.hand.tools = tools;
-        let effects = entered.transpose()?.unwrap_or_default();
-        self.hand.typed = None;
-        self.message = None;
-        self.take_effects(effects, false);
-        self.hand.gestures.reset();
-        Ok(())
-    }
-
-    /// The leg that is drawn, to what is typed or to the pointer, if there is one.
-    pub fn leg(&self) -> Option<Leg> {
-        let context = self.context();
-        let (from, to) = self.hand.tools.drawing()?.leg(&context);
+    /// Find the leg that a tool draws, to the typed point or to the pointer.
+    pub fn leg(&self, context: &Context) -> Option<Leg> {
+        let (from, to) = self.tools.drawing()?.leg(context);
         Some(Leg::between(from?, to?, &context.drawing_plane()))
     }
 
-    /// What is locked of the leg that is drawn, while a tool sets vertices.
+    /// The locked length and angle of the leg, while a tool sets vertices.
     pub fn leg_locks(&self) -> Option<LegLocks> {
-        Some(self.hand.tools.drawing()?.locks())
+        Some(self.tools.drawing()?.locks())
     }
 
-    /// Lock the length of the leg that is drawn, a positive number, its angle, or none.
+    /// Lock the length of the leg, a positive number, its angle, or none.
     pub fn lock_leg(&mut self, locks: LegLocks) {
         let is_usable = |length: &f64| *length > 0.0 && length.is_finite();
         let locks = LegLocks {
             length: locks.length.filter(is_usable),
             degrees: locks.degrees.filter(|degrees| degrees.is_finite()),
         };
-        if let Some(tool) = self.hand.tools.drawing_mut() {
+        if let Some(tool) = self.tools.drawing_mut() {
             tool.set_locks(locks);
         }
     }
 
-    /// How the draw tool makes curves, while it is in the hand.
+    /// The settings of the draw tool, while it is in use.
     pub fn draw_settings(&self) -> Option<DrawSettings> {
-        Some(self.hand.tools.draw()?.settings())
+        Some(self.tools.draw()?.settings())
     }
 
-    /// Let the draw tool make curves otherwise.
+    /// Change the settings of the draw tool.
     pub fn set_draw_settings(&mut self, settings: DrawSettings) {
-        if let Some(tool) = self.hand.tools.draw_mut() {
+        if let Some(tool) = self.tools.draw_mut() {
             tool.set_settings(settings);
         }
     }
 
-    /// The degree of the curve that is drawn, or that vertices are added to.
-    pub fn drawn_degree(&self) -> Option<usize> {
-        let context = self.context();
-        if let Some(tool) = self.hand.tools.draw() {
-            return Some(tool.degree(&context));
+    /// The degree of the curve that a tool draws, or adds vertices to.
+    pub fn drawn_degree(&self, context: &Context) -> Option<usize> {
+        if let Some(tool) = self.tools.draw() {
+            return Some(tool.degree(context));
         }
-        let proposed = self.proposal().map(|polygon| polygon.degree());
-        let active = || Some(self.active_curve()?.1.polygon.degree());
-        self.hand.tools.drawing()?;
+        self.tools.drawing()?;
+        let proposed = self.proposal(context).map(|polygon| polygon.degree());
+        let active = || {
+            let active = context.document.curve(self.selection.active()?)?;
+            Some(active.polygon.degree())
+        };
         proposed.or_else(active)
     }
 
-    /// The degree of the curve that a click would make, if that is another one because there are too few vertices.
-    pub fn degree_so_far(&self) -> Option<usize> {
-        let degree = self.proposal()?.degree();
-        (Some(degree) != self.drawn_degree()).then_some(degree)
+    /// The degree of the curve that a click would make now, where too few vertices lower it.
+    pub fn degree_so_far(&self, context: &Context) -> Option<usize> {
+        let degree = self.proposal(context)?.degree();
+        (Some(degree) != self.drawn_degree(context)).then_some(degree)
     }
 
-    /// The polygon that there would be if the vertex was set now that is drawn.
-    pub(in crate::editor) fn proposal(&self) -> Option<FloatPolygon> {
-        if self.previewed_operation().is_some()
-            || self.hand.gestures.is_panning()
-            || self.hand.gestures.is_orbiting()
-        {
+    /// The polygon that a click would make now.
+    pub(in crate::editor) fn proposal(&self, context: &Context) -> Option<FloatPolygon> {
+        if self.gestures.is_panning() || self.gestures.is_orbiting() {
             return None;
         }
-        self.hand.tools.drawing()?.proposal(&self.context())
+        self.tools.drawing()?.proposal(context)
+    }
+
+    /// The pivot of the rotate or scale tool in use, in the view plane.
+    pub fn pivot(&self, context: &Context) -> Option<DVec2> {
+        self.tools.transform()?.pivot(context)
+    }
+
+    /// Put the pivot somewhere, or let it follow the selection again.
+    pub fn set_pivot(&mut self, pivot: Option<DVec2>) {
+        if let Some(tool) = self.tools.transform_mut()
+            && pivot.is_none_or(|pivot| pivot.is_finite())
+        {
+            tool.set_pivot(pivot);
+        }
     }
 }

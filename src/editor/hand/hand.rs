@@ -1,5 +1,7 @@
 //! What the hand holds.
 
+use std::ops::RangeInclusive;
+
 use crate::editor::hand::cycle::Cycle;
 use crate::editor::hand::following::Following;
 use crate::editor::hand::gesture::GestureMachine;
@@ -49,6 +51,16 @@ pub struct Hand {
 }
 
 impl Hand {
+    /// The steps that arrow keys can have.
+    pub const NUDGE_STEPS: RangeInclusive<f64> = 1e-12..=1e12;
+
+    /// Let an arrow key move the selection by a step, at any zoom; other numbers change nothing.
+    pub fn set_nudge_step(&mut self, step: f64) {
+        if Self::NUDGE_STEPS.contains(&step) {
+            self.nudge_step = NudgeStep(step);
+        }
+    }
+
     /// Let the view show the workspace with these layers, as the hand works on it.
     pub(in crate::editor) fn shown<'a>(
         &'a self,

@@ -7,8 +7,12 @@ use std::time::{Duration, Instant};
 
 use glam::{DVec2, DVec3};
 
+use super::hand::Hand;
 use super::kept_curves::{KeptCurves, Obstacle};
+use crate::analysis::AnalysisCache;
 use crate::document::{Curve, CurveId, Document, Edit, EditError, quoted};
+use crate::editor::reply::Refusal;
+use crate::editor::workspace::Workspace;
 use crate::geometry::features::SegmentFeatures;
 
 /// How long a frame tries places on the way to one that is not safe.
@@ -43,6 +47,64 @@ struct Drag<'a, T, P> {
     proved: P,
 }
 
+impl Hand {
+    /// Change the edits of a drag so that it adds no feature, if features are kept.
+    pub(in crate::editor) fn kept(
+        &mut self,
+        edits: Vec<Edit>,
+        workspace: &Workspace,
+        analyses: &AnalysisCache,
+    ) -> Vec<Edit> {
+        if !self.keeps_features() || workspace.preview().is_none() {
+            return edits;
+        }
+        let try_out = |edits| workspace.previewed(edits);
+        let proved = known_features(analyses);
+        let settled = workspace.settled();
+        self.keeping.keep(edits, settled, try_out, proved)
+    }
+
+    /// End a drag, or the preview of a field, and keep it as one step. Where features are kept, a match that takes
+    /// long to meet is met only if that adds none.
+    pub(in crate::editor) fn commit_kept(
+        &mut self,
+        workspace: &mut Workspace,
+        analyses: &AnalysisCache,
+    ) {
+        if self.keeps_features() {
+            let settled = workspace.settled().clone();
+            let proved = known_features(analyses);
+            let keeping = &mut self.keeping;
+            let allowed = |after: &Document| keeping.allows(after, &settled, proved);
+            workspace.take_time(allowed);
+        }
+        self.keeping.end();
+        workspace.commit();
+    }
+
+    /// Refuse moves of vertices in one step that add a feature, if features are kept.
+    ///
+    /// # Errors
+    /// [`Refusal`] names the feature.
+    pub(in crate::editor) fn check_kept(
+        &self,
+        edits: &[Edit],
+        workspace: &Workspace,
+        analyses: &AnalysisCache,
+    ) -> Result<(), Refusal> {
+        let mut all = edits.iter();
+        let moves = all.all(|edit| matches!(edit, Edit::MoveVertices { .. }));
+        if !moves || !self.keeps_features() {
+            return Ok(());
+        }
+        let proved = known_features(analyses);
+        match Keeping::refusal(edits.to_vec(), workspace.settled(), proved) {
+            None => Ok(()),
+            Some(reason) => Err(Refusal(format!("Features are kept (K): {reason}"))),
+        }
+    }
+}
+
 impl Keeping {
     /// Forget the drag.
     pub fn end(&mut self) {
@@ -65,16 +127,21 @@ impl Keeping {
         proved: impl Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>>,
     ) -> Vec<Edit> {
         self.held_back = None;
-        let mut wanted: BTreeMap<CurveId, Moves> = BTreeMap::new();
+        let mut together = BTreeMap::new();
         let mut others = Vec::new();
         for edit in edits {
             match moves(&edit, settled) {
                 Some((curve, moves)) => {
-                    wanted.insert(curve, moves);
+                    // Several edits of a curve count together; of a vertex the last one does.
+                    let all: &mut BTreeMap<usize, DVec3> = together.entry(curve).or_default();
+                    all.extend(moves);
                 }
                 None => others.push(edit),
             }
         }
+        let together = together.into_iter();
+        let wanted = together.map(|(curve, moves)| (curve, moves.into_iter().collect()));
+        let wanted: BTreeMap<CurveId, Moves> = wanted.collect();
         self.begin(&wanted, settled);
         let drag = Drag {
             settled,
@@ -260,5 +327,42 @@ fn moves(edit: &Edit, settled: &Document) -> Option<(CurveId, Moves)> {
             Some((*curve, moves.collect()))
         }
         _ => None,
+    }
+}
+
+/// The features that are proved of curves as they are shown.
+fn known_features(
+    analyses: &AnalysisCache,
+) -> impl Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>> + '_ {
+    |id, curve| {
+        let analysis = analyses.get(id)?;
+        let known = analysis.proved_segments()?;
+        Arc::ptr_eq(analysis.curve(), curve).then(|| known.to_vec())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::FloatPolygon;
+
+    #[test]
+    fn two_edits_of_one_curve_in_a_frame_are_both_kept() {
+        let points = [(0.0, 0.0), (1.0, 0.5), (2.0, 1.2), (3.0, 2.1), (4.0, 3.2)];
+        let polygon = FloatPolygon::planar(3, &points).expect("a polygon");
+        let document = Document::from_curves([Curve::new("arc", polygon)]);
+        let curve = document.ids().next().expect("a curve");
+        let moved = |vertex: usize, by: f64| {
+            let (x, y) = points[vertex];
+            let moves = vec![(vertex, DVec3::new(x, y + by, 0.0))];
+            Edit::MoveVertices { curve, moves }
+        };
+        let edits = vec![moved(0, 1e-3), moved(4, 2e-3), moved(0, -1e-3)];
+        let try_out = |edits| document.edited(edits);
+        let mut keeping = Keeping::default();
+        let kept = keeping.keep(edits.clone(), &document, try_out, |_, _| None);
+        assert_eq!(keeping.held_back(), None);
+        let [kept, wanted] = [kept, edits].map(|edits| document.edited(edits).expect("a document"));
+        assert!(kept.is_same(&wanted));
     }
 }

@@ -2,10 +2,8 @@
 
 mod clean_step;
 mod cycle;
-mod dispatch;
 mod drawing_plane;
 pub mod end_fit;
-mod end_fit_actions;
 mod entering;
 pub(in crate::editor) mod following;
 pub(in crate::editor) mod gesture;
@@ -14,19 +12,17 @@ mod hand;
 pub(in crate::editor) mod input;
 mod keeping;
 mod kept_curves;
-mod menu;
+pub(in crate::editor) mod menu;
 mod menu_request;
 pub(in crate::editor) mod snapping;
 pub(in crate::editor) mod tools;
-mod transforming;
-mod typed_point;
+pub(in crate::editor) mod typed_point;
 
 pub use drawing_plane::{Leg, LegLocks};
 pub use end_fit::{EndFitAction, EndFitReport, MatchReport};
 pub use entering::Entry;
 pub use following::{Follow, Following};
 pub use hand::Hand;
-pub(in crate::editor) use hand::NudgeStep;
 pub use input::{Button, Input, Key, Modifiers};
 pub use menu_request::{MenuRequest, MenuSubject};
 pub use tools::{Cursor, DrawSettings, ToolKind, Transformation};

@@ -320,7 +320,7 @@ impl Plots {
                     }
                     let more = IconButton::new(Icon::Ellipsis, "Plot menu");
                     if more.show(ui).clicked() {
-                        editor.ask_for_menu(MenuSubject::Plot);
+                        editor.hand_mut().ask_for_menu(MenuSubject::Plot);
                     }
                     compare_ui(ui, editor);
                 }
@@ -360,7 +360,7 @@ impl Plots {
             ui.take_available_space();
             return;
         }
-        let reference = editor.active_reference_id();
+        let reference = editor.active_reference().map(|(id, _)| id);
         let reference = reference.and_then(|id| editor.document().reference(id));
         if let Some(reference) = reference
             && (self.tab == Tab::Harmony || !reference.curve.form().is_smooth())

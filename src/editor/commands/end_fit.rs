@@ -1,9 +1,8 @@
-//! Doing what the end-fit panel asks for: the seven steps by button.
+//! The actions of the end-fit panel: the seven steps by button.
 
 use crate::document::{Curve, CurveId, Edit, EndMatch, quoted};
 use crate::editor::Editor;
-use crate::editor::hand::end_fit::{EndFitAction, EndFitReport, LastAction};
-use crate::editor::hand::tools::ToolKind;
+use crate::editor::hand::end_fit::{EndFitAction, EndFitSettings};
 use crate::editor::operating::{EndFitStep, OperationInProgress};
 use crate::editor::reply::{Note, Refusal, Reply};
 use crate::editor::view::layers::Layer;
@@ -12,31 +11,6 @@ use crate::geometry::{Continuity, End};
 use crate::operations::{Operation, Value, correct_ends, rotate_end, translate_end};
 
 impl Editor {
-    /// Collect the figures of the seven steps, if the end-fit tool is used and the active curve
-    /// has ends.
-    pub fn end_fit(&self) -> Option<EndFitReport> {
-        if self.hand.tool() != ToolKind::EndFit {
-            return None;
-        }
-        let (id, curve) = self.active_curve()?;
-        if curve.polygon.is_periodic() {
-            return None;
-        }
-        let last = self.last_end_fit_action();
-        let settings = &self.hand.tools.end_fit.settings;
-        Some(settings.report(self.document(), id, self.view.analyses.get(id)?, last))
-    }
-
-    /// What the last action of the end-fit panel came to, unless something else happened since.
-    pub(in crate::editor) fn last_end_fit_action(&self) -> Option<&LastAction> {
-        let last = self.hand.tools.end_fit.last.as_ref()?;
-        let counts = self.hand.tool() == ToolKind::EndFit
-            && Some(last.curve) == self.active()
-            && last.revision == self.workspace.revision()
-            && self.workspace.preview().is_none();
-        counts.then_some(last)
-    }
-
     /// Do one thing of the end-fit panel, which tells what it came to; what is being tried out is
     /// ended.
     ///
@@ -54,9 +28,12 @@ impl Editor {
         }
         let revision = self.workspace.revision();
         let mut step = EndFitStep { action, passes: 0 };
-        let reply = match self.correction(action, &curve) {
+        let reply = match correction(action, &self.hand.tools.end_fit.settings, &curve) {
             Some((operation, values)) => {
-                step.passes = self.last_end_fit_action().map_or(0, |last| last.passes);
+                step.passes = self
+                    .hand
+                    .last_end_fit_action(&self.workspace)
+                    .map_or(0, |last| last.passes);
                 self.operate(operation, &values, Some(step))
             }
             None => self.set_up(action, id, &curve),
@@ -159,26 +136,6 @@ impl Editor {
             self.preview("Set target", vec![edit]);
         }
     }
-
-    /// The operation that an action stands for, if it is one, with its values.
-    fn correction(&self, action: EndFitAction, curve: &Curve) -> Option<Correction> {
-        let settings = &self.hand.tools.end_fit.settings;
-        let end = Value::Choice(usize::from(settings.end == End::Finish));
-        let tolerance = Value::Real(settings.tolerance_for(curve));
-        Some(match action {
-            EndFitAction::Translate => (&translate_end::OPERATION, vec![("end", end)]),
-            EndFitAction::Rotate => (&rotate_end::OPERATION, vec![("end", end)]),
-            EndFitAction::BothAtOnce | EndFitAction::Repeat => {
-                let method = usize::from(action == EndFitAction::Repeat);
-                let method = ("method", Value::Choice(method));
-                (
-                    &correct_ends::OPERATION,
-                    vec![method, ("tolerance", tolerance)],
-                )
-            }
-            _ => return None,
-        })
-    }
 }
 
 impl EndFitAction {
@@ -250,3 +207,26 @@ impl EndFitAction {
 
 /// An operation and values of its parameters.
 type Correction = (&'static Operation, Vec<(&'static str, Value)>);
+
+/// The operation that an action stands for, if it is one, with its values.
+fn correction(
+    action: EndFitAction,
+    settings: &EndFitSettings,
+    curve: &Curve,
+) -> Option<Correction> {
+    let end = Value::Choice(usize::from(settings.end == End::Finish));
+    let tolerance = Value::Real(settings.tolerance_for(curve));
+    Some(match action {
+        EndFitAction::Translate => (&translate_end::OPERATION, vec![("end", end)]),
+        EndFitAction::Rotate => (&rotate_end::OPERATION, vec![("end", end)]),
+        EndFitAction::BothAtOnce | EndFitAction::Repeat => {
+            let method = usize::from(action == EndFitAction::Repeat);
+            let method = ("method", Value::Choice(method));
+            (
+                &correct_ends::OPERATION,
+                vec![method, ("tolerance", tolerance)],
+            )
+        }
+        _ => return None,
+    })
+}

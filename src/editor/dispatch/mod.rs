@@ -1,24 +1,33 @@
-//! From inputs to gestures, to the tool in the hand, and from its effects to the document.
+//! Input handling: from inputs to gestures, to the tool in use, and from its effects to the document.
 
-use std::sync::Arc;
+mod typing;
 
 use glam::DVec2;
 
-use crate::analysis::AnalysisCache;
-use crate::document::{Curve, CurveId, Document, Edit};
+use crate::document::CurveId;
 use crate::editor::Editor;
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::{Input, Key};
-use crate::editor::hand::keeping::Keeping;
+use crate::editor::hand::menu::MenuTarget;
 use crate::editor::hand::tools::{Context, Cursor, Effect, ToolKind};
 use crate::editor::operating::OperationInProgress;
 use crate::editor::reply::{Message, Note, Refusal, told};
 use crate::editor::view::layers::Layers;
 use crate::editor::view::{Look, REACH};
 use crate::editor::workspace::Interruption;
-use crate::geometry::features::SegmentFeatures;
 
-/// What came of the step that a tool's effects make.
+/// What a context menu is requested for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum MenuOf {
+    /// A place on the canvas: what lies there is selected.
+    Place(DVec2),
+    /// A row of the list of curves, which becomes active.
+    Item(CurveId),
+    /// The selection: the menu key.
+    Selection,
+}
+
+/// The step that a tool's effects make.
 enum Step {
     None,
     Made,
@@ -107,10 +116,14 @@ impl Editor {
             return "Drag to orbit; F3, F4, F5 look along the axes".into();
         }
         let previewed = self.previewed_operation();
+        let at = self.hand.gestures.pointer();
+        let viewport = &self.view.viewport;
+        let is_over_handle =
+            |it: &OperationInProgress| at.is_some_and(|at| it.handle_at(viewport, at).is_some());
         if previewed.is_some_and(OperationInProgress::drags_handle) {
             return "Drag; Shift constrains, Esc puts the handle back".into();
         }
-        if self.is_over_handle() {
+        if previewed.is_some_and(is_over_handle) {
             return "Drag the handle to change the values in the panel".into();
         }
         if previewed.is_some_and(OperationInProgress::offers_handles) {
@@ -130,49 +143,6 @@ impl Editor {
         }
     }
 
-    /// Change the edits of a drag so that it adds no feature, if features are kept.
-    pub(in crate::editor) fn kept(&mut self, edits: Vec<Edit>) -> Vec<Edit> {
-        if !self.hand.keeps_features() || self.workspace.preview().is_none() {
-            return edits;
-        }
-        let proved = known_features(&self.view.analyses);
-        let settled = self.workspace.settled();
-        let try_out = |edits| self.workspace.previewed(edits);
-        self.hand.keeping.keep(edits, settled, try_out, proved)
-    }
-
-    /// End a drag, or a field's preview, and keep what it shows as one step. Where features are kept, a
-    /// match that can be met after all is met only if that adds none.
-    pub(in crate::editor) fn commit_kept(&mut self) {
-        if self.hand.keeps_features() {
-            let settled = self.workspace.settled().clone();
-            let proved = known_features(&self.view.analyses);
-            let keeping = &mut self.hand.keeping;
-            let allowed = |after: &Document| keeping.allows(after, &settled, proved);
-            self.workspace.take_time(allowed);
-        }
-        self.hand.keeping.end();
-        self.workspace.commit();
-    }
-
-    /// Refuse moves of vertices that are one step if they add a feature, if features are kept.
-    ///
-    /// # Errors
-    /// [`Refusal`] that says what would be added.
-    pub(in crate::editor) fn check_kept(&self, edits: &[Edit]) -> Result<(), Refusal> {
-        let moves = edits
-            .iter()
-            .all(|edit| matches!(edit, Edit::MoveVertices { .. }));
-        if !moves || !self.hand.keeps_features() {
-            return Ok(());
-        }
-        let proved = known_features(&self.view.analyses);
-        match Keeping::refusal(edits.to_vec(), self.workspace.settled(), proved) {
-            None => Ok(()),
-            Some(reason) => Err(Refusal(format!("Features are kept (K): {reason}"))),
-        }
-    }
-
     /// The shape of the pointer while it rests here.
     pub fn cursor(&self) -> Cursor {
         if self.hand.gestures.is_panning() {
@@ -183,7 +153,11 @@ impl Editor {
         }
         let previewed = self.previewed_operation();
         let drags_handle = previewed.is_some_and(OperationInProgress::drags_handle);
-        if drags_handle || self.is_over_handle() {
+        let at = self.hand.gestures.pointer();
+        let viewport = &self.view.viewport;
+        let is_over_handle =
+            |it: &OperationInProgress| at.is_some_and(|at| it.handle_at(viewport, at).is_some());
+        if drags_handle || previewed.is_some_and(is_over_handle) {
             return Cursor::Move;
         }
         if previewed.is_some_and(OperationInProgress::offers_handles) {
@@ -202,7 +176,7 @@ impl Editor {
         if let Gesture::SecondaryClick(at) = gesture
             && self.hand.tools.used().undo_label().is_none()
         {
-            return self.ask_for_menu_at(at);
+            return self.ask_for_menu(MenuOf::Place(at));
         }
         let previewed = self.previewed_operation();
         if previewed.is_some_and(OperationInProgress::offers_handles) {
@@ -274,14 +248,28 @@ impl Editor {
         }
     }
 
-    /// Whether the pointer rests on a handle.
-    fn is_over_handle(&self) -> bool {
-        let at = self.hand.gestures.pointer();
-        let handle = |at| {
-            self.previewed_operation()?
-                .handle_at(&self.view.viewport, at)
+    /// Ask for a context menu; the previewed operation has none of its own on the canvas.
+    pub fn ask_for_menu(&mut self, of: MenuOf) {
+        let previews = self.previewed_operation().is_some();
+        let target = match of {
+            MenuOf::Item(id) => MenuTarget::of_item(self.document(), id),
+            _ if previews => return,
+            MenuOf::Place(at) => {
+                self.view.analyse(self.workspace.document());
+                MenuTarget::at(at, &self.context())
+            }
+            MenuOf::Selection => {
+                let document = self.workspace.document();
+                let viewport = &self.view.viewport;
+                return self.hand.ask_for_menu_of_selection(document, viewport);
+            }
         };
-        at.and_then(handle).is_some()
+        if let Some(id) = target.item() {
+            self.activate(id);
+        }
+        self.hand.ask_for_menu_about(target);
+        self.document_changed();
+        self.operating().leave_stale();
     }
 
     /// Do what a tool wants.
@@ -294,7 +282,8 @@ impl Editor {
         self.operating().leave_stale();
     }
 
-    pub(in crate::editor) fn context(&self) -> Context<'_> {
+    /// Everything that tools look at.
+    pub fn context(&self) -> Context<'_> {
         self.context_with(self.hand.layers(self.view.layers))
     }
 
@@ -326,16 +315,21 @@ impl Editor {
                 self.workspace.begin(&label, Interruption::Aborts);
             }
             Effect::Preview(edits) => {
-                let edits = self.kept(edits);
+                let edits = self.hand.kept(edits, &self.workspace, &self.view.analyses);
                 self.update(edits);
             }
-            Effect::Commit => self.commit_kept(),
+            Effect::Commit => {
+                let analyses = &self.view.analyses;
+                self.hand.commit_kept(&mut self.workspace, analyses);
+            }
             Effect::Abort => {
                 self.hand.keeping.end();
                 self.workspace.abort();
             }
             Effect::Apply(label, edits) => {
-                let kept = self.check_kept(&edits);
+                let kept = self
+                    .hand
+                    .check_kept(&edits, &self.workspace, &self.view.analyses);
                 let reply = kept.and_then(|()| self.make(&label, edits, repeats));
                 *step = match self.tell(reply) {
                     Ok(_) => Step::Made,
@@ -360,16 +354,5 @@ impl Editor {
             }
             Effect::Finish => self.use_tool(ToolKind::Select),
         }
-    }
-}
-
-/// The features that are proved of curves as they are shown.
-fn known_features(
-    analyses: &AnalysisCache,
-) -> impl Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>> + '_ {
-    |id, curve| {
-        let analysis = analyses.get(id)?;
-        let known = analysis.proved_segments()?;
-        Arc::ptr_eq(analysis.curve(), curve).then(|| known.to_vec())
     }
 }
