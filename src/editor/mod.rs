@@ -21,7 +21,7 @@ pub use commands::{Command, FileReply, ReferenceChange, Shortcut};
 pub use dispatch::MenuOf;
 pub use hand::{
     Button, Cursor, DrawSettings, EndFitAction, EndFitReport, Entry, EntryError, Follow, Following,
-    Hand, Input, Key, Leg, LegLocks, MatchReport, MenuRequest, MenuSubject, Modifiers, ToolKind,
+    Hand, Input, Key, Leg, LegLocks, MatchReport, MenuRequest, MenuSubject, Modifiers, ToolKind, ToolRow,
     Transformation,
 };
 pub use jobs::{Autosaver, FileWork, Recoverable, RecoverableDocument, with_extension};

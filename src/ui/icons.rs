@@ -10,17 +10,7 @@ use crate::operations::Operation;
 
 /// The icon of a tool.
 pub fn of_tool(tool: ToolKind) -> Icon {
-    match tool {
-        ToolKind::Select => Icon::MousePointer2,
-        ToolKind::AddVertex => Icon::GitBranchPlus,
-        ToolKind::Insert => Icon::GitCommitHorizontal,
-        ToolKind::Delete => Icon::Eraser,
-        ToolKind::Draw => Icon::Waypoints,
-        ToolKind::Rotate => Icon::RotateCw,
-        ToolKind::Scale => Icon::Scaling,
-        ToolKind::Measure => Icon::Ruler,
-        ToolKind::EndFit => Icon::Goal,
-    }
+    named(tool.row().icon)
 }
 
 /// The icon of a layer.
@@ -98,6 +88,14 @@ pub fn text(icon: Icon) -> RichText {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_tool_has_an_icon() {
+        for tool in ToolKind::ALL {
+            let name = tool.row().icon;
+            assert!(Icon::try_from(name).is_ok(), "{name}");
+        }
+    }
 
     #[test]
     fn every_layer_has_an_icon_and_a_colour() {

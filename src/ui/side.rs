@@ -208,7 +208,7 @@ fn task(editor: &Editor) -> Option<Task> {
         return Some(Task::Preview(in_progress.operation().name));
     }
     let tool = editor.hand().tool();
-    if matches!(tool, ToolKind::EndFit | ToolKind::Rotate | ToolKind::Scale) {
+    if tool.row().has_panel {
         return Some(Task::Tool(tool));
     }
     let in_progress =

@@ -45,11 +45,7 @@ pub fn tool_rail_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<Action>) {
 fn groups() -> Vec<Vec<Command>> {
     let mut groups = vec![Vec::new()];
     for tool in ToolKind::ALL {
-        let starts_group = matches!(
-            tool,
-            ToolKind::AddVertex | ToolKind::Rotate | ToolKind::Measure
-        );
-        if starts_group {
+        if tool.row().starts_group {
             groups.push(Vec::new());
         }
         if let Some(group) = groups.last_mut() {

@@ -256,7 +256,7 @@ impl Command {
             Self::ToggleKeeping => {
                 "Let no drag, nudge or typed coordinate add a curvature extremum or an inflection to a curve or to those that follow it: every place is proved"
             }
-            Self::Tool(tool) => tool.tooltip(),
+            Self::Tool(tool) => tool.row().help,
         };
         tooltip.to_owned()
     }

@@ -1,5 +1,4 @@
-//! The tools: small state machines that take pointer events in model coordinates and return
-//! effects.
+//! The table of tools, and the tools: state machines from gestures to effects.
 
 mod draw;
 mod drawing;
@@ -193,70 +192,138 @@ pub enum ToolKind {
     EndFit,
 }
 
+/// A row of the table of tools. Rail, menu, keys, palette and panels read it.
+#[derive(Debug)]
+pub struct ToolRow {
+    /// The tool.
+    pub tool: ToolKind,
+    /// Its key.
+    pub letter: char,
+    /// Its name on screen.
+    pub label: &'static str,
+    /// Its tooltip.
+    pub help: &'static str,
+    /// The Lucide name of its icon.
+    pub icon: &'static str,
+    /// Whether it begins a group of the rail.
+    pub starts_group: bool,
+    /// Whether it has a panel of its own.
+    pub has_panel: bool,
+}
+
+/// Every tool, in the order of the rail, which is that of [`ToolKind`]'s variants.
+static TOOLS: &[ToolRow] = &[
+    row(ToolKind::Select, 'v', "Select and move", "mouse-pointer-2")
+        .help("Select vertices and drag them"),
+    row(ToolKind::AddVertex, 'a', "Add vertex", "git-branch-plus")
+        .help("Add a vertex before the first or after the last")
+        .starting_group(),
+    row(
+        ToolKind::Insert,
+        'i',
+        "Insert vertex",
+        "git-commit-horizontal",
+    )
+    .help("Insert a vertex into a leg of the float S-polygon"),
+    row(ToolKind::Delete, 'x', "Delete vertex", "eraser").help("Delete the vertices you click"),
+    row(ToolKind::Draw, 'd', "Draw polygon", "waypoints")
+        .help("Draw a new float S-polygon, click by click"),
+    row(ToolKind::Rotate, 'r', "Rotate", "rotate-cw")
+        .help("Rotate the selection about a movable pivot")
+        .starting_group()
+        .with_panel(),
+    row(ToolKind::Scale, 's', "Scale", "scaling")
+        .help("Scale the selection about a movable pivot")
+        .with_panel(),
+    row(ToolKind::Measure, 'm', "Measure", "ruler")
+        .help("Measure a distance and its direction")
+        .starting_group(),
+    row(ToolKind::EndFit, 'e', "End fit", "goal")
+        .help("Correct an end point and end tangent by the seven steps")
+        .with_panel(),
+];
+
+/// A tool without a panel, in the group of the row before it.
+const fn row(tool: ToolKind, letter: char, label: &'static str, icon: &'static str) -> ToolRow {
+    ToolRow {
+        tool,
+        letter,
+        label,
+        help: "",
+        icon,
+        starts_group: false,
+        has_panel: false,
+    }
+}
+
+impl ToolRow {
+    const fn help(self, help: &'static str) -> Self {
+        Self { help, ..self }
+    }
+
+    const fn starting_group(self) -> Self {
+        Self {
+            starts_group: true,
+            ..self
+        }
+    }
+
+    const fn with_panel(self) -> Self {
+        Self {
+            has_panel: true,
+            ..self
+        }
+    }
+}
+
 impl ToolKind {
     /// Every tool, in the order of the rail.
-    pub const ALL: [Self; 9] = [
-        Self::Select,
-        Self::AddVertex,
-        Self::Insert,
-        Self::Delete,
-        Self::Draw,
-        Self::Rotate,
-        Self::Scale,
-        Self::Measure,
-        Self::EndFit,
-    ];
+    pub const ALL: [Self; TOOLS.len()] = {
+        let mut all = [Self::Select; TOOLS.len()];
+        let mut place = 0;
+        while place < TOOLS.len() {
+            assert!(
+                TOOLS[place].tool as usize == place,
+                "rows in the order of variants"
+            );
+            all[place] = TOOLS[place].tool;
+            place += 1;
+        }
+        all
+    };
 
-    /// What the tool is called on screen.
+    /// The tool's row of the table.
+    pub fn row(self) -> &'static ToolRow {
+        &TOOLS[self as usize]
+    }
+
+    /// The tool's name on screen.
     pub fn label(self) -> &'static str {
-        match self {
-            Self::Select => "Select and move",
-            Self::AddVertex => "Add vertex",
-            Self::Insert => "Insert vertex",
-            Self::Delete => "Delete vertex",
-            Self::Draw => "Draw polygon",
-            Self::Rotate => "Rotate",
-            Self::Scale => "Scale",
-            Self::Measure => "Measure",
-            Self::EndFit => "End fit",
-        }
+        self.row().label
     }
 
-    /// One sentence that says what the tool does.
-    pub fn tooltip(self) -> &'static str {
-        match self {
-            Self::Select => "Select vertices and drag them",
-            Self::AddVertex => "Add a vertex before the first or after the last",
-            Self::Insert => "Insert a vertex into a leg of the float S-polygon",
-            Self::Delete => "Delete the vertices that are clicked",
-            Self::Draw => "Draw a new float S-polygon, click by click",
-            Self::Rotate => "Rotate the selection about a movable pivot",
-            Self::Scale => "Scale the selection about a movable pivot",
-            Self::Measure => "Measure a distance and its direction",
-            Self::EndFit => "Correct an end point and end tangent by the seven steps",
-        }
-    }
-
-    /// The key that takes the tool into the hand.
+    /// The tool's key.
     pub fn letter(self) -> char {
-        match self {
-            Self::Select => 'v',
-            Self::AddVertex => 'a',
-            Self::Insert => 'i',
-            Self::Delete => 'x',
-            Self::Draw => 'd',
-            Self::Rotate => 'r',
-            Self::Scale => 's',
-            Self::Measure => 'm',
-            Self::EndFit => 'e',
-        }
+        self.row().letter
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
     use super::*;
     use crate::geometry::End;
+
+    #[test]
+    fn every_tool_has_a_help_text_and_a_key_of_its_own() {
+        let keys: BTreeSet<char> = TOOLS.iter().map(|row| row.letter).collect();
+        assert_eq!(keys.len(), TOOLS.len());
+        for row in TOOLS {
+            let length = row.help.chars().count();
+            assert!(length > 0 && length <= 100, "{}", row.label);
+        }
+    }
 
     #[test]
     fn a_tool_that_is_chosen_begins_anew_and_the_end_fit_keeps_its_end() {
