@@ -21,8 +21,8 @@ pub use commands::{Command, FileReply, ReferenceChange, Shortcut};
 pub use dispatch::MenuOf;
 pub use hand::{
     Button, Cursor, DrawSettings, EndFitAction, EndFitReport, Entry, EntryError, Follow, Following,
-    Hand, Input, Key, Leg, LegLocks, MatchReport, MenuRequest, MenuSubject, Modifiers, ToolKind, ToolRow,
-    Transformation,
+    Hand, Input, Key, Leg, LegLocks, MatchReport, MenuRequest, MenuSubject, Modifiers, ToolKind,
+    ToolRow, Transformation,
 };
 pub use jobs::{Autosaver, FileWork, Recoverable, RecoverableDocument, with_extension};
 pub use operating::{Operating, OperationInProgress, Run};
@@ -254,7 +254,7 @@ impl Editor {
         self.operating().leave_stale();
     }
 
-    /// Use another tool; what is being tried out is ended.
+    /// Use another tool. Ends a preview.
     fn use_tool(&mut self, tool: ToolKind) {
         self.interrupt();
         self.hand.tools.choose(tool);
@@ -271,7 +271,7 @@ impl Editor {
         self.message = None;
     }
 
-    /// Make edits as one step; what is being tried out is ended. The reply is told.
+    /// Make edits as one step. Ends a preview. The message shows the reply.
     ///
     /// # Errors
     /// [`Refusal`] if they cannot be made, or move vertices so that a feature is added while features are

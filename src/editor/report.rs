@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::geometry::{Amplification, Range};
 
-/// An export that was asked for.
+/// A requested export.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Export {
     /// The file's extension, which says its format.
@@ -19,7 +19,7 @@ pub struct Readout {
     /// The point of the model under the pointer: what is hovered, or in the plane through the point about
     /// which the view turns.
     pub pointer: Option<DVec3>,
-    /// Whether z is told: something is in space, or seen from elsewhere than from above.
+    /// Whether z is shown: something is in space, or seen from elsewhere than from above.
     pub in_space: bool,
     /// The parameter of the hovered place: u of a curve, t of a reference.
     pub parameter: Option<f64>,

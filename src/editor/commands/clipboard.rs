@@ -21,7 +21,7 @@ const OFFSET: f64 = 24.0;
 
 impl Editor {
     /// Add the curves and references of a text as one step: a project or a CSV table, as files hold
-    /// them. The reply is told.
+    /// them. The message shows the reply.
     ///
     /// # Errors
     /// [`Refusal`] if the text cannot be read; nothing is changed then.
@@ -46,8 +46,8 @@ impl Editor {
     }
 
     /// Make the text of what is selected, or of the active curve if nothing is: whole curves as a
-    /// project, which keeps all of them, otherwise tables of the selected vertices. What it came
-    /// to is told.
+    /// project, which keeps all of them, otherwise tables of the selected vertices. The message
+    /// shows the result.
     ///
     /// # Errors
     /// [`Refusal`] if there is nothing to copy.
@@ -59,7 +59,8 @@ impl Editor {
         copied
     }
 
-    /// Copy the selected vertices and remove them, or the active reference, as one step. What it came to is told.
+    /// Copy the selected vertices and remove them, or the active reference, as one step. The message shows
+    /// the result.
     ///
     /// # Errors
     /// [`Refusal`] if they cannot be removed; nothing is changed then.

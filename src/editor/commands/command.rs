@@ -111,7 +111,7 @@ impl Shortcut {
 }
 
 impl Command {
-    /// Whether it changes only how things are shown: it ends nothing that is being tried out.
+    /// Whether it changes only the view: it ends no preview.
     pub fn only_shows(self) -> bool {
         matches!(
             self,
@@ -254,7 +254,7 @@ impl Command {
             }
             Self::Follow(follow) => follow.tooltip(),
             Self::ToggleKeeping => {
-                "Let no drag, nudge or typed coordinate add a curvature extremum or an inflection to a curve or to those that follow it: every place is proved"
+                "Let no edit of vertices add a curvature extremum or an inflection"
             }
             Self::Tool(tool) => tool.row().help,
         };

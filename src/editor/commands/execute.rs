@@ -20,7 +20,7 @@ use crate::geometry::counted;
 const ZOOM: f64 = 1.25;
 
 impl Editor {
-    /// Do what a command says, if it can be given now. The reply is told.
+    /// Execute a command, if it is enabled. The message shows the reply.
     ///
     /// # Errors
     /// [`Refusal`] if it cannot be done; nothing is changed then.

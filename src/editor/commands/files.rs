@@ -12,7 +12,7 @@ use crate::io::examples::EXAMPLES;
 /// The reply to a request to read or write files.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FileReply {
-    /// The reply, which was told.
+    /// The reply, as the message shows it.
     pub reply: Reply,
     /// Whether nothing was written because another program has changed the file.
     pub is_file_changed: bool,
@@ -28,9 +28,9 @@ impl Editor {
     /// Open files as one document in place of the present one; none leaves it as it is. Only a
     /// single project is saved back to its file, with its unknown keys.
     ///
-    /// The reply of this and of the other functions on files is told. A task that takes longer than a
-    /// frame goes on beside it: then the reply is a note of that, and [`Editor::take_file_reply`] has the
-    /// final one later.
+    /// The message shows the reply of this and of the other functions on files. A task that takes longer
+    /// than a frame continues beside it: then the reply is a note of that, and
+    /// [`Editor::take_file_reply`] has the final one later.
     ///
     /// # Errors
     /// [`Refusal`] if a file cannot be read; nothing is changed then.
@@ -41,7 +41,7 @@ impl Editor {
         self.start_file_task(FileTask::Open(paths.to_owned()))
     }
 
-    /// Open a document that was made elsewhere in place of the present one. A refusal is told.
+    /// Open a document that was made elsewhere in place of the present one. The message shows a refusal.
     ///
     /// # Errors
     /// [`Refusal`] if that is what is given; nothing is changed then.
@@ -53,7 +53,7 @@ impl Editor {
         self.tell(reply)
     }
 
-    /// Open a built-in example in place of the document, by its number. The reply is told.
+    /// Open a built-in example in place of the document, by its number. The message shows the reply.
     ///
     /// # Errors
     /// [`Refusal`] if there is no such example.

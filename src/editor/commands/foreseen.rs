@@ -1,14 +1,14 @@
-//! What commands would do, told beforehand.
+//! Forecasts of commands: the deviation that they would cause.
 
 use crate::editor::Editor;
 use crate::editor::jobs::foreseeing::Candidate;
 use crate::operations::{Deviation, Operation, elevate_degree, reduce_degree};
 
-/// The operations whose deviation is told before they are done.
+/// The operations whose deviation menus show beforehand.
 static FORESEEN: [&Operation; 2] = [&elevate_degree::OPERATION, &reduce_degree::OPERATION];
 
 impl Editor {
-    /// See to it that [`Editor::foreseen`] will know the active curve: asked for while something shows it.
+    /// Forecast for the active curve, so that [`Editor::foreseen`] knows it. Called while a menu shows it.
     pub fn foresee(&mut self) {
         self.foreseeing.receive();
         let curve = self.sight().shown.settled_active().cloned();

@@ -31,7 +31,7 @@ impl Editor {
         self.unit_question.as_ref().map(|asked| asked.incoming)
     }
 
-    /// Answer the question for the document's unit; `None` adds nothing. The reply is told.
+    /// Answer the question for the document's unit; `None` adds nothing. The message shows the reply.
     ///
     /// # Errors
     /// [`Refusal`] if the documents cannot be added; nothing is changed then.

@@ -1,4 +1,4 @@
-//! What is asked for by name: the table of commands, and doing what they say.
+//! Commands: their table, and their execution.
 
 mod clipboard;
 pub(in crate::editor) mod command;

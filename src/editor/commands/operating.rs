@@ -42,7 +42,7 @@ impl Editor {
         operation.check(&self.input_of(operation)?)
     }
 
-    /// Preview an operation; one without parameters is applied at once. The reply is told.
+    /// Preview an operation; one without parameters is applied at once. The message shows the reply.
     ///
     /// # Errors
     /// [`Refusal`](crate::editor::Refusal) if it cannot run on its input.
@@ -57,7 +57,7 @@ impl Editor {
         self.tell(begun.map(|()| Note::silent()))
     }
 
-    /// Apply an operation with some values; the others have their defaults. The reply is told.
+    /// Apply an operation with some values; the others have their defaults. The message shows the reply.
     ///
     /// # Errors
     /// [`Refusal`](crate::editor::Refusal) if it cannot run or does not reach its aim; nothing is changed

@@ -99,7 +99,7 @@ impl ReferenceChange {
 }
 
 impl Editor {
-    /// Change the active reference, as one step. The reply is told.
+    /// Change the active reference, as one step. The message shows the reply.
     ///
     /// # Errors
     /// [`Refusal`] if there is none, or it cannot be so; nothing is changed then.

@@ -93,7 +93,7 @@ pub struct EndFitReport {
     pub picking: bool,
     /// How the two ends share their vertices.
     pub overlap: EndOverlap,
-    /// What the last action came to.
+    /// The reply to the last action.
     pub outcome: Option<Reply>,
     /// The largest move of a vertex by the last "both ends at once", and which vertex.
     pub largest_move: Option<LargestMove>,
@@ -108,7 +108,7 @@ pub struct MatchReport {
     pub matched: EndMatch,
     /// What is missing of each level, up to G3.
     pub missing: EndDifference,
-    /// Whether what is asked for is met.
+    /// Whether the match is met.
     pub met: bool,
 }
 
@@ -197,15 +197,14 @@ impl Default for EndFitSettings {
     }
 }
 
-/// What the last action of the end-fit panel came to. It counts for the curve and the revision of
-/// the document that it was told of.
+/// The result of the last action of the end-fit panel, valid for one curve and one revision.
 #[derive(Clone, Debug)]
 pub struct LastAction {
     /// The curve.
     pub curve: CurveId,
     /// The document's revision afterwards.
     pub revision: u64,
-    /// What it came to.
+    /// The reply.
     pub reply: Reply,
     /// Passes made since the targets last changed.
     pub passes: usize,

@@ -15,7 +15,7 @@ pub fn is_hasty_click(from: DVec2, to: DVec2) -> bool {
     from.distance(to) <= HASTY
 }
 
-/// What a tool is told; places are on the canvas, in screen points.
+/// A gesture on the canvas, in screen points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Gesture {
     /// The primary button was pressed and released in one place.
@@ -105,7 +105,7 @@ impl GestureMachine {
         }
     }
 
-    /// Take one input and tell what it means, in order.
+    /// Turn one input into gestures, in order.
     pub fn input(&mut self, input: Input) -> Vec<Gesture> {
         match input {
             Input::Moved { at } => self.moved(at),

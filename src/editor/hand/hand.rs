@@ -41,12 +41,12 @@ pub struct Hand {
     pub(in crate::editor) following: Following,
     /// Whether features are kept while dragging.
     pub(in crate::editor) keeps: bool,
-    /// Whether the key is held that turns that round.
+    /// Whether the key that inverts `keeps` is held.
     pub(in crate::editor) keeping_held: bool,
     pub(in crate::editor) keeping: Keeping,
     /// The point that is being typed, as far as the text is one.
     pub(in crate::editor) typed: Option<TypedPoint>,
-    /// The menu that is asked for.
+    /// The requested menu.
     pub(in crate::editor) menu: Option<MenuRequest>,
 }
 

@@ -1,8 +1,8 @@
-//! A menu that is asked for, and what it is about.
+//! A request for a context menu, and its subject.
 
 use glam::DVec2;
 
-/// What a menu is about; it is selected.
+/// The subject of a context menu: selected items, or the canvas.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MenuSubject {
     /// The selected vertices.
@@ -23,11 +23,11 @@ pub enum MenuSubject {
     Plot,
 }
 
-/// A menu that is asked for.
+/// A request for a context menu.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MenuRequest {
-    /// What it is about.
+    /// Its subject.
     pub subject: MenuSubject,
-    /// Where on the canvas it is asked for by a key; otherwise it opens at the pointer.
+    /// The place on the canvas, if a key requests it; otherwise the menu opens at the pointer.
     pub at: Option<DVec2>,
 }

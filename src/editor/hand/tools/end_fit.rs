@@ -21,7 +21,7 @@ use crate::geometry::end_correction::EndTarget;
 pub struct EndFitTool {
     /// What it works on, and how.
     pub settings: EndFitSettings,
-    /// What the last action of its panel came to.
+    /// The result of the last action of its panel.
     pub last: Option<LastAction>,
     state: State,
 }

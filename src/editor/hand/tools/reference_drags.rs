@@ -45,7 +45,7 @@ pub struct ReferenceDrag {
     kind: Kind,
     /// Where the pointer began.
     origin: DVec2,
-    /// What is told of it.
+    /// Its label beside the pointer.
     label: Option<(DVec2, String)>,
     snap: Option<Snap>,
     /// How far the pointer asks it to move.

@@ -17,7 +17,7 @@ use crate::editor::view::scene::Mark;
 use crate::editor::view::sight::Sight;
 use crate::editor::view::viewport::Viewport;
 
-/// How far below the pointer a label stands, in screen points: what is dragged is told above.
+/// Distance of a label below the pointer, in screen points: the readout of a drag is above.
 const LABEL_BELOW: f64 = 72.0;
 
 /// What a tool may look at. It changes nothing itself: it returns [`Effect`]s.
@@ -79,7 +79,7 @@ pub enum Effect {
 
 /// A tool in the hand.
 pub trait Tool: std::fmt::Debug + Send {
-    /// Take a gesture and tell what it does.
+    /// Take a gesture, and return its effects.
     fn gesture(&mut self, gesture: Gesture, context: &Context) -> Vec<Effect>;
 
     /// Whether a gesture works on the vertices that it hits: then an open preview of an operation, which
