@@ -5,17 +5,17 @@ use glam::DVec3;
 use super::alternatives::remark_on_alternatives;
 use super::editable::check_editable;
 use super::error::OperationError;
-use super::operands::Operands;
 use super::inputs::Inputs;
 use super::lists::{given, given_count};
+use super::operands::Operands;
 use super::operation::Operation;
-use super::outcome::{Deviation, Figure, Annotation, Outcome};
+use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::parameter::{ANY, Choice, Kind, POSITIVE, Parameter};
 use super::values::Values;
 use crate::document::{Curve, Edit, ParameterSpan};
 use crate::geometry::approximation::{
-    Approximated, ApproximationRequest, Goal, LevelComparison, MOST_SEGMENTS, Placing, Spacing, Watched,
-    approximate_between, approximate_by_steps, approximate_to_tolerance,
+    Approximated, ApproximationRequest, Goal, LevelComparison, MOST_SEGMENTS, Placing, Spacing,
+    Watched, approximate_between, approximate_by_steps, approximate_to_tolerance,
 };
 use crate::geometry::references::ReferenceCurve;
 use crate::geometry::{
@@ -87,7 +87,11 @@ const COUNT: Parameter = Parameter {
     name: "count",
     label: "Vertices",
     help: "The number of vertices",
-    kind: Kind::count(MOST, false, |_| "from the tolerance; without one 20, up to 640 while corrections grow"),
+    kind: Kind::count(
+        MOST,
+        false,
+        |_| "from the tolerance; without one 20, up to 640 while corrections grow",
+    ),
 };
 
 const TOLERANCE: Parameter = Parameter {
@@ -333,8 +337,9 @@ fn approximated(
         }
         _ => {
             let spacing = spacing.unwrap_or(Spacing::Parameter);
-            let by =
-                |count, asked: &ApproximationRequest| approximate_between(curve, interval, count, spacing, asked);
+            let by = |count, asked: &ApproximationRequest| {
+                approximate_between(curve, interval, count, spacing, asked)
+            };
             let count = count.unwrap_or_else(|| {
                 let plain = ApproximationRequest { levels: 0, ..asked };
                 let mut counts = (0..DOUBLINGS).map(|doublings| offered << doublings);

@@ -3,10 +3,10 @@
 use super::bridge::{BRIDGE, annotations, figures, found, joint, remarks};
 use super::editable::open;
 use super::error::OperationError;
-use super::operands::Operands;
 use super::inputs::Inputs;
 use super::lists::given_count;
 use super::matches::without_match;
+use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Deviation, Outcome};
 use super::values::Values;
@@ -28,7 +28,11 @@ pub static OPERATION: Operation = Operation {
 
 fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
     let (id, curve) = input.curve()?;
-    let found = found(close(&curve.polygon, given_count(values, &BRIDGE), progress))?;
+    let found = found(close(
+        &curve.polygon,
+        given_count(values, &BRIDGE),
+        progress,
+    ))?;
     let document = input.document();
     let mut edits: Vec<Edit> = Vec::new();
     for end in End::BOTH {

@@ -7,18 +7,18 @@ use glam::DVec3;
 use super::amount::Amount;
 use super::editable::open;
 use super::error::OperationError;
-use super::operands::Operands;
 use super::inputs::Inputs;
 use super::lists::{LOCKED, given, locked};
+use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
 use super::parameter::{ANY, Choice, Kind, Parameter};
-use super::targets::{corrected, cusp, annotations, residual};
+use super::targets::{annotations, corrected, cusp, residual};
 use super::values::Values;
-use crate::geometry::parameters::{Number, Quantity};
 use crate::document::{Curve, CurveId, EditError};
 use crate::geometry::end_correction::{EndOverlap, EndTarget, correct_in_turn};
 use crate::geometry::fairing::joint_correction::{CorrectionError, Disturbance, correct_jointly};
+use crate::geometry::parameters::{Number, Quantity};
 use crate::geometry::{End, FloatPolygon, Progress, counted, significant};
 
 /// What is left where only rounding is left, in units of the polygon's size.
@@ -111,31 +111,41 @@ const START: Asked = Asked {
         name: "start",
         label: "Start point",
         help: "Where the curve begins; without a point it begins where it does",
-        kind: Kind::vector(false, |input| kept(input, End::Start, |_| true, "where it is")),
+        kind: Kind::vector(false, |input| {
+            kept(input, End::Start, |_| true, "where it is")
+        }),
     },
     direction: Parameter {
         name: "start-direction",
         label: "Start direction",
         help: "The direction at the start, along the curve",
-        kind: Kind::vector(false, |input| kept(input, End::Start, |it| it.direction.is_some(), "as it is")),
+        kind: Kind::vector(false, |input| {
+            kept(input, End::Start, |it| it.direction.is_some(), "as it is")
+        }),
     },
     curvature: Parameter {
         name: "start-curvature",
         label: "Start curvature",
         help: "The curvature at the start; of a planar curve positive where it turns left",
-        kind: Kind::number(ANY, |input| kept(input, End::Start, |it| it.curvature.is_some(), "free")),
+        kind: Kind::number(ANY, |input| {
+            kept(input, End::Start, |it| it.curvature.is_some(), "free")
+        }),
     },
     slope: Parameter {
         name: "start-slope",
         label: "Start slope",
         help: "The slope of the curvature at the start, by arc length",
-        kind: Kind::number(ANY, |input| kept(input, End::Start, |it| it.slope.is_some(), "free")),
+        kind: Kind::number(ANY, |input| {
+            kept(input, End::Start, |it| it.slope.is_some(), "free")
+        }),
     },
     normal: Parameter {
         name: "start-normal",
         label: "Start normal",
         help: "The normal of the osculating plane at the start, of a curve in space",
-        kind: Kind::vector(true, |input| kept(input, End::Start, |it| it.normal.is_some(), "free")),
+        kind: Kind::vector(true, |input| {
+            kept(input, End::Start, |it| it.normal.is_some(), "free")
+        }),
     },
 };
 
@@ -144,31 +154,41 @@ const FINISH: Asked = Asked {
         name: "end",
         label: "End point",
         help: "Where the curve ends; without a point it ends where it does",
-        kind: Kind::vector(false, |input| kept(input, End::Finish, |_| true, "where it is")),
+        kind: Kind::vector(false, |input| {
+            kept(input, End::Finish, |_| true, "where it is")
+        }),
     },
     direction: Parameter {
         name: "end-direction",
         label: "End direction",
         help: "The direction at the end, along the curve",
-        kind: Kind::vector(false, |input| kept(input, End::Finish, |it| it.direction.is_some(), "as it is")),
+        kind: Kind::vector(false, |input| {
+            kept(input, End::Finish, |it| it.direction.is_some(), "as it is")
+        }),
     },
     curvature: Parameter {
         name: "end-curvature",
         label: "End curvature",
         help: "The curvature at the end; of a planar curve positive where it turns left",
-        kind: Kind::number(ANY, |input| kept(input, End::Finish, |it| it.curvature.is_some(), "free")),
+        kind: Kind::number(ANY, |input| {
+            kept(input, End::Finish, |it| it.curvature.is_some(), "free")
+        }),
     },
     slope: Parameter {
         name: "end-slope",
         label: "End slope",
         help: "The slope of the curvature at the end, by arc length",
-        kind: Kind::number(ANY, |input| kept(input, End::Finish, |it| it.slope.is_some(), "free")),
+        kind: Kind::number(ANY, |input| {
+            kept(input, End::Finish, |it| it.slope.is_some(), "free")
+        }),
     },
     normal: Parameter {
         name: "end-normal",
         label: "End normal",
         help: "The normal of the osculating plane at the end, of a curve in space",
-        kind: Kind::vector(true, |input| kept(input, End::Finish, |it| it.normal.is_some(), "free")),
+        kind: Kind::vector(true, |input| {
+            kept(input, End::Finish, |it| it.normal.is_some(), "free")
+        }),
     },
 };
 

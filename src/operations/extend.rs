@@ -2,10 +2,10 @@
 
 use super::editable::open;
 use super::error::OperationError;
-use super::operands::Operands;
 use super::inputs::Inputs;
+use super::operands::Operands;
 use super::operation::Operation;
-use super::outcome::{Deviation, Figure, Annotation, Outcome};
+use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::parameter::{Kind, Parameter};
 use super::values::Values;
 use super::which_end::{END, end};

@@ -2,16 +2,16 @@
 
 use super::amount::Amount;
 use super::error::OperationError;
-use super::operands::Operands;
 use super::inputs::Inputs;
 use super::lists::{given, given_count};
+use super::operands::Operands;
 use super::operation::Operation;
-use super::outcome::{Deviation, Figure, Annotation, Outcome};
+use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::parameter::{Kind, POSITIVE, Parameter};
 use super::values::Values;
 use crate::document::{Curve, Edit};
-use crate::geometry::parameters::OutOfRange;
 use crate::geometry::approximation::{FitAsked, FitError, Fitted, fit_points};
+use crate::geometry::parameters::OutOfRange;
 use crate::geometry::{MAX_DEGREE, Progress, counted, significant};
 
 /// A fit is far off if the nearest one with as many vertices is nearer by this factor.
@@ -95,8 +95,8 @@ fn vertices(input: &Operands, values: &Values) -> Result<Option<usize>, Operatio
     match given_count(values, &COUNT) {
         Some(count) if count > most => Err(OutOfRange {
             label: COUNT.label,
-            value: count.to_string(),
-            needed: format!("at most {most}, the number of points,"),
+            value: count.to_string().into(),
+            needed: format!("at most {most}, the number of points,").into(),
         }
         .into()),
         count => Ok(count),

@@ -4,16 +4,16 @@ use std::ops::Bound;
 
 use super::editable::{check_editable, editable};
 use super::error::OperationError;
-use super::operands::Operands;
 use super::inputs::Inputs;
 use super::lists::{LOCKED, given, given_count, locked};
+use super::operands::Operands;
 use super::operation::Operation;
-use super::outcome::{Deviation, Figure, Annotation, Outcome};
+use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::parameter::{ANY, Choice, Kind, Meaning, Parameter};
 use super::values::Values;
-use crate::geometry::parameters::Quantity;
 use crate::geometry::fairing::harmonising::{Harmonised, Harmony, HarmonyError, Held, harmonise};
 use crate::geometry::features::Features;
+use crate::geometry::parameters::Quantity;
 use crate::geometry::{FloatPolygon, Progress, counted, rounded_up};
 
 const STANDING_OUT: Meaning = |_| "those that stand out";

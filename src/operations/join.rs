@@ -4,19 +4,22 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use super::bridge::{self, BRIDGE, figures, joint, annotations};
+use super::bridge::{self, BRIDGE, annotations, figures, joint};
 use super::editable::open_of;
 use super::error::OperationError;
-use super::operands::Operands;
 use super::inputs::Inputs;
 use super::lists::given_count;
 use super::locks;
 use super::matches::{handed_over, without_match};
+use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
 use super::parameter::{Choice, Kind, Parameter};
 use super::values::Values;
-use crate::document::{Curve, CurveId, Document, Edit, EditError, EndMatch, MatchPlace, ParameterSpan, Renumbering, quoted};
+use crate::document::{
+    Curve, CurveId, Document, Edit, EditError, EndMatch, MatchPlace, ParameterSpan, Renumbering,
+    quoted,
+};
 use crate::geometry::fairing::bridging::{Bridge, join};
 use crate::geometry::{End, FloatPolygon, Progress};
 
@@ -135,8 +138,11 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         second: &part,
     };
     let mut outcome = Outcome::unchanged(deviation);
-    let (edits, dropped) =
-        without_circles(input.document(), composite.edits(), values.switch(&DROP_MATCH))?;
+    let (edits, dropped) = without_circles(
+        input.document(),
+        composite.edits(),
+        values.switch(&DROP_MATCH),
+    )?;
     outcome.edits = edits;
     outcome.renumbered = true;
     outcome.figures = vec![Figure::ends("joined", "Joined", ends)];

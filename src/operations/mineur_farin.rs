@@ -9,16 +9,16 @@ use super::amount::Amount;
 use super::atlas::Atlas;
 use super::error::OperationError;
 use super::handle::{Handle, Sets};
-use super::operands::Operands;
 use super::inputs::Inputs;
+use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
 use super::parameter::{Choice, Kind, Parameter};
 use super::value::Value;
 use super::values::Values;
-use crate::geometry::parameters::{Number, OutOfRange, Quantity};
 use crate::document::{Curve, Edit, free_name};
 use crate::geometry::mineur_farin::{self, Configuration, Format};
+use crate::geometry::parameters::{Number, OutOfRange, Quantity};
 use crate::geometry::{MAX_DEGREE, Progress, rounded_up};
 
 /// The most legs.
@@ -174,8 +174,8 @@ fn configuration(values: &Values) -> Result<Configuration, OperationError> {
     if first_leg == DVec3::ZERO {
         return Err(OutOfRange {
             label: FIRST_LEG.label,
-            value: "a vector of length 0".to_owned(),
-            needed: "a vector with a direction".to_owned(),
+            value: "a vector of length 0".into(),
+            needed: "a vector with a direction".into(),
         }
         .into());
     }

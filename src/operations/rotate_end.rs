@@ -1,11 +1,11 @@
 //! Step 6 of the end fit: rotate the terminal vertices of an end.
 
 use super::error::OperationError;
-use super::operands::Operands;
 use super::inputs::Inputs;
+use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
-use super::targets::{check_targets, corrected, cusp, annotations, target};
+use super::targets::{annotations, check_targets, corrected, cusp, target};
 use super::values::Values;
 use super::which_end::{END, end};
 use crate::geometry::Progress;

@@ -2,8 +2,8 @@
 
 use super::editable::check_editable;
 use super::error::OperationError;
-use super::operands::Operands;
 use super::inputs::Inputs;
+use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
 use super::parameter::{Choice, Kind, Parameter};

@@ -6,12 +6,12 @@ use super::amount::Amount;
 use super::cutting::{SUBDIVISIONS, without_target};
 use super::editable::open;
 use super::error::OperationError;
-use super::operands::Operands;
 use super::inputs::Inputs;
 use super::locks;
 use super::matches::handed_over;
+use super::operands::Operands;
 use super::operation::Operation;
-use super::outcome::{Deviation, Figure, Annotation, Outcome};
+use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::parameter::{Kind, Parameter};
 use super::values::Values;
 use crate::document::{Curve, Edit, EndMatch, MatchPlace, ParameterSpan, Renumbering};
@@ -104,6 +104,8 @@ fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, Opera
         Figure::count("first_vertices", "Vertices of the first part", counts[0]),
         Figure::count("second_vertices", "Vertices of the second part", counts[1]),
     ];
-    outcome.annotations.push(Annotation::Point(curve.polygon.point(at)));
+    outcome
+        .annotations
+        .push(Annotation::Point(curve.polygon.point(at)));
     Ok(outcome)
 }

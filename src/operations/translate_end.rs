@@ -1,11 +1,11 @@
 //! Step 5 of the end fit: translate the terminal vertices of an end.
 
 use super::error::OperationError;
-use super::operands::Operands;
 use super::inputs::Inputs;
+use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Figure, Outcome};
-use super::targets::{check_targets, corrected, annotations, target};
+use super::targets::{annotations, check_targets, corrected, target};
 use super::values::Values;
 use super::which_end::{END, end};
 use crate::geometry::Progress;

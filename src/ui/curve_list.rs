@@ -149,10 +149,7 @@ impl CurveList {
         if let Some(Renaming { curve, text, .. }) = self.renaming.take()
             && !is_cancelled
         {
-            told(editor.change(Edit::Rename {
-                curve: curve,
-                name: text,
-            }));
+            told(editor.change(Edit::Rename { curve, name: text }));
         }
     }
 }

@@ -148,7 +148,7 @@ fn escape_puts_the_point_of_the_atlas_back() {
     window.run();
     assert_eq!(curve(&window), shown);
     press(&mut window, Modifiers::NONE, Key::Escape);
-    assert!(!window.state().editor().previewed_operation().is_some());
+    assert!(window.state().editor().previewed_operation().is_none());
     assert_eq!(window.state().editor().document().len(), 1);
 }
 
@@ -199,5 +199,5 @@ fn a_handle_on_the_canvas_changes_the_fields() {
         "{shown} {field}"
     );
     enter(&mut window);
-    assert!(!window.state().editor().previewed_operation().is_some());
+    assert!(window.state().editor().previewed_operation().is_none());
 }

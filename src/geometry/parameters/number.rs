@@ -32,9 +32,9 @@ pub struct OutOfRange {
     /// Label of the parameter.
     pub label: &'static str,
     /// The value given.
-    pub value: String,
+    pub value: Box<str>,
     /// The range.
-    pub needed: String,
+    pub needed: Box<str>,
 }
 
 impl<A> Number<A> {
@@ -107,8 +107,10 @@ pub fn check_limits(
     let needed = bounds_words(limits.0.map(text), limits.1.map(text));
     Err(OutOfRange {
         label,
-        value: quantity.shown(value).to_string(),
-        needed: needed.unwrap_or_else(|| "a finite number".to_owned()),
+        value: quantity.shown(value).to_string().into(),
+        needed: needed
+            .unwrap_or_else(|| "a finite number".to_owned())
+            .into(),
     })
 }
 
