@@ -187,7 +187,7 @@ fn escape_puts_a_handle_back_and_then_ends_the_operation() {
         script.release(from);
     }
     script.key(Key::Escape);
-    assert!(!script.editor.previewed_operation().is_some());
+    assert!(script.editor.previewed_operation().is_none());
     assert!(script.editor.document().is_same(&before));
 }
 
@@ -270,7 +270,7 @@ fn undo_takes_a_drag_of_a_handle_back_then_changes_of_values_and_only_then_the_o
         assert!(script.editor.previewed_operation().is_some());
     }
     script.command(Command::Undo);
-    assert!(!script.editor.previewed_operation().is_some());
+    assert!(script.editor.previewed_operation().is_none());
     assert_eq!(script.message(), "Mineur–Farin curve: cancelled");
 }
 

@@ -154,7 +154,7 @@ fn applying_makes_one_step_with_the_operations_name() {
                 script.editor.operating().apply().expect("a step");
             }
             assert!(is_applied(&script), "{name}");
-            assert!(!script.editor.previewed_operation().is_some());
+            assert!(script.editor.previewed_operation().is_none());
             check_is(&script, &shown);
             assert_eq!(script.steps(), 1);
             let label = operation(name).label;
@@ -186,7 +186,7 @@ fn operations_without_parameters_are_applied_at_once() {
     for name in ["reverse", "subdivide"] {
         let (mut script, before) = s_curve();
         script.command(Command::Operation(operation(name)));
-        assert!(!script.editor.previewed_operation().is_some());
+        assert!(script.editor.previewed_operation().is_none());
         assert_eq!(script.steps(), 1);
         assert!(!script.editor.document().is_same(&before));
         script.command(Command::Undo);
@@ -402,7 +402,7 @@ fn operations_are_offered_where_they_can_run() {
     script
         .editor
         .change(Edit::SetLocked {
-            curve: curve,
+            curve,
             locked: true,
         })
         .expect("a curve");
@@ -410,14 +410,14 @@ fn operations_are_offered_where_they_can_run() {
     script
         .editor
         .change(Edit::SetLocked {
-            curve: curve,
+            curve,
             locked: false,
         })
         .expect("a curve");
     script
         .editor
         .change(Edit::SetVisible {
-            curve: curve,
+            curve,
             visible: false,
         })
         .expect("a curve");
@@ -457,7 +457,7 @@ fn what_cannot_run_is_not_begun() {
         script
             .editor
             .change(Edit::SetLocked {
-                curve: curve,
+                curve,
                 locked: true,
             })
             .expect("a curve");
