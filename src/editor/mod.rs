@@ -17,13 +17,14 @@ use std::time::Duration;
 
 use glam::DVec2;
 
-pub use commands::{Command, FileReply, ReferenceChange, Shortcut};
+pub use commands::{Command, ReferenceChange, Shortcut};
 pub use dispatch::MenuOf;
 pub use hand::{
     Button, Cursor, DrawSettings, EndFitAction, EndFitReport, Entry, EntryError, Follow, Following,
     Hand, Input, Key, Leg, LegLocks, MatchReport, MenuRequest, MenuSubject, Modifiers, ToolKind,
     ToolRow, Transformation,
 };
+pub use jobs::filing::FileReply;
 pub use jobs::{Autosaver, FileWork, Recoverable, RecoverableDocument, with_extension};
 pub use operating::{Operating, OperationInProgress, Run};
 pub use reply::{Message, Note, Refusal, Reply, told};
@@ -41,12 +42,12 @@ pub use workspace::{Interruption, PreviewId, Workspace};
 
 use crate::document::{CurveId, Document, Edit, quoted};
 use crate::io::examples::{EXAMPLES, FIRST};
-use commands::UnitQuestion;
 use hand::gesture::Gesture;
-use hand::snapping::snap_name;
+use hand::snap_name::snap_name;
 use hand::tools::Tools;
 use jobs::autosaving::Autosaving;
-use jobs::filing::Filing;
+use jobs::filing::{Filing, UnitQuestion};
+
 use jobs::foreseeing::Foreseeing;
 use jobs::patience::Patience;
 use operating::Operations;

@@ -427,7 +427,7 @@ mod tests {
         let text = "Discrete torsion differs first at u 3.25: the curve has a minimum there";
         assert_eq!(of_curve, (text.to_owned(), Some(Place::Parameter(3.25))));
         let undecided = differs(Match::Undecided([3.25, 3.5]));
-        let text = "Discrete torsion cannot be compared: the curve is undecided at u 3.25";
+        let text = "Discrete torsion not compared: the curve's features are undecided at u 3.25";
         assert_eq!(undecided, (text.to_owned(), Some(Place::Parameter(3.25))));
     }
 

@@ -58,6 +58,7 @@ mod plots;
 mod proposal;
 mod recovery;
 mod reference_panel;
+mod seconds;
 mod shell;
 mod side;
 mod signals;
@@ -108,7 +109,7 @@ pub fn run(files: &[PathBuf]) -> anyhow::Result<()> {
     editor.open(files)?;
     check_display()?;
     if let Some(sessions) = Sessions::of_user() {
-        let period = seconds_of(AUTOSAVE_VARIABLE).unwrap_or(AUTOSAVE_PERIOD);
+        let period = seconds::seconds_of(AUTOSAVE_VARIABLE).unwrap_or(AUTOSAVE_PERIOD);
         editor.autosave_in(sessions, period);
     }
     let mut viewport = ViewportBuilder::default()
@@ -137,12 +138,6 @@ pub fn run(files: &[PathBuf]) -> anyhow::Result<()> {
         let cause = text.rsplit(": ").next().unwrap_or_default();
         anyhow!("cannot open the window: {cause}. Is a display reachable?")
     })
-}
-
-/// A duration that an environment variable sets in seconds.
-fn seconds_of(variable: &str) -> Option<Duration> {
-    let seconds = std::env::var(variable).ok()?.parse().ok()?;
-    Duration::try_from_secs_f64(seconds).ok()
 }
 
 /// Name the missing display on Linux and its like: libraries fail with less clear messages.

@@ -47,7 +47,7 @@ mod system {
     use signal_hook::iterator;
     use signal_hook::low_level::emulate_default_handler;
 
-    use super::super::seconds_of;
+    use super::super::seconds::seconds_of;
     use super::Signals;
     use crate::editor::Autosaver;
     use crate::io::disk;

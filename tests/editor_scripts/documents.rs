@@ -1,9 +1,9 @@
 //! Documents of every kind that commands and tools meet.
 
-use batten::document::{Curve, MatchPlace};
+use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace};
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::{Continuity, End};
-use batten::io::{FileMatch, MatchSource, Reading};
+use batten::io::{FileMatch, MatchSource};
 use glam::DVec3;
 
 use super::common::Kind;
@@ -55,12 +55,21 @@ impl Case {
     /// Open the document, make two steps and take one back, so that undo and redo have something
     /// to do, and activate a curve.
     pub fn open(&self) -> Result<Player, String> {
-        let reading = Reading {
-            curves: self.curves.clone(),
-            matches: self.matches.clone(),
-            ..Reading::default()
+        let document = Document::from_curves(self.curves.clone());
+        let ids: Vec<CurveId> = document.ids().collect();
+        // Matches that are set are met, as far as they can be.
+        let matched = |matched: &FileMatch| match matched.source {
+            MatchSource::Curve(source) => Some(Edit::SetMatch(EndMatch {
+                curve: ids[matched.curve],
+                end: matched.end,
+                source: ids[source],
+                place: matched.place,
+                continuity: matched.continuity,
+                reversed: matched.reversed,
+            })),
+            MatchSource::Reference(_) => None,
         };
-        let document = reading.into_document();
+        let document = document.edited(self.matches.iter().filter_map(matched));
         let mut player = Player::new(document.map_err(|error| error.to_string())?);
         player.play(&[
             Event::Panel(Panel::OfCurve(0, OfCurve::Rename("renamed"))),

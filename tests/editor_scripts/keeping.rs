@@ -179,17 +179,12 @@ fn a_vertex_of_the_closed_polygon_is_held_back_too() {
 #[test]
 fn in_space_a_kept_drag_says_that_it_is_for_planar_curves() {
     let mut script = Script::example("arc");
-    let curve = script.curve();
     let place = |i: u32| {
         let turn = 0.7 * f64::from(i);
         DVec3::new(3.0 * turn.cos(), 3.0 * turn.sin(), 0.5 * f64::from(i))
     };
     let helix = FloatPolygon::new(4, (0..9).map(place).collect(), None, false);
-    let edit = Edit::SetPolygon {
-        curve,
-        polygon: helix.expect("a polygon"),
-    };
-    script.editor.apply("helix", vec![edit]).expect("an edit");
+    script.set_polygon(helix.expect("a polygon"));
     script.command(Command::FitAll);
     let before = script.polygon();
     script.input(Input::KeepingHeld(true));

@@ -101,11 +101,8 @@ fn what_cannot_be_cut_is_not_copied() {
     // The six vertices that are left would be no curve of degree 7.
     let points: Vec<_> = (0..8).map(|i| (f64::from(i), f64::from(i * i))).collect();
     let polygon = FloatPolygon::planar(7, &points).expect("a polygon");
-    let curve = other;
-    script
-        .editor
-        .apply("another", vec![Edit::SetPolygon { curve, polygon }])
-        .expect("an edit");
+    script.editor.activate(other);
+    script.set_polygon(polygon);
     script.editor.select_vertex(other, 0, false);
     script.editor.select_vertex(other, 1, true);
     assert!(script.editor.cut().is_err());

@@ -87,7 +87,7 @@ fn a_match_is_picked_shown_and_removed() {
     let matches = document(&window).matches().copied().collect::<Vec<_>>();
     assert_eq!(matches.len(), 1, "{:?}", window.state().editor().message());
     assert_eq!(matches[0].continuity, Continuity::G0);
-    window.get_by_label_contains("Follows “left” at its end");
+    window.get_by_label_contains("Matched to “left” at its end");
     click(&mut window, "G1");
     assert_eq!(
         document(&window)
@@ -100,7 +100,7 @@ fn a_match_is_picked_shown_and_removed() {
 
     // The other curve tells who follows it: a click makes it the active one.
     click_on(&mut window, source.point(1.5));
-    window.get_by_label_contains("The start of “right” follows this curve");
+    window.get_by_label_contains("The start of “right” is matched to this curve");
     click(&mut window, "curve right");
     click(&mut window, "Remove match");
     assert_eq!(document(&window).matches().len(), 0);

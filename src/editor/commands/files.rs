@@ -3,20 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use crate::document::{Curve, CurveId, Document, Edit, EndMatch, Reference};
-use crate::editor::jobs::filing::{FileResult, FileTask, FileWork};
+use crate::editor::jobs::filing::{FileReply, FileResult, FileTask, FileWork};
 use crate::editor::reply::{Message, Note, Refusal, Reply};
 use crate::editor::{Editor, Export};
 use crate::io::Reading;
 use crate::io::examples::EXAMPLES;
-
-/// The reply to a request to read or write files.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FileReply {
-    /// The reply, as the message shows it.
-    pub reply: Reply,
-    /// Whether nothing was written because another program has changed the file.
-    pub is_file_changed: bool,
-}
 
 impl Editor {
     /// Begin an empty document.

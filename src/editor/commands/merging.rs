@@ -3,19 +3,11 @@
 
 use crate::document::{Curve, Document, Edit, MergeError, Reference};
 use crate::editor::Editor;
-use crate::editor::jobs::filing::{Incoming, Purpose};
+use crate::editor::jobs::filing::{Incoming, Purpose, UnitQuestion};
 use crate::editor::reply::{Note, Refusal, Reply, with_lines};
 use crate::editor::view::Look;
 use crate::geometry::expressions::LengthUnit;
 use crate::io::counted_items;
-
-/// A question for the unit of the document, with what waits for the answer.
-#[derive(Debug)]
-pub(in crate::editor) struct UnitQuestion {
-    /// The unit of the incoming document.
-    incoming: LengthUnit,
-    waiting: Incoming,
-}
 
 /// Merged documents: the edits that add them, their remarks, and the receiving document afterwards.
 struct Merged {

@@ -15,6 +15,4 @@ mod references;
 mod units;
 
 pub use command::{Command, Shortcut};
-pub use files::FileReply;
-pub(in crate::editor) use merging::UnitQuestion;
 pub use references::ReferenceChange;

@@ -4,13 +4,9 @@ use glam::{DVec2, DVec3};
 
 use crate::analysis::CurveAnalysis;
 use crate::document::{Curve, CurveId, Document, EndMatch, MatchPlace};
-use crate::editor::hand::hand::Hand;
-use crate::editor::hand::tools::ToolKind;
 use crate::editor::reply::Reply;
-use crate::editor::view::View;
 use crate::editor::view::hit::REACH;
 use crate::editor::view::viewport::Viewport;
-use crate::editor::workspace::Workspace;
 use crate::geometry::end_correction::{EndDifference, EndOverlap, EndTarget};
 use crate::geometry::{Continuity, End, Jet, ParametricCurve, Range};
 use crate::operations::LargestMove;
@@ -210,32 +206,6 @@ pub struct LastAction {
     pub passes: usize,
     /// The largest move of a vertex by a joint correction, and which vertex.
     pub largest_move: Option<LargestMove>,
-}
-
-impl Hand {
-    /// Collect the figures of the seven steps, if the end-fit tool is in use and the active curve has ends.
-    pub fn end_fit(&self, workspace: &Workspace, view: &View) -> Option<EndFitReport> {
-        let (document, active) = (workspace.document(), self.selection.active()?);
-        if self.tool() != ToolKind::EndFit || document.curve(active)?.polygon.is_periodic() {
-            return None;
-        }
-        let last = self.last_end_fit_action(workspace);
-        let settings = &self.tools.end_fit.settings;
-        Some(settings.report(document, active, view.analyses.get(active)?, last))
-    }
-
-    /// The last action of the end-fit panel with its result, unless the document has changed since.
-    pub(in crate::editor) fn last_end_fit_action(
-        &self,
-        workspace: &Workspace,
-    ) -> Option<&LastAction> {
-        let last = self.tools.end_fit.last.as_ref()?;
-        let counts = self.tool() == ToolKind::EndFit
-            && Some(last.curve) == self.selection.active()
-            && last.revision == workspace.revision()
-            && workspace.preview().is_none();
-        counts.then_some(last)
-    }
 }
 
 impl EndFitSettings {

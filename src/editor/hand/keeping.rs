@@ -7,12 +7,8 @@ use std::time::{Duration, Instant};
 
 use glam::{DVec2, DVec3};
 
-use super::hand::Hand;
 use super::kept_curves::{KeptCurves, Obstacle};
-use crate::analysis::AnalysisCache;
 use crate::document::{Curve, CurveId, Document, Edit, EditError, quoted};
-use crate::editor::reply::Refusal;
-use crate::editor::workspace::Workspace;
 use crate::geometry::features::SegmentFeatures;
 
 /// How long a frame tries places on the way to one that is not safe.
@@ -45,64 +41,6 @@ struct Drag<'a, T, P> {
     try_out: T,
     others: &'a [Edit],
     proved: P,
-}
-
-impl Hand {
-    /// Change the edits of a drag so that it adds no feature, if features are kept.
-    pub(in crate::editor) fn kept(
-        &mut self,
-        edits: Vec<Edit>,
-        workspace: &Workspace,
-        analyses: &AnalysisCache,
-    ) -> Vec<Edit> {
-        if !self.keeps_features() || workspace.preview().is_none() {
-            return edits;
-        }
-        let try_out = |edits| workspace.previewed(edits);
-        let proved = known_features(analyses);
-        let settled = workspace.settled();
-        self.keeping.keep(edits, settled, try_out, proved)
-    }
-
-    /// End a drag, or the preview of a field, and keep it as one step. Where features are kept, a match that takes
-    /// long to meet is met only if that adds none.
-    pub(in crate::editor) fn commit_kept(
-        &mut self,
-        workspace: &mut Workspace,
-        analyses: &AnalysisCache,
-    ) {
-        if self.keeps_features() {
-            let settled = workspace.settled().clone();
-            let proved = known_features(analyses);
-            let keeping = &mut self.keeping;
-            let allowed = |after: &Document| keeping.allows(after, &settled, proved);
-            workspace.take_time(allowed);
-        }
-        self.keeping.end();
-        workspace.commit();
-    }
-
-    /// Refuse moves of vertices in one step that add a feature, if features are kept.
-    ///
-    /// # Errors
-    /// [`Refusal`] names the feature.
-    pub(in crate::editor) fn check_kept(
-        &self,
-        edits: &[Edit],
-        workspace: &Workspace,
-        analyses: &AnalysisCache,
-    ) -> Result<(), Refusal> {
-        let mut all = edits.iter();
-        let moves = all.all(|edit| matches!(edit, Edit::MoveVertices { .. }));
-        if !moves || !self.keeps_features() {
-            return Ok(());
-        }
-        let proved = known_features(analyses);
-        match Keeping::refusal(edits.to_vec(), workspace.settled(), proved) {
-            None => Ok(()),
-            Some(reason) => Err(Refusal(format!("Features are kept (K): {reason}"))),
-        }
-    }
 }
 
 impl Keeping {
@@ -327,17 +265,6 @@ fn moves(edit: &Edit, settled: &Document) -> Option<(CurveId, Moves)> {
             Some((*curve, moves.collect()))
         }
         _ => None,
-    }
-}
-
-/// The features that are proved of curves as they are shown.
-fn known_features(
-    analyses: &AnalysisCache,
-) -> impl Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>> + '_ {
-    |id, curve| {
-        let analysis = analyses.get(id)?;
-        let known = analysis.proved_segments()?;
-        Arc::ptr_eq(analysis.curve(), curve).then(|| known.to_vec())
     }
 }
 

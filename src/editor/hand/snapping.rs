@@ -5,11 +5,9 @@ use std::collections::BTreeSet;
 use glam::{DVec2, DVec3};
 
 use crate::document::{CurveId, Document, MatchPlace};
-use crate::editor::hand::tools::{Context, ToolKind};
 use crate::editor::selection::VertexId;
 use crate::editor::view::grid::{grid_steps, ground_steps};
 use crate::editor::view::hit::REACH;
-use crate::editor::view::scene::Mark;
 use crate::editor::view::viewport::Viewport;
 use crate::geometry::End;
 
@@ -157,24 +155,4 @@ pub fn along_axis(movement: DVec2) -> DVec2 {
 pub fn by_fifteen_degrees(angle: f64) -> f64 {
     let step = 15f64.to_radians();
     (angle / step).round() * step
-}
-
-/// Name what a click of a tool that sets points would snap to.
-pub fn snap_name(tool: ToolKind, context: &Context) -> Option<Mark> {
-    let sets_points = matches!(
-        tool,
-        ToolKind::Draw | ToolKind::AddVertex | ToolKind::Measure
-    );
-    // With Shift they keep to a direction instead.
-    if !sets_points || context.modifiers.shift {
-        return None;
-    }
-    let (at, carried) = (context.pointer?, Carried::default());
-    let snap = match tool {
-        // What is measured is attracted without the switch.
-        ToolKind::Measure if context.modifiers.ctrl => None,
-        ToolKind::Measure => snap_to_point(at, context.before, &carried, context.viewport),
-        _ => context.snap(at, &carried),
-    }?;
-    Some(Mark::Name(context.viewport.flatten(snap.point), snap.name))
 }

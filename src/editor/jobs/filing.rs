@@ -6,10 +6,11 @@ use super::Client;
 use super::autosaving::Autosaver;
 use super::patience::Patience;
 use crate::document::{Curve, Document, Reference, quoted};
-use crate::editor::reply::{Refusal, with_lines};
+use crate::editor::reply::{Refusal, Reply, with_lines};
 use crate::editor::report::Export;
 use crate::editor::workspace::Workspace;
 use crate::geometry::counted;
+use crate::geometry::expressions::LengthUnit;
 use crate::io::{Fingerprint, Format, disk, shown_path};
 
 /// Read and write files, and watch the document's own file.
@@ -108,6 +109,24 @@ pub(in crate::editor) enum Purpose {
     Import,
     /// Copies of them are added.
     Paste,
+}
+
+/// The reply to a request to read or write files.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FileReply {
+    /// The reply, as the message shows it.
+    pub reply: Reply,
+    /// Whether nothing was written because another program has changed the file.
+    pub is_file_changed: bool,
+}
+
+/// A question for the unit of the document, with what waits for the answer.
+#[derive(Debug)]
+pub struct UnitQuestion {
+    /// The unit of the incoming document.
+    pub incoming: LengthUnit,
+    /// The documents to add.
+    pub waiting: Incoming,
 }
 
 impl Filing {

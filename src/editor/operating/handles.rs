@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
+use super::handle_drag::HandleDrag;
 use super::{Operating, OperationInProgress};
 use crate::editor::hand::snapping::Carried;
 use crate::editor::hand::tools::Context;
@@ -14,17 +15,6 @@ use crate::operations::{Handle, Parameter, Value};
 
 /// Shift turns angles by multiples of this, in degrees.
 const ANGLE_STEP: f64 = 15.0;
-
-/// A handle that is dragged.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::editor) struct HandleDrag {
-    /// The handle when it was pressed.
-    handle: Handle,
-    /// Whether the handle stays in the plane z = 0.
-    planar: bool,
-    /// The pressed place in the view plane.
-    from: DVec2,
-}
 
 impl Operating<'_> {
     /// Begin to drag the handle at a place on the canvas. Returns whether there is one.

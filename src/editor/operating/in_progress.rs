@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::end_fit_step::EndFitStep;
-use super::handles::HandleDrag;
+use super::handle_drag::HandleDrag;
 use crate::document::{Curve, CurveId, Document};
 use crate::editor::selection::Selection;
 use crate::editor::view::Mark;

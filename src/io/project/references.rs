@@ -150,7 +150,7 @@ fn references_that_cannot_be_are_refused_with_their_place() {
         ),
         (
             r#"{"kind":"circle","values":{"radius":0}}"#,
-            "reference 1 “reference 1”: Radius: 0 is out of range: a number of at least 1e-30 and at most 1e30 is needed",
+            "reference 1 “reference 1”: Radius: 0 is out of range: 1e-30 to 1e30 is needed",
         ),
         (
             r#"{"kind":"circle","interval":[1,1]}"#,

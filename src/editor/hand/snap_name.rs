@@ -1,0 +1,25 @@
+//! The name of what a click snaps to, beside the pointer.
+
+use super::snapping::{Carried, snap_to_point};
+use super::tools::{Context, ToolKind};
+use crate::editor::view::scene::Mark;
+
+/// Name what a click of a tool that sets points would snap to.
+pub fn snap_name(tool: ToolKind, context: &Context) -> Option<Mark> {
+    let sets_points = matches!(
+        tool,
+        ToolKind::Draw | ToolKind::AddVertex | ToolKind::Measure
+    );
+    // With Shift they keep to a direction instead.
+    if !sets_points || context.modifiers.shift {
+        return None;
+    }
+    let (at, carried) = (context.pointer?, Carried::default());
+    let snap = match tool {
+        // What is measured is attracted without the switch.
+        ToolKind::Measure if context.modifiers.ctrl => None,
+        ToolKind::Measure => snap_to_point(at, context.before, &carried, context.viewport),
+        _ => context.snap(at, &carried),
+    }?;
+    Some(Mark::Name(context.viewport.flatten(snap.point), snap.name))
+}
