@@ -5,7 +5,7 @@ mod common;
 
 use std::time::{Duration, Instant};
 
-use batten::document::{Curve, CurveId, Document, Edit, EndMatch, History, MatchPlace};
+use batten::document::{Colour, Curve, CurveId, Document, Edit, EndMatch, History, MatchPlace};
 use batten::geometry::end_correction::EndDifference;
 use batten::geometry::{Continuity, End, FloatPolygon};
 use common::Random;
@@ -431,5 +431,46 @@ fn no_place_near_by_is_out_of_reach_at_g3() {
             let edited = edited.expect("an edit");
             assert!(edited.meets(&matched), "{place}");
         }
+    }
+}
+
+#[test]
+fn a_source_is_renamed_recoloured_hidden_and_locked_without_a_correction() {
+    for (name, document, matched) in cases().step_by(5) {
+        // As a file holds it: the match is not met yet, so that any correction would show.
+        let document = document.with_matches([matched]).expect("a match");
+        let before = polygon(&document, 1);
+        let curve = matched.source;
+        let edits = [
+            Edit::Rename {
+                curve,
+                name: "renamed".to_owned(),
+            },
+            Edit::Recolour {
+                curve,
+                colour: Some(Colour([1, 2, 3])),
+            },
+            Edit::SetVisible {
+                curve,
+                visible: false,
+            },
+            Edit::SetLocked {
+                curve,
+                locked: true,
+            },
+            Edit::Rename {
+                curve: matched.curve,
+                name: "follower".to_owned(),
+            },
+        ];
+        for edit in edits {
+            let edited = document.edited([edit.clone()]).expect("an edit");
+            assert_eq!(polygon(&edited, 1), before, "{name}: {edit:?}");
+        }
+        // A change of its shape corrects the follower.
+        let vertex = polygon(&document, 0).vertex(0);
+        let moves = vec![(0, vertex + 1e-6 * DVec3::X)];
+        let edited = document.edited([Edit::MoveVertices { curve, moves }]);
+        assert_ne!(polygon(&edited.expect("an edit"), 1), before, "{name}");
     }
 }

@@ -620,3 +620,85 @@ fn a_match_that_cannot_be_met_is_shown_and_met_once_it_can_be() {
     assert_eq!(curve(&script, ids[1]).polygon, before);
     assert_eq!(marks(&mut script), [Some(false)]);
 }
+
+#[test]
+fn vertex_tools_on_a_source_keep_the_matched_place_and_the_locks() {
+    let source: Vec<(f64, f64)> = (0..12)
+        .map(|i| (f64::from(i), f64::from(i).sin()))
+        .collect();
+    let second = [
+        (8.0, 4.0),
+        (9.0, 5.0),
+        (10.0, 5.5),
+        (11.0, 5.4),
+        (12.0, 5.0),
+        (13.0, 4.0),
+    ];
+    for tool in [ToolKind::Insert, ToolKind::Delete, ToolKind::AddVertex] {
+        let curves = [
+            Curve::new("first", polygon(3, &source)),
+            Curve::new("second", polygon(3, &second)),
+        ];
+        let document = Document::from_curves(curves);
+        let ids: Vec<CurveId> = document.ids().collect();
+        let matched = EndMatch {
+            curve: ids[1],
+            end: End::Start,
+            source: ids[0],
+            place: MatchPlace::Parameter(6.25),
+            continuity: Continuity::G1,
+            reversed: false,
+        };
+        let lock = Edit::SetVerticesLocked {
+            curve: ids[0],
+            vertices: vec![10],
+            locked: true,
+        };
+        let document = document
+            .edited([lock, Edit::SetMatch(matched)])
+            .expect("a match");
+        assert!(document.meets(&matched));
+        let mut script = Script {
+            editor: Editor::with_document(document),
+        };
+        script.editor.look(Look::Canvas(DVec2::new(1000.0, 700.0)));
+        script.check();
+        let before = script.editor.document().clone();
+        let [old, follower] = [0, 1].map(|index| curve(&script, ids[index]));
+        let point = old.polygon.point(6.25);
+
+        script.editor.activate(ids[0]);
+        script.tool(tool);
+        let [first, second] = [0, 1].map(|vertex| old.polygon.vertex(vertex));
+        // Far from the matched place: it must not move.
+        script.click(at(
+            &script,
+            match tool {
+                ToolKind::Insert => 0.5 * (first + second),
+                ToolKind::Delete => second,
+                _ => first - DVec3::new(1.0, 1.0, 0.0),
+            },
+        ));
+        let new = curve(&script, ids[0]);
+        let change = new.polygon.vertices().len() as isize - 12;
+        assert_eq!(
+            change,
+            if tool == ToolKind::Delete { -1 } else { 1 },
+            "{}",
+            script.message()
+        );
+        let place = MatchPlace::Parameter(6.25 + change as f64);
+        assert_eq!(first_match(&script).place, place, "{tool:?}");
+        assert_eq!(new.polygon.point(6.25 + change as f64), point, "{tool:?}");
+        assert_eq!(curve(&script, ids[1]).polygon, follower.polygon, "{tool:?}");
+        let locked: Vec<usize> = new.locked_vertices.iter().collect();
+        assert_eq!(locked, [(10 + change) as usize], "{tool:?}");
+        assert_eq!(
+            new.polygon.vertex(locked[0]),
+            old.polygon.vertex(10),
+            "{tool:?}"
+        );
+        script.undo_all();
+        assert!(script.editor.document().is_same(&before), "{tool:?}");
+    }
+}
