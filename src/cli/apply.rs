@@ -78,7 +78,7 @@ pub(super) fn run(application: &Application) -> anyhow::Result<ExitCode> {
     };
     if outcome.reached || application.best {
         let document = outcome.applied_to(input.document())?;
-        let export = format.write_document(&document, None);
+        let export = format.write(&document, None);
         let destination = &application.destination;
         destination.write(export.with_context(|| destination.name())?)?;
     }

@@ -13,6 +13,7 @@ use crate::geometry::expressions::LengthUnit;
 use crate::geometry::parameters::Quantity;
 use crate::geometry::references::{KINDS, ReferenceCurve};
 use crate::io::Format;
+use crate::io::formats::{self, FORMATS};
 use crate::operations::{
     ALL, Choice, Inputs, Kind, Operation, OperationError, Parameter, Value, find,
 };
@@ -46,11 +47,11 @@ pub(super) struct Given {
     /// The file to read; `None` if the operation works on nothing.
     pub(super) input: Option<PathBuf>,
     /// The format to read, if it is told.
-    pub(super) from_format: Option<Format>,
+    pub(super) from_format: Option<&'static Format>,
     /// The file to write.
     pub(super) out: PathBuf,
     /// The format to write, if it is told.
-    pub(super) to_format: Option<Format>,
+    pub(super) to_format: Option<&'static Format>,
     /// The file that the second of two curves comes from; `None` if from the same.
     pub(super) second: Option<PathBuf>,
     /// The name of the curve that was chosen, and of the second of two.
@@ -122,7 +123,7 @@ impl Given {
     /// What is wrong with a reference.
     pub(super) fn new(operation: &'static Operation, matches: &ArgMatches) -> Result<Self, String> {
         let path = |name| matches.try_get_one::<PathBuf>(name).ok().flatten().cloned();
-        let format = |name| matches.try_get_one::<Format>(name).ok().flatten().copied();
+        let format = |name| matches.try_get_one::<&Format>(name).ok().flatten().copied();
         let name = |name| matches.try_get_one::<String>(name).ok().flatten().cloned();
         let parameters = operation.parameters.iter();
         let values = parameters.flat_map(|parameter| {
@@ -222,7 +223,7 @@ pub(super) fn command_of(operation: &'static Operation) -> Command {
         command = command.arg(argument).arg(format_argument(
             FROM_FORMAT,
             "The format to read, whatever the file's extension; needed for the standard input",
-            format_parser(Format::readable()),
+            format_parser(formats::readable()),
         ));
         let unit = option(ASSUME_UNIT).value_name("UNIT");
         let unit = unit.value_parser(unit_parser());
@@ -237,7 +238,7 @@ pub(super) fn command_of(operation: &'static Operation) -> Command {
     command = command.arg(format_argument(
         TO_FORMAT,
         "The format to write, whatever the file's extension; needed for the standard output",
-        format_parser(Format::writable()),
+        format_parser(FORMATS),
     ));
     if has_curves {
         let curve = match operation.inputs {

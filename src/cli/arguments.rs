@@ -14,6 +14,7 @@ use crate::geometry::PolygonKind;
 use crate::geometry::expressions::LengthUnit;
 use crate::io::Format;
 use crate::io::examples::Example;
+use crate::io::formats::{self, FORMATS};
 
 /// How like a command a word must be to be taken for one misspelled, as 0 to 1.
 const LEAST_LIKENESS: f64 = 0.7;
@@ -44,8 +45,8 @@ enum Command {
         #[arg(required_unless_present = "list")]
         out: Option<PathBuf>,
         /// The format to write, whatever the file's extension; needed for the standard output
-        #[arg(long, value_name = "FORMAT", value_parser = format_parser(Format::writable()))]
-        to_format: Option<Format>,
+        #[arg(long, value_name = "FORMAT", value_parser = format_parser(FORMATS))]
+        to_format: Option<&'static Format>,
         /// List the examples instead
         #[arg(long, conflicts_with_all = ["name", "out", "to_format"])]
         list: bool,
@@ -66,11 +67,11 @@ enum Command {
         #[arg(value_name = "OUT")]
         out: PathBuf,
         /// The format to read, whatever the file's extension; needed for the standard input
-        #[arg(long, value_name = "FORMAT", value_parser = format_parser(Format::readable()))]
-        from_format: Option<Format>,
+        #[arg(long, value_name = "FORMAT", value_parser = format_parser(formats::readable()))]
+        from_format: Option<&'static Format>,
         /// The format to write, whatever the file's extension; needed for the standard output
-        #[arg(long, value_name = "FORMAT", value_parser = format_parser(Format::writable()))]
-        to_format: Option<Format>,
+        #[arg(long, value_name = "FORMAT", value_parser = format_parser(FORMATS))]
+        to_format: Option<&'static Format>,
         /// The polygon to write
         ///
         /// .batten and .csv: the polygon that holds each curve (without the option: float). A
@@ -99,8 +100,8 @@ enum Command {
         /// The file to read, or - for the standard input; its extension tells the format
         file: PathBuf,
         /// The format to read, whatever the file's extension; needed for the standard input
-        #[arg(long, value_name = "FORMAT", value_parser = format_parser(Format::readable()))]
-        from_format: Option<Format>,
+        #[arg(long, value_name = "FORMAT", value_parser = format_parser(formats::readable()))]
+        from_format: Option<&'static Format>,
         /// Parameters at which to evaluate every curve, each from 0 to the number of segments
         #[arg(
             long,

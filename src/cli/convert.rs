@@ -56,8 +56,8 @@ fn exported(
     document: &Document,
     destination: &Destination,
     polygon: Option<PolygonKind>,
-) -> anyhow::Result<(Export, Format)> {
+) -> anyhow::Result<(Export, &'static Format)> {
     let format = destination.format()?;
-    let export = format.write_document(document, polygon);
+    let export = format.write(document, polygon);
     Ok((export.with_context(|| destination.name())?, format))
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::output;
 use crate::document::Document;
 use crate::geometry::expressions::LengthUnit;
-use crate::io::{Export, FileError, Format, Reading, disk, shown_path};
+use crate::io::{Export, FileError, Format, Reading, disk, formats, shown_path};
 
 /// The name that stands for the standard input or output.
 pub(super) const STANDARD: &str = "-";
@@ -14,14 +14,14 @@ pub(super) const STANDARD: &str = "-";
 /// A source of curves.
 pub(super) enum Source {
     /// The standard input, in this format.
-    Standard(Format),
+    Standard(&'static Format),
     /// A file, of this format whatever its name says.
-    File(PathBuf, Option<Format>),
+    File(PathBuf, Option<&'static Format>),
 }
 
 impl Source {
     /// Name a source; the standard input is one only if its format is given.
-    pub(super) fn new(path: PathBuf, format: Option<Format>) -> Option<Self> {
+    pub(super) fn new(path: PathBuf, format: Option<&'static Format>) -> Option<Self> {
         if path.as_os_str() == STANDARD {
             format.map(Self::Standard)
         } else {
@@ -72,14 +72,14 @@ impl Source {
 /// A destination of curves.
 pub(super) enum Destination {
     /// The standard output, in this format.
-    Standard(Format),
+    Standard(&'static Format),
     /// A file, of this format whatever its name says.
-    File(PathBuf, Option<Format>),
+    File(PathBuf, Option<&'static Format>),
 }
 
 impl Destination {
     /// Name a destination; the standard output is one only if its format is given.
-    pub(super) fn new(path: PathBuf, format: Option<Format>) -> Option<Self> {
+    pub(super) fn new(path: PathBuf, format: Option<&'static Format>) -> Option<Self> {
         if path.as_os_str() == STANDARD {
             format.map(Self::Standard)
         } else {
@@ -91,10 +91,10 @@ impl Destination {
     ///
     /// # Errors
     /// [`FileError`] if it is not given and the file's name does not tell it.
-    pub(super) fn format(&self) -> Result<Format, FileError> {
+    pub(super) fn format(&self) -> Result<&'static Format, FileError> {
         match self {
             Self::Standard(format) | Self::File(_, Some(format)) => Ok(*format),
-            Self::File(path, None) => Format::to_write(path).map_err(FileError::at(path)),
+            Self::File(path, None) => formats::to_write(path).map_err(FileError::at(path)),
         }
     }
 

@@ -4,15 +4,16 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use crate::geometry::PolygonKind;
 use crate::geometry::expressions::LengthUnit;
-use crate::io::Format;
 use crate::io::examples::{EXAMPLES, Example};
+use crate::io::{Format, formats};
 
 /// Read a format by its extension.
 pub(super) fn format_parser(
-    formats: impl Iterator<Item = Format>,
-) -> impl TypedValueParser<Value = Format> {
+    formats: impl IntoIterator<Item = &'static Format>,
+) -> impl TypedValueParser<Value = &'static Format> {
+    let formats = formats.into_iter();
     let names = PossibleValuesParser::new(formats.map(Format::extension));
-    names.try_map(|name| Format::find(&name).ok_or("no such format"))
+    names.try_map(|name| formats::find(&name).ok_or("no such format"))
 }
 
 pub(super) fn example_parser() -> impl TypedValueParser<Value = Example> {

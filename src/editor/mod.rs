@@ -28,7 +28,7 @@ pub use jobs::filing::FileReply;
 pub use jobs::{Autosaver, FileWork, Recoverable, RecoverableDocument, with_extension};
 pub use operating::{Operating, OperationInProgress, Run};
 pub use reply::{Message, Note, Refusal, Reply, told};
-pub use report::{CurveReport, Export, Readout, ReferenceReport};
+pub use report::{CurveReport, Readout, ReferenceReport};
 pub use selection::{Selection, VertexId};
 pub use view::{
     Bounds, ChainOutlines, ClampedMark, CombSettings, CurveOutlines, CurveScene, DragReadout,

@@ -4,15 +4,6 @@ use glam::DVec3;
 
 use crate::geometry::{Amplification, Range};
 
-/// A requested export.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Export {
-    /// The file's extension, which says its format.
-    pub extension: &'static str,
-    /// The polygon that is written, in formats that hold one.
-    pub polygon: crate::geometry::PolygonKind,
-}
-
 /// What the status bar reads.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Readout {

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::error::{Place, Problem, ReadError, WriteError};
 use super::fingerprint::Fingerprint;
-use super::format::Format;
+use super::project::PROJECT;
 use crate::document::Document;
 
 /// The name of the format in the first line.
@@ -58,7 +58,7 @@ pub fn write(origin: &Origin, document: &Document) -> Result<Vec<u8>, WriteError
         time: since.unwrap_or_default().as_secs(),
         revision: origin.revision,
     };
-    let project = Format::Batten.write_document(document, None)?;
+    let project = PROJECT.write(document, None)?;
     let mut bytes = serde_json::json!(header).to_string().into_bytes();
     bytes.push(b'\n');
     bytes.extend(project.bytes);
@@ -92,7 +92,7 @@ pub fn read(bytes: &[u8]) -> Result<(Origin, Document), ReadError> {
         time: time.unwrap_or(SystemTime::UNIX_EPOCH),
         revision: header.revision,
     };
-    let document = Format::Batten.read(project)?.into_document();
+    let document = PROJECT.read(project)?.into_document();
     Ok((origin, document.map_err(Problem::Match)?))
 }
 

@@ -3,7 +3,6 @@
 //! A file is written beside its place and then moved there, so that at every moment either the
 //! old or the new content is on the disk, whole.
 
-use std::borrow::Borrow;
 use std::fmt;
 use std::fs::{self, File, Metadata, TryLockError};
 use std::io::{self, Read, Write};
@@ -14,9 +13,10 @@ use tempfile::NamedTempFile;
 use super::error::{FileError, FileProblem};
 use super::fingerprint::Fingerprint;
 use super::format::Format;
+use super::formats;
 use super::loss::{Export, LossReport};
 use super::reading::Reading;
-use crate::document::{Curve, Document, Extras};
+use crate::document::Document;
 use crate::geometry::PolygonKind;
 
 /// The most bytes that are read: far more than any curve, far less than fills the memory.
@@ -45,7 +45,7 @@ pub fn read_file(path: &Path) -> Result<Reading, FileError> {
 /// # Errors
 /// As [`read_file`].
 pub fn read_with_fingerprint(path: &Path) -> Result<(Reading, Fingerprint), FileError> {
-    let format = Format::to_read(path).map_err(FileError::at(path))?;
+    let format = formats::to_read(path).map_err(FileError::at(path))?;
     let bytes = read_bytes(path).map_err(FileError::at(path))?;
     let reading = format.read(&bytes).map_err(FileError::at(path))?;
     Ok((reading, Fingerprint::of(&bytes)))
@@ -61,7 +61,7 @@ pub fn fingerprint(path: &Path) -> Option<Fingerprint> {
 ///
 /// # Errors
 /// [`FileError`], naming the file and the place in it.
-pub fn read_file_as(path: &Path, format: Format) -> Result<Reading, FileError> {
+pub fn read_file_as(path: &Path, format: &Format) -> Result<Reading, FileError> {
     let bytes = read_bytes(path).map_err(FileError::at(path))?;
     format.read(&bytes).map_err(FileError::at(path))
 }
@@ -70,7 +70,7 @@ pub fn read_file_as(path: &Path, format: Format) -> Result<Reading, FileError> {
 ///
 /// # Errors
 /// [`FileError`], with the name and the place in the stream.
-pub fn read_stream(stream: impl Read, name: &str, format: Format) -> Result<Reading, FileError> {
+pub fn read_stream(stream: impl Read, name: &str, format: &Format) -> Result<Reading, FileError> {
     let name = Path::new(name);
     let bytes = limited_bytes(stream, MOST_BYTES).map_err(FileError::at(name))?;
     format.read(&bytes).map_err(FileError::at(name))
@@ -116,34 +116,18 @@ impl fmt::Display for Saved {
     }
 }
 
-/// Write curves to a file; its extension tells the format, and `extras` and `polygon` mean what
-/// they do to [`Format::write`].
-///
-/// # Errors
-/// [`FileError`], naming the file; what was there before is unchanged then.
-pub fn write_file<C: Borrow<Curve>>(
-    path: &Path,
-    curves: &[C],
-    extras: &Extras,
-    polygon: Option<PolygonKind>,
-) -> Result<Saved, FileError> {
-    let format = Format::to_write(path).map_err(FileError::at(path))?;
-    let export = format.write(curves, extras, polygon);
-    write_export(path, export.map_err(FileError::at(path))?)
-}
-
 /// Write a document to a file; its extension tells the format, and `polygon` means what it does to
 /// [`Format::write`].
 ///
 /// # Errors
-/// As [`write_file`].
+/// [`FileError`], naming the file; what was there before is unchanged then.
 pub fn write_document(
     path: &Path,
     document: &Document,
     polygon: Option<PolygonKind>,
 ) -> Result<Saved, FileError> {
-    let format = Format::to_write(path).map_err(FileError::at(path))?;
-    let export = format.write_document(document, polygon);
+    let format = formats::to_write(path).map_err(FileError::at(path))?;
+    let export = format.write(document, polygon);
     write_export(path, export.map_err(FileError::at(path))?)
 }
 

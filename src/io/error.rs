@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::format::{Format, FormatError};
 use crate::document::{EditError, cut, escaped, quoted};
 use crate::geometry::references::ReferenceError;
 use crate::geometry::{MAX_DEGREE, PolygonError, PolygonKind, counted};
@@ -121,7 +120,7 @@ impl std::error::Error for ReadError {}
 pub enum Problem {
     /// Files of the format are only written.
     #[error("{0} files can be written but not read")]
-    Unreadable(Format),
+    Unreadable(&'static str),
     /// The file has no content.
     #[error("the file is empty")]
     Empty,
@@ -316,8 +315,8 @@ pub enum WriteError {
     /// There are no curves.
     #[error("there is no curve to write: a {format} file needs at least one")]
     NoCurves {
-        /// The format.
-        format: Format,
+        /// The name of the format.
+        format: &'static str,
     },
     /// A curve has more vertices than the format can count.
     #[error(
@@ -325,14 +324,41 @@ pub enum WriteError {
         quoted(.name)
     )]
     TooManyVertices {
-        /// The format.
-        format: Format,
+        /// The name of the format.
+        format: &'static str,
         /// The curve's name.
         name: String,
         /// The number of its vertices.
         vertices: usize,
         /// The most that can be written.
         most: usize,
+    },
+}
+
+/// A reason why a file's name does not tell a usable format.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum FormatError {
+    /// The name has no extension.
+    #[error("the name has no extension that tells its format: add one of {known}")]
+    NoExtension {
+        /// The extensions that could be used.
+        known: String,
+    },
+    /// The extension is unknown.
+    #[error("“.{}” is not a format Batten knows: use one of {known}", cut(.extension))]
+    UnknownExtension {
+        /// The extension.
+        extension: String,
+        /// The extensions that could be used.
+        known: String,
+    },
+    /// The format is only written.
+    #[error("{format} files can be written but not read: the formats that can be read are {known}")]
+    NotReadable {
+        /// The name of the format.
+        format: &'static str,
+        /// The extensions that can be read.
+        known: String,
     },
 }
 

@@ -1,7 +1,7 @@
 //! The examples that come with the program.
 
 use super::error::ReadError;
-use super::project;
+use super::project::PROJECT;
 use super::reading::Reading;
 
 /// An example: a project that is part of the program.
@@ -82,16 +82,15 @@ impl Example {
     /// # Errors
     /// None for the examples there are: a test reads them all.
     pub fn read(&self) -> Result<Reading, ReadError> {
-        project::read(self.text.as_bytes())
+        PROJECT.read(self.text.as_bytes())
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::{Curve, Extras};
+    use crate::geometry::FloatPolygon;
     use crate::geometry::paper::regular_polygon;
-    use crate::geometry::{FloatPolygon, PolygonKind};
 
     fn polygon(name: &str) -> FloatPolygon {
         let mut curves = Example::find(name).unwrap().read().unwrap().curves;
@@ -201,16 +200,8 @@ mod tests {
     #[test]
     fn the_examples_are_written_as_projects_are() {
         for example in EXAMPLES {
-            let reading = example.read().unwrap();
-            let curves: Vec<&Curve> = reading.curves.iter().collect();
-            let written = project::write(
-                &curves,
-                &[],
-                &[],
-                (reading.unit, &[], &Extras::default()),
-                PolygonKind::Float,
-            )
-            .bytes;
+            let document = example.read().unwrap().into_document().unwrap();
+            let written = PROJECT.write(&document, None).unwrap().bytes;
             assert_eq!(
                 String::from_utf8(written).unwrap(),
                 example.text,

@@ -1,187 +1,122 @@
-//! The formats by name, and how a file's name tells its own.
+//! A row of the table of formats: how files of one format are read, written and exported.
 
 use std::fmt;
-use std::path::Path;
+use std::hash::{Hash, Hasher};
 
-use thiserror::Error;
+use super::error::{Problem, ReadError, WriteError};
+use super::loss::{Export, LossReport};
+use super::reading::Reading;
+use crate::document::Document;
+use crate::geometry::PolygonKind;
 
-use crate::document::cut;
+/// A file format. Its module defines it as a static row; [`super::formats`] lists the rows.
+pub struct Format {
+    /// The name in dialogs and messages.
+    pub name: &'static str,
+    /// The extensions of its files in lower case, without the dot. New files get the first.
+    pub extensions: &'static [&'static str],
+    /// Reads the bytes of a file; `None` if the format is only written.
+    pub(super) read: Option<fn(&[u8]) -> Result<Reading, ReadError>>,
+    /// Writes a document and reports what the file does not hold.
+    pub(super) write: WriteDocument,
+    /// Whether it holds matches and unknown keys; then a document can be saved in it.
+    pub holds_documents: bool,
+    /// The exports that the menu offers.
+    pub exports: &'static [ExportRow],
+}
 
-/// A file format.
+/// Write a document by one of its polygons; without a choice by those that the format prefers.
+type WriteDocument =
+    fn(&Document, Option<PolygonKind>, &mut LossReport) -> Result<Vec<u8>, WriteError>;
+
+/// A row of the menu for an export.
+#[derive(Debug, PartialEq, Eq, Hash)]
+pub struct ExportRow {
+    /// The label.
+    pub label: &'static str,
+    /// The help text.
+    pub help: &'static str,
+    /// The icon, by its name in the icon font.
+    pub icon: &'static str,
+    /// The letter that exports together with Ctrl.
+    pub key: Option<char>,
+    /// The polygon to write; `None`: those that the format prefers.
+    pub polygon: Option<PolygonKind>,
+}
+
+/// A format with one of its exports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Format {
-    /// Batten's own project file; it loses nothing.
-    Batten,
-    /// Tables of polygons as comma-separated values.
-    Csv,
-    /// AutoCAD's drawing exchange format; written only.
-    Dxf,
+pub struct Exporter {
+    /// The format.
+    pub format: &'static Format,
+    /// The row of the menu.
+    pub row: &'static ExportRow,
 }
 
 impl Format {
-    /// Every format, in the order in which they are offered.
-    pub const ALL: [Self; 3] = [Self::Batten, Self::Csv, Self::Dxf];
-
-    /// The extension of its files, without the dot.
-    pub fn extension(self) -> &'static str {
-        match self {
-            Self::Batten => "batten",
-            Self::Csv => "csv",
-            Self::Dxf => "dxf",
-        }
-    }
-
-    /// Name the format as dialogs and messages do.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Batten => "Batten project",
-            Self::Csv => "CSV table",
-            Self::Dxf => "DXF",
-        }
+    /// The extension of new files, without the dot.
+    pub fn extension(&self) -> &'static str {
+        self.extensions.first().copied().unwrap_or_default()
     }
 
     /// Whether files of the format can be read.
-    pub fn can_read(self) -> bool {
-        match self {
-            Self::Batten | Self::Csv => true,
-            Self::Dxf => false,
-        }
+    pub fn can_read(&self) -> bool {
+        self.read.is_some()
     }
 
-    /// List the formats that can be read.
-    pub fn readable() -> impl Iterator<Item = Self> {
-        Self::ALL.into_iter().filter(|format| format.can_read())
-    }
-
-    /// List the formats that can be written: all of them.
-    pub fn writable() -> impl Iterator<Item = Self> {
-        Self::ALL.into_iter()
-    }
-
-    /// Tell the format to read from a file's extension, in upper or lower case.
+    /// Read the bytes of a file.
     ///
     /// # Errors
-    /// [`FormatError`] if there is none, it is not known, or it is only written.
-    pub fn to_read(path: &Path) -> Result<Self, FormatError> {
-        let known = || extensions(Self::readable());
-        let format = Self::from_extension(path, known)?;
-        if format.can_read() {
-            Ok(format)
-        } else {
-            Err(FormatError::NotReadable {
-                format,
-                known: known(),
-            })
-        }
+    /// [`ReadError`] with the place. A format that [cannot be read](Self::can_read) says so.
+    pub fn read(&self, bytes: &[u8]) -> Result<Reading, ReadError> {
+        let read = self.read.ok_or(Problem::Unreadable(self.name))?;
+        read(bytes)
     }
 
-    /// Tell the format to write from a file's extension, in upper or lower case.
+    /// Write a document to bytes.
+    ///
+    /// `polygon` chooses the polygon by which a project or a table holds each curve (default:
+    /// float), or the one that a DXF draws beside it (default: float and clamped).
     ///
     /// # Errors
-    /// [`FormatError`] if there is none or it is not known.
-    pub fn to_write(path: &Path) -> Result<Self, FormatError> {
-        Self::from_extension(path, || extensions(Self::writable()))
+    /// [`WriteError`] if the format cannot hold the document at all.
+    pub fn write(
+        &self,
+        document: &Document,
+        polygon: Option<PolygonKind>,
+    ) -> Result<Export, WriteError> {
+        let mut losses = LossReport::new(self.name);
+        let bytes = (self.write)(document, polygon, &mut losses)?;
+        if !self.holds_documents {
+            losses.add_matches(document, |_| true);
+            losses.project_keys = !document.extras().is_empty();
+        }
+        Ok(Export { bytes, losses })
     }
-
-    /// Find a format by its extension, in upper or lower case.
-    pub fn find(extension: &str) -> Option<Self> {
-        let mut formats = Self::ALL.into_iter();
-        formats.find(|format| extension.eq_ignore_ascii_case(format.extension()))
-    }
-
-    fn from_extension(path: &Path, known: impl Fn() -> String) -> Result<Self, FormatError> {
-        let Some(extension) = path.extension() else {
-            return Err(FormatError::NoExtension { known: known() });
-        };
-        let found = extension.to_str().and_then(Self::find);
-        found.ok_or_else(|| FormatError::UnknownExtension {
-            extension: extension.to_string_lossy().into_owned(),
-            known: known(),
-        })
-    }
-}
-
-/// A reason why a format cannot be told from a file's name, or not be used.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum FormatError {
-    /// The name has no extension.
-    #[error("the name has no extension that tells its format: add one of {known}")]
-    NoExtension {
-        /// The extensions that could be used.
-        known: String,
-    },
-    /// The name has an extension that is not known.
-    #[error("“.{}” is not a format Batten knows: use one of {known}", cut(.extension))]
-    UnknownExtension {
-        /// The extension.
-        extension: String,
-        /// The extensions that could be used.
-        known: String,
-    },
-    /// The format is only written.
-    #[error("{format} files can be written but not read: the formats that can be read are {known}")]
-    NotReadable {
-        /// The format.
-        format: Format,
-        /// The extensions that can be read.
-        known: String,
-    },
 }
 
 impl fmt::Display for Format {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(self.name())
+        formatter.write_str(self.name)
     }
 }
 
-fn extensions(formats: impl Iterator<Item = Format>) -> String {
-    let list: Vec<String> = formats
-        .map(|format| format!(".{}", format.extension()))
-        .collect();
-    list.join(", ")
+impl fmt::Debug for Format {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, formatter)
+    }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_extension_tells_the_format_in_either_case() {
-        for format in Format::ALL {
-            for extension in [
-                format.extension().to_owned(),
-                format.extension().to_uppercase(),
-            ] {
-                let path = Path::new("folder.csv/some.name").with_extension(extension);
-                assert_eq!(Format::to_write(&path), Ok(format));
-                assert_eq!(Format::to_read(&path).is_ok(), format.can_read());
-            }
-        }
+impl PartialEq for Format {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
     }
+}
 
-    #[test]
-    fn an_unknown_extension_lists_the_known_ones() {
-        let check = |path: &str, expected: &str| {
-            let error = Format::to_read(Path::new(path)).unwrap_err();
-            assert_eq!(error.to_string(), expected);
-        };
-        check(
-            "a.txt",
-            "“.txt” is not a format Batten knows: use one of .batten, .csv",
-        );
-        check(
-            "folder.csv/arc",
-            "the name has no extension that tells its format: add one of .batten, .csv",
-        );
-        check(
-            "a.dxf",
-            "DXF files can be written but not read: the formats that can be read are .batten, .csv",
-        );
-        assert_eq!(
-            Format::to_write(Path::new("a.docx"))
-                .unwrap_err()
-                .to_string(),
-            "“.docx” is not a format Batten knows: use one of .batten, .csv, .dxf",
-        );
+impl Eq for Format {}
+
+impl Hash for Format {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.name.hash(state);
     }
 }

@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-use super::format::Format;
 use crate::document::{Curve, Document, Reference, quoted};
 use crate::geometry::{End, PolygonKind, rounded_up};
 
@@ -18,8 +17,8 @@ pub struct Export {
 /// List what a file does not hold of the curves written to it. Shown as one line a loss.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LossReport {
-    /// The file's format.
-    pub format: Format,
+    /// The name of the file's format.
+    pub format: &'static str,
     /// The losses, each with the name of its curve or its reference.
     pub losses: Vec<(String, Loss)>,
     /// Whether it does not hold what the project says that this program does not know.
@@ -80,7 +79,7 @@ pub enum Loss {
 
 impl LossReport {
     /// Begin a report without losses.
-    pub fn new(format: Format) -> Self {
+    pub fn new(format: &'static str) -> Self {
         Self {
             format,
             losses: Vec::new(),
@@ -115,11 +114,9 @@ impl LossReport {
         self.add_if(!curve.extras.is_empty(), curve, Loss::UnknownKeys);
     }
 
-    /// Add that references are not written.
-    pub fn add_references<'a>(&mut self, references: impl IntoIterator<Item = &'a Reference>) {
-        for reference in references {
-            self.losses.push((reference.name.clone(), Loss::Reference));
-        }
+    /// Add that a reference is not written.
+    pub fn add_reference(&mut self, reference: &Reference) {
+        self.losses.push((reference.name.clone(), Loss::Reference));
     }
 
     /// Add the matches of a document's curves, of those that are written: every format but Batten's own

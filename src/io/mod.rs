@@ -7,39 +7,44 @@
 //! opens dialogs or changes a document.
 
 pub mod autosave;
-mod codec;
 mod decimals;
 pub mod disk;
-pub mod dxf;
+mod dxf;
 mod error;
 pub mod examples;
 mod file_match;
 mod fingerprint;
 mod format;
+pub mod formats;
 pub mod json_layout;
 mod layer_names;
 mod loss;
 mod object;
 mod polygon;
-pub mod project;
+mod project;
 mod project_curves;
+mod project_file;
+mod project_matches;
 mod project_references;
-mod project_v1;
-mod project_v2;
 mod project_values;
 mod reading;
 mod sessions;
-pub mod table;
+mod table;
 mod table_header;
 mod text;
 
-pub use error::{FileError, FileProblem, Place, Problem, ReadError, WriteError, shown_path};
+pub use dxf::DXF;
+pub use error::{
+    FileError, FileProblem, FormatError, Place, Problem, ReadError, WriteError, shown_path,
+};
 pub use file_match::{FileMatch, MatchSource};
 pub use fingerprint::Fingerprint;
-pub use format::{Format, FormatError};
+pub use format::{ExportRow, Exporter, Format};
 pub use loss::{Export, Loss, LossReport};
+pub use project::PROJECT;
 pub use reading::{Owner, Reading, Remark, Remarks, counted_items};
 pub use sessions::{AbandonedSession, Session, Sessions};
+pub use table::TABLE;
 
 #[cfg(test)]
 mod units;

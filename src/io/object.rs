@@ -1,9 +1,10 @@
-//! JSON objects that keep what is unknown in them.
+//! JSON objects that keep what is unknown in them, or in their version of the file.
 //!
 //! Left alone, serde passes over unknown keys, and takes an array for a struct too, its elements
 //! in the order in which the program declares the fields.
 
 use std::fmt;
+use std::marker::PhantomData;
 
 use serde::de::{DeserializeSeed, IntoDeserializer, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, forward_to_deserialize_any};
@@ -11,34 +12,69 @@ use serde_json::value::{RawValue, to_raw_value};
 
 use crate::document::Extras;
 
-/// A struct that is read from a JSON object, never from an array, with the keys that it does not
-/// have. It is written with these after its own.
+/// A version of the project file.
+pub(super) trait Version {
+    /// Its number in the file.
+    const NUMBER: u64;
+
+    /// The keys that later versions added: in this one they are unknown.
+    const LATER_KEYS: &'static [&'static str];
+}
+
+/// A struct that is read from a JSON object of a version of the file, never from an array, with the
+/// keys that it does not have. It is written with these after its own.
 #[derive(Serialize)]
-pub(super) struct Object<T> {
+#[serde(bound = "T: Serialize")]
+pub(super) struct Object<T, V> {
     /// The struct.
     #[serde(flatten)]
     pub value: T,
     /// What else is in the object.
     #[serde(flatten, serialize_with = "serialize_extras")]
     pub extras: Extras,
+    #[serde(skip)]
+    version: PhantomData<V>,
 }
 
-impl<T> Object<T> {
+impl<T, V> Object<T, V> {
     /// Begin without further keys.
     pub(super) fn new(value: T) -> Self {
-        let extras = Extras::default();
-        Self { value, extras }
+        Self {
+            value,
+            extras: Extras::default(),
+            version: PhantomData,
+        }
+    }
+
+    /// Set the further keys.
+    pub(super) fn with_extras(self, extras: Extras) -> Self {
+        Self { extras, ..self }
     }
 }
 
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for Object<T> {
+/// Unknown keys that are not kept.
+#[derive(Default)]
+pub(super) struct UnknownKeys(pub Vec<String>);
+
+impl UnknownKeys {
+    /// Take an object without its unknown keys, and remember these.
+    pub(super) fn strip<T, V>(&mut self, object: Option<Object<T, V>>) -> Option<T> {
+        let object = object?;
+        let keys = object.extras.iter().map(|(key, _)| key.to_owned());
+        self.0.extend(keys);
+        Some(object.value)
+    }
+}
+
+impl<'de, T: Deserialize<'de>, V: Version> Deserialize<'de> for Object<T, V> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let mut extras = Extras::default();
         let value = T::deserialize(ObjectDeserializer {
             inner: deserializer,
+            later: V::LATER_KEYS,
             extras: &mut extras,
         })?;
-        Ok(Self { value, extras })
+        Ok(Self::new(value).with_extras(extras))
     }
 }
 
@@ -52,6 +88,8 @@ fn serialize_extras<S: Serializer>(extras: &Extras, serializer: S) -> Result<S::
 
 struct ObjectDeserializer<'a, D> {
     inner: D,
+    /// The keys that are unknown though the struct has fields for them.
+    later: &'static [&'static str],
     extras: &'a mut Extras,
 }
 
@@ -67,6 +105,7 @@ impl<'de, D: Deserializer<'de>> Deserializer<'de> for ObjectDeserializer<'_, D> 
         self.inner.deserialize_map(ObjectVisitor {
             visitor,
             fields,
+            later: self.later,
             extras: self.extras,
         })
     }
@@ -84,6 +123,7 @@ impl<'de, D: Deserializer<'de>> Deserializer<'de> for ObjectDeserializer<'_, D> 
 struct ObjectVisitor<'a, V> {
     visitor: V,
     fields: &'static [&'static str],
+    later: &'static [&'static str],
     extras: &'a mut Extras,
 }
 
@@ -98,6 +138,7 @@ impl<'de, V: Visitor<'de>> Visitor<'de> for ObjectVisitor<'_, V> {
         self.visitor.visit_map(KnownKeys {
             map,
             fields: self.fields,
+            later: self.later,
             extras: self.extras,
         })
     }
@@ -107,6 +148,7 @@ impl<'de, V: Visitor<'de>> Visitor<'de> for ObjectVisitor<'_, V> {
 struct KnownKeys<'a, A> {
     map: A,
     fields: &'static [&'static str],
+    later: &'static [&'static str],
     extras: &'a mut Extras,
 }
 
@@ -118,7 +160,9 @@ impl<'de, A: MapAccess<'de>> MapAccess<'de> for KnownKeys<'_, A> {
         seed: K,
     ) -> Result<Option<K::Value>, A::Error> {
         while let Some(key) = self.map.next_key::<String>()? {
-            if let Some(field) = self.fields.iter().find(|field| **field == key) {
+            let is_later = self.later.contains(&key.as_str());
+            let mut fields = self.fields.iter().filter(|_| !is_later);
+            if let Some(field) = fields.find(|field| **field == key) {
                 return seed.deserialize(field.into_deserializer()).map(Some);
             }
             let value: Box<RawValue> = self.map.next_value()?;

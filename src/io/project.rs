@@ -6,32 +6,38 @@
 //!    "weights": null, "periodic": false}]}
 //! ```
 //!
-//! Each version has types of its own, so that a change of the curves in memory cannot change
-//! what old files mean. A project is written in the first version that holds all of it, so that
-//! older programs read what they can read: version 2 adds `locked_vertices` to a curve,
-//! `curvature`, `normal` and `slope` to a target, and `matches`, `references`, the `unit` of length ("mm", "cm",
-//! "m" or "in"; left out if there is none) and `numbers` to the project. These number its curves, then its references,
-//! in the order in which they were made: the next colour of the palette goes by them. Without them they are counted
-//! from 0.
+//! A project is written in the first version that holds all of it, so that older programs read what
+//! they can read. Version 2 adds `locked_vertices` to a curve, `curvature`, `normal` and `slope` to a
+//! target, and `matches`, `references`, the `unit` of length ("mm", "cm", "m" or "in"; left out if there
+//! is none) and `numbers` to the project. These number its curves, then its references, in the order in
+//! which they were made: the next colour of the palette goes by them. Without them they are counted
+//! from 0. In a file of version 1 these keys are unknown ones.
 
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use serde_path_to_error::{Path, Segment};
 
-use super::error::{Place, Problem, ReadError};
-use super::file_match::FileMatch;
+use super::error::{Place, Problem, ReadError, WriteError};
 use super::format::Format;
 use super::json_layout;
-use super::loss::{Export, LossReport};
-use super::project_curves::FORMAT;
+use super::loss::LossReport;
+use super::object::Version;
+use super::project_file::{FORMAT, ProjectFile, Version1, Version2};
 use super::reading::Reading;
 use super::text::text;
-use super::{project_v1, project_v2};
-use crate::document::{Curve, Extras, Reference, escaped};
+use crate::document::{Document, escaped};
 use crate::geometry::PolygonKind;
-use crate::geometry::end_correction::EndTarget;
-use crate::geometry::expressions::LengthUnit;
+
+/// The row of the table of formats.
+pub static PROJECT: Format = Format {
+    name: "Batten project",
+    extensions: &["batten"],
+    read: Some(read),
+    write,
+    holds_documents: true,
+    exports: &[],
+};
 
 /// Read a project.
 ///
@@ -42,67 +48,29 @@ use crate::geometry::expressions::LengthUnit;
 /// # Errors
 /// [`ReadError`] with line and column for JSON that is malformed or has something else than
 /// belongs there, and with curve and vertex for numbers that make no curve.
-pub fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
+fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
     let text = text(bytes)?;
     if !text.trim_start().starts_with('{') {
         return Err(Problem::WrongFormat { found: None }.into());
     }
     match parse::<Header>(text) {
         Ok(Header { format, version }) => match check(&format, &version)? {
-            Version::One => parse::<project_v1::Project>(text)?.into_reading(),
-            Version::Two => parse::<project_v2::Project>(text)?.into_reading(),
+            Version1::NUMBER => parse::<ProjectFile<Version1>>(text)?.into_reading(),
+            _ => parse::<ProjectFile<Version2>>(text)?.into_reading(),
         },
-        // What is malformed has no version that could be relied on: the first one's types tell the
-        // place.
-        Err(error) => Err(parse::<project_v1::Project>(text).err().unwrap_or(error)),
+        // A malformed file has no version to rely on: the types of the first tell the place.
+        Err(error) => Err(parse::<ProjectFile<Version1>>(text).err().unwrap_or(error)),
     }
 }
 
-/// Write a project with each curve held by one of its polygons; by the float polygon nothing is
-/// lost. `matches` are those between the curves and references, `unit`, `numbers` and `extras` those of the project.
-pub fn write(
-    curves: &[&Curve],
-    references: &[&Reference],
-    matches: &[FileMatch],
-    (unit, numbers, extras): (Option<LengthUnit>, &[u64], &Extras),
-    kind: PolygonKind,
-) -> Export {
-    let mut losses = LossReport::new(Format::Batten);
-    let numbers = if is_counted(numbers) { &[] } else { numbers };
-    let needs_version_2 = unit.is_some()
-        || !numbers.is_empty()
-        || !matches.is_empty()
-        || !references.is_empty()
-        || curves.iter().any(|curve| needs_version_2(curve));
-    let bytes = if needs_version_2 {
-        let content = (curves, references, matches);
-        let project =
-            project_v2::Project::from_content(content, (unit, numbers, extras), kind, &mut losses);
-        json_layout::to_text(&project).into_bytes()
-    } else {
-        let project = project_v1::Project::from_curves(curves, extras, kind, &mut losses);
-        json_layout::to_text(&project).into_bytes()
-    };
-    Export { bytes, losses }
-}
-
-/// Whether numbers count from 0.
-fn is_counted(numbers: &[u64]) -> bool {
-    (0..).zip(numbers).all(|(place, number)| place == *number)
-}
-
-/// Whether a curve has something that version 1 cannot hold.
-fn needs_version_2(curve: &Curve) -> bool {
-    let targets = curve.targets.list().into_iter();
-    let mut targets = targets.map(|(_, target)| target);
-    let of_version_1 = |EndTarget {
-                            point, direction, ..
-                        }| EndTarget {
-        point,
-        direction,
-        ..EndTarget::default()
-    };
-    !curve.locked_vertices.is_empty() || targets.any(|target| of_version_1(target) != target)
+/// Write a document with each curve held by one of its polygons (default: float, which loses nothing).
+fn write(
+    document: &Document,
+    polygon: Option<PolygonKind>,
+    losses: &mut LossReport,
+) -> Result<Vec<u8>, WriteError> {
+    let project = ProjectFile::of(document, polygon.unwrap_or_default(), losses);
+    Ok(json_layout::to_text(&project).into_bytes())
 }
 
 /// What every version has, however the rest of it looks.
@@ -114,25 +82,17 @@ struct Header {
     version: Value,
 }
 
-/// A version that can be read.
-enum Version {
-    One,
-    Two,
-}
-
-fn check(format: &Value, version: &Value) -> Result<Version, Problem> {
+/// Check that the file is a project, and return the number of its version.
+fn check(format: &Value, version: &Value) -> Result<u64, Problem> {
     let shown = |value: &Value| (!value.is_null()).then(|| value.to_string());
     if format != FORMAT {
         let found = shown(format);
         return Err(Problem::WrongFormat { found });
     }
+    let newest = Version2::NUMBER;
     match version.as_u64() {
-        Some(project_v1::VERSION) => Ok(Version::One),
-        Some(project_v2::VERSION) => Ok(Version::Two),
-        Some(found) if found > project_v2::VERSION => Err(Problem::NewerVersion {
-            found,
-            newest: project_v2::VERSION,
-        }),
+        Some(found) if (1..=newest).contains(&found) => Ok(found),
+        Some(found) if found > newest => Err(Problem::NewerVersion { found, newest }),
         _ => Err(Problem::BadVersion {
             found: shown(version).unwrap_or("not given".to_owned()),
         }),

@@ -1,159 +1,180 @@
-//! What project files of every version say of curves, checked in one place.
+//! The JSON of a curve in a project file.
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 use super::error::{Place, Problem, ReadError};
-use super::file_match::{FileMatch, MatchSource};
-use super::object::Object;
+use super::loss::LossReport;
+use super::object::{Object, UnknownKeys, Version};
 use super::polygon::FilePolygon;
-use super::reading::{CurveKeys, Owner, Reading, Remark, Remarks};
-use crate::document::{Colour, Curve, EndTargets, Extras, Reference};
+use super::project_values::{ByName, Coordinates, Degree, Number};
+use super::reading::{Owner, Remark, Remarks};
+use crate::document::{Colour, Curve, EndTargets};
 use crate::geometry::end_correction::EndTarget;
-use crate::geometry::{End, MAX_MAGNITUDE};
-use glam::DVec3;
+use crate::geometry::{End, MAX_MAGNITUDE, PolygonKind};
 
-/// What a file says to be a project.
-pub(super) const FORMAT: &str = "batten";
-
-/// A curve of a project file, not yet checked. What a version does not have is empty.
-pub(super) struct FileCurve {
-    /// Its name, if it is given one.
-    pub name: Option<String>,
-    /// Its own colour.
-    pub colour: Option<Colour>,
-    /// Whether it is shown.
-    pub visible: bool,
-    /// Whether it is locked.
-    pub locked: bool,
-    /// One of its polygons.
-    pub polygon: FilePolygon,
-    /// Its locked vertices.
-    pub locked_vertices: Vec<usize>,
-    /// The targets of its ends.
-    pub targets: EndTargets,
-    /// Unknown keys that are not kept.
-    pub unknown: UnknownKeys,
-    /// Unknown keys that are kept.
-    pub extras: Extras,
+/// The known keys of a curve.
+#[derive(Deserialize, Serialize)]
+#[serde(expecting = "a curve, which is a JSON object", bound = "V: Version")]
+pub(super) struct ProjectCurve<V> {
+    #[serde(default)]
+    name: Option<String>,
+    degree: Degree,
+    #[serde(default)]
+    polygon: ByName<PolygonKind>,
+    #[serde(default, alias = "color", skip_serializing_if = "Option::is_none")]
+    colour: Option<ByName<Colour>>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    visible: Option<bool>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    locked: Option<bool>,
+    vertices: Vec<Coordinates>,
+    #[serde(default)]
+    weights: Option<Vec<f64>>,
+    #[serde(default)]
+    periodic: Option<bool>,
+    /// The locked vertices, counted from 0.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    locked_vertices: Vec<Number>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    targets: Option<Object<Targets<V>, V>>,
 }
 
-/// Unknown keys that are not kept.
-#[derive(Default)]
-pub(super) struct UnknownKeys(Vec<String>);
-
-impl UnknownKeys {
-    /// Take an object without its unknown keys, and remember these.
-    pub(super) fn strip<T>(&mut self, object: Option<Object<T>>) -> Option<T> {
-        let object = object?;
-        let keys = object.extras.iter().map(|(key, _)| key.to_owned());
-        self.0.extend(keys);
-        Some(object.value)
-    }
+#[derive(Deserialize, Serialize)]
+#[serde(
+    expecting = "the targets of a curve, which are a JSON object",
+    bound = "V: Version"
+)]
+struct Targets<V> {
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    start: Option<Object<Target, V>>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    end: Option<Object<Target, V>>,
 }
 
-/// Check the curves of a project and the matches between them and its references, given with their unknown keys. The
-/// project has `extras` of its own.
-///
-/// # Errors
-/// [`ReadError`] with the curve.
-pub(super) fn read_curves(
-    given: impl Iterator<Item = FileCurve>,
-    references: Vec<Reference>,
-    (matches, unknown): (Vec<FileMatch>, UnknownKeys),
-    extras: Extras,
-) -> Result<Reading, ReadError> {
-    let mut remarks = Remarks::default();
-    for (key, _) in extras.iter() {
-        remarks.add(Remark::UnknownKey {
-            key: key.to_owned(),
-            owner: Owner::Project,
-        });
-    }
-    let mut curves = Vec::new();
-    let mut keys = CurveKeys::default();
-    for (index, curve) in given.enumerate() {
-        let number = index + 1;
-        let curve = curve.into_curve(number, &mut remarks)?;
-        for (key, _) in curve.extras.iter() {
-            keys.add(key, number, &curve.name);
-        }
-        curves.push(curve);
-    }
-    keys.remark(&mut remarks);
-    for (index, reference) in references.iter().enumerate() {
-        for (key, _) in reference.extras.iter() {
-            let reference = (index + 1, reference.name.clone());
-            let (key, owner) = (key.to_owned(), Owner::Reference { reference });
-            remarks.add(Remark::UnknownKey { key, owner });
-        }
-    }
-    for key in unknown.0 {
-        let owner = Owner::Matches;
-        remarks.add(Remark::UnknownKey { key, owner });
-    }
-    let reading = Reading {
-        curves,
-        references,
-        matches,
-        unit: None,
-        numbers: Vec::new(),
-        extras,
-        remarks,
-    };
-    for matched in &reading.matches {
-        let named = [MatchSource::Curve(matched.curve), matched.source];
-        named
-            .into_iter()
-            .try_for_each(|it| check_named(it, &reading))?;
-    }
-    if !reading.matches.is_empty() {
-        let made = reading.clone().into_document();
-        made.map_err(|error| ReadError::from(Problem::Match(error)))?;
-    }
-    Ok(reading)
+#[derive(Deserialize, Serialize)]
+#[serde(expecting = "a target, which is a JSON object")]
+struct Target {
+    point: Coordinates,
+    #[serde(default)]
+    direction: Option<Coordinates>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    curvature: Option<f64>,
+    /// The normal of the osculating plane.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    normal: Option<Coordinates>,
+    /// dκ/ds, the derivative of the curvature by arc length.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    slope: Option<f64>,
 }
 
-/// Refuse what a match names if it is not there.
-fn check_named(named: MatchSource, reading: &Reading) -> Result<(), Problem> {
-    match named {
-        MatchSource::Curve(index) if index >= reading.curves.len() => {
-            let count = reading.curves.len();
-            Err(Problem::NoSuchCurve { index, count })
-        }
-        MatchSource::Reference(index) if index >= reading.references.len() => {
-            let count = reading.references.len();
-            Err(Problem::NoSuchReference { index, count })
-        }
-        _ => Ok(()),
+impl<V> ProjectCurve<V> {
+    /// Write a curve by one of its polygons.
+    pub(super) fn of(curve: &Curve, kind: PolygonKind, losses: &mut LossReport) -> Object<Self, V> {
+        let planar = curve.polygon.is_planar();
+        let coordinates = |vector| Coordinates::of(vector, planar);
+        let target = |end| {
+            let target = curve.targets.get(end)?;
+            Some(Object::new(Target {
+                point: coordinates(target.point),
+                direction: target.direction.map(coordinates),
+                curvature: target.curvature,
+                normal: target.normal.map(coordinates),
+                slope: target.slope,
+            }))
+        };
+        let [start, end] = [End::Start, End::Finish].map(target);
+        let targets = (start.is_some() || end.is_some()).then_some(Targets { start, end });
+        let polygon = FilePolygon::of(&curve.polygon, kind);
+        losses.extend(curve, polygon.losses(&curve.polygon));
+        let written = Self {
+            name: Some(curve.name.clone()),
+            degree: Degree(polygon.degree),
+            polygon: ByName(kind),
+            colour: curve.colour.map(ByName),
+            visible: (!curve.visible).then_some(false),
+            locked: curve.locked.then_some(true),
+            vertices: polygon.vertices.into_iter().map(coordinates).collect(),
+            weights: polygon.weights,
+            periodic: Some(polygon.periodic),
+            locked_vertices: curve.locked_vertices.iter().map(Number).collect(),
+            targets: targets.map(Object::new),
+        };
+        Object::new(written).with_extras(curve.extras.clone())
+    }
+
+    /// Whether the curve has a key that version 1 does not know.
+    pub(super) fn needs_version_2(&self) -> bool {
+        let targets = self.targets.iter();
+        let mut targets =
+            targets.flat_map(|it| [&it.value.start, &it.value.end].into_iter().flatten());
+        !self.locked_vertices.is_empty()
+            || targets.any(|Object { value, .. }| {
+                value.curvature.is_some() || value.normal.is_some() || value.slope.is_some()
+            })
     }
 }
 
-impl FileCurve {
-    fn into_curve(self, number: usize, remarks: &mut Remarks) -> Result<Curve, ReadError> {
-        let given = self.name.filter(|name| !name.trim().is_empty());
+impl<V> Object<ProjectCurve<V>, V> {
+    /// Check the curve with this number, counted from 1.
+    ///
+    /// # Errors
+    /// [`ReadError`] with the curve, and with the vertex where one is wrong.
+    pub(super) fn into_curve(
+        self,
+        number: usize,
+        remarks: &mut Remarks,
+    ) -> Result<Curve, ReadError> {
+        let Self { value, extras, .. } = self;
+        let given = value.name.filter(|name| !name.trim().is_empty());
         let name = given.unwrap_or_else(|| format!("curve {number}"));
         let place = |problem| Place::curve(number, &name).problem(problem);
-        let polygon = self.polygon.into_curve(number, &name, remarks);
-        let curve = polygon.map_err(place)?;
-        for vertex in &self.locked_vertices {
+        let polygon = FilePolygon {
+            kind: value.polygon.0,
+            degree: value.degree.0,
+            vertices: value.vertices.into_iter().map(DVec3::from).collect(),
+            weights: value.weights,
+            periodic: value.periodic.unwrap_or(false),
+        };
+        let curve = polygon.into_curve(number, &name, remarks).map_err(place)?;
+        for Number(vertex) in &value.locked_vertices {
             let checked = curve.polygon.check_index(*vertex);
             checked.map_err(|error| place(Problem::from(error)))?;
         }
-        for (end, target) in self.targets.list() {
+        let mut unknown = UnknownKeys::default();
+        let mut targets = EndTargets::default();
+        if let Some(Targets { start, end }) = unknown.strip(value.targets) {
+            targets.start = unknown.strip(start).map(EndTarget::from);
+            targets.finish = unknown.strip(end).map(EndTarget::from);
+        }
+        for (end, target) in targets.list() {
             check(&target, end).map_err(place)?;
         }
-        for key in self.unknown.0 {
+        for key in unknown.0 {
             let curve = (number, name.clone());
-            let owner = Owner::Targets { curve };
-            remarks.add(Remark::UnknownKey { key, owner });
+            remarks.add(Remark::unknown_key(&key, Owner::Targets { curve }));
         }
         Ok(Curve {
-            colour: self.colour,
-            visible: self.visible,
-            locked: self.locked,
-            locked_vertices: self.locked_vertices.into_iter().collect(),
-            targets: self.targets,
-            extras: self.extras,
+            colour: value.colour.map(|colour| colour.0),
+            visible: value.visible.unwrap_or(true),
+            locked: value.locked.unwrap_or(false),
+            locked_vertices: value.locked_vertices.into_iter().map(|it| it.0).collect(),
+            targets,
+            extras,
             ..curve
         })
+    }
+}
+
+impl From<Target> for EndTarget {
+    fn from(target: Target) -> Self {
+        Self {
+            point: target.point.into(),
+            direction: target.direction.map(DVec3::from),
+            curvature: target.curvature,
+            normal: target.normal.map(DVec3::from),
+            slope: target.slope,
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-//! What project files say of references.
+//! The JSON of a reference in a project file.
 
 use std::collections::BTreeMap;
 
@@ -6,8 +6,9 @@ use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
 use super::error::{Place, Problem, ReadError};
-use super::project_values::{Coordinates, HexColour};
-use crate::document::{Extras, Reference};
+use super::object::Object;
+use super::project_values::{ByName, Coordinates};
+use crate::document::{Colour, Reference};
 use crate::geometry::references::{
     AnalyticForm, Formula, KINDS, Placement, PointList, ReferenceCurve, ReferenceError,
     ReferenceForm, ReferenceKind, find,
@@ -16,11 +17,11 @@ use crate::geometry::references::{
 /// A reference as what it is: a kind with its values, formulas, or points, each over an interval and placed.
 #[derive(Deserialize, Serialize)]
 #[serde(expecting = "a reference, which is a JSON object")]
-pub(super) struct FileReference {
+pub(super) struct ProjectReference {
     #[serde(default)]
     name: Option<String>,
     #[serde(default, alias = "color", skip_serializing_if = "Option::is_none")]
-    colour: Option<HexColour>,
+    colour: Option<ByName<Colour>>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     visible: Option<bool>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -56,13 +57,13 @@ struct FileFormula {
     z: Option<String>,
 }
 
-impl FileReference {
+impl ProjectReference {
     /// Write a reference.
-    pub(super) fn of(reference: &Reference) -> Self {
+    pub(super) fn of<V>(reference: &Reference) -> Object<Self, V> {
         let curve = &reference.curve;
         let mut written = Self {
             name: Some(reference.name.clone()),
-            colour: reference.colour.map(HexColour),
+            colour: reference.colour.map(ByName),
             visible: (!reference.visible).then_some(false),
             locked: reference.locked.then_some(true),
             kind: None,
@@ -104,7 +105,7 @@ impl FileReference {
             written.scale = Some(placement.scale());
             written.translation = Some(Coordinates::of(placement.translation(), true));
         }
-        written
+        Object::new(written).with_extras(reference.extras.clone())
     }
 
     /// Check the reference with this number, counted from 1.
@@ -114,14 +115,13 @@ impl FileReference {
     pub(super) fn into_reference(self, number: usize) -> Result<Reference, ReadError> {
         let given = self.name.clone().filter(|name| !name.trim().is_empty());
         let name = given.unwrap_or_else(|| format!("reference {number}"));
-        let (colour, visible, locked) = (self.colour.clone(), self.visible, self.locked);
+        let (colour, visible, locked) = (self.colour, self.visible, self.locked);
         let curve = self.into_curve();
         let curve = curve.map_err(|problem| Place::reference(number, &name).problem(problem))?;
         Ok(Reference {
             colour: colour.map(|colour| colour.0),
             visible: visible.unwrap_or(true),
             locked: locked.unwrap_or(false),
-            extras: Extras::default(),
             ..Reference::new(name, curve)
         })
     }

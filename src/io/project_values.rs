@@ -1,14 +1,16 @@
-//! Values as project files of every version write them.
+//! Values in the JSON of a project file.
+
+use std::borrow::Cow;
 
 use glam::DVec3;
 use serde::de::{Error, Unexpected};
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::document::{Colour, quoted};
 use crate::geometry::expressions::LengthUnit;
-use crate::geometry::{MAX_DEGREE, PolygonKind};
+use crate::geometry::{Continuity, End, MAX_DEGREE, PolygonKind};
 
-/// A whole number; whether it is a possible degree the polygon checks.
+/// A degree as a whole number; the polygon checks whether it is possible.
 #[derive(Deserialize, Serialize)]
 #[serde(try_from = "f64")]
 pub(super) struct Degree(pub usize);
@@ -17,14 +19,12 @@ impl TryFrom<f64> for Degree {
     type Error = String;
 
     fn try_from(value: f64) -> Result<Self, String> {
-        if value >= 0.0 && value.fract() == 0.0 {
-            // The cast keeps what is too large at the largest number, which is refused too.
-            Ok(Self(value as usize))
-        } else {
-            Err(format!(
+        let needed = || {
+            format!(
                 "degree {value} is out of range: a whole number from 1 to {MAX_DEGREE} is needed"
-            ))
-        }
+            )
+        };
+        whole(value).map(Self).ok_or_else(needed)
     }
 }
 
@@ -37,88 +37,107 @@ impl TryFrom<f64> for Number {
     type Error = String;
 
     fn try_from(value: f64) -> Result<Self, String> {
-        if value >= 0.0 && value.fract() == 0.0 {
-            // The cast keeps what is too large at the largest number, which is refused too.
-            Ok(Self(value as usize))
-        } else {
-            Err(format!(
-                "{value} cannot be counted from 0: a whole number is needed"
-            ))
-        }
+        let needed = || format!("{value} cannot be counted from 0: a whole number is needed");
+        whole(value).map(Self).ok_or_else(needed)
     }
 }
 
-/// A polygon by its name.
-#[derive(Clone, Default, Deserialize, Serialize)]
-#[serde(try_from = "String", into = "&str")]
-pub(super) struct Kind(pub PolygonKind);
+/// A whole number from 0. What is too large becomes the largest number, which is refused later.
+fn whole(value: f64) -> Option<usize> {
+    (value >= 0.0 && value.fract() == 0.0).then_some(value as usize)
+}
 
-impl TryFrom<String> for Kind {
-    type Error = String;
+/// A value that a file gives by its name.
+#[derive(Clone, Copy, Default)]
+pub(super) struct ByName<T>(pub T);
 
-    fn try_from(name: String) -> Result<Self, String> {
-        let kind = PolygonKind::from_name(&name).map(Self);
-        kind.ok_or_else(|| {
-            let name = quoted(&name);
-            format!("{name} is not a polygon: float, clamped or bezier is needed")
-        })
+/// A type whose values have names in project files.
+pub(super) trait Named: Sized {
+    /// How a message goes on after a wrong name.
+    const NEEDED: &'static str;
+
+    fn of_name(name: &str) -> Option<Self>;
+
+    fn name(&self) -> Cow<'static, str>;
+}
+
+impl<T: Named> Serialize for ByName<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(&self.0.name())
     }
 }
 
-impl From<Kind> for &str {
-    fn from(kind: Kind) -> Self {
-        kind.0.name()
+impl<'de, T: Named> Deserialize<'de> for ByName<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        let value = T::of_name(&name).map(Self);
+        value.ok_or_else(|| D::Error::custom(format_args!("{} is {}", quoted(&name), T::NEEDED)))
     }
 }
 
-/// A unit of length by its symbol.
-#[derive(Clone, Deserialize, Serialize)]
-#[serde(try_from = "String", into = "&str")]
-pub(super) struct Unit(pub LengthUnit);
+impl Named for PolygonKind {
+    const NEEDED: &'static str = "not a polygon: float, clamped or bezier is needed";
 
-impl TryFrom<String> for Unit {
-    type Error = String;
+    fn of_name(name: &str) -> Option<Self> {
+        Self::from_name(name)
+    }
 
-    fn try_from(symbol: String) -> Result<Self, String> {
-        let unit = LengthUnit::of_symbol(&symbol).map(Self);
-        unit.ok_or_else(|| {
-            let symbol = quoted(&symbol);
-            format!("{symbol} is not a unit of length: mm, cm, m or in is needed")
-        })
+    fn name(&self) -> Cow<'static, str> {
+        Self::name(*self).into()
     }
 }
 
-impl From<Unit> for &str {
-    fn from(unit: Unit) -> Self {
-        unit.0.symbol()
+impl Named for LengthUnit {
+    const NEEDED: &'static str = "not a unit of length: mm, cm, m or in is needed";
+
+    fn of_name(name: &str) -> Option<Self> {
+        Self::of_symbol(name)
+    }
+
+    fn name(&self) -> Cow<'static, str> {
+        self.symbol().into()
     }
 }
 
-/// A colour such as #1f77b4.
-#[derive(Clone, Deserialize, Serialize)]
-#[serde(try_from = "String", into = "String")]
-pub(super) struct HexColour(pub Colour);
+impl Named for End {
+    const NEEDED: &'static str = "not an end: start or end is needed";
 
-impl TryFrom<String> for HexColour {
-    type Error = String;
+    fn of_name(name: &str) -> Option<Self> {
+        let mut ends = [Self::Start, Self::Finish].into_iter();
+        ends.find(|end| end.name() == name)
+    }
 
-    fn try_from(text: String) -> Result<Self, String> {
-        let digits = text.strip_prefix('#').filter(|digits| {
+    fn name(&self) -> Cow<'static, str> {
+        Self::name(*self).into()
+    }
+}
+
+impl Named for Continuity {
+    const NEEDED: &'static str = "not a continuity: G0, G1, G2 or G3 is needed";
+
+    fn of_name(name: &str) -> Option<Self> {
+        Self::from_name(name)
+    }
+
+    fn name(&self) -> Cow<'static, str> {
+        Self::name(*self).into()
+    }
+}
+
+impl Named for Colour {
+    const NEEDED: &'static str = "not a colour: one like #1f77b4 is needed";
+
+    fn of_name(name: &str) -> Option<Self> {
+        let digits = name.strip_prefix('#').filter(|digits| {
             digits.len() == 6 && digits.bytes().all(|digit| digit.is_ascii_hexdigit())
         });
-        let value = digits.and_then(|digits| u32::from_str_radix(digits, 16).ok());
-        let value = value.ok_or_else(|| {
-            let text = quoted(&text);
-            format!("{text} is not a colour: one like #1f77b4 is needed")
-        })?;
-        let [_, red, green, blue] = value.to_be_bytes();
-        Ok(Self(Colour([red, green, blue])))
+        let [_, red, green, blue] = u32::from_str_radix(digits?, 16).ok()?.to_be_bytes();
+        Some(Self([red, green, blue]))
     }
-}
 
-impl From<HexColour> for String {
-    fn from(HexColour(Colour([red, green, blue])): HexColour) -> Self {
-        format!("#{red:02x}{green:02x}{blue:02x}")
+    fn name(&self) -> Cow<'static, str> {
+        let Self([red, green, blue]) = self;
+        format!("#{red:02x}{green:02x}{blue:02x}").into()
     }
 }
 

@@ -215,6 +215,14 @@ impl fmt::Display for Remarks {
     }
 }
 
+impl Remark {
+    /// Name an unknown key.
+    pub(super) fn unknown_key(key: &str, owner: Owner) -> Self {
+        let key = key.to_owned();
+        Self::UnknownKey { key, owner }
+    }
+}
+
 impl fmt::Display for Remark {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let curve = |(number, name): &(usize, String)| format!("curve {number} {}", quoted(name));

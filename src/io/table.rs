@@ -28,16 +28,40 @@ use glam::DVec3;
 
 use super::decimals::Decimals;
 use super::error::{Place, Problem, ReadError, WriteError};
-use super::format::Format;
-use super::loss::{Export, Loss, LossReport};
+use super::format::{ExportRow, Format};
+use super::loss::{Loss, LossReport};
 use super::polygon::FilePolygon;
 use super::reading::{Reading, Remark, Remarks};
 use super::table_header::{CurveHeader, TableHeader, begins_table};
 use super::text::text;
-use crate::document::{Curve, Reference};
+use crate::document::{Curve, Document, Reference};
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::{PointList, ReferenceCurve, ReferenceError, ReferenceForm};
 use crate::geometry::{PolygonError, PolygonKind};
+
+/// The row of the table of formats.
+pub static TABLE: Format = Format {
+    name: "CSV table",
+    extensions: &["csv"],
+    read: Some(read),
+    write,
+    holds_documents: false,
+    exports: &[
+        export("Export float S-polygon as CSV…", PolygonKind::Float),
+        export("Export closed S-polygon as CSV…", PolygonKind::Clamped),
+        export("Export Bézier polygons as CSV…", PolygonKind::Bezier),
+    ],
+};
+
+const fn export(label: &'static str, polygon: PolygonKind) -> ExportRow {
+    ExportRow {
+        label,
+        help: "Export a table of vertices; its header tells degree and kind",
+        icon: "table",
+        key: None,
+        polygon: Some(polygon),
+    }
+}
 
 /// The columns that a table can have, in the order in which they are written.
 const COLUMNS: [&str; 4] = ["x", "y", "z", "weight"];
@@ -52,7 +76,7 @@ const WEIGHT: usize = 3;
 ///
 /// # Errors
 /// [`ReadError`] with the line, and with the curve and vertex where the numbers make no curve.
-pub fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
+fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
     let mut comments = Comments::default();
     let text = comments.blanked(text(bytes)?);
     let separator = separator(&text);
@@ -108,47 +132,42 @@ pub fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
     Ok(Reading { remarks, ..reading })
 }
 
-/// Write curves as tables of one of their polygons, and references that are points as tables of
-/// these, where they are placed, under a line that says the unit of length if there is one.
+/// Write curves as tables of one of their polygons (default: float), and references that are points
+/// as tables of these, where they are placed, under a line that says the unit of length if there is one.
 ///
 /// # Errors
 /// [`WriteError::NoCurves`]: an empty file could not be read again.
-pub fn write(
-    curves: &[&Curve],
-    references: &[&Reference],
-    unit: Option<LengthUnit>,
-    kind: PolygonKind,
-) -> Result<Export, WriteError> {
-    let mut lists = references.iter().filter_map(|reference| reference.points());
-    if curves.is_empty() && lists.next().is_none() {
-        let format = Format::Csv;
-        return Err(WriteError::NoCurves { format });
-    }
-    let mut losses = LossReport::new(Format::Csv);
+fn write(
+    document: &Document,
+    polygon: Option<PolygonKind>,
+    losses: &mut LossReport,
+) -> Result<Vec<u8>, WriteError> {
+    let unit = document.unit();
     let unit_line = unit.map(|unit| format!("{UNIT_LINE}{}\n", unit.symbol()));
     let mut bytes = unit_line.unwrap_or_default().into_bytes();
-    for curve in curves {
-        if !bytes.is_empty() {
-            bytes.push(b'\n');
-        }
-        let block = block_bytes(curve, kind, &mut losses);
-        bytes.extend(block.expect("a table of text can be written to memory"));
+    let mut blocks = Vec::new();
+    for (_, curve) in document.curves() {
+        blocks.push(block_bytes(curve, polygon.unwrap_or_default(), losses));
         losses.add_attributes(curve);
         losses.add_if(!curve.visible, curve, Loss::Hidden);
         losses.add_if(curve.locked, curve, Loss::Locked);
     }
-    for reference in references {
-        let Some(points) = reference.points() else {
-            losses.add_references([*reference]);
-            continue;
-        };
+    for (_, reference) in document.references() {
+        match reference.points() {
+            Some(points) => blocks.push(points_bytes(&reference.name, &points)),
+            None => losses.add_reference(reference),
+        }
+    }
+    if blocks.is_empty() {
+        return Err(WriteError::NoCurves { format: TABLE.name });
+    }
+    for block in blocks {
         if !bytes.is_empty() {
             bytes.push(b'\n');
         }
-        let block = points_bytes(&reference.name, &points);
         bytes.extend(block.expect("a table of text can be written to memory"));
     }
-    Ok(Export { bytes, losses })
+    Ok(bytes)
 }
 
 fn points_bytes(name: &str, points: &[DVec3]) -> csv::Result<Vec<u8>> {

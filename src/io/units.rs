@@ -1,6 +1,6 @@
 //! The unit of length through every format.
 
-use super::format::Format;
+use super::{DXF, Format, PROJECT, TABLE};
 use crate::document::{Curve, Document, Edit};
 use crate::geometry::FloatPolygon;
 use crate::geometry::expressions::LengthUnit;
@@ -16,15 +16,15 @@ fn units() -> impl Iterator<Item = Option<LengthUnit>> {
     [None].into_iter().chain(units)
 }
 
-fn written(format: Format, unit: Option<LengthUnit>) -> String {
-    let export = format.write_document(&document(unit), None);
+fn written(format: &Format, unit: Option<LengthUnit>) -> String {
+    let export = format.write(&document(unit), None);
     String::from_utf8(export.expect("a document").bytes).expect("text")
 }
 
 #[test]
 fn projects_and_tables_keep_it() {
     for unit in units() {
-        for format in [Format::Batten, Format::Csv] {
+        for format in [&PROJECT, &TABLE] {
             let text = written(format, unit);
             let reading = format.read(text.as_bytes()).expect("what was written");
             assert_eq!(reading.remarks.to_string(), "", "{text}");
@@ -37,21 +37,21 @@ fn projects_and_tables_keep_it() {
 
 #[test]
 fn a_document_without_one_is_written_as_ever() {
-    let project = written(Format::Batten, None);
+    let project = written(&PROJECT, None);
     assert!(project.contains("\"version\": 1") && !project.contains("unit"));
-    assert!(written(Format::Csv, None).starts_with("# degree=2"));
-    let project = written(Format::Batten, Some(LengthUnit::Inch));
+    assert!(written(&TABLE, None).starts_with("# degree=2"));
+    let project = written(&PROJECT, Some(LengthUnit::Inch));
     assert!(project.contains("\"version\": 2") && project.contains("\"unit\": \"in\""));
-    assert!(written(Format::Csv, Some(LengthUnit::Inch)).starts_with("# unit=in\n"));
+    assert!(written(&TABLE, Some(LengthUnit::Inch)).starts_with("# unit=in\n"));
 }
 
 #[test]
 fn old_projects_have_none_and_unknown_units_are_refused() {
     let text =
         |unit: &str| format!(r#"{{"format":"batten","version":2,{unit}"curves":[]}}"#).into_bytes();
-    let reading = Format::Batten.read(&text("")).expect("a project");
+    let reading = PROJECT.read(&text("")).expect("a project");
     assert_eq!(reading.unit, None);
-    let error = Format::Batten.read(&text(r#""unit":"ft","#));
+    let error = PROJECT.read(&text(r#""unit":"ft","#));
     assert_eq!(
         error.expect_err("no unit").to_string(),
         "line 1, column 42: “ft” is not a unit of length: mm, cm, m or in is needed"
@@ -66,7 +66,7 @@ fn a_table_that_went_through_a_spreadsheet_has_it_still() {
         ("# measured unit=cm", None),
     ] {
         let table = format!("{first}\n# degree=2;;\nx;y\n0;0,5\n1;0\n2;1\n");
-        let reading = Format::Csv.read(table.as_bytes()).expect("a table");
+        let reading = TABLE.read(table.as_bytes()).expect("a table");
         assert_eq!(reading.unit, unit, "{first}");
         let said = reading.remarks.to_string();
         assert_eq!(
@@ -86,7 +86,7 @@ fn drawings_say_it_and_claim_none_that_nobody_said() {
         (Some(LengthUnit::Centimetre), 5, 1),
         (Some(LengthUnit::Metre), 6, 1),
     ] {
-        let text = written(Format::Dxf, unit);
+        let text = written(&DXF, unit);
         let mut lines = text.lines().map(str::trim);
         lines.find(|line| *line == "$INSUNITS").expect("the unit");
         let header: Vec<&str> = lines.take(6).collect();

@@ -2,8 +2,9 @@
 //! buttons and the command palette all read it.
 
 use crate::editor::{Command, Editor, Key, Modifiers, Shortcut};
-use crate::geometry::{PolygonKind, rounded_up};
+use crate::geometry::rounded_up;
 use crate::io::examples::EXAMPLES;
+use crate::io::{Exporter, formats};
 use crate::operations::Deviation;
 use crate::ui::shell::Shell;
 
@@ -26,10 +27,8 @@ pub enum Action {
     SaveAs,
     /// Open the document's file again.
     Reload,
-    /// Write a drawing for CAD.
-    ExportDxf,
-    /// Write a table of polygon vertices.
-    ExportCsv(PolygonKind),
+    /// Write the visible curves in a format.
+    Export(Exporter),
     /// Leave.
     Quit,
     /// Copy the selected vertices and remove them.
@@ -78,9 +77,8 @@ impl Action {
             Self::Save,
             Self::SaveAs,
             Self::Reload,
-            Self::ExportDxf,
         ];
-        all.extend(PolygonKind::ALL.map(Self::ExportCsv));
+        all.extend(formats::exporters().map(Self::Export));
         all.extend((0..EXAMPLES.len()).map(Self::OpenExample));
         all.extend([Self::Quit, Self::Cut, Self::Copy, Self::Paste, Self::Rename]);
         all.extend(Command::all().into_iter().map(Self::Command));
@@ -110,10 +108,7 @@ impl Action {
             Self::Save => "Save",
             Self::SaveAs => "Save as…",
             Self::Reload => "Reload",
-            Self::ExportDxf => "Export DXF…",
-            Self::ExportCsv(PolygonKind::Float) => "Export float S-polygon as CSV…",
-            Self::ExportCsv(PolygonKind::Clamped) => "Export closed S-polygon as CSV…",
-            Self::ExportCsv(PolygonKind::Bezier) => "Export Bézier polygons as CSV…",
+            Self::Export(exporter) => exporter.row.label,
             Self::Quit => "Quit",
             Self::Cut => "Cut",
             Self::Copy => "Copy",
@@ -157,7 +152,10 @@ impl Action {
         let tooltip = match self {
             Self::Command(command) => return command.tooltip(),
             Self::New => "Create an empty document",
-            Self::Open => "Open a .batten project or a CSV table",
+            Self::Open => {
+                let names = formats::readable().map(|format| format.name);
+                return format!("Open a {}", names.collect::<Vec<_>>().join(" or "));
+            }
             Self::OpenExample(index) => EXAMPLES
                 .get(index)
                 .map_or("", |example| example.description),
@@ -165,10 +163,7 @@ impl Action {
             Self::Save => "Save the document to its file",
             Self::SaveAs => "Save the document to another file",
             Self::Reload => "Read the file again from disk; Undo brings your changes back",
-            Self::ExportDxf => {
-                "Export curves as clamped splines, and both S-polygons on their own layers"
-            }
-            Self::ExportCsv(_) => "Export a table of vertices; its header tells degree and kind",
+            Self::Export(exporter) => exporter.row.help,
             Self::Quit => "Quit Batten",
             Self::Cut => "Copy the selected vertices and delete them",
             Self::Copy => "Copy the active curve, or only its selected vertices",
@@ -199,7 +194,7 @@ impl Action {
             Self::Import => Shortcut::ctrl('i'),
             Self::Save => Shortcut::ctrl('s'),
             Self::SaveAs => Shortcut::ctrl_shift('s'),
-            Self::ExportDxf => Shortcut::ctrl('e'),
+            Self::Export(exporter) => return exporter.row.key.map(Shortcut::ctrl),
             Self::Quit => Shortcut::ctrl('q'),
             Self::Cut => Shortcut::ctrl('x'),
             Self::Copy => Shortcut::ctrl('c'),
@@ -214,7 +209,6 @@ impl Action {
             Self::Palette => Shortcut::ctrl('p'),
             Self::Keys => Shortcut::plain(Key::Function(1)),
             Self::OpenExample(_)
-            | Self::ExportCsv(_)
             | Self::Reload
             | Self::NormaliseLength
             | Self::NudgeStep
@@ -228,7 +222,7 @@ impl Action {
     pub fn is_enabled(self, editor: &Editor) -> bool {
         match self {
             Self::Command(command) => editor.is_enabled(command),
-            Self::ExportDxf | Self::ExportCsv(_) => !editor.document().is_empty(),
+            Self::Export(_) => !editor.document().is_empty(),
             Self::Reload => editor.workspace().path().is_some(),
             Self::Cut | Self::Copy | Self::Rename => editor.active().is_some(),
             _ => true,

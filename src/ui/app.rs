@@ -30,10 +30,10 @@ use super::theme::{self, Tokens};
 use super::tool_rail::{self, tool_rail_ui};
 use super::{canvas, overlays, unit_menu, widgets};
 use crate::editor::{
-    Command, Editor, Export, FileReply, Layer, MenuOf, MenuSubject, Refusal, Reply, ToolKind, told,
+    Command, Editor, FileReply, Layer, MenuOf, MenuSubject, Refusal, Reply, ToolKind, told,
 };
-use crate::geometry::PolygonKind;
-use crate::io::Format;
+
+use crate::io::{Exporter, formats};
 
 /// Under which name the settings are kept.
 const SETTINGS: &str = "window";
@@ -244,7 +244,7 @@ impl App {
         });
         match dropped.as_slice() {
             [] => {}
-            [one] if Format::to_read(one) == Ok(Format::Batten) => {
+            [one] if formats::to_read(one).is_ok_and(|format| format.holds_documents) => {
                 self.confirm(context, AfterDiscard::OpenFile(one.clone()));
             }
             several => told(self.editor.import(several)),
@@ -413,8 +413,7 @@ impl App {
             Action::Save => self.save_own(context, None),
             Action::SaveAs => self.ask_save(context, None),
             Action::Reload => told(self.editor.reload()),
-            Action::ExportDxf => self.ask_export(context, Format::Dxf, PolygonKind::Float),
-            Action::ExportCsv(polygon) => self.ask_export(context, Format::Csv, polygon),
+            Action::Export(exporter) => self.ask_export(context, exporter),
             Action::Cut => copy(context, self.editor.cut()),
             Action::Copy => copy(context, self.editor.copy()),
             Action::Rename => self.side.rename_active(context, &self.editor),
@@ -464,16 +463,15 @@ impl App {
         }
     }
 
-    fn ask_export(&mut self, context: &Context, format: Format, polygon: PolygonKind) {
-        let extension = format.extension();
+    fn ask_export(&mut self, context: &Context, exporter: Exporter) {
+        let extension = exporter.format.extension();
         let stem = self.editor.workspace().path().and_then(Path::file_stem);
         let name = stem.map(|stem| stem.to_string_lossy().into_owned());
         let active = || self.editor.document().name(self.editor.active()?);
         let name = name.or_else(|| active().map(str::to_owned));
         let name = name.unwrap_or_else(|| "curves".into());
         let proposal = self.folder().join(format!("{name}.{extension}"));
-        let export = Export { extension, polygon };
-        self.files.ask(context, Purpose::Export(export), proposal);
+        self.files.ask(context, Purpose::Export(exporter), proposal);
     }
 
     fn ask_save(&mut self, context: &Context, after: Option<AfterDiscard>) {
@@ -545,7 +543,7 @@ impl App {
             Purpose::Save(_) => editor.save(path),
             Purpose::Open => editor.open(&paths),
             Purpose::Import => editor.import(&paths),
-            Purpose::Export(export) => editor.export(path, &export),
+            Purpose::Export(exporter) => editor.export(path, exporter),
         });
         context.request_repaint();
     }

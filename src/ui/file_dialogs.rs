@@ -6,11 +6,13 @@ use std::time::{Duration, Instant};
 
 use eframe::egui::{Align2, Context, Id, Key, Label, Modal, RichText, TextEdit, Ui, vec2};
 
+use rfd::FileDialog;
+
 use super::theme::{ROW, STEP, Tokens};
 use super::widgets;
 use crate::document::quoted;
-use crate::editor::{Export, with_extension};
-use crate::io::{Format, shown_path};
+use crate::editor::with_extension;
+use crate::io::{Exporter, Format, PROJECT, formats, shown_path};
 use crate::paper::PaperPage;
 
 /// A dialog that answers "nothing" sooner than this was never shown.
@@ -45,7 +47,7 @@ pub enum Purpose {
     /// Save under it, then go on.
     Save(Option<AfterDiscard>),
     /// To export to.
-    Export(Export),
+    Export(Exporter),
 }
 
 /// The paths that the user chose.
@@ -291,8 +293,8 @@ impl Prompt {
 fn completed(purpose: &Purpose, path: &Path) -> PathBuf {
     let is_name = path.file_name().is_some() && !path.is_dir();
     match purpose {
-        Purpose::Save(_) if is_name => with_extension(path, Format::Batten.extension()),
-        Purpose::Export(export) if is_name => with_extension(path, export.extension),
+        Purpose::Save(_) if is_name => with_extension(path, PROJECT.extension()),
+        Purpose::Export(exporter) if is_name => with_extension(path, exporter.format.extension()),
         _ => path.to_owned(),
     }
 }
@@ -342,7 +344,9 @@ fn title(purpose: &Purpose) -> String {
         Purpose::Open => "Open a file".to_owned(),
         Purpose::Import => "Import curves from a file".to_owned(),
         Purpose::Save(_) => "Save the document".to_owned(),
-        Purpose::Export(export) => format!("Export as {}", export.extension.to_uppercase()),
+        Purpose::Export(exporter) => {
+            format!("Export as {}", exporter.format.extension().to_uppercase())
+        }
     }
 }
 
@@ -356,14 +360,19 @@ fn verb(purpose: &Purpose) -> &'static str {
 }
 
 fn native_dialog(purpose: &Purpose, proposal: &Path) -> Vec<PathBuf> {
-    let mut dialog = rfd::FileDialog::new().set_title(title(purpose));
+    let mut dialog = FileDialog::new().set_title(title(purpose));
     if let Some(folder) = proposal.parent().filter(|folder| folder.is_dir()) {
         dialog = dialog.set_directory(folder);
     }
     if let Some(name) = proposal.file_name() {
         dialog = dialog.set_file_name(name.to_string_lossy());
     }
-    let readable: Vec<&str> = Format::readable().map(Format::extension).collect();
+    let readable = formats::readable().flat_map(|format| format.extensions);
+    let readable: Vec<&str> = readable.copied().collect();
+    let save = |dialog: FileDialog, format: &Format| {
+        let dialog = dialog.add_filter(format.name, format.extensions);
+        dialog.save_file().into_iter().collect()
+    };
     match purpose {
         Purpose::Open => dialog
             .add_filter("Curves", &readable)
@@ -374,16 +383,8 @@ fn native_dialog(purpose: &Purpose, proposal: &Path) -> Vec<PathBuf> {
             .add_filter("Curves", &readable)
             .pick_files()
             .unwrap_or_default(),
-        Purpose::Save(_) => dialog
-            .add_filter(Format::Batten.name(), &[Format::Batten.extension()])
-            .save_file()
-            .into_iter()
-            .collect(),
-        Purpose::Export(export) => {
-            let name = export.extension.to_uppercase();
-            let dialog = dialog.add_filter(name, &[export.extension]);
-            dialog.save_file().into_iter().collect()
-        }
+        Purpose::Save(_) => save(dialog, &PROJECT),
+        Purpose::Export(exporter) => save(dialog, exporter.format),
     }
 }
 

@@ -11,9 +11,9 @@ use super::shell::Shell;
 use super::unit_menu::units_ui;
 use super::widgets;
 use crate::editor::{Command, Editor, Follow, Layer, NamedView, ToolKind};
-use crate::geometry::PolygonKind;
 use crate::geometry::references::KINDS;
 use crate::io::examples::EXAMPLES;
+use crate::io::formats;
 use crate::operations;
 
 /// One line of a menu.
@@ -119,9 +119,8 @@ fn menus() -> [(&'static str, Vec<Entry>); 6] {
         Item(Action::SaveAs),
         Item(Action::Reload),
         Divider,
-        Item(Action::ExportDxf),
     ];
-    file.extend(PolygonKind::ALL.map(|kind| Item(Action::ExportCsv(kind))));
+    file.extend(formats::exporters().map(|exporter| Item(Action::Export(exporter))));
     file.extend([Divider, Item(Action::Quit)]);
     let edit = vec![
         command(Command::Undo),

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use batten::document::{Curve, Document, Extras};
-use batten::editor::{Command, Editor, Export, Note};
+use batten::editor::{Command, Editor, Note};
 use batten::geometry::expressions::LengthUnit;
 use batten::geometry::{FloatPolygon, PolygonKind};
 use batten::io::disk;
@@ -12,6 +12,7 @@ use glam::DVec2;
 use tempfile::TempDir;
 
 use super::script::Script;
+use super::window::exporter;
 
 const PROJECT: &str = r#"{"format": "batten", "version": 1, "made by": {"b": 1.50, "a": [2]}, "curves": [
   {"name": "arc", "degree": 2, "vertices": [[0, 0], [10, 20], [30, 0], [40, 5]], "weigths": [1, 2e0]}]}"#;
@@ -174,13 +175,10 @@ fn a_name_with_a_point_gets_its_extension() {
         assert_eq!(script.message(), format!("Saved to {}", path.display()));
         fs::remove_file(&path).expect("what was saved");
     }
-    let export = Export {
-        extension: "csv",
-        polygon: PolygonKind::Float,
-    };
+    let export = exporter("csv", PolygonKind::Float);
     let exported = script
         .editor
-        .export(&folder.path().join("hull v1.2"), &export);
+        .export(&folder.path().join("hull v1.2"), export);
     assert!(exported.is_ok(), "{exported:?}");
     assert!(folder.path().join("hull v1.2.csv").is_file());
     let drawing = folder.path().join("hull.dxf");

@@ -3,7 +3,7 @@
 use batten::document::{Curve, Document, Reference};
 use batten::editor::Selection;
 use batten::geometry::FloatPolygon;
-use batten::io::{Format, MatchSource, Reading};
+use batten::io::{MatchSource, PROJECT, Reading};
 use glam::DVec3;
 
 use super::snapshot::{Bit, Bits, Snapshot};
@@ -158,9 +158,9 @@ fn check_kept(old: &Bits, new: &Bits, follows: bool) -> Result<(), String> {
 
 /// What is written is read back equal.
 pub fn check_written(document: &Document) -> Result<(), String> {
-    let written = Format::Batten.write_document(document, None);
+    let written = PROJECT.write(document, None);
     let written = written.map_err(|error| format!("cannot be written: {error}"))?;
-    check_read(document, Format::Batten.read(&written.bytes))
+    check_read(document, PROJECT.read(&written.bytes))
 }
 
 /// What was read is what the document holds.

@@ -1,13 +1,14 @@
 //! Ends that are matched to other curves, and follow them.
 
 use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace};
-use batten::editor::{Command, Editor, EndFitAction, Export, Key, Look, ToolKind, told};
+use batten::editor::{Command, Editor, EndFitAction, Key, Look, ToolKind, told};
 use batten::geometry::end_correction::{EndDifference, EndTarget};
 use batten::geometry::{Continuity, End, FloatPolygon, PolygonKind};
 use batten::operations::Value;
 use glam::{DVec2, DVec3};
 
 use super::script::Script;
+use super::window::exporter;
 
 /// What is left of a match that is met, in units of the curve's size.
 const MET: f64 = 1e-10;
@@ -481,9 +482,8 @@ fn an_export_names_the_matches_of_what_it_holds() {
     let folder = tempfile::tempdir().expect("a folder");
     for extension in ["csv", "dxf"] {
         let path = folder.path().join("matched").with_extension(extension);
-        let polygon = PolygonKind::Float;
-        let export = Export { extension, polygon };
-        told(script.editor.export(&path, &export));
+        let export = exporter(extension, PolygonKind::Float);
+        told(script.editor.export(&path, export));
         let message = script.message();
         let line = "the match of its start to “first” isn't stored";
         assert!(message.contains(line), "{message}");
@@ -493,9 +493,9 @@ fn an_export_names_the_matches_of_what_it_holds() {
         curve: ids[1],
         visible: false,
     }));
-    let (path, extension) = (folder.path().join("one.csv"), "csv");
-    let polygon = PolygonKind::Float;
-    told(script.editor.export(&path, &Export { extension, polygon }));
+    let path = folder.path().join("one.csv");
+    let export = exporter("csv", PolygonKind::Float);
+    told(script.editor.export(&path, export));
     assert!(
         !script.message().contains("the match of"),
         "{}",

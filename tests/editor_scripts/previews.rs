@@ -3,12 +3,13 @@
 use std::path::PathBuf;
 
 use batten::document::{Document, Edit};
-use batten::editor::{Command, Export, Key, NamedView, Note};
+use batten::editor::{Command, Key, NamedView, Note};
 use batten::geometry::PolygonKind;
 use batten::io::disk;
 use glam::{DVec2, DVec3};
 
 use super::script::Script;
+use super::window::exporter;
 
 /// How far the drags go, in screen points.
 const BY: DVec2 = DVec2::new(40.0, -25.0);
@@ -61,12 +62,9 @@ fn check_saved(script: &mut Script, before: &Document) {
     let preview = script.editor.workspace().preview();
     let (folder, path) = file("own.batten");
     script.editor.save(&path).expect("a file");
-    let export = Export {
-        extension: "csv",
-        polygon: PolygonKind::Float,
-    };
+    let export = exporter("csv", PolygonKind::Float);
     let table = folder.path().join("own.csv");
-    script.editor.export(&table, &export).expect("a table");
+    script.editor.export(&table, export).expect("a table");
     let expected: Vec<_> = before.curves().map(|(_, curve)| &curve.polygon).collect();
     for file in [path, table] {
         let read = disk::read_file(&file).expect("what was written").curves;

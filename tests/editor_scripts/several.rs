@@ -1,7 +1,7 @@
 //! Several curves at once: whose is what is hovered, copied, cut, exported and named.
 
 use batten::document::{Curve, CurveId, Edit};
-use batten::editor::{Command, Export, HoverScene, Key, Modifiers, ToolKind};
+use batten::editor::{Command, HoverScene, Key, Modifiers, ToolKind};
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::{End, FloatPolygon, PolygonKind};
 use batten::io::disk;
@@ -9,6 +9,7 @@ use batten::operations::{self, Inputs, Value};
 use glam::{DVec2, DVec3};
 
 use super::script::Script;
+use super::window::exporter;
 
 /// The paper's arc, which is active, and a longer curve below it.
 pub fn two() -> (Script, [CurveId; 2]) {
@@ -247,12 +248,9 @@ fn pasting_in_the_middle_of_a_drag_calls_the_drag_off() {
 fn exports_keep_to_their_format_and_tell_what_is_hidden() {
     let (mut script, [_, other]) = two();
     let folder = tempfile::tempdir().expect("a folder");
-    let export = Export {
-        extension: "dxf",
-        polygon: PolygonKind::Float,
-    };
+    let export = exporter("dxf", PolygonKind::Float);
     let project = folder.path().join("own.batten");
-    assert!(script.editor.export(&project, &export).is_err());
+    assert!(script.editor.export(&project, export).is_err());
     assert!(!project.exists() && script.message().contains("own.batten"));
     let hide = Edit::SetVisible {
         curve: other,
@@ -260,7 +258,7 @@ fn exports_keep_to_their_format_and_tell_what_is_hidden() {
     };
     script.editor.apply("hide", vec![hide]).expect("an edit");
     let drawing = folder.path().join("own.dxf");
-    assert!(script.editor.export(&drawing, &export).is_ok());
+    assert!(script.editor.export(&drawing, export).is_ok());
     assert!(drawing.exists());
     assert!(
         script.message().contains("1 hidden curve skipped"),

@@ -6,10 +6,11 @@ use std::path::Path;
 use batten::analysis::LevelPlot;
 use batten::document::{Colour, Curve, CurveId, Document, Edit};
 use batten::editor::{
-    CombSettings, Command, Editor, EndFitAction, EndFitMarks, Export, Input, Look,
-    OperationInProgress, PlotKind, Reply, Selection, Shortcut, Transformation, Viewport, told,
+    CombSettings, Command, Editor, EndFitAction, EndFitMarks, Input, Look, OperationInProgress,
+    PlotKind, Reply, Selection, Shortcut, Transformation, Viewport, told,
 };
 use batten::geometry::{FloatPolygon, PolygonKind};
+use batten::io::{Exporter, formats};
 use batten::operations::{Kind, Operation, Parameter, Value, Values, find};
 use glam::{DVec2, DVec3};
 
@@ -339,8 +340,7 @@ impl Window {
 
     /// Export the document.
     pub fn export(&mut self, path: &Path, extension: &'static str, polygon: PolygonKind) {
-        let export = Export { extension, polygon };
-        told(self.editor.export(path, &export));
+        told(self.editor.export(path, exporter(extension, polygon)));
     }
 
     /// Add the curves of a file.
@@ -543,4 +543,11 @@ pub fn every_command() -> Vec<Command> {
         _ => true,
     };
     Command::all().into_iter().filter(stands).collect()
+}
+
+/// The export to files with an extension, of a polygon where the format lets one choose.
+pub fn exporter(extension: &str, polygon: PolygonKind) -> Exporter {
+    let mut exporters = formats::exporters().filter(|it| it.format.extension() == extension);
+    let exporter = exporters.find(|it| it.row.polygon.is_none_or(|kind| kind == polygon));
+    exporter.expect("an export")
 }

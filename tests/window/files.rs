@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use batten::document::Extras;
+use batten::document::Document;
 use batten::editor::Editor;
 use batten::io::disk;
 use eframe::egui::{DroppedFile, Key, Modifiers, Pos2, Vec2};
@@ -195,7 +195,8 @@ fn a_dropped_table_is_added_and_a_dropped_project_asks_about_changes() {
     drop_file(&mut window, &table);
     assert_eq!(window.state().editor().document().len(), 2);
     let project = folder.path().join("line.batten");
-    disk::write_file(&project, &[curve(&window)], &Extras::default(), None).expect("the file");
+    let document = Document::from_curves([curve(&window)]);
+    disk::write_document(&project, &document, None).expect("the file");
     drop_file(&mut window, &project);
     click(&mut window, "Cancel");
     assert_eq!(window.state().editor().document().len(), 2);

@@ -14,7 +14,7 @@ use crate::editor::selection::Selection;
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::Placement;
 use crate::geometry::{FloatPolygon, PolygonKind, counted};
-use crate::io::{Export as Exported, Format, Reading, WriteError};
+use crate::io::{Export, PROJECT, Reading, TABLE, WriteError};
 
 /// How far copies are put from what they copy, in screen points, right and down.
 const OFFSET: f64 = 24.0;
@@ -136,12 +136,12 @@ impl Editor {
 
 /// Read a text from the clipboard: a project or a table.
 fn read(text: &str) -> Result<Reading, Refusal> {
-    let project = Format::Batten.read(text.as_bytes());
+    let project = PROJECT.read(text.as_bytes());
     let read = match &project {
         Ok(_) => project,
         // A text that begins like a project is read as one only.
         Err(_) if text.trim_start().starts_with('{') => project,
-        Err(_) => Format::Csv.read(text.as_bytes()),
+        Err(_) => TABLE.read(text.as_bytes()),
     };
     read.map_err(|error| {
         Refusal(format!(
@@ -170,7 +170,7 @@ fn text_of(selection: &Selection, document: &Document) -> Result<String, Refusal
             ..Reference::clone(reference)
         };
         let document = Document::default().with_references([copied]);
-        exported(Format::Batten.write_document(&document.with_unit(unit), None))
+        exported(PROJECT.write(&document.with_unit(unit), None))
     } else if selected.iter().all(is_whole) {
         let whole = selected.into_iter().map(|(_, curve)| curve);
         let mut copied: Vec<Curve> = whole.map(Arc::unwrap_or_clone).collect();
@@ -183,7 +183,7 @@ fn text_of(selection: &Selection, document: &Document) -> Result<String, Refusal
             curve.extras = Extras::default();
         }
         let document = Document::from_curves(copied).with_unit(unit);
-        exported(Format::Batten.write_document(&document, None))
+        exported(PROJECT.write(&document, None))
     } else {
         let tables = selected
             .iter()
@@ -231,11 +231,11 @@ fn selected_table(
     let part = part.map_err(|error| format!("{}: {error}", quoted(&curve.name)))?;
     let part = Curve::new(curve.name.clone(), part);
     let part = Document::from_curves([part]).with_unit(unit);
-    exported(Format::Csv.write_document(&part, Some(PolygonKind::Float)))
+    exported(TABLE.write(&part, Some(PolygonKind::Float)))
 }
 
 /// The text of an export, or why there is none.
-fn exported(export: Result<Exported, WriteError>) -> Result<String, String> {
+fn exported(export: Result<Export, WriteError>) -> Result<String, String> {
     let export = export.map_err(|error| error.to_string())?;
     Ok(String::from_utf8_lossy(&export.bytes).into_owned())
 }

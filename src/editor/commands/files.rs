@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use crate::document::{Curve, CurveId, Document, Edit, EndMatch, Reference};
+use crate::editor::Editor;
 use crate::editor::jobs::filing::{FileReply, FileResult, FileTask, FileWork};
 use crate::editor::reply::{Message, Note, Refusal, Reply};
-use crate::editor::{Editor, Export};
+use crate::io::Exporter;
 use crate::io::Reading;
 use crate::io::examples::EXAMPLES;
 
@@ -110,10 +111,10 @@ impl Editor {
     ///
     /// # Errors
     /// [`Refusal`] if they cannot be written.
-    pub fn export(&mut self, path: &Path, export: &Export) -> Reply {
+    pub fn export(&mut self, path: &Path, exporter: Exporter) -> Reply {
         self.start_file_task(FileTask::Export {
             path: path.to_owned(),
-            export: export.clone(),
+            exporter,
             document: self.workspace.settled().clone(),
         })
     }

@@ -7,11 +7,10 @@ use super::autosaving::Autosaver;
 use super::patience::Patience;
 use crate::document::{Curve, Document, Reference, quoted};
 use crate::editor::reply::{Refusal, Reply, with_lines};
-use crate::editor::report::Export;
 use crate::editor::workspace::Workspace;
 use crate::geometry::counted;
 use crate::geometry::expressions::LengthUnit;
-use crate::io::{Fingerprint, Format, disk, shown_path};
+use crate::io::{Exporter, Fingerprint, PROJECT, disk, formats, shown_path};
 
 /// Read and write files, and watch the document's own file.
 #[derive(Debug, Default)]
@@ -50,7 +49,7 @@ pub(in crate::editor) enum FileTask {
     /// Write what is visible of the document.
     Export {
         path: PathBuf,
-        export: Export,
+        exporter: Exporter,
         document: Document,
     },
 }
@@ -254,9 +253,9 @@ impl FileTask {
             } => save(&path, document, known, autosaver),
             Self::Export {
                 path,
-                export,
+                exporter,
                 document,
-            } => export_visible(&path, &export, &document),
+            } => export_visible(&path, exporter, &document),
         }
     }
 }
@@ -296,15 +295,13 @@ fn save(
     known: Option<Fingerprint>,
     autosaver: Option<&Autosaver>,
 ) -> Result<FileResult, Refusal> {
-    let path = with_extension(path, Format::Batten.extension());
+    let path = with_extension(path, PROJECT.extension());
     let shown = shown_path(&path);
-    match Format::to_write(&path).map_err(|error| format!("{shown}: {error}"))? {
-        Format::Batten => {}
-        other => {
-            return Err(Refusal(format!(
-                "{shown}: a {other} cannot store a whole document: save as .batten, or export"
-            )));
-        }
+    let format = formats::to_write(&path).map_err(|error| format!("{shown}: {error}"))?;
+    if !format.holds_documents {
+        return Err(Refusal(format!(
+            "{shown}: a {format} cannot store a whole document: save as .batten, or export"
+        )));
     }
     // A file that is not there, or cannot be read, holds nothing that could be lost.
     let found = known.and_then(|_| disk::fingerprint(&path));
@@ -323,19 +320,18 @@ fn save(
 
 fn export_visible(
     path: &Path,
-    export: &Export,
+    exporter: Exporter,
     document: &Document,
 ) -> Result<FileResult, Refusal> {
-    let path = with_extension(path, export.extension);
+    let extension = exporter.format.extension();
+    let path = with_extension(path, extension);
     let shown = shown_path(&path);
-    let format = Format::to_write(&path).map_err(|error| format!("{shown}: {error}"))?;
-    if format.extension() != export.extension {
+    let format = formats::to_write(&path).map_err(|error| format!("{shown}: {error}"))?;
+    if format != exporter.format {
         return Err(Refusal(format!(
-            "{shown}: that would be a {format}: give it the extension .{}",
-            export.extension
+            "{shown}: that would be a {format}: give it the extension .{extension}"
         )));
     }
-    let polygon = (export.extension == Format::Csv.extension()).then_some(export.polygon);
     let curves = document.curves().map(|(_, curve)| Curve::clone(curve));
     let (visible, hidden): (Vec<Curve>, Vec<Curve>) = curves.partition(|curve| curve.visible);
     let references = document.references().map(|(_, it)| Reference::clone(it));
@@ -357,7 +353,7 @@ fn export_visible(
         .with_references(references)
         .with_unit(document.unit())
         .with_extras(document.extras().clone());
-    let mut saved = disk::write_document(&path, &exported, polygon)?;
+    let mut saved = disk::write_document(&path, &exported, exporter.row.polygon)?;
     saved.losses.add_matches(document, |curve| curve.visible);
     Ok(FileResult::Exported {
         text: with_lines(text, &saved),
@@ -389,8 +385,8 @@ pub(in crate::editor) fn open_elsewhere(path: &Path, autosaver: Option<&Autosave
 
 /// The path that a document read from it is saved back to: only a project loses nothing there.
 fn own_path(path: &Path) -> Option<PathBuf> {
-    let is_project = Format::to_read(path).is_ok_and(|format| format == Format::Batten);
-    is_project.then(|| path.to_owned())
+    let format = formats::to_read(path).ok()?;
+    format.holds_documents.then(|| path.to_owned())
 }
 
 /// Give a path the extension if it has none that is a format's: what follows the point in
@@ -398,7 +394,7 @@ fn own_path(path: &Path) -> Option<PathBuf> {
 pub fn with_extension(path: &Path, extension: &str) -> PathBuf {
     let given = path.extension().map(|given| given.to_string_lossy());
     match (given.as_deref(), path.file_name()) {
-        (Some(given), _) if Format::find(given).is_some() => path.to_owned(),
+        (Some(given), _) if formats::find(given).is_some() => path.to_owned(),
         (Some(""), _) | (None, _) | (_, None) => path.with_extension(extension),
         (Some(_), Some(name)) => {
             let mut name = name.to_owned();

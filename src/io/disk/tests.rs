@@ -1,11 +1,17 @@
 //! What is on the disk before and after files are written.
 
 use super::*;
+use crate::document::Curve;
 use crate::geometry::FloatPolygon;
+use crate::io::TABLE;
 
 fn curve() -> Curve {
     let points = [(0.0, 0.1), (1.0, 2.0), (3.0, 1e-300), (4.0, 0.0)];
     Curve::new("arc", FloatPolygon::planar(3, &points).unwrap())
+}
+
+fn document() -> Document {
+    Document::from_curves([curve()])
 }
 
 fn names(folder: &Path) -> Vec<String> {
@@ -22,7 +28,7 @@ fn a_file_is_written_whole_and_read_back() {
     let folder = tempfile::tempdir().unwrap();
     for name in ["a.batten", "b.CSV"] {
         let path = folder.path().join(name);
-        let saved = write_file(&path, &[curve()], &Extras::default(), None).unwrap();
+        let saved = write_document(&path, &document(), None).unwrap();
         assert_eq!(saved.to_string(), "");
         assert_eq!(read_file(&path).unwrap().curves, [curve()]);
     }
@@ -42,15 +48,8 @@ fn what_cannot_be_read_or_written_is_named() {
         );
     };
     let read = |name: &str| read_file(&folder.path().join(name)).map(|_| ());
-    let write = |name: &str| {
-        write_file(
-            &folder.path().join(name),
-            &[curve()],
-            &Extras::default(),
-            None,
-        )
-        .map(|_| ())
-    };
+    let write =
+        |name: &str| write_document(&folder.path().join(name), &document(), None).map(|_| ());
     fs::create_dir(folder.path().join("folder.csv")).unwrap();
     fs::write(folder.path().join("bad.batten"), "{").unwrap();
     check(read("gone.batten"), "gone.batten", "cannot read the file: ");
@@ -64,13 +63,7 @@ fn what_cannot_be_read_or_written_is_named() {
     check(write("a"), "a", "the name has no extension");
     check(read("bad.batten"), "bad.batten", "line 1, column 1: EOF");
     check(write("no/a.csv"), "no/a.csv", "the folder ");
-    let none: [Curve; 0] = [];
-    let result = write_file(
-        &folder.path().join("a.dxf"),
-        &none,
-        &Extras::default(),
-        None,
-    );
+    let result = write_document(&folder.path().join("a.dxf"), &Document::default(), None);
     check(result.map(|_| ()), "a.dxf", "there is no curve to write");
     assert_eq!(names(folder.path()), ["bad.batten", "folder.csv"]);
 }
@@ -157,7 +150,7 @@ mod unix {
     fn other_names_of_a_file_are_told() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.batten");
-        let save = || write_file(&path, &[curve()], &Extras::default(), None).unwrap();
+        let save = || write_document(&path, &document(), None).unwrap();
         assert_eq!(save().to_string(), "");
         for other in ["b", "c"] {
             fs::hard_link(&path, folder.path().join(other)).unwrap();
@@ -278,7 +271,7 @@ fn saves_at_the_same_time_do_not_disturb_each_other() {
 #[test]
 fn a_stream_is_read_under_its_name() {
     let stream = &b"# degree=1\nx,y\n0,0\n1,two\n"[..];
-    let error = read_stream(stream, "standard input", Format::Csv).unwrap_err();
+    let error = read_stream(stream, "standard input", &TABLE).unwrap_err();
     assert_eq!(
         error.to_string(),
         "standard input: line 4: “two” in column y is not a number"

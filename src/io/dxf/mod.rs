@@ -7,13 +7,12 @@
 
 use glam::DVec3;
 
-use crate::document::Curve;
-use crate::geometry::expressions::LengthUnit;
+use crate::document::{Curve, Document};
 use crate::geometry::{ClampedPolygon, PolygonKind};
 use crate::io::error::WriteError;
-use crate::io::format::Format;
+use crate::io::format::{ExportRow, Format};
 use crate::io::layer_names::LayerNames;
-use crate::io::loss::{Export, Loss, LossReport};
+use crate::io::loss::{Loss, LossReport};
 use crate::io::polygon::FilePolygon;
 
 mod frame;
@@ -22,37 +21,52 @@ mod writer;
 use frame::Layer;
 use writer::Writer;
 
+/// The row of the table of formats.
+pub static DXF: Format = Format {
+    name: "DXF",
+    extensions: &["dxf"],
+    read: None,
+    write,
+    holds_documents: false,
+    exports: &[ExportRow {
+        label: "Export DXF…",
+        help: "Export curves as clamped splines, and both S-polygons on their own layers",
+        icon: "share",
+        key: Some('e'),
+        polygon: None,
+    }],
+};
+
 /// The most knots that a SPLINE can count: the group that holds their number has 16 bits.
 const MOST_KNOTS: usize = i16::MAX as usize;
 
 /// The polygons that are drawn beside the curve unless one is chosen.
 const DRAWN: [PolygonKind; 2] = [PolygonKind::Float, PolygonKind::Clamped];
 
-/// Write curves as a drawing in a unit of length, or in none. `polygon` chooses the one polygon that is drawn beside each
-/// curve; without it these are the float and the clamped one.
+/// Write curves as a drawing in the unit of the document. `polygon` chooses the one polygon that is
+/// drawn beside each curve; without it these are the float and the clamped one.
 ///
 /// A periodic curve is opened at u = 0; its last vertex is exactly its first one. A hidden curve
 /// is on layers that are off, a locked one on layers that are locked.
 ///
 /// # Errors
 /// [`WriteError`] if there are no curves, or one has more vertices than the format can count.
-pub fn write(
-    curves: &[&Curve],
-    unit: Option<LengthUnit>,
+fn write(
+    document: &Document,
     polygon: Option<PolygonKind>,
-) -> Result<Export, WriteError> {
-    let format = Format::Dxf;
-    if curves.is_empty() {
+    losses: &mut LossReport,
+) -> Result<Vec<u8>, WriteError> {
+    let format = DXF.name;
+    if document.curves().len() == 0 {
         return Err(WriteError::NoCurves { format });
     }
     let chosen = polygon.map(|kind| [kind]);
     let kinds: &[PolygonKind] = chosen.as_ref().map_or(&DRAWN, |kind| kind);
-    let mut losses = LossReport::new(format);
     let mut names = LayerNames::new();
     let mut layers = Vec::new();
     let mut entities = Writer::new();
     let mut reach = Reach::default();
-    for curve in curves {
+    for (_, curve) in document.curves() {
         let degree = curve.polygon.degree();
         // A periodic curve is written with its first vertices repeated.
         let repeated = if curve.polygon.is_periodic() {
@@ -71,7 +85,7 @@ pub fn write(
             });
         }
         let base = names.take(&curve.name, &PolygonKind::ALL.map(suffix));
-        report(curve, &base, kinds, &mut losses);
+        report(curve, &base, kinds, losses);
         layers.push(Layer::of(curve, base.clone(), None));
         spline(&mut entities, curve, &base, &mut reach);
         for &kind in kinds {
@@ -80,11 +94,12 @@ pub fn write(
             polyline(&mut entities, curve, kind, &layer, &mut reach);
         }
     }
-    let text = frame::drawing(&layers, entities, unit, (reach.low, reach.high));
-    Ok(Export {
-        bytes: text.into_bytes(),
-        losses,
-    })
+    for (_, reference) in document.references() {
+        losses.add_reference(reference);
+    }
+    let reach = (reach.low, reach.high);
+    let text = frame::drawing(&layers, entities, document.unit(), reach);
+    Ok(text.into_bytes())
 }
 
 /// The box around everything drawn.

@@ -9,6 +9,7 @@ use super::*;
 use crate::document::Colour;
 use crate::geometry::FloatPolygon;
 use crate::geometry::end_correction::EndTarget;
+use crate::io::loss::Export;
 
 type Group = (i32, String);
 
@@ -50,9 +51,14 @@ fn periodic() -> Curve {
     Curve::new("round", polygon)
 }
 
+fn written(curves: &[&Curve], polygon: Option<PolygonKind>) -> Result<Export, WriteError> {
+    let curves = curves.iter().map(|curve| Curve::clone(curve));
+    DXF.write(&Document::from_curves(curves), polygon)
+}
+
 /// Write a drawing and split it into its groups.
 fn groups(curves: &[&Curve], polygon: Option<PolygonKind>) -> Vec<Group> {
-    let text = String::from_utf8(write(curves, None, polygon).unwrap().bytes).unwrap();
+    let text = String::from_utf8(written(curves, polygon).unwrap().bytes).unwrap();
     assert!(text.is_ascii());
     let lines: Vec<&str> = text.lines().collect();
     let pairs = lines.chunks(2);
@@ -212,9 +218,7 @@ fn hidden_and_locked_curves_are_on_such_layers() {
 #[test]
 fn losses_are_reported() {
     let check = |curve: &Curve, expected: &[Loss]| {
-        let losses = write(&[curve], None, Some(PolygonKind::Float))
-            .unwrap()
-            .losses;
+        let losses = written(&[curve], Some(PolygonKind::Float)).unwrap().losses;
         let found: Vec<Loss> = losses.losses.into_iter().map(|(_, loss)| loss).collect();
         assert_eq!(found, expected);
     };
@@ -242,7 +246,7 @@ fn what_cannot_be_counted_is_refused() {
         let vertices: Vec<[f64; 3]> = (0..count).map(|i| [i as f64, 0.0, 0.0]).collect();
         curve("long", 3, &vertices, None)
     };
-    let error = write(&[&long(32_764)], None, None).unwrap_err();
+    let error = written(&[&long(32_764)], None).unwrap_err();
     assert_eq!(
         error.to_string(),
         "“long” has 32764 vertices, and a DXF file can hold 32763 a curve: split the curve"
@@ -253,7 +257,7 @@ fn what_cannot_be_counted_is_refused() {
         .map(|spline| values(spline, 72));
     assert_eq!(knots, Some(vec!["32767"]), "the largest number of 16 bits");
     assert!(matches!(
-        write(&[], None, None),
+        written(&[], None),
         Err(WriteError::NoCurves { .. })
     ));
 }

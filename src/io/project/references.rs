@@ -1,11 +1,12 @@
 //! References in project files: what is kept of them, and what is refused.
 
 use super::*;
-use crate::document::{Colour, CurveId, Document, Edit, EndMatch, MatchPlace};
+use crate::document::{Colour, Curve, CurveId, Edit, EndMatch, MatchPlace, Reference};
 use crate::geometry::references::{
     AnalyticForm, KINDS, Placement, PointList, ReferenceCurve, ReferenceForm,
 };
 use crate::geometry::{Continuity, End, FloatPolygon};
+use crate::io::{DXF, TABLE};
 use glam::{DQuat, DVec3};
 
 /// A project with one reference.
@@ -17,7 +18,7 @@ fn with_reference(reference: &str) -> String {
 }
 
 fn back(document: &Document) -> Document {
-    let export = Format::Batten.write_document(document, None).unwrap();
+    let export = PROJECT.write(document, None).unwrap();
     assert!(export.losses.is_empty());
     read(&export.bytes).unwrap().into_document().unwrap()
 }
@@ -65,7 +66,7 @@ fn the_layout_of_references_is_as_described() {
     let placement = Placement::new(DQuat::IDENTITY, 2.0, DVec3::X).unwrap();
     let circle = Reference::new("round", curve.placed(placement));
     let document = Document::default().with_references([circle]);
-    let export = Format::Batten.write_document(&document, None).unwrap();
+    let export = PROJECT.write(&document, None).unwrap();
     let text = String::from_utf8(export.bytes).unwrap();
     let text: String = text.split_whitespace().collect();
     assert_eq!(
@@ -122,10 +123,7 @@ fn unknown_keys_of_references_are_told_and_kept() {
     );
     let document = reading.into_document().unwrap();
     assert!(document.has_extras());
-    let bytes = Format::Batten
-        .write_document(&document, None)
-        .unwrap()
-        .bytes;
+    let bytes = PROJECT.write(&document, None).unwrap().bytes;
     assert!(
         String::from_utf8(bytes)
             .unwrap()
@@ -212,8 +210,8 @@ fn other_formats_tell_that_references_are_not_exported() {
     let polygon = FloatPolygon::planar(1, &[(0.0, 0.0), (1.0, 1.0)]).unwrap();
     let document = Document::from_curves([Curve::new("line", polygon)])
         .with_references([Reference::new("round", circle)]);
-    for (format, name) in [(Format::Csv, "CSV table"), (Format::Dxf, "DXF")] {
-        let export = format.write_document(&document, None).unwrap();
+    for (format, name) in [(&TABLE, "CSV table"), (&DXF, "DXF")] {
+        let export = format.write(&document, None).unwrap();
         let told = export.losses.to_string();
         let expected = format!("“round”: references aren't stored in the {name}");
         assert!(told.contains(&expected), "{told}");
@@ -235,7 +233,7 @@ fn the_numbers_of_curves_and_references_come_back() {
     let list = ReferenceCurve::of(ReferenceForm::Points(list)).unwrap();
     document = document.with_references([Reference::new("d", list)]);
     let text = |document: &Document| {
-        let export = Format::Batten.write_document(document, None).unwrap();
+        let export = PROJECT.write(document, None).unwrap();
         String::from_utf8(export.bytes).unwrap()
     };
     assert!(!text(&document).contains("numbers"), "they count from 0");

@@ -4,10 +4,10 @@ use glam::DVec3;
 use proptest::prelude::*;
 
 use super::*;
-use crate::document::{Colour, EndTargets, MatchPlace};
+use crate::document::{Colour, Curve, EndTargets, Extras, MatchPlace};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{Continuity, End, FloatPolygon, MAX_MAGNITUDE};
-use crate::io::MatchSource;
+use crate::io::{FileMatch, MatchSource, TABLE};
 
 #[path = "../../../tests/common/repeatable.rs"]
 mod repeatable;
@@ -22,17 +22,9 @@ fn curves_of(text: &str) -> Vec<Curve> {
 }
 
 fn text_of(curves: &[&Curve]) -> String {
-    String::from_utf8(
-        write(
-            curves,
-            &[],
-            &[],
-            (None, &[], &Extras::default()),
-            PolygonKind::Float,
-        )
-        .bytes,
-    )
-    .unwrap()
+    let curves = curves.iter().map(|curve| Curve::clone(curve));
+    let written = PROJECT.write(&Document::from_curves(curves), None);
+    String::from_utf8(written.unwrap().bytes).unwrap()
 }
 
 #[test]
@@ -517,8 +509,9 @@ proptest! {
     #[test]
     fn every_polygon_survives_a_table_bit_for_bit(mut curve in any_curve()) {
         curve.name = curve.name.trim().to_owned();
-        let bytes = super::super::table::write(&[&curve], &[], None, PolygonKind::Float).expect("one curve").bytes;
-        let back = super::super::table::read(&bytes).expect("what is written is read").curves;
+        let document = Document::from_curves([curve.clone()]);
+        let bytes = TABLE.write(&document, None).expect("one curve").bytes;
+        let back = TABLE.read(&bytes).expect("what is written is read").curves;
         prop_assert_eq!(bits(&back[0]), bits(&curve));
         prop_assert_eq!((&back[0].name, &back[0].polygon), (&curve.name, &curve.polygon));
     }
@@ -541,7 +534,7 @@ proptest! {
         let [text, table] = texts;
         for input in [bytes, text, table] {
             // Whatever it is, the message can be shown.
-            for format in [Format::Batten, Format::Csv] {
+            for format in [&PROJECT, &TABLE] {
                 if let Err(error) = format.read(&input) {
                     prop_assert!(!error.to_string().is_empty());
                 }
@@ -626,10 +619,7 @@ fn matches_are_read_and_written() {
                 "the key “more” of the matches is not known, has no effect and is not kept"
             );
             let document = reading.clone().into_document().unwrap();
-            let bytes = Format::Batten
-                .write_document(&document, None)
-                .unwrap()
-                .bytes;
+            let bytes = PROJECT.write(&document, None).unwrap().bytes;
             let back = read(&bytes).unwrap();
             assert_eq!(
                 (back.curves, back.matches),

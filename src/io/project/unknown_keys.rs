@@ -1,6 +1,7 @@
 //! Keys that are not known: what is told of them, and that they are kept.
 
 use super::*;
+use crate::io::{DXF, TABLE};
 
 /// A project with keys that are not known, of all kinds, as another program lays it out.
 const WITH_EXTRAS: &str = r#"{"autor": "Ä \u00df", "format": "batten", "id": 123456789012345678901234567890,
@@ -40,14 +41,8 @@ fn many_unknown_keys_do_not_fill_the_screen() {
 #[test]
 fn unknown_keys_are_written_again_to_the_letter() {
     let reading = read(WITH_EXTRAS.as_bytes()).unwrap();
-    let curves: Vec<&Curve> = reading.curves.iter().collect();
-    let written = write(
-        &curves,
-        &[],
-        &[],
-        (None, &[], &reading.extras),
-        PolygonKind::Float,
-    );
+    let document = reading.clone().into_document().unwrap();
+    let written = PROJECT.write(&document, None).unwrap();
     assert!(written.losses.is_empty(), "{}", written.losses);
     let text = String::from_utf8(written.bytes).unwrap();
     for part in [
@@ -60,8 +55,8 @@ fn unknown_keys_are_written_again_to_the_letter() {
         assert!(text.contains(part), "{part} in {text}");
     }
     assert_eq!(read(text.as_bytes()).unwrap(), reading);
-    for (format, expected) in [(Format::Csv, "CSV table"), (Format::Dxf, "DXF")] {
-        let written = format.write(&reading.curves, &reading.extras, None);
+    for (format, expected) in [(&TABLE, "CSV table"), (&DXF, "DXF")] {
+        let written = format.write(&document, None);
         let losses = written.unwrap().losses.to_string();
         let expected = format!(
             "“arc”: unknown keys aren't stored in the {expected}\n\

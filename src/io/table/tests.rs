@@ -4,6 +4,7 @@ use super::*;
 use crate::document::Colour;
 use crate::geometry::FloatPolygon;
 use crate::geometry::references::Placement;
+use crate::io::loss::Export;
 
 fn curve(name: &str, vertices: &[[f64; 3]], weights: Option<Vec<f64>>, periodic: bool) -> Curve {
     let vertices = vertices.iter().map(|vertex| DVec3::from_array(*vertex));
@@ -35,12 +36,14 @@ fn rational() -> Curve {
     curve("weighted", &vertices, Some(vec![1.0, 0.1, 1e-100]), false)
 }
 
+fn written(curves: &[Curve], polygon: PolygonKind) -> Result<Export, WriteError> {
+    TABLE.write(&Document::from_curves(curves.to_vec()), Some(polygon))
+}
+
 #[test]
 fn the_layout_is_as_described() {
     let check = |curve: Curve, expected: &str| {
-        let bytes = write(&[&curve], &[], None, PolygonKind::Float)
-            .unwrap()
-            .bytes;
+        let bytes = written(&[curve], PolygonKind::Float).unwrap().bytes;
         assert_eq!(String::from_utf8(bytes).unwrap(), expected);
     };
     check(
@@ -60,7 +63,7 @@ fn the_layout_is_as_described() {
 #[test]
 fn tables_come_back_exactly() {
     let curves = [planar(), spatial(), rational()];
-    let export = write(&curves.each_ref(), &[], None, PolygonKind::Float).unwrap();
+    let export = written(&curves, PolygonKind::Float).unwrap();
     assert!(export.losses.is_empty(), "{}", export.losses);
     assert_eq!(read(&export.bytes).unwrap().curves, curves);
 }
@@ -73,9 +76,7 @@ fn what_a_table_does_not_hold_is_reported() {
     changed.visible = false;
     changed.locked = true;
     changed.targets.start = Some(crate::geometry::end_correction::EndTarget::default());
-    let losses = write(&[&changed], &[], None, PolygonKind::Bezier)
-        .unwrap()
-        .losses;
+    let losses = written(&[changed], PolygonKind::Bezier).unwrap().losses;
     let losses: Vec<Loss> = losses.losses.into_iter().map(|(_, loss)| loss).collect();
     let expected = [
         Loss::Periodic,
@@ -86,7 +87,7 @@ fn what_a_table_does_not_hold_is_reported() {
     ];
     assert_eq!(losses, expected);
     assert!(matches!(
-        write(&[], &[], None, PolygonKind::Float),
+        written(&[], PolygonKind::Float),
         Err(WriteError::NoCurves { .. })
     ));
 }
@@ -257,7 +258,7 @@ fn every_name_survives_every_separator() {
         None,
         false,
     );
-    let bytes = write(&[&named], &[], None, PolygonKind::Float)
+    let bytes = written(std::slice::from_ref(&named), PolygonKind::Float)
         .unwrap()
         .bytes;
     let text = String::from_utf8(bytes).unwrap();
@@ -365,8 +366,8 @@ fn curves_and_points_stand_in_one_file() {
     let scan = Reference::new("scan", placed.placed(turned));
     let circle = ReferenceCurve::from_text("circle:radius=2").unwrap();
     let circle = Reference::new("round", circle);
-    let references = [&scan, &circle];
-    let export = write(&[&planar()], &references, None, PolygonKind::Float).unwrap();
+    let document = Document::from_curves([planar()]).with_references([scan, circle.clone()]);
+    let export = TABLE.write(&document, None).unwrap();
     assert_eq!(
         export.losses.to_string(),
         "“round”: references aren't stored in the CSV table"
@@ -382,6 +383,6 @@ fn curves_and_points_stand_in_one_file() {
     let expected = list.points().iter().map(|point| turned.point(*point));
     assert_eq!(points.points(), expected.collect::<Vec<_>>());
     assert_eq!(read.name, "scan");
-    let alone = write(&[], &[&circle], None, PolygonKind::Float);
+    let alone = TABLE.write(&Document::default().with_references([circle]), None);
     assert!(matches!(alone, Err(WriteError::NoCurves { .. })));
 }

@@ -7,7 +7,7 @@ use std::rc::Rc;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, bail, ensure};
-use batten::document::{Document, Extras};
+use batten::document::Document;
 use batten::io::{Sessions, disk};
 use batten_desktop_tests::arc::arc;
 use batten_desktop_tests::{Display, Start, Window};
@@ -71,7 +71,7 @@ impl Work {
         let home = Rc::new(tempfile::tempdir()?);
         let file = home.path().join("work.batten");
         let curve = batten::document::Curve::new("arc".to_owned(), arc());
-        disk::write_file(&file, &[curve], &Extras::default(), None)?;
+        disk::write_document(&file, &Document::from_curves([curve]), None)?;
         let mut work = Self {
             home,
             file,

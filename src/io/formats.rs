@@ -1,0 +1,116 @@
+//! The table of formats, and how a file's name tells its format.
+
+use std::path::Path;
+
+use super::dxf::DXF;
+use super::error::FormatError;
+use super::format::{Exporter, Format};
+use super::project::PROJECT;
+use super::table::TABLE;
+
+/// Every format, in the order of dialogs and menus.
+pub static FORMATS: [&Format; 3] = [&PROJECT, &TABLE, &DXF];
+
+/// List the formats that can be read.
+pub fn readable() -> impl Iterator<Item = &'static Format> {
+    FORMATS.into_iter().filter(|format| format.can_read())
+}
+
+/// List the exports of all formats.
+pub fn exporters() -> impl Iterator<Item = Exporter> {
+    let rows = |format: &'static Format| format.exports.iter().map(move |row| (format, row));
+    let rows = FORMATS.into_iter().flat_map(rows);
+    rows.map(|(format, row)| Exporter { format, row })
+}
+
+/// Find a format by an extension in upper or lower case.
+pub fn find(extension: &str) -> Option<&'static Format> {
+    FORMATS.into_iter().find(|format| {
+        let mut extensions = format.extensions.iter();
+        extensions.any(|known| known.eq_ignore_ascii_case(extension))
+    })
+}
+
+/// Tell the format of a file to read by its extension, in upper or lower case.
+///
+/// # Errors
+/// [`FormatError`] if there is no extension, it is unknown, or its format is only written.
+pub fn to_read(path: &Path) -> Result<&'static Format, FormatError> {
+    let known = || extensions(readable());
+    let format = by_extension(path, known)?;
+    match format.can_read() {
+        true => Ok(format),
+        false => Err(FormatError::NotReadable {
+            format: format.name,
+            known: known(),
+        }),
+    }
+}
+
+/// Tell the format of a file to write by its extension, in upper or lower case.
+///
+/// # Errors
+/// [`FormatError`] if there is no extension, or it is unknown.
+pub fn to_write(path: &Path) -> Result<&'static Format, FormatError> {
+    by_extension(path, || extensions(FORMATS.into_iter()))
+}
+
+fn by_extension(path: &Path, known: impl Fn() -> String) -> Result<&'static Format, FormatError> {
+    let Some(extension) = path.extension() else {
+        return Err(FormatError::NoExtension { known: known() });
+    };
+    let format = extension.to_str().and_then(find);
+    format.ok_or_else(|| FormatError::UnknownExtension {
+        extension: extension.to_string_lossy().into_owned(),
+        known: known(),
+    })
+}
+
+fn extensions(formats: impl Iterator<Item = &'static Format>) -> String {
+    let extensions = formats.flat_map(|format| format.extensions);
+    let list: Vec<String> = extensions.map(|it| format!(".{it}")).collect();
+    list.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_extension_tells_the_format_in_either_case() {
+        for format in FORMATS {
+            for extension in [
+                format.extension().to_owned(),
+                format.extension().to_uppercase(),
+            ] {
+                let path = Path::new("folder.csv/some.name").with_extension(extension);
+                assert_eq!(to_write(&path), Ok(format));
+                assert_eq!(to_read(&path).is_ok(), format.can_read());
+            }
+        }
+    }
+
+    #[test]
+    fn an_unknown_extension_lists_the_known_ones() {
+        let check = |path: &str, expected: &str| {
+            let error = to_read(Path::new(path)).unwrap_err();
+            assert_eq!(error.to_string(), expected);
+        };
+        check(
+            "a.txt",
+            "“.txt” is not a format Batten knows: use one of .batten, .csv",
+        );
+        check(
+            "folder.csv/arc",
+            "the name has no extension that tells its format: add one of .batten, .csv",
+        );
+        check(
+            "a.dxf",
+            "DXF files can be written but not read: the formats that can be read are .batten, .csv",
+        );
+        assert_eq!(
+            to_write(Path::new("a.docx")).unwrap_err().to_string(),
+            "“.docx” is not a format Batten knows: use one of .batten, .csv, .dxf",
+        );
+    }
+}
