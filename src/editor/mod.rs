@@ -15,8 +15,6 @@ mod workspace;
 
 use std::time::Duration;
 
-use glam::DVec2;
-
 pub use commands::{Command, ReferenceChange, Shortcut};
 pub use dispatch::MenuOf;
 pub use hand::{
@@ -24,8 +22,8 @@ pub use hand::{
     Hand, Input, Key, Leg, LegLocks, MatchReport, MenuRequest, MenuSubject, Modifiers, ToolKind,
     ToolRow, Transformation,
 };
-pub use jobs::filing::FileReply;
-pub use jobs::{Autosaver, FileWork, Recoverable, RecoverableDocument, with_extension};
+pub use jobs::filing::{FileReply, Filing};
+pub use jobs::{Autosaver, FileWork, Recoverable, RecoverableDocument, Recovery, with_extension};
 pub use operating::{Operating, OperationInProgress, Run};
 pub use reply::{Message, Note, Refusal, Reply, told};
 pub use report::{CurveReport, Readout, ReferenceReport};
@@ -44,10 +42,6 @@ use crate::document::{CurveId, Document, Edit, quoted};
 use crate::io::examples::{EXAMPLES, FIRST};
 use hand::gesture::Gesture;
 use hand::snap_name::snap_name;
-use hand::tools::Tools;
-use jobs::autosaving::Autosaving;
-use jobs::filing::{Filing, UnitQuestion};
-
 use jobs::foreseeing::Foreseeing;
 use jobs::patience::Patience;
 use operating::Operations;
@@ -62,12 +56,8 @@ pub struct Editor {
     operations: Operations,
     patience: Patience,
     foreseeing: Foreseeing,
-    autosaving: Autosaving,
-    recoverable: Vec<Recoverable>,
+    recovery: Recovery,
     filing: Filing,
-    /// The reply to the last request for files, until the window takes it.
-    file_reply: Option<FileReply>,
-    unit_question: Option<UnitQuestion>,
     message: Option<Message>,
 }
 
@@ -99,7 +89,7 @@ impl Editor {
         self.patience = Patience::new(patience);
         self.view.run_in_background(wake.clone());
         self.foreseeing = Foreseeing::background(wake.clone());
-        self.autosaving.run_in_background(wake.clone());
+        self.recovery.autosaving.run_in_background(wake.clone());
         self.filing = Filing::background(wake.clone());
         self.operations = Operations::background(wake);
     }
@@ -331,7 +321,7 @@ impl Editor {
         let held_back = self.hand.keeping.held_back();
         if let Some(reason) = held_back.filter(|_| self.hand.keeps_features()) {
             let held = format!("Held at the last place proved to add nothing; {reason}");
-            self.tell_of_update(Some(Refusal(held)));
+            Message::tell_update(&mut self.message, Some(Refusal(held)));
         }
     }
 
@@ -347,7 +337,7 @@ impl Editor {
     pub fn abort_preview(&mut self) {
         if self.workspace.interruption() == Some(Interruption::Commits) {
             self.workspace.abort();
-            self.tell_of_update(None);
+            Message::tell_update(&mut self.message, None);
             self.document_changed();
         }
     }
@@ -355,13 +345,8 @@ impl Editor {
     /// Show what edits make of the document that the preview began with.
     fn update(&mut self, edits: Vec<Edit>) {
         let updated = self.workspace.update(edits);
-        self.tell_of_update(updated.err().map(Refusal::from));
+        Message::tell_update(&mut self.message, updated.err().map(Refusal::from));
         self.document_changed();
-    }
-
-    /// Show the refusal of a preview's update, or take away that of an earlier update.
-    fn tell_of_update(&mut self, refusal: Option<Refusal>) {
-        Message::tell_update(&mut self.message, refusal);
     }
 
     /// Show the message that tells of a reply.
@@ -393,25 +378,6 @@ impl Editor {
     /// the document that is shown.
     fn document_changed(&mut self) {
         self.hand.selection.retain_valid(self.workspace.document());
-    }
-
-    /// Put right what depends on the document after it was replaced by another.
-    fn document_replaced(&mut self) {
-        self.hand.selection = Selection::default();
-        self.view.compare(None);
-        self.document_changed();
-        let used = self.hand.tool();
-        self.hand.tools = Tools::default();
-        self.hand.tools.choose(used);
-        self.hand.gestures.reset();
-        if self.view.placed {
-            if self.document().is_empty() {
-                // An empty document has no size: it begins at the usual scale.
-                self.view.viewport.centre = DVec2::ZERO;
-                self.view.viewport.scale = Viewport::default().scale;
-            }
-            self.look(Look::All);
-        }
     }
 }
 

@@ -141,7 +141,7 @@ impl Action {
     /// The label in a menu now: undo and redo name their step.
     pub fn label_now(self, editor: &Editor) -> String {
         match self {
-            Self::Command(command) => editor.label(command),
+            Self::Command(command) => command.label_now(editor),
             Self::Rename if editor.active_reference().is_some() => "Rename reference".to_owned(),
             _ => self.label(),
         }
@@ -221,7 +221,7 @@ impl Action {
     /// Whether the action is available now.
     pub fn is_enabled(self, editor: &Editor) -> bool {
         match self {
-            Self::Command(command) => editor.is_enabled(command),
+            Self::Command(command) => command.is_enabled(editor),
             Self::Export(_) => !editor.document().is_empty(),
             Self::Reload => editor.workspace().path().is_some(),
             Self::Cut | Self::Copy | Self::Rename => editor.active().is_some(),
@@ -271,7 +271,7 @@ impl Action {
     /// Whether a switch is on; `None` for actions that are no switches.
     pub fn is_checked(self, editor: &Editor, shell: &Shell) -> Option<bool> {
         match self {
-            Self::Command(command) => editor.is_checked(command),
+            Self::Command(command) => command.is_checked(editor),
             Self::ToggleTheme => Some(!shell.dark),
             Self::TogglePlots => Some(shell.plots),
             Self::NormaliseLength => Some(shell.normalised),

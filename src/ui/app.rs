@@ -143,7 +143,7 @@ impl App {
     /// # Errors
     /// If the system does not let signals be heard.
     pub fn listen_to_signals(&mut self, context: &Context) -> std::io::Result<()> {
-        self.signals = Signals::listen(context, self.editor.autosaver())?;
+        self.signals = Signals::listen(context, self.editor.recovery().autosaver().cloned())?;
         Ok(())
     }
 
@@ -369,16 +369,16 @@ impl App {
         if let Some(chosen) = self.files.show(context) {
             self.use_chosen(context, chosen);
         }
-        if let Some(incoming) = self.editor.unit_question()
+        if let Some(incoming) = self.editor.filing().unit_question()
             && let Some(answer) = dialogs::unit_ui(context, incoming)
         {
             told(self.editor.answer_unit(answer));
         }
         let canvas = self.canvas.rect().unwrap_or(context.content_rect());
-        match recovery::recovery_ui(context, canvas, self.editor.recoverable()) {
+        match recovery::recovery_ui(context, canvas, self.editor.recovery().recoverable()) {
             Some(Choice::Open(id)) => self.confirm(context, AfterDiscard::Recover(id)),
-            Some(Choice::Discard(id)) => self.editor.discard_recoverable(id),
-            Some(Choice::Later) => self.editor.leave_recoverable(),
+            Some(Choice::Discard(id)) => self.editor.recovery_mut().discard(id),
+            Some(Choice::Later) => self.editor.recovery_mut().leave(),
             None => {}
         }
         let decided = self
@@ -555,7 +555,7 @@ impl App {
         requested: Requested,
         request: impl FnOnce(&mut Editor, &Path) -> Reply,
     ) {
-        let is_busy = self.editor.file_work().is_some();
+        let is_busy = self.editor.filing().work().is_some();
         told(request(&mut self.editor, &requested.path));
         // While another task runs, the request is refused.
         if !is_busy {
@@ -569,7 +569,7 @@ impl App {
         let Some(FileReply {
             reply,
             is_file_changed,
-        }) = self.editor.take_file_reply()
+        }) = self.editor.filing_mut().take_reply()
         else {
             return;
         };
@@ -651,7 +651,7 @@ impl eframe::App for App {
     fn on_exit(&mut self, _: Option<&eframe::glow::Context>) {
         self.editor.finish_file_work();
         if self.leaving || !self.editor.workspace().is_settled_modified() {
-            self.editor.close_session();
+            self.editor.recovery_mut().close();
         } else {
             told(self.editor.autosave_now());
         }

@@ -175,8 +175,8 @@ fn heading_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
                 (Icon::Trash2, Command::DeleteCurve),
                 (Icon::CopyPlus, Command::Duplicate),
             ] {
-                let name = editor.label(command);
-                let button = IconButton::new(icon, &name).enabled(editor.is_enabled(command));
+                let name = command.label_now(editor);
+                let button = IconButton::new(icon, &name).enabled(command.is_enabled(editor));
                 if button.tooltip(command.tooltip()).show(ui).clicked() {
                     commands.push(command.into());
                 }

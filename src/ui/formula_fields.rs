@@ -74,8 +74,8 @@ impl Draft {
         let output = row.inner;
         let response = output.response.response.clone().accessible_name(label);
         if response.changed() {
-            self.error = editor
-                .preview_reference(&ReferenceChange::Formula(self.texts.clone()))
+            self.error = ReferenceChange::Formula(self.texts.clone())
+                .preview(editor)
                 .err();
         }
         if response.lost_focus() {

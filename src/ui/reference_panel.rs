@@ -142,8 +142,8 @@ fn send<T>(
     if let Some(event) = event {
         event.map(change).send(
             editor,
-            |editor, change| drop(editor.preview_reference(&change)),
-            |editor, change| told(editor.change_reference(&change)),
+            |editor, change| drop(change.preview(editor)),
+            |editor, change| told(change.apply(editor)),
         );
     }
 }

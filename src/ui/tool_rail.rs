@@ -82,8 +82,8 @@ fn button_ui(
     side: f32,
     commands: &mut Vec<Action>,
 ) {
-    let enabled = editor.is_enabled(command);
-    let checked = editor.is_checked(command);
+    let enabled = command.is_enabled(editor);
+    let checked = command.is_checked(editor);
     let name = command.label();
     let button = ui.add_enabled_ui(enabled, |ui| {
         let (rect, response) = ui.allocate_exact_size(vec2(SIDES[1], side), Sense::click());

@@ -139,13 +139,15 @@ fn nothing_stays_of_what_is_saved_undone_discarded_or_closed() {
             }
             1 => script.command(Command::Undo),
             2 => script.editor.begin_empty(),
-            _ => script.editor.close_session(),
+            _ => script.editor.recovery_mut().close(),
         }
         desk.pass(0, &mut script);
         assert!(desk.autosaves().is_empty(), "{end}");
         Desk::crash(script);
         let found = Editor::new();
-        assert!(found.recoverable().is_empty() && desk.sessions().abandoned().is_empty());
+        assert!(
+            found.recovery().recoverable().is_empty() && desk.sessions().abandoned().is_empty()
+        );
     }
     let left = fs::read_dir(desk.path("sessions")).expect("the folder");
     assert_eq!(left.count(), 0);
@@ -186,16 +188,19 @@ fn several_crashed_sessions_are_offered_and_recovered() {
         desk.pass(0, script);
         desk.pass(30, script);
     }
-    assert!(desk.window().editor.recoverable().is_empty(), "they run");
+    assert!(
+        desk.window().editor.recovery().recoverable().is_empty(),
+        "they run"
+    );
     let polygons: Vec<_> = scripts.iter().map(Script::polygon).collect();
     scripts.into_iter().for_each(Desk::crash);
 
     let mut script = desk.window();
     assert!(
-        desk.window().editor.recoverable().is_empty(),
+        desk.window().editor.recovery().recoverable().is_empty(),
         "offered once"
     );
-    let found = script.editor.recoverable();
+    let found = script.editor.recovery().recoverable();
     assert_eq!(found.len(), 3);
     for found in found {
         let content = found.content.as_ref().expect("a document");
@@ -209,7 +214,7 @@ fn several_crashed_sessions_are_offered_and_recovered() {
         let content = found.content.as_ref().expect("a document");
         content.name.as_deref() == Some("arc.batten")
     });
-    let id = script.editor.recoverable()[named.expect("the saved one")].id;
+    let id = script.editor.recovery().recoverable()[named.expect("the saved one")].id;
     script.editor.recover(id).expect("a document");
     script.check();
     assert_eq!(script.polygon(), polygons[1]);
@@ -226,9 +231,9 @@ fn several_crashed_sessions_are_offered_and_recovered() {
     assert_eq!(desk.autosaves().len(), 3);
     Desk::crash(script);
     let mut script = desk.window();
-    assert_eq!(script.editor.recoverable().len(), 3);
+    assert_eq!(script.editor.recovery().recoverable().len(), 3);
     for id in [0, 2] {
-        script.editor.discard_recoverable(id);
+        script.editor.recovery_mut().discard(id);
     }
     assert_eq!(desk.autosaves().len(), 1);
     script.editor.recover(1).expect("a document");
@@ -274,7 +279,7 @@ fn a_damaged_autosave_is_told_and_can_be_discarded() {
         }
         let mut script = desk.window();
         let original = script.polygon();
-        let [found] = script.editor.recoverable() else {
+        let [found] = script.editor.recovery().recoverable() else {
             panic!("one damaged autosave");
         };
         let error = found.content.as_ref().expect_err("damaged").to_string();
@@ -285,10 +290,10 @@ fn a_damaged_autosave_is_told_and_can_be_discarded() {
         assert_eq!(script.polygon(), original);
         Desk::crash(script);
         let mut script = desk.window();
-        assert_eq!(script.editor.recoverable().len(), 1);
-        script.editor.discard_recoverable(id);
+        assert_eq!(script.editor.recovery().recoverable().len(), 1);
+        script.editor.recovery_mut().discard(id);
         Desk::crash(script);
-        assert!(desk.window().editor.recoverable().is_empty());
+        assert!(desk.window().editor.recovery().recoverable().is_empty());
     }
 }
 
@@ -328,7 +333,12 @@ fn writing_beside_the_frame_comes_to_the_same() {
     // From another thread, as when a signal comes, the newest is written.
     drag(&mut script, 5);
     desk.pass(0, &mut script);
-    let autosaver = script.editor.autosaver().expect("a session");
+    let autosaver = script
+        .editor
+        .recovery()
+        .autosaver()
+        .cloned()
+        .expect("a session");
     let written = std::thread::spawn(move || autosaver.write()).join();
     written.expect("no panic").expect("an autosave");
     assert_eq!(desk.autosaves(), [script.editor.workspace().revision()]);
@@ -375,7 +385,7 @@ fn a_file_that_another_program_changes_is_noticed() {
 
     // Saving to the own file is refused, and writes nothing.
     script.editor.save_unless_changed().expect_err("changed");
-    let reply = script.editor.take_file_reply().expect("a reply");
+    let reply = script.editor.filing_mut().take_reply().expect("a reply");
     assert!(reply.is_file_changed && is_file_changed(&script));
 
     script.editor.save(&path).expect("overwritten");
@@ -412,7 +422,7 @@ fn a_recovered_document_knows_that_its_file_has_changed_since() {
     text.push('\n');
     fs::write(&path, text).expect("the file");
     let mut script = desk.window();
-    let content = script.editor.recoverable()[0].content.as_ref();
+    let content = script.editor.recovery().recoverable()[0].content.as_ref();
     assert!(content.expect("a document").is_file_changed);
     script.editor.recover(0).expect("a document");
     assert!(is_file_changed(&script));
@@ -501,17 +511,21 @@ fn a_slow_save_does_not_hold_the_frame_and_saves_the_state_of_its_request() {
     let note = script.editor.save(&path).expect("begun");
     // Without patience the frame goes on at once. The save may be finished by now all the same.
     assert!(note.text == "Saving arc.batten…" || note.text.starts_with("Saved to"));
-    if script.editor.file_work().is_some() {
+    if script.editor.filing().work().is_some() {
         assert_eq!(script.message(), "Saving arc.batten…");
     }
     drag(&mut script, 4);
-    while script.editor.file_work().is_some() {
+    while script.editor.filing().work().is_some() {
         woken
             .recv_timeout(Duration::from_secs(60))
             .expect("it wakes");
         script.editor.begin_frame();
     }
-    let reply = script.editor.take_file_reply().expect("the final reply");
+    let reply = script
+        .editor
+        .filing_mut()
+        .take_reply()
+        .expect("the final reply");
     assert!(reply.reply.expect("saved").text.starts_with("Saved to"));
     let written = disk::read_file(&path).expect("the file").curves;
     assert_eq!(written[0].polygon, saved);

@@ -53,7 +53,7 @@ fn undo_takes_back_the_last_point_before_any_step_of_the_document() {
     for corner in CORNERS {
         script.click(corner);
     }
-    assert_eq!(script.editor.label(Command::Undo), "Undo last point");
+    assert_eq!(Command::Undo.label_now(&script.editor), "Undo last point");
     script.command(Command::Undo);
     assert_eq!(script.polygon(), before);
     script.key(Key::Enter);
@@ -66,11 +66,11 @@ fn undo_takes_back_the_last_point_before_any_step_of_the_document() {
 #[test]
 fn undo_is_offered_for_points_in_an_empty_document_too() {
     let mut script = drawing();
-    assert!(script.editor.is_enabled(Command::Undo));
+    assert!(Command::Undo.is_enabled(&script.editor));
     for _ in CORNERS {
         script.command(Command::Undo);
     }
-    assert!(!script.editor.is_enabled(Command::Undo));
+    assert!(!Command::Undo.is_enabled(&script.editor));
     script.key(Key::Enter);
     assert!(script.editor.document().is_empty());
 }

@@ -287,10 +287,10 @@ fn a_document_without_a_unit_is_asked_for_it() {
         editor
             .import(std::slice::from_ref(&inch))
             .expect("a question");
-        assert_eq!(editor.unit_question(), Some(LengthUnit::Inch));
+        assert_eq!(editor.filing().unit_question(), Some(LengthUnit::Inch));
         assert_eq!(widths(&editor), (vec![2.0], None));
         editor.answer_unit(answer).expect("an answer");
-        assert_eq!(editor.unit_question(), None);
+        assert_eq!(editor.filing().unit_question(), None);
         assert_eq!(widths(&editor), expected);
     }
 }

@@ -24,7 +24,7 @@ fn each_way_of_following_is_one_step_and_undone_to_the_bit() {
             let mut script = Script::example(name);
             script.command(Command::Follow(follow));
             assert_eq!(
-                script.editor.is_checked(Command::Follow(follow)),
+                Command::Follow(follow).is_checked(&script.editor),
                 Some(true)
             );
             let before = script.polygon();
@@ -112,7 +112,7 @@ fn a_way_of_following_is_turned_off_by_itself_and_by_the_other() {
     script.command(Command::Follow(Follow::Softly));
     script.command(Command::Follow(Follow::InHarmony));
     assert_eq!(
-        script.editor.is_checked(Command::Follow(Follow::Softly)),
+        Command::Follow(Follow::Softly).is_checked(&script.editor),
         Some(false)
     );
     script.command(Command::Follow(Follow::InHarmony));

@@ -253,7 +253,10 @@ fn undo_takes_a_drag_of_a_handle_back_then_changes_of_values_and_only_then_the_o
         script.set("ratio", Value::Real(ratio)).expect("a ratio");
     }
     script.editor.operating().keep_values();
-    assert_eq!(script.editor.label(Command::Undo), "Undo change of values");
+    assert_eq!(
+        Command::Undo.label_now(&script.editor),
+        "Undo change of values"
+    );
     script.command(Command::Undo);
     let dragged = (real(&script, "ratio"), real(&script, "angle"));
     assert_ne!(dragged, (ratio, angle));

@@ -98,7 +98,10 @@ fn a_kept_drag_goes_where_it_is_safe_and_near_to_where_it_is_not() {
 fn the_switch_keeps_features_and_the_key_turns_it_round() {
     let mut script = Script::example("hull");
     script.command(Command::ToggleKeeping);
-    assert_eq!(script.editor.is_checked(Command::ToggleKeeping), Some(true));
+    assert_eq!(
+        Command::ToggleKeeping.is_checked(&script.editor),
+        Some(true)
+    );
     assert_eq!(drag_wildly(&mut script, 6), 0);
     // In the middle of the drag the vertex comes to the pointer, and goes back again.
     let before = script.editor.workspace().settled().curve(script.curve());

@@ -51,7 +51,7 @@ fn the_selected_vertices_are_locked_and_unlocked_by_one_key() {
     // As long as one of the selected is free, all are locked.
     script.click(script.at_vertex(2));
     script.click_with(Modifiers::SHIFT, script.at_vertex(3));
-    let label = |script: &Script| script.editor.label(Command::ToggleVerticesLocked);
+    let label = |script: &Script| Command::ToggleVerticesLocked.label_now(&script.editor);
     assert_eq!(label(&script), "Lock vertices");
     script.command(LOCK);
     assert_eq!(locks(&script), [2, 3, 4]);
@@ -68,7 +68,7 @@ fn the_selected_vertices_are_locked_and_unlocked_by_one_key() {
     assert_eq!(locks(&script), [2, 4]);
 
     script.command(Command::SelectNone);
-    assert!(!script.editor.is_enabled(Command::ToggleVerticesLocked));
+    assert!(!Command::ToggleVerticesLocked.is_enabled(&script.editor));
 }
 
 #[test]

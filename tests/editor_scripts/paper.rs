@@ -83,7 +83,7 @@ fn digits_that_are_dragged_leave_nothing_to_save_but_after_an_edit_they_are_a_st
     drag(&mut script);
     assert_eq!((script.curve(), script.steps()), (curve, 0));
     assert!(!script.editor.workspace().is_modified());
-    assert!(!script.editor.is_enabled(Command::Undo));
+    assert!(!Command::Undo.is_enabled(&script.editor));
 
     let test = RoundingTest::new(9, Shortening::CutOff).expect("a test");
     show_shortened(&mut script.editor, &test);

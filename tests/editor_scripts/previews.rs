@@ -141,7 +141,7 @@ fn what_is_more_than_showing_keeps_a_field_and_takes_back_a_drag() {
     };
     for command in Command::all().into_iter().filter(is_ending) {
         let (mut script, before) = in_field();
-        if !script.editor.is_enabled(command) {
+        if !command.is_enabled(&script.editor) {
             continue;
         }
         let shown = script.editor.document().clone();
@@ -191,7 +191,7 @@ fn undo_in_the_middle_of_a_drag_takes_back_only_the_drag() {
     script.command(Command::Undo);
     assert!(script.editor.document().is_same(&before));
     assert_eq!(script.steps(), 1);
-    assert!(!script.editor.is_enabled(Command::Redo));
+    assert!(!Command::Redo.is_enabled(&script.editor));
     // The rest of the drag does nothing.
     script.move_to(at + 2.0 * BY);
     script.release(at + 2.0 * BY);
@@ -207,7 +207,10 @@ fn undo_with_a_fields_preview_keeps_its_value_as_a_step_and_takes_that_back() {
     let before = script.editor.document().clone();
     preview(&mut script, DVec3::new(1.5, 2.5, 0.0));
     let shown = script.editor.document().clone();
-    assert_eq!(script.editor.label(Command::Undo), "Undo set coordinate");
+    assert_eq!(
+        Command::Undo.label_now(&script.editor),
+        "Undo set coordinate"
+    );
     script.command(Command::Undo);
     assert!(script.editor.document().is_same(&before));
     assert_eq!(script.steps(), 1);
@@ -223,8 +226,8 @@ fn escape_takes_back_what_a_field_shows() {
     assert!(script.editor.document().is_same(&before));
     assert_eq!(script.editor.workspace().preview(), None);
     assert_eq!(script.steps(), 0);
-    assert!(!script.editor.is_enabled(Command::Undo));
-    assert!(!script.editor.is_enabled(Command::Redo));
+    assert!(!Command::Undo.is_enabled(&script.editor));
+    assert!(!Command::Redo.is_enabled(&script.editor));
 }
 
 #[test]
@@ -267,7 +270,7 @@ fn what_is_dragged_is_dragged_in_the_plane_that_is_seen() {
     let (mut script, _) = dragging();
     let seen = *script.editor.view().viewport();
     for view in views {
-        assert!(!script.editor.is_enabled(view), "{view:?}");
+        assert!(!view.is_enabled(&script.editor), "{view:?}");
         script.command(view);
         assert_eq!(*script.editor.view().viewport(), seen, "{view:?}");
         assert!(script.editor.hand().is_dragging(), "{view:?}");
@@ -275,7 +278,7 @@ fn what_is_dragged_is_dragged_in_the_plane_that_is_seen() {
     script.key(Key::Escape);
     let (script, _) = in_field();
     for view in views {
-        assert!(script.editor.is_enabled(view), "{view:?}");
+        assert!(view.is_enabled(&script.editor), "{view:?}");
     }
 }
 

@@ -236,9 +236,7 @@ fn undo_in_the_middle_of_a_drag_takes_back_the_drag_alone() {
     }
     // A field that shows what there was before is no step: nothing before it is taken back.
     let origin = before.placement().translation();
-    let shown = script
-        .editor
-        .preview_reference(&ReferenceChange::Translate(origin));
+    let shown = ReferenceChange::Translate(origin).preview(&mut script.editor);
     shown.expect("a place");
     script.command(Command::Undo);
     assert_eq!(curve(&script, id), before);
@@ -320,7 +318,7 @@ fn its_distance_from_a_curve_is_measured_and_marked() {
         ReferenceChange::Translate(DVec3::ZERO),
         ReferenceChange::Value(0, 9.0),
     ] {
-        script.editor.change_reference(&change).expect("a circle");
+        change.apply(&mut script.editor).expect("a circle");
     }
     script.editor.refresh();
     assert!(script.editor.sight().distance().is_none());
@@ -440,7 +438,7 @@ fn hidden_and_locked_references_are_left_alone() {
     script.command(Command::ToggleLocked);
     script.drag(from, from + DVec2::new(50.0, 0.0));
     assert_eq!(curve(&script, id), before);
-    let refused = script.editor.change_reference(&ReferenceChange::Scale(3.0));
+    let refused = ReferenceChange::Scale(3.0).apply(&mut script.editor);
     assert!(refused.is_err());
     let refused = script.editor.execute(Command::DeleteCurve);
     assert!(refused.is_err(), "what is locked is not deleted");
@@ -474,7 +472,7 @@ fn parameters_are_changed_one_step_each_and_what_cannot_be_is_refused() {
     let (mut script, id) = with("circle");
     let steps = script.steps();
     let change = |script: &mut Script, change: ReferenceChange| {
-        let reply = script.editor.change_reference(&change);
+        let reply = change.apply(&mut script.editor);
         script.check();
         reply
     };
@@ -501,7 +499,7 @@ fn parameters_are_changed_one_step_each_and_what_cannot_be_is_refused() {
     // While a field is dragged nothing is refused aloud; the last good form stays.
     let mut preview = |value| {
         let change = ReferenceChange::Value(0, value);
-        script.editor.preview_reference(&change)
+        change.preview(&mut script.editor)
     };
     assert!(preview(9.0).is_ok() && preview(-9.0).is_err());
     script.check();
@@ -576,7 +574,7 @@ fn a_pasted_table_of_points_is_a_list_that_is_drawn_and_has_no_comb() {
 fn its_comb_evolute_plots_and_features_are_shown() {
     let (mut script, id) = with("log-aesthetic");
     for layer in [batten::editor::Layer::Comb, batten::editor::Layer::Evolute] {
-        if script.editor.is_checked(Command::ToggleLayer(layer)) == Some(false) {
+        if Command::ToggleLayer(layer).is_checked(&script.editor) == Some(false) {
             script.command(Command::ToggleLayer(layer));
         }
     }
@@ -604,10 +602,7 @@ fn the_sampled_features_of_an_inner_curve_are_where_they_are() {
     let mut script = Script::example("arc");
     script.command(Command::AddReference(find("clothoid").expect("a kind")));
     let change = ReferenceChange::Interval([-2.0, 1.0]);
-    script
-        .editor
-        .change_reference(&change)
-        .expect("an interval");
+    change.apply(&mut script.editor).expect("an interval");
     let features = script.features().expect("a report");
     let [row] = &features.rows[..] else {
         panic!("{:?}", features.rows);
@@ -663,7 +658,7 @@ fn an_end_is_matched_to_it_by_a_click_and_follows_its_parameters() {
     assert!(script.editor.document().meets(&matched));
     script.editor.activate(id);
     let change = ReferenceChange::Translate(DVec3::new(0.4, 0.3, 0.0));
-    script.editor.change_reference(&change).expect("a place");
+    change.apply(&mut script.editor).expect("a place");
     script.check();
     assert!(script.editor.document().meets(&matched));
     let document = script.editor.document();
@@ -740,7 +735,7 @@ fn formulas_are_typed_and_a_mistake_leaves_the_last_good_form() {
     let steps = script.steps();
     let formula = |texts: [&str; 3]| ReferenceChange::Formula(texts.map(str::to_owned));
     let preview = |script: &mut Script, texts| {
-        let shown = script.editor.preview_reference(&formula(texts));
+        let shown = formula(texts).preview(&mut script.editor);
         script.check();
         shown
     };

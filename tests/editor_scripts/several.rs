@@ -184,7 +184,7 @@ fn what_is_hidden_is_not_edited() {
     let on_curves = operations.filter(|operation| needs(operation.inputs));
     let operations = on_curves.map(Command::Operation);
     for command in operations.chain([Command::TogglePeriodic]) {
-        assert!(!script.editor.is_enabled(command), "{command:?}");
+        assert!(!command.is_enabled(&script.editor), "{command:?}");
     }
     let moves = vec![(0, DVec3::ZERO)];
     let edit = Edit::MoveVertices { curve: arc, moves };

@@ -101,7 +101,7 @@ fn check_left(script: &Script, before: &Document) {
     check_is(script, before);
     assert_eq!(script.steps(), 0);
     assert_eq!(script.selected(), [2]);
-    assert!(!script.editor.is_enabled(Command::Redo));
+    assert!(!Command::Redo.is_enabled(&script.editor));
 }
 
 /// The operations with parameters that can be tried out on the s-curve and change it.
@@ -160,7 +160,7 @@ fn applying_makes_one_step_with_the_operations_name() {
             let label = operation(name).label;
             assert!(script.message().starts_with(label), "{}", script.message());
             let expected = format!("Undo {}{}", label[..1].to_lowercase(), &label[1..]);
-            assert_eq!(script.editor.label(Command::Undo), expected);
+            assert_eq!(Command::Undo.label_now(&script.editor), expected);
             script.command(Command::Undo);
             check_is(&script, &before);
             assert_eq!(script.steps(), 0);
@@ -380,7 +380,7 @@ fn operations_are_offered_where_they_can_run() {
     let offered = |script: &Script| -> Vec<&str> {
         let enabled = ALL.iter().filter(|operation| {
             let command = Command::Operation(operation);
-            let is_enabled = script.editor.is_enabled(command);
+            let is_enabled = command.is_enabled(&script.editor);
             assert_eq!(script.editor.check_operation(operation).is_ok(), is_enabled);
             is_enabled
         });
@@ -541,7 +541,7 @@ fn every_other_command_takes_the_preview_back() {
     for command in Command::all().into_iter().filter(is_ending) {
         let (mut script, before) = trying("round");
         let preview = script.editor.workspace().preview();
-        if !script.editor.is_enabled(command) {
+        if !command.is_enabled(&script.editor) {
             continue;
         }
         script.command(command);

@@ -228,7 +228,7 @@ impl Window {
 
     /// Whether a command is offered now.
     pub fn is_enabled(&self, command: Command) -> bool {
-        self.editor.is_enabled(command)
+        command.is_enabled(&self.editor)
     }
 
     /// Whether there is something to save.
@@ -254,7 +254,7 @@ impl Window {
 
     /// Whether undo takes back a point of what is not finished, instead of a step.
     pub fn undoes_points(&self) -> bool {
-        let label = self.editor.label(Command::Undo);
+        let label = Command::Undo.label_now(&self.editor);
         ["Undo first point", "Undo last point"].contains(&label.as_str())
     }
 
@@ -323,8 +323,8 @@ impl Window {
         self.editor.cursor();
         self.editor.sight().hovered_vertex();
         for command in self.commands() {
-            self.editor.is_checked(command);
-            assert!(!self.editor.label(command).is_empty(), "{command:?}");
+            command.is_checked(&self.editor);
+            assert!(!command.label_now(&self.editor).is_empty(), "{command:?}");
         }
     }
 
@@ -459,7 +459,7 @@ impl Window {
             OfCurve::SetPeriodic(is) => {
                 self.editor.activate(curve);
                 let toggle = Command::TogglePeriodic;
-                if self.editor.is_checked(toggle) == Some(!is) {
+                if toggle.is_checked(&self.editor) == Some(!is) {
                     told(self.editor.execute(toggle));
                 }
                 return;

@@ -103,7 +103,7 @@ fn ways_of_following_are_switches_that_show_whether_they_are_on() {
             let node = window.get_by_label(label).accesskit_node();
             let shown = node.toggled() == Some(Toggled::True);
             let editor = window.state().editor();
-            let checked = editor.is_checked(Command::Follow(follow));
+            let checked = Command::Follow(follow).is_checked(editor);
             assert_eq!(checked, Some(shown), "{label}");
             shown
         };

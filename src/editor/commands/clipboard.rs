@@ -69,10 +69,7 @@ impl Editor {
         let copied = text_of(&self.hand.selection, self.document());
         let whole = self.active_reference();
         let reply = copied.clone().and_then(|_| match whole {
-            Some((id, reference)) => {
-                reference.check_unlocked()?;
-                self.delete_whole(id, &reference.name)
-            }
+            Some((id, _)) => self.delete_whole(id),
             None => self.delete("Cut", "cut"),
         });
         self.tell(reply)?;

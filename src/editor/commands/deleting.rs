@@ -12,11 +12,8 @@ impl Editor {
     /// Remove the selected vertices, or the active reference, which has none.
     pub(in crate::editor) fn delete(&mut self, verb: &str, done: &str) -> Reply {
         let active = self.active().filter(|_| self.hand.selection.is_empty());
-        let reference = active.and_then(|id| Some((id, self.document().reference(id)?)));
-        if let Some((id, reference)) = reference {
-            reference.check_unlocked()?;
-            let name = reference.name.clone();
-            return self.delete_whole(id, &name);
+        if let Some(id) = active.filter(|id| self.document().reference(*id).is_some()) {
+            return self.delete_whole(id);
         }
         let edits = edits(&self.hand.selection, self.document())?;
         let count = counted(self.hand.selection.vertices().len(), "vertex", "vertices");
@@ -26,9 +23,16 @@ impl Editor {
     }
 
     /// Remove a curve or a reference.
-    pub(in crate::editor) fn delete_whole(&mut self, id: CurveId, name: &str) -> Reply {
+    pub(in crate::editor) fn delete_whole(&mut self, id: CurveId) -> Reply {
+        let document = self.document();
+        if let Some(curve) = document.curve(id) {
+            curve.check_unlocked()?;
+        }
+        if let Some(reference) = document.reference(id) {
+            reference.check_unlocked()?;
+        }
+        let deleted = format!("{} deleted", quoted(document.name(id).unwrap_or_default()));
         let note = self.change(Edit::Remove(id))?;
-        let deleted = format!("{} deleted", quoted(name));
         Ok(Note::done(with_lines(deleted, &note.text)))
     }
 }

@@ -6,15 +6,15 @@ use crate::document::{Curve, CurveId, Document, Edit, Reference, quoted};
 use crate::editor::commands::command::Command;
 use crate::editor::commands::locking;
 use crate::editor::commands::references::{new_formula, new_reference};
-use crate::editor::operating::OperationInProgress;
 use crate::editor::polygon_edits::periodicity;
 use crate::editor::reply::{Note, Reply};
 use crate::editor::selection::{Selection, VertexId};
 use crate::editor::view::Look;
 use crate::editor::view::layers::Layer;
-use crate::editor::workspace::Interruption;
+use crate::editor::workspace::{Interruption, Workspace};
 use crate::editor::{Editor, Refusal};
 use crate::geometry::counted;
+use crate::geometry::expressions::LengthUnit;
 
 /// The factor by which the zoom commands change the scale.
 const ZOOM: f64 = 1.25;
@@ -25,7 +25,7 @@ impl Editor {
     /// # Errors
     /// [`Refusal`] if it cannot be done; nothing is changed then.
     pub fn execute(&mut self, command: Command) -> Reply {
-        if !self.is_enabled(command) {
+        if !command.is_enabled(self) {
             return Ok(Note::silent());
         }
         self.message = None;
@@ -44,111 +44,6 @@ impl Editor {
         self.tell(reply)
     }
 
-    /// Whether a command can be given now.
-    pub fn is_enabled(&self, command: Command) -> bool {
-        let curve = self.active_curve();
-        let active = self.active().is_some();
-        let editable = curve
-            .as_ref()
-            .is_some_and(|(_, curve)| curve.check_editable().is_ok());
-        let can_compare =
-            |id: CurveId| self.active() != Some(id) && self.document().name(id).is_some();
-        match command {
-            Command::Undo => self.undo_label().is_some(),
-            Command::Redo => {
-                self.workspace.history().redo_label().is_some()
-                    && self.hand.tools.used().undo_label().is_none()
-                    && self.workspace.preview().is_none()
-            }
-            Command::Duplicate
-            | Command::Delete
-            | Command::DeleteCurve
-            | Command::ToggleVisible
-            | Command::ToggleLocked => active,
-            Command::TogglePeriodic => editable,
-            Command::Operation(operation) => self.check_operation(operation).is_ok(),
-            Command::SelectAll | Command::Fit | Command::FitAll => !self.document().is_empty(),
-            Command::SelectNone | Command::ToggleVerticesLocked => !self.hand.selection.is_empty(),
-            Command::ConvertUnit(unit) => {
-                let before = self.document().unit();
-                before.is_some_and(|before| before != unit)
-            }
-            Command::GoToFeature => self.view.chosen_feature().is_some(),
-            Command::Compare(other) => active && other.is_none_or(can_compare),
-            // What is dragged is dragged in the plane that is seen.
-            Command::View(_) => !self.hand.is_dragging(),
-            _ => true,
-        }
-    }
-
-    /// Whether a switch is on; `None` for commands that are no switches.
-    pub fn is_checked(&self, command: Command) -> Option<bool> {
-        let curve = self.active_curve().map(|(_, curve)| curve);
-        let can_compare =
-            |id: CurveId| self.active() != Some(id) && self.document().name(id).is_some();
-        match command {
-            Command::ToggleLayer(layer) => Some(self.sight().layers().shows(layer)),
-            Command::Compare(other) => {
-                let compared = self.view.compared().filter(|id| can_compare(*id));
-                Some(compared == other)
-            }
-            Command::ToggleBands => Some(self.view.shows_bands()),
-            Command::ToggleSnapping => Some(self.hand.snapping),
-            Command::Follow(follow) => Some(self.hand.following.follow == Some(follow)),
-            Command::ToggleKeeping => Some(self.hand.keeps),
-            Command::Tool(tool) => Some(self.hand.tool() == tool),
-            Command::Operation(operation) => {
-                let previewed = self.previewed_operation();
-                Some(previewed.is_some_and(|it| it.operation() == operation))
-            }
-            Command::View(view) => Some(self.view.viewport.orientation == view.orientation()),
-            Command::SetUnit(unit) => Some(self.document().unit() == unit),
-            Command::TogglePeriodic => Some(curve.is_some_and(|c| c.polygon.is_periodic())),
-            Command::ToggleVisible => {
-                let active = self.active();
-                Some(active.is_some_and(|id| self.document().is_visible(id)))
-            }
-            Command::ToggleLocked => {
-                let reference = self.active_reference();
-                let locked = reference.map(|(_, reference)| reference.locked);
-                Some(locked.or(curve.map(|curve| curve.locked)).unwrap_or(false))
-            }
-            _ => None,
-        }
-    }
-
-    /// What a menu calls the command now: undo and redo name their step.
-    pub fn label(&self, command: Command) -> String {
-        let named = |label: &str| {
-            let mut letters = label.chars();
-            let first = letters
-                .next()
-                .map(|letter| letter.to_lowercase().to_string());
-            format!(
-                "{} {}{}",
-                command.label(),
-                first.unwrap_or_default(),
-                letters.as_str()
-            )
-        };
-        if let (Some(_), Command::Duplicate | Command::DeleteCurve) =
-            (self.active_reference(), command)
-        {
-            return command.label().replace("curve", "reference");
-        }
-        match command {
-            Command::Compare(Some(id)) => self.document().name(id).map(str::to_owned),
-            Command::Undo => self.undo_label().map(named),
-            Command::Redo => self.workspace.history().redo_label().map(named),
-            Command::ToggleVerticesLocked => {
-                let label = locking::command_label(&self.hand.selection, self.document());
-                Some(label.to_owned())
-            }
-            _ => None,
-        }
-        .unwrap_or_else(|| command.label())
-    }
-
     /// The active curve.
     pub fn active_curve(&self) -> Option<(CurveId, Arc<Curve>)> {
         let id = self.hand.selection.active()?;
@@ -159,16 +54,6 @@ impl Editor {
     pub fn active_reference(&self) -> Option<(CurveId, Arc<Reference>)> {
         let id = self.hand.selection.active()?;
         Some((id, self.document().reference(id)?.clone()))
-    }
-
-    /// What undo would take back: a point of what the tool has not finished comes first.
-    fn undo_label(&self) -> Option<&str> {
-        let operation = self.operation();
-        if operation.is_some_and(OperationInProgress::has_changed_values) {
-            return Some("Change of values");
-        }
-        let point = self.hand.tools.used().undo_label();
-        point.or_else(|| self.workspace.history().undo_label())
     }
 
     /// Take back what a drag shows or what the tool has not finished, otherwise the last step.
@@ -191,27 +76,26 @@ impl Editor {
             self.hand.tools.used_mut().undo();
             return Note::silent();
         }
-        let before: Vec<CurveId> = self.document().all_ids().collect();
-        let undone = self.workspace.undo();
-        self.activate_returned(&before);
+        let undone = self.step(Workspace::undo);
         undone.map_or_else(Note::silent, |label| Note::told(format!("Undone: {label}")))
     }
 
     fn redo(&mut self) -> Note {
         self.interrupt();
-        let before: Vec<CurveId> = self.document().all_ids().collect();
-        let redone = self.workspace.redo();
-        self.activate_returned(&before);
+        let redone = self.step(Workspace::redo);
         redone.map_or_else(Note::silent, |label| Note::told(format!("Redone: {label}")))
     }
 
-    /// Make the first curve active that was not there before: the one that was waited for.
-    fn activate_returned(&mut self, before: &[CurveId]) {
+    /// Undo or redo a step, and activate the first item that it brings back. Returns the step's label.
+    fn step(&mut self, take: fn(&mut Workspace) -> Option<String>) -> Option<String> {
+        let before: Vec<CurveId> = self.document().all_ids().collect();
+        let label = take(&mut self.workspace);
         self.document_changed();
         let returned = self.document().all_ids().find(|id| !before.contains(id));
         if let Some(returned) = returned {
             self.activate(returned);
         }
+        label
     }
 
     /// Do what changes nothing but how things are shown.
@@ -267,82 +151,71 @@ impl Editor {
                 return self.add_reference(kind.label, new_reference(kind));
             }
             Command::AddFormula => return self.add_reference("Formula", new_formula()),
-            Command::SetUnit(unit) => return self.set_unit(unit),
-            Command::ConvertUnit(unit) => return self.convert_unit(unit),
-            _ => {
-                if let Some((id, reference)) = self.active_reference() {
-                    return self.execute_on_reference(command, id, &reference);
-                }
-                let Some((id, curve)) = self.active_curve() else {
-                    return Err(Refusal::from("There is no curve"));
+            Command::SetUnit(unit) if unit == self.document().unit() => {}
+            Command::SetUnit(unit) => {
+                self.make("Set document unit", vec![Edit::SetUnit(unit)], false)?;
+                let text = match unit.map(LengthUnit::name) {
+                    Some(name) => {
+                        format!("The document is in {name} now; its numbers stay as they are")
+                    }
+                    None => "The document has no unit now".to_owned(),
                 };
-                return self.execute_on(command, id, &curve);
+                return Ok(Note::done(text));
+            }
+            Command::ConvertUnit(unit) => {
+                let label = "Convert document unit";
+                self.make(label, vec![Edit::ConvertUnit(unit)], false)?;
+                self.look(Look::All);
+                let name = unit.name();
+                return Ok(Note::done(format!(
+                    "Converted to {name}: everything keeps its size"
+                )));
+            }
+            _ => {
+                let active = self.active().ok_or("There is no curve")?;
+                return self.execute_on(command, active);
             }
         }
         Ok(Note::silent())
     }
 
-    /// Do what is done to the active curve.
-    fn execute_on(&mut self, command: Command, id: CurveId, curve: &Arc<Curve>) -> Reply {
+    /// Execute a command on the active curve or reference.
+    fn execute_on(&mut self, command: Command, id: CurveId) -> Reply {
+        let curve = self.document().curve(id).cloned();
+        let reference = self.document().reference(id).cloned();
         match command {
-            Command::Duplicate => self.add_copies(
-                "Duplicate curve",
-                vec![Curve::clone(curve)],
-                Vec::new(),
-                Vec::new(),
-            ),
-            Command::DeleteCurve => {
-                curve.check_unlocked()?;
-                self.delete_whole(id, &curve.name)
+            Command::Duplicate => {
+                let label = format!("Duplicate {}", noun(self.document(), id));
+                let curves = curve.iter().map(|curve| Curve::clone(curve)).collect();
+                let references = reference.iter().map(|it| Reference::clone(it)).collect();
+                self.add_copies(&label, curves, references, Vec::new())
             }
+            Command::DeleteCurve => self.delete_whole(id),
             Command::TogglePeriodic => {
+                let Some(curve) = curve else {
+                    return Ok(Note::silent());
+                };
                 let periodic = !curve.polygon.is_periodic();
                 let label = if periodic {
                     "Make periodic"
                 } else {
                     "Open curve"
                 };
-                match periodicity(id, curve, periodic) {
-                    Ok(edit) => self.apply(label, vec![edit]),
-                    Err(error) => Err(Refusal(format!("{}: {error}", quoted(&curve.name)))),
-                }
+                let edit = periodicity(id, &curve, periodic);
+                let edit = edit.map_err(|error| format!("{}: {error}", quoted(&curve.name)))?;
+                self.apply(label, vec![edit])
             }
             Command::ToggleVisible => self.change(Edit::SetVisible {
                 curve: id,
-                visible: !curve.visible,
+                visible: !self.document().is_visible(id),
             }),
-            Command::ToggleLocked => self.change(Edit::SetLocked {
-                curve: id,
-                locked: !curve.locked,
-            }),
-            _ => Ok(Note::silent()),
-        }
-    }
-
-    /// Do what is done to the active reference.
-    fn execute_on_reference(
-        &mut self,
-        command: Command,
-        id: CurveId,
-        reference: &Arc<Reference>,
-    ) -> Reply {
-        match command {
-            Command::Duplicate => {
-                let copy = vec![Reference::clone(reference)];
-                self.add_copies("Duplicate reference", Vec::new(), copy, Vec::new())
+            Command::ToggleLocked => {
+                let is_locked = curve.map(|it| it.locked).or(reference.map(|it| it.locked));
+                self.change(Edit::SetLocked {
+                    curve: id,
+                    locked: !is_locked.unwrap_or(false),
+                })
             }
-            Command::DeleteCurve => {
-                reference.check_unlocked()?;
-                self.delete_whole(id, &reference.name)
-            }
-            Command::ToggleVisible => self.change(Edit::SetVisible {
-                curve: id,
-                visible: !reference.visible,
-            }),
-            Command::ToggleLocked => self.change(Edit::SetLocked {
-                curve: id,
-                locked: !reference.locked,
-            }),
             _ => Ok(Note::silent()),
         }
     }

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use crate::document::{Curve, CurveId, Document, Edit, EndMatch, Reference};
 use crate::editor::Editor;
-use crate::editor::jobs::filing::{FileReply, FileResult, FileTask, FileWork};
+use crate::editor::jobs::filing::{FileReply, FileResult, FileTask, FileWork, Filing};
 use crate::editor::reply::{Message, Note, Refusal, Reply};
-use crate::io::Exporter;
-use crate::io::Reading;
+use crate::editor::view::{Look, Viewport};
 use crate::io::examples::EXAMPLES;
+use crate::io::{Exporter, Reading};
 
 impl Editor {
     /// Begin an empty document.
@@ -22,7 +22,7 @@ impl Editor {
     ///
     /// The message shows the reply of this and of the other functions on files. A task that takes longer
     /// than a frame continues beside it: then the reply is a note of that, and
-    /// [`Editor::take_file_reply`] has the final one later.
+    /// [`Filing::take_reply`] has the final one later.
     ///
     /// # Errors
     /// [`Refusal`] if a file cannot be read; nothing is changed then.
@@ -119,14 +119,14 @@ impl Editor {
         })
     }
 
-    /// The task on files that is not finished.
-    pub fn file_work(&self) -> Option<&FileWork> {
-        self.filing.work()
+    /// The reading and writing of files beside the frame.
+    pub fn filing(&self) -> &Filing {
+        &self.filing
     }
 
-    /// Take the final reply to the last request for files, once it is there.
-    pub fn take_file_reply(&mut self) -> Option<FileReply> {
-        self.file_reply.take()
+    /// The reading and writing of files, to take its reply.
+    pub fn filing_mut(&mut self) -> &mut Filing {
+        &mut self.filing
     }
 
     /// Wait until the task on files is finished, as before the program ends.
@@ -153,7 +153,7 @@ impl Editor {
         let is_file_changed = matches!(result, Ok(FileResult::Changed(_)));
         let reply = result.and_then(|result| self.take_files(&work, result));
         let reply = self.tell(reply);
-        self.file_reply = Some(FileReply {
+        self.filing.reply = Some(FileReply {
             reply: reply.clone(),
             is_file_changed,
         });
@@ -165,8 +165,8 @@ impl Editor {
             let busy = format!("{} Wait until that is done", work.text);
             return self.tell(Err(Refusal(busy)));
         }
-        self.file_reply = None;
-        let autosaver = self.autosaving.autosaver().cloned();
+        self.filing.reply = None;
+        let autosaver = self.recovery.autosaver().cloned();
         let patience = &mut self.patience;
         self.filing
             .start(task, &self.workspace, autosaver, patience);
@@ -180,7 +180,7 @@ impl Editor {
     /// Apply the result of a task to the document.
     fn take_files(&mut self, work: &FileWork, result: FileResult) -> Reply {
         match result {
-            result if result.replaces() && self.is_later(work) => Err(Refusal::from(
+            result if result.replaces() && work.is_outdated(&self.workspace) => Err(Refusal::from(
                 "The document was changed while the file was read: open it again",
             )),
             FileResult::Opened {
@@ -222,11 +222,6 @@ impl Editor {
             }
             FileResult::Exported { text } => Ok(Note::told(text)),
         }
-    }
-
-    /// Whether the document was changed since a request.
-    fn is_later(&self, work: &FileWork) -> bool {
-        self.workspace.revision() != work.revision
     }
 
     /// Make some edits, and add curves and references with the matches between them, as one step and make the first of them
@@ -271,8 +266,19 @@ impl Editor {
     /// Put another document in the place of this one.
     pub(in crate::editor) fn replace(&mut self, document: Document, path: Option<PathBuf>) {
         self.interrupt();
-        self.unit_question = None;
+        self.filing.question = None;
         self.workspace.replace(document, path);
-        self.document_replaced();
+        self.hand.begin_document();
+        self.view.compare(None);
+        self.document_changed();
+        if self.view.placed {
+            if self.document().is_empty() {
+                // An empty document has no size: it begins at the usual scale.
+                let Viewport { centre, scale, .. } = Viewport::default();
+                self.view.viewport.centre = centre;
+                self.view.viewport.scale = scale;
+            }
+            self.look(Look::All);
+        }
     }
 }

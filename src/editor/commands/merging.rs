@@ -17,18 +17,12 @@ struct Merged {
 }
 
 impl Editor {
-    /// The unit of documents that cannot be added until [`Editor::answer_unit`] gives the unit of the
-    /// document that receives them.
-    pub fn unit_question(&self) -> Option<LengthUnit> {
-        self.unit_question.as_ref().map(|asked| asked.incoming)
-    }
-
     /// Answer the question for the document's unit; `None` adds nothing. The message shows the reply.
     ///
     /// # Errors
     /// [`Refusal`] if the documents cannot be added; nothing is changed then.
     pub fn answer_unit(&mut self, unit: Option<LengthUnit>) -> Reply {
-        let reply = match (self.unit_question.take(), unit) {
+        let reply = match (self.filing.question.take(), unit) {
             (Some(question), Some(_)) => self.merge(question.waiting, unit),
             _ => Ok(Note::silent()),
         };
@@ -48,7 +42,7 @@ impl Editor {
         };
         let merged = match merged(receiving, &incoming, assumed) {
             Err(MergeError::NoUnit { incoming: unit }) => {
-                self.unit_question = Some(UnitQuestion {
+                self.filing.question = Some(UnitQuestion {
                     incoming: unit,
                     waiting: incoming,
                 });

@@ -12,7 +12,7 @@ mod merging;
 mod operating;
 mod recovering;
 mod references;
-mod units;
+mod state;
 
 pub use command::{Command, Shortcut};
 pub use references::ReferenceChange;

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use crate::document::quoted;
 use crate::editor::Editor;
 use crate::editor::jobs::filing::open_elsewhere;
-use crate::editor::jobs::{Autosaver, Recoverable};
+use crate::editor::jobs::{Autosaver, Recoverable, Recovery};
 use crate::editor::reply::{Message, Note, Refusal, Reply, with_lines};
 use crate::io::{FileError, Sessions};
 
@@ -15,11 +15,11 @@ impl Editor {
     ///
     /// Without this there are no autosaves.
     pub fn autosave_in(&mut self, sessions: Sessions, period: Duration) {
-        self.recoverable = Recoverable::find(&sessions);
-        match self.autosaving.begin(sessions, period) {
+        self.recovery.recoverable = Recoverable::find(&sessions);
+        match self.recovery.autosaving.begin(sessions, period) {
             Ok(()) => {
                 let path = self.workspace.path();
-                let elsewhere = path.map(|path| open_elsewhere(path, self.autosaving.autosaver()));
+                let elsewhere = path.map(|path| open_elsewhere(path, self.recovery.autosaver()));
                 let elsewhere = elsewhere.unwrap_or_default();
                 if !elsewhere.is_empty() {
                     let told = self.message.take().map_or(String::new(), |told| told.text);
@@ -34,11 +34,14 @@ impl Editor {
     /// Write the autosave when it is due, at once if the window `lost_focus`. Returns the time until the
     /// next call, if one is due.
     pub fn autosave(&mut self, now: Instant, lost_focus: bool) -> Option<Duration> {
-        let error = self.autosaving.advance(&self.workspace, now, lost_focus);
+        let error = self
+            .recovery
+            .autosaving
+            .advance(&self.workspace, now, lost_focus);
         if let Some(error) = error {
             self.message = failure(&error);
         }
-        self.autosaving.wait(now)
+        self.recovery.autosaving.wait(now)
     }
 
     /// Write unsaved changes, and return when they are on the disk. The reply is told.
@@ -47,23 +50,18 @@ impl Editor {
     /// [`Refusal`] if it cannot be written.
     pub fn autosave_now(&mut self) -> Reply {
         self.autosave(Instant::now(), true);
-        let written = self.autosaving.autosaver().map_or(Ok(()), Autosaver::write);
+        let written = self.recovery.autosaver().map_or(Ok(()), Autosaver::write);
         self.tell(written.map(|()| Note::silent()).map_err(Refusal::from))
     }
 
-    /// The autosaver for other threads, if there is a session.
-    pub fn autosaver(&self) -> Option<Autosaver> {
-        self.autosaving.autosaver().cloned()
+    /// The autosaves of this session and of earlier ones.
+    pub fn recovery(&self) -> &Recovery {
+        &self.recovery
     }
 
-    /// End the session and remove its autosave.
-    pub fn close_session(&mut self) {
-        self.autosaving.close();
-    }
-
-    /// The autosaves of earlier sessions, the newest first.
-    pub fn recoverable(&self) -> &[Recoverable] {
-        &self.recoverable
+    /// The autosaves of this session and of earlier ones, to be closed or discarded.
+    pub fn recovery_mut(&mut self) -> &mut Recovery {
+        &mut self.recovery
     }
 
     /// Open the autosave of an earlier session in place of the document. It counts as modified and keeps
@@ -72,40 +70,18 @@ impl Editor {
     /// # Errors
     /// [`Refusal`] if it is damaged, or not there.
     pub fn recover(&mut self, id: usize) -> Reply {
-        let reply = self.replace_by_recoverable(id);
+        let recoverable = self.recovery.take(id).ok_or("It is not there any more");
+        let reply = recoverable.map_err(Refusal::from).and_then(|recoverable| {
+            let content = recoverable.content?;
+            let name = content.name.as_deref();
+            let name = name.map_or("the document".to_owned(), quoted);
+            self.replace(content.document, content.origin.path);
+            self.workspace.set_fingerprint(content.origin.fingerprint);
+            self.workspace.mark_unsaved();
+            self.recovery.autosaving.supersede(recoverable.session);
+            Ok(Note::told(format!("Recovered {name}: save it to keep it")))
+        });
         self.tell(reply)
-    }
-
-    /// Remove the autosave of an earlier session.
-    pub fn discard_recoverable(&mut self, id: usize) {
-        if let Some(recoverable) = self.take_recoverable(id) {
-            recoverable.session.remove();
-        }
-    }
-
-    /// Leave the autosaves of earlier sessions for the next start.
-    pub fn leave_recoverable(&mut self) {
-        self.recoverable.clear();
-    }
-
-    fn replace_by_recoverable(&mut self, id: usize) -> Reply {
-        let recoverable = self
-            .take_recoverable(id)
-            .ok_or("It is not there any more")?;
-        let content = recoverable.content?;
-        let name = content.name.as_deref();
-        let name = name.map_or("the document".to_owned(), quoted);
-        self.replace(content.document, content.origin.path);
-        self.workspace.set_fingerprint(content.origin.fingerprint);
-        self.workspace.mark_unsaved();
-        self.autosaving.supersede(recoverable.session);
-        Ok(Note::told(format!("Recovered {name}: save it to keep it")))
-    }
-
-    fn take_recoverable(&mut self, id: usize) -> Option<Recoverable> {
-        let mut all = self.recoverable.iter();
-        let place = all.position(|recoverable| recoverable.id == id)?;
-        Some(self.recoverable.remove(place))
     }
 }
 

@@ -1,11 +1,10 @@
 //! Adding references, and changing what they are and where they lie.
 
 use std::f64::consts::TAU;
-use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
-use crate::document::{CurveId, Edit, Reference};
+use crate::document::{Edit, Reference};
 use crate::editor::Editor;
 use crate::editor::reply::{Note, Refusal, Reply};
 use crate::editor::view::Look;
@@ -35,7 +34,33 @@ pub enum ReferenceChange {
 }
 
 impl ReferenceChange {
-    /// What the step of undo is called.
+    /// Change the active reference as one step. The message shows the reply.
+    ///
+    /// # Errors
+    /// [`Refusal`] if the reference cannot be changed so; nothing is changed then.
+    pub fn apply(&self, editor: &mut Editor) -> Reply {
+        match self.edit(editor) {
+            Ok(Some(edit)) => editor.apply(self.label(), vec![edit]),
+            Ok(None) => Ok(Note::silent()),
+            Err(error) => {
+                editor.interrupt();
+                editor.tell(Err(Refusal(error.to_string())))
+            }
+        }
+    }
+
+    /// Preview the change of the active reference, while its field is dragged or typed into.
+    ///
+    /// # Errors
+    /// [`ReferenceError`] if the reference cannot be changed so; the last preview stays.
+    pub fn preview(&self, editor: &mut Editor) -> Result<(), ReferenceError> {
+        if let Some(edit) = self.edit(editor)? {
+            editor.preview(self.label(), vec![edit]);
+        }
+        Ok(())
+    }
+
+    /// The label of the step of undo.
     fn label(&self) -> &'static str {
         match self {
             Self::Value(..) => "Change reference",
@@ -47,12 +72,9 @@ impl ReferenceChange {
         }
     }
 
-    /// The edit that changes a reference, if there is one.
-    fn edit(
-        &self,
-        active: Option<(CurveId, Arc<Reference>)>,
-    ) -> Result<Option<Edit>, ReferenceError> {
-        let Some((reference, found)) = active else {
+    /// The edit of the active reference, if there is one.
+    fn edit(&self, editor: &Editor) -> Result<Option<Edit>, ReferenceError> {
+        let Some((reference, found)) = editor.active_reference() else {
             return Ok(None);
         };
         let curve = self.applied_to(&found.curve)?;
@@ -99,32 +121,6 @@ impl ReferenceChange {
 }
 
 impl Editor {
-    /// Change the active reference, as one step. The message shows the reply.
-    ///
-    /// # Errors
-    /// [`Refusal`] if there is none, or it cannot be so; nothing is changed then.
-    pub fn change_reference(&mut self, change: &ReferenceChange) -> Reply {
-        match change.edit(self.active_reference()) {
-            Ok(Some(edit)) => self.apply(change.label(), vec![edit]),
-            Ok(None) => Ok(Note::silent()),
-            Err(error) => {
-                self.interrupt();
-                self.tell(Err(Refusal(error.to_string())))
-            }
-        }
-    }
-
-    /// Show what a change would make of the active reference, as while its field is dragged or typed into.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] if it cannot be so; what was shown last stays.
-    pub fn preview_reference(&mut self, change: &ReferenceChange) -> Result<(), ReferenceError> {
-        if let Some(edit) = change.edit(self.active_reference())? {
-            self.preview(change.label(), vec![edit]);
-        }
-        Ok(())
-    }
-
     /// Add a reference where its formula puts it, in units of the document; the view follows if it would not be seen.
     pub(super) fn add_reference(
         &mut self,

@@ -69,9 +69,9 @@ impl Editor {
             Input::Key(Key::Escape)
                 if self.hand.tool() == ToolKind::Select
                     && !self.hand.is_holding()
-                    && !self.recoverable.is_empty() =>
+                    && !self.recovery.recoverable.is_empty() =>
             {
-                return self.leave_recoverable();
+                return self.recovery.leave();
             }
             Input::Key(Key::Enter) if previews => return told(self.operating().apply()),
             _ => {}
@@ -342,7 +342,7 @@ impl Editor {
             Effect::Activate(curve) => self.hand.selection.activate(curve),
             Effect::Look(look) => self.look(look),
             Effect::Say(text) if self.workspace.preview().is_some() => {
-                self.tell_of_update(Some(Refusal(text)));
+                Message::tell_update(&mut self.message, Some(Refusal(text)));
             }
             Effect::Say(text) => {
                 self.message = match step {

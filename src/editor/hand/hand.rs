@@ -54,6 +54,15 @@ impl Hand {
     /// The steps that arrow keys can have.
     pub const NUDGE_STEPS: RangeInclusive<f64> = 1e-12..=1e12;
 
+    /// Forget what belongs to a document, with the same tool for the next one.
+    pub(in crate::editor) fn begin_document(&mut self) {
+        let tool = self.tool();
+        self.selection = Selection::default();
+        self.tools = Tools::default();
+        self.tools.choose(tool);
+        self.gestures.reset();
+    }
+
     /// Let an arrow key move the selection by a step, at any zoom; other numbers change nothing.
     pub fn set_nudge_step(&mut self, step: f64) {
         if Self::NUDGE_STEPS.contains(&step) {

@@ -14,10 +14,14 @@ use crate::io::{Exporter, Fingerprint, PROJECT, disk, formats, shown_path};
 
 /// Read and write files, and watch the document's own file.
 #[derive(Debug, Default)]
-pub(in crate::editor) struct Filing {
+pub struct Filing {
     client: Client<FileWork, Result<FileResult, Refusal>>,
     /// Looks at the document's file for changes by other programs.
     watch: Client<PathBuf, Fingerprint>,
+    /// The reply to the last request for files, until the window takes it.
+    pub(in crate::editor) reply: Option<FileReply>,
+    /// Documents that wait for the unit of the document that receives them.
+    pub(in crate::editor) question: Option<UnitQuestion>,
 }
 
 /// A task that is not finished.
@@ -130,11 +134,24 @@ pub struct UnitQuestion {
 
 impl Filing {
     /// Work on threads, which call `wake` when a result is there.
-    pub fn background(wake: impl Fn() + Clone + Send + 'static) -> Self {
+    pub(in crate::editor) fn background(wake: impl Fn() + Clone + Send + 'static) -> Self {
         Self {
             client: Client::background("files", wake.clone()),
             watch: Client::background("file watch", wake),
+            ..Self::default()
         }
+    }
+
+    /// Take the final reply to the last request for files, once it is there.
+    pub fn take_reply(&mut self) -> Option<FileReply> {
+        self.reply.take()
+    }
+
+    /// The unit of documents that cannot be added until
+    /// [`Editor::answer_unit`](crate::editor::Editor::answer_unit) gives the unit of the document that
+    /// receives them.
+    pub fn unit_question(&self) -> Option<LengthUnit> {
+        self.question.as_ref().map(|question| question.incoming)
     }
 
     /// The task that is not finished.
@@ -143,7 +160,7 @@ impl Filing {
     }
 
     /// Start a task. `autosaver` knows which files other windows have open.
-    pub fn start(
+    pub(in crate::editor) fn start(
         &mut self,
         task: FileTask,
         workspace: &Workspace,
@@ -167,7 +184,7 @@ impl Filing {
     }
 
     /// Take the result of the task, once it is there.
-    pub fn finish(&mut self) -> Option<(FileWork, Result<FileResult, Refusal>)> {
+    pub(in crate::editor) fn finish(&mut self) -> Option<(FileWork, Result<FileResult, Refusal>)> {
         self.client.receive();
         let work = self.client.request()?.clone();
         let failed = |panic: &str| Err(Refusal(format!("{} failed: {panic}", work.text)));
@@ -180,13 +197,13 @@ impl Filing {
     }
 
     /// Wait until the task is finished.
-    pub fn wait(&mut self) {
+    pub(in crate::editor) fn wait(&mut self) {
         self.client.wait();
     }
 
     /// Look whether another program has changed the document's file. [`Filing::seen_change`] tells it
     /// in a later frame.
-    pub fn look_at(&mut self, path: &Path) {
+    pub(in crate::editor) fn look_at(&mut self, path: &Path) {
         if self.work().is_none() {
             let look = path.to_owned();
             let job = move |_: &_| disk::fingerprint(&look);
@@ -195,7 +212,7 @@ impl Filing {
     }
 
     /// Take a change of the document's file by another program, as a text. Each change is told once.
-    pub fn seen_change(&mut self, workspace: &mut Workspace) -> Option<String> {
+    pub(in crate::editor) fn seen_change(&mut self, workspace: &mut Workspace) -> Option<String> {
         self.watch.receive();
         let path = self
             .watch
@@ -204,6 +221,13 @@ impl Filing {
         let name = quoted(&path?.file_name().unwrap_or_default().to_string_lossy());
         let is_new = workspace.note_file(self.watch.take_result()?);
         is_new.then(|| format!("Another program has changed {name}"))
+    }
+}
+
+impl FileWork {
+    /// Whether the document was changed since the request.
+    pub(in crate::editor) fn is_outdated(&self, workspace: &Workspace) -> bool {
+        workspace.revision() != self.revision
     }
 }
 
@@ -446,11 +470,15 @@ mod tests {
         let renamed = editor.apply("Rename", vec![Edit::Rename { curve, name }]);
         renamed.expect("an edit");
         lets_go.send(()).expect("the job is held");
-        while editor.file_work().is_some() {
+        while editor.filing().work().is_some() {
             woken.recv_timeout(LONG).expect("the frame is woken");
             editor.begin_frame();
         }
-        let reply = editor.take_file_reply().expect("the final reply").reply;
+        let reply = editor
+            .filing_mut()
+            .take_reply()
+            .expect("the final reply")
+            .reply;
         assert!(reply.is_err_and(|refusal| refusal.0.contains("changed while")));
         assert_eq!(editor.document().name(curve), Some("renamed"));
     }

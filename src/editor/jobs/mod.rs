@@ -12,8 +12,10 @@ pub(in crate::editor) mod measuring;
 pub(in crate::editor) mod patience;
 pub(in crate::editor) mod proving;
 pub(in crate::editor) mod recoverable;
+mod recovery;
 
 pub use autosaving::Autosaver;
 pub(in crate::editor) use client::Client;
 pub use filing::{FileWork, with_extension};
 pub use recoverable::{Recoverable, RecoverableDocument};
+pub use recovery::Recovery;

@@ -1,0 +1,126 @@
+//! What menus and buttons show of a command now.
+
+use super::command::Command;
+use super::locking;
+use crate::document::CurveId;
+use crate::editor::Editor;
+use crate::editor::operating::OperationInProgress;
+
+impl Command {
+    /// Whether the command can be given now.
+    pub fn is_enabled(self, editor: &Editor) -> bool {
+        let curve = editor.active_curve();
+        let active = editor.active().is_some();
+        let editable = curve
+            .as_ref()
+            .is_some_and(|(_, curve)| curve.check_editable().is_ok());
+        let can_compare =
+            |id: CurveId| editor.active() != Some(id) && editor.document().name(id).is_some();
+        match self {
+            Command::Undo => undo_label(editor).is_some(),
+            Command::Redo => {
+                editor.workspace.history().redo_label().is_some()
+                    && editor.hand.tools.used().undo_label().is_none()
+                    && editor.workspace.preview().is_none()
+            }
+            Command::Duplicate
+            | Command::Delete
+            | Command::DeleteCurve
+            | Command::ToggleVisible
+            | Command::ToggleLocked => active,
+            Command::TogglePeriodic => editable,
+            Command::Operation(operation) => editor.check_operation(operation).is_ok(),
+            Command::SelectAll | Command::Fit | Command::FitAll => !editor.document().is_empty(),
+            Command::SelectNone | Command::ToggleVerticesLocked => {
+                !editor.hand.selection.is_empty()
+            }
+            Command::ConvertUnit(unit) => {
+                let before = editor.document().unit();
+                before.is_some_and(|before| before != unit)
+            }
+            Command::GoToFeature => editor.view.chosen_feature().is_some(),
+            Command::Compare(other) => active && other.is_none_or(can_compare),
+            // What is dragged is dragged in the plane that is seen.
+            Command::View(_) => !editor.hand.is_dragging(),
+            _ => true,
+        }
+    }
+
+    /// Whether the switch is on; `None` for a command that is no switch.
+    pub fn is_checked(self, editor: &Editor) -> Option<bool> {
+        let curve = editor.active_curve().map(|(_, curve)| curve);
+        let can_compare =
+            |id: CurveId| editor.active() != Some(id) && editor.document().name(id).is_some();
+        match self {
+            Command::ToggleLayer(layer) => Some(editor.sight().layers().shows(layer)),
+            Command::Compare(other) => {
+                let compared = editor.view.compared().filter(|id| can_compare(*id));
+                Some(compared == other)
+            }
+            Command::ToggleBands => Some(editor.view.shows_bands()),
+            Command::ToggleSnapping => Some(editor.hand.snapping),
+            Command::Follow(follow) => Some(editor.hand.following.follow == Some(follow)),
+            Command::ToggleKeeping => Some(editor.hand.keeps),
+            Command::Tool(tool) => Some(editor.hand.tool() == tool),
+            Command::Operation(operation) => {
+                let previewed = editor.previewed_operation();
+                Some(previewed.is_some_and(|it| it.operation() == operation))
+            }
+            Command::View(view) => Some(editor.view.viewport.orientation == view.orientation()),
+            Command::SetUnit(unit) => Some(editor.document().unit() == unit),
+            Command::TogglePeriodic => Some(curve.is_some_and(|c| c.polygon.is_periodic())),
+            Command::ToggleVisible => {
+                let active = editor.active();
+                Some(active.is_some_and(|id| editor.document().is_visible(id)))
+            }
+            Command::ToggleLocked => {
+                let reference = editor.active_reference();
+                let locked = reference.map(|(_, reference)| reference.locked);
+                Some(locked.or(curve.map(|curve| curve.locked)).unwrap_or(false))
+            }
+            _ => None,
+        }
+    }
+
+    /// What a menu calls the command now: undo and redo name their step.
+    pub fn label_now(self, editor: &Editor) -> String {
+        let named = |label: &str| {
+            let mut letters = label.chars();
+            let first = letters
+                .next()
+                .map(|letter| letter.to_lowercase().to_string());
+            format!(
+                "{} {}{}",
+                self.label(),
+                first.unwrap_or_default(),
+                letters.as_str()
+            )
+        };
+        if let (Some(_), Command::Duplicate | Command::DeleteCurve) =
+            (editor.active_reference(), self)
+        {
+            return self.label().replace("curve", "reference");
+        }
+        match self {
+            Command::Compare(Some(id)) => editor.document().name(id).map(str::to_owned),
+            Command::Undo => undo_label(editor).map(named),
+            Command::Redo => editor.workspace.history().redo_label().map(named),
+            Command::ToggleVerticesLocked => {
+                let label = locking::command_label(&editor.hand.selection, editor.document());
+                Some(label.to_owned())
+            }
+            _ => None,
+        }
+        .unwrap_or_else(|| self.label())
+    }
+}
+
+/// What undo would take back: a point of what the tool has not finished comes first.
+fn undo_label(editor: &Editor) -> Option<&str> {
+    let operation = editor.operation();
+    if operation.is_some_and(OperationInProgress::has_changed_values) {
+        return Some("Change of values");
+    }
+    let point = editor.hand.tools.used().undo_label();
+    point.or_else(|| editor.workspace.history().undo_label())
+}
