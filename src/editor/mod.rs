@@ -153,8 +153,8 @@ impl Editor {
     fn overlay(&self) -> Overlay {
         let (context, tool) = (self.context(), self.hand.tool());
         let mut marks = self.hand.tools.used().marks(&context);
-        if let Some(measurement) = self.hand.tools.measurement() {
-            marks.extend(measurement.marks(&context));
+        if let Some(measurement) = &self.hand.settings.measurement {
+            marks.extend(measurement.marks(context.hits));
         }
         let (active, operation) = (self.active(), self.operation());
         let (viewport, pointer) = (&self.view.viewport, self.hand.gestures.pointer());
@@ -186,7 +186,7 @@ impl Editor {
             handle: previewed.and_then(|it| it.handle_hover(viewport, pointer)),
             hovering: self.hand.hovering(context.hits.shown),
             guides: tool == ToolKind::Select,
-            fitted_end: (tool == ToolKind::EndFit).then_some(self.hand.tools.end_fit.settings.end),
+            fitted_end: (tool == ToolKind::EndFit).then_some(self.hand.settings.end_fit.end),
             before: before(),
             others_before: previewed
                 .map_or_else(Vec::new, |it| it.others_before(active, self.document())),
@@ -248,7 +248,7 @@ impl Editor {
     /// Use another tool. Ends a preview.
     fn use_tool(&mut self, tool: ToolKind) {
         self.interrupt();
-        self.hand.tools.choose(tool);
+        self.hand.use_tool(tool);
         self.hand.typed = None;
     }
 

@@ -28,7 +28,7 @@ impl Editor {
         }
         let revision = self.workspace.revision();
         let mut step = EndFitStep { action, passes: 0 };
-        let reply = match correction(action, &self.hand.tools.end_fit.settings, &curve) {
+        let reply = match correction(action, &self.hand.settings.end_fit, &curve) {
             Some((operation, values)) => {
                 step.passes = self
                     .hand
@@ -52,13 +52,13 @@ impl Editor {
             let report = self.operation().and_then(OperationInProgress::report);
             let revision = self.workspace.revision();
             let last = step.last_action((id, &curve), revision, reply, report);
-            self.hand.tools.end_fit.last = Some(last);
+            self.hand.settings.last_end_fit = Some(last);
         }
     }
 
     /// Do what corrects nothing: choose what is worked on, or set the target.
     fn set_up(&mut self, action: EndFitAction, id: CurveId, curve: &Curve) -> Reply {
-        let settings = &mut self.hand.tools.end_fit.settings;
+        let settings = &mut self.hand.settings.end_fit;
         let end = settings.end;
         let matched = self.workspace.document().match_of(id, end).copied();
         match action {
@@ -129,7 +129,7 @@ impl Editor {
 
     /// Show what a target field of the end-fit panel would make while it is dragged.
     pub fn preview_end_fit(&mut self, action: EndFitAction) {
-        let end = self.hand.tools.end_fit.settings.end;
+        let end = self.hand.settings.end_fit.end;
         if let Some((curve, found)) = self.active_curve() {
             let (_, target) = action.target(&found, end);
             let edit = Edit::SetTarget { curve, end, target };

@@ -118,7 +118,7 @@ impl Editor {
             Command::ToggleLayer(layer) => {
                 let shown = self.sight().layers().shows(layer);
                 if matches!(layer, Layer::Float | Layer::Clamped) {
-                    self.hand.tools.end_fit.settings.closed = false;
+                    self.hand.settings.end_fit.closed = false;
                 }
                 self.view.layers.set(layer, !shown);
             }

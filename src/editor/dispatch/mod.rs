@@ -62,7 +62,7 @@ impl Editor {
             Input::Key(Key::Escape)
                 if self.hand.tool() == ToolKind::Select
                     && !self.hand.is_holding()
-                    && self.hand.tools.dismiss_measurement() =>
+                    && self.hand.settings.measurement.take().is_some() =>
             {
                 return;
             }
@@ -299,6 +299,7 @@ impl Editor {
             snapping: self.hand.snapping,
             nudge_step: self.hand.nudge_step(),
             following: self.hand.following,
+            settings: &self.hand.settings,
             pointer: self
                 .hand
                 .gestures
@@ -341,6 +342,7 @@ impl Editor {
             Effect::ToggleSelected(vertex) => self.hand.selection.toggle(vertex),
             Effect::Activate(curve) => self.hand.selection.activate(curve),
             Effect::Look(look) => self.look(look),
+            Effect::Set(settings) => self.hand.settings = *settings,
             Effect::Say(text) if self.workspace.preview().is_some() => {
                 Message::tell_update(&mut self.message, Some(Refusal(text)));
             }

@@ -14,10 +14,8 @@ impl Editor {
         if let Some(Entry::Angle | Entry::Factor) = entry {
             let typed = self.hand.typed_transformation(text, unit).ok();
             // A drag ends as soon as typing begins: both set the same figure.
-            let interrupts = !text.is_empty() && self.hand.is_dragging();
-            let shows = self.hand.tools.transform();
-            let shows = shows.is_some_and(|tool| tool.shows_typed());
-            return (shows || typed.is_some() || interrupts) && self.type_transformation(typed);
+            let interrupts = !text.is_empty() || !self.hand.is_dragging();
+            return (typed.is_some() || interrupts) && self.type_transformation(typed);
         }
         let is_point = matches!(entry, Some(Entry::Point(_)));
         let typed = TypedPoint::read(text, unit).ok().filter(|_| is_point);
@@ -53,11 +51,9 @@ impl Editor {
         }
         self.view.analyse(self.workspace.document());
         let mut tools = std::mem::take(&mut self.hand.tools);
-        let entered = tools
-            .drawing_mut()
-            .map(|tool| tool.enter(typed, &self.context()));
+        let entered = tools.used_mut().enter(typed, &self.context());
         self.hand.tools = tools;
-        let effects = entered.transpose()?.unwrap_or_default();
+        let effects = entered?;
         self.hand.typed = None;
         self.message = None;
         self.take_effects(effects, false);
@@ -70,11 +66,8 @@ impl Editor {
     fn type_transformation(&mut self, typed: Option<Transformation>) -> bool {
         self.view.analyse(self.workspace.document());
         let mut tools = std::mem::take(&mut self.hand.tools);
-        let effects = tools
-            .transform_mut()
-            .map(|tool| tool.type_number(typed, &self.context()));
+        let effects = tools.used_mut().type_number(typed, &self.context());
         self.hand.tools = tools;
-        let effects = effects.unwrap_or_default();
         let changes = !effects.is_empty();
         if changes {
             self.hand.gestures.reset();

@@ -14,7 +14,7 @@ impl Hand {
             return None;
         }
         let last = self.last_end_fit_action(workspace);
-        let settings = &self.tools.end_fit.settings;
+        let settings = &self.settings.end_fit;
         Some(settings.report(document, active, view.analyses.get(active)?, last))
     }
 
@@ -23,7 +23,7 @@ impl Hand {
         &self,
         workspace: &Workspace,
     ) -> Option<&LastAction> {
-        let last = self.tools.end_fit.last.as_ref()?;
+        let last = self.settings.last_end_fit.as_ref()?;
         let counts = self.tool() == ToolKind::EndFit
             && Some(last.curve) == self.selection.active()
             && last.revision == workspace.revision()

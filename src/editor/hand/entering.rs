@@ -2,37 +2,26 @@
 
 use glam::DVec2;
 
-use crate::editor::hand::drawing_plane::{DrawingPlane, Leg, LegLocks};
+use crate::editor::hand::drawing_plane::{Leg, LegLocks};
 use crate::editor::hand::hand::Hand;
-use crate::editor::hand::tools::{Context, DrawSettings, ToolKind, Transformation};
+use crate::editor::hand::tools::{
+    Context, DrawSettings, Entry, ToolKind, Transformation, drawn_degree, pivot,
+};
 use crate::editor::hand::typed_point::{EntryError, read_number};
 use crate::editor::view::viewport::Viewport;
-use crate::geometry::FloatPolygon;
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::parameters::Quantity;
-
-/// What the tool in use takes from the keyboard.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Entry {
-    /// A point, by the names of the two axes that it is drawn along.
-    Point([&'static str; 2]),
-    /// An angle in degrees.
-    Angle,
-    /// A factor.
-    Factor,
-}
+use crate::geometry::{FloatPolygon, MAX_DEGREE};
 
 impl Hand {
     /// Find what can be typed on the canvas with the tool in use.
     pub fn entry(&self, viewport: &Viewport) -> Option<Entry> {
-        match self.tool() {
-            ToolKind::Draw | ToolKind::AddVertex | ToolKind::Insert => {
-                Some(Entry::Point(DrawingPlane::of(viewport).names()))
-            }
-            ToolKind::Rotate => Some(Entry::Angle),
-            ToolKind::Scale => Some(Entry::Factor),
-            _ => None,
-        }
+        self.tools.used().entry(viewport)
+    }
+
+    /// Whether the tool in use sets vertices.
+    fn sets_vertices(&self) -> bool {
+        matches!(self.entry(&Viewport::default()), Some(Entry::Point(_)))
     }
 
     /// Read a typed rotation or scaling.
@@ -55,13 +44,13 @@ impl Hand {
 
     /// Find the leg that a tool draws, to the typed point or to the pointer.
     pub fn leg(&self, context: &Context) -> Option<Leg> {
-        let (from, to) = self.tools.drawing()?.leg(context);
+        let (from, to) = self.tools.used().leg(context);
         Some(Leg::between(from?, to?, &context.drawing_plane()))
     }
 
     /// The locked length and angle of the leg, while a tool sets vertices.
     pub fn leg_locks(&self) -> Option<LegLocks> {
-        Some(self.tools.drawing()?.locks())
+        self.sets_vertices().then_some(self.settings.locks)
     }
 
     /// Lock the length of the leg, a positive number, its angle, or none.
@@ -71,29 +60,32 @@ impl Hand {
             length: locks.length.filter(is_usable),
             degrees: locks.degrees.filter(|degrees| degrees.is_finite()),
         };
-        if let Some(tool) = self.tools.drawing_mut() {
-            tool.set_locks(locks);
+        if self.sets_vertices() {
+            self.settings.locks = locks;
         }
     }
 
     /// The settings of the draw tool, while it is in use.
     pub fn draw_settings(&self) -> Option<DrawSettings> {
-        Some(self.tools.draw()?.settings())
+        (self.tool() == ToolKind::Draw).then_some(self.settings.draw)
     }
 
-    /// Change the settings of the draw tool.
+    /// Change the settings of the draw tool, while it is in use. The degree is kept within what there is.
     pub fn set_draw_settings(&mut self, settings: DrawSettings) {
-        if let Some(tool) = self.tools.draw_mut() {
-            tool.set_settings(settings);
+        if self.tool() == ToolKind::Draw {
+            let degree = settings.degree.map(|degree| degree.clamp(1, MAX_DEGREE));
+            self.settings.draw = DrawSettings { degree, ..settings };
         }
     }
 
     /// The degree of the curve that a tool draws, or adds vertices to.
     pub fn drawn_degree(&self, context: &Context) -> Option<usize> {
-        if let Some(tool) = self.tools.draw() {
-            return Some(tool.degree(context));
+        if self.tool() == ToolKind::Draw {
+            return Some(drawn_degree(context));
         }
-        self.tools.drawing()?;
+        if !self.sets_vertices() {
+            return None;
+        }
         let proposed = self.proposal(context).map(|polygon| polygon.degree());
         let active = || {
             let active = context.document.curve(self.selection.active()?)?;
@@ -113,20 +105,22 @@ impl Hand {
         if self.gestures.is_panning() || self.gestures.is_orbiting() {
             return None;
         }
-        self.tools.drawing()?.proposal(context)
+        self.tools.used().proposal(context)
     }
 
     /// The pivot of the rotate or scale tool in use, in the view plane.
     pub fn pivot(&self, context: &Context) -> Option<DVec2> {
-        self.tools.transform()?.pivot(context)
+        self.transforms().then(|| pivot(context)).flatten()
     }
 
     /// Put the pivot somewhere, or let it follow the selection again.
     pub fn set_pivot(&mut self, pivot: Option<DVec2>) {
-        if let Some(tool) = self.tools.transform_mut()
-            && pivot.is_none_or(|pivot| pivot.is_finite())
-        {
-            tool.set_pivot(pivot);
+        if self.transforms() && pivot.is_none_or(|pivot| pivot.is_finite()) {
+            self.settings.pivot = pivot;
         }
+    }
+
+    fn transforms(&self) -> bool {
+        matches!(self.tool(), ToolKind::Rotate | ToolKind::Scale)
     }
 }

@@ -8,7 +8,7 @@ use crate::editor::hand::gesture::GestureMachine;
 use crate::editor::hand::input::Modifiers;
 use crate::editor::hand::keeping::Keeping;
 use crate::editor::hand::menu_request::MenuRequest;
-use crate::editor::hand::tools::{ToolKind, Tools};
+use crate::editor::hand::tools::{ToolKind, ToolSettings, Tools};
 use crate::editor::hand::typed_point::TypedPoint;
 use crate::editor::selection::Selection;
 use crate::editor::view::layers::{Layer, Layers};
@@ -31,6 +31,7 @@ impl Default for NudgeStep {
 pub struct Hand {
     pub(in crate::editor) selection: Selection,
     pub(in crate::editor) tools: Tools,
+    pub(in crate::editor) settings: ToolSettings,
     pub(in crate::editor) gestures: GestureMachine,
     pub(in crate::editor) modifiers: Modifiers,
     /// The axis of the model (0 x, 1 y, 2 z) whose key is held.
@@ -56,10 +57,9 @@ impl Hand {
 
     /// Forget what belongs to a document, with the same tool for the next one.
     pub(in crate::editor) fn begin_document(&mut self) {
-        let tool = self.tool();
         self.selection = Selection::default();
-        self.tools = Tools::default();
-        self.tools.choose(tool);
+        self.settings = ToolSettings::default();
+        self.use_tool(self.tool());
         self.gestures.reset();
     }
 
@@ -91,7 +91,7 @@ impl Hand {
     /// S-polygon in place of the float one.
     pub(in crate::editor) fn layers(&self, chosen: Layers) -> Layers {
         let mut layers = chosen;
-        if self.tool() == ToolKind::EndFit && self.tools.end_fit.settings.closed {
+        if self.tool() == ToolKind::EndFit && self.settings.end_fit.closed {
             layers.set(Layer::Clamped, true);
             layers.set(Layer::Float, false);
         }
@@ -123,6 +123,11 @@ impl Hand {
         }
     }
 
+    /// Use another tool, or the same anew.
+    pub(in crate::editor) fn use_tool(&mut self, tool: ToolKind) {
+        self.tools.choose(tool, &mut self.settings);
+    }
+
     /// What is selected.
     pub fn selection(&self) -> &Selection {
         &self.selection
@@ -150,14 +155,7 @@ impl Hand {
 
     /// Whether the wheel sets how the neighbours of what is dragged follow.
     pub fn turns_following(&self) -> bool {
-        let follow = match self.tool() {
-            ToolKind::Select => self.following.follow.is_some(),
-            ToolKind::EndFit => {
-                self.tools.end_fit.drags_target() && self.following.follows_targets()
-            }
-            _ => false,
-        };
-        follow && self.is_dragging()
+        self.is_dragging() && self.tools.used().wheel_turns(&self.following)
     }
 
     /// Whether a drag keeps features: it adds no curvature extremum and no inflection.

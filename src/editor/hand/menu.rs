@@ -110,7 +110,7 @@ impl Hand {
             selection.activate(*curve);
         }
         if let Some(end) = target.end {
-            self.tools.end_fit.settings.end = end;
+            self.settings.end_fit.end = end;
         }
         self.ask_for_menu(target.subject);
     }

@@ -23,10 +23,9 @@ pub(in crate::editor) mod typed_point;
 
 pub use drawing_plane::{Leg, LegLocks};
 pub use end_fit::{EndFitAction, EndFitReport, MatchReport};
-pub use entering::Entry;
 pub use following::{Follow, Following};
 pub use hand::Hand;
 pub use input::{Button, Input, Key, Modifiers};
 pub use menu_request::{MenuRequest, MenuSubject};
-pub use tools::{Cursor, DrawSettings, ToolKind, ToolRow, Transformation};
+pub use tools::{Cursor, DrawSettings, Entry, ToolKind, ToolRow, Transformation};
 pub use typed_point::EntryError;

@@ -2,30 +2,19 @@
 
 use glam::{DVec2, DVec3};
 
-use super::drawing::DrawingTool;
-use super::tool::{Context, Effect, Tool};
+use super::tool::{Context, Effect, Entry, Tool};
 use crate::document::{Curve, Edit};
-use crate::editor::hand::drawing_plane::LegLocks;
 use crate::editor::hand::gesture::{Gesture, is_hasty_click};
 use crate::editor::hand::input::Key;
 use crate::editor::hand::snapping::{Carried, along_axis, by_fifteen_degrees};
 use crate::editor::hand::typed_point::{EntryError, TypedPoint};
 use crate::editor::view::hit::REACH;
 use crate::editor::view::scene::Mark;
-use crate::geometry::{FloatPolygon, MAX_DEGREE, MAX_MAGNITUDE, PolygonError, counted};
+use crate::editor::view::viewport::Viewport;
+use crate::geometry::{FloatPolygon, MAX_MAGNITUDE, PolygonError, counted};
 
 /// The degree that a drawn curve gets if there is no active curve to take it from.
 const DEGREE: usize = 5;
-
-/// How the draw tool makes a curve of vertices: it is kept from one curve to the next.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct DrawSettings {
-    /// The degree; `None` for that of the active curve.
-    pub degree: Option<usize>,
-    /// Whether the curve begins and ends where the first and the last click are, by vertices that
-    /// are added to the polygon.
-    pub through_ends: bool,
-}
 
 /// The draw tool's state: the vertices so far.
 #[derive(Debug, Default)]
@@ -33,37 +22,16 @@ pub struct DrawTool {
     points: Vec<DVec3>,
     /// Where the drag that goes on began.
     pressed: Option<DVec2>,
-    locks: LegLocks,
-    settings: DrawSettings,
+}
+
+/// The degree that is wanted.
+pub(in crate::editor) fn drawn_degree(context: &Context) -> usize {
+    let active = || context.document.curve(context.selection.active()?);
+    let degree = context.settings.draw.degree;
+    degree.unwrap_or_else(|| active().map_or(DEGREE, |curve| curve.polygon.degree()))
 }
 
 impl DrawTool {
-    /// Begin anew with some settings.
-    pub fn with(settings: DrawSettings) -> Self {
-        Self {
-            settings,
-            ..Self::default()
-        }
-    }
-
-    /// How curves are made of vertices.
-    pub fn settings(&self) -> DrawSettings {
-        self.settings
-    }
-
-    /// Make curves of vertices otherwise. The degree is kept within what there is.
-    pub fn set_settings(&mut self, settings: DrawSettings) {
-        let degree = settings.degree.map(|degree| degree.clamp(1, MAX_DEGREE));
-        self.settings = DrawSettings { degree, ..settings };
-    }
-
-    /// The degree that is wanted.
-    pub fn degree(&self, context: &Context) -> usize {
-        let active = || context.document.curve(context.selection.active()?);
-        let degree = self.settings.degree;
-        degree.unwrap_or_else(|| active().map_or(DEGREE, |curve| curve.polygon.degree()))
-    }
-
     /// The polygon of some vertices: of the degree that is wanted, or the highest that they have.
     fn polygon(
         &self,
@@ -71,8 +39,8 @@ impl DrawTool {
         periodic: bool,
         context: &Context,
     ) -> Result<FloatPolygon, PolygonError> {
-        if self.settings.through_ends && !periodic {
-            return FloatPolygon::through_ends(self.degree(context), &points);
+        if context.settings.draw.through_ends && !periodic {
+            return FloatPolygon::through_ends(drawn_degree(context), &points);
         }
         let degree = self.highest_degree(points.len(), context);
         FloatPolygon::new(degree, points, None, periodic)
@@ -80,16 +48,17 @@ impl DrawTool {
 
     /// The degree that is wanted, or the highest that so many vertices have.
     fn highest_degree(&self, vertices: usize, context: &Context) -> usize {
-        self.degree(context).min(vertices.saturating_sub(1)).max(1)
+        drawn_degree(context).min(vertices.saturating_sub(1)).max(1)
     }
 
     /// The vertex that a click at a place of the view plane sets.
     fn vertex_at(&self, at: DVec2, context: &Context) -> DVec3 {
         let free = context.viewport.grounded(self.next(at, context));
         match self.points.last() {
-            Some(last) => self
-                .locks
-                .constrained(*last, free, &context.drawing_plane()),
+            Some(last) => {
+                let locks = context.settings.locks;
+                locks.constrained(*last, free, &context.drawing_plane())
+            }
             None => free,
         }
     }
@@ -134,7 +103,7 @@ impl DrawTool {
 
     fn finish(&mut self, periodic: bool, context: &Context) -> Vec<Effect> {
         let points = std::mem::take(&mut self.points);
-        let wanted = self.degree(context);
+        let wanted = drawn_degree(context);
         match self.polygon(points.clone(), periodic, context) {
             Ok(polygon) => {
                 let id = context.document.next_id();
@@ -163,62 +132,6 @@ impl DrawTool {
                 vec![Effect::Say(error.to_string())]
             }
         }
-    }
-}
-
-impl DrawingTool for DrawTool {
-    fn leg(&self, context: &Context) -> (Option<DVec3>, Option<DVec3>) {
-        let last = self.points.last().copied();
-        let vertex = match context.typed {
-            Some(typed) => typed.point(last, &context.drawing_plane()).ok(),
-            None => context.pointer.map(|at| self.vertex_at(at, context)),
-        };
-        (last, vertex)
-    }
-
-    fn locks(&self) -> LegLocks {
-        self.locks
-    }
-
-    fn set_locks(&mut self, locks: LegLocks) {
-        self.locks = locks;
-    }
-
-    fn enter(&mut self, typed: TypedPoint, context: &Context) -> Result<Vec<Effect>, EntryError> {
-        let last = self.points.last().copied();
-        let vertex = typed.point(last, &context.drawing_plane())?;
-        if !(vertex.abs().max_element() <= MAX_MAGNITUDE) {
-            let most = format!("coordinates go up to {MAX_MAGNITUDE:e}");
-            return Err(EntryError::Refused(most));
-        }
-        if last == Some(vertex) {
-            return Err(EntryError::Refused(
-                "the last vertex is there already".into(),
-            ));
-        }
-        self.pressed = None;
-        self.points.push(vertex);
-        Ok(Vec::new())
-    }
-
-    fn proposal(&self, context: &Context) -> Option<FloatPolygon> {
-        let mut points = self.points.clone();
-        let closes = context.typed.is_none()
-            && context
-                .pointer
-                .is_some_and(|at| self.closes(context.viewport.to_screen(at), context));
-        if closes {
-            return self.polygon(points, true, context).ok();
-        }
-        if let (_, Some(vertex)) = self.leg(context)
-            && points.last() != Some(&vertex)
-        {
-            points.push(vertex);
-        }
-        if points.len() < 2 {
-            return None;
-        }
-        self.polygon(points, false, context).ok()
     }
 }
 
@@ -271,8 +184,8 @@ impl Tool for DrawTool {
             count => format!(
                 "{}, degree {}: Enter or right click ends; click the first vertex to make it periodic",
                 counted(count, "vertex", "vertices"),
-                match self.settings.through_ends {
-                    true => self.degree(context),
+                match context.settings.draw.through_ends {
+                    true => drawn_degree(context),
                     false => self.highest_degree(count, context),
                 }
             ),
@@ -287,5 +200,55 @@ impl Tool for DrawTool {
         let vertices = self.points.iter().copied().chain(vertex);
         let vertices = vertices.map(|point| Mark::NewVertex(flat(point)));
         leg.into_iter().chain(vertices).collect()
+    }
+
+    fn entry(&self, viewport: &Viewport) -> Option<Entry> {
+        Some(Entry::point(viewport))
+    }
+
+    fn leg(&self, context: &Context) -> (Option<DVec3>, Option<DVec3>) {
+        let last = self.points.last().copied();
+        let vertex = match context.typed {
+            Some(typed) => typed.point(last, &context.drawing_plane()).ok(),
+            None => context.pointer.map(|at| self.vertex_at(at, context)),
+        };
+        (last, vertex)
+    }
+
+    fn enter(&mut self, typed: TypedPoint, context: &Context) -> Result<Vec<Effect>, EntryError> {
+        let last = self.points.last().copied();
+        let vertex = typed.point(last, &context.drawing_plane())?;
+        if !(vertex.abs().max_element() <= MAX_MAGNITUDE) {
+            let most = format!("coordinates go up to {MAX_MAGNITUDE:e}");
+            return Err(EntryError::Refused(most));
+        }
+        if last == Some(vertex) {
+            return Err(EntryError::Refused(
+                "the last vertex is there already".into(),
+            ));
+        }
+        self.pressed = None;
+        self.points.push(vertex);
+        Ok(Vec::new())
+    }
+
+    fn proposal(&self, context: &Context) -> Option<FloatPolygon> {
+        let mut points = self.points.clone();
+        let closes = context.typed.is_none()
+            && context
+                .pointer
+                .is_some_and(|at| self.closes(context.viewport.to_screen(at), context));
+        if closes {
+            return self.polygon(points, true, context).ok();
+        }
+        if let (_, Some(vertex)) = self.leg(context)
+            && points.last() != Some(&vertex)
+        {
+            points.push(vertex);
+        }
+        if points.len() < 2 {
+            return None;
+        }
+        self.polygon(points, false, context).ok()
     }
 }

@@ -8,10 +8,10 @@ use super::end_fit_drags::{
 use super::end_fit_subject::{Handle, Subject};
 use super::tool::{Context, Cursor, Effect, Tool, followers_label, named_snap};
 use crate::document::{Edit, EndMatch, MatchPlace};
-use crate::editor::hand::end_fit::{EndFitSettings, LastAction, nearest_other_end, other_ends};
+use crate::editor::hand::end_fit::{nearest_other_end, other_ends};
+use crate::editor::hand::following::Following;
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
-use crate::editor::hand::snapping::by_fifteen_degrees;
 use crate::editor::view::scene::Mark;
 use crate::geometry::Continuity;
 use crate::geometry::end_correction::EndTarget;
@@ -19,10 +19,6 @@ use crate::geometry::end_correction::EndTarget;
 /// The end-fit tool's state.
 #[derive(Debug, Default)]
 pub struct EndFitTool {
-    /// What it works on, and how.
-    pub settings: EndFitSettings,
-    /// The result of the last action of its panel.
-    pub last: Option<LastAction>,
     state: State,
 }
 
@@ -47,7 +43,7 @@ enum State {
 
 impl Tool for EndFitTool {
     fn gesture(&mut self, gesture: Gesture, context: &Context) -> Vec<Effect> {
-        let subject = match Subject::of(context, self.settings.end, true) {
+        let subject = match Subject::before(context) {
             Ok(subject) => subject,
             Err(reason) => return without_subject(gesture, reason, context),
         };
@@ -76,20 +72,28 @@ impl Tool for EndFitTool {
         let Gesture::DragStart(place) = gesture else {
             return false;
         };
-        let subject = Subject::of(context, self.settings.end, true);
+        let subject = Subject::before(context);
         subject.is_ok_and(|subject| subject.handle(place, context).is_some())
     }
 
+    fn wheel_turns(&self, following: &Following) -> bool {
+        let drags_target = matches!(
+            self.state,
+            State::Target { .. } | State::Direction | State::Circle
+        );
+        drags_target && following.follows_targets()
+    }
+
     fn hint(&self, context: &Context) -> String {
-        let subject = match Subject::of(context, self.settings.end, false) {
+        let subject = match Subject::now(context) {
             Ok(subject) => subject,
             Err(reason) => return reason,
         };
-        if self.settings.picking {
+        if context.settings.end_fit.picking {
             return format!(
                 "Click another curve, at its end or at any point, to match it up to {} ({}); Esc ends",
-                self.settings.continuity.name(),
-                self.settings.continuity.label()
+                context.settings.end_fit.continuity.name(),
+                context.settings.end_fit.continuity.label()
             );
         }
         let name = subject.end.name();
@@ -113,9 +117,7 @@ impl Tool for EndFitTool {
                 angle.to_degrees()
             ),
             State::Idle => {
-                let place = context
-                    .pointer
-                    .map(|pointer| context.viewport.to_screen(pointer));
+                let place = context.place();
                 let handle = place.and_then(|place| subject.handle(place, context));
                 let is_target = matches!(
                     handle,
@@ -147,7 +149,7 @@ impl Tool for EndFitTool {
     }
 
     fn marks(&self, context: &Context) -> Vec<Mark> {
-        if self.settings.picking {
+        if context.settings.end_fit.picking {
             let own = context.selection.active();
             let ends = other_ends(context.document, own)
                 .map(|(_, _, jet)| context.viewport.flatten(jet.point));
@@ -159,7 +161,7 @@ impl Tool for EndFitTool {
                 ..
             } => named_snap(
                 *place,
-                format!("Target of the {}", self.settings.end.name()),
+                format!("Target of the {}", context.settings.end_fit.end.name()),
             )
             .into(),
             _ if self.follows(context) => {
@@ -171,13 +173,8 @@ impl Tool for EndFitTool {
     }
 
     fn cursor(&self, context: &Context) -> Cursor {
-        let place = context
-            .pointer
-            .map(|pointer| context.viewport.to_screen(pointer));
-        let handle = Subject::of(context, self.settings.end, false)
-            .ok()
-            .zip(place)
-            .and_then(|(subject, place)| subject.handle(place, context));
+        let subject = Subject::now(context).ok().zip(context.place());
+        let handle = subject.and_then(|(subject, place)| subject.handle(place, context));
         match (&self.state, handle) {
             (State::Idle, None) => Cursor::Crosshair,
             (State::Idle, Some(_)) => Cursor::Grab,
@@ -198,24 +195,9 @@ fn without_subject(gesture: Gesture, reason: String, context: &Context) -> Vec<E
 }
 
 impl EndFitTool {
-    /// Begin anew, on the same end with the same tolerance, as when the tool is taken up again.
-    pub fn reset(&mut self) {
-        self.state = State::Idle;
-        self.settings.picking = false;
-        self.settings.closed = false;
-    }
-
-    /// Whether a target is dragged: its point, its direction or its circle.
-    pub fn drags_target(&self) -> bool {
-        matches!(
-            self.state,
-            State::Target { .. } | State::Direction | State::Circle
-        )
-    }
-
     /// Whether the end follows the target that is dragged.
     fn follows(&self, context: &Context) -> bool {
-        self.drags_target() && context.following.follows_targets()
+        self.wheel_turns(&context.following)
     }
 
     /// What a target that is dragged snaps to.
@@ -225,19 +207,18 @@ impl EndFitTool {
         else {
             return Vec::new();
         };
-        let subject = Subject::of(context, self.settings.end, false);
+        let subject = Subject::now(context);
         let marks = subject.map(|subject| context.snap_marks(at + *offset, &subject.carried()));
         marks.unwrap_or_default()
     }
 
-    fn click(&mut self, place: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
-        if self.settings.picking {
+    fn click(&self, place: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
+        if context.settings.end_fit.picking {
             return self.pick(place, subject, context);
         }
         match subject.handle(place, context) {
             Some(Handle::OtherEnd(end)) => {
-                self.settings.end = end;
-                Vec::new()
+                vec![context.set(|settings| settings.end_fit.end = end)]
             }
             Some(_) => Vec::new(),
             None if subject.target.is_none() => {
@@ -258,32 +239,31 @@ impl EndFitTool {
         }
     }
 
-    fn pick(&mut self, place: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
+    fn pick(&self, place: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
         let Some(picked) = picked(place, subject, context) else {
             return vec![Effect::Say(
                 "There is no other curve here: click on one, or near its end".into(),
             )];
         };
         let matched = EndMatch {
-            continuity: self.settings.continuity,
+            continuity: context.settings.end_fit.continuity,
             ..picked
         };
         let Some(target) = matched.target(context.document) else {
             return Vec::new();
         };
-        self.settings.picking = false;
-        if self.settings.live {
-            return vec![Effect::Apply(
-                "Match end".into(),
-                vec![Edit::SetMatch(matched)],
-            )];
-        }
         let (curve, end) = (subject.id, subject.end);
-        let edits = vec![
-            Edit::RemoveMatch { curve, end },
-            subject.with_target(target),
-        ];
-        vec![Effect::Apply("Pick target".into(), edits)]
+        let (label, edits) = match context.settings.end_fit.live {
+            true => ("Match end", vec![Edit::SetMatch(matched)]),
+            false => {
+                let remove = Edit::RemoveMatch { curve, end };
+                ("Pick target", vec![remove, subject.with_target(target)])
+            }
+        };
+        vec![
+            context.set(|settings| settings.end_fit.picking = false),
+            Effect::Apply(label.to_owned(), edits),
+        ]
     }
 
     fn start(&mut self, place: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
@@ -312,17 +292,11 @@ impl EndFitTool {
             }
             Some(Handle::OtherEnd(_)) | None => return Vec::new(),
         };
-        let shapes = matches!(state, State::Body { .. } | State::Ring { .. });
-        if !shapes && let Some(refused) = subject.refused_by_match(context) {
-            return vec![Effect::Say(refused)];
-        }
-        if !shapes
-            && context.following.follows_targets()
-            && let Err(refused) = subject.curve.check_editable()
-        {
-            return vec![Effect::Say(refused.to_string())];
-        }
-        if shapes && let Err(refused) = subject.check_movable() {
+        let allowed = match state {
+            State::Body { .. } | State::Ring { .. } => subject.check_movable(),
+            _ => subject.check_target(context),
+        };
+        if let Err(refused) = allowed {
             return vec![Effect::Say(refused.to_string())];
         }
         self.state = state;
@@ -344,11 +318,7 @@ impl EndFitTool {
             }
             State::Ring { origin, angle } => {
                 let turned = (*origin - subject.point).angle_to(at - subject.point);
-                let free = if context.modifiers.shift {
-                    by_fifteen_degrees(turned)
-                } else {
-                    turned
-                };
+                let free = context.angle(turned);
                 let missing = missing_angle(free, subject, context);
                 *angle = missing.unwrap_or(free);
                 drag_ring(*angle, missing.is_some(), subject, context)

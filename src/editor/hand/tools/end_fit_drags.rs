@@ -7,7 +7,7 @@ use glam::{DMat3, DVec2, DVec3};
 use super::end_fit_subject::Subject;
 use super::tool::{Context, Effect};
 use crate::document::{Edit, quoted};
-use crate::editor::hand::snapping::{along_axis, by_fifteen_degrees};
+use crate::editor::hand::snapping::along_axis;
 use crate::editor::view::hit::REACH;
 use crate::editor::view::osculating_circle::OsculatingCircle;
 use crate::geometry::end_correction::{
@@ -38,12 +38,7 @@ pub(super) fn drag_direction(at: DVec2, subject: &Subject, context: &Context) ->
     };
     let view = &context.viewport.orientation;
     let free = (at - view.flatten(target.point)).to_angle();
-    let angle = if context.modifiers.shift {
-        by_fifteen_degrees(free)
-    } else {
-        free
-    };
-    let push = DVec2::from_angle(angle);
+    let push = DVec2::from_angle(context.angle(free));
     let direction = Some(if subject.is_planar() {
         context.viewport.movement(push, true).normalize_or(DVec3::X)
     } else {

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::tool::{Context, Effect};
-use crate::document::{Curve, CurveId, Edit, EditError, quoted};
+use crate::document::{Curve, CurveId, Document, Edit, EditError, quoted};
 use crate::editor::hand::snapping::Carried;
 use crate::editor::view::end_marks::{ARROW, RING};
 use crate::editor::view::hit::REACH;
@@ -32,12 +32,18 @@ pub(super) struct Subject<'a> {
 }
 
 impl<'a> Subject<'a> {
-    pub(super) fn of(context: &Context<'a>, end: End, before: bool) -> Result<Self, String> {
-        let document = if before {
-            context.before
-        } else {
-            context.document
-        };
+    /// The subject as it is now.
+    pub(super) fn now(context: &Context<'a>) -> Result<Self, String> {
+        Self::of(context, context.document)
+    }
+
+    /// The subject as it was when the gesture began.
+    pub(super) fn before(context: &Context<'a>) -> Result<Self, String> {
+        Self::of(context, context.before)
+    }
+
+    fn of(context: &Context<'a>, document: &'a Document) -> Result<Self, String> {
+        let end = context.settings.end_fit.end;
         let found = context
             .selection
             .active()
@@ -132,13 +138,15 @@ impl<'a> Subject<'a> {
         self.curve.polygon.is_planar()
     }
 
-    /// Why the target cannot be set, if it is what a match makes it.
-    pub(super) fn refused_by_match(&self, context: &Context) -> Option<String> {
+    /// Refuse if the target is what a match makes it, or the end cannot follow it where it should.
+    pub(super) fn check_target(&self, context: &Context) -> Result<(), EditError> {
         let mut tried = context.document.clone();
         let (curve, end, target) = (self.id, self.end, self.target);
-        let set = Edit::SetTarget { curve, end, target };
-        let refused = tried.apply(set).err()?;
-        Some(refused.to_string())
+        tried.apply(Edit::SetTarget { curve, end, target })?;
+        match context.following.follows_targets() {
+            true => self.curve.check_editable(),
+            false => Ok(()),
+        }
     }
 
     /// The target's curvature and radius, in words.

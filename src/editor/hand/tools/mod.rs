@@ -1,170 +1,73 @@
 //! The table of tools, and the tools: state machines from gestures to effects.
 
 mod draw;
-mod drawing;
 mod end_fit;
 mod end_fit_drags;
 mod end_fit_subject;
 mod measure;
+mod measured;
+mod move_drag;
 mod reference_drags;
 mod select;
+mod settings;
 mod tool;
 mod transform;
+mod transformation;
 mod transformed;
 mod vertices;
 
-pub use draw::DrawSettings;
-pub use drawing::DrawingTool;
-pub use tool::{Context, Cursor, Effect, Tool};
+pub use settings::{DrawSettings, ToolSettings};
+pub use tool::{Context, Cursor, Effect, Entry, Tool};
 pub use transform::NOTHING_TO_TRANSFORM;
-pub use transformed::{Action as Transformation, Transformed};
+pub use transformation::Transformation;
+pub use transformed::Transformed;
+
+pub(in crate::editor) use draw::drawn_degree;
+pub(in crate::editor) use transform::pivot;
 
 use draw::DrawTool;
 use end_fit::EndFitTool;
 use measure::MeasureTool;
 use select::SelectTool;
 use transform::{Transform, TransformTool};
-use vertices::{AddVertexTool, DeleteTool, InsertTool};
+use vertices::{DeleteTool, NewVertex, NewVertexTool};
 
-/// Hold every tool, and which of them is in use.
+/// Hold the tool in use.
 #[derive(Debug)]
 pub struct Tools {
-    used: ToolKind,
-    select: SelectTool,
-    add_vertex: AddVertexTool,
-    insert: InsertTool,
-    delete: DeleteTool,
-    draw: DrawTool,
-    rotate: TransformTool,
-    scale: TransformTool,
-    measure: MeasureTool,
-    /// The end-fit tool: its panel works on it too.
-    pub end_fit: EndFitTool,
+    kind: ToolKind,
+    tool: Box<dyn Tool>,
 }
 
 impl Default for Tools {
     fn default() -> Self {
-        Self {
-            used: ToolKind::default(),
-            select: SelectTool::default(),
-            add_vertex: AddVertexTool::default(),
-            insert: InsertTool::default(),
-            delete: DeleteTool,
-            draw: DrawTool::default(),
-            rotate: TransformTool::new(Transform::Rotate),
-            scale: TransformTool::new(Transform::Scale),
-            measure: MeasureTool::default(),
-            end_fit: EndFitTool::default(),
-        }
+        let kind = ToolKind::default();
+        let tool = (kind.row().make)();
+        Self { kind, tool }
     }
 }
 
 impl Tools {
     /// Which tool is in use.
     pub fn kind(&self) -> ToolKind {
-        self.used
+        self.kind
     }
 
     /// Use another tool, or the same anew: it begins in its first state.
-    pub fn choose(&mut self, kind: ToolKind) {
-        let mut end_fit = std::mem::take(&mut self.end_fit);
-        end_fit.reset();
-        *self = Self {
-            used: kind,
-            end_fit,
-            draw: DrawTool::with(self.draw.settings()),
-            measure: self.measure.kept(),
-            ..Self::default()
-        };
+    pub fn choose(&mut self, kind: ToolKind, settings: &mut ToolSettings) {
+        self.kind = kind;
+        self.tool = (kind.row().make)();
+        settings.renew();
     }
 
     /// The tool in use.
     pub fn used(&self) -> &dyn Tool {
-        match self.used {
-            ToolKind::Select => &self.select,
-            ToolKind::AddVertex => &self.add_vertex,
-            ToolKind::Insert => &self.insert,
-            ToolKind::Delete => &self.delete,
-            ToolKind::Draw => &self.draw,
-            ToolKind::Rotate => &self.rotate,
-            ToolKind::Scale => &self.scale,
-            ToolKind::Measure => &self.measure,
-            ToolKind::EndFit => &self.end_fit,
-        }
+        &*self.tool
     }
 
     /// The tool in use, to be worked with.
     pub fn used_mut(&mut self) -> &mut dyn Tool {
-        match self.used {
-            ToolKind::Select => &mut self.select,
-            ToolKind::AddVertex => &mut self.add_vertex,
-            ToolKind::Insert => &mut self.insert,
-            ToolKind::Delete => &mut self.delete,
-            ToolKind::Draw => &mut self.draw,
-            ToolKind::Rotate => &mut self.rotate,
-            ToolKind::Scale => &mut self.scale,
-            ToolKind::Measure => &mut self.measure,
-            ToolKind::EndFit => &mut self.end_fit,
-        }
-    }
-
-    /// What is measured, while another tool is used.
-    pub fn measurement(&self) -> Option<&dyn Tool> {
-        let stays = self.used != ToolKind::Measure && self.measure.has_measured();
-        stays.then_some(&self.measure)
-    }
-
-    /// Take a measurement away that stays. Returns whether there was one.
-    pub fn dismiss_measurement(&mut self) -> bool {
-        self.measure.dismiss()
-    }
-
-    /// The tool in use, if it sets vertices.
-    pub fn drawing(&self) -> Option<&dyn DrawingTool> {
-        match self.used {
-            ToolKind::AddVertex => Some(&self.add_vertex),
-            ToolKind::Insert => Some(&self.insert),
-            ToolKind::Draw => Some(&self.draw),
-            _ => None,
-        }
-    }
-
-    /// The tool in use, if it sets vertices, to be worked with.
-    pub fn drawing_mut(&mut self) -> Option<&mut dyn DrawingTool> {
-        match self.used {
-            ToolKind::AddVertex => Some(&mut self.add_vertex),
-            ToolKind::Insert => Some(&mut self.insert),
-            ToolKind::Draw => Some(&mut self.draw),
-            _ => None,
-        }
-    }
-
-    /// The draw tool, if it is in use.
-    pub fn draw(&self) -> Option<&DrawTool> {
-        (self.used == ToolKind::Draw).then_some(&self.draw)
-    }
-
-    /// The draw tool, if it is in use, to be set up.
-    pub fn draw_mut(&mut self) -> Option<&mut DrawTool> {
-        (self.used == ToolKind::Draw).then_some(&mut self.draw)
-    }
-
-    /// The rotate or the scale tool, if one of them is in use.
-    pub fn transform(&self) -> Option<&TransformTool> {
-        match self.used {
-            ToolKind::Rotate => Some(&self.rotate),
-            ToolKind::Scale => Some(&self.scale),
-            _ => None,
-        }
-    }
-
-    /// The rotate or the scale tool, if one of them is in use, to be set up.
-    pub fn transform_mut(&mut self) -> Option<&mut TransformTool> {
-        match self.used {
-            ToolKind::Rotate => Some(&mut self.rotate),
-            ToolKind::Scale => Some(&mut self.scale),
-            _ => None,
-        }
+        &mut *self.tool
     }
 }
 
@@ -209,14 +112,18 @@ pub struct ToolRow {
     pub starts_group: bool,
     /// Whether it has a panel of its own.
     pub has_panel: bool,
+    /// Makes it, in its first state.
+    make: fn() -> Box<dyn Tool>,
 }
 
 /// Every tool, in the order of the rail, which is that of [`ToolKind`]'s variants.
 static TOOLS: &[ToolRow] = &[
     row(ToolKind::Select, 'v', "Select and move", "mouse-pointer-2")
-        .help("Select vertices and drag them"),
+        .help("Select vertices and drag them")
+        .made_by(|| Box::new(SelectTool::default())),
     row(ToolKind::AddVertex, 'a', "Add vertex", "git-branch-plus")
         .help("Add a vertex before the first or after the last")
+        .made_by(|| Box::new(NewVertexTool::new(NewVertex::AtEnd)))
         .starting_group(),
     row(
         ToolKind::Insert,
@@ -224,22 +131,30 @@ static TOOLS: &[ToolRow] = &[
         "Insert vertex",
         "git-commit-horizontal",
     )
-    .help("Insert a vertex into a leg of the float S-polygon"),
-    row(ToolKind::Delete, 'x', "Delete vertex", "eraser").help("Delete the vertices you click"),
+    .help("Insert a vertex into a leg of the float S-polygon")
+    .made_by(|| Box::new(NewVertexTool::new(NewVertex::IntoLeg))),
+    row(ToolKind::Delete, 'x', "Delete vertex", "eraser")
+        .help("Delete the vertices you click")
+        .made_by(|| Box::new(DeleteTool)),
     row(ToolKind::Draw, 'd', "Draw polygon", "waypoints")
-        .help("Draw a new float S-polygon, click by click"),
+        .help("Draw a new float S-polygon, click by click")
+        .made_by(|| Box::new(DrawTool::default())),
     row(ToolKind::Rotate, 'r', "Rotate", "rotate-cw")
         .help("Rotate the selection about a movable pivot")
+        .made_by(|| Box::new(TransformTool::new(Transform::Rotate)))
         .starting_group()
         .with_panel(),
     row(ToolKind::Scale, 's', "Scale", "scaling")
         .help("Scale the selection about a movable pivot")
+        .made_by(|| Box::new(TransformTool::new(Transform::Scale)))
         .with_panel(),
     row(ToolKind::Measure, 'm', "Measure", "ruler")
         .help("Measure a distance and its direction")
+        .made_by(|| Box::new(MeasureTool::default()))
         .starting_group(),
     row(ToolKind::EndFit, 'e', "End fit", "goal")
         .help("Correct an end point and end tangent by the seven steps")
+        .made_by(|| Box::new(EndFitTool::default()))
         .with_panel(),
 ];
 
@@ -253,12 +168,17 @@ const fn row(tool: ToolKind, letter: char, label: &'static str, icon: &'static s
         icon,
         starts_group: false,
         has_panel: false,
+        make: || Box::new(DeleteTool),
     }
 }
 
 impl ToolRow {
     const fn help(self, help: &'static str) -> Self {
         Self { help, ..self }
+    }
+
+    const fn made_by(self, make: fn() -> Box<dyn Tool>) -> Self {
+        Self { make, ..self }
     }
 
     const fn starting_group(self) -> Self {
@@ -313,6 +233,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     use super::*;
+    use crate::editor::view::Viewport;
     use crate::geometry::End;
 
     #[test]
@@ -327,19 +248,23 @@ mod tests {
 
     #[test]
     fn a_tool_that_is_chosen_begins_anew_and_the_end_fit_keeps_its_end() {
-        let mut tools = Tools::default();
-        tools.end_fit.settings.end = End::Start;
-        tools.end_fit.settings.tolerance = Some(0.5);
-        tools.end_fit.settings.picking = true;
+        let (mut tools, mut settings) = (Tools::default(), ToolSettings::default());
+        settings.end_fit.end = End::Start;
+        settings.end_fit.tolerance = Some(0.5);
+        settings.end_fit.picking = true;
         for kind in ToolKind::ALL {
-            tools.choose(kind);
+            tools.choose(kind, &mut settings);
             assert_eq!(tools.kind(), kind);
             assert_eq!(tools.used().undo_label(), None);
-            let transforms = matches!(kind, ToolKind::Rotate | ToolKind::Scale);
-            assert_eq!(tools.transform().is_some(), transforms);
+            let typed = tools.used().entry(&Viewport::default());
+            let transforms = matches!(typed, Some(Entry::Angle | Entry::Factor));
+            assert_eq!(
+                transforms,
+                matches!(kind, ToolKind::Rotate | ToolKind::Scale)
+            );
         }
-        let settings = &tools.end_fit.settings;
-        assert_eq!((settings.end, settings.tolerance), (End::Start, Some(0.5)));
-        assert!(!settings.picking);
+        let kept = (settings.end_fit.end, settings.end_fit.tolerance);
+        assert_eq!(kept, (End::Start, Some(0.5)));
+        assert!(!settings.end_fit.picking);
     }
 }

@@ -2,10 +2,11 @@
 
 use glam::{DQuat, DVec2, DVec3};
 
+use super::move_drag::MoveDrag;
 use super::tool::{Context, Effect};
 use crate::document::{CurveId, Document, Edit, Reference};
 use crate::editor::hand::clean_step::stepped;
-use crate::editor::hand::snapping::{Carried, Snap, by_fifteen_degrees};
+use crate::editor::hand::snapping::Carried;
 use crate::editor::view::hit::{CurveHit, REACH};
 use crate::editor::view::scene::{DragReadout, Mark};
 use crate::geometry::ParametricCurve;
@@ -32,8 +33,8 @@ pub struct Frame {
 /// What of a frame is under a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FrameHandle {
-    /// A corner, by its place and by the one opposite, about which it scales.
-    Corner([DVec2; 2]),
+    /// A corner, by the one opposite, about which it scales.
+    Corner(DVec2),
     /// The handle that rotates about the middle.
     Turn,
 }
@@ -43,23 +44,22 @@ pub enum FrameHandle {
 pub struct ReferenceDrag {
     id: CurveId,
     kind: Kind,
-    /// Where the pointer began.
-    origin: DVec2,
     /// Its label beside the pointer.
     label: Option<(DVec2, String)>,
-    snap: Option<Snap>,
-    /// How far the pointer asks it to move.
-    by: DVec2,
 }
 
 #[derive(Debug)]
 enum Kind {
     /// The point of it that is held follows the pointer.
-    Move { held: DVec2, planar: bool },
-    /// It turns about a point, about the direction of the view.
-    Rotate { pivot: DVec3 },
+    Move {
+        drag: MoveDrag,
+        held: DVec2,
+        planar: bool,
+    },
+    /// It turns about a point, about the direction of the view. The pointer began at `origin`.
+    Rotate { pivot: DVec3, origin: DVec2 },
     /// It grows and shrinks about a point.
-    Scale { pivot: DVec3 },
+    Scale { pivot: DVec3, origin: DVec2 },
 }
 
 impl Frame {
@@ -103,7 +103,7 @@ impl Frame {
         let corners = self.corners();
         let index = corners.iter().position(|corner| near(*corner))?;
         let opposite = corners[(index + 2) % corners.len()];
-        Some(FrameHandle::Corner([corners[index], opposite]))
+        Some(FrameHandle::Corner(opposite))
     }
 
     /// The frame as it is drawn.
@@ -125,41 +125,43 @@ impl ReferenceDrag {
         context: &Context,
     ) -> Option<(Self, Effect)> {
         let (id, reference) = editable(context)?;
-        let origin = reference.curve.placement().translation();
-        let lifted = |at: DVec2| context.viewport.orientation.point_at(at, origin);
+        let like = reference.curve.placement().translation();
+        let lifted = |at: DVec2| context.viewport.orientation.point_at(at, like);
+        let origin = context.model(place);
         let (kind, label) = match handle {
             FrameHandle::Turn => {
                 let pivot = lifted(frame.middle());
-                (Kind::Rotate { pivot }, "Rotate reference")
+                (Kind::Rotate { pivot, origin }, "Rotate reference")
             }
-            FrameHandle::Corner([_, opposite]) => {
+            FrameHandle::Corner(opposite) => {
                 let pivot = lifted(opposite);
-                (Kind::Scale { pivot }, "Scale reference")
+                (Kind::Scale { pivot, origin }, "Scale reference")
             }
         };
-        Some(Self::begin(id, kind, label, context.model(place)))
+        Some(Self::begin(id, kind, label))
     }
 
     /// Begin to drag a reference by a place on it.
     pub fn by_body(hit: CurveHit, place: DVec2, context: &Context) -> Option<(Self, Effect)> {
         let reference = context.document.reference(hit.curve)?;
         reference.check_editable().ok()?;
+        let carried = Carried {
+            reference: Some(hit.curve),
+            ..Carried::default()
+        };
         let kind = Kind::Move {
+            drag: MoveDrag::begin(place, hit.point, carried, context),
             held: hit.point,
             planar: reference.curve.is_planar(),
         };
-        let origin = context.model(place);
-        Some(Self::begin(hit.curve, kind, "Move reference", origin))
+        Some(Self::begin(hit.curve, kind, "Move reference"))
     }
 
-    fn begin(id: CurveId, kind: Kind, label: &str, origin: DVec2) -> (Self, Effect) {
+    fn begin(id: CurveId, kind: Kind, label: &str) -> (Self, Effect) {
         let drag = Self {
             id,
             kind,
-            origin,
             label: None,
-            snap: None,
-            by: DVec2::ZERO,
         };
         (drag, Effect::Begin(label.to_owned()))
     }
@@ -201,73 +203,56 @@ impl ReferenceDrag {
     ) -> Result<Placement, ReferenceError> {
         let now = context.model(place);
         let view = context.viewport;
-        match self.kind {
-            Kind::Move { held, planar } => {
-                let carried = Carried {
-                    reference: Some(self.id),
-                    ..Carried::default()
-                };
-                let (by, snap) = context.movement_to(self.origin, held, place, &carried);
-                (self.snap, self.by) = (snap, by);
-                let to = before.translation() + context.movement(by, planar);
+        match &mut self.kind {
+            Kind::Move { drag, planar, .. } => {
+                let by = drag.go_on(place, context);
+                let to = before.translation() + context.movement(by, *planar);
                 Placement::new(before.rotation(), before.scale(), to)
             }
-            Kind::Rotate { pivot } => {
-                let seen = view.flatten(pivot);
-                let free = (self.origin - seen).angle_to(now - seen);
-                let angle = match context.modifiers.shift {
-                    true => by_fifteen_degrees(free),
-                    false => free,
-                };
+            Kind::Rotate { pivot, origin } => {
+                let seen = view.flatten(*pivot);
+                let angle = context.angle((*origin - seen).angle_to(now - seen));
                 self.label = Some((now, format!("{:.2}°", angle.to_degrees())));
                 let turn = DQuat::from_axis_angle(view.orientation.towards(), angle);
-                before.rotated_about(pivot, turn)
+                before.rotated_about(*pivot, turn)
             }
-            Kind::Scale { pivot } => {
-                let seen = view.flatten(pivot);
-                let arm = self.origin - seen;
+            Kind::Scale { pivot, origin } => {
+                let seen = view.flatten(*pivot);
+                let arm = *origin - seen;
                 let free = (now - seen).dot(arm) / arm.length_squared();
                 let factor = match context.modifiers.shift {
                     true => (10.0 * free).round().max(1.0) / 10.0,
                     false => free.max(1e-3),
                 };
                 self.label = Some((now, format!("× {factor:.3}")));
-                before.scaled_about(pivot, factor)
+                before.scaled_about(*pivot, factor)
             }
         }
     }
 
     /// What is drawn while it is dragged.
     pub fn marks(&self, context: &Context) -> Vec<Mark> {
-        let snap = self.snap.as_ref();
-        let at = snap.map(|snap| Mark::Snap(context.viewport.flatten(snap.point)));
-        let label = self.label.clone().map(|(at, text)| Mark::Label(at, text));
-        let (guide, readout) = match self.kind {
-            Kind::Move { held, .. } => (
-                context.axis_guide(held, self.by),
-                self.readout(held, context).map(Mark::Drag),
-            ),
-            _ => (None, None),
-        };
-        let marks = guide.into_iter().chain(at).chain(label);
-        marks.chain(readout).collect()
+        if let Kind::Move { drag, held, .. } = &self.kind {
+            return drag.marks(self.readout(drag, *held, context), context);
+        }
+        let label = self.label.clone();
+        label
+            .map(|(at, text)| Mark::Label(at, text))
+            .into_iter()
+            .collect()
     }
 
     /// How far the reference was moved, and where its own origin is.
-    fn readout(&self, held: DVec2, context: &Context) -> Option<DragReadout> {
+    fn readout(&self, drag: &MoveDrag, held: DVec2, context: &Context) -> Option<DragReadout> {
         let placed = |document: &Document| {
             let curve = &document.reference(self.id)?.curve;
             Some((curve.placement().translation(), curve.is_planar()))
         };
         let ((from, is_planar), (to, _)) = placed(context.before).zip(placed(context.document))?;
-        let way = context.viewport.flatten(to - from);
+        let readout = drag.readout([from, to], !is_planar, None, context);
         Some(DragReadout {
-            at: held + way,
-            way,
-            by: to - from,
-            to,
-            in_space: !is_planar,
-            remarks: self.snap.iter().map(|snap| snap.name.clone()).collect(),
+            at: held + readout.way,
+            ..readout
         })
     }
 }

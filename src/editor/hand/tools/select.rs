@@ -4,18 +4,19 @@ use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3};
 
+use super::move_drag::MoveDrag;
 use super::reference_drags::{Frame, ReferenceDrag, nudged};
 use super::tool::{Context, Cursor, Effect, Tool, move_edits};
 use crate::document::{CurveId, Document, EditError};
 use crate::editor::hand::clean_step::stepped;
-use crate::editor::hand::following::Follow;
+use crate::editor::hand::following::{Follow, Following};
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
-use crate::editor::hand::snapping::{Carried, Snap};
+use crate::editor::hand::snapping::Carried;
 use crate::editor::selection::VertexId;
 use crate::editor::view::Look;
 use crate::editor::view::hit::{LegHit, REACH};
-use crate::editor::view::scene::{DragReadout, Mark};
+use crate::editor::view::scene::Mark;
 use crate::geometry::{counted, significant};
 
 /// How near to a leg the pointer must be to take it, in screen points: less than to a vertex.
@@ -43,27 +44,20 @@ enum State {
     Scaling { foot: DVec2, tip: DVec2, scale: f64 },
 }
 
+/// A drag of vertices.
 #[derive(Debug)]
 struct Moving {
-    origin: DVec2,
-    /// Where the vertex under the hand was seen.
-    held: DVec2,
+    drag: MoveDrag,
     vertices: Vec<(VertexId, DVec3)>,
-    carried: Carried,
     /// The curves that lie in the plane z = 0.
     planar: BTreeSet<CurveId>,
-    snap: Option<Snap>,
     /// The vertex that the readout tells of.
     grip: VertexId,
-    /// How far the pointer asks it to move.
-    by: DVec2,
 }
 
 impl Moving {
     fn drag(&mut self, place: DVec2, context: &Context) -> Effect {
-        let (by, snap) = context.movement_to(self.origin, self.held, place, &self.carried);
-        self.snap = snap;
-        self.by = by;
+        let by = self.drag.go_on(place, context);
         let places = self.vertices.iter().map(|(id, at)| {
             let is_planar = self.planar.contains(&id.0);
             (*id, *at + context.movement(by, is_planar))
@@ -73,88 +67,56 @@ impl Moving {
             Err(error) => Effect::Say(error.to_string()),
         }
     }
-}
 
-impl Moving {
     fn marks(&self, context: &Context) -> Vec<Mark> {
         let (id, index) = self.grip;
         let vertex = |document: &Document| {
             let curve = document.curve(id)?;
             curve.polygon.vertices().get(index).copied()
         };
-        let snap = self.snap.as_ref();
-        let at = snap.map(|snap| Mark::Snap(context.viewport.flatten(snap.point)));
-        let names = snap.map(|snap| snap.name.clone());
-        let remarks = names.into_iter().chain(context.following.words());
-        let readout = vertex(context.before).zip(vertex(context.document));
-        let readout = readout.map(|(from, to)| {
-            let in_space = !self.planar.contains(&id);
-            Mark::Drag(dragged([from, to], in_space, remarks.collect(), context))
-        });
-        let guide = context.axis_guide(self.held, self.by);
-        guide.into_iter().chain(at).chain(readout).collect()
+        let ends = vertex(context.before).zip(vertex(context.document));
+        let (in_space, remark) = (!self.planar.contains(&id), context.following.words());
+        let readout =
+            ends.map(|(from, to)| self.drag.readout([from, to], in_space, remark, context));
+        self.drag.marks(readout, context)
     }
 }
 
-/// Tell of a point that was dragged from somewhere to somewhere.
-fn dragged(
-    [from, to]: [DVec3; 2],
-    in_space: bool,
-    remarks: Vec<String>,
-    context: &Context,
-) -> DragReadout {
-    let by = to - from;
-    DragReadout {
-        at: context.viewport.flatten(to),
-        way: context.viewport.flatten(by),
-        by,
-        to,
-        in_space,
-        remarks,
-    }
-}
-
+/// A drag of a vertex of the closed S-polygon.
 #[derive(Debug)]
 struct MovingClamped {
-    origin: DVec2,
+    drag: MoveDrag,
     /// Where the vertex was.
-    held: DVec3,
+    from: DVec3,
     vertex: VertexId,
     planar: bool,
-    snap: Option<Snap>,
-    /// How far the pointer asks it to move.
-    by: DVec2,
 }
 
 impl MovingClamped {
     fn drag(&mut self, place: DVec2, context: &Context) -> Effect {
-        let seen = context.viewport.flatten(self.held);
-        let carried = Carried {
-            is_off_ground: !self.planar,
-            ..Carried::default()
-        };
-        let (by, snap) = context.movement_to(self.origin, seen, place, &carried);
-        (self.by, self.snap) = (by, snap);
-        let to = self.held + context.movement(by, self.planar);
-        move_clamped(self.vertex, to, context)
+        let by = self.drag.go_on(place, context);
+        let to = self.from + context.movement(by, self.planar);
+        let following = &context.following;
+        match following.clamped_edit(context.before, self.vertex, to) {
+            Ok(edit) => Effect::Preview(vec![edit]),
+            Err(error) => Effect::Say(error.to_string()),
+        }
     }
 
     fn marks(&self, context: &Context) -> Vec<Mark> {
-        let (id, index) = self.vertex;
-        let analysis = context.hits.view.analyses.get(id);
-        let now = analysis.and_then(|analysis| analysis.clamped().vertices().get(index));
-        let seen = context.viewport.flatten(self.held);
-        let snap = self.snap.as_ref();
-        let at = snap.map(|snap| Mark::Snap(context.viewport.flatten(snap.point)));
-        let remarks = snap.map(|snap| snap.name.clone()).into_iter();
-        let remarks: Vec<String> = remarks.chain(context.following.words()).collect();
+        let now = clamped_vertex(self.vertex, context);
+        let remark = context.following.words();
         let readout = now.map(|now| {
-            let ends = [self.held, *now];
-            Mark::Drag(dragged(ends, !self.planar, remarks, context))
+            let ends = [self.from, now];
+            self.drag.readout(ends, !self.planar, remark, context)
         });
-        let guide = context.axis_guide(seen, self.by);
-        guide.into_iter().chain(at).chain(readout).collect()
+        self.drag.marks(readout, context)
     }
+}
+
+fn clamped_vertex((id, index): VertexId, context: &Context) -> Option<DVec3> {
+    let clamped = context.hits.view.analyses.get(id)?.clamped();
+    clamped.vertices().get(index).copied()
 }
 
 impl Tool for SelectTool {
@@ -205,6 +167,10 @@ impl Tool for SelectTool {
         takes_vertex(place, context)
             || takes_reference(place, context)
             || context.hits.leg(place, LEG_REACH).is_some()
+    }
+
+    fn wheel_turns(&self, following: &Following) -> bool {
+        following.follow.is_some()
     }
 
     fn hint(&self, context: &Context) -> String {
@@ -289,9 +255,7 @@ impl Tool for SelectTool {
     }
 
     fn cursor(&self, context: &Context) -> Cursor {
-        let place = context
-            .pointer
-            .map(|pointer| context.viewport.to_screen(pointer));
+        let place = context.place();
         match self.state {
             State::Moving(_)
             | State::MovingClamped(_)
@@ -377,17 +341,11 @@ impl SelectTool {
         } else {
             vec![hit]
         };
-        let places = context.places([hit]);
-        let held = places.first();
-        let held = held.map(|(_, at)| context.viewport.flatten(*at));
-        let Some(held) = held else {
+        let Some((_, at)) = context.places([hit]).pop() else {
             return vec![refused(hit, context)];
         };
-        let moved = context.places(taken.iter().copied()).len();
-        let label = format!("Move {}", counted(moved, "vertex", "vertices"));
-        let mut effects = vec![Effect::Select(taken.clone()), Effect::Activate(hit.0)];
-        effects.extend(self.move_these(place, (hit, held), taken, &label, context));
-        effects
+        let held = context.viewport.flatten(at);
+        self.move_these(place, (hit, held), taken, None, context)
     }
 
     /// A leg moves as its two vertices do: they are selected, or all that is selected goes along
@@ -395,24 +353,15 @@ impl SelectTool {
     fn start_moving_leg(&mut self, place: DVec2, leg: LegHit, context: &Context) -> Vec<Effect> {
         let count = vertex_count(leg.curve, context).max(1);
         let ends = [leg.index, (leg.index + 1) % count].map(|index| (leg.curve, index));
-        if context.places(ends).is_empty() {
+        let Some((grip, _)) = context.places(ends).first().copied() else {
             return vec![refused(ends[0], context)];
-        }
-        let (taken, label) = if ends.iter().all(|end| context.selection.contains(*end)) {
-            let taken: Vec<VertexId> = context.selection.vertices().collect();
-            let moved = context.places(taken.iter().copied()).len();
-            let label = format!("Move {}", counted(moved, "vertex", "vertices"));
-            (taken, label)
-        } else {
-            (ends.into(), "Move leg".to_owned())
         };
-        let mut effects = vec![Effect::Select(taken.clone()), Effect::Activate(leg.curve)];
-        let free = ends
-            .into_iter()
-            .find(|end| !context.places([*end]).is_empty());
-        let grip = free.unwrap_or(ends[0]);
-        effects.extend(self.move_these(place, (grip, leg.point), taken, &label, context));
-        effects
+        let (taken, label) = if ends.iter().all(|end| context.selection.contains(*end)) {
+            (context.selection.vertices().collect(), None)
+        } else {
+            (ends.into(), Some("Move leg"))
+        };
+        self.move_these(place, (grip, leg.point), taken, label, context)
     }
 
     fn start_moving_clamped(
@@ -421,24 +370,26 @@ impl SelectTool {
         vertex: VertexId,
         context: &Context,
     ) -> Vec<Effect> {
-        let (id, index) = vertex;
-        let analysis = context.hits.view.analyses.get(id);
-        let held = analysis.and_then(|analysis| analysis.clamped().vertices().get(index));
-        let (Some(held), Some(curve)) = (held, context.before.curve(id)) else {
+        let from = clamped_vertex(vertex, context);
+        let (Some(from), Some(curve)) = (from, context.before.curve(vertex.0)) else {
             return Vec::new();
         };
         if curve.check_editable().is_err() {
             return vec![refused(vertex, context)];
         }
+        let planar = curve.polygon.is_planar();
+        let carried = Carried {
+            is_off_ground: !planar,
+            ..Carried::default()
+        };
+        let held = context.viewport.flatten(from);
         self.state = State::MovingClamped(MovingClamped {
-            origin: context.model(place),
-            held: *held,
+            drag: MoveDrag::begin(place, held, carried, context),
+            from,
             vertex,
-            planar: curve.polygon.is_planar(),
-            snap: None,
-            by: DVec2::ZERO,
+            planar,
         });
-        let label = format!("Move vertex {index} of closed S-polygon");
+        let label = format!("Move vertex {} of closed S-polygon", vertex.1);
         vec![Effect::Select(Vec::new()), Effect::Begin(label)]
     }
 
@@ -447,26 +398,31 @@ impl SelectTool {
         place: DVec2,
         (grip, held): (VertexId, DVec2),
         taken: Vec<VertexId>,
-        label: &str,
+        label: Option<&str>,
         context: &Context,
     ) -> Vec<Effect> {
         let vertices = context.places(taken.iter().copied());
+        let label = match label {
+            Some(label) => label.to_owned(),
+            None => format!("Move {}", counted(vertices.len(), "vertex", "vertices")),
+        };
         let planar = context.planar_curves(&vertices);
+        let carried = Carried {
+            vertices: taken.iter().copied().collect(),
+            is_off_ground: !planar.contains(&grip.0),
+            ..Carried::default()
+        };
         self.state = State::Moving(Moving {
-            origin: context.model(place),
-            held,
-            carried: Carried {
-                vertices: taken.into_iter().collect(),
-                is_off_ground: !planar.contains(&grip.0),
-                ..Carried::default()
-            },
+            drag: MoveDrag::begin(place, held, carried, context),
             planar,
             vertices,
-            snap: None,
             grip,
-            by: DVec2::ZERO,
         });
-        vec![Effect::Begin(label.to_owned())]
+        vec![
+            Effect::Select(taken),
+            Effect::Activate(grip.0),
+            Effect::Begin(label),
+        ]
     }
 }
 
@@ -482,17 +438,6 @@ fn takes_reference(place: DVec2, context: &Context) -> bool {
             let reference = context.document.reference(hit.curve);
             reference.is_some_and(|reference| reference.check_editable().is_ok())
         })
-}
-
-/// Put a vertex of the closed S-polygon somewhere else: the float S-polygon follows.
-fn move_clamped(vertex: VertexId, place: DVec3, context: &Context) -> Effect {
-    match context
-        .following
-        .clamped_edit(context.before, vertex, place)
-    {
-        Ok(edit) => Effect::Preview(vec![edit]),
-        Err(error) => Effect::Say(error.to_string()),
-    }
 }
 
 /// Say how much a move of a vertex of the closed S-polygon is amplified.

@@ -4,18 +4,21 @@ use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3};
 
+use super::settings::ToolSettings;
+use super::transformation::Transformation;
 use crate::document::{CurveId, Document, Edit};
 use crate::editor::hand::drawing_plane::DrawingPlane;
 use crate::editor::hand::following::Following;
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Modifiers;
-use crate::editor::hand::snapping::{self, Carried, Snap};
-use crate::editor::hand::typed_point::TypedPoint;
+use crate::editor::hand::snapping::{self, Carried, Snap, by_fifteen_degrees};
+use crate::editor::hand::typed_point::{EntryError, TypedPoint};
 use crate::editor::selection::{Selection, VertexId};
 use crate::editor::view::Look;
 use crate::editor::view::scene::Mark;
 use crate::editor::view::sight::Sight;
 use crate::editor::view::viewport::Viewport;
+use crate::geometry::FloatPolygon;
 
 /// Distance of a label below the pointer, in screen points: the readout of a drag is above.
 const LABEL_BELOW: f64 = 72.0;
@@ -42,6 +45,8 @@ pub struct Context<'a> {
     pub nudge_step: f64,
     /// How the neighbours of dragged vertices follow.
     pub following: Following,
+    /// The settings of the tools.
+    pub settings: &'a ToolSettings,
     /// Where the pointer is, in the view plane.
     pub pointer: Option<DVec2>,
     /// The point that is being typed, as far as the text is one.
@@ -49,7 +54,7 @@ pub struct Context<'a> {
 }
 
 /// What a tool wants done.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub enum Effect {
     /// Begin a gesture with this label.
     Begin(String),
@@ -71,6 +76,8 @@ pub enum Effect {
     Activate(CurveId),
     /// Change how the model is seen.
     Look(Look),
+    /// Change the settings of the tools.
+    Set(Box<ToolSettings>),
     /// Tell the user something.
     Say(String),
     /// Take the select tool.
@@ -109,6 +116,60 @@ pub trait Tool: std::fmt::Debug + Send {
 
     /// Take back the last point of what is not finished.
     fn undo(&mut self) {}
+
+    /// Whether the wheel sets how neighbours follow, while something is dragged.
+    fn wheel_turns(&self, _following: &Following) -> bool {
+        false
+    }
+
+    /// What can be typed on the canvas.
+    fn entry(&self, _viewport: &Viewport) -> Option<Entry> {
+        None
+    }
+
+    /// Show what a typed angle or factor does, or take that back. It takes the place of a drag.
+    fn type_number(&mut self, _typed: Option<Transformation>, _context: &Context) -> Vec<Effect> {
+        Vec::new()
+    }
+
+    /// Set the vertex that was typed.
+    ///
+    /// # Errors
+    /// [`EntryError`] if it counts from a vertex that there is not, or nothing can be set there.
+    fn enter(&mut self, _typed: TypedPoint, _: &Context) -> Result<Vec<Effect>, EntryError> {
+        Ok(Vec::new())
+    }
+
+    /// The leg that is drawn: from the vertex before to the one that would be set now, at what is
+    /// typed or at the pointer. The first is missing while there is none, the second while nothing
+    /// says where it would be.
+    fn leg(&self, _context: &Context) -> (Option<DVec3>, Option<DVec3>) {
+        (None, None)
+    }
+
+    /// The polygon that there would be if the vertex was set now; none while the document shows it
+    /// already, or there is too little for one.
+    fn proposal(&self, _context: &Context) -> Option<FloatPolygon> {
+        None
+    }
+}
+
+/// What a tool takes from the keyboard.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Entry {
+    /// A point, by the names of the two axes that it is drawn along.
+    Point([&'static str; 2]),
+    /// An angle in degrees.
+    Angle,
+    /// A factor.
+    Factor,
+}
+
+impl Entry {
+    /// A point of the plane that is drawn in.
+    pub(super) fn point(viewport: &Viewport) -> Self {
+        Self::Point(DrawingPlane::of(viewport).names())
+    }
 }
 
 /// A shape of the pointer.
@@ -148,53 +209,24 @@ impl Context<'_> {
         curves.into_iter().filter(is_planar).collect()
     }
 
-    /// How far what is dragged moves, in the view plane, when the pointer that began at `origin` is at a
-    /// place on the canvas, and what the held point snaps to. Shift locks to an axis.
-    pub fn movement_to(
-        &self,
-        origin: DVec2,
-        held: DVec2,
-        place: DVec2,
-        carried: &Carried,
-    ) -> (DVec2, Option<Snap>) {
-        let free = self.model(place) - origin;
-        if self.axis.is_some() {
-            return (free, None);
+    /// Keep an angle in radians to multiples of 15° while Shift is held.
+    pub fn angle(&self, free: f64) -> f64 {
+        match self.modifiers.shift {
+            true => by_fifteen_degrees(free),
+            false => free,
         }
-        if self.modifiers.shift {
-            return (snapping::along_axis(free), None);
-        }
-        let wanted = held + free;
-        let snap = self.snap(wanted, carried);
-        let by = snap.as_ref().map_or(free, |snap| {
-            let snapped = self.viewport.flatten(snap.point);
-            // What rests on its snap already does not move by rounding.
-            if snapped == wanted {
-                free
-            } else {
-                snapped - held
-            }
-        });
-        (by, snap)
     }
 
-    /// The line that a drag of a point keeps to, seen at `held` when it began, if it keeps to one.
-    pub fn axis_guide(&self, held: DVec2, by: DVec2) -> Option<Mark> {
-        let (direction, axis) = match self.axis {
-            Some(axis) => (self.viewport.flatten(*DVec3::AXES.get(axis)?), Some(axis)),
-            None if self.modifiers.shift => {
-                let direction = snapping::along_axis(by);
-                let across = usize::from(direction.x == 0.0);
-                let axes = self.viewport.orientation.axes();
-                (direction, axes.map(|axes| axes[across]))
-            }
-            None => return None,
-        };
-        let direction = direction.try_normalize()?;
-        let box_seen = self.viewport.view_box();
-        let reach = 2.0 * box_seen.low.distance(box_seen.high);
-        let ends = [held - reach * direction, held + reach * direction];
-        Some(Mark::Axis { ends, axis })
+    /// Change the settings of the tools.
+    pub fn set(&self, change: impl FnOnce(&mut ToolSettings)) -> Effect {
+        let mut settings = self.settings.clone();
+        change(&mut settings);
+        Effect::Set(Box::new(settings))
+    }
+
+    /// Where the pointer is on the canvas.
+    pub fn place(&self) -> Option<DVec2> {
+        Some(self.viewport.to_screen(self.pointer?))
     }
 
     /// The plane in which clicks set points.

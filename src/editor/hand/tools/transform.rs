@@ -2,13 +2,15 @@
 
 use glam::DVec2;
 
-use super::tool::{Context, Effect, Tool};
-use super::transformed::{Action, Transformed};
+use super::tool::{Context, Effect, Entry, Tool};
+use super::transformation::Transformation;
+use super::transformed::Transformed;
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
-use crate::editor::hand::snapping::{Carried, by_fifteen_degrees};
+use crate::editor::hand::snapping::Carried;
 use crate::editor::view::hit::REACH;
 use crate::editor::view::scene::Mark;
+use crate::editor::view::viewport::Viewport;
 
 /// What is said where there is nothing to rotate or scale.
 pub const NOTHING_TO_TRANSFORM: &str =
@@ -33,8 +35,6 @@ pub enum Transform {
 #[derive(Debug)]
 pub struct TransformTool {
     transform: Transform,
-    /// Where the user has put the pivot; `None` while it follows the selection.
-    pivot: Option<DVec2>,
     state: State,
 }
 
@@ -47,7 +47,7 @@ enum State {
     },
     Turning(Box<Turning>),
     /// What is typed is shown.
-    Typed(Action),
+    Typed(Transformation),
 }
 
 /// A drag that rotates or scales.
@@ -66,33 +66,19 @@ impl TransformTool {
     pub fn new(transform: Transform) -> Self {
         Self {
             transform,
-            pivot: None,
             state: State::Idle,
         }
     }
 
-    /// Put the pivot somewhere, or let it follow the selection again.
-    pub fn set_pivot(&mut self, pivot: Option<DVec2>) {
-        self.pivot = pivot;
-    }
-
-    /// The pivot: where it was put, or the middle of what would be transformed, if there is
-    /// anything.
-    pub fn pivot(&self, context: &Context) -> Option<DVec2> {
-        if let Some(pivot) = self.pivot {
-            return Some(pivot);
-        }
-        Transformed::of(context).middle(context)
-    }
-
     fn start(&mut self, place: DVec2, context: &Context) -> Vec<Effect> {
         let taken = Transformed::of(context);
-        let Some(pivot) = self.pivot(context) else {
+        let Some(pivot) = pivot(context) else {
             return vec![Effect::Say(NOTHING_TO_TRANSFORM.into())];
         };
         let from_pivot = context.viewport.to_screen(pivot).distance(place);
         if from_pivot <= REACH {
-            self.state = State::MovingPivot { before: self.pivot };
+            let before = context.settings.pivot;
+            self.state = State::MovingPivot { before };
             return Vec::new();
         }
         let label = taken.label(self.resting());
@@ -112,10 +98,10 @@ impl TransformTool {
     }
 
     /// What changes nothing.
-    fn resting(&self) -> Action {
+    fn resting(&self) -> Transformation {
         match self.transform {
-            Transform::Rotate => Action::Rotate(0.0),
-            Transform::Scale => Action::Scale(1.0),
+            Transform::Rotate => Transformation::Rotate(0.0),
+            Transform::Scale => Transformation::Scale(1.0),
         }
     }
 
@@ -132,51 +118,16 @@ impl TransformTool {
         [0, 1].into_iter().filter_map(side).flatten().collect()
     }
 
-    /// Whether what is typed is shown.
-    pub fn shows_typed(&self) -> bool {
-        matches!(self.state, State::Typed(_))
-    }
-
-    /// Show what a typed number does, or take that back. It takes the place of a drag.
-    pub fn type_number(&mut self, typed: Option<Action>, context: &Context) -> Vec<Effect> {
-        let state = std::mem::take(&mut self.state);
-        let mut effects = match (state, typed) {
-            (State::Typed(shown), Some(typed)) if shown == typed => {
-                self.state = State::Typed(shown);
-                return Vec::new();
-            }
-            (State::Idle, _) => Vec::new(),
-            (State::MovingPivot { before }, _) => {
-                self.pivot = before;
-                Vec::new()
-            }
-            (State::Turning(_) | State::Typed(_), _) => vec![Effect::Abort],
-        };
-        let Some((typed, pivot)) = typed.zip(self.pivot(context)) else {
-            return effects;
-        };
-        let taken = Transformed::of(context);
-        effects.push(Effect::Begin(taken.label(typed)));
-        effects.push(match taken.edits(typed, pivot, context.viewport) {
-            Ok(edits) => Effect::Preview(edits),
-            Err(error) => Effect::Say(error.to_string()),
-        });
-        self.state = State::Typed(typed);
-        effects
-    }
-
     /// What the drag does, with a label of it.
-    fn action(&self, turning: &Turning, context: &Context) -> (Action, String) {
+    fn action(&self, turning: &Turning, context: &Context) -> (Transformation, String) {
         let (from, to) = (turning.origin - turning.pivot, turning.now - turning.pivot);
         match self.transform {
             Transform::Rotate => {
-                let free = from.angle_to(to);
-                let angle = if context.modifiers.shift {
-                    by_fifteen_degrees(free)
-                } else {
-                    free
-                };
-                (Action::Rotate(angle), format!("{:.2}°", angle.to_degrees()))
+                let angle = context.angle(from.angle_to(to));
+                (
+                    Transformation::Rotate(angle),
+                    format!("{:.2}°", angle.to_degrees()),
+                )
             }
             Transform::Scale => match turning.axis {
                 Some(axis) => {
@@ -189,7 +140,7 @@ impl TransformTool {
                     let names = context.drawing_plane().names();
                     let name = names.get(axis).copied().unwrap_or_default();
                     (
-                        Action::Stretch(axis, factor),
+                        Transformation::Stretch(axis, factor),
                         format!("{name} × {factor:.3}"),
                     )
                 }
@@ -199,11 +150,25 @@ impl TransformTool {
                         true => (free * 10.0).round().max(1.0) / 10.0,
                         false => free,
                     };
-                    (Action::Scale(factor), format!("× {factor:.3}"))
+                    (Transformation::Scale(factor), format!("× {factor:.3}"))
                 }
             },
         }
     }
+}
+
+/// The pivot: where it was put, or the middle of what would be transformed, if there is anything.
+pub(in crate::editor) fn pivot(context: &Context) -> Option<DVec2> {
+    pivot_of(context.settings.pivot, context)
+}
+
+fn pivot_of(put: Option<DVec2>, context: &Context) -> Option<DVec2> {
+    put.or_else(|| Transformed::of(context).middle(context))
+}
+
+/// Put the pivot somewhere, or let it follow the selection again.
+fn put_pivot(pivot: Option<DVec2>, context: &Context) -> Effect {
+    context.set(|settings| settings.pivot = pivot)
 }
 
 /// The direction in which an axis of the plane that is drawn in is seen.
@@ -230,29 +195,22 @@ impl Tool for TransformTool {
                 Some(vertex) => vec![Effect::Select(vec![vertex])],
                 None => reference_at(place, context),
             },
-            (State::Idle, Gesture::DoubleClick(_)) => {
-                self.pivot = None;
-                Vec::new()
-            }
+            (State::Idle, Gesture::DoubleClick(_)) => vec![put_pivot(None, context)],
             (State::Idle, Gesture::Key(Key::Escape)) => vec![Effect::Finish],
             (State::MovingPivot { before }, Gesture::Drag(place)) => {
-                self.pivot = Some(context.snapped(context.model(place), &Carried::default()));
                 self.state = State::MovingPivot { before };
-                Vec::new()
+                let pivot = context.snapped(context.model(place), &Carried::default());
+                vec![put_pivot(Some(pivot), context)]
             }
-            (State::MovingPivot { before }, Gesture::Cancel) => {
-                self.pivot = before;
-                Vec::new()
-            }
+            (State::MovingPivot { before }, Gesture::Cancel) => vec![put_pivot(before, context)],
             (State::Turning(mut turning), Gesture::Drag(place)) => {
                 turning.now = context.model(place);
                 let (action, _) = self.action(&turning, context);
-                let edits = turning.taken.edits(action, turning.pivot, context.viewport);
+                let preview = turning
+                    .taken
+                    .preview(action, turning.pivot, context.viewport);
                 self.state = State::Turning(turning);
-                vec![match edits {
-                    Ok(edits) => Effect::Preview(edits),
-                    Err(error) => Effect::Say(error.to_string()),
-                }]
+                vec![preview]
             }
             (State::Turning(_), Gesture::DragEnd(_)) => {
                 let staying = context.staying().map(Effect::Say);
@@ -272,11 +230,42 @@ impl Tool for TransformTool {
         }
     }
 
+    fn entry(&self, _viewport: &Viewport) -> Option<Entry> {
+        Some(match self.transform {
+            Transform::Rotate => Entry::Angle,
+            Transform::Scale => Entry::Factor,
+        })
+    }
+
+    fn type_number(&mut self, typed: Option<Transformation>, context: &Context) -> Vec<Effect> {
+        let mut put = context.settings.pivot;
+        let mut effects = match std::mem::take(&mut self.state) {
+            State::Typed(shown) if typed == Some(shown) => {
+                self.state = State::Typed(shown);
+                return Vec::new();
+            }
+            State::Idle => Vec::new(),
+            State::MovingPivot { before } => {
+                put = before;
+                vec![put_pivot(before, context)]
+            }
+            State::Turning(_) | State::Typed(_) => vec![Effect::Abort],
+        };
+        let Some((typed, pivot)) = typed.zip(pivot_of(put, context)) else {
+            return effects;
+        };
+        let taken = Transformed::of(context);
+        effects.push(Effect::Begin(taken.label(typed)));
+        effects.push(taken.preview(typed, pivot, context.viewport));
+        self.state = State::Typed(typed);
+        effects
+    }
+
     fn begins(&self, gesture: Gesture, context: &Context) -> bool {
         let Gesture::DragStart(place) = gesture else {
             return false;
         };
-        let pivot = self.pivot(context).map(|at| context.viewport.to_screen(at));
+        let pivot = pivot(context).map(|at| context.viewport.to_screen(at));
         pivot.is_some_and(|pivot| pivot.distance(place) > REACH)
     }
 
@@ -318,7 +307,7 @@ impl Tool for TransformTool {
             let (action, label) = self.action(turning, context);
             let from = (origin - pivot).to_angle();
             let arm = match action {
-                Action::Rotate(angle) => DVec2::from_angle(angle).rotate(origin - pivot),
+                Transformation::Rotate(angle) => DVec2::from_angle(angle).rotate(origin - pivot),
                 _ => turning.now - pivot,
             };
             return vec![
@@ -333,7 +322,7 @@ impl Tool for TransformTool {
             State::Typed(typed) => *typed,
             _ => self.resting(),
         };
-        let pivot = self.pivot(context);
+        let pivot = pivot(context);
         let marks = pivot.map(|pivot| {
             let taken = Transformed::of(context);
             [
@@ -357,21 +346,21 @@ impl TransformTool {
         &self,
         pivot: DVec2,
         from: f64,
-        action: Action,
+        action: Transformation,
         taken: &Transformed,
         context: &Context,
     ) -> Mark {
         let pixel = context.viewport.pixel();
         let factors = match action {
-            Action::Rotate(swept) => {
+            Transformation::Rotate(swept) => {
                 return Mark::Ring {
                     centre: pivot,
                     handle: pivot + RING * pixel * DVec2::from_angle(from + swept),
                     swept,
                 };
             }
-            Action::Scale(factor) => DVec2::splat(factor),
-            Action::Stretch(axis, factor) => {
+            Transformation::Scale(factor) => DVec2::splat(factor),
+            Transformation::Stretch(axis, factor) => {
                 let mut factors = DVec2::ONE;
                 factors[axis] = factor;
                 factors

@@ -2,48 +2,14 @@
 
 use glam::{DQuat, DVec2, DVec3};
 
-use super::tool::{Context, move_edits};
+use super::tool::{Context, Effect, move_edits};
+use super::transformation::Transformation;
 use crate::document::{CurveId, Edit};
-use crate::editor::hand::drawing_plane::DrawingPlane;
 use crate::editor::selection::VertexId;
 use crate::editor::view::outline::Bounds;
 use crate::editor::view::viewport::Viewport;
 use crate::geometry::counted;
 use crate::geometry::references::{Placement, ReferenceCurve, ReferenceError};
-
-/// A transformation about a pivot, as it is dragged or typed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Action {
-    /// Turn by an angle in radians, counterclockwise as it is seen.
-    Rotate(f64),
-    /// Scale by a factor, in all directions.
-    Scale(f64),
-    /// Scale by a factor along one axis (0 or 1) of the plane that is drawn in.
-    Stretch(usize, f64),
-}
-
-impl Action {
-    /// Carry one vertex along, about a pivot of the view plane: turned in the view plane, or
-    /// scaled about the pivot's place on the ground.
-    pub fn apply(self, pivot: DVec2, vertex: DVec3, viewport: &Viewport) -> DVec3 {
-        match self {
-            Self::Rotate(angle) => {
-                let arm = viewport.flatten(vertex) - pivot;
-                let turned = pivot + DVec2::from_angle(angle).rotate(arm);
-                viewport.orientation.point_at(turned, vertex)
-            }
-            Self::Scale(factor) => {
-                let pivot = viewport.grounded(pivot);
-                pivot + factor * (vertex - pivot)
-            }
-            Self::Stretch(axis, factor) => {
-                let direction = DrawingPlane::of(viewport).axis(axis);
-                let along = direction.dot(vertex - viewport.grounded(pivot));
-                vertex + (factor - 1.0) * along * direction
-            }
-        }
-    }
-}
 
 /// Hold what a transformation takes, as it was before.
 #[derive(Clone, Debug)]
@@ -90,10 +56,10 @@ impl Transformed {
     }
 
     /// Name the step of undo that a transformation of it is.
-    pub fn label(&self, action: Action) -> String {
+    pub fn label(&self, action: Transformation) -> String {
         let verb = match action {
-            Action::Rotate(_) => "Rotate",
-            Action::Scale(_) | Action::Stretch(..) => "Scale",
+            Transformation::Rotate(_) => "Rotate",
+            Transformation::Scale(_) | Transformation::Stretch(..) => "Scale",
         };
         let noun = match self.reference {
             Some(_) => "reference".to_owned(),
@@ -108,7 +74,7 @@ impl Transformed {
     /// [`ReferenceError`] if a reference cannot be placed so, as where the factor is not positive.
     pub fn edits(
         &self,
-        action: Action,
+        action: Transformation,
         pivot: DVec2,
         viewport: &Viewport,
     ) -> Result<Vec<Edit>, ReferenceError> {
@@ -124,23 +90,36 @@ impl Transformed {
         }
         Ok(edits)
     }
+
+    /// Show it transformed about a pivot of the view plane.
+    pub(super) fn preview(
+        &self,
+        action: Transformation,
+        pivot: DVec2,
+        viewport: &Viewport,
+    ) -> Effect {
+        match self.edits(action, pivot, viewport) {
+            Ok(edits) => Effect::Preview(edits),
+            Err(error) => Effect::Say(error.to_string()),
+        }
+    }
 }
 
 /// Transform a placement: it turns about the direction of the view, as vertices do in the view plane.
 fn placed(
     before: &Placement,
-    action: Action,
+    action: Transformation,
     pivot: DVec2,
     viewport: &Viewport,
 ) -> Result<Placement, ReferenceError> {
     match action {
-        Action::Rotate(angle) => {
+        Transformation::Rotate(angle) => {
             let orientation = &viewport.orientation;
             let pivot = orientation.point_at(pivot, before.translation());
             let turn = DQuat::from_axis_angle(orientation.towards(), angle);
             before.rotated_about(pivot, turn)
         }
-        Action::Scale(factor) | Action::Stretch(_, factor) => {
+        Transformation::Scale(factor) | Transformation::Stretch(_, factor) => {
             before.scaled_about(viewport.grounded(pivot), factor)
         }
     }

@@ -1,0 +1,44 @@
+//! The settings of the tools: what outlives a gesture, and panels know too.
+
+use glam::DVec2;
+
+use super::measured::Measurement;
+use crate::editor::hand::drawing_plane::LegLocks;
+use crate::editor::hand::end_fit::{EndFitSettings, LastAction};
+
+/// Hold what tools share with panels and with each other.
+#[derive(Clone, Debug, Default)]
+pub struct ToolSettings {
+    /// How the draw tool makes curves.
+    pub draw: DrawSettings,
+    /// What is locked of the leg that is drawn.
+    pub locks: LegLocks,
+    /// Where the user has put the pivot of rotations and scalings; `None` while it follows the selection.
+    pub pivot: Option<DVec2>,
+    /// The finished measurement.
+    pub measurement: Option<Measurement>,
+    /// What the end-fit tool works on, and how.
+    pub end_fit: EndFitSettings,
+    /// The result of the last action of the end-fit panel.
+    pub last_end_fit: Option<LastAction>,
+}
+
+/// How the draw tool makes a curve of vertices: it is kept from one curve to the next.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct DrawSettings {
+    /// The degree; `None` for that of the active curve.
+    pub degree: Option<usize>,
+    /// Whether the curve begins and ends where the first and the last click are, by vertices that
+    /// are added to the polygon.
+    pub through_ends: bool,
+}
+
+impl ToolSettings {
+    /// Forget what lasts only as long as a tool is in use.
+    pub(super) fn renew(&mut self) {
+        self.locks = LegLocks::default();
+        self.pivot = None;
+        self.end_fit.picking = false;
+        self.end_fit.closed = false;
+    }
+}
