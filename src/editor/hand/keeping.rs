@@ -2,14 +2,12 @@
 //! place that did not; a step that would add one is refused.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use glam::{DVec2, DVec3};
 
-use super::kept_curves::{KeptCurves, Obstacle};
-use crate::document::{Curve, CurveId, Document, Edit, EditError, quoted};
-use crate::geometry::features::SegmentFeatures;
+use super::kept_curves::{KeptCurves, KnownFeatures, Obstacle};
+use crate::document::{CurveId, Document, Edit, EditError, quoted};
 
 /// How long a frame tries places on the way to one that is not safe.
 const BUDGET: Duration = Duration::from_millis(3);
@@ -26,21 +24,26 @@ const ASIDE: [f64; 6] = [20.0, -20.0, 45.0, -45.0, 70.0, -70.0];
 pub struct Keeping {
     curves: KeptCurves,
     /// The last places of what is dragged that were proved to add nothing.
-    good: BTreeMap<CurveId, Moves>,
+    good: Places,
     /// Why the vertices are not where the pointer has them.
     held_back: Option<String>,
 }
 
 /// Vertices of a curve with their places.
-type Moves = Vec<(usize, DVec3)>;
+type Moves = BTreeMap<usize, DVec3>;
 
-/// What a drag works on: the document as it was when it began, what edits would show, the edits besides
-/// moves, and what is proved of a curve's segments.
-struct Drag<'a, T, P> {
+/// Vertices of several curves with their places.
+type Places = BTreeMap<CurveId, Moves>;
+
+/// What a drag works on.
+struct Drag<'a> {
+    /// The document as it was when the drag began.
     settled: &'a Document,
-    try_out: T,
+    /// The document that edits would show.
+    try_out: &'a dyn Fn(Vec<Edit>) -> Result<Document, EditError>,
+    /// The edits besides moves.
     others: &'a [Edit],
-    proved: P,
+    known: KnownFeatures<'a>,
 }
 
 impl Keeping {
@@ -55,37 +58,30 @@ impl Keeping {
     }
 
     /// Change the edits of a drag so that nothing is added to `settled`, the document as it was when
-    /// the drag began, by what `try_out` says that they show. `proved` gives the features of a curve's
-    /// segments, if they are known.
+    /// the drag began, by what `try_out` says that they show.
     pub fn keep(
         &mut self,
         edits: Vec<Edit>,
         settled: &Document,
-        try_out: impl Fn(Vec<Edit>) -> Result<Document, EditError>,
-        proved: impl Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>>,
+        try_out: &dyn Fn(Vec<Edit>) -> Result<Document, EditError>,
+        known: KnownFeatures,
     ) -> Vec<Edit> {
         self.held_back = None;
-        let mut together = BTreeMap::new();
+        let mut wanted = Places::new();
         let mut others = Vec::new();
         for edit in edits {
             match moves(&edit, settled) {
-                Some((curve, moves)) => {
-                    // Several edits of a curve count together; of a vertex the last one does.
-                    let all: &mut BTreeMap<usize, DVec3> = together.entry(curve).or_default();
-                    all.extend(moves);
-                }
+                // Several edits of a curve count together; of a vertex the last one does.
+                Some((curve, moves)) => wanted.entry(curve).or_default().extend(moves),
                 None => others.push(edit),
             }
         }
-        let together = together.into_iter();
-        let wanted = together.map(|(curve, moves)| (curve, moves.into_iter().collect()));
-        let wanted: BTreeMap<CurveId, Moves> = wanted.collect();
         self.begin(&wanted, settled);
         let drag = Drag {
             settled,
             try_out,
             others: &others,
-            proved,
+            known,
         };
         if let Err(Obstacle::Unprovable(reason)) = self.go(&wanted, &drag) {
             self.held_back = Some(reason);
@@ -96,25 +92,16 @@ impl Keeping {
     }
 
     /// Whether nothing is added to `settled` by what the drag has come to.
-    pub fn allows(
-        &mut self,
-        after: &Document,
-        settled: &Document,
-        proved: impl Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>>,
-    ) -> bool {
-        self.curves.prove(settled, after, proved).is_ok()
+    pub fn allows(&mut self, after: &Document, settled: &Document, known: KnownFeatures) -> bool {
+        self.curves.prove(settled, after, known).is_ok()
     }
 
     /// Say what edits would add to the curves of a document, if they add features or nothing can be
     /// proved.
-    pub fn refusal(
-        edits: Vec<Edit>,
-        document: &Document,
-        proved: impl Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>>,
-    ) -> Option<String> {
+    pub fn refusal(edits: Vec<Edit>, document: &Document, known: KnownFeatures) -> Option<String> {
         let edited = document.edited(edits).ok()?;
         let obstacle = KeptCurves::default()
-            .prove(document, &edited, proved)
+            .prove(document, &edited, known)
             .err()?;
         Some(match obstacle {
             Obstacle::Added(curve, added) => {
@@ -126,15 +113,14 @@ impl Keeping {
     }
 
     /// Begin where the vertices were, unless the same ones have been dragged in the last frame.
-    fn begin(&mut self, wanted: &BTreeMap<CurveId, Moves>, settled: &Document) {
+    fn begin(&mut self, wanted: &Places, settled: &Document) {
         let last = std::mem::take(&mut self.good);
-        let indices = |moves: &Moves| moves.iter().map(|(index, _)| *index).collect::<Vec<_>>();
         for (id, moves) in wanted {
-            let same = last.get(id).filter(|last| indices(last) == indices(moves));
+            let same = last.get(id).filter(|last| last.keys().eq(moves.keys()));
             let good = same.cloned().or_else(|| {
                 let polygon = &settled.curve(*id)?.polygon;
-                let place = |(index, _): &(usize, DVec3)| (*index, polygon.vertex(*index));
-                Some(moves.iter().map(place).collect())
+                let place = |index: &usize| (*index, polygon.vertex(*index));
+                Some(moves.keys().map(place).collect())
             });
             self.good.extend(good.map(|good| (*id, good)));
         }
@@ -144,15 +130,7 @@ impl Keeping {
     ///
     /// # Errors
     /// [`Obstacle::Unprovable`] if nothing can be proved of a curve.
-    fn go<T, P>(
-        &mut self,
-        wanted: &BTreeMap<CurveId, Moves>,
-        drag: &Drag<T, P>,
-    ) -> Result<(), Obstacle>
-    where
-        T: Fn(Vec<Edit>) -> Result<Document, EditError>,
-        P: Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>>,
-    {
+    fn go(&mut self, wanted: &Places, drag: &Drag) -> Result<(), Obstacle> {
         let begin = Instant::now();
         let (curve, added) = match self.go_all_the_way(wanted, drag) {
             Err(Obstacle::Added(curve, added)) => (curve, added),
@@ -182,34 +160,26 @@ impl Keeping {
     ///
     /// # Errors
     /// What stands against them.
-    fn go_all_the_way<T, P>(
-        &mut self,
-        places: &BTreeMap<CurveId, Moves>,
-        drag: &Drag<T, P>,
-    ) -> Result<(), Obstacle>
-    where
-        T: Fn(Vec<Edit>) -> Result<Document, EditError>,
-        P: Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>>,
-    {
+    fn go_all_the_way(&mut self, places: &Places, drag: &Drag) -> Result<(), Obstacle> {
         let edits = drag.others.iter().cloned().chain(edits_of(places));
         let tried = (drag.try_out)(edits.collect());
         let tried = tried.map_err(|error| Obstacle::Unprovable(error.to_string()))?;
-        self.curves.prove(drag.settled, &tried, &drag.proved)?;
+        self.curves.prove(drag.settled, &tried, drag.known)?;
         self.good.clone_from(places);
         Ok(())
     }
 
     /// Let a single vertex go along the border, nearer to where the pointer has it.
-    fn slide<T, P>(&mut self, wanted: &BTreeMap<CurveId, Moves>, drag: &Drag<T, P>, begin: Instant)
-    where
-        T: Fn(Vec<Edit>) -> Result<Document, EditError>,
-        P: Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>>,
-    {
-        let single = |places: &BTreeMap<CurveId, Moves>| match places.first_key_value() {
-            Some((id, moves)) if places.len() == 1 && moves.len() == 1 => Some((*id, moves[0])),
-            _ => None,
+    fn slide(&mut self, wanted: &Places, drag: &Drag, begin: Instant) {
+        let single = |places: &Places| {
+            let mut all = places.iter().flat_map(|(id, moves)| {
+                moves
+                    .iter()
+                    .map(move |(vertex, place)| (*id, *vertex, *place))
+            });
+            all.next().filter(|_| all.next().is_none())
         };
-        let Some(((id, (vertex, wanted)), (_, (_, good)))) = single(wanted).zip(single(&self.good))
+        let Some(((id, vertex, wanted), (.., good))) = single(wanted).zip(single(&self.good))
         else {
             return;
         };
@@ -221,7 +191,7 @@ impl Keeping {
             let angle = degrees.to_radians();
             // The foot of the way that is left on this direction: nearer than where it starts.
             let by = angle.cos() * DVec2::from_angle(angle).rotate(left.truncate());
-            let place = vec![(vertex, good + by.extend(0.0))];
+            let place = Moves::from([(vertex, good + by.extend(0.0))]);
             if self.go_all_the_way(&[(id, place)].into(), drag).is_ok() {
                 return;
             }
@@ -230,23 +200,23 @@ impl Keeping {
 }
 
 /// The edits that put vertices in their places.
-fn edits_of(places: &BTreeMap<CurveId, Moves>) -> impl Iterator<Item = Edit> + '_ {
+fn edits_of(places: &Places) -> impl Iterator<Item = Edit> + '_ {
     places.iter().map(|(curve, moves)| Edit::MoveVertices {
         curve: *curve,
-        moves: moves.clone(),
+        moves: moves
+            .iter()
+            .map(|(index, place)| (*index, *place))
+            .collect(),
     })
 }
 
 /// Go a share of the way from some places to others.
-fn between(
-    from: &BTreeMap<CurveId, Moves>,
-    to: &BTreeMap<CurveId, Moves>,
-    share: f64,
-) -> BTreeMap<CurveId, Moves> {
+fn between(from: &Places, to: &Places, share: f64) -> Places {
     let of_curve = |(id, to): (&CurveId, &Moves)| {
-        let pairs = from.get(id)?.iter().zip(to);
-        let places = pairs.map(|((_, from), (index, to))| (*index, from.lerp(*to, share)));
-        Some((*id, places.collect()))
+        let from = from.get(id)?;
+        let place =
+            |(index, to): (&usize, &DVec3)| Some((*index, from.get(index)?.lerp(*to, share)));
+        Some((*id, to.iter().filter_map(place).collect()))
     };
     to.iter().filter_map(of_curve).collect()
 }
@@ -254,7 +224,7 @@ fn between(
 /// Where an edit puts which vertices, if that is all it does.
 fn moves(edit: &Edit, settled: &Document) -> Option<(CurveId, Moves)> {
     match edit {
-        Edit::MoveVertices { curve, moves } => Some((*curve, moves.clone())),
+        Edit::MoveVertices { curve, moves } => Some((*curve, moves.iter().copied().collect())),
         Edit::SetPolygon { curve, polygon } => {
             let before = &settled.curve(*curve)?.polygon;
             if !before.has_numbers_of(polygon) || before.weights() != polygon.weights() {
@@ -271,6 +241,7 @@ fn moves(edit: &Edit, settled: &Document) -> Option<(CurveId, Moves)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::document::Curve;
     use crate::geometry::FloatPolygon;
 
     #[test]
@@ -287,7 +258,7 @@ mod tests {
         let edits = vec![moved(0, 1e-3), moved(4, 2e-3), moved(0, -1e-3)];
         let try_out = |edits| document.edited(edits);
         let mut keeping = Keeping::default();
-        let kept = keeping.keep(edits.clone(), &document, try_out, |_, _| None);
+        let kept = keeping.keep(edits.clone(), &document, &try_out, &|_, _| None);
         assert_eq!(keeping.held_back(), None);
         let [kept, wanted] = [kept, edits].map(|edits| document.edited(edits).expect("a document"));
         assert!(kept.is_same(&wanted));

@@ -1,6 +1,6 @@
 //! The curves whose features are kept: what a change of the document adds to them, proved.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use crate::document::{Curve, CurveId, Document, quoted};
@@ -10,6 +10,10 @@ use crate::geometry::vertex_moves::MoveProver;
 
 /// The most segments of a curve that are proved anew in every frame.
 const MOST_SEGMENTS: usize = 256;
+
+/// The features of a curve's segments, if they are proved already.
+pub(super) type KnownFeatures<'a> =
+    &'a dyn Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>>;
 
 /// The curves that have changed since a drag began, with what is proved of them as they were.
 #[derive(Debug, Default)]
@@ -22,7 +26,7 @@ pub(super) struct KeptCurves {
 struct Kept {
     before: Arc<Curve>,
     proved: Vec<SegmentFeatures>,
-    vertices: Vec<usize>,
+    vertices: BTreeSet<usize>,
     prover: MoveProver,
 }
 
@@ -37,8 +41,8 @@ pub(super) enum Obstacle {
 
 impl KeptCurves {
     /// Prove that nothing is added to the curves of `before` by what makes `after` of it: to those that
-    /// were moved and to those that follow them. `known` gives the features of the segments of a curve
-    /// as it was, if they are proved already.
+    /// were moved and to those that follow them. `known` is of
+    /// curves as they were.
     ///
     /// # Errors
     /// The first [`Obstacle`] found.
@@ -46,7 +50,7 @@ impl KeptCurves {
         &mut self,
         before: &Document,
         after: &Document,
-        known: impl Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>>,
+        known: KnownFeatures,
     ) -> Result<(), Obstacle> {
         for (id, now) in after.curves() {
             let Some(then) = before.curve(id).filter(|then| !Arc::ptr_eq(then, now)) else {
@@ -56,7 +60,7 @@ impl KeptCurves {
             if moved.is_empty() {
                 continue;
             }
-            let kept = self.kept(id, then, &moved, &known).map_err(|reason| {
+            let kept = self.kept(id, then, &moved, known).map_err(|reason| {
                 let name = quoted(&then.name);
                 Obstacle::Unprovable(format!("features of {name} cannot be kept: {reason}"))
             })?;
@@ -77,28 +81,22 @@ impl KeptCurves {
         id: CurveId,
         before: &Arc<Curve>,
         moved: &[usize],
-        known: &impl Fn(CurveId, &Arc<Curve>) -> Option<Vec<SegmentFeatures>>,
+        known: KnownFeatures,
     ) -> Result<&mut Kept, String> {
         let last = self.curves.remove(&id);
         let last = last.filter(|kept| Arc::ptr_eq(&kept.before, before));
+        let has_moved = |kept: &Kept| moved.iter().all(|it| kept.vertices.contains(it));
         let kept = match last {
-            Some(kept)
-                if moved
-                    .iter()
-                    .all(|it| kept.vertices.binary_search(it).is_ok()) =>
-            {
-                kept
-            }
+            Some(kept) if has_moved(&kept) => kept,
             Some(mut kept) => {
                 kept.vertices.extend(moved);
-                kept.vertices.sort_unstable();
-                kept.vertices.dedup();
                 Kept::new(before, kept.proved, kept.vertices)?
             }
             None => {
                 let proved = known(id, before)
                     .or_else(|| SegmentFeatures::of_curve(&before.polygon, |_| true));
-                Kept::new(before, proved.unwrap_or_default(), moved.to_vec())?
+                let moved = moved.iter().copied().collect();
+                Kept::new(before, proved.unwrap_or_default(), moved)?
             }
         };
         Ok(self.curves.entry(id).or_insert(kept))
@@ -109,9 +107,9 @@ impl Kept {
     fn new(
         before: &Arc<Curve>,
         proved: Vec<SegmentFeatures>,
-        vertices: Vec<usize>,
+        vertices: BTreeSet<usize>,
     ) -> Result<Self, String> {
-        let prover = MoveProver::new(&before.polygon, &proved, vertices.clone())
+        let prover = MoveProver::new(&before.polygon, &proved, vertices.iter().copied().collect())
             .map_err(|error| error.to_string())?;
         let segments = prover.dependent().len();
         if segments > MOST_SEGMENTS {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::hand::Hand;
 use super::keeping::Keeping;
 use crate::analysis::AnalysisCache;
-use crate::document::{Curve, CurveId, Document, Edit};
+use crate::document::{Curve, CurveId, Edit};
 use crate::editor::reply::Refusal;
 use crate::editor::workspace::Workspace;
 use crate::geometry::features::SegmentFeatures;
@@ -22,9 +22,8 @@ impl Hand {
             return edits;
         }
         let try_out = |edits| workspace.previewed(edits);
-        let proved = known_features(analyses);
-        let settled = workspace.settled();
-        self.keeping.keep(edits, settled, try_out, proved)
+        let (settled, known) = (workspace.settled(), known_features(analyses));
+        self.keeping.keep(edits, settled, &try_out, &known)
     }
 
     /// End a drag, or the preview of a field, and keep it as one step. Where features are kept, a match that takes
@@ -36,10 +35,8 @@ impl Hand {
     ) {
         if self.keeps_features() {
             let settled = workspace.settled().clone();
-            let proved = known_features(analyses);
-            let keeping = &mut self.keeping;
-            let allowed = |after: &Document| keeping.allows(after, &settled, proved);
-            workspace.take_time(allowed);
+            let (keeping, known) = (&mut self.keeping, known_features(analyses));
+            workspace.take_time(|after| keeping.allows(after, &settled, &known));
         }
         self.keeping.end();
         workspace.commit();
@@ -55,13 +52,12 @@ impl Hand {
         workspace: &Workspace,
         analyses: &AnalysisCache,
     ) -> Result<(), Refusal> {
-        let mut all = edits.iter();
-        let moves = all.all(|edit| matches!(edit, Edit::MoveVertices { .. }));
-        if !moves || !self.keeps_features() {
+        let is_move = |edit: &Edit| matches!(edit, Edit::MoveVertices { .. });
+        if !self.keeps_features() || !edits.iter().all(is_move) {
             return Ok(());
         }
-        let proved = known_features(analyses);
-        match Keeping::refusal(edits.to_vec(), workspace.settled(), proved) {
+        let known = known_features(analyses);
+        match Keeping::refusal(edits.to_vec(), workspace.settled(), &known) {
             None => Ok(()),
             Some(reason) => Err(Refusal(format!("Features are kept (K): {reason}"))),
         }
