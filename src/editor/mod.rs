@@ -42,6 +42,7 @@ use crate::document::{CurveId, Document, Edit, quoted};
 use crate::io::examples::{EXAMPLES, FIRST};
 use hand::gesture::Gesture;
 use hand::snap_name::snap_name;
+use jobs::Client;
 use jobs::foreseeing::Foreseeing;
 use jobs::patience::Patience;
 use operating::Operations;
@@ -88,7 +89,7 @@ impl Editor {
     ) {
         self.patience = Patience::new(patience);
         self.view.run_in_background(wake.clone());
-        self.foreseeing = Foreseeing::background(wake.clone());
+        self.foreseeing = Client::background("foresight", wake.clone());
         self.recovery.autosaving.run_in_background(wake.clone());
         self.filing = Filing::background(wake.clone());
         self.operations = Operations::background(wake);

@@ -22,7 +22,7 @@ impl Editor {
         });
         let candidates: Vec<Candidate> = candidates.collect();
         self.foreseeing
-            .request(curve, candidates, &mut self.patience);
+            .foresee(curve, candidates, &mut self.patience);
     }
 
     /// How far an operation would move the active curve with the values that it begins with. `None` if that

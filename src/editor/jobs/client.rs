@@ -55,6 +55,28 @@ impl<Q, T: Send + 'static> Client<Q, T> {
         self.go_on(job, patience);
     }
 
+    /// Take what the worker has finished, and start the job of a request that is not the latest; without a
+    /// request forget everything. Returns whether a job was started.
+    pub fn advance<J>(
+        &mut self,
+        request: Option<Q>,
+        patience: Option<&mut Patience>,
+        job: impl FnOnce(Q) -> J,
+    ) -> bool
+    where
+        Q: Clone + PartialEq,
+        J: FnOnce(&Progress) -> Option<T> + Send + 'static,
+    {
+        self.receive();
+        let is_new = request.is_some() && self.request != request;
+        match request {
+            Some(request) if is_new => self.start(request.clone(), job(request), patience),
+            Some(_) => {}
+            None => self.forget(),
+        }
+        is_new
+    }
+
     /// Start another job for the latest request. The result so far stays until the next one arrives.
     pub fn go_on(
         &mut self,

@@ -37,21 +37,13 @@ impl Comparing {
 
     /// Take the result, and start the measurement of a pair that has changed.
     pub fn advance(&mut self, pair: Option<Pair>, patience: &mut Patience) {
-        self.client.receive();
-        let Some(pair) = pair else {
-            self.client.forget();
-            self.shown = None;
-            return;
-        };
-        let latest = self.client.request();
-        if latest.is_none_or(|latest| latest.ids != pair.ids) {
+        let ids = |pair: &Pair| pair.ids;
+        if self.client.request().map(ids) != pair.as_ref().map(ids) {
             self.shown = None;
         }
-        if latest.is_none_or(|latest| !latest.is_same(&pair)) {
-            let Pair { curve, other, .. } = pair.clone();
-            let job = move |progress: &_| Distance::measure(&curve.polygon, &other, progress);
-            self.client.start(pair, job, Some(patience));
-        }
+        self.client.advance(pair, Some(patience), |pair| {
+            move |progress: &_| Distance::measure(&pair.curve.polygon, &pair.other, progress)
+        });
         if self.client.progress().is_none() {
             self.shown = self.client.result().copied();
         }
@@ -63,8 +55,8 @@ impl Comparing {
     }
 }
 
-impl Pair {
-    fn is_same(&self, other: &Self) -> bool {
+impl PartialEq for Pair {
+    fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.curve, &other.curve) && self.other == other.other
     }
 }

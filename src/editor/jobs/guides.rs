@@ -120,7 +120,7 @@ impl Guides {
         feature: Option<FeatureOf>,
         atlas: Option<Atlas>,
     ) {
-        let is_new = advance(&mut self.regions, vertex, |VertexOf { curve, vertex }| {
+        let search = |VertexOf { curve, vertex }| {
             move |progress: &Progress| {
                 let polygon = &curve.polygon;
                 let proved = SegmentFeatures::of_curve(polygon, |_| !progress.is_cancelled())?;
@@ -129,11 +129,11 @@ impl Guides {
                     Err(error) => Some(Err(error)),
                 }
             }
-        });
-        if !is_new {
+        };
+        if !self.regions.advance(vertex, None, search) {
             refine(&mut self.regions);
         }
-        advance(&mut self.losses, feature, |feature| {
+        self.losses.advance(feature, None, |feature| {
             move |progress: &Progress| {
                 let polygon = &feature.curve.polygon;
                 let proved = &SegmentFeatures::of_curve(polygon, |_| !progress.is_cancelled())?;
@@ -147,35 +147,12 @@ impl Guides {
                 search.run(progress).transpose()
             }
         });
-        let is_new = advance(&mut self.atlas, atlas, |atlas| {
-            move |progress: &Progress| Box::new(AtlasSearch::new(atlas)).next_level(progress)
-        });
-        if !is_new {
+        let search =
+            |atlas| move |progress: &_| Box::new(AtlasSearch::new(atlas)).next_level(progress);
+        if !self.atlas.advance(atlas, None, search) {
             refine(&mut self.atlas);
         }
     }
-}
-
-/// Take results, and start a search if the request is new; forget everything without a request.
-/// Returns whether a search was started.
-fn advance<Q: Clone + PartialEq, T: Send + 'static, J>(
-    guide: &mut Guide<Q, T>,
-    request: Option<Q>,
-    job: impl FnOnce(Q) -> J,
-) -> bool
-where
-    J: FnOnce(&Progress) -> Option<Result<T, MoveError>> + Send + 'static,
-{
-    guide.receive();
-    let Some(request) = request else {
-        guide.forget();
-        return false;
-    };
-    let is_new = guide.request() != Some(&request);
-    if is_new {
-        guide.start(request.clone(), job(request), None);
-    }
-    is_new
 }
 
 /// Start the search for the next level if one has arrived.

@@ -10,10 +10,18 @@ pub struct Patience {
     left: Duration,
 }
 
+/// The most segments of a curve that a frame waits for: a thousand take about a millisecond.
+const MOST_SEGMENTS: usize = 1000;
+
 impl Patience {
     /// Give every frame this budget.
     pub fn new(frame: Duration) -> Self {
         Self { frame, left: frame }
+    }
+
+    /// The patience with work on so many segments of a curve.
+    pub fn with_segments(&mut self, segments: usize) -> Option<&mut Self> {
+        (segments <= MOST_SEGMENTS).then_some(self)
     }
 
     /// Begin a frame with the full budget.

@@ -6,47 +6,41 @@ use crate::analysis::{AnalysisCache, ProofResult, Revision};
 use crate::document::CurveId;
 
 /// Prove features beside the frame. The request is the state of the features that a proof completes.
-#[derive(Debug, Default)]
-pub struct Proving(Client<Revision, (CurveId, ProofResult)>);
+pub type Proving = Client<Revision, (CurveId, ProofResult)>;
 
 impl Proving {
-    /// Prove on a thread, which calls `wake` when more is proved.
-    pub fn background(wake: impl Fn() + Send + 'static) -> Self {
-        Self(Client::background("features", wake))
-    }
-
     /// Hand results to the analyses, and start the proof of a curve's open features.
-    pub fn advance(&mut self, id: CurveId, analyses: &mut AnalysisCache, patience: &mut Patience) {
-        self.0.receive();
+    pub fn prove(&mut self, id: CurveId, analyses: &mut AnalysisCache, patience: &mut Patience) {
+        self.receive();
         self.hand_over(analyses);
         let Some(analysis) = analyses.get(id) else {
             return;
         };
         let revision = analysis.proof_revision();
-        if self.0.request() == Some(&revision) {
+        if self.request() == Some(&revision) {
             return;
         }
         match analysis.proof() {
             Some(proof) => {
                 let job = move |progress: &_| Some((id, proof.run(progress)));
-                self.0.start(revision, job, Some(patience));
+                self.start(revision, job, Some(patience));
                 self.hand_over(analyses);
             }
-            None => self.0.forget(),
+            None => self.forget(),
         }
     }
 
     /// The share that is done of the latest proof, from 0 to 1; `None` if it panicked. The features
     /// it left open stay so until the curve changes.
     pub fn share(&self) -> Option<f64> {
-        let share = self.0.progress().unwrap_or_default();
-        self.0.failure().is_none().then_some(share)
+        let share = self.progress().unwrap_or_default();
+        self.failure().is_none().then_some(share)
     }
 
     /// Outdated results count too: many segments of a curve are the same as before.
     fn hand_over(&mut self, analyses: &mut AnalysisCache) {
-        let outdated = self.0.take_outdated();
-        for (id, result) in outdated.into_iter().chain(self.0.take_result()) {
+        let outdated = self.take_outdated();
+        for (id, result) in outdated.into_iter().chain(self.take_result()) {
             if let Some(analysis) = analyses.get_mut(id) {
                 analysis.take_proof(result);
             }
