@@ -31,7 +31,7 @@ const PATIENCE: Duration = Duration::from_millis(4);
 fn dragging(document: Document, close: bool) -> (Editor, DVec2) {
     let mut editor = Editor::with_document(document);
     editor.look(Look::Canvas(CANVAS));
-    editor.view_mut().show_plot(Some(PlotKind::CURVATURE));
+    editor.view_mut().plot = Some(PlotKind::CURVATURE);
     editor
         .execute(Command::ToggleLayer(Layer::Comb))
         .expect("a command");

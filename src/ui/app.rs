@@ -106,10 +106,10 @@ impl App {
         }
         for layer in Layer::ALL {
             if let Some(shown) = shell.shows(layer) {
-                editor.view_mut().show_layer(layer, shown);
+                editor.view_mut().layers.set(layer, shown);
             }
         }
-        editor.view_mut().show_bands(shell.bands);
+        editor.view_mut().bands_only_plotted = !shell.bands;
         let mut plots = Plots::default();
         plots.set_tab(if shell.harmony {
             Tab::Harmony
@@ -168,7 +168,7 @@ impl App {
         self.canvas.send_events(&context, &mut self.editor);
         self.editor.refresh();
         self.editor.view_mut().hover_nothing();
-        self.editor.view_mut().show_harmony(false);
+        self.editor.view_mut().harmony = false;
         if keyboard::is_covered(&context) || self.palette.is_open() {
             self.editor.foresee();
         }
@@ -310,7 +310,7 @@ impl App {
             .inner_margin(Margin::symmetric(8, 0));
         self.plots.set_normalised(self.shell.normalised);
         if !self.shell.plots {
-            self.editor.view_mut().show_plot(None);
+            self.editor.view_mut().plot = None;
             let bar = Panel::bottom("plots folded").frame(frame).resizable(false);
             bar.exact_size(plots::BAR).show(ui, |ui| {
                 self.plots
@@ -631,10 +631,10 @@ impl App {
         let mut shell = Shell {
             harmony: self.plots.tab() == Tab::Harmony,
             nudge_step: Some(self.editor.hand().nudge_step()),
-            bands: self.editor.view().shows_bands(),
+            bands: !self.editor.view().bands_only_plotted,
             ..self.shell.clone()
         };
-        shell.keep_layers(self.editor.view().chosen_layers());
+        shell.keep_layers(self.editor.view().layers);
         shell
     }
 }

@@ -57,7 +57,7 @@ impl Pointed {
 /// Show the harmony of the active curve; hovering a sentence marks its place, choosing one selects
 /// its vertex or goes to its parameter.
 pub fn harmony_list_ui(ui: &mut Ui, editor: &mut Editor) {
-    editor.view_mut().show_harmony(true);
+    editor.view_mut().harmony = true;
     let Some(harmony) = editor.sight().harmony() else {
         widgets::caption(ui, "Measuring…");
         ui.ctx().request_repaint_after(PROGRESS);

@@ -61,7 +61,7 @@ impl OperationPanel {
         });
         // A click on a button also leaves a field: its text counts first.
         actions.extend(foot);
-        editor.view_mut().show_atlas(shows_atlas);
+        editor.view_mut().shows_atlas = shows_atlas;
         for action in actions {
             self.perform(action, editor, &refused_before);
         }

@@ -129,7 +129,7 @@ fn showing_the_closed_polygon_ends_with_the_tool() {
     script.tool(ToolKind::EndFit);
     script.end_fit_action(EndFitAction::ShowClosed(true));
     assert!(!script.editor.sight().layers().shows(Layer::Float));
-    assert!(script.editor.view().chosen_layers().shows(Layer::Float));
+    assert!(script.editor.view().layers.shows(Layer::Float));
     script.tool(ToolKind::Select);
     assert!(script.editor.sight().layers().shows(Layer::Float));
 }

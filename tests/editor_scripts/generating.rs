@@ -391,12 +391,12 @@ fn both_polygons_make_two_curves_of_which_one_is_active() {
     let made = script.made_curves();
     assert_eq!(made.len(), 2);
     assert_eq!(script.curve(), made[0]);
-    assert_eq!(script.editor.view().compared(), Some(made[1]));
+    assert_eq!(script.editor.view().compared, Some(made[1]));
     // The other one may be looked at.
     script.editor.activate(made[1]);
     script.set("ratio", Value::Real(1.9)).expect("a ratio");
     assert_eq!(script.curve(), made[1]);
-    assert_eq!(script.editor.view().compared(), Some(made[0]));
+    assert_eq!(script.editor.view().compared, Some(made[0]));
     script.key(Key::Enter);
     assert_eq!(script.steps(), 1);
     script.command(Command::Undo);
@@ -407,7 +407,7 @@ fn both_polygons_make_two_curves_of_which_one_is_active() {
 fn the_atlas_is_proved_from_coarse_to_fine_while_it_is_shown() {
     let mut script = figure_2();
     assert!(script.editor.view().atlas().is_none());
-    script.editor.view_mut().show_atlas(true);
+    script.editor.view_mut().shows_atlas = true;
     let mut pictures = 0;
     loop {
         script.editor.refresh();
@@ -442,7 +442,7 @@ fn the_atlas_is_proved_from_coarse_to_fine_while_it_is_shown() {
     script.set("degree", Value::Whole(3)).expect("a degree");
     let found = script.editor.view().atlas().expect("a picture").1;
     assert!(!found.is_finest());
-    script.editor.view_mut().show_atlas(false);
+    script.editor.view_mut().shows_atlas = false;
     script.editor.refresh();
     assert!(script.editor.view().atlas().is_none());
 }

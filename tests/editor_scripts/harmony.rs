@@ -15,7 +15,7 @@ use super::script::Script;
 const STRIPS: PlotKind = PlotKind::Harmony;
 
 fn strips(script: &mut Script) -> PlotScene {
-    script.editor.view_mut().show_plot(Some(STRIPS));
+    script.editor.view_mut().plot = Some(STRIPS);
     script.plots().clone()
 }
 
@@ -38,11 +38,11 @@ fn harmony_is_measured_only_where_it_is_shown() {
     let mut script = Script::example("hull");
     script.scene();
     assert_eq!(script.editor.sight().harmony(), None);
-    script.editor.view_mut().show_harmony(true);
+    script.editor.view_mut().harmony = true;
     script.scene();
     let expected = measured(&script.polygon());
     assert_eq!(script.editor.sight().harmony(), Some(&expected));
-    script.editor.view_mut().show_harmony(false);
+    script.editor.view_mut().harmony = false;
     script.drag_vertex(5, DVec2::new(0.0, 12.0));
     assert_eq!(
         script.editor.sight().harmony(),
@@ -107,10 +107,7 @@ fn strips_show_the_flow_and_where_it_is_least_even() {
     script.command(Command::ToggleLayer(Layer::Float));
     assert_eq!(uneven(&mut script), []);
     script.command(Command::ToggleLayer(Layer::Float));
-    script
-        .editor
-        .view_mut()
-        .show_plot(Some(PlotKind::CURVATURE));
+    script.editor.view_mut().plot = Some(PlotKind::CURVATURE);
     assert_eq!(uneven(&mut script), []);
 }
 
@@ -159,8 +156,8 @@ fn two_curves_are_compared_in_the_same_strips() {
     let mut script = Script { editor };
     let ids: Vec<_> = script.editor.document().ids().collect();
     script.editor.activate(ids[1]);
-    script.editor.view_mut().show_plot(Some(STRIPS));
-    script.editor.view_mut().compare(Some(ids[0]));
+    script.editor.view_mut().plot = Some(STRIPS);
+    script.editor.view_mut().compared = Some(ids[0]);
     let plots = script.plots().clone();
     let other = plots.compared.as_ref().expect("another curve");
     assert_eq!(plots.flow.each_ref().map(Vec::len), [11, 10, 10, 9]);

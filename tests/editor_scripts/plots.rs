@@ -151,15 +151,12 @@ fn a_joint_is_marked_while_curves_are_joined() {
     let bridge = script.trial_report();
     let bridge = serde_json::to_value(bridge).expect("a report");
     let count = bridge["bridge"].as_u64().expect("the bridge");
-    script.editor.view_mut().show_plot(Some(PlotKind::Harmony));
+    script.editor.view_mut().plot = Some(PlotKind::Harmony);
     let [[first, last]] = script.plots().joints[..] else {
         panic!("no joint in the strips");
     };
     assert_eq!(last - first, count as f64);
-    script
-        .editor
-        .view_mut()
-        .show_plot(Some(PlotKind::CURVATURE));
+    script.editor.view_mut().plot = Some(PlotKind::CURVATURE);
     script.editor.operating().apply().expect("a step");
     assert_eq!(script.plots().joints, plots.joints);
     script.command(Command::Undo);
@@ -206,7 +203,7 @@ fn a_reference_that_is_typed_is_overlaid_as_one_of_the_document_is() {
         .references()
         .next()
         .map(|(id, _)| id);
-    witness.editor.view_mut().compare(id);
+    witness.editor.view_mut().compared = id;
     let same = witness.plots().compared.as_ref().expect("the reference");
     assert_eq!(other.series, same.series);
     // Another one takes its place, in every plot.
@@ -299,10 +296,7 @@ fn what_alt_shows_is_in_the_plot_with_its_marks() {
     assert!(!plots.features.is_empty());
     script.modifiers(Modifiers::NONE);
     assert!(script.plots().before.is_none());
-    script
-        .editor
-        .view_mut()
-        .show_plot(Some(PlotKind::CURVATURE));
+    script.editor.view_mut().plot = Some(PlotKind::CURVATURE);
     script.release(at);
 }
 

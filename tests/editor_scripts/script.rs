@@ -241,8 +241,8 @@ impl Script {
 
     /// The plot that is shown now: the curvature, unless another was chosen.
     pub fn plots(&mut self) -> &PlotScene {
-        let kind = self.editor.view().plot().unwrap_or(PlotKind::CURVATURE);
-        self.editor.view_mut().show_plot(Some(kind));
+        let kind = self.editor.view().plot.unwrap_or(PlotKind::CURVATURE);
+        self.editor.view_mut().plot = Some(kind);
         self.editor.refresh();
         self.editor.view().plots()
     }
@@ -250,7 +250,7 @@ impl Script {
     /// Show a plot of levels.
     pub fn level_plot(&mut self, plot: LevelPlot, normalised: bool) -> &PlotScene {
         let kind = PlotKind::Levels { plot, normalised };
-        self.editor.view_mut().show_plot(Some(kind));
+        self.editor.view_mut().plot = Some(kind);
         self.plots()
     }
 

@@ -311,7 +311,7 @@ impl Window {
             level(LevelPlot::Logarithmic),
             PlotKind::CURVATURE,
         ] {
-            self.editor.view_mut().show_plot(Some(kind));
+            self.editor.view_mut().plot = Some(kind);
             self.editor.refresh();
         }
         self.editor.sight().features();

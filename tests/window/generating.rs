@@ -77,8 +77,8 @@ fn the_panel_tells_the_proved_verdict_beside_the_atlas() {
     let operation = editor.operation().expect("an operation");
     let made = operation.made_curves(editor.document());
     let view = window.state().editor().view();
-    assert_eq!(view.plot(), Some(PlotKind::CURVATURE));
-    assert_eq!(view.compared(), Some(made[1]));
+    assert_eq!(view.plot, Some(PlotKind::CURVATURE));
+    assert_eq!(view.compared, Some(made[1]));
     let plots = window.state().editor().view().plots();
     assert!(
         plots

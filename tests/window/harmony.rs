@@ -76,7 +76,7 @@ fn a_strip_and_the_canvas_mark_the_same_vertex() {
     let mut window = open_window();
     choose(&mut window, &["File", "Examples", "Waterline"]);
     click(&mut window, "Harmony strips");
-    let shown = window.state().editor().view().plot();
+    let shown = window.state().editor().view().plot;
     assert_eq!(shown, Some(PlotKind::Harmony));
     let canvas = window.state().canvas_rect().expect("the canvas was shown");
     window.hover_at(canvas.center_bottom() + vec2(0.0, 80.0));
@@ -116,9 +116,9 @@ fn strips_are_compared_with_another_curve_that_is_chosen() {
     let choice = window.query_all_by_label(&name).last().expect("a choice");
     choice.click();
     window.run();
-    let shown = window.state().editor().view().plot();
+    let shown = window.state().editor().view().plot;
     assert_eq!(shown, Some(PlotKind::Harmony));
-    assert_eq!(window.state().editor().view().compared(), other);
+    assert_eq!(window.state().editor().view().compared, other);
     assert!(window.state().editor().view().plots().compared.is_some());
     // The other curve stays beside this one in every plot.
     for tab in ["Curvature", "κ level 2"] {

@@ -114,7 +114,7 @@ impl Editor {
                     self.look(Look::Around(u));
                 }
             }
-            Command::Compare(other) => self.view.compare(other),
+            Command::Compare(other) => self.view.compared = other,
             Command::ToggleLayer(layer) => {
                 let shown = self.sight().layers().shows(layer);
                 if matches!(layer, Layer::Float | Layer::Clamped) {
@@ -122,7 +122,7 @@ impl Editor {
                 }
                 self.view.layers.set(layer, !shown);
             }
-            Command::ToggleBands => self.view.show_bands(!self.view.shows_bands()),
+            Command::ToggleBands => self.view.bands_only_plotted ^= true,
             Command::ToggleSnapping => self.hand.snapping = !self.hand.snapping,
             Command::Follow(follow) => self.hand.following.toggle(follow),
             Command::ToggleKeeping => self.hand.keeps = !self.hand.keeps,

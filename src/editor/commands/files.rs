@@ -269,7 +269,7 @@ impl Editor {
         self.filing.question = None;
         self.workspace.replace(document, path);
         self.hand.begin_document();
-        self.view.compare(None);
+        self.view.compared = None;
         self.document_changed();
         if self.view.placed {
             if self.document().is_empty() {

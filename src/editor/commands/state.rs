@@ -54,10 +54,10 @@ impl Command {
         match self {
             Command::ToggleLayer(layer) => Some(editor.sight().layers().shows(layer)),
             Command::Compare(other) => {
-                let compared = editor.view.compared().filter(|id| can_compare(*id));
+                let compared = editor.view.compared.filter(|id| can_compare(*id));
                 Some(compared == other)
             }
-            Command::ToggleBands => Some(editor.view.shows_bands()),
+            Command::ToggleBands => Some(!editor.view.bands_only_plotted),
             Command::ToggleSnapping => Some(editor.hand.snapping),
             Command::Follow(follow) => Some(editor.hand.following.follow == Some(follow)),
             Command::ToggleKeeping => Some(editor.hand.keeps),

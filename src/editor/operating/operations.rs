@@ -507,20 +507,20 @@ impl Operating<'_> {
             }
         };
         let mut others = made.iter().copied().filter(|id| *id != active);
-        let compared = self.view.compared();
+        let compared = self.view.compared;
         if compared.is_none_or(|id| !others.clone().any(|other| other == id))
             && let Some(other) = others.next()
         {
-            self.view.compare(Some(other));
+            self.view.compared = Some(other);
         }
         if is_first {
             if follows {
                 let document = self.workspace.document();
                 let reference = was_active.filter(|id| document.reference(*id).is_some());
-                let compared = reference.or(followed).or(self.view.compared());
-                self.view.compare(compared);
+                let compared = reference.or(followed).or(self.view.compared);
+                self.view.compared = compared;
             }
-            let layers = self.hand.layers(self.view.chosen_layers());
+            let layers = self.hand.layers(self.view.layers);
             let shown = self.hand.shown(self.workspace, layers);
             self.view.look(Look::New(made), shown);
         }

@@ -139,7 +139,7 @@ impl View {
         let (layers, comb, active) = (shown.layers, self.comb, scene.active);
         let orientation = self.viewport.orientation;
         self.append_features(shown, active, view, &mut scene.features);
-        let shows_bands = layers.shows(Layer::Features) && self.shows_bands();
+        let shows_bands = layers.shows(Layer::Features) && !self.bands_only_plotted;
         let outlined = self.outlines.get_mut(id);
         let Some((analysis, outlined)) = self.analyses.get(id).zip(outlined) else {
             return;

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use crate::analysis::{AnalysisCache, CurveAnalysis, Item, ReferenceAnalysis};
 use crate::document::{CurveId, Document};
+use crate::editor::jobs::Client;
 use crate::editor::jobs::comparing::Comparing;
 use crate::editor::jobs::guides::{FeatureOf, Guides};
 use crate::editor::jobs::measuring::Measuring;
@@ -11,7 +12,7 @@ use crate::editor::jobs::patience::Patience;
 use crate::editor::jobs::proving::Proving;
 use crate::editor::view::comb::CombSettings;
 use crate::editor::view::feature_report::FeatureReport;
-use crate::editor::view::layers::{Layer, Layers};
+use crate::editor::view::layers::Layers;
 use crate::editor::view::outlines::Outlines;
 use crate::editor::view::plot_scene::{MarkSource, PlotKind, PlotScene, PlotSource};
 use crate::editor::view::scene::Scene;
@@ -35,9 +36,11 @@ pub struct View {
     pub(in crate::editor) placed: bool,
     /// The view that last showed everything, and the revision of the document then.
     pub(in crate::editor) fitted: Option<(Viewport, u64)>,
-    pub(in crate::editor) layers: Layers,
-    /// Whether bands are shown only in the plot.
-    bands_only_plotted: bool,
+    /// The layers that the user chose, without the changes of a tool.
+    pub layers: Layers,
+    /// Whether bands of rising and falling curvature are shown only in the plot, and not on the canvas with the
+    /// layer of features.
+    pub bands_only_plotted: bool,
     pub(in crate::editor) comb: CombSettings,
     pub(in crate::editor) hovered: Hovered,
     /// The marks of panels in the frame before, for panels that come first.
@@ -48,10 +51,12 @@ pub struct View {
     pub(in crate::editor) chosen: Option<FeatureOf>,
     pub(in crate::editor) scene: Scene,
     /// The kind of the plot; `None` while plots are folded.
-    pub(in crate::editor) plot: Option<PlotKind>,
-    pub(in crate::editor) compared: Option<CurveId>,
-    /// The part of the plot that is looked at closely, between two arc lengths.
-    pub(in crate::editor) plot_part: Option<[f64; 2]>,
+    pub plot: Option<PlotKind>,
+    /// The curve or reference that the active one is compared with in every plot. What is not in the document,
+    /// or is active itself, is compared with nothing.
+    pub compared: Option<CurveId>,
+    /// The part of the active curve that is plotted in detail, between two arc lengths; `None` for all of it.
+    pub plot_part: Option<[f64; 2]>,
     pub(in crate::editor) plots: PlotScene,
     /// What its series were made of.
     pub(in crate::editor) plotted: Option<PlotSource>,
@@ -59,10 +64,10 @@ pub struct View {
     pub(in crate::editor) plot_marked: Option<MarkSource>,
     /// The analysis of the reference that an operation was given.
     pub(in crate::editor) given: Option<ReferenceAnalysis>,
-    /// Whether a panel shows harmony.
-    pub(in crate::editor) harmony: bool,
-    /// Whether a panel shows the atlas of an operation.
-    pub(in crate::editor) shows_atlas: bool,
+    /// Whether a panel shows harmony: it is measured only then.
+    pub harmony: bool,
+    /// Whether a panel shows the atlas of an operation: it is proved only then.
+    pub shows_atlas: bool,
     pub(in crate::editor) outlines: Outlines,
     pub(in crate::editor) ghost: Sketch,
     pub(in crate::editor) proposed: Sketch,
@@ -83,8 +88,8 @@ impl View {
         &mut self,
         wake: impl Fn() + Clone + Send + 'static,
     ) {
-        self.proving = Proving::background(wake.clone());
-        self.measuring = Measuring::background(wake.clone());
+        self.proving = Client::background("features", wake.clone());
+        self.measuring = Client::background("harmony", wake.clone());
         self.comparing = Comparing::background(wake.clone());
         self.guides = Guides::background(wake);
     }
@@ -100,10 +105,10 @@ impl View {
     pub(in crate::editor) fn update(&mut self, shown: Shown<'_>, patience: &mut Patience) {
         self.analyse(shown.document());
         if let Some(active) = shown.active() {
-            self.proving.advance(active, &mut self.analyses, patience);
+            self.proving.prove(active, &mut self.analyses, patience);
             self.list_features(active, shown);
             if self.shows_harmony() {
-                self.measuring.advance(active, &mut self.analyses, patience);
+                self.measuring.measure(active, &mut self.analyses, patience);
             }
         }
         let pair = self.compared_pair(shown);
@@ -156,26 +161,6 @@ impl View {
         }
     }
 
-    /// The layers that the user chose, without the changes of a tool.
-    pub fn chosen_layers(&self) -> Layers {
-        self.layers
-    }
-
-    /// Show or hide a layer.
-    pub fn show_layer(&mut self, layer: Layer, shown: bool) {
-        self.layers.set(layer, shown);
-    }
-
-    /// Whether the canvas shows bands of rising and falling curvature, with the layer of features.
-    pub fn shows_bands(&self) -> bool {
-        !self.bands_only_plotted
-    }
-
-    /// Show bands of rising and falling curvature on the canvas, or only in the plot.
-    pub fn show_bands(&mut self, shown: bool) {
-        self.bands_only_plotted = !shown;
-    }
-
     /// The contents of the canvas.
     pub fn scene(&self) -> &Scene {
         &self.scene
@@ -184,42 +169,6 @@ impl View {
     /// The contents of the plot.
     pub fn plots(&self) -> &PlotScene {
         &self.plots
-    }
-
-    /// The kind of the plot; `None` while plots are folded.
-    pub fn plot(&self) -> Option<PlotKind> {
-        self.plot
-    }
-
-    /// Choose the kind of the plot; `None` while plots are folded.
-    pub fn show_plot(&mut self, plot: Option<PlotKind>) {
-        self.plot = plot;
-    }
-
-    /// Plot a part between two arc lengths of the active curve in detail; `None` for all of it.
-    pub fn look_at_part(&mut self, part: Option<[f64; 2]>) {
-        self.plot_part = part;
-    }
-
-    /// The curve or reference that the active one is compared with in every plot.
-    pub fn compared(&self) -> Option<CurveId> {
-        self.compared
-    }
-
-    /// Compare the active curve with another curve or reference in every plot, or with none. What is
-    /// not in the document, or is active itself, is compared with nothing.
-    pub fn compare(&mut self, other: Option<CurveId>) {
-        self.compared = other;
-    }
-
-    /// Tell whether a panel shows harmony: it is measured only then.
-    pub fn show_harmony(&mut self, shown: bool) {
-        self.harmony = shown;
-    }
-
-    /// Tell whether a panel shows the atlas of an operation: it is proved only then.
-    pub fn show_atlas(&mut self, shown: bool) {
-        self.shows_atlas = shown;
     }
 
     /// Forget the marks of panels, before the panels of the next frame.

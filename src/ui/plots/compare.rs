@@ -27,7 +27,7 @@ pub fn compare_ui(ui: &mut Ui, editor: &mut Editor) {
 pub fn choice_ui(ui: &mut Ui, editor: &mut Editor, name: &str) {
     let width = (ui.available_width() - BESIDE).clamp(WIDTH[0], WIDTH[1]);
     let others = others(editor);
-    let compared = editor.view().compared();
+    let compared = editor.view().compared;
     let chosen = others.iter().find(|(id, _)| Some(*id) == compared);
     let text = chosen.map_or("nothing", |(_, name)| name).to_owned();
     ui.add_enabled_ui(!others.is_empty(), |ui| {
@@ -41,7 +41,7 @@ pub fn choice_ui(ui: &mut Ui, editor: &mut Editor, name: &str) {
             for (id, name) in &others {
                 ui.selectable_value(&mut compared, Some(*id), name);
             }
-            editor.view_mut().compare(compared);
+            editor.view_mut().compared = compared;
         });
         let response = choice.response.accessible_name(name);
         response.on_hover_text(

@@ -242,7 +242,7 @@ impl Plots {
         let seen = [bounds.min()[0], bounds.max()[0]].map(|x| x * scale);
         let part = close_part(plots.part, seen, plots.length);
         if part != plots.part {
-            editor.view_mut().look_at_part(part);
+            editor.view_mut().plot_part = part;
             ui.ctx().request_repaint();
         }
     }
@@ -376,8 +376,8 @@ impl Plots {
         self.rect = Some(ui.available_rect_before_wrap());
         self.follow_active(editor);
         let kind = self.kind();
-        if editor.view().plot() != Some(kind) {
-            editor.view_mut().show_plot(Some(kind));
+        if editor.view().plot != Some(kind) {
+            editor.view_mut().plot = Some(kind);
             editor.refresh();
         }
         match self.tab {
