@@ -99,9 +99,6 @@ impl Editor {
     pub fn begin_frame(&mut self) {
         self.patience.renew();
         self.operating().receive();
-        if let Some((step, reply)) = self.operations.take_late() {
-            self.keep_end_fit_action(step, &reply);
-        }
         self.receive_files();
     }
 
@@ -246,13 +243,6 @@ impl Editor {
         self.operating().leave_stale();
     }
 
-    /// Use another tool. Ends a preview.
-    fn use_tool(&mut self, tool: ToolKind) {
-        self.interrupt();
-        self.hand.use_tool(tool);
-        self.hand.typed = None;
-    }
-
     /// The message to the user, if there is one.
     pub fn message(&self) -> Option<&Message> {
         self.message.as_ref()
@@ -318,7 +308,9 @@ impl Editor {
             self.workspace.begin(label, Interruption::Commits);
         }
         let edits = self.hand.kept(edits, &self.workspace, &self.view.analyses);
-        self.update(edits);
+        let refusal = self.workspace.update(edits).err().map(Refusal::from);
+        Message::tell_update(&mut self.message, refusal);
+        self.document_changed();
         let held_back = self.hand.keeping.held_back();
         if let Some(reason) = held_back.filter(|_| self.hand.keeps_features()) {
             let held = format!("Held at the last place proved to add nothing; {reason}");
@@ -341,13 +333,6 @@ impl Editor {
             Message::tell_update(&mut self.message, None);
             self.document_changed();
         }
-    }
-
-    /// Show what edits make of the document that the preview began with.
-    fn update(&mut self, edits: Vec<Edit>) {
-        let updated = self.workspace.update(edits);
-        Message::tell_update(&mut self.message, updated.err().map(Refusal::from));
-        self.document_changed();
     }
 
     /// Show the message that tells of a reply.

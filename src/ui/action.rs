@@ -233,12 +233,10 @@ impl Action {
     pub fn tooltip_now(self, editor: &Editor) -> String {
         let tooltip = self.tooltip();
         match self {
-            Self::Command(Command::Operation(operation)) => {
-                match editor.check_operation(operation) {
-                    Ok(()) => tooltip,
-                    Err(reason) => format!("{tooltip}\n\nUnavailable: {reason}"),
-                }
-            }
+            Self::Command(Command::Operation(operation)) => match editor.input_of(operation) {
+                Ok(_) => tooltip,
+                Err(reason) => format!("{tooltip}\n\nUnavailable: {reason}"),
+            },
             _ => tooltip,
         }
     }

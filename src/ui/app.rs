@@ -649,12 +649,7 @@ impl eframe::App for App {
     }
 
     fn on_exit(&mut self, _: Option<&eframe::glow::Context>) {
-        self.editor.finish_file_work();
-        if self.leaving || !self.editor.workspace().is_settled_modified() {
-            self.editor.recovery_mut().close();
-        } else {
-            told(self.editor.autosave_now());
-        }
+        told(self.editor.close(!self.leaving));
     }
 
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {

@@ -48,9 +48,13 @@ pub fn end_fit_panel_ui(ui: &mut Ui, editor: &mut Editor) {
         ui.push_id((editor.active(), report.end), |ui| panel.show(ui));
     });
     if let Some(event) = panel.event {
-        event.send(editor, Editor::preview_end_fit, |editor, action| {
-            told(editor.end_fit_action(action));
-        });
+        event.send(
+            editor,
+            |editor, action| action.preview(editor),
+            |editor, action| {
+                told(editor.end_fit_action(action));
+            },
+        );
     }
 }
 

@@ -4,6 +4,7 @@
 //! `geometry ← document ← { analysis, io, operations } ← editor ← paper ← ui`, with `cli` beside the editor.
 
 mod circles;
+mod editor;
 mod folders;
 mod imports;
 mod layers;

@@ -120,7 +120,7 @@ fn of_more_curves_those_with_selected_vertices_are_joined() {
     ] {
         script.editor.apply("edit", vec![edit]).expect("an edit");
         script.editor.activate(arc);
-        let refused = script.editor.check_operation(operation("join"));
+        let refused = script.editor.input_of(operation("join"));
         assert!(refused.is_err());
         script.command(Command::Undo);
     }

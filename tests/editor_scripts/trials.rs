@@ -381,7 +381,7 @@ fn operations_are_offered_where_they_can_run() {
         let enabled = ALL.iter().filter(|operation| {
             let command = Command::Operation(operation);
             let is_enabled = command.is_enabled(&script.editor);
-            assert_eq!(script.editor.check_operation(operation).is_ok(), is_enabled);
+            assert_eq!(script.editor.input_of(operation).is_ok(), is_enabled);
             is_enabled
         });
         enabled.map(|operation| operation.name).collect()

@@ -69,7 +69,7 @@ impl Editor {
         let copied = text_of(&self.hand.selection, self.document());
         let whole = self.active_reference();
         let reply = copied.clone().and_then(|_| match whole {
-            Some((id, _)) => self.delete_whole(id),
+            Some((id, _)) => self.change(Edit::Remove(id)),
             None => self.delete("Cut", "cut"),
         });
         self.tell(reply)?;
@@ -83,7 +83,7 @@ impl Editor {
         label: &str,
         curves: Vec<Curve>,
         references: Vec<Reference>,
-        before: Vec<Edit>,
+        mut edits: Vec<Edit>,
     ) -> Reply {
         let offset = OFFSET * self.view.viewport.pixel() * DVec3::new(1.0, -1.0, 0.0);
         let mut names: Vec<String> = self.document().names().map(str::to_owned).collect();
@@ -92,7 +92,6 @@ impl Editor {
             names.push(name.clone());
             name
         };
-        let mut copies = Reading::default();
         for curve in curves {
             let mut copy = curve.clone();
             copy.locked = false;
@@ -112,22 +111,22 @@ impl Editor {
                     copy.targets.set(end, target);
                 }
             }
-            copies.curves.push(copy);
+            edits.push(Edit::Add(Box::new(copy)));
         }
         for reference in references {
             let placement = *reference.curve.placement();
             let place = placement.translation() + offset;
             let moved = Placement::new(placement.rotation(), placement.scale(), place);
-            copies.references.push(Reference {
+            edits.push(Edit::AddReference(Box::new(Reference {
                 name: free(&reference.name),
                 locked: false,
                 visible: true,
                 extras: Extras::default(),
                 curve: reference.curve.placed(moved.unwrap_or(placement)),
                 ..reference
-            });
+            })));
         }
-        self.add(label, before, copies)
+        self.add(label, edits)
     }
 }
 

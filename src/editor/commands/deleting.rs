@@ -1,10 +1,10 @@
 //! Removing vertices and curves: never one by a command that is meant for the other.
 
-use crate::document::{CurveId, Document, Edit, EditError, quoted};
+use crate::document::{Document, Edit, EditError, quoted};
 use crate::editor::Editor;
 use crate::editor::commands::command::Command;
 use crate::editor::polygon_edits::deletion;
-use crate::editor::reply::{Note, Reply, with_lines};
+use crate::editor::reply::{Note, Reply};
 use crate::editor::selection::Selection;
 use crate::geometry::counted;
 
@@ -13,27 +13,13 @@ impl Editor {
     pub(in crate::editor) fn delete(&mut self, verb: &str, done: &str) -> Reply {
         let active = self.active().filter(|_| self.hand.selection.is_empty());
         if let Some(id) = active.filter(|id| self.document().reference(*id).is_some()) {
-            return self.delete_whole(id);
+            return self.change(Edit::Remove(id));
         }
         let edits = edits(&self.hand.selection, self.document())?;
         let count = counted(self.hand.selection.vertices().len(), "vertex", "vertices");
         self.apply(&format!("{verb} {count}"), edits)?;
         self.hand.selection.clear();
         Ok(Note::done(format!("{count} {done}")))
-    }
-
-    /// Remove a curve or a reference.
-    pub(in crate::editor) fn delete_whole(&mut self, id: CurveId) -> Reply {
-        let document = self.document();
-        if let Some(curve) = document.curve(id) {
-            curve.check_unlocked()?;
-        }
-        if let Some(reference) = document.reference(id) {
-            reference.check_unlocked()?;
-        }
-        let deleted = format!("{} deleted", quoted(document.name(id).unwrap_or_default()));
-        let note = self.change(Edit::Remove(id))?;
-        Ok(Note::done(with_lines(deleted, &note.text)))
     }
 }
 

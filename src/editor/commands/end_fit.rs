@@ -1,11 +1,11 @@
 //! The actions of the end-fit panel: the seven steps by button.
 
-use crate::document::{Curve, CurveId, Edit, EndMatch, quoted};
+use crate::document::{Curve, CurveId, Document, Edit, EndMatch, quoted};
 use crate::editor::Editor;
 use crate::editor::hand::end_fit::{EndFitAction, EndFitSettings};
-use crate::editor::operating::{EndFitStep, OperationInProgress};
+use crate::editor::operating::EndFitStep;
 use crate::editor::reply::{Note, Refusal, Reply};
-use crate::editor::view::layers::Layer;
+use crate::editor::view::layers::{Layer, Layers};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{Continuity, End};
 use crate::operations::{Operation, Value, correct_ends, rotate_end, translate_end};
@@ -34,111 +34,117 @@ impl Editor {
                     .hand
                     .last_end_fit_action(&self.workspace)
                     .map_or(0, |last| last.passes);
-                self.operate(operation, &values, Some(step))
+                let input = self.input_of(operation);
+                let mut operating = self.operating();
+                operating.apply_at_once(operation, input, &values, Some(step))
             }
-            None => self.set_up(action, id, &curve),
+            None => {
+                let settings = &mut self.hand.settings.end_fit;
+                let layers = &mut self.view.layers;
+                let document = self.workspace.document();
+                let edits = set_up(action, (id, &curve), document, settings, layers);
+                edits.and_then(|edits| match edits {
+                    Some((label, edits)) => self.make(label, edits, false),
+                    None => Ok(Note::silent()),
+                })
+            }
         };
         let is_pending = self.previewed_operation().is_some();
         // What is only looked at leaves the last action.
         if !is_pending && (reply.is_err() || self.workspace.revision() != revision) {
-            self.keep_end_fit_action(step, &reply);
+            self.operating().keep_end_fit_action(step, &reply);
         }
         reply
     }
+}
 
-    /// Keep an action with its reply, for the panel.
-    pub(in crate::editor) fn keep_end_fit_action(&mut self, step: EndFitStep, reply: &Reply) {
-        if let Some((id, curve)) = self.active_curve() {
-            let report = self.operation().and_then(OperationInProgress::report);
-            let revision = self.workspace.revision();
-            let last = step.last_action((id, &curve), revision, reply, report);
-            self.hand.settings.last_end_fit = Some(last);
+/// Change a setting of the end fit, or return the edits that set the target or the match, with a label.
+fn set_up(
+    action: EndFitAction,
+    (id, curve): (CurveId, &Curve),
+    document: &Document,
+    settings: &mut EndFitSettings,
+    layers: &mut Layers,
+) -> Result<Option<(&'static str, Vec<Edit>)>, Refusal> {
+    let end = settings.end;
+    let matched = document.match_of(id, end).copied();
+    match action {
+        EndFitAction::Choose(end) => {
+            settings.end = end;
+            settings.picking = false;
+            return Ok(None);
         }
+        EndFitAction::ShowClosed(closed) => {
+            settings.closed = closed;
+            if !closed {
+                layers.set(Layer::Float, true);
+            }
+            return Ok(None);
+        }
+        EndFitAction::PickFromCurve => {
+            settings.picking = !settings.picking;
+            return Ok(None);
+        }
+        EndFitAction::SetTolerance(tolerance) => {
+            if !(tolerance > 0.0 && tolerance.is_finite()) {
+                return Err("The tolerance must be a length greater than 0".into());
+            }
+            settings.tolerance = Some(tolerance);
+            return Ok(None);
+        }
+        EndFitAction::SetContinuity(continuity) => {
+            settings.continuity = continuity;
+            let Some(matched) = matched else {
+                return Ok(None);
+            };
+            let changed = EndMatch {
+                continuity,
+                ..matched
+            };
+            return Ok(Some(("Change match", vec![Edit::SetMatch(changed)])));
+        }
+        EndFitAction::KeepMatched(live) => {
+            settings.live = live;
+            if live || matched.is_none() {
+                return Ok(None);
+            }
+            let remove = Edit::RemoveMatch { curve: id, end };
+            return Ok(Some(("Remove match", vec![remove])));
+        }
+        EndFitAction::TurnRound if matched.is_some() => {
+            let turned = matched.map(|matched| EndMatch {
+                reversed: !matched.reversed,
+                ..matched
+            });
+            let edits = turned.into_iter().map(Edit::SetMatch).collect();
+            return Ok(Some(("Flip match", edits)));
+        }
+        _ => {}
     }
-
-    /// Do what corrects nothing: choose what is worked on, or set the target.
-    fn set_up(&mut self, action: EndFitAction, id: CurveId, curve: &Curve) -> Reply {
-        let settings = &mut self.hand.settings.end_fit;
-        let end = settings.end;
-        let matched = self.workspace.document().match_of(id, end).copied();
-        match action {
-            EndFitAction::Choose(end) => {
-                settings.end = end;
-                settings.picking = false;
-                return Ok(Note::silent());
-            }
-            EndFitAction::ShowClosed(closed) => {
-                settings.closed = closed;
-                if !closed {
-                    self.view.layers.set(Layer::Float, true);
-                }
-                return Ok(Note::silent());
-            }
-            EndFitAction::PickFromCurve => {
-                settings.picking = !settings.picking;
-                return Ok(Note::silent());
-            }
-            EndFitAction::SetTolerance(tolerance) => {
-                if !(tolerance > 0.0 && tolerance.is_finite()) {
-                    return Err("The tolerance must be a length greater than 0".into());
-                }
-                settings.tolerance = Some(tolerance);
-                return Ok(Note::silent());
-            }
-            EndFitAction::SetContinuity(continuity) => {
-                settings.continuity = continuity;
-                let Some(matched) = matched else {
-                    return Ok(Note::silent());
-                };
-                let changed = EndMatch {
-                    continuity,
-                    ..matched
-                };
-                return self.make("Change match", vec![Edit::SetMatch(changed)], false);
-            }
-            EndFitAction::KeepMatched(live) => {
-                settings.live = live;
-                if live || matched.is_none() {
-                    return Ok(Note::silent());
-                }
-                let remove = Edit::RemoveMatch { curve: id, end };
-                return self.make("Remove match", vec![remove], false);
-            }
-            EndFitAction::TurnRound if matched.is_some() => {
-                let turned = matched.map(|matched| EndMatch {
-                    reversed: !matched.reversed,
-                    ..matched
-                });
-                let edits = turned.into_iter().map(Edit::SetMatch).collect();
-                return self.make("Flip match", edits, false);
-            }
-            _ => {}
-        }
-        let (label, target) = action.target(curve, end);
-        let mut edits = Vec::new();
-        if action == EndFitAction::ClearTarget && matched.is_some() {
-            edits.push(Edit::RemoveMatch { curve: id, end });
-        }
-        edits.push(Edit::SetTarget {
-            curve: id,
-            end,
-            target,
-        });
-        self.make(label, edits, false)
+    let (label, target) = action.target(curve, end);
+    let mut edits = Vec::new();
+    if action == EndFitAction::ClearTarget && matched.is_some() {
+        edits.push(Edit::RemoveMatch { curve: id, end });
     }
-
-    /// Show what a target field of the end-fit panel would make while it is dragged.
-    pub fn preview_end_fit(&mut self, action: EndFitAction) {
-        let end = self.hand.settings.end_fit.end;
-        if let Some((curve, found)) = self.active_curve() {
-            let (_, target) = action.target(&found, end);
-            let edit = Edit::SetTarget { curve, end, target };
-            self.preview("Set target", vec![edit]);
-        }
-    }
+    edits.push(Edit::SetTarget {
+        curve: id,
+        end,
+        target,
+    });
+    Ok(Some((label, edits)))
 }
 
 impl EndFitAction {
+    /// Preview the target that a field of the end-fit panel sets while it is dragged.
+    pub fn preview(self, editor: &mut Editor) {
+        let end = editor.hand.settings.end_fit.end;
+        if let Some((curve, found)) = editor.active_curve() {
+            let (_, target) = self.target(&found, end);
+            let edit = Edit::SetTarget { curve, end, target };
+            editor.preview("Set target", vec![edit]);
+        }
+    }
+
     /// The target that an action makes of that of an end, with what the step is called.
     fn target(self, curve: &Curve, end: End) -> (&'static str, Option<EndTarget>) {
         let planar = curve.polygon.is_planar();

@@ -5,9 +5,9 @@ use std::sync::Arc;
 use crate::document::{Curve, CurveId, Document, Edit, Reference, quoted};
 use crate::editor::commands::command::Command;
 use crate::editor::commands::locking;
-use crate::editor::commands::references::{new_formula, new_reference};
+use crate::editor::commands::references::{addition, new_formula, new_reference};
 use crate::editor::polygon_edits::periodicity;
-use crate::editor::reply::{Note, Reply};
+use crate::editor::reply::{Note, Reply, with_lines};
 use crate::editor::selection::{Selection, VertexId};
 use crate::editor::view::Look;
 use crate::editor::view::layers::Layer;
@@ -31,7 +31,11 @@ impl Editor {
         self.message = None;
         let reply = match command {
             Command::Undo => Ok(self.undo()),
-            Command::Redo => Ok(self.redo()),
+            Command::Redo => {
+                self.interrupt();
+                let redone = self.step(Workspace::redo);
+                Ok(redone.map_or_else(Note::silent, |it| Note::told(format!("Redone: {it}"))))
+            }
             _ if command.only_shows() => {
                 self.show(command);
                 return Ok(Note::silent());
@@ -78,12 +82,6 @@ impl Editor {
         }
         let undone = self.step(Workspace::undo);
         undone.map_or_else(Note::silent, |label| Note::told(format!("Undone: {label}")))
-    }
-
-    fn redo(&mut self) -> Note {
-        self.interrupt();
-        let redone = self.step(Workspace::redo);
-        redone.map_or_else(Note::silent, |label| Note::told(format!("Redone: {label}")))
     }
 
     /// Undo or redo a step, and activate the first item that it brings back. Returns the step's label.
@@ -145,12 +143,20 @@ impl Editor {
                 select_all(&mut self.hand.selection, self.workspace.document())?;
             }
             Command::SelectNone => self.hand.selection.clear(),
-            Command::Tool(tool) => self.use_tool(tool),
+            Command::Tool(tool) => self.hand.use_tool(tool),
             Command::Operation(operation) => return self.preview_operation(operation),
-            Command::AddReference(kind) => {
-                return self.add_reference(kind.label, new_reference(kind));
+            Command::AddReference(_) | Command::AddFormula => {
+                let (label, curve) = match command {
+                    Command::AddReference(kind) => (kind.label, new_reference(kind)),
+                    _ => ("Formula", new_formula()),
+                };
+                let edit = addition(self.document(), label, curve)?;
+                self.add("Add reference", vec![edit])?;
+                // The view follows if the reference would not be seen.
+                if let Some((id, _)) = self.active_reference() {
+                    self.look(Look::New(vec![id]));
+                }
             }
-            Command::AddFormula => return self.add_reference("Formula", new_formula()),
             Command::SetUnit(unit) if unit == self.document().unit() => {}
             Command::SetUnit(unit) => {
                 self.make("Set document unit", vec![Edit::SetUnit(unit)], false)?;
@@ -190,7 +196,7 @@ impl Editor {
                 let references = reference.iter().map(|it| Reference::clone(it)).collect();
                 self.add_copies(&label, curves, references, Vec::new())
             }
-            Command::DeleteCurve => self.delete_whole(id),
+            Command::DeleteCurve => self.change(Edit::Remove(id)),
             Command::TogglePeriodic => {
                 let Some(curve) = curve else {
                     return Ok(Note::silent());
@@ -220,13 +226,26 @@ impl Editor {
         }
     }
 
-    /// Make one edit as a step that is named after it. The reply is told.
+    /// Make one edit as a step that is named after it. The reply is told. Locked curves are not removed.
     ///
     /// # Errors
     /// [`Refusal`] if it cannot be made.
     pub fn change(&mut self, edit: Edit) -> Reply {
-        let label = step_label(&edit, self.document());
-        self.apply(&label, vec![edit])
+        let document = self.document();
+        let label = step_label(&edit, document);
+        let Edit::Remove(id) = edit else {
+            return self.apply(&label, vec![edit]);
+        };
+        let name = document.name(id).unwrap_or_default();
+        let deleted = format!("{} deleted", quoted(name));
+        if let Some(curve) = document.curve(id) {
+            curve.check_unlocked()?;
+        }
+        if let Some(reference) = document.reference(id) {
+            reference.check_unlocked()?;
+        }
+        let note = self.apply(&label, vec![edit])?;
+        Ok(Note::done(with_lines(deleted, &note.text)))
     }
 }
 

@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::document::{Curve, CurveId, Document, Edit, EndMatch, Reference};
+use crate::document::{Document, Edit};
 use crate::editor::Editor;
 use crate::editor::jobs::filing::{FileReply, FileResult, FileTask, FileWork, Filing};
 use crate::editor::reply::{Message, Note, Refusal, Reply};
 use crate::editor::view::{Look, Viewport};
+use crate::io::Exporter;
 use crate::io::examples::EXAMPLES;
-use crate::io::{Exporter, Reading};
 
 impl Editor {
     /// Begin an empty document.
@@ -129,12 +129,6 @@ impl Editor {
         &mut self.filing
     }
 
-    /// Wait until the task on files is finished, as before the program ends.
-    pub fn finish_file_work(&mut self) {
-        self.filing.wait();
-        self.receive_files();
-    }
-
     /// Look whether another program has changed the document's file, as when the window gets the
     /// keyboard again. A later frame tells a change, once.
     pub fn look_at_file(&mut self) {
@@ -224,36 +218,8 @@ impl Editor {
         }
     }
 
-    /// Make some edits, and add curves and references with the matches between them, as one step and make the first of them
-    /// active.
-    pub(in crate::editor) fn add(
-        &mut self,
-        label: &str,
-        before: Vec<Edit>,
-        added: Reading,
-    ) -> Reply {
-        self.interrupt();
-        let mut ids = self.document().next_ids();
-        let curves: Vec<CurveId> = ids.by_ref().take(added.curves.len()).collect();
-        let references: Vec<CurveId> = ids.take(added.references.len()).collect();
-        let matches = added.matches.iter();
-        let matches = matches.map(|matched| matched.between(&curves, &references));
-        let matches = matches.collect::<Result<Vec<EndMatch>, _>>()?;
-        let curve = |curve: Curve| Edit::Add(Box::new(curve));
-        let reference = |reference: Reference| Edit::AddReference(Box::new(reference));
-        let curves = added.curves.into_iter().map(curve);
-        let references = added.references.into_iter().map(reference);
-        let edits = before
-            .into_iter()
-            .chain(curves)
-            .chain(references)
-            .chain(matches.into_iter().map(Edit::SetMatch))
-            .collect();
-        self.add_by(label, edits)
-    }
-
     /// Make edits that add items as one step, and make the first of them active.
-    pub(in crate::editor) fn add_by(&mut self, label: &str, edits: Vec<Edit>) -> Reply {
+    pub(in crate::editor) fn add(&mut self, label: &str, edits: Vec<Edit>) -> Reply {
         let first = self.document().next_id();
         let added = self.make(label, edits, false)?;
         if self.document().name(first).is_some() {

@@ -1,7 +1,7 @@
 //! Adding documents that were read, in the document's unit. Where only they state a unit, the window asks
 //! for that of the document.
 
-use crate::document::{Curve, Document, Edit, MergeError, Reference};
+use crate::document::{Document, Edit, MergeError};
 use crate::editor::Editor;
 use crate::editor::jobs::filing::{Incoming, Purpose, UnitQuestion};
 use crate::editor::reply::{Note, Refusal, Reply, with_lines};
@@ -66,29 +66,25 @@ impl Editor {
                 Ok(Note::told(with_lines(text, &lines)))
             }
             Purpose::Import => {
-                self.add_by("Import curves", merged.edits)?;
+                self.add("Import curves", merged.edits)?;
                 self.look(Look::All);
                 Ok(Note::done(with_lines(format!("{counted} added"), &lines)))
             }
             Purpose::Paste => {
-                self.paste_merged(merged.edits)?;
+                // Matches are not pasted.
+                let (mut curves, mut references, mut others) = (Vec::new(), Vec::new(), Vec::new());
+                for edit in merged.edits {
+                    match edit {
+                        Edit::Add(curve) => curves.push(*curve),
+                        Edit::AddReference(reference) => references.push(*reference),
+                        Edit::SetMatch(_) => {}
+                        other => others.push(other),
+                    }
+                }
+                self.add_copies("Paste", curves, references, others)?;
                 Ok(Note::done(with_lines(format!("{counted} pasted"), &lines)))
             }
         }
-    }
-
-    /// Paste the items that edits would add, in the unit that they set. Matches are not pasted.
-    fn paste_merged(&mut self, edits: Vec<Edit>) -> Reply {
-        let (mut curves, mut references, mut others) = (Vec::new(), Vec::new(), Vec::new());
-        for edit in edits {
-            match edit {
-                Edit::Add(curve) => curves.push(Curve::clone(&curve)),
-                Edit::AddReference(reference) => references.push(Reference::clone(&reference)),
-                Edit::SetMatch(_) => {}
-                other => others.push(other),
-            }
-        }
-        self.add_copies("Paste", curves, references, others)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::document::CurveId;
 use crate::editor::Editor;
-use crate::editor::operating::{EndFitStep, Operating, OperationInProgress};
+use crate::editor::operating::{Operating, OperationInProgress};
 use crate::editor::reply::{Note, Reply};
 use crate::operations::{Inputs, Operands, Operation, OperationError, Value};
 
@@ -34,14 +34,6 @@ impl Editor {
         }
     }
 
-    /// Check whether an operation can start now.
-    ///
-    /// # Errors
-    /// [`OperationError`] says why it cannot.
-    pub fn check_operation(&self, operation: &'static Operation) -> Result<(), OperationError> {
-        operation.check(&self.input_of(operation)?)
-    }
-
     /// Preview an operation; one without parameters is applied at once. The message shows the reply.
     ///
     /// # Errors
@@ -67,29 +59,19 @@ impl Editor {
         operation: &'static Operation,
         given: &[(&str, Value)],
     ) -> Reply {
-        self.message = None;
-        let reply = self.operate(operation, given, None);
+        self.interrupt();
+        let input = self.input_of(operation);
+        let reply = self
+            .operating()
+            .apply_at_once(operation, input, given, None);
         self.tell(reply)
     }
 
-    /// Apply an operation with some values, for an action of the end-fit panel if it is one.
-    pub(in crate::editor) fn operate(
-        &mut self,
-        operation: &'static Operation,
-        given: &[(&str, Value)],
-        end_fit: Option<EndFitStep>,
-    ) -> Reply {
-        self.interrupt();
-        let input = self.input_of(operation);
-        let mut operating = self.operating();
-        operating.apply_at_once(operation, input, given, end_fit)
-    }
-
     /// The input of an operation: the active curve or reference, and the selected curves.
-    pub(in crate::editor) fn input_of(
-        &self,
-        operation: &Operation,
-    ) -> Result<Operands, OperationError> {
+    ///
+    /// # Errors
+    /// [`OperationError`] if the operation cannot run on them, whatever its values.
+    pub fn input_of(&self, operation: &Operation) -> Result<Operands, OperationError> {
         let (selection, document) = (&self.hand.selection, self.workspace.settled());
         // The panel fits references of points; the vertices of a curve are fitted from a shell.
         let fits =
@@ -98,6 +80,8 @@ impl Editor {
         let others = self.document().ids().filter(|id| Some(*id) != active);
         let others = others.filter(|id| selection.of_curve(*id).next().is_some());
         let others: Vec<CurveId> = others.collect();
-        Operands::choose(document, operation.inputs, active, &others)
+        let input = Operands::choose(document, operation.inputs, active, &others)?;
+        operation.check(&input)?;
+        Ok(input)
     }
 }

@@ -44,11 +44,17 @@ impl Editor {
         self.recovery.autosaving.wait(now)
     }
 
-    /// Write unsaved changes, and return when they are on the disk. The reply is told.
+    /// End: wait for the task on files, then remove the session, or write the changes that are to be kept.
     ///
     /// # Errors
-    /// [`Refusal`] if it cannot be written.
-    pub fn autosave_now(&mut self) -> Reply {
+    /// [`Refusal`] if they cannot be written.
+    pub fn close(&mut self, keeps_changes: bool) -> Reply {
+        self.filing.wait();
+        self.receive_files();
+        if !keeps_changes || !self.workspace.is_settled_modified() {
+            self.recovery.close();
+            return Ok(Note::silent());
+        }
         self.autosave(Instant::now(), true);
         let written = self.recovery.autosaver().map_or(Ok(()), Autosaver::write);
         self.tell(written.map(|()| Note::silent()).map_err(Refusal::from))

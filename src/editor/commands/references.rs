@@ -4,14 +4,12 @@ use std::f64::consts::TAU;
 
 use glam::{DQuat, DVec3};
 
-use crate::document::{Edit, Reference};
+use crate::document::{Document, Edit, Reference};
 use crate::editor::Editor;
 use crate::editor::reply::{Note, Refusal, Reply};
-use crate::editor::view::Look;
 use crate::geometry::references::{
     AnalyticForm, Formula, Placement, ReferenceCurve, ReferenceError, ReferenceForm, ReferenceKind,
 };
-use crate::io::Reading;
 
 /// The formulas that a new curve begins with.
 const FORMULAS: [&str; 2] = ["t", "sin(t)"];
@@ -120,26 +118,15 @@ impl ReferenceChange {
     }
 }
 
-impl Editor {
-    /// Add a reference where its formula puts it, in units of the document; the view follows if it would not be seen.
-    pub(super) fn add_reference(
-        &mut self,
-        label: &str,
-        curve: Result<ReferenceCurve, ReferenceError>,
-    ) -> Reply {
-        let curve = curve.map_err(|error| error.to_string())?;
-        let name = self.document().free_name(&label.to_lowercase());
-        let references = vec![Reference::new(name, curve)];
-        let added = Reading {
-            references,
-            ..Reading::default()
-        };
-        self.add("Add reference", Vec::new(), added)?;
-        if let Some((id, _)) = self.active_reference() {
-            self.look(Look::New(vec![id]));
-        }
-        Ok(Note::silent())
-    }
+/// The edit that adds a reference where its formula puts it, in units of the document.
+pub(super) fn addition(
+    document: &Document,
+    label: &str,
+    curve: Result<ReferenceCurve, ReferenceError>,
+) -> Result<Edit, Refusal> {
+    let curve = curve.map_err(|error| error.to_string())?;
+    let name = document.free_name(&label.to_lowercase());
+    Ok(Edit::AddReference(Box::new(Reference::new(name, curve))))
 }
 
 /// A curve by formulas, to be changed.

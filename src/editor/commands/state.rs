@@ -29,7 +29,7 @@ impl Command {
             | Command::ToggleVisible
             | Command::ToggleLocked => active,
             Command::TogglePeriodic => editable,
-            Command::Operation(operation) => editor.check_operation(operation).is_ok(),
+            Command::Operation(operation) => editor.input_of(operation).is_ok(),
             Command::SelectAll | Command::Fit | Command::FitAll => !editor.document().is_empty(),
             Command::SelectNone | Command::ToggleVerticesLocked => {
                 !editor.hand.selection.is_empty()

@@ -9,11 +9,10 @@ use crate::editor::Editor;
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::{Input, Key};
 use crate::editor::hand::menu::MenuTarget;
-use crate::editor::hand::tools::{Context, Cursor, Effect, ToolKind};
+use crate::editor::hand::tools::{Context, Cursor, Effect, ToolKind, Tools};
 use crate::editor::operating::OperationInProgress;
 use crate::editor::reply::{Message, Note, Refusal, told};
-use crate::editor::view::layers::Layers;
-use crate::editor::view::{Look, REACH};
+use crate::editor::view::Look;
 use crate::editor::workspace::Interruption;
 
 /// What a context menu is requested for.
@@ -170,7 +169,7 @@ impl Editor {
     /// the step that it began.
     pub(in crate::editor) fn deliver(&mut self, gesture: Gesture, repeats: bool) {
         let previews = self.previewed_operation().is_some();
-        if previews && self.drag_handle(gesture) {
+        if self.operating().take_gesture(gesture) {
             return;
         }
         if let Gesture::SecondaryClick(at) = gesture
@@ -178,74 +177,25 @@ impl Editor {
         {
             return self.ask_for_menu(MenuOf::Place(at));
         }
-        let previewed = self.previewed_operation();
-        if previewed.is_some_and(OperationInProgress::offers_handles) {
-            return self.leave_beside_handles(gesture);
-        }
-        self.view.analyse(self.workspace.document());
-        let layers = self.hand.layers(self.view.layers);
-        let mut tools = std::mem::take(&mut self.hand.tools);
-        if previews && tools.used().begins(gesture, &self.context_with(layers)) {
+        let begins =
+            |tools: &mut Tools, context: &Context<'_>| tools.used().begins(gesture, context);
+        if previews && self.with_tools(begins) {
             // The gesture is about the document without the preview, which ends now.
             self.operating().interrupt();
-            self.view.analyse(self.workspace.document());
         }
-        let context = self.context_with(layers);
-        let effects = tools.used_mut().gesture(gesture, &context);
-        self.hand.tools = tools;
+        let effects = self.with_tools(|tools, context| tools.used_mut().gesture(gesture, context));
         self.take_effects(effects, repeats);
     }
 
-    /// Take a gesture that is meant for a handle of the previewed operation. Returns whether it is.
-    fn drag_handle(&mut self, gesture: Gesture) -> bool {
-        match gesture {
-            Gesture::DragStart(at) => self.operating().begin_handle_drag(at),
-            Gesture::Click(at) | Gesture::DoubleClick(at) => {
-                let previewed = self.previewed_operation();
-                previewed.is_some_and(|it| it.handle_at(&self.view.viewport, at).is_some())
-            }
-            Gesture::Drag(at) => {
-                let previewed = self.previewed_operation();
-                let given = previewed.and_then(|it| it.dragged_values(at, &self.context()));
-                self.operating().go_on_with_handle(given)
-            }
-            Gesture::DragEnd(_) => {
-                let drags = self.operating().end_handle_drag();
-                if drags {
-                    self.operating().keep_values();
-                }
-                drags
-            }
-            Gesture::Cancel => {
-                let drags = self.operating().end_handle_drag();
-                if drags {
-                    self.operating().restore_values();
-                }
-                drags
-            }
-            _ => false,
-        }
-    }
-
-    /// Leave a gesture beside the handles without effect on the operation that offers them; a double
-    /// click on nothing still shows everything.
-    fn leave_beside_handles(&mut self, gesture: Gesture) {
-        let is_over_curve = |at: DVec2| {
-            let hits = self.context().hits;
-            hits.vertex(at).is_some()
-                || hits.curve(at).is_some()
-                || hits.leg(at, 0.5 * REACH).is_some()
-        };
-        match gesture {
-            Gesture::DoubleClick(at) if !is_over_curve(at) => self.look(Look::All),
-            Gesture::DragStart(at) if is_over_curve(at) => {
-                let previewed = self.previewed_operation();
-                let label = previewed.map_or("", |it| it.operation().label);
-                let first = format!("Apply or cancel {label} before you edit curves on the canvas");
-                self.message = Message::of(&Err(Refusal(first)));
-            }
-            _ => {}
-        }
+    /// Let the tools change while they see the rest of the editor.
+    fn with_tools<R>(&mut self, change: impl FnOnce(&mut Tools, &Context<'_>) -> R) -> R {
+        self.view.analyse(self.workspace.document());
+        let layers = self.hand.layers(self.view.layers);
+        let mut tools = std::mem::take(&mut self.hand.tools);
+        let context = self.hand.context(&self.workspace, &self.view, layers);
+        let result = change(&mut tools, &context);
+        self.hand.tools = tools;
+        result
     }
 
     /// Ask for a context menu; the previewed operation has none of its own on the canvas.
@@ -272,89 +222,68 @@ impl Editor {
         self.operating().leave_stale();
     }
 
-    /// Do what a tool wants.
+    /// Everything that tools look at.
+    pub fn context(&self) -> Context<'_> {
+        let layers = self.hand.layers(self.view.layers);
+        self.hand.context(&self.workspace, &self.view, layers)
+    }
+
+    /// Do what a tool wants. A key that `repeats` goes on with the step that it began.
     pub(in crate::editor) fn take_effects(&mut self, effects: Vec<Effect>, repeats: bool) {
         let mut step = Step::None;
         for effect in effects {
-            self.take_effect(effect, repeats, &mut step);
+            match effect {
+                Effect::Begin(label) => {
+                    self.hand.keeping.end();
+                    self.workspace.begin(&label, Interruption::Aborts);
+                }
+                Effect::Preview(edits) => {
+                    let edits = self.hand.kept(edits, &self.workspace, &self.view.analyses);
+                    let refusal = self.workspace.update(edits).err().map(Refusal::from);
+                    Message::tell_update(&mut self.message, refusal);
+                }
+                Effect::Commit => {
+                    let analyses = &self.view.analyses;
+                    self.hand.commit_kept(&mut self.workspace, analyses);
+                }
+                Effect::Abort => {
+                    self.hand.keeping.end();
+                    self.workspace.abort();
+                }
+                Effect::Apply(label, edits) => {
+                    let kept = self
+                        .hand
+                        .check_kept(&edits, &self.workspace, &self.view.analyses);
+                    let reply = kept.and_then(|()| self.make(&label, edits, repeats));
+                    step = match self.tell(reply) {
+                        Ok(_) => Step::Made,
+                        Err(_) => Step::Refused,
+                    };
+                }
+                Effect::Select(vertices) => self.hand.selection.set(vertices),
+                Effect::SelectMore(vertices) => self.hand.selection.add(vertices),
+                Effect::ToggleSelected(vertex) => self.hand.selection.toggle(vertex),
+                Effect::Activate(curve) => self.hand.selection.activate(curve),
+                Effect::Look(look) => self.look(look),
+                Effect::Set(settings) => self.hand.settings = *settings,
+                Effect::Say(text) if self.workspace.preview().is_some() => {
+                    Message::tell_update(&mut self.message, Some(Refusal(text)));
+                }
+                Effect::Say(text) => {
+                    self.message = match step {
+                        Step::None => Message::of(&Ok(Note::told(text))),
+                        Step::Made => Message::of(&Ok(Note::done(text))),
+                        // The message says why not.
+                        Step::Refused => self.message.take(),
+                    };
+                }
+                Effect::Finish => {
+                    self.interrupt();
+                    self.hand.use_tool(ToolKind::Select);
+                }
+            }
         }
         self.document_changed();
         self.operating().leave_stale();
-    }
-
-    /// Everything that tools look at.
-    pub fn context(&self) -> Context<'_> {
-        self.context_with(self.hand.layers(self.view.layers))
-    }
-
-    fn context_with(&self, layers: Layers) -> Context<'_> {
-        Context {
-            document: self.workspace.document(),
-            before: self.workspace.settled(),
-            selection: &self.hand.selection,
-            viewport: &self.view.viewport,
-            hits: self.view.sight(self.hand.shown(&self.workspace, layers)),
-            modifiers: self.hand.modifiers,
-            axis: self.hand.axis,
-            snapping: self.hand.snapping,
-            nudge_step: self.hand.nudge_step(),
-            following: self.hand.following,
-            settings: &self.hand.settings,
-            pointer: self
-                .hand
-                .gestures
-                .pointer()
-                .map(|at| self.view.viewport.to_model(at)),
-            typed: self.hand.typed,
-        }
-    }
-
-    fn take_effect(&mut self, effect: Effect, repeats: bool, step: &mut Step) {
-        match effect {
-            Effect::Begin(label) => {
-                self.hand.keeping.end();
-                self.workspace.begin(&label, Interruption::Aborts);
-            }
-            Effect::Preview(edits) => {
-                let edits = self.hand.kept(edits, &self.workspace, &self.view.analyses);
-                self.update(edits);
-            }
-            Effect::Commit => {
-                let analyses = &self.view.analyses;
-                self.hand.commit_kept(&mut self.workspace, analyses);
-            }
-            Effect::Abort => {
-                self.hand.keeping.end();
-                self.workspace.abort();
-            }
-            Effect::Apply(label, edits) => {
-                let kept = self
-                    .hand
-                    .check_kept(&edits, &self.workspace, &self.view.analyses);
-                let reply = kept.and_then(|()| self.make(&label, edits, repeats));
-                *step = match self.tell(reply) {
-                    Ok(_) => Step::Made,
-                    Err(_) => Step::Refused,
-                };
-            }
-            Effect::Select(vertices) => self.hand.selection.set(vertices),
-            Effect::SelectMore(vertices) => self.hand.selection.add(vertices),
-            Effect::ToggleSelected(vertex) => self.hand.selection.toggle(vertex),
-            Effect::Activate(curve) => self.hand.selection.activate(curve),
-            Effect::Look(look) => self.look(look),
-            Effect::Set(settings) => self.hand.settings = *settings,
-            Effect::Say(text) if self.workspace.preview().is_some() => {
-                Message::tell_update(&mut self.message, Some(Refusal(text)));
-            }
-            Effect::Say(text) => {
-                self.message = match step {
-                    Step::None => Message::of(&Ok(Note::told(text))),
-                    Step::Made => Message::of(&Ok(Note::done(text))),
-                    // The message says why not.
-                    Step::Refused => self.message.take(),
-                };
-            }
-            Effect::Finish => self.use_tool(ToolKind::Select),
-        }
     }
 }

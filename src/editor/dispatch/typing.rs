@@ -30,7 +30,19 @@ impl Editor {
     pub fn enter(&mut self, text: &str) -> Result<(), EntryError> {
         let unit = self.document().unit();
         match self.hand.entry(&self.view.viewport) {
-            Some(Entry::Point(_)) => self.enter_point(TypedPoint::read(text, unit)?),
+            Some(Entry::Point(_)) => {
+                let typed = TypedPoint::read(text, unit)?;
+                if self.previewed_operation().is_some() {
+                    self.operating().interrupt();
+                }
+                let effects =
+                    self.with_tools(|tools, context| tools.used_mut().enter(typed, context))?;
+                self.hand.typed = None;
+                self.message = None;
+                self.take_effects(effects, false);
+                self.hand.gestures.reset();
+                Ok(())
+            }
             Some(Entry::Angle | Entry::Factor) => {
                 let transformation = self.hand.typed_transformation(text, unit)?;
                 self.type_transformation(None);
@@ -45,29 +57,11 @@ impl Editor {
         }
     }
 
-    fn enter_point(&mut self, typed: TypedPoint) -> Result<(), EntryError> {
-        if self.previewed_operation().is_some() {
-            self.operating().interrupt();
-        }
-        self.view.analyse(self.workspace.document());
-        let mut tools = std::mem::take(&mut self.hand.tools);
-        let entered = tools.used_mut().enter(typed, &self.context());
-        self.hand.tools = tools;
-        let effects = entered?;
-        self.hand.typed = None;
-        self.message = None;
-        self.take_effects(effects, false);
-        self.hand.gestures.reset();
-        Ok(())
-    }
-
     /// Preview a typed angle or factor, or take the preview back; a running drag ends. Returns whether that changes
     /// anything.
     fn type_transformation(&mut self, typed: Option<Transformation>) -> bool {
-        self.view.analyse(self.workspace.document());
-        let mut tools = std::mem::take(&mut self.hand.tools);
-        let effects = tools.used_mut().type_number(typed, &self.context());
-        self.hand.tools = tools;
+        let effects =
+            self.with_tools(|tools, context| tools.used_mut().type_number(typed, context));
         let changes = !effects.is_empty();
         if changes {
             self.hand.gestures.reset();

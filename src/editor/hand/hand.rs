@@ -8,9 +8,10 @@ use crate::editor::hand::gesture::GestureMachine;
 use crate::editor::hand::input::Modifiers;
 use crate::editor::hand::keeping::Keeping;
 use crate::editor::hand::menu_request::MenuRequest;
-use crate::editor::hand::tools::{ToolKind, ToolSettings, Tools};
+use crate::editor::hand::tools::{Context, ToolKind, ToolSettings, Tools};
 use crate::editor::hand::typed_point::TypedPoint;
 use crate::editor::selection::Selection;
+use crate::editor::view::View;
 use crate::editor::view::layers::{Layer, Layers};
 use crate::editor::view::overlay::Hovering;
 use crate::editor::view::shown::Shown;
@@ -87,6 +88,31 @@ impl Hand {
         }
     }
 
+    /// Let tools see the parts of the editor, with the layers that are shown.
+    pub(in crate::editor) fn context<'a>(
+        &'a self,
+        workspace: &'a Workspace,
+        view: &'a View,
+        layers: Layers,
+    ) -> Context<'a> {
+        let pointer = self.gestures.pointer();
+        Context {
+            document: workspace.document(),
+            before: workspace.settled(),
+            selection: &self.selection,
+            viewport: &view.viewport,
+            hits: view.sight(self.shown(workspace, layers)),
+            modifiers: self.modifiers,
+            axis: self.axis,
+            snapping: self.snapping,
+            nudge_step: self.nudge_step(),
+            following: self.following,
+            settings: &self.settings,
+            pointer: pointer.map(|at| view.viewport.to_model(at)),
+            typed: self.typed,
+        }
+    }
+
     /// The layers that are shown, of those that the user chose: the end-fit tool may show the closed
     /// S-polygon in place of the float one.
     pub(in crate::editor) fn layers(&self, chosen: Layers) -> Layers {
@@ -126,6 +152,7 @@ impl Hand {
     /// Use another tool, or the same anew.
     pub(in crate::editor) fn use_tool(&mut self, tool: ToolKind) {
         self.tools.choose(tool, &mut self.settings);
+        self.typed = None;
     }
 
     /// What is selected.

@@ -1,6 +1,7 @@
 //! Operations in progress: previewed, applied, and changed afterwards.
 
 mod end_fit_step;
+mod gestures;
 mod handle_drag;
 mod handles;
 mod in_progress;

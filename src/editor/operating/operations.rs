@@ -21,8 +21,6 @@ use super::in_progress::{OperationInProgress, Run, Stage};
 pub(in crate::editor) struct Operations {
     client: Client<(), JobResult>,
     operation: Option<OperationInProgress>,
-    /// The reply to an action of the end-fit panel that came after the action had returned.
-    late: Option<(EndFitStep, Reply)>,
 }
 
 /// The result of a job: a run, then the proof of its features.
@@ -71,11 +69,6 @@ impl Operations {
     /// The share of the running job that is done, from 0 to 1; `None` without one.
     pub fn progress(&self) -> Option<f64> {
         self.client.progress()
-    }
-
-    /// Take the late reply to an action of the end-fit panel.
-    pub fn take_late(&mut self) -> Option<(EndFitStep, Reply)> {
-        self.late.take()
     }
 }
 
@@ -406,12 +399,24 @@ impl Operating<'_> {
             let reply = self.settle();
             let current = self.operations.operation.as_mut();
             match current.and_then(|current| current.end_fit.take()) {
-                Some(step) => self.operations.late = Some((step, reply)),
+                Some(step) => self.keep_end_fit_action(step, &reply),
                 None => *self.message = Message::of(&reply),
             }
         }
         if succeeds {
             self.request_features();
+        }
+    }
+
+    /// Keep an action of the end-fit panel with its reply, for the panel.
+    pub(in crate::editor) fn keep_end_fit_action(&mut self, step: EndFitStep, reply: &Reply) {
+        let active = self.hand.selection.active();
+        let curve = active.and_then(|id| Some((id, &**self.workspace.document().curve(id)?)));
+        if let Some(curve) = curve {
+            let report = self.current().and_then(OperationInProgress::report);
+            let revision = self.workspace.revision();
+            let last = step.last_action(curve, revision, reply, report);
+            self.hand.settings.last_end_fit = Some(last);
         }
     }
 

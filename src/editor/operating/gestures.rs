@@ -1,0 +1,69 @@
+//! Gestures on the canvas while an operation is previewed: its handles come first.
+
+use glam::DVec2;
+
+use super::operations::Operating;
+use crate::editor::hand::gesture::Gesture;
+use crate::editor::hand::tools::Context;
+use crate::editor::reply::{Message, Refusal};
+use crate::editor::view::{Look, REACH};
+
+impl Operating<'_> {
+    /// Take a gesture that is meant for a handle of the previewed operation, or beside the handles of one
+    /// that offers some. Returns whether the gesture was taken.
+    pub(in crate::editor) fn take_gesture(&mut self, gesture: Gesture) -> bool {
+        let Some(previewed) = self.previewed() else {
+            return false;
+        };
+        let offers_handles = previewed.offers_handles();
+        let taken = match gesture {
+            Gesture::DragStart(at) => self.begin_handle_drag(at),
+            Gesture::Click(at) | Gesture::DoubleClick(at) => {
+                previewed.handle_at(&self.view.viewport, at).is_some()
+            }
+            Gesture::Drag(at) => {
+                let given = previewed.dragged_values(at, &self.context());
+                self.go_on_with_handle(given)
+            }
+            Gesture::DragEnd(_) => self.end_handle_drag().then(|| self.keep_values()).is_some(),
+            Gesture::Cancel => self
+                .end_handle_drag()
+                .then(|| self.restore_values())
+                .is_some(),
+            _ => false,
+        };
+        if !taken && offers_handles {
+            self.leave_beside_handles(gesture);
+        }
+        taken || offers_handles
+    }
+
+    /// Leave a gesture beside the handles without effect on the operation; a double click on nothing
+    /// still shows everything.
+    fn leave_beside_handles(&mut self, gesture: Gesture) {
+        let is_over_curve = |at: DVec2| {
+            let hits = self.context().hits;
+            hits.vertex(at).is_some()
+                || hits.curve(at).is_some()
+                || hits.leg(at, 0.5 * REACH).is_some()
+        };
+        match gesture {
+            Gesture::DoubleClick(at) if !is_over_curve(at) => {
+                let layers = self.hand.layers(self.view.layers);
+                let shown = self.hand.shown(self.workspace, layers);
+                self.view.look(Look::All, shown);
+            }
+            Gesture::DragStart(at) if is_over_curve(at) => {
+                let label = self.previewed().map_or("", |it| it.operation().label);
+                let first = format!("Apply or cancel {label} before you edit curves on the canvas");
+                *self.message = Message::of(&Err(Refusal(first)));
+            }
+            _ => {}
+        }
+    }
+
+    fn context(&self) -> Context<'_> {
+        let layers = self.hand.layers(self.view.layers);
+        self.hand.context(self.workspace, self.view, layers)
+    }
+}
