@@ -147,14 +147,14 @@ fn write(
     let mut bytes = unit_line.unwrap_or_default().into_bytes();
     let mut blocks = Vec::new();
     for (_, curve) in document.curves() {
-        blocks.push(block_bytes(curve, polygon.unwrap_or_default(), losses));
+        blocks.push(curve_block(curve, polygon.unwrap_or_default(), losses));
         losses.add_attributes(curve);
         losses.add_if(!curve.visible, curve, Loss::Hidden);
         losses.add_if(curve.locked, curve, Loss::Locked);
     }
     for (_, reference) in document.references() {
         match reference.points() {
-            Some(points) => blocks.push(points_bytes(&reference.name, &points)),
+            Some(points) => blocks.push(points_block(reference, &points)),
             None => losses.add_reference(reference),
         }
     }
@@ -170,26 +170,16 @@ fn write(
     Ok(bytes)
 }
 
-fn points_bytes(name: &str, points: &[DVec3]) -> csv::Result<Vec<u8>> {
+fn points_block(reference: &Reference, points: &[DVec3]) -> csv::Result<Vec<u8>> {
     let header = TableHeader {
         curve: None,
-        name: Some(name.to_owned()),
+        name: Some(reference.name.clone()),
     };
     let planar = points.iter().all(|point| point.z == 0.0);
-    let columns = if planar { 2 } else { 3 };
-    let mut writer = WriterBuilder::new().flexible(true).from_writer(Vec::new());
-    writer.write_record([header.to_line()])?;
-    writer.write_record(&COLUMNS[..columns])?;
-    for point in points {
-        let values = point.to_array().map(|value| format!("{value:?}"));
-        writer.write_record(&values[..columns])?;
-    }
-    writer
-        .into_inner()
-        .map_err(|error| error.into_error().into())
+    block(&header, if planar { 2 } else { 3 }, points, None)
 }
 
-fn block_bytes(curve: &Curve, kind: PolygonKind, losses: &mut LossReport) -> csv::Result<Vec<u8>> {
+fn curve_block(curve: &Curve, kind: PolygonKind, losses: &mut LossReport) -> csv::Result<Vec<u8>> {
     let polygon = FilePolygon::of(&curve.polygon, kind);
     losses.extend(curve, polygon.losses(&curve.polygon));
     let header = TableHeader {
@@ -205,20 +195,27 @@ fn block_bytes(curve: &Curve, kind: PolygonKind, losses: &mut LossReport) -> csv
         (None, false) => 3,
         (None, true) => 2,
     };
+    let weights = polygon.weights.as_deref();
+    block(&header, columns, &polygon.vertices, weights)
+}
+
+/// Write a table with the first `columns` of [`COLUMNS`].
+fn block(
+    header: &TableHeader,
+    columns: usize,
+    points: &[DVec3],
+    weights: Option<&[f64]>,
+) -> csv::Result<Vec<u8>> {
     let mut writer = WriterBuilder::new().flexible(true).from_writer(Vec::new());
     writer.write_record([header.to_line()])?;
     writer.write_record(&COLUMNS[..columns])?;
-    for (index, vertex) in polygon.vertices.iter().enumerate() {
-        let weight = polygon
-            .weights
-            .as_ref()
-            .map_or(1.0, |weights| weights[index]);
-        let values = [vertex.x, vertex.y, vertex.z, weight].map(|value| format!("{value:?}"));
-        writer.write_record(&values[..columns])?;
+    for (index, point) in points.iter().enumerate() {
+        let weight = weights.and_then(|weights| weights.get(index));
+        let values = [point.x, point.y, point.z, *weight.unwrap_or(&1.0)];
+        writer.write_record(&values.map(|value| format!("{value:?}"))[..columns])?;
     }
-    writer
-        .into_inner()
-        .map_err(|error| error.into_error().into())
+    let bytes = writer.into_inner();
+    bytes.map_err(|error| error.into_error().into())
 }
 
 /// Whether a line of values begins a list of points that no line with a `#` announces: names of columns,
