@@ -85,8 +85,7 @@ fn drawn(
     let mut points = Vec::new();
     let Outlines { curve, float } = outlines;
     let sampled = analysis.sampled();
-    curve.set_orientation(eye);
-    curve.update(sampled);
+    curve.update(sampled, eye);
     let segments = analysis.proved_segments().expect("all is proved");
     for trend in PieceTrend::ALL {
         curve.append_trend(sampled, segments, trend, &view, &mut points);
@@ -108,8 +107,7 @@ fn drawn(
     for flow in Flow::ALL {
         analysis.float().append_flow(flow, &mut points);
     }
-    float.set_orientation(eye);
-    float.update(analysis.float());
+    float.update(analysis.float(), eye);
     let mut legs = Legs::default();
     float.append_legs(analysis.float(), None, &view, &mut legs);
     for (chain, strength) in legs.chains() {

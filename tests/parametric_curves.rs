@@ -137,8 +137,7 @@ fn analysed(
         samples: &samples,
     };
     let mut outlines = CurveOutlines::default();
-    outlines.set_orientation(eye);
-    outlines.update(sampled);
+    outlines.update(sampled, eye);
     check(sampled, &mut outlines);
 }
 

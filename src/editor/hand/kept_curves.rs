@@ -128,11 +128,7 @@ impl Kept {
 
 /// The vertices that are elsewhere; none for a polygon of another kind, which cannot be compared.
 fn moved_vertices(before: &FloatPolygon, after: &FloatPolygon) -> Vec<usize> {
-    let kind = |polygon: &FloatPolygon| {
-        let count = polygon.vertices().len();
-        (polygon.degree(), polygon.is_periodic(), count)
-    };
-    if kind(before) != kind(after) || before.weights() != after.weights() {
+    if !before.has_numbers_of(after) || before.weights() != after.weights() {
         return Vec::new();
     }
     let pairs = before.vertices().iter().zip(after.vertices()).enumerate();

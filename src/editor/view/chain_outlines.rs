@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 
-use crate::analysis::{Revision, VertexChain};
+use crate::analysis::VertexChain;
+use crate::editor::view::blocks::Blocks;
 use crate::editor::view::density::{self, SeenChain};
 use crate::editor::view::orientation::Orientation;
 use crate::editor::view::outline::{Bounds, ViewBox};
@@ -14,14 +15,11 @@ const POINT_SPACING: f64 = 7.0;
 /// Hold the outlines of a polygon in one orientation, block by block.
 #[derive(Debug, Default)]
 pub struct ChainOutlines {
-    orientation: Orientation,
-    blocks: Vec<Block>,
+    blocks: Blocks<Block>,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 struct Block {
-    /// The samples or vertices of which the block was made.
-    revision: Revision,
     points: ThinnedPoints,
     /// The box around the vertices and the legs that begin at them.
     bounds: Bounds,
@@ -36,34 +34,18 @@ struct ThinnedPoints {
 }
 
 impl ChainOutlines {
-    /// Set the orientation.
-    pub fn set_orientation(&mut self, orientation: Orientation) {
-        if self.orientation != orientation {
-            self.orientation = orientation;
-            self.blocks.clear();
-        }
-    }
-
-    /// Forget blocks that have changed. Call this before any other method after a change of the polygon.
-    pub fn update(&mut self, chain: &VertexChain) {
+    /// Forget blocks that have changed. Call this before any other method after a change of the polygon or of the
+    /// orientation.
+    pub fn update(&mut self, chain: &VertexChain, eye: Orientation) {
+        let seen = SeenChain { chain, eye };
         let revisions = chain.revisions();
-        self.blocks.truncate(revisions.len());
-        for (index, revision) in revisions.enumerate() {
-            let known = self.blocks.get(index).map(|block| block.revision);
-            if known == Some(revision) {
-                continue;
-            }
-            let block = Block::new(revision, index, &self.seen(chain));
-            match self.blocks.get_mut(index) {
-                Some(old) => *old = block,
-                None => self.blocks.push(block),
-            }
-        }
+        self.blocks
+            .update(eye, revisions, |index| Block::new(index, &seen));
     }
 
     /// The vertices as they are seen.
     pub fn seen<'a>(&self, chain: &'a VertexChain) -> SeenChain<'a> {
-        let eye = self.orientation;
+        let eye = self.blocks.eye;
         SeenChain { chain, eye }
     }
 
@@ -85,8 +67,8 @@ impl ChainOutlines {
         let covers = |vertex: usize| {
             covering.is_some_and(|covering| seen.coincides(covering, vertex, 0, view.pixel))
         };
-        for (index, block) in self.blocks.iter().enumerate() {
-            let longest = self.longest_near(index) / view.pixel;
+        for (index, (block, longest)) in self.blocks_with_longest().enumerate() {
+            let longest = longest / view.pixel;
             if density::leg(longest) == 0.0 || !block.bounds.meets(view) {
                 continue;
             }
@@ -111,8 +93,8 @@ impl ChainOutlines {
         mut found: impl FnMut(usize, DVec2, f32),
     ) {
         let seen = self.seen(chain);
-        for (index, block) in self.blocks.iter().enumerate() {
-            let longest = self.longest_near(index) / view.pixel;
+        for (index, (block, longest)) in self.blocks_with_longest().enumerate() {
+            let longest = longest / view.pixel;
             if density::disc(longest) == 0.0 || !block.bounds.meets(view) {
                 continue;
             }
@@ -130,7 +112,7 @@ impl ChainOutlines {
     pub fn append_points(&mut self, chain: &VertexChain, view: &ViewBox, out: &mut Vec<usize>) {
         let view = view.grown(POINT_SPACING * view.pixel);
         let level = view.level();
-        let eye = self.orientation;
+        let eye = self.blocks.eye;
         for (index, block) in self.blocks.iter_mut().enumerate() {
             block.points.refresh(level, index, &eye, chain);
             let visible = |index: &usize| view.holds(eye.flatten(chain.vertices()[*index]));
@@ -138,26 +120,27 @@ impl ChainOutlines {
         }
     }
 
-    /// The longest leg of a block and of those beside it: no spacing within the block is larger.
-    fn longest_near(&self, block: usize) -> f64 {
-        let count = self.blocks.len();
-        let near = [(block + count - 1) % count, block, (block + 1) % count];
-        let lengths = near.map(|index| self.blocks[index].longest);
-        lengths.into_iter().fold(0.0, f64::max)
+    /// The blocks, each with the longest leg of it and of those beside it: no spacing within the block is larger.
+    fn blocks_with_longest(&self) -> impl Iterator<Item = (&Block, f64)> {
+        let blocks = self.blocks.iter();
+        let (count, longest) = (blocks.len(), blocks.map(|block| block.longest));
+        let longest: Vec<f64> = longest.collect();
+        self.blocks.iter().enumerate().map(move |(index, block)| {
+            let beside = [(index + count - 1) % count, (index + 1) % count];
+            let beside = beside.map(|index| longest[index]);
+            (block, block.longest.max(beside[0]).max(beside[1]))
+        })
     }
 
     /// The box around the vertices, as they are seen.
     pub fn bounds(&self) -> Bounds {
-        let mut all = Bounds::EMPTY;
-        self.blocks
-            .iter()
-            .for_each(|block| all.unite(&block.bounds));
-        all
+        let bounds = self.blocks.iter().map(|block| block.bounds);
+        bounds.fold(Bounds::EMPTY, Bounds::united)
     }
 }
 
 impl Block {
-    fn new(revision: Revision, index: usize, seen: &SeenChain) -> Self {
+    fn new(index: usize, seen: &SeenChain) -> Self {
         let mut bounds = Bounds::EMPTY;
         let mut longest = 0.0f64;
         for vertex in seen.chain.block_vertices(index) {
@@ -168,10 +151,9 @@ impl Block {
             }
         }
         Self {
-            revision,
-            points: ThinnedPoints::default(),
             bounds,
             longest,
+            ..Self::default()
         }
     }
 }

@@ -3,7 +3,8 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::analysis::{PieceSampler, Revision, Sample, SampledCurve, mark_closer};
+use crate::analysis::{PieceSampler, Sample, SampledCurve, mark_closer};
+use crate::editor::view::blocks::Blocks;
 use crate::editor::view::comb::{CombSettings, Teeth};
 use crate::editor::view::evolute::Evolute;
 use crate::editor::view::orientation::Orientation;
@@ -38,23 +39,30 @@ pub enum PieceTrend {
 /// Hold the outlines of a curve in one orientation, block by block.
 #[derive(Debug, Default)]
 pub struct CurveOutlines {
-    orientation: Orientation,
-    blocks: Vec<Block>,
+    blocks: Blocks<Block>,
     fine: Option<PieceSampler>,
 }
 
 /// The outlines of the pieces of one block.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct Block {
-    /// The samples or vertices of which the block was made.
-    revision: Revision,
     bounds: Bounds,
-    curve: Outline,
-    evolute: Outline,
-    comb: Outline,
+    /// The outlines of the layers, by their numbers.
+    outlines: [Outline; TRENDS + PieceTrend::ALL.len()],
     teeth: Teeth,
-    trends: [Outline; PieceTrend::ALL.len()],
 }
+
+/// The number of the curve's outline.
+const CURVE: usize = 0;
+
+/// The number of the evolute's outline.
+const EVOLUTE: usize = 1;
+
+/// The number of the outline of the comb's envelope.
+const COMB: usize = 2;
+
+/// The number of the first trend's outline; the others follow in the order of [`PieceTrend::ALL`].
+const TRENDS: usize = 3;
 
 impl PieceTrend {
     /// Every trend that is drawn.
@@ -72,42 +80,27 @@ impl PieceTrend {
 }
 
 impl CurveOutlines {
-    /// Set the orientation.
-    pub fn set_orientation(&mut self, orientation: Orientation) {
-        if self.orientation != orientation {
-            self.orientation = orientation;
-            self.blocks.clear();
-        }
-    }
-
-    /// Forget blocks that have changed. Call this before any other method after a change of the curve.
-    pub fn update(&mut self, sampled: SampledCurve<'_>) {
+    /// Forget blocks that have changed. Call this before any other method after a change of the curve or of the
+    /// orientation.
+    pub fn update(&mut self, sampled: SampledCurve<'_>, eye: Orientation) {
         let samples = sampled.samples;
-        self.blocks.truncate(samples.blocks().len());
-        for (index, block) in samples.blocks().iter().enumerate() {
-            let known = self.blocks.get(index).map(|block| block.revision);
-            if known == Some(block.revision) {
-                continue;
-            }
+        let revisions = samples.blocks().iter().map(|block| block.revision);
+        self.blocks.update(eye, revisions, |index| {
             let mut bounds = Bounds::EMPTY;
             for sample in samples.block(index) {
-                bounds.add(self.orientation.flatten(sample.point));
+                bounds.add(eye.flatten(sample.point));
             }
-            let block = Block::new(block.revision, bounds);
-            match self.blocks.get_mut(index) {
-                Some(old) => *old = block,
-                None => self.blocks.push(block),
+            Block {
+                bounds,
+                ..Block::default()
             }
-        }
+        });
     }
 
     /// The box around the curve, as it is seen.
     pub fn bounds(&self) -> Bounds {
-        let mut all = Bounds::EMPTY;
-        self.blocks
-            .iter()
-            .for_each(|block| all.unite(&block.bounds));
-        all
+        let bounds = self.blocks.iter().map(|block| block.bounds);
+        bounds.fold(Bounds::EMPTY, Bounds::united)
     }
 
     /// Append the visible part of the curve, thinned to the view's pixels. Gaps are
@@ -118,17 +111,9 @@ impl CurveOutlines {
         view: &ViewBox,
         out: &mut Vec<DVec2>,
     ) {
-        let eye = self.orientation;
+        let eye = self.blocks.eye;
         let place = move |sample: &Sample| eye.flatten(sample.point);
-        let layer = Drawn {
-            shape: 0,
-            outline: Kept::Curve,
-            place,
-            points: |_: usize, samples: &[Sample], _: Option<&ViewBox>, out: &mut Vec<DVec2>| {
-                out.extend(chain(samples, place));
-            },
-        };
-        self.append(sampled, view, out, layer);
+        self.append_chain(sampled, view, out, (CURVE, 0), place);
     }
 
     /// Append the visible part of the evolute. It breaks where it passes through infinity, and is refined
@@ -146,13 +131,13 @@ impl CurveOutlines {
         let evolute = Evolute {
             curve: sampled.curve,
             planar: sampled.samples.is_planar(),
-            eye: self.orientation,
+            eye: self.blocks.eye,
             longest_chord: LONGEST_CHORD * 2f64.powi(view.level() + 1),
             reach,
         };
         let layer = Drawn {
             shape: reach.to_bits(),
-            outline: Kept::Evolute,
+            outline: EVOLUTE,
             place: |sample: &Sample| evolute.place(sample),
             points: |piece, samples: &[Sample], near: Option<&ViewBox>, out: &mut Vec<DVec2>| {
                 evolute.append(piece, samples, near, out);
@@ -169,17 +154,9 @@ impl CurveOutlines {
         comb: &CombSettings,
         out: &mut Vec<DVec2>,
     ) {
-        let (scale, eye) = (comb.scale, self.orientation);
+        let (scale, eye) = (comb.scale, self.blocks.eye);
         let place = move |sample: &Sample| finite(eye.flatten(sample.comb_tip(scale)));
-        let layer = Drawn {
-            shape: scale.to_bits(),
-            outline: Kept::Comb,
-            place,
-            points: |_: usize, samples: &[Sample], _: Option<&ViewBox>, out: &mut Vec<DVec2>| {
-                out.extend(chain(samples, place));
-            },
-        };
-        self.append(sampled, view, out, layer);
+        self.append_chain(sampled, view, out, (COMB, scale.to_bits()), place);
     }
 
     /// Append the visible pieces of the curve with one trend, by the features of its segments, with gaps
@@ -192,7 +169,7 @@ impl CurveOutlines {
         view: &ViewBox,
         out: &mut Vec<DVec2>,
     ) {
-        let eye = self.orientation;
+        let eye = self.blocks.eye;
         let points =
             |segment: usize, samples: &[Sample], _: Option<&ViewBox>, out: &mut Vec<DVec2>| {
                 let Some(features) = features.get(segment) else {
@@ -217,7 +194,7 @@ impl CurveOutlines {
             };
         let layer = Drawn {
             shape: 0,
-            outline: Kept::Trend(trend),
+            outline: TRENDS + trend as usize,
             place: |sample: &Sample| eye.flatten(sample.point),
             points,
         };
@@ -228,7 +205,7 @@ impl CurveOutlines {
     pub fn comb_bounds(&self, sampled: SampledCurve<'_>, scale: f64) -> Bounds {
         let mut bounds = Bounds::EMPTY;
         for sample in sampled.samples.all() {
-            bounds.add(self.orientation.flatten(sample.comb_tip(scale)));
+            bounds.add(self.blocks.eye.flatten(sample.comb_tip(scale)));
         }
         bounds
     }
@@ -245,9 +222,10 @@ impl CurveOutlines {
         let (samples, level) = (sampled.samples, view.level());
         let spacing = 3.0 * 2f64.powi(level + 1);
         let density = comb.density.clamp(1, samples.steps());
+        let eye = self.blocks.eye;
         for (index, block) in self.blocks.iter_mut().enumerate() {
             let key = (level, comb.scale.to_bits(), density);
-            block.teeth.refresh(key, spacing, &self.orientation, || {
+            block.teeth.refresh(key, spacing, &eye, || {
                 let pieces = samples.block_pieces(index);
                 pieces.flat_map(move |piece| teeth(samples.piece(piece), density))
             });
@@ -277,18 +255,14 @@ impl CurveOutlines {
             if !(away <= reach + comb.scale * steepest) {
                 continue;
             }
-            for own in samples
-                .block_pieces(index)
-                .map(|piece| samples.piece(piece))
-            {
-                for sample in teeth(own, density) {
-                    let foot = self.seen(sample.point);
-                    let tip = self.seen(sample.comb_tip(comb.scale));
-                    let distance = tip.distance(target);
-                    let is_near = distance <= reach && tip.distance(foot) > shortest;
-                    if is_near && best.is_none_or(|(nearest, _)| distance < nearest) {
-                        best = Some((distance, [foot, tip]));
-                    }
+            let pieces = samples.block_pieces(index);
+            for sample in pieces.flat_map(|piece| teeth(samples.piece(piece), density)) {
+                let foot = self.seen(sample.point);
+                let tip = self.seen(sample.comb_tip(comb.scale));
+                let distance = tip.distance(target);
+                let is_near = distance <= reach && tip.distance(foot) > shortest;
+                if is_near && best.is_none_or(|(nearest, _)| distance < nearest) {
+                    best = Some((distance, [foot, tip]));
                 }
             }
         }
@@ -355,7 +329,28 @@ impl CurveOutlines {
     }
 
     fn seen(&self, point: DVec3) -> DVec2 {
-        self.orientation.flatten(point)
+        self.blocks.eye.flatten(point)
+    }
+
+    /// Append the visible part of a layer that has one point for each sample.
+    fn append_chain(
+        &mut self,
+        sampled: SampledCurve<'_>,
+        view: &ViewBox,
+        out: &mut Vec<DVec2>,
+        (outline, shape): (usize, u64),
+        place: impl Fn(&Sample) -> DVec2 + Copy,
+    ) {
+        let points = |_: usize, samples: &[Sample], _: Option<&ViewBox>, out: &mut Vec<DVec2>| {
+            out.extend(chain(samples, place));
+        };
+        let layer = Drawn {
+            shape,
+            outline,
+            place,
+            points,
+        };
+        self.append(sampled, view, out, layer);
     }
 
     /// Append the visible part of one layer, made of the samples piece by piece.
@@ -377,7 +372,7 @@ impl CurveOutlines {
                 level: (!coarse).then(|| view.level()),
                 shape: layer.shape,
             };
-            let outline = own.outline(layer.outline);
+            let outline = &mut own.outlines[layer.outline];
             outline.refresh(key, || {
                 let mut chained = Vec::new();
                 for piece in samples.block_pieces(index) {
@@ -401,29 +396,6 @@ impl CurveOutlines {
             } else {
                 append_gap(out);
             }
-        }
-    }
-}
-
-impl Block {
-    fn new(revision: Revision, bounds: Bounds) -> Self {
-        Self {
-            revision,
-            bounds,
-            curve: Outline::default(),
-            evolute: Outline::default(),
-            comb: Outline::default(),
-            teeth: Teeth::default(),
-            trends: Default::default(),
-        }
-    }
-
-    fn outline(&mut self, kept: Kept) -> &mut Outline {
-        match kept {
-            Kept::Curve => &mut self.curve,
-            Kept::Evolute => &mut self.evolute,
-            Kept::Comb => &mut self.comb,
-            Kept::Trend(trend) => &mut self.trends[trend as usize],
         }
     }
 }
@@ -471,25 +443,12 @@ fn append_fine<P, C>(
     }
 }
 
-/// An outline that a block keeps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kept {
-    /// The curve.
-    Curve,
-    /// The evolute.
-    Evolute,
-    /// The comb's envelope.
-    Comb,
-    /// The pieces on which the curvature does one thing.
-    Trend(PieceTrend),
-}
-
 /// How a layer that is a chain of points is drawn.
 struct Drawn<P, C> {
     /// A key of other inputs, such as the bits of the comb's scale.
     shape: u64,
-    /// Where a block keeps them.
-    outline: Kept,
+    /// The number of the outline.
+    outline: usize,
     /// The point of one sample.
     place: P,
     /// Appends the points of one piece; with a view, only what is near it needs care.

@@ -47,9 +47,7 @@ impl<'a> Sight<'a> {
         else {
             return Vec::new();
         };
-        let [from, to] = distance
-            .places
-            .map(|place| self.view.viewport.flatten(place));
+        let [from, to] = distance.places.map(|place| self.viewport().flatten(place));
         vec![
             Mark::Ruler([from, to]),
             Mark::Extreme {

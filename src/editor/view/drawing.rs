@@ -1,11 +1,12 @@
 //! The scene of one frame, made of analyses and outlines.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use glam::DVec2;
 
 use crate::analysis::SampledCurve;
-use crate::document::{Curve, CurveId};
+use crate::document::{Colour, Curve, CurveId};
 use crate::editor::view::comb::CombSettings;
 use crate::editor::view::curve_outlines::{CurveOutlines, PieceTrend};
 use crate::editor::view::density::{disc, disc_among_kept};
@@ -65,21 +66,12 @@ impl View {
         scenes.resize_with(references.len() + curves.len(), CurveScene::default);
         let (behind, before) = scenes.split_at_mut(references.len());
         for ((id, reference), scene) in references.into_iter().zip(behind) {
-            scene.clear();
-            scene.id = Some(id);
+            scene.begin(id, active, reference.locked, reference.colour);
             scene.is_reference = true;
-            scene.active = Some(id) == active;
-            scene.locked = reference.locked;
-            scene.colour = reference.colour;
             self.draw_reference(shown, id, view, scene);
         }
         for ((id, curve), scene) in curves.into_iter().zip(before) {
-            scene.clear();
-            scene.id = Some(id);
-            scene.is_reference = false;
-            scene.active = Some(id) == active;
-            scene.locked = curve.locked;
-            scene.colour = curve.colour;
+            scene.begin(id, active, curve.locked, curve.colour);
             self.draw_curve(shown, id, curve, view, scene);
         }
     }
@@ -168,19 +160,15 @@ impl View {
                 }
             });
             // A selected or locked vertex keeps its disc in a crowd, smaller where its neighbours do too.
-            let mut kept: Vec<usize> = selection.of_curve(id).chain(locked.iter()).collect();
-            kept.sort_unstable();
-            kept.dedup();
+            let kept: BTreeSet<usize> = selection.of_curve(id).chain(locked.iter()).collect();
             let seen = outlines.seen(chain);
-            for (place, index) in kept.iter().enumerate() {
-                let last = place.checked_sub(1).and_then(|last| kept.get(last));
-                let is_beside = last.is_some_and(|last| last + 1 == *index)
-                    || kept.get(place + 1) == Some(&(index + 1));
-                let size = match is_beside {
-                    true => disc_among_kept(seen.spacing(*index) / view.pixel),
+            for index in kept.iter().copied() {
+                let is_kept = |other: Option<usize>| other.is_some_and(|it| kept.contains(&it));
+                let size = match is_kept(index.checked_sub(1)) || is_kept(Some(index + 1)) {
+                    true => disc_among_kept(seen.spacing(index) / view.pixel),
                     false => 1.0,
                 };
-                marks.extend(seen.place(*index).map(|at| mark(*index, at, size)));
+                marks.extend(seen.place(index).map(|at| mark(index, at, size)));
             }
         }
         // Only the active curve shows what is derived from it: the others step back.
@@ -254,14 +242,11 @@ impl View {
         scene.id = Some(changed.unwrap_or(document.next_id()));
         scene.colour = changed.and_then(|id| document.curve(id)?.colour);
         let curve = Arc::new(Curve::new(String::new(), polygon));
-        let (orientation, chains) = (
-            self.viewport.orientation,
-            (&mut scene.curve, &mut scene.float),
-        );
+        let chains = (&mut scene.curve, &mut scene.float);
         let clamped = shown.layers.shows(Layer::Clamped);
         let clamped = clamped.then_some(&mut scene.clamped);
-        self.proposed
-            .append(&curve, orientation, view, chains, clamped);
+        let eye = self.viewport.orientation;
+        self.proposed.append(&curve, eye, view, chains, clamped);
     }
 
     /// Draw the targets of all ends, and the marks of the end that the end-fit tool corrects.
@@ -286,7 +271,19 @@ impl View {
 }
 
 impl CurveScene {
-    fn clear(&mut self) {
+    /// Begin the scene of a curve or a reference, with the room of what it held.
+    fn begin(
+        &mut self,
+        id: CurveId,
+        active: Option<CurveId>,
+        locked: bool,
+        colour: Option<Colour>,
+    ) {
+        self.id = Some(id);
+        self.is_reference = false;
+        self.active = Some(id) == active;
+        self.locked = locked;
+        self.colour = colour;
         self.teeth.clear();
         self.joints.clear();
         self.vertices.clear();
@@ -295,14 +292,10 @@ impl CurveScene {
         self.clamped_vertices.clear();
         self.clamped.clear();
         self.float.clear();
-        for chain in [
-            &mut self.comb,
-            &mut self.evolute,
-            &mut self.curve,
-            &mut self.points,
-        ] {
-            chain.clear();
-        }
+        self.comb.clear();
+        self.evolute.clear();
+        self.curve.clear();
+        self.points.clear();
     }
 }
 

@@ -128,9 +128,8 @@ impl View {
     }
 
     fn bounds_of_all(&self, ids: impl Iterator<Item = CurveId>, shown: Shown<'_>) -> Bounds {
-        let mut bounds = Bounds::EMPTY;
-        ids.for_each(|id| bounds.unite(&self.bounds_of(id, shown)));
-        bounds
+        let bounds = ids.map(|id| self.bounds_of(id, shown));
+        bounds.fold(Bounds::EMPTY, Bounds::united)
     }
 
     fn bounds_of(&self, id: CurveId, shown: Shown<'_>) -> Bounds {
@@ -142,21 +141,21 @@ impl View {
         };
         let mut bounds = outlined.curve.bounds();
         if layers.shows(Layer::Clamped) {
-            bounds.unite(&outlined.clamped.bounds());
+            bounds = bounds.united(outlined.clamped.bounds());
         }
         if layers.shows(Layer::Float) {
             let float = outlined.float.bounds();
             let extent = |bounds: &Bounds| (bounds.high - bounds.low).max_element();
             // The float polygon of a Bézier curve may lie far away: the curve must not become a speck.
             if extent(&float) <= FAR_POLYGON * extent(&bounds) {
-                bounds.unite(&float);
+                bounds = bounds.united(float);
             }
         }
         if layers.shows(Layer::Comb) && is_active {
             // Long teeth are cut off: the curve must not become a speck.
             let around = bounds.grown(COMB_REACH);
             let comb = outlined.curve.comb_bounds(sampled, scale);
-            bounds.unite(&comb.within(&around));
+            bounds = bounds.united(comb.within(&around));
         }
         bounds
     }

@@ -224,7 +224,7 @@ impl Sight<'_> {
 
     /// Where a place of the plane z = 0 is seen.
     fn seen(self, place: DVec2) -> DVec2 {
-        self.view.viewport.flatten(place.extend(0.0))
+        self.viewport().flatten(place.extend(0.0))
     }
 }
 
@@ -267,13 +267,10 @@ fn differs_at_most_at(before: &FloatPolygon, now: &FloatPolygon, vertex: Option<
     if std::ptr::eq(before, now) {
         return true;
     }
-    let alike = before.degree() == now.degree()
-        && before.is_periodic() == now.is_periodic()
-        && before.weights() == now.weights()
-        && before.vertices().len() == now.vertices().len();
     let pairs = before.vertices().iter().zip(now.vertices());
-    let moved = pairs.enumerate().filter(|(_, (before, now))| before != now);
-    let mut moved = moved.map(|(index, _)| index);
-    let first = moved.next();
-    alike && moved.next().is_none() && (first.is_none() || vertex.is_none() || first == vertex)
+    let mut moved = pairs.enumerate().filter(|(_, (before, now))| before != now);
+    let first = moved.next().map(|(index, _)| index);
+    let is_allowed = first.is_none() || vertex.is_none() || first == vertex;
+    let alike = before.has_numbers_of(now) && before.weights() == now.weights();
+    alike && is_allowed && moved.next().is_none()
 }

@@ -60,7 +60,7 @@ impl Sight<'_> {
         }
         let marks = worst.into_iter().filter_map(|(vertex, text)| {
             let vertex = curve.polygon.vertices().get(vertex)?;
-            let at = self.view.viewport.flatten(*vertex);
+            let at = self.viewport().flatten(*vertex);
             Some(Mark::Extreme { at, text })
         });
         marks.collect()

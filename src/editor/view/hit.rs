@@ -8,6 +8,7 @@ use crate::editor::view::density::{self, SeenChain};
 use crate::editor::view::feature_report::FeatureRow;
 use crate::editor::view::layers::Layer;
 use crate::editor::view::sight::Sight;
+use crate::editor::view::view::View;
 
 /// The reach of the pointer, in screen points.
 pub const REACH: f64 = 8.0;
@@ -52,14 +53,15 @@ impl<'a> Sight<'a> {
         if !self.shown.layers.shows(Layer::Float) {
             return None;
         }
-        let mut found: Vec<(f64, bool, (CurveId, usize))> = self
-            .vertices_within(place, REACH)
-            .map(|(distance, id)| (distance, self.active() != Some(id.0), id))
-            .collect();
+        let mut found: Vec<(f64, VertexId)> = self.vertices_within(place, REACH).collect();
+        let is_other = |id: &VertexId| self.active() != Some(id.0);
         // The nearest wins; of equals, the active curve's, then the one drawn on top.
-        found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(b.2.cmp(&a.2)));
+        found.sort_by(|(a, one), (b, other)| {
+            let by_activity = is_other(one).cmp(&is_other(other));
+            a.total_cmp(b).then(by_activity).then(other.cmp(one))
+        });
         let chosen = self.shown.cycle.checked_rem(found.len())?;
-        found.get(chosen).map(|hit| hit.2)
+        found.get(chosen).map(|(_, id)| *id)
     }
 
     /// Whether a place is near a visible vertex of either S-polygon.
@@ -81,14 +83,14 @@ impl<'a> Sight<'a> {
         place: DVec2,
         reach: f64,
     ) -> impl Iterator<Item = (f64, (CurveId, usize))> {
-        let model = self.view.viewport.to_model(place);
-        let reach = reach * self.view.viewport.pixel();
+        let model = self.viewport().to_model(place);
+        let reach = reach * self.viewport().pixel();
         let all = self.curves().flat_map(|(id, curve)| {
             let vertices = curve.polygon.vertices().iter().enumerate();
             vertices.map(move |(index, vertex)| (*vertex, (id, index)))
         });
         let distances =
-            all.map(move |(vertex, id)| (self.view.viewport.flatten(vertex).distance(model), id));
+            all.map(move |(vertex, id)| (self.viewport().flatten(vertex).distance(model), id));
         let near = distances.filter(move |(distance, _)| *distance <= reach);
         near.filter(|(_, id)| self.is_seen(*id))
     }
@@ -99,22 +101,18 @@ impl<'a> Sight<'a> {
         let is_locked = |curve: &Curve| curve.locked_vertices.contains(index);
         self.spacing_on(curve, |seen| seen.spacing(index))
             || self.shown.selection.contains(id)
-            || self
-                .document()
-                .curve(curve)
-                .is_some_and(|curve| is_locked(curve))
+            || (self.document().curve(curve)).is_some_and(|curve| is_locked(curve))
     }
 
     /// Whether legs are drawn at a spacing of a curve's polygon.
     fn spacing_on(&self, curve: CurveId, spacing: impl Fn(SeenChain) -> f64) -> bool {
-        let known = self
-            .view
-            .analyses
-            .get(curve)
-            .zip(self.view.outlines.get(curve));
+        let View {
+            analyses, outlines, ..
+        } = self.view;
+        let known = analyses.get(curve).zip(outlines.get(curve));
         known.is_none_or(|(analysis, outlined)| {
             let seen = outlined.float.seen(analysis.float());
-            density::leg(spacing(seen) * self.view.viewport.scale) > 0.0
+            density::leg(spacing(seen) * self.viewport().scale) > 0.0
         })
     }
 
@@ -123,21 +121,16 @@ impl<'a> Sight<'a> {
             return None;
         }
         let id = self.shown_active()?;
-        let model = self.view.viewport.to_model(place);
+        let model = self.viewport().to_model(place);
         let chain = self.view.analyses.get(id)?.clamped();
         let vertices = chain.vertices();
-        let distance = |vertex: &DVec3| self.view.viewport.flatten(*vertex).distance(model);
+        let distance = |vertex: &DVec3| self.viewport().flatten(*vertex).distance(model);
         let distances = vertices.iter().map(distance).enumerate();
         let (index, nearest) = distances.min_by(|a, b| a.1.total_cmp(&b.1))?;
-        let spacing = self
-            .view
-            .outlines
-            .get(id)?
-            .clamped
-            .seen(chain)
-            .spacing(index);
-        let is_seen = density::leg(spacing * self.view.viewport.scale) > 0.0;
-        (is_seen && nearest <= reach * self.view.viewport.pixel()).then_some((id, index))
+        let outlines = &self.view.outlines.get(id)?.clamped;
+        let spacing = outlines.seen(chain).spacing(index);
+        let is_seen = density::leg(spacing * self.viewport().scale) > 0.0;
+        (is_seen && nearest <= reach * self.viewport().pixel()).then_some((id, index))
     }
 
     /// Find the place on a curve or on a reference under a place on the canvas. Where a curve follows
@@ -145,7 +138,7 @@ impl<'a> Sight<'a> {
     pub(in crate::editor) fn curve(&self, place: DVec2) -> Option<CurveHit> {
         let curves = self.shown.layers.shows(Layer::Curve).then(|| self.curves());
         let curves = curves.into_iter().flatten().map(|(id, _)| (id, 0.0));
-        let behind = BEHIND * self.view.viewport.pixel();
+        let behind = BEHIND * self.viewport().pixel();
         let references = self.shown_references().map(|id| (id, behind));
         let hits = curves.chain(references).filter_map(|(id, behind)| {
             let (distance, hit) = self.hit_on(id, place)?;
@@ -167,8 +160,8 @@ impl<'a> Sight<'a> {
 
     /// The place on one curve or reference under a place on the canvas, with its distance.
     fn hit_on(&self, id: CurveId, place: DVec2) -> Option<(f64, CurveHit)> {
-        let model = self.view.viewport.to_model(place);
-        let reach = REACH * self.view.viewport.pixel();
+        let model = self.viewport().to_model(place);
+        let reach = REACH * self.viewport().pixel();
         let sampled = self.view.analyses.sampled(id)?;
         let outlines = &self.view.outlines.get(id)?.curve;
         let (u, point, distance) = outlines.nearest(sampled, model, reach)?;
@@ -188,10 +181,7 @@ impl<'a> Sight<'a> {
             return None;
         }
         let sampled = self.view.analyses.sampled(id)?;
-        let (model, pixel) = (
-            self.view.viewport.to_model(place),
-            self.view.viewport.pixel(),
-        );
+        let (model, pixel) = (self.viewport().to_model(place), self.viewport().pixel());
         let outlines = &self.view.outlines.get(id)?.curve;
         let (reach, shortest) = (REACH * pixel, SHORTEST_TOOTH * pixel);
         outlines.tooth(sampled, &self.view.comb, model, reach, shortest)
@@ -204,8 +194,8 @@ impl<'a> Sight<'a> {
         }
         let id = self.shown_active()?;
         let distance = |row: &FeatureRow| {
-            let at = self.view.viewport.flatten(row.point);
-            self.view.viewport.to_screen(at).distance(place)
+            let at = self.viewport().flatten(row.point);
+            self.viewport().to_screen(at).distance(place)
         };
         let rows = self.features()?.rows.iter();
         let rows = rows.map(|row| (distance(row), row));
@@ -223,36 +213,27 @@ impl<'a> Sight<'a> {
         if !self.shown.layers.shows(Layer::Float) {
             return None;
         }
-        let model = self.view.viewport.to_model(place);
+        let model = self.viewport().to_model(place);
         let mut best: Option<(f64, LegHit)> = None;
-        for (id, curve) in self.curves() {
-            let polygon = &curve.polygon;
-            let count = polygon.vertices().len();
-            let legs = if polygon.is_periodic() {
-                count
-            } else {
-                count - 1
-            };
-            for index in 0..legs {
-                let from = self.view.viewport.flatten(polygon.vertices()[index]);
-                let leg = self
-                    .view
-                    .viewport
-                    .flatten(polygon.vertices()[(index + 1) % count])
-                    - from;
+        for (curve, shape) in self.curves() {
+            let vertices = shape.polygon.vertices();
+            let count = vertices.len();
+            for index in 0..count - usize::from(!shape.polygon.is_periodic()) {
+                let ends = [vertices[index], vertices[(index + 1) % count]];
+                let [from, to] = ends.map(|end| self.viewport().flatten(end));
+                let leg = to - from;
                 let along = (model - from).dot(leg) / leg.length_squared();
-                let share = if along.is_nan() {
-                    0.5
-                } else {
-                    along.clamp(0.0, 1.0)
+                let share = match along.is_nan() {
+                    true => 0.5,
+                    false => along.clamp(0.0, 1.0),
                 };
                 let point = from + share * leg;
                 let distance = point.distance(model);
-                if best.as_ref().is_none_or(|(nearest, _)| distance < *nearest)
-                    && self.spacing_on(id, |seen| seen.leg_spacing(index))
+                if best.is_none_or(|(nearest, _)| distance < nearest)
+                    && self.spacing_on(curve, |seen| seen.leg_spacing(index))
                 {
                     let hit = LegHit {
-                        curve: id,
+                        curve,
                         index,
                         share,
                         point,
@@ -262,7 +243,7 @@ impl<'a> Sight<'a> {
             }
         }
         let (distance, hit) = best?;
-        (distance <= reach * self.view.viewport.pixel()).then_some(hit)
+        (distance <= reach * self.viewport().pixel()).then_some(hit)
     }
 
     /// List the vertices inside a box, by opposite corners on the canvas.
@@ -270,21 +251,15 @@ impl<'a> Sight<'a> {
         if !self.shown.layers.shows(Layer::Float) {
             return Vec::new();
         }
-        let (a, b) = (
-            self.view.viewport.to_model(a),
-            self.view.viewport.to_model(b),
-        );
+        let [a, b] = [a, b].map(|corner| self.viewport().to_model(corner));
         let (low, high) = (a.min(b), a.max(b));
-        let mut found = Vec::new();
-        for (id, curve) in self.curves().filter(|(_, curve)| !curve.locked) {
-            for (index, vertex) in curve.polygon.vertices().iter().enumerate() {
-                let at = self.view.viewport.flatten(*vertex);
-                if at.cmpge(low).all() && at.cmple(high).all() {
-                    found.push((id, index));
-                }
-            }
-        }
-        found
+        let curves = self.curves().filter(|(_, curve)| !curve.locked);
+        let vertices = curves.flat_map(|(id, curve)| {
+            let vertices = curve.polygon.vertices().iter().enumerate();
+            vertices.map(move |(index, vertex)| ((id, index), self.viewport().flatten(*vertex)))
+        });
+        let within = vertices.filter(|(_, at)| at.cmpge(low).all() && at.cmple(high).all());
+        within.map(|(id, _)| id).collect()
     }
 
     /// The references that can be hit.

@@ -58,7 +58,7 @@ impl Sight<'_> {
 
     /// Write the coordinates of a point, a line each.
     fn coordinates(self, point: DVec3, in_space: bool) -> String {
-        let written = |value| coordinate(value, self.view.viewport.pixel());
+        let written = |value| coordinate(value, self.viewport().pixel());
         let mut text = format!("x {}\ny {}", written(point.x), written(point.y));
         if in_space {
             text += &format!("\nz {}", written(point.z));
@@ -81,7 +81,7 @@ impl Sight<'_> {
             text = format!("{}\n{text}", curve.name);
         }
         Some(HoverScene::Vertex {
-            at: self.view.viewport.flatten(vertex),
+            at: self.viewport().flatten(vertex),
             point: vertex,
             text,
         })
@@ -97,7 +97,7 @@ impl Sight<'_> {
             text += &format!("\nfloat × {}", significant(times, 3));
         }
         Some(HoverScene::Handle {
-            at: self.view.viewport.flatten(vertex),
+            at: self.viewport().flatten(vertex),
             text,
         })
     }
@@ -132,20 +132,20 @@ impl Sight<'_> {
         }
         let text = lines.join("\n");
         let centre = jet.centre_of_curvature().filter(|_| is_smooth);
-        let seen_as_it_is = planar && self.view.viewport.orientation.is_from_above();
+        let seen_as_it_is = planar && self.viewport().orientation.is_from_above();
         let circle = centre.filter(|_| !seen_as_it_is);
         let circle = circle.and_then(|_| OsculatingCircle::of_jet(&jet));
-        let viewport = &self.view.viewport;
+        let viewport = self.viewport();
         let reach = 4.0 * (viewport.size.x + viewport.size.y);
         Some(HoverScene::Curve {
             curve: id,
             u,
             curvature,
-            at: self.view.viewport.flatten(jet.point),
+            at: self.viewport().flatten(jet.point),
             point: jet.point,
             centre: centre
                 .filter(|_| seen_as_it_is)
-                .map(|centre| self.view.viewport.flatten(centre)),
+                .map(|centre| self.viewport().flatten(centre)),
             circle: circle.map_or(Vec::new(), |circle| circle.chain_within(viewport, reach)),
             text,
         })

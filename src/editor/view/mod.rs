@@ -1,5 +1,6 @@
 //! The view: viewport, layers, hovering, analyses, and the scene in model coordinates.
 
+mod blocks;
 mod chain_outlines;
 pub(in crate::editor) mod comb;
 mod curve_outlines;

@@ -19,34 +19,29 @@ impl NamedView {
     /// Every view, in the order in which they are offered.
     pub const ALL: [Self; 4] = [Self::Xy, Self::Xz, Self::Yz, Self::Isometric];
 
+    /// How the view is turned, the side from which it looks, and its name on screen.
+    fn row(self) -> (Orientation, &'static str, &'static str) {
+        match self {
+            Self::Xy => (Orientation::XY, "Top", "Top view (XY)"),
+            Self::Xz => (Orientation::XZ, "Front", "Front view (XZ)"),
+            Self::Yz => (Orientation::YZ, "Right", "Right view (YZ)"),
+            Self::Isometric => (Orientation::isometric(), "Isometric", "Isometric"),
+        }
+    }
+
     /// How the view is turned.
     pub fn orientation(self) -> Orientation {
-        match self {
-            Self::Xy => Orientation::XY,
-            Self::Xz => Orientation::XZ,
-            Self::Yz => Orientation::YZ,
-            Self::Isometric => Orientation::isometric(),
-        }
+        self.row().0
     }
 
     /// The side from which it looks, in a word.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Xy => "Top",
-            Self::Xz => "Front",
-            Self::Yz => "Right",
-            Self::Isometric => "Isometric",
-        }
+        self.row().1
     }
 
     /// The view's name on screen.
     pub fn label(self) -> &'static str {
-        match self {
-            Self::Xy => "Top view (XY)",
-            Self::Xz => "Front view (XZ)",
-            Self::Yz => "Right view (YZ)",
-            Self::Isometric => "Isometric",
-        }
+        self.row().2
     }
 }
 

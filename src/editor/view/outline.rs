@@ -74,10 +74,12 @@ impl Bounds {
         }
     }
 
-    /// Widen the box to hold another.
-    pub fn unite(&mut self, other: &Self) {
-        self.low = self.low.min(other.low);
-        self.high = self.high.max(other.high);
+    /// The box around two boxes.
+    pub fn united(self, other: Self) -> Self {
+        Self {
+            low: self.low.min(other.low),
+            high: self.high.max(other.high),
+        }
     }
 
     /// Widen the box on every side by a multiple of its greater extent.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::analysis::{AnalysisCache, CurveAnalysis, ReferenceAnalysis};
+use crate::analysis::{AnalysisCache, CurveAnalysis};
 use crate::document::CurveId;
 use crate::editor::view::chain_outlines::ChainOutlines;
 use crate::editor::view::curve_outlines::CurveOutlines;
@@ -35,7 +35,8 @@ impl Outlines {
         }
         for (id, reference) in analyses.references() {
             let outlined = self.curves.entry(id).or_default();
-            outlined.update_reference(reference, orientation);
+            outlined.curve.update(reference.sampled(), orientation);
+            outlined.float.update(reference.points(), orientation);
         }
     }
 
@@ -53,22 +54,8 @@ impl Outlines {
 impl Outlined {
     /// Bring the outlines up to date with a curve.
     pub fn update(&mut self, analysis: &CurveAnalysis, orientation: Orientation) {
-        self.curve.set_orientation(orientation);
-        self.curve.update(analysis.sampled());
-        let chains = [
-            (&mut self.float, analysis.float()),
-            (&mut self.clamped, analysis.clamped()),
-        ];
-        for (outlines, chain) in chains {
-            outlines.set_orientation(orientation);
-            outlines.update(chain);
-        }
-    }
-
-    fn update_reference(&mut self, reference: &ReferenceAnalysis, orientation: Orientation) {
-        self.curve.set_orientation(orientation);
-        self.curve.update(reference.sampled());
-        self.float.set_orientation(orientation);
-        self.float.update(reference.points());
+        self.curve.update(analysis.sampled(), orientation);
+        self.float.update(analysis.float(), orientation);
+        self.clamped.update(analysis.clamped(), orientation);
     }
 }

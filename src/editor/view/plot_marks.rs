@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::analysis::{LengthCursor, LevelPlot, SampledCurve};
+use crate::analysis::{CurveAnalysis, LengthCursor, LevelPlot, SampledCurve};
 use crate::editor::view::curve_outlines::PieceTrend;
 use crate::editor::view::feature_report::{FeatureKind, FeatureRow};
 use crate::editor::view::layers::Layer;
@@ -30,13 +30,13 @@ enum PlottedQuantity {
 
 impl PlottedQuantity {
     fn of(kind: PlotKind) -> Option<Self> {
-        match kind {
-            PlotKind::Levels { plot, .. } => match plot {
-                LevelPlot::Curvature(1) => Some(Self::Curvature),
-                LevelPlot::Torsion(1) => Some(Self::Torsion),
-                _ => None,
-            },
-            PlotKind::Harmony => None,
+        let PlotKind::Levels { plot, .. } = kind else {
+            return None;
+        };
+        match plot {
+            LevelPlot::Curvature(1) => Some(Self::Curvature),
+            LevelPlot::Torsion(1) => Some(Self::Torsion),
+            _ => None,
         }
     }
 
@@ -132,16 +132,8 @@ impl Sight<'_> {
                 at: DVec2::new(along * scale, value / scale),
             });
         }
-        if let Some(analysis) = analyses.get(id)
-            && let Some(segments) = analysis.proved_segments()
-            && matches!(
-                kind,
-                PlotKind::Levels {
-                    plot: LevelPlot::CURVATURE,
-                    ..
-                }
-            )
-        {
+        let segments = analyses.get(id).and_then(CurveAnalysis::proved_segments);
+        if let Some(segments) = segments.filter(|_| quantity == PlottedQuantity::Curvature) {
             append_bands(sampled, segments, to - from, &mut plots.bands);
             for band in &mut plots.bands {
                 band.from *= scale;

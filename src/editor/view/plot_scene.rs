@@ -104,19 +104,11 @@ pub struct PlotSource {
     pub item: Item,
     /// The curve as it was.
     pub before: Option<Item>,
-    /// What it is compared with.
-    pub compared: Option<Compared>,
+    /// What it is compared with: a curve or a reference of the document, or without an id the reference that an
+    /// operation was given.
+    pub compared: Option<(Option<CurveId>, Item)>,
     /// The part that is looked at closely.
     pub part: Option<[f64; 2]>,
-}
-
-/// What a curve is compared with in the plots.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Compared {
-    /// A curve or a reference of the document.
-    OfDocument(CurveId, Item),
-    /// The reference that an operation was given, which the document does not have.
-    Given(Item),
 }
 
 /// The inputs of a plot's marks, beside those of its series.

@@ -7,7 +7,7 @@ use glam::DVec2;
 use crate::analysis::{CurveAnalysis, Flow, Item, LevelPlot, ReferenceAnalysis, SampledCurve};
 use crate::document::{CurveId, Document, Reference};
 use crate::editor::view::overlay::Overlay;
-use crate::editor::view::plot_scene::{Compared, PlotKind, PlotScene, PlotSource};
+use crate::editor::view::plot_scene::{PlotKind, PlotScene, PlotSource};
 use crate::editor::view::shown::Shown;
 use crate::editor::view::view::View;
 use crate::geometry::references::ReferenceCurve;
@@ -29,7 +29,8 @@ impl View {
         if let Some((id, kind)) = shown.active().zip(self.plot)
             && let Some(sampled) = self.analyses.sampled(id)
         {
-            if let Some((u, _)) = self.scene.hovered_on(id)
+            if let Some((hovered, u, _)) = self.scene.hovered()
+                && hovered == id
                 && let PlotKind::Levels { plot, normalised } = kind
             {
                 plots.hovered = Some(sampled.level_at(plot, normalised, u));
@@ -57,14 +58,14 @@ impl View {
         })
     }
 
-    /// Find what the active curve is compared with: the reference that an operation was given, or the user's
-    /// choice.
+    /// Find what the active curve is compared with: the user's choice in the document, or the reference that an
+    /// operation was given, which the document does not have.
     fn compared_with(
         &mut self,
         id: CurveId,
         document: &Document,
         overlay: &Overlay,
-    ) -> Option<Compared> {
+    ) -> Option<(Option<CurveId>, Item)> {
         let has = |given: &Arc<Reference>| {
             let mut references = document.references();
             references.find(|(_, reference)| reference.curve == given.curve)
@@ -75,13 +76,13 @@ impl View {
                     Some(analysis) => analysis.update(given),
                     none => *none = Some(ReferenceAnalysis::new(given.clone())),
                 }
-                Some(Compared::Given(Item::Reference(given.clone())))
+                Some((None, Item::Reference(given.clone())))
             }
             given => {
                 let of_document = given.as_ref().and_then(has).map(|(id, _)| id);
                 let other = of_document.or(self.compared);
                 let other = other.filter(|other| *other != id)?;
-                Some(Compared::OfDocument(other, Item::of(document, other)?))
+                Some((Some(other), Item::of(document, other)?))
             }
         }
     }
@@ -104,28 +105,23 @@ impl View {
         plots.part = source.part;
         self.fill_of(plots, source.id, source.kind);
         if let Some(Item::Curve(before)) = &source.before {
-            let part = source.part;
             let mut scene = PlotScene {
-                part,
+                part: source.part,
                 ..PlotScene::default()
             };
             scene.fill(self.ghost.analysis(before), source.kind);
             plots.before = Some(Box::new(scene));
         }
+        let Some((other, _)) = &source.compared else {
+            return;
+        };
         let mut scene = PlotScene::default();
-        match &source.compared {
-            Some(Compared::OfDocument(other, _)) => {
-                self.fill_of(&mut scene, *other, source.kind);
-                plots.compared_name = document.name(*other).unwrap_or_default().to_owned();
-            }
-            Some(Compared::Given(_)) => {
-                if let Some(analysis) = &mut self.given {
-                    scene.fill_reference(analysis, source.kind);
-                    let name = &analysis.reference().name;
-                    plots.compared_name = format!("source: {name}");
-                }
-            }
-            None => return,
+        if let Some(other) = other {
+            self.fill_of(&mut scene, *other, source.kind);
+            plots.compared_name = document.name(*other).unwrap_or_default().to_owned();
+        } else if let Some(analysis) = &mut self.given {
+            scene.fill_reference(analysis, source.kind);
+            plots.compared_name = format!("source: {}", analysis.reference().name);
         }
         plots.compared = Some(Box::new(scene));
     }
@@ -230,20 +226,15 @@ impl PlotScene {
 
     /// Empty all series, and keep their room.
     fn clear(&mut self) {
-        let Self {
-            series,
-            discrete,
-            flow,
-            ..
-        } = std::mem::take(self);
+        let mut empty = std::mem::take(self);
+        empty.discrete.clear();
+        empty.series.clear();
+        empty.flow.iter_mut().for_each(Vec::clear);
         *self = Self {
-            series,
-            discrete,
-            flow,
+            series: empty.series,
+            discrete: empty.discrete,
+            flow: empty.flow,
             ..Self::default()
         };
-        self.discrete.clear();
-        self.series.clear();
-        self.flow.iter_mut().for_each(Vec::clear);
     }
 }

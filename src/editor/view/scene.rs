@@ -307,15 +307,15 @@ pub enum HoverScene {
 }
 
 impl Scene {
-    /// The parameter and curvature of the place that is hovered, if it is on this curve.
-    pub fn hovered_on(&self, id: CurveId) -> Option<(f64, f64)> {
+    /// The curve or reference that is hovered, with the parameter and the curvature of the place.
+    pub fn hovered(&self) -> Option<(CurveId, f64, f64)> {
         match self.hover {
             Some(HoverScene::Curve {
                 curve,
                 u,
                 curvature,
                 ..
-            }) if curve == id => Some((u, curvature)),
+            }) => Some((curve, u, curvature)),
             _ => None,
         }
     }

@@ -10,6 +10,7 @@ use crate::editor::view::orientation::Orientation;
 use crate::editor::view::scene::HoverScene;
 use crate::editor::view::shown::Shown;
 use crate::editor::view::view::View;
+use crate::editor::view::viewport::Viewport;
 use crate::geometry::Amplification;
 use crate::geometry::harmony::Harmony;
 
@@ -88,19 +89,15 @@ impl<'a> Sight<'a> {
     /// Whether all visible curves are planar and the view is not from above.
     pub fn is_orbited(self) -> bool {
         let mut shown = self.curves();
-        self.view.viewport.orientation != Orientation::XY
+        self.viewport().orientation != Orientation::XY
             && shown.all(|(_, curve)| curve.polygon.is_planar())
     }
 
     /// The vertex of the active curve that is hovered, on the canvas or in a panel.
     pub fn hovered_vertex(self) -> Option<usize> {
         let active = self.active()?;
-        let View {
-            hovered,
-            hovered_before,
-            ..
-        } = self.view;
-        hovered.vertex.or(hovered_before.vertex).or_else(|| {
+        let marked = self.view.hovered.vertex;
+        marked.or(self.view.hovered_before.vertex).or_else(|| {
             let place = self.shown.pointer.filter(|_| !self.shown.is_dragging)?;
             let (id, vertex) = self.vertex(place)?;
             (id == active).then_some(vertex)
@@ -115,7 +112,7 @@ impl<'a> Sight<'a> {
         let mut readout = Readout {
             pointer: self.pointed_at(),
             in_space: self.tells_z(),
-            scale: self.view.viewport.scale,
+            scale: self.viewport().scale,
             parameter_name: if active.and_then(reference).is_some() {
                 "t"
             } else {
@@ -124,13 +121,7 @@ impl<'a> Sight<'a> {
             degree: curve.map(|curve| curve.polygon.degree()),
             ..Readout::default()
         };
-        if let Some(HoverScene::Curve {
-            curve,
-            u,
-            curvature,
-            ..
-        }) = self.view.scene.hover
-        {
+        if let Some((curve, u, curvature)) = self.view.scene.hovered() {
             (readout.parameter_name, readout.parameter) = match reference(curve) {
                 Some(reference) => ("t", Some(reference.curve.parameter(u))),
                 None => ("u", Some(u)),
@@ -148,8 +139,8 @@ impl<'a> Sight<'a> {
             }
             _ => {
                 // In the plane through the point about which the view turns; from above in the plane z = 0.
-                let place = self.view.viewport.to_model(self.shown.pointer?);
-                let orientation = &self.view.viewport.orientation;
+                let place = self.viewport().to_model(self.shown.pointer?);
+                let orientation = &self.viewport().orientation;
                 Some(orientation.point_at(place, self.view.target))
             }
         }
@@ -158,12 +149,16 @@ impl<'a> Sight<'a> {
     /// Whether the status bar shows z.
     fn tells_z(self) -> bool {
         let mut all = self.document().all_ids();
-        !self.view.viewport.orientation.is_from_above()
+        !self.viewport().orientation.is_from_above()
             || all.any(|id| !self.is_planar(id).unwrap_or(true))
     }
 
     pub(in crate::editor) fn document(self) -> &'a Document {
         self.shown.document()
+    }
+
+    pub(in crate::editor) fn viewport(self) -> &'a Viewport {
+        &self.view.viewport
     }
 
     pub(in crate::editor) fn active(self) -> Option<CurveId> {
