@@ -169,8 +169,7 @@ impl Editor {
         };
         let given = operation.filter(|it| !it.is_applied() || is_made(it));
         let given = given.and_then(|it| it.values().given_reference());
-        let run = operation.and_then(OperationInProgress::run);
-        let run = run.and_then(|run| run.as_ref().ok());
+        let run = operation.and_then(OperationInProgress::finished);
         let alters = active.filter(|_| tool != ToolKind::Draw);
         let before = || match self.hand.modifiers.alt && self.workspace.preview().is_some() {
             true => context.hits.shown.settled_active().cloned(),

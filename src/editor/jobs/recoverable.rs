@@ -6,7 +6,6 @@ use std::time::SystemTime;
 use glam::{DVec2, DVec3};
 
 use crate::document::{Curve, Document};
-use crate::geometry::ParametricCurve;
 use crate::io::autosave::Origin;
 use crate::io::{AbandonedSession, FileError, Sessions, disk};
 
@@ -115,15 +114,10 @@ fn picture(document: &Document) -> Vec<Vec<DVec2>> {
 }
 
 fn chain(curve: &Curve) -> Vec<DVec3> {
-    let pieces = curve.polygon.pieces();
-    let at = |index: usize| {
-        let u = pieces as f64 * index as f64 / CHORDS as f64;
-        let piece = (u as usize).min(pieces - 1);
-        let mut point = [DVec3::ZERO];
-        curve
-            .polygon
-            .fill_derivatives(piece, u - piece as f64, &mut point);
-        point[0]
-    };
-    (0..=CHORDS).map(at).collect()
+    let end = curve.polygon.segments() as f64;
+    let share = |index: usize| index as f64 / CHORDS as f64;
+    let chords = 0..=CHORDS;
+    chords
+        .map(|index| curve.polygon.point(end * share(index)))
+        .collect()
 }

@@ -2,9 +2,9 @@
 
 use glam::{DVec2, DVec3};
 
-use super::handle_drag::HandleDrag;
+use super::in_progress::HandleDrag;
 use super::{Operating, OperationInProgress};
-use crate::editor::hand::snapping::Carried;
+use crate::editor::hand::snapping::{Carried, along_axis};
 use crate::editor::hand::tools::Context;
 use crate::editor::reply::{Message, Refusal};
 use crate::editor::view::scene::{HoverScene, Mark};
@@ -22,21 +22,18 @@ impl Operating<'_> {
         let viewport = &self.view.viewport;
         let from = viewport.to_model(at);
         let drag = self.current().and_then(|current| {
-            let handle = *current.handle_at(viewport, at)?;
-            let planar = current.handles().iter().all(|handle| handle.at.z == 0.0);
             Some(HandleDrag {
-                handle,
-                planar,
+                handle: *current.handle_at(viewport, at)?,
+                planar: current.handles().iter().all(|handle| handle.at.z == 0.0),
                 from,
             })
         });
-        if drag.is_some() {
-            self.hold_values();
-            if let Some(current) = self.operation_mut() {
-                current.dragged = drag;
-            }
-        }
-        drag.is_some()
+        let Some((current, drag)) = self.operations.operation.as_mut().zip(drag) else {
+            return false;
+        };
+        current.dragged = Some(drag);
+        self.hold_values();
+        true
     }
 
     /// Set the values that the dragged handle has reached. Returns whether one is dragged.
@@ -55,7 +52,7 @@ impl Operating<'_> {
 
     /// End the drag of a handle. Returns whether there was one.
     pub(in crate::editor) fn end_handle_drag(&mut self) -> bool {
-        let current = self.operation_mut();
+        let current = self.operations.operation.as_mut();
         current.is_some_and(|current| current.dragged.take().is_some())
     }
 }
@@ -64,6 +61,12 @@ impl OperationInProgress {
     /// Whether a handle is dragged.
     pub fn drags_handle(&self) -> bool {
         self.dragged_handle().is_some()
+    }
+
+    /// The parameter of this name.
+    fn parameter(&self, name: &str) -> Option<&'static Parameter> {
+        let mut parameters = self.operation.parameters.iter();
+        parameters.find(|parameter| parameter.name == name)
     }
 
     /// Whether there are handles: then the canvas belongs to them.
@@ -110,11 +113,8 @@ impl OperationInProgress {
     ) -> Option<HoverScene> {
         let handle = self.handle_of(viewport, pointer)?;
         let set = handle.values(handle.at);
-        let lines = set.iter().filter_map(|(name, value)| {
-            let mut parameters = self.operation.parameters.iter();
-            let parameter = parameters.find(|parameter| parameter.name == *name)?;
-            Some(told(parameter, value))
-        });
+        let lines = set.iter();
+        let lines = lines.filter_map(|(name, value)| Some(told(self.parameter(name)?, value)));
         Some(HoverScene::Handle {
             at: viewport.flatten(handle.at),
             text: lines.collect::<Vec<_>>().join("\n"),
@@ -131,19 +131,14 @@ impl OperationInProgress {
         let drag = self.dragged_handle()?;
         let shift = context.modifiers.shift;
         let is_angle = |name: &str| {
-            let mut parameters = self.operation.parameters.iter();
-            parameters
-                .any(|parameter| parameter.name == name && parameter.quantity() == Quantity::Angle)
+            let parameter = self.parameter(name);
+            parameter.is_some_and(|parameter| parameter.quantity() == Quantity::Angle)
         };
         let mut values = drag.handle.values(drag.handle.at);
         let turns = values.iter().any(|(name, _)| is_angle(name));
         let mut by = context.viewport.to_model(at) - drag.from;
         if shift && !turns {
-            by = if by.x.abs() >= by.y.abs() {
-                by.with_y(0.0)
-            } else {
-                by.with_x(0.0)
-            };
+            by = along_axis(by);
         }
         let moved = drag.handle.at + context.movement(by, drag.planar);
         let seen = context.viewport.flatten(moved);

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
+use glam::DVec2;
+
 use super::end_fit_step::EndFitStep;
-use super::handle_drag::HandleDrag;
 use crate::document::{Curve, CurveId, Document};
 use crate::editor::selection::Selection;
-use crate::editor::view::Mark;
-use crate::editor::view::Viewport;
+use crate::editor::view::{Mark, Viewport};
 use crate::editor::workspace::PreviewId;
 use crate::geometry::Progress;
 use crate::operations::{
@@ -40,6 +40,17 @@ pub struct OperationInProgress {
     pub(super) applies: bool,
     /// The action of the end-fit panel that started the operation.
     pub(super) end_fit: Option<EndFitStep>,
+}
+
+/// A handle that is dragged.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct HandleDrag {
+    /// The handle when it was pressed.
+    pub handle: Handle,
+    /// Whether the handle stays in the plane z = 0.
+    pub planar: bool,
+    /// The pressed place in the view plane.
+    pub from: DVec2,
 }
 
 /// A finished run of an operation.
@@ -87,8 +98,7 @@ impl OperationInProgress {
 
     /// The report of the last run; `None` if it failed or none is finished.
     pub fn report(&self) -> Option<&Report> {
-        let run = self.run.as_ref()?.as_ref().ok()?;
-        Some(&run.report)
+        self.finished().map(|run| &run.report)
     }
 
     /// Whether the run with the present values is not finished.
@@ -110,6 +120,11 @@ impl OperationInProgress {
         self.run.as_ref()
     }
 
+    /// The last run, unless it failed.
+    pub(in crate::editor) fn finished(&self) -> Option<&Run> {
+        self.run.as_ref()?.as_ref().ok()
+    }
+
     /// Whether a change of values is in progress, such as a drag.
     pub fn holds_values(&self) -> bool {
         self.held.is_some()
@@ -122,8 +137,12 @@ impl OperationInProgress {
 
     /// The curves that the operation has made beside inputs that it left as they were.
     pub fn made_curves(&self, now: &Document) -> Vec<CurveId> {
-        let is_left = |(id, curve): &(CurveId, Arc<Curve>)| is_same(now, *id, curve);
-        if !self.input.curves().iter().all(is_left) {
+        if self
+            .input
+            .curves()
+            .iter()
+            .any(|input| is_changed(input, now))
+        {
             return Vec::new();
         }
         let before = self.input.document();
@@ -156,17 +175,15 @@ impl OperationInProgress {
         now: &Document,
     ) -> Vec<Arc<Curve>> {
         let inputs = self.input.curves().iter();
-        let changed = inputs.filter(|(id, curve)| Some(*id) != active && !is_same(now, *id, curve));
+        let changed = inputs.filter(|input| Some(input.0) != active && is_changed(input, now));
         changed.map(|(_, curve)| curve.clone()).collect()
     }
 
     /// The marks of the last run on the canvas.
     pub(in crate::editor) fn marks(&self, viewport: &Viewport) -> Vec<Mark> {
-        let Some(Ok(run)) = &self.run else {
-            return Vec::new();
-        };
+        let annotations = self.finished().map(|run| run.outcome.annotations.iter());
         let seen = |point| viewport.flatten(point);
-        let marks = run.outcome.annotations.iter().map(|mark| match *mark {
+        let marks = annotations.into_iter().flatten().map(|mark| match *mark {
             operations::Annotation::Point(point) => Mark::Snap(seen(point)),
             operations::Annotation::Arrow { from, to } => Mark::Ruler([seen(from), seen(to)]),
         });
@@ -174,10 +191,8 @@ impl OperationInProgress {
     }
 }
 
-fn is_same(document: &Document, id: CurveId, curve: &Arc<Curve>) -> bool {
-    document
-        .curve(id)
-        .is_some_and(|now| Arc::ptr_eq(now, curve))
+fn is_changed((id, curve): &(CurveId, Arc<Curve>), now: &Document) -> bool {
+    !now.curve(*id).is_some_and(|now| Arc::ptr_eq(now, curve))
 }
 
 impl Run {

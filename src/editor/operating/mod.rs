@@ -2,7 +2,6 @@
 
 mod end_fit_step;
 mod gestures;
-mod handle_drag;
 mod handles;
 mod in_progress;
 mod operations;

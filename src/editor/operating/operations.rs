@@ -20,7 +20,7 @@ use super::in_progress::{OperationInProgress, Run, Stage};
 #[derive(Debug, Default)]
 pub(in crate::editor) struct Operations {
     client: Client<(), JobResult>,
-    operation: Option<OperationInProgress>,
+    pub(super) operation: Option<OperationInProgress>,
 }
 
 /// The result of a job: a run, then the proof of its features.
@@ -96,9 +96,7 @@ impl Operating<'_> {
         operation: &'static Operation,
         input: Result<Operands, OperationError>,
     ) -> Result<(), Refusal> {
-        self.begin(operation, input, &[], None)?;
-        self.request_run();
-        Ok(())
+        self.begin(operation, input, &[], None)
     }
 
     /// Apply an operation with some values, now or once its run is finished. A preview that is open
@@ -114,10 +112,7 @@ impl Operating<'_> {
         end_fit: Option<EndFitStep>,
     ) -> Reply {
         let begun = self.begin(operation, input, given, end_fit);
-        let reply = begun.and_then(|()| {
-            self.request_run();
-            self.settle()
-        });
+        let reply = begun.and_then(|()| self.settle());
         if reply.is_err() {
             self.leave();
         }
@@ -239,18 +234,13 @@ impl Operating<'_> {
 
     /// Take back the change of values in progress, or the last one. Returns whether there was one.
     pub(in crate::editor) fn undo_values(&mut self) -> bool {
-        if !self
-            .current()
-            .is_some_and(OperationInProgress::has_changed_values)
-        {
+        let current = self.current();
+        if !current.is_some_and(OperationInProgress::has_changed_values) {
             return false;
         }
         self.let_go();
-        let Some(current) = &mut self.operations.operation else {
-            return false;
-        };
-        let before = current.held.take().or_else(|| current.earlier.pop());
-        if let Some(before) = before {
+        let operation = self.operations.operation.as_mut();
+        if let Some(before) = operation.and_then(|it| it.held.take().or_else(|| it.earlier.pop())) {
             self.give_back(before);
         }
         true
@@ -272,6 +262,7 @@ impl Operating<'_> {
         }
     }
 
+    /// Preview an operation with some values, and run it.
     fn begin(
         &mut self,
         operation: &'static Operation,
@@ -301,6 +292,7 @@ impl Operating<'_> {
             applies: false,
             end_fit,
         });
+        self.request_run();
         Ok(())
     }
 
@@ -331,7 +323,7 @@ impl Operating<'_> {
         let Some(current) = operation else {
             return;
         };
-        let Some(Ok(run)) = &current.run else {
+        let Some(run) = current.finished() else {
             return;
         };
         let (input, outcome) = (current.input.clone(), run.outcome.clone());
@@ -422,11 +414,9 @@ impl Operating<'_> {
 
     /// Show the last run in the preview.
     fn show_run(&mut self) {
-        let run = self.operations.operation.as_ref().and_then(|it| it.run());
-        let edits = match run {
-            Some(Ok(run)) => run.outcome.edits.clone(),
-            _ => Vec::new(),
-        };
+        let operation = self.operations.operation.as_ref();
+        let run = operation.and_then(OperationInProgress::finished);
+        let edits = run.map_or_else(Vec::new, |run| run.outcome.edits.clone());
         let updated = self.workspace.update(edits);
         Message::tell_update(self.message, updated.err().map(Refusal::from));
         self.document_changed();
@@ -437,7 +427,7 @@ impl Operating<'_> {
         let Some(current) = &mut self.operations.operation else {
             return;
         };
-        let Some(Ok(run)) = &current.run else {
+        let Some(run) = current.finished() else {
             return;
         };
         let (label, edits) = (current.operation.label, run.outcome.edits.clone());
@@ -473,12 +463,9 @@ impl Operating<'_> {
         }
         current.dragged = None;
         current.held = None;
-        let Some(Ok(run)) = &current.run else {
+        let Some(run) = current.finished().filter(|run| run.succeeds()) else {
             return self.reply();
         };
-        if !run.succeeds() {
-            return self.reply();
-        }
         let renumbers = run.outcome.renumbered;
         let steps = self.workspace.history().undo_steps();
         self.workspace.commit();
@@ -534,9 +521,5 @@ impl Operating<'_> {
     /// Only what the document holds can be selected.
     fn document_changed(&mut self) {
         self.hand.selection.retain_valid(self.workspace.document());
-    }
-
-    pub(super) fn operation_mut(&mut self) -> Option<&mut OperationInProgress> {
-        self.operations.operation.as_mut()
     }
 }
