@@ -16,25 +16,25 @@ const FIELD: f32 = 96.0;
 /// Show the fields. A free one shows the figure that the end has now.
 pub fn curvature_ui(ui: &mut Ui, report: &EndFitReport) -> Option<FieldEvent<EndFitAction>> {
     let target = report.target?;
-    let has_tangent = report.tangent.is_some();
+    let has_tangent = report.actual.direction.is_some();
     let curvature = NumberRow {
         name: "Curvature",
         help: "Require a curvature κ at the end, positive where it turns left",
         quantity: Quantity::Curvature,
         value: target.curvature,
-        actual: report.curvature,
+        actual: report.actual.curvature,
         has_tangent,
     };
     let mut event = curvature.show(ui, EndFitAction::SetCurvature);
     if !report.planar {
-        event = plane_ui(ui, target.normal, report.normal).or(event);
+        event = plane_ui(ui, target.normal, report.actual.normal).or(event);
     }
     let slope = NumberRow {
         name: "Slope",
         help: "Require a curvature slope dκ/ds at the end",
         quantity: Quantity::Number,
         value: target.slope,
-        actual: report.slope,
+        actual: report.actual.slope,
         has_tangent,
     };
     slope.show(ui, EndFitAction::SetSlope).or(event)

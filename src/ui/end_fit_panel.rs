@@ -14,7 +14,7 @@ use super::theme::{ROW, STEP, Tokens};
 use super::widgets::IconButton;
 use super::{document_unit, figures, widgets};
 use crate::editor::{Editor, EndFitAction, EndFitReport, Layer, Refusal, told};
-use crate::geometry::end_correction::EndOverlap;
+use crate::geometry::end_correction::{EndOverlap, EndTarget};
 use crate::geometry::expressions::sin_cos_of_degrees;
 use crate::geometry::parameters::Quantity;
 use crate::geometry::{End, counted};
@@ -118,7 +118,7 @@ impl Panel<'_> {
     fn target_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
         self.actual_ui(ui);
-        if let Some(point) = report.target_point {
+        if let Some(EndTarget { point, .. }) = report.target {
             // The source sets a matched end's target.
             ui.add_enabled_ui(report.matched.is_none(), |ui| {
                 self.point_ui(ui, point);
@@ -142,7 +142,7 @@ impl Panel<'_> {
                 self.ask(EndFitAction::TargetActual);
             }
             if ui
-                .add_enabled(report.target_point.is_some(), Button::new("Clear"))
+                .add_enabled(report.target.is_some(), Button::new("Clear"))
                 .clicked()
             {
                 self.ask(EndFitAction::ClearTarget);
@@ -163,12 +163,14 @@ impl Panel<'_> {
             figures.collect::<Vec<String>>().join("  ")
         };
         let digits = if axes == 2 { 0.01 } else { 0.1 };
-        let point = written(report.point, digits * self.pixel);
+        let point = written(report.actual.point, digits * self.pixel);
         widgets::figure_row(ui, "Current end point", &point);
-        let tangent = match (report.tangent, report.tangent_angle) {
-            (_, Some(angle)) => figures::degrees(angle, 3),
-            (Some(tangent), None) => written(tangent, 1e-4),
-            (None, None) => "none: a cusp".to_owned(),
+        let tangent = match report.actual.direction {
+            Some(tangent) => match report.angle_of(tangent) {
+                Some(angle) => figures::degrees(angle, 3),
+                None => written(tangent, 1e-4),
+            },
+            None => "none: a cusp".to_owned(),
         };
         widgets::figure_row(ui, "Current tangent", &tangent);
     }
@@ -187,7 +189,8 @@ impl Panel<'_> {
     fn direction_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
         let mut caption = "Direction";
-        if let (Some(direction), None) = (report.target_direction, report.target_angle) {
+        let direction = report.target_direction();
+        if let Some(direction) = direction.filter(|_| !report.planar) {
             // Three components fill the row.
             let event = direction_row(ui, (caption, "target direction"), direction);
             let set = |direction| EndFitAction::SetDirection(Some(direction));
@@ -199,7 +202,7 @@ impl Panel<'_> {
         }
         widgets::form_row(ui, caption, |ui| {
             ui.spacing_mut().item_spacing.x = STEP;
-            if let Some(angle) = report.target_angle {
+            if let Some(angle) = direction.and_then(|direction| report.angle_of(direction)) {
                 self.angle_ui(ui, angle);
             }
             self.fixed_ui(ui);
@@ -208,18 +211,18 @@ impl Panel<'_> {
 
     fn turn_round_ui(&mut self, ui: &mut Ui) {
         let button = IconButton::new(Icon::ArrowLeftRight, "Flip direction");
-        let enabled = self.report.target_direction.is_some();
+        let enabled = self.report.target_direction().is_some();
         if button.enabled(enabled).show(ui).clicked() {
             self.ask(EndFitAction::TurnRound);
         }
     }
 
     fn fixed_ui(&mut self, ui: &mut Ui) {
-        let mut fixed = self.report.target_direction.is_some();
+        let mut fixed = self.report.target_direction().is_some();
         let free = ui.add(Checkbox::new(&mut fixed, "Lock direction"));
         let tooltip = "Require a tangent direction at the end";
         if free.on_hover_text(tooltip).clicked() {
-            let actual = self.report.tangent.unwrap_or(DVec3::X);
+            let actual = self.report.actual.direction.unwrap_or(DVec3::X);
             self.ask(EndFitAction::SetDirection(fixed.then_some(actual)));
         }
     }
@@ -271,7 +274,7 @@ impl Panel<'_> {
         let is_met = self.is_in_place() && self.is_aligned() && report.is_met();
         step_ui(ui, 3, "Difference to target", is_met, |_| {});
         indented(ui, |ui| {
-            if report.target_point.is_none() {
+            if report.target.is_none() {
                 widgets::note(ui, "Set a target first.");
                 return;
             }
@@ -298,7 +301,7 @@ impl Panel<'_> {
 
     fn is_in_place(&self) -> bool {
         let report = self.report;
-        report.target_point.is_some() && report.difference.length() <= report.tolerance
+        report.target.is_some() && report.difference.length() <= report.tolerance
     }
 
     fn is_aligned(&self) -> bool {
@@ -325,7 +328,7 @@ impl Panel<'_> {
     fn corrections_ui(&mut self, ui: &mut Ui) {
         let report = self.report;
         let count = counted(report.terminal, "vertex", "vertices");
-        let has_point = report.target_point.is_some() && report.can_move();
+        let has_point = report.target.is_some() && report.can_move();
         let texts = [
             "Translate",
             "Translate terminal vertices",
@@ -334,7 +337,8 @@ impl Panel<'_> {
         let action = has_point.then_some(EndFitAction::Translate);
         let title = format!("Move {count}");
         self.action_ui(ui, (5, &title, self.is_in_place()), texts, action);
-        let has_direction = report.target_direction.is_some() && report.tangent.is_some();
+        let has_direction =
+            report.target_direction().is_some() && report.actual.direction.is_some();
         let texts = [
             "Rotate",
             "Rotate terminal vertices",

@@ -113,14 +113,14 @@ fn a_target_is_picked_from_another_curves_end() {
         .to_screen(other.point.truncate());
     script.click(place);
     let report = script.end_fit().expect("figures");
-    assert_eq!(report.target_point, Some(other.point));
+    assert_eq!(report.target.map(|target| target.point), Some(other.point));
     // Two starts run towards each other: this one is to leave where the other arrives.
     let along = other.tangent().expect("a tangent");
-    assert_eq!(report.target_direction, Some(-along));
+    assert_eq!(report.target_direction(), Some(-along));
     assert!(!report.picking);
     script.end_fit_action(EndFitAction::TurnRound);
     let report = script.end_fit().expect("figures");
-    assert_eq!(report.target_direction, Some(along));
+    assert_eq!(report.target_direction(), Some(along));
 }
 
 #[test]
@@ -142,7 +142,7 @@ fn a_target_that_no_file_could_hold_is_refused() {
         let refused = script.editor.end_fit_action(EndFitAction::SetPoint(point));
         let refusal = refused.expect_err("a refusal");
         let report = script.end_fit().expect("figures");
-        assert_eq!(report.target_point, None);
+        assert_eq!(report.target, None);
         assert_eq!(report.outcome, Some(Err(refusal.clone())));
         assert!(refusal.to_string().contains("up to 1e100"), "{refusal}");
     }
@@ -196,7 +196,8 @@ fn a_dragged_target_is_not_held_by_its_own_old_place() {
     });
     let from = script.editor.view().viewport().to_screen(target);
     script.drag(from, from + DVec2::new(6.0, 0.0));
-    let moved = script.end_fit().and_then(|report| report.target_point);
+    let moved = script.end_fit().and_then(|report| report.target);
+    let moved = moved.map(|target| target.point);
     assert_ne!(moved, Some(target.extend(0.0)));
 }
 

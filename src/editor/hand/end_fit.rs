@@ -37,18 +37,10 @@ pub struct EndFitReport {
     pub legs: Option<Range>,
     /// Step 1: the smallest and largest turning angle, in radians.
     pub turns: Option<Range>,
-    /// The actual end point.
-    pub point: DVec3,
-    /// The actual unit tangent; `None` at a cusp.
-    pub tangent: Option<DVec3>,
-    /// The angle of a planar curve's tangent from the x axis, in radians.
-    pub tangent_angle: Option<f64>,
-    /// The target point; `None` until it is set.
-    pub target_point: Option<DVec3>,
-    /// The target direction.
-    pub target_direction: Option<DVec3>,
-    /// The angle of a planar curve's target direction from the x axis, in radians.
-    pub target_angle: Option<f64>,
+    /// The actual end, as a target that it meets: its direction is the unit tangent, none at a cusp.
+    pub actual: EndTarget,
+    /// The target as a whole; `None` until it is set.
+    pub target: Option<EndTarget>,
     /// Step 3: the difference vector; what is mere rounding of it is 0.
     pub difference: DVec3,
     /// Step 3: the difference angle, in radians.
@@ -67,15 +59,7 @@ pub struct EndFitReport {
     pub targets: usize,
     /// Passes made by "repeat" since the targets last changed.
     pub passes: usize,
-    /// The actual curvature and its slope, as [`EndTarget`] has them; `None` at a cusp.
-    pub curvature: Option<f64>,
-    /// The slope of the actual curvature.
-    pub slope: Option<f64>,
-    /// The actual normal of the osculating plane of a curve in space.
-    pub normal: Option<DVec3>,
-    /// The target as a whole; `None` until it is set.
-    pub target: Option<EndTarget>,
-    /// What is missing of it.
+    /// What is missing of the target.
     pub missing: Option<EndDifference>,
     /// What the end is kept matched to.
     pub matched: Option<MatchReport>,
@@ -112,6 +96,16 @@ impl EndFitReport {
     /// Whether the curve's vertices can be moved.
     pub fn can_move(&self) -> bool {
         self.refusal.is_none()
+    }
+
+    /// The target direction.
+    pub fn target_direction(&self) -> Option<DVec3> {
+        self.target?.direction
+    }
+
+    /// The angle of a planar curve's direction from the x axis, in radians.
+    pub fn angle_of(&self, direction: DVec3) -> Option<f64> {
+        self.planar.then(|| direction.truncate().to_angle())
     }
 
     /// Whether all that the target of this end asks for is there within the tolerance.
@@ -228,10 +222,6 @@ impl EndFitSettings {
         let jet = polygon.end_jet(self.end);
         let target = curve.targets.get(self.end);
         let difference = target.map(|target| EndDifference::between(polygon, self.end, &target));
-        let target_direction = target.and_then(|target| target.direction);
-        let planar_angle = |direction: DVec3| {
-            Some(direction.truncate().to_angle()).filter(|_| analysis.is_planar())
-        };
         let planar = analysis.is_planar();
         let size = polygon.size();
         let tolerance = self.tolerance_for(&curve);
@@ -245,28 +235,20 @@ impl EndFitSettings {
         let residual = largest(&|left| left.residual(size));
         EndFitReport {
             end: self.end,
-            planar: analysis.is_planar(),
+            planar,
             refusal: curve.check_editable().err().map(|error| error.to_string()),
             degree: polygon.degree(),
             terminal: polygon.terminal_vertices(self.end).len(),
             vertices: polygon.vertices().len(),
             legs: figures.legs,
             turns: figures.turns,
-            point: jet.point,
-            tangent: jet.tangent(),
-            tangent_angle: jet.tangent().and_then(planar_angle),
-            target_point: target.map(|target| target.point),
-            target_direction,
-            target_angle: target_direction.and_then(planar_angle),
+            actual: Continuity::G3.target(&jet, planar),
+            target,
             difference: difference.map_or(DVec3::ZERO, |difference| {
                 let far = jet.point.abs().max_element().max(size);
                 above(difference.vector, ROUNDING * far)
             }),
             angle: difference.map_or(0.0, |difference| difference.angle),
-            curvature: jet.tangent().map(|_| jet.curvature_of(planar)),
-            slope: Some(jet.curvature_slope(planar)).filter(|slope| slope.is_finite()),
-            normal: jet.first.cross(jet.second).try_normalize(),
-            target,
             missing: difference,
             matched: match_report(document, id, self.end),
             followers: followers(document, id),

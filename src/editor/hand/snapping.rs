@@ -74,10 +74,9 @@ pub fn snap_to_point(
             }
         }
     }
-    for (id, reference) in document.references().filter(|(_, it)| it.visible) {
-        if carried.reference == Some(id) {
-            continue;
-        }
+    let references = document.references();
+    let others = references.filter(|(id, it)| it.visible && carried.reference != Some(*id));
+    for (id, reference) in others {
         let ends = || {
             let jets = End::BOTH.map(|end| MatchPlace::End(end).jet(&reference.curve));
             jets.into_iter().flatten().map(|jet| jet.point).collect()

@@ -40,22 +40,20 @@ impl EntryError {
 
 /// A point as it is typed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum TypedPoint {
-    /// Coordinates along the axes of the plane that is drawn in.
-    InPlane(DVec2),
-    /// Coordinates in space.
-    InSpace(DVec3),
-    /// So far from the vertex before, along the axes of the plane that is drawn in.
-    StepInPlane(DVec2),
-    /// So far from the vertex before, in space.
-    StepInSpace(DVec3),
-    /// At a distance from the vertex before, in the direction of an angle in degrees.
-    Polar {
-        /// The distance.
-        length: f64,
-        /// The angle, from the plane's first axis to its second.
-        degrees: f64,
-    },
+pub struct TypedPoint {
+    /// Whether it counts from the vertex before.
+    pub is_relative: bool,
+    coordinates: Coordinates,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Coordinates {
+    /// Along the axes of the plane that is drawn in.
+    Plane(DVec2),
+    /// In space.
+    Space(DVec3),
+    /// A distance, and the direction of an angle in degrees from the plane's first axis to its second.
+    Polar { length: f64, degrees: f64 },
 }
 
 impl TypedPoint {
@@ -66,31 +64,14 @@ impl TypedPoint {
     pub fn read(text: &str, unit: Option<LengthUnit>) -> Result<Self, EntryError> {
         let leading = text.chars().take_while(|it| it.is_whitespace()).count();
         let trimmed = text.trim();
-        match trimmed.strip_prefix('@') {
-            Some(step) => Self::read_step(step, leading + 1, unit),
-            None => match read_coordinates(trimmed, leading, unit)? {
-                Coordinates::Plane(point) => Ok(Self::InPlane(point)),
-                Coordinates::Space(point) => Ok(Self::InSpace(point)),
-            },
-        }
-    }
-
-    fn read_step(step: &str, before: usize, unit: Option<LengthUnit>) -> Result<Self, EntryError> {
-        if let [(at, length), (angle_at, angle)] = parts(step, '<').as_slice() {
-            return Ok(Self::Polar {
-                length: number(length, before + at, (Quantity::Length, unit))?,
-                degrees: number(angle, before + angle_at, (Quantity::Angle, unit))?,
-            });
-        }
-        match read_coordinates(step, before, unit)? {
-            Coordinates::Plane(step) => Ok(Self::StepInPlane(step)),
-            Coordinates::Space(step) => Ok(Self::StepInSpace(step)),
-        }
-    }
-
-    /// Whether it counts from the vertex before.
-    pub fn is_relative(self) -> bool {
-        !matches!(self, Self::InPlane(_) | Self::InSpace(_))
+        let (coordinates, is_relative) = match trimmed.strip_prefix('@') {
+            Some(step) => (read_step(step, leading + 1, unit)?, true),
+            None => (read_coordinates(trimmed, leading, unit)?, false),
+        };
+        Ok(Self {
+            is_relative,
+            coordinates,
+        })
     }
 
     /// The point, in a plane, after a vertex if there is one.
@@ -98,28 +79,39 @@ impl TypedPoint {
     /// # Errors
     /// [`EntryError`] if it counts from a vertex and there is none.
     pub fn point(self, from: Option<DVec3>, plane: &DrawingPlane) -> Result<DVec3, EntryError> {
-        let across = from.map_or(DVec3::ZERO, |from| plane.across(from));
-        let base = || {
-            let reason = "there is no vertex yet to count from: type x,y";
-            from.ok_or_else(|| EntryError::new(1, reason))
+        let by = match self.coordinates {
+            Coordinates::Plane(by) => plane.lift(by),
+            Coordinates::Space(by) => by,
+            Coordinates::Polar { length, degrees } => length * plane.direction(degrees),
         };
-        Ok(match self {
-            Self::InPlane(point) => plane.lift(point) + across,
-            Self::InSpace(point) => point,
-            Self::StepInPlane(step) => base()? + plane.lift(step),
-            Self::StepInSpace(step) => base()? + step,
-            Self::Polar { length, degrees } => base()? + length * plane.direction(degrees),
-        })
+        match (self.is_relative, self.coordinates, from) {
+            (true, _, Some(from)) => Ok(from + by),
+            (true, _, None) => {
+                let reason = "there is no vertex yet to count from: type x,y";
+                Err(EntryError::new(1, reason))
+            }
+            (false, Coordinates::Plane(_), Some(from)) => Ok(by + plane.across(from)),
+            (false, ..) => Ok(by),
+        }
     }
 }
 
-/// Two or three numbers.
-enum Coordinates {
-    Plane(DVec2),
-    Space(DVec3),
+/// Read what follows the @, after so many characters of the whole text.
+fn read_step(
+    step: &str,
+    before: usize,
+    unit: Option<LengthUnit>,
+) -> Result<Coordinates, EntryError> {
+    match parts(step, '<').as_slice() {
+        [(at, length), (angle_at, angle)] => Ok(Coordinates::Polar {
+            length: number(length, before + at, (Quantity::Length, unit))?,
+            degrees: number(angle, before + angle_at, (Quantity::Angle, unit))?,
+        }),
+        _ => read_coordinates(step, before, unit),
+    }
 }
 
-/// Read numbers with commas between them, after so many characters of the whole text.
+/// Read two or three numbers with commas between them, after so many characters of the whole text.
 fn read_coordinates(
     text: &str,
     before: usize,

@@ -153,7 +153,7 @@ impl NewVertexTool {
         context: &Context,
     ) -> Result<(Adding, DVec3), EntryError> {
         let adding = match self.place {
-            NewVertex::AtEnd if typed.is_relative() => Adding::at_end(context.pointer, context),
+            NewVertex::AtEnd if typed.is_relative => Adding::at_end(context.pointer, context),
             NewVertex::AtEnd => {
                 let point = typed.point(None, &context.drawing_plane())?;
                 Adding::at_end(Some(context.viewport.flatten(point)), context)
