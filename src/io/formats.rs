@@ -16,11 +16,13 @@ pub fn readable() -> impl Iterator<Item = &'static Format> {
     FORMATS.into_iter().filter(|format| format.can_read())
 }
 
-/// List the exports of all formats.
-pub fn exporters() -> impl Iterator<Item = Exporter> {
+/// List the exports of all formats in the order of the menu: those with a key first.
+pub fn exporters() -> Vec<Exporter> {
     let rows = |format: &'static Format| format.exports.iter().map(move |row| (format, row));
     let rows = FORMATS.into_iter().flat_map(rows);
-    rows.map(|(format, row)| Exporter { format, row })
+    let mut exporters: Vec<Exporter> = rows.map(|(format, row)| Exporter { format, row }).collect();
+    exporters.sort_by_key(|exporter| exporter.row.key.is_none());
+    exporters
 }
 
 /// Find a format by an extension in upper or lower case.

@@ -78,7 +78,7 @@ impl Action {
             Self::SaveAs,
             Self::Reload,
         ];
-        all.extend(formats::exporters().map(Self::Export));
+        all.extend(formats::exporters().into_iter().map(Self::Export));
         all.extend((0..EXAMPLES.len()).map(Self::OpenExample));
         all.extend([Self::Quit, Self::Cut, Self::Copy, Self::Paste, Self::Rename]);
         all.extend(Command::all().into_iter().map(Self::Command));

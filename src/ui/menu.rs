@@ -120,7 +120,11 @@ fn menus() -> [(&'static str, Vec<Entry>); 6] {
         Item(Action::Reload),
         Divider,
     ];
-    file.extend(formats::exporters().map(|exporter| Item(Action::Export(exporter))));
+    file.extend(
+        formats::exporters()
+            .into_iter()
+            .map(|exporter| Item(Action::Export(exporter))),
+    );
     file.extend([Divider, Item(Action::Quit)]);
     let edit = vec![
         command(Command::Undo),

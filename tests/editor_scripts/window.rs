@@ -547,7 +547,9 @@ pub fn every_command() -> Vec<Command> {
 
 /// The export to files with an extension, of a polygon where the format lets one choose.
 pub fn exporter(extension: &str, polygon: PolygonKind) -> Exporter {
-    let mut exporters = formats::exporters().filter(|it| it.format.extension() == extension);
+    let mut exporters = formats::exporters()
+        .into_iter()
+        .filter(|it| it.format.extension() == extension);
     let exporter = exporters.find(|it| it.row.polygon.is_none_or(|kind| kind == polygon));
     exporter.expect("an export")
 }
