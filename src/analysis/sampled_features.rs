@@ -25,7 +25,7 @@ pub enum SampledKind {
 /// A feature that samples show.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SampledFeature {
-    /// What it is.
+    /// Its kind.
     pub kind: SampledKind,
     /// Where it is.
     pub u: f64,

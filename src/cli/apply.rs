@@ -27,11 +27,11 @@ const PAUSE: Duration = Duration::from_millis(100);
 pub(super) struct Application {
     /// The operation.
     pub(super) operation: &'static Operation,
-    /// What is read; `None` if the operation works on nothing.
+    /// The source; `None` if the operation has no input.
     pub(super) source: Option<Source>,
-    /// What the second of two curves is read from, if not from the same.
+    /// The source of the second curve, if not the same.
     pub(super) second: Option<Source>,
-    /// What is written.
+    /// The destination.
     pub(super) destination: Destination,
     /// The name of the curve that was chosen, and of the second of two.
     pub(super) curves: [Option<String>; 2],
@@ -39,7 +39,7 @@ pub(super) struct Application {
     pub(super) values: Vec<(&'static str, Value)>,
     /// The unit of what states none.
     pub(super) assumed_unit: Option<LengthUnit>,
-    /// Whether the best found is written where what was asked for is not reached.
+    /// Whether the best result is written where the request is not reached.
     pub(super) best: bool,
     /// Whether the report is printed as text, not as JSON.
     pub(super) text: bool,
@@ -131,7 +131,7 @@ impl Application {
         self.chosen(document, second).with_context(|| self.place())
     }
 
-    /// Choose what the operation works on in a document and, if it is given, in that of a second file.
+    /// Choose the input of the operation in a document and in that of a second file, if there is one.
     fn chosen(&self, document: Document, second: Option<Document>) -> anyhow::Result<Operands> {
         let inputs = self.operation.inputs;
         let choose =

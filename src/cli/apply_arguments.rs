@@ -39,7 +39,7 @@ pub(super) enum ApplyArguments {
     Run(Given),
 }
 
-/// An operation with what it is applied to.
+/// An operation with its input.
 #[derive(Debug)]
 pub(super) struct Given {
     /// The operation.
@@ -60,7 +60,7 @@ pub(super) struct Given {
     pub(super) values: Vec<(&'static str, Value)>,
     /// The unit of what states none.
     pub(super) assumed_unit: Option<LengthUnit>,
-    /// Whether the best found is written where what was asked for is not reached.
+    /// Whether the best result is written where the request is not reached.
     pub(super) best: bool,
     /// Whether the report is printed as text.
     pub(super) text: bool,
@@ -117,10 +117,10 @@ impl FromArgMatches for ApplyArguments {
 }
 
 impl Given {
-    /// Take what was given for an operation, by the command that was made of it.
+    /// Take the arguments of an operation from its command.
     ///
     /// # Errors
-    /// What is wrong with a reference.
+    /// A reference cannot be read.
     pub(super) fn new(operation: &'static Operation, matches: &ArgMatches) -> Result<Self, String> {
         let path = |name| matches.try_get_one::<PathBuf>(name).ok().flatten().cloned();
         let format = |name| matches.try_get_one::<&Format>(name).ok().flatten().copied();
@@ -196,7 +196,7 @@ impl Given {
     }
 }
 
-/// Say what is wrong with the arguments of an operation, with its usage.
+/// The error of an operation's arguments, with its usage.
 pub(super) fn misused(operation: &'static Operation, message: &str) -> Error {
     let command = command_of(operation).bin_name(format!("batten apply {}", operation.name));
     command.clone().error(ErrorKind::ValueValidation, message)
@@ -279,7 +279,7 @@ fn interval_given(values: &[(&'static str, Value)]) -> [Option<f64>; 2] {
     })
 }
 
-/// What an operation on a curve or a reference is given.
+/// The input of an operation on a curve or a reference.
 #[derive(Clone, Debug)]
 enum Origin {
     File(PathBuf),

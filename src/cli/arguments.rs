@@ -1,4 +1,4 @@
-//! What can be written on the command line.
+//! The arguments of the command line.
 
 use std::path::{Path, PathBuf};
 
@@ -114,7 +114,7 @@ enum Command {
     },
 }
 
-/// What is to be done.
+/// The command.
 pub(super) enum Task {
     /// Open the editor with these files.
     Editor(Vec<PathBuf>),
@@ -129,9 +129,9 @@ pub(super) enum Task {
     },
     /// Convert a file.
     Convert {
-        /// What is read.
+        /// The source.
         source: Source,
-        /// What is written.
+        /// The destination.
         destination: Destination,
         /// The polygon to write.
         polygon: Option<PolygonKind>,
@@ -148,7 +148,7 @@ pub(super) enum Task {
     References,
     /// Print curves and references in numbers.
     Inspect {
-        /// What is read.
+        /// The source.
         source: Source,
         /// The parameters at which curves are evaluated.
         at: Vec<f64>,
@@ -156,7 +156,7 @@ pub(super) enum Task {
 }
 
 impl Arguments {
-    /// Check what the arguments mean together.
+    /// Check the arguments together.
     ///
     /// # Errors
     /// The usage, if a word is neither a command nor a file, or a format is missing.

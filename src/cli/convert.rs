@@ -28,7 +28,7 @@ pub(super) fn convert(
     }
     let document = source.document(assumed_unit)?;
     let (export, format) = exported(&document, destination, polygon)?;
-    // The float polygon is what is read: nothing can happen to it.
+    // A float polygon is read back as it is.
     let is_converted = polygon.is_some_and(|kind| kind != PolygonKind::Float);
     if is_converted
         && !force

@@ -29,7 +29,7 @@ impl Source {
         }
     }
 
-    /// Read it, and print what there is to tell of it.
+    /// Read it, and print its remarks.
     ///
     /// # Errors
     /// [`FileError`], naming the source and the place in it.
@@ -111,7 +111,7 @@ impl Destination {
         }
     }
 
-    /// Write what a format made of curves, and print what is lost by it.
+    /// Write an export, and print its losses.
     ///
     /// # Errors
     /// If it cannot be written.

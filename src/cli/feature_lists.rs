@@ -64,7 +64,7 @@ struct UndecidedPiece {
 }
 
 impl FeatureLists {
-    /// Write down what was proved.
+    /// List the proved features.
     pub(super) fn of(features: &Features) -> Self {
         let place = |root: &Root| Place {
             u: root.u,

@@ -9,7 +9,7 @@ use crate::analysis::{ReferenceAnalysis, SampledFeature, SampledKind};
 use crate::document::Reference;
 use crate::geometry::references::ReferenceForm;
 
-/// What is printed of a reference.
+/// The printed figures of a reference.
 #[derive(Serialize)]
 pub(super) struct InspectedReference {
     name: String,
@@ -52,7 +52,7 @@ struct Placement {
 }
 
 impl InspectedReference {
-    /// Take what there is to print.
+    /// Collect the printed figures.
     pub(super) fn of(reference: &Reference) -> Self {
         let curve = &reference.curve;
         let placement = curve.placement();

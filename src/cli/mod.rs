@@ -26,7 +26,7 @@ use crate::io::examples::{EXAMPLES, Example};
 use crate::io::json_layout;
 use arguments::{Arguments, Task};
 
-/// What the command line asks for.
+/// The request of the command line.
 #[derive(Debug)]
 pub enum Request {
     /// To open the editor with these files; with the first example if there are none.
@@ -72,7 +72,7 @@ pub fn run(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> 
     Request::Done(exit_code(result.map(|()| ExitCode::SUCCESS)))
 }
 
-/// The exit code of what was done; an error is printed.
+/// The exit code of a command; an error is printed.
 fn exit_code(result: anyhow::Result<ExitCode>) -> ExitCode {
     result.unwrap_or_else(|error| {
         output::message(&format!("{error:#}"));

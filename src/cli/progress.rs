@@ -85,7 +85,7 @@ impl<W: Write> Drop for Progress<W> {
 mod tests {
     use super::*;
 
-    /// What is written if a segment begins at each of these milliseconds.
+    /// The text for segments that begin at these milliseconds.
     fn written(on_terminal: bool, milliseconds: &[u64]) -> String {
         let mut out = Vec::new();
         let mut progress = Progress::begin(&mut out, on_terminal);

@@ -3,7 +3,7 @@
 use super::output;
 use crate::geometry::references::{KINDS, ReferenceKind};
 
-/// What is to say of formulas, which have no parameters of their own.
+/// The text about formulas, which have no parameters of their own.
 const FORMULA: &str = "formula  Expressions in t with +, -, *, /, ^, pi, e, sin, cos, exp, sqrt and other functions: formula:x=cos(t);y=sin(t)\n  x, y, z   the coordinates; without z the curve is planar\n  from, to  the interval of t; without them 0 to 1\n";
 
 /// List the kinds.

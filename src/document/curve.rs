@@ -24,9 +24,9 @@ pub struct Colour(pub [u8; 3]);
 /// The targets of a curve's two ends, where they are set.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct EndTargets {
-    /// What the start shall be.
+    /// The target of the start.
     pub start: Option<EndTarget>,
-    /// What the end shall be.
+    /// The target of the end.
     pub finish: Option<EndTarget>,
 }
 

@@ -70,12 +70,12 @@ impl Document {
         self.unit
     }
 
-    /// Add what the project's file said that this program does not know. Every edit keeps it.
+    /// Set the unknown keys of the project's file. Every edit keeps them.
     pub fn with_extras(self, extras: Extras) -> Self {
         Self { extras, ..self }
     }
 
-    /// What the project's file said that this program does not know.
+    /// The unknown keys of the project's file.
     pub fn extras(&self) -> &Extras {
         &self.extras
     }
@@ -207,7 +207,7 @@ impl Document {
     }
 }
 
-/// Whether two lists hold equal things with the same identities.
+/// Whether two lists hold equal items with the same identities.
 fn are_same<T: PartialEq>(a: &[(CurveId, Arc<T>)], b: &[(CurveId, Arc<T>)]) -> bool {
     let mut pairs = a.iter().zip(b);
     a.len() == b.len() && pairs.all(|(a, b)| a.0 == b.0 && (Arc::ptr_eq(&a.1, &b.1) || a.1 == b.1))

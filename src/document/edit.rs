@@ -99,7 +99,7 @@ pub enum Edit {
         /// The new target.
         target: Option<EndTarget>,
     },
-    /// Keep an end matched to a place of another curve or of a reference, in place of what it was matched to before.
+    /// Match an end to a place of another curve or of a reference, in place of its earlier match.
     SetMatch(EndMatch),
     /// Let an end be no longer matched; its target stays.
     RemoveMatch {

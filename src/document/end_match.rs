@@ -9,7 +9,7 @@ use crate::geometry::{Continuity, End, Jet, ParametricCurve};
 pub struct EndMatch {
     /// The curve that follows.
     pub curve: CurveId,
-    /// The end of it that does.
+    /// The matched end.
     pub end: End,
     /// The curve or the reference that it follows.
     pub source: CurveId,

@@ -18,7 +18,7 @@ pub enum EditError {
         /// The curve's name.
         name: String,
     },
-    /// The curve is hidden: nobody would see what is done to it.
+    /// The curve is hidden: nobody would see the change.
     #[error("{} is hidden: show it in the list of curves to change it", quoted(.name))]
     Hidden {
         /// The curve's name.
@@ -37,7 +37,7 @@ pub enum EditError {
     Polygon {
         /// The curve's name.
         name: String,
-        /// What is wrong with it.
+        /// The reason.
         error: PolygonError,
     },
     /// A polygon has other numbers of vertices than the curve: the edit needs a renumbering.
@@ -73,7 +73,7 @@ pub enum EditError {
         /// The name of the one that it would follow.
         source_name: String,
     },
-    /// One of the curves does not have what would be matched.
+    /// One of the curves does not have the matched place.
     #[error("{} cannot be matched to {}: an end needs an open curve, and u must lie on the curve", quoted(.name), quoted(.source_name))]
     NoMatch {
         /// The name of the curve that would follow.
@@ -86,7 +86,7 @@ pub enum EditError {
     Reference {
         /// The reference's name.
         name: String,
-        /// What is wrong.
+        /// The reason.
         error: ReferenceError,
     },
     /// The document has no unit that could be converted.

@@ -1,4 +1,4 @@
-//! What a file says beyond what this program knows.
+//! Keys of a project file that this program does not know.
 
 /// Keys of a project or of a curve that this program does not know, with their values as text,
 /// in the order of the file. They have no effect, and saving writes them again.

@@ -14,14 +14,14 @@ use crate::geometry::fairing::joint_correction::{
 use crate::geometry::fairing::near_end::{correct_near_end, has_ends_apart};
 use crate::geometry::{Continuity, End, FloatPolygon, Progress};
 
-/// What is left where only rounding is left, in units of the end's size.
+/// The largest difference that counts as rounding, in units of the end's size.
 const ROUNDING: f64 = 1e-12;
 
 /// What may be left of a match that counts as met, in units of the end's size.
 const MET: f64 = 1e-9;
 
 impl EndMatch {
-    /// What the end must be now; `None` if one of the curves is gone or does not have the place.
+    /// The target that the match sets now; `None` if one of the curves is gone or does not have the place.
     pub fn target(&self, document: &Document) -> Option<EndTarget> {
         let curve = &document.curve(self.curve)?.polygon;
         let source = document.shape(self.source)?;
@@ -50,7 +50,7 @@ impl Document {
         matches.find(|matched| (matched.curve, matched.end) == (curve, end))
     }
 
-    /// Refuse if an end is matched: its target is what it follows.
+    /// Refuse if an end is matched: the match sets its target.
     ///
     /// # Errors
     /// [`EditError::MatchedEnd`], or [`EditError::NoSuchCurve`].

@@ -17,26 +17,26 @@ use super::error::EditError;
 pub struct History {
     document: Document,
     saved: Document,
-    /// Whether what was saved last is not known.
+    /// Whether the last saved state is unknown.
     unsaved: bool,
     undo: Vec<Step>,
     redo: Vec<Step>,
     preview: Option<Preview>,
 }
 
-/// What is tried out on a state of the document.
+/// A preview on a state of the document.
 #[derive(Clone, Debug)]
 struct Preview {
     step: Step,
-    /// What is shown.
+    /// The previewed edits.
     edits: Vec<Edit>,
-    /// The curves that did not meet a match in what is shown.
+    /// The curves that miss a match in the previewed document.
     unmet: BTreeSet<CurveId>,
-    /// Whether matches were tried only briefly for what is shown.
+    /// Whether the preview tried matches only briefly.
     hasty: bool,
 }
 
-/// A state of the document and what was done from it.
+/// A state of the document with the label of the step from it.
 #[derive(Clone, Debug)]
 struct Step {
     label: String,
@@ -53,7 +53,7 @@ impl History {
         }
     }
 
-    /// The document as it is now, what a preview shows included.
+    /// The document as it is now, with the preview.
     pub fn document(&self) -> &Document {
         &self.document
     }

@@ -20,7 +20,7 @@ pub struct Merge {
     pub remark: Option<UnitRemark>,
 }
 
-/// What a merge does to the incoming numbers.
+/// The effect of a merge on the incoming numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnitRemark {
     /// They are converted, so that everything keeps its size.

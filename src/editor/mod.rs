@@ -63,7 +63,7 @@ pub struct Editor {
 }
 
 impl Editor {
-    /// Begin with a curve to try things out on, and its comb.
+    /// Begin with an example curve and its comb.
     pub fn new() -> Self {
         let mut editor = Self::default();
         editor.view.layers.set(Layer::Comb, true);
@@ -95,14 +95,14 @@ impl Editor {
         self.operations = Operations::background(wake);
     }
 
-    /// Begin a frame: take what was done beside the last one.
+    /// Begin a frame: take the results of background work.
     pub fn begin_frame(&mut self) {
         self.patience.renew();
         self.operating().receive();
         self.receive_files();
     }
 
-    /// What is worked on: the document, its history and its file.
+    /// The workspace: the document, its history and its file.
     pub fn workspace(&self) -> &Workspace {
         &self.workspace
     }
@@ -117,7 +117,7 @@ impl Editor {
         &mut self.view
     }
 
-    /// What is seen, for panels to read.
+    /// The view of the document, for panels to read.
     pub fn sight(&self) -> Sight<'_> {
         let layers = self.hand.layers(self.view.layers);
         self.view.sight(self.hand.shown(&self.workspace, layers))
@@ -147,7 +147,7 @@ impl Editor {
         self.view.draw_plot(shown, &overlay);
     }
 
-    /// What the tool in use and the operation at hand show.
+    /// The marks of the tool and of the operation in progress.
     fn overlay(&self) -> Overlay {
         let (context, tool) = (self.context(), self.hand.tool());
         let mut marks = self.hand.tools.used().marks(&context);
@@ -210,7 +210,7 @@ impl Editor {
         &mut self.hand
     }
 
-    /// The document, with what is being tried out.
+    /// The document with the preview.
     pub fn document(&self) -> &Document {
         self.workspace.document()
     }
@@ -317,7 +317,7 @@ impl Editor {
         }
     }
 
-    /// Keep what a number field shows as one step.
+    /// Keep the preview of a number field as one step.
     pub fn commit_preview(&mut self) {
         if self.workspace.interruption() == Some(Interruption::Commits) {
             self.hand
@@ -325,7 +325,7 @@ impl Editor {
         }
     }
 
-    /// Take back what a number field shows.
+    /// Take back the preview of a number field.
     pub fn abort_preview(&mut self) {
         if self.workspace.interruption() == Some(Interruption::Commits) {
             self.workspace.abort();

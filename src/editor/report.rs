@@ -1,10 +1,10 @@
-//! What the editor tells the panels: plain figures and texts, made anew each frame.
+//! Reports for the panels: plain figures and texts, made anew each frame.
 
 use glam::DVec3;
 
 use crate::geometry::{Amplification, Range};
 
-/// What the status bar reads.
+/// The figures of the status bar.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Readout {
     /// The point of the model under the pointer: what is hovered, or in the plane through the point about
@@ -35,7 +35,7 @@ pub struct ReferenceReport {
     pub curvature: Option<Range>,
 }
 
-/// What the inspector says of the active curve, beside the curve itself.
+/// The inspector's figures of the active curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CurveReport {
     /// Whether the curve is planar.

@@ -1,4 +1,4 @@
-//! What is selected: vertices, and the active curve or reference that panels show.
+//! The selection: vertices, and the active curve or reference that panels show.
 
 use std::collections::BTreeSet;
 
@@ -77,7 +77,7 @@ impl Selection {
         self.vertices.clear();
     }
 
-    /// Forget what the document no longer has or does not show.
+    /// Deselect vertices that the document no longer has or does not show.
     pub fn retain_valid(&mut self, document: &Document) {
         let valid = |(curve, index): &VertexId| {
             let curve = document.curve(*curve);

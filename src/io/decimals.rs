@@ -2,7 +2,7 @@
 
 use super::error::{Place, Problem, ReadError};
 
-/// What the numbers of a table read so far tell of how its decimals are written.
+/// The decimal mark of a table, as far as the numbers read so far tell it.
 #[derive(Default)]
 pub(super) struct Decimals {
     mark: Option<Mark>,

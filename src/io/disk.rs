@@ -82,14 +82,14 @@ pub fn is_same_file(a: &Path, b: &Path) -> bool {
     canonical(a).is_some_and(|a| canonical(b) == Some(a))
 }
 
-/// What there is to tell of a file that was written. Shown as one line a thing.
+/// The remarks on a written file. Shown as one line a remark.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Saved {
-    /// What the format could not hold.
+    /// The losses of the format.
     pub losses: LossReport,
     /// How many other names (hard links) the old file had: they keep its content.
     pub other_names: u64,
-    /// The fingerprint of what was written.
+    /// The fingerprint of the written bytes.
     pub fingerprint: Fingerprint,
 }
 
@@ -120,7 +120,7 @@ impl fmt::Display for Saved {
 /// [`Format::write`].
 ///
 /// # Errors
-/// [`FileError`], naming the file; what was there before is unchanged then.
+/// [`FileError`], naming the file; an earlier file is unchanged then.
 pub fn write_document(
     path: &Path,
     document: &Document,
@@ -131,10 +131,10 @@ pub fn write_document(
     write_export(path, export.map_err(FileError::at(path))?)
 }
 
-/// Write to a file what a format made of curves.
+/// Write an export to a file.
 ///
 /// # Errors
-/// [`FileError`], naming the file; what was there before is unchanged then.
+/// [`FileError`], naming the file; an earlier file is unchanged then.
 pub fn write_export(path: &Path, export: Export) -> Result<Saved, FileError> {
     Ok(Saved {
         other_names: write_bytes(path, &export.bytes).map_err(FileError::at(path))?,
@@ -261,7 +261,7 @@ fn read_at_most(path: &Path, most: u64) -> Result<Vec<u8>, FileProblem> {
     if metadata.len() > most {
         return Err(FileProblem::TooLarge(most));
     }
-    // The file may grow, or not know its size: the limit holds for what is read.
+    // The file may grow, or not know its size: the limit holds for the bytes read.
     limited_bytes(file, most)
 }
 

@@ -1,4 +1,4 @@
-//! What can be wrong with a file, and where in it.
+//! Errors of reading and writing files, with their places.
 
 use std::fmt;
 use std::io;
@@ -54,7 +54,7 @@ impl Place {
         }
     }
 
-    /// Say what is wrong here.
+    /// Make an error of a problem at this place.
     pub fn problem(self, problem: Problem) -> ReadError {
         ReadError {
             place: Box::new(self),
@@ -85,9 +85,9 @@ impl fmt::Display for Place {
 /// A reason why a file cannot be read, with its place. Nothing is read then.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReadError {
-    /// Where it is.
+    /// The place.
     pub place: Box<Place>,
-    /// What it is.
+    /// The problem.
     pub problem: Problem,
 }
 
@@ -115,7 +115,7 @@ impl fmt::Display for ReadError {
 
 impl std::error::Error for ReadError {}
 
-/// What can be wrong with a file's content.
+/// A problem of a file's content.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum Problem {
     /// Files of the format are only written.
@@ -158,7 +158,7 @@ pub enum Problem {
     /// The project has no version, or one that is no number from 1 up.
     #[error("the project's \"version\" is {}: a whole number from 1 up is needed", cut(.found))]
     BadVersion {
-        /// What is written there.
+        /// The text in the file.
         found: String,
     },
     /// The vertices do not make a curve.
@@ -206,10 +206,10 @@ pub enum Problem {
         /// The number of references.
         count: usize,
     },
-    /// A match does not tell one thing that it follows.
+    /// A match does not name one source.
     #[error("a match follows one thing: a curve, as source, or a reference")]
     MatchSource,
-    /// A reference does not tell what it is.
+    /// A reference has no kind, formula or points, or several of them.
     #[error("a reference is one of three things: a kind with values, a formula or points")]
     NoReference,
     /// A reference has a kind that is not known.
@@ -228,7 +228,7 @@ pub enum Problem {
         /// The value's name.
         name: String,
     },
-    /// What a reference says makes no curve.
+    /// The keys of a reference make no curve.
     #[error(transparent)]
     Reference(#[from] ReferenceError),
     /// Ends cannot be matched as the project says.
@@ -256,9 +256,9 @@ pub enum Problem {
     BadValue {
         /// Which value.
         key: &'static str,
-        /// What is written there.
+        /// The text in the file.
         value: String,
-        /// What is needed.
+        /// The needed value.
         needed: &'static str,
     },
     /// A table has no line with column names.
@@ -292,7 +292,7 @@ pub enum Problem {
     NotANumber {
         /// The column.
         column: &'static str,
-        /// What is written there.
+        /// The text in the file.
         text: String,
     },
     /// A number has a decimal comma where others have a point, or the other way round.
@@ -367,13 +367,13 @@ pub fn shown_path(path: &Path) -> String {
     escaped(&path.display().to_string())
 }
 
-/// What is wrong with which file; the message begins with the file.
+/// A problem with a file. The message begins with the file.
 #[derive(Debug, Error)]
 #[error("{}: {problem}", shown_path(.path))]
 pub struct FileError {
     /// The file.
     pub path: PathBuf,
-    /// What is wrong.
+    /// The problem.
     pub problem: FileProblem,
 }
 
@@ -402,9 +402,9 @@ pub enum FileProblem {
     /// The system refused.
     #[error("cannot {action} the file: {error}")]
     System {
-        /// What was tried.
+        /// The action that failed.
         action: &'static str,
-        /// What the system says.
+        /// The error of the system.
         error: io::Error,
     },
     /// The folder that it would be in is not there.
@@ -422,7 +422,7 @@ pub enum FileProblem {
 }
 
 impl FileProblem {
-    /// Say what was tried when the system refused.
+    /// Name the action that the system refused.
     pub(super) fn system(action: &'static str) -> impl Fn(io::Error) -> Self {
         move |error| Self::System { action, error }
     }

@@ -11,7 +11,7 @@ pub struct Example {
     pub name: &'static str,
     /// Its title.
     pub title: &'static str,
-    /// What it shows, in one sentence.
+    /// The description, in one sentence.
     pub description: &'static str,
     text: &'static str,
 }

@@ -9,9 +9,9 @@ use crate::geometry::{Continuity, End};
 pub struct FileMatch {
     /// The curve that follows.
     pub curve: usize,
-    /// The end of it that does.
+    /// The matched end.
     pub end: End,
-    /// What it follows.
+    /// The source of the match.
     pub source: MatchSource,
     /// Where on that curve.
     pub place: MatchPlace,
@@ -21,7 +21,7 @@ pub struct FileMatch {
     pub reversed: bool,
 }
 
-/// What an end follows, by its place in the file, counted from 0.
+/// The source of a match, by its place in the file, counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MatchSource {
     /// A curve.

@@ -1,4 +1,4 @@
-//! Fingerprints of files: whether another program has changed what was read or written.
+//! Fingerprints of files: they tell whether another program has changed a file.
 
 use serde::{Deserialize, Serialize};
 use siphasher::sip::SipHasher13;

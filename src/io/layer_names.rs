@@ -45,7 +45,7 @@ impl LayerNames {
     }
 }
 
-/// Replace what a layer's name cannot have. Characters beyond the basic plane cannot be written
+/// Replace characters that a layer's name cannot have. Those beyond the basic plane cannot be written
 /// in this version of the format.
 fn allowed(name: &str) -> String {
     let replaced = name.trim().chars().map(|character| {

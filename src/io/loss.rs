@@ -1,27 +1,27 @@
-//! What an export could not hold.
+//! The losses of an export.
 
 use std::fmt;
 
 use crate::document::{Curve, Document, Reference, quoted};
 use crate::geometry::{End, PolygonKind, rounded_up};
 
-/// Hold a written file's bytes and what is lost with them.
+/// Hold the bytes of a file to write, and their losses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Export {
     /// The bytes of the file.
     pub bytes: Vec<u8>,
-    /// What the file does not hold.
+    /// The losses of the format.
     pub losses: LossReport,
 }
 
-/// List what a file does not hold of the curves written to it. Shown as one line a loss.
+/// List the losses of a written file. Shown as one line a loss.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LossReport {
     /// The name of the file's format.
     pub format: &'static str,
     /// The losses, each with the name of its curve or its reference.
     pub losses: Vec<(String, Loss)>,
-    /// Whether it does not hold what the project says that this program does not know.
+    /// Whether the unknown keys of the project are lost.
     pub project_keys: bool,
 }
 
@@ -52,7 +52,7 @@ pub enum Loss {
         /// The name of the other curve.
         source: String,
     },
-    /// What its file said of it that this program does not know.
+    /// Its unknown keys.
     UnknownKeys,
     /// That the curve is periodic; it is written as an open one that ends where it begins.
     Periodic,

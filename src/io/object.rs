@@ -1,4 +1,4 @@
-//! JSON objects that keep what is unknown in them, or in their version of the file.
+//! JSON objects that keep keys unknown to them, or to their version of the file.
 //!
 //! Left alone, serde passes over unknown keys, and takes an array for a struct too, its elements
 //! in the order in which the program declares the fields.

@@ -1,4 +1,4 @@
-//! What the formats share: a curve by any of its polygons, there and back.
+//! A curve by any of its polygons, there and back: shared by the formats.
 
 use glam::DVec3;
 
@@ -50,7 +50,7 @@ impl FilePolygon {
         }
     }
 
-    /// List what is lost by holding a curve, given by its float polygon, by this one.
+    /// List the losses of holding a curve by this polygon in place of its float polygon.
     pub(super) fn losses(&self, float: &FloatPolygon) -> Vec<Loss> {
         let kind = self.kind;
         let mut losses = Vec::new();

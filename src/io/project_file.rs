@@ -19,7 +19,7 @@ use crate::document::{CurveId, Document, Reference};
 use crate::geometry::PolygonKind;
 use crate::geometry::expressions::LengthUnit;
 
-/// What a file says to be a project.
+/// The value of the key `format` in a project.
 pub(super) const FORMAT: &str = "batten";
 
 /// Version 1 of the project file.
@@ -172,7 +172,7 @@ impl<V: Version> ProjectFile<V> {
     }
 }
 
-/// Refuse matches that name what is not there, or cannot be.
+/// Refuse matches that name missing curves, or cannot be.
 fn check_matches(reading: &Reading) -> Result<(), Problem> {
     for matched in &reading.matches {
         for named in [MatchSource::Curve(matched.curve), matched.source] {

@@ -14,7 +14,7 @@ use crate::geometry::references::{
     ReferenceForm, ReferenceKind, find,
 };
 
-/// A reference as what it is: a kind with its values, formulas, or points, each over an interval and placed.
+/// A reference: a kind with its values, formulas, or points, each over an interval and placed.
 #[derive(Deserialize, Serialize)]
 #[serde(expecting = "a reference, which is a JSON object")]
 pub(super) struct ProjectReference {

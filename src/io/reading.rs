@@ -1,4 +1,4 @@
-//! What is read of a file, and what there is to say of it.
+//! The content of a file, and the remarks on it.
 
 use std::collections::HashMap;
 use std::fmt;
@@ -11,30 +11,30 @@ use crate::geometry::{PolygonKind, counted, rounded_up};
 /// The most unknown keys that are named one by one.
 const MOST_NAMED: usize = 8;
 
-/// What is read of a file.
+/// The content of a file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reading {
     /// The curves.
     pub curves: Vec<Curve>,
     /// The references.
     pub references: Vec<Reference>,
-    /// The matches between them; none is of what is not there.
+    /// The matches between them. They name only curves and references of this reading.
     pub matches: Vec<FileMatch>,
     /// The unit of length, if the file says one.
     pub unit: Option<LengthUnit>,
     /// The numbers of the curves, then of the references, if a project says them.
     pub numbers: Vec<u64>,
-    /// What a project says of itself that this program does not know.
+    /// The unknown keys of a project.
     pub extras: Extras,
-    /// What the reader should tell its user.
+    /// The remarks for the user.
     pub remarks: Remarks,
 }
 
-/// List what is not wrong with a file, but better told. Shown as one line a remark.
+/// List remarks on a file that was read. Shown as one line a remark.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Remarks(Vec<Remark>);
 
-/// Something that is not wrong with a file, but better told.
+/// A remark on a file: no error, but good to know.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Remark {
     /// A key that this program does not know: it has no effect.
@@ -47,7 +47,7 @@ pub enum Remark {
     /// How the columns and decimals of a table are told apart, where it is not by commas and
     /// points.
     Notation {
-        /// What is between the columns: a comma, a semicolon or a tab.
+        /// The separator of columns: a comma, a semicolon or a tab.
         separator: char,
         /// Whether decimals follow a comma.
         decimal_commas: bool,
@@ -97,10 +97,10 @@ pub enum Owner {
 }
 
 impl Reading {
-    /// Make a document of what was read.
+    /// Make a document of the content.
     ///
     /// # Errors
-    /// [`EditError`] if a match cannot be; never for what a format has read.
+    /// [`EditError`] if a match cannot be; never for a reading of a format.
     pub fn into_document(self) -> Result<Document, EditError> {
         let document = Document::from_curves(self.curves)
             .with_references(self.references)

@@ -3,7 +3,7 @@
 use super::error::Problem;
 use crate::geometry::PolygonKind;
 
-/// What the line says: `# degree=9 polygon=float periodic=false name=arc`, or `# name=scan`.
+/// The header of a table: `# degree=9 polygon=float periodic=false name=arc`, or `# name=scan`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct TableHeader {
     /// Which curve the vertices make; `None` if they are points.
@@ -12,7 +12,7 @@ pub(super) struct TableHeader {
     pub name: Option<String>,
 }
 
-/// What the line says of a curve.
+/// The header's figures of a curve.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct CurveHeader {
     /// The degree; any whole number, the polygon checks it.

@@ -14,7 +14,7 @@ use crate::geometry::approximation::LevelComparison;
 use crate::geometry::parameters::Quantity;
 use crate::geometry::{Approximation, End, FloatPolygon};
 
-/// Hold what an operation comes to.
+/// Hold the outcome of an operation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
     /// Whether what was asked for is reached; if not, edits are those of the best that was found, if

@@ -16,7 +16,7 @@ use crate::geometry::references::Placement;
 use crate::geometry::{FloatPolygon, PolygonKind, counted};
 use crate::io::{Export, PROJECT, Reading, TABLE, WriteError};
 
-/// How far copies are put from what they copy, in screen points, right and down.
+/// The distance of copies from their originals, in screen points, right and down.
 const OFFSET: f64 = 24.0;
 
 impl Editor {
@@ -146,7 +146,7 @@ fn read(text: &str) -> Result<Reading, Refusal> {
     })
 }
 
-/// The text of what is selected, or of the active curve or reference.
+/// The text of the selection, or of the active curve or reference.
 fn text_of(selection: &Selection, document: &Document) -> Result<String, Refusal> {
     let selected: Vec<(CurveId, Arc<Curve>)> = document
         .curves()
@@ -190,7 +190,7 @@ fn text_of(selection: &Selection, document: &Document) -> Result<String, Refusal
     text.map_err(Refusal)
 }
 
-/// The note of what was copied.
+/// The note that names the copied items.
 fn copied_note(selection: &Selection, document: &Document) -> Note {
     let count = selection.vertices().len();
     let active = selection.active().and_then(|id| document.name(id));

@@ -50,7 +50,7 @@ impl Editor {
             }
         };
         let is_pending = self.previewed_operation().is_some();
-        // What is only looked at leaves the last action.
+        // An action that changed nothing leaves the last one.
         if !is_pending && (reply.is_err() || self.workspace.revision() != revision) {
             self.operating().keep_end_fit_action(step, &reply);
         }
@@ -145,7 +145,7 @@ impl EndFitAction {
         }
     }
 
-    /// The target that an action makes of that of an end, with what the step is called.
+    /// The target that an action sets at an end, with the label of the step.
     fn target(self, curve: &Curve, end: End) -> (&'static str, Option<EndTarget>) {
         let planar = curve.polygon.is_planar();
         let jet = curve.polygon.end_jet(end);

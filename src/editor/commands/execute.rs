@@ -1,4 +1,4 @@
-//! Doing what the commands say.
+//! Executing commands.
 
 use std::sync::Arc;
 
@@ -60,7 +60,7 @@ impl Editor {
         Some((id, self.document().reference(id)?.clone()))
     }
 
-    /// Take back what a drag shows or what the tool has not finished, otherwise the last step.
+    /// Take back a preview or the last point of an unfinished drawing, otherwise the last step.
     fn undo(&mut self) -> Note {
         let in_field = self.workspace.interruption() == Some(Interruption::Commits);
         let steps = self.workspace.history().undo_steps();
@@ -72,7 +72,7 @@ impl Editor {
         if self.interrupt() {
             return cancelled.map_or_else(Note::silent, Note::told);
         }
-        // What a field shows is taken back, and no step before it.
+        // The preview of a field is taken back, and no step before it.
         if in_field && self.workspace.history().undo_steps() == steps {
             return Note::silent();
         }
@@ -96,7 +96,7 @@ impl Editor {
         label
     }
 
-    /// Do what changes nothing but how things are shown.
+    /// Execute a command that only changes the view.
     fn show(&mut self, command: Command) {
         let viewport = &mut self.view.viewport;
         let middle = 0.5 * viewport.size;

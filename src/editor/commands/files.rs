@@ -36,7 +36,7 @@ impl Editor {
     /// Open a document that was made elsewhere in place of the present one. The message shows a refusal.
     ///
     /// # Errors
-    /// [`Refusal`] if that is what is given; nothing is changed then.
+    /// The given [`Refusal`]; nothing is changed then.
     pub fn open_document(&mut self, document: Result<Document, Refusal>) -> Reply {
         let reply = document.map(|document| {
             self.replace(document, None);

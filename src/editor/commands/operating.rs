@@ -1,4 +1,4 @@
-//! Starting operations: their inputs, and what they interrupt.
+//! Starting operations: their inputs, and the previews that they interrupt.
 
 use crate::document::CurveId;
 use crate::editor::Editor;

@@ -1,4 +1,4 @@
-//! Adding references, and changing what they are and where they lie.
+//! Adding references, and changing their shape and placement.
 
 use std::f64::consts::TAU;
 

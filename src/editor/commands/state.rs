@@ -40,7 +40,7 @@ impl Command {
             }
             Command::GoToFeature => editor.view.chosen_feature().is_some(),
             Command::Compare(other) => active && other.is_none_or(can_compare),
-            // What is dragged is dragged in the plane that is seen.
+            // A drag moves vertices in the plane of this view.
             Command::View(_) => !editor.hand.is_dragging(),
             _ => true,
         }
@@ -82,7 +82,7 @@ impl Command {
         }
     }
 
-    /// What a menu calls the command now: undo and redo name their step.
+    /// The label in menus now: undo and redo name their step.
     pub fn label_now(self, editor: &Editor) -> String {
         let named = |label: &str| {
             let mut letters = label.chars();
@@ -115,7 +115,7 @@ impl Command {
     }
 }
 
-/// What undo would take back: a point of what the tool has not finished comes first.
+/// The label of the step that undo takes back: a point of an unfinished drawing comes first.
 fn undo_label(editor: &Editor) -> Option<&str> {
     let operation = editor.operation();
     if operation.is_some_and(OperationInProgress::has_changed_values) {

@@ -15,10 +15,10 @@ use crate::editor::reply::{Message, Note, Refusal, told};
 use crate::editor::view::Look;
 use crate::editor::workspace::Interruption;
 
-/// What a context menu is requested for.
+/// The subject of a requested context menu.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MenuOf {
-    /// A place on the canvas: what lies there is selected.
+    /// A place on the canvas: the item there is selected.
     Place(DVec2),
     /// A row of the list of curves, which becomes active.
     Item(CurveId),
@@ -34,7 +34,7 @@ enum Step {
 }
 
 impl Editor {
-    /// Take what the hand does on the canvas.
+    /// Take an input from the canvas.
     pub fn input(&mut self, input: Input) {
         if let Input::Modifiers(modifiers) = input {
             self.hand.modifiers = modifiers;
@@ -106,7 +106,7 @@ impl Editor {
         }
     }
 
-    /// Say what the mouse will do now.
+    /// The hint for the status bar: what the mouse does now.
     pub fn hint(&self) -> String {
         if self.hand.gestures.is_panning() {
             return "Drag to pan".into();
@@ -228,7 +228,7 @@ impl Editor {
         self.hand.context(&self.workspace, &self.view, layers)
     }
 
-    /// Do what a tool wants. A key that `repeats` goes on with the step that it began.
+    /// Carry out the effects of a tool. A key that `repeats` goes on with the step that it began.
     pub(in crate::editor) fn take_effects(&mut self, effects: Vec<Effect>, repeats: bool) {
         let mut step = Step::None;
         for effect in effects {

@@ -1,10 +1,10 @@
-//! Choosing among things that lie at one place.
+//! Tab chooses among curves that overlap at one place.
 
 use glam::DVec2;
 
 use crate::editor::hand::gesture::THRESHOLD;
 
-/// Which of several things at one place Tab has chosen, as long as the pointer stays there.
+/// The choice of Tab among the items at one place, as long as the pointer stays there.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Cycle {
     count: usize,
@@ -17,7 +17,7 @@ impl Cycle {
         self.count
     }
 
-    /// Choose the next of what lies here.
+    /// Choose the next item at this place.
     pub fn next(&mut self, at: Option<DVec2>) {
         self.count = self.count.wrapping_add(1);
         self.at = at;

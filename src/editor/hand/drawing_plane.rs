@@ -33,7 +33,7 @@ impl DrawingPlane {
         }
     }
 
-    /// What the plane's axes are called.
+    /// The names of the plane's axes.
     pub fn names(&self) -> [&'static str; 2] {
         self.names
     }
@@ -53,7 +53,7 @@ impl DrawingPlane {
         DVec2::from_array(self.axes.map(|axis| axis.dot(vector)))
     }
 
-    /// What a vector of space has beside the plane's own.
+    /// The component of a vector along the plane's normal.
     pub fn across(&self, vector: DVec3) -> DVec3 {
         vector - self.lift(self.flatten(vector))
     }
@@ -85,7 +85,7 @@ impl Leg {
     }
 }
 
-/// What is locked of the leg that is drawn.
+/// The locked length or direction of the leg that is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LegLocks {
     /// The length; a positive number.

@@ -17,7 +17,7 @@ const TOLERANCE: f64 = 1e-9;
 /// What evaluating an end point costs in accuracy, in units of its coordinates.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// What the seven steps say of one end, in figures.
+/// The figures of the seven steps at one end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EndFitReport {
     /// The end that is being corrected.
@@ -41,7 +41,7 @@ pub struct EndFitReport {
     pub actual: EndTarget,
     /// The target as a whole; `None` until it is set.
     pub target: Option<EndTarget>,
-    /// Step 3: the difference vector; what is mere rounding of it is 0.
+    /// Step 3: the difference vector; 0 where it is only rounding.
     pub difference: DVec3,
     /// Step 3: the difference angle, in radians.
     pub angle: f64,
@@ -59,9 +59,9 @@ pub struct EndFitReport {
     pub targets: usize,
     /// Passes made by "repeat" since the targets last changed.
     pub passes: usize,
-    /// What is missing of the target.
+    /// The difference from the target.
     pub missing: Option<EndDifference>,
-    /// What the end is kept matched to.
+    /// The match of the end.
     pub matched: Option<MatchReport>,
     /// The ends that follow this curve: name of the curve and end.
     pub followers: Vec<(String, End)>,
@@ -79,14 +79,14 @@ pub struct EndFitReport {
     pub largest_move: Option<LargestMove>,
 }
 
-/// What an end is kept matched to.
+/// The match of an end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MatchReport {
     /// The name of the other curve.
     pub source: String,
     /// The match.
     pub matched: EndMatch,
-    /// What is missing of each level, up to G3.
+    /// The difference from the source at each level, up to G3.
     pub missing: EndDifference,
     /// Whether the match is met.
     pub met: bool,
@@ -134,7 +134,7 @@ pub enum EndFitAction {
     SetNormal(Option<DVec3>),
     /// Type the slope of the target's curvature, or free it.
     SetSlope(Option<f64>),
-    /// Forget the target, and what it is matched to.
+    /// Remove the target and the match.
     ClearTarget,
     /// Pick the target from another curve by the next click: from an end, or any point.
     PickFromCurve,
@@ -157,7 +157,7 @@ pub enum EndFitAction {
     SetTolerance(f64),
 }
 
-/// Hold what the end-fit tool works on, and how.
+/// Hold the settings of the end-fit tool.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EndFitSettings {
     /// The end that is being corrected.

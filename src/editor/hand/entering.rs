@@ -1,4 +1,4 @@
-//! What can be typed on the canvas while a tool is in use, and the leg that a tool draws.
+//! Entries typed on the canvas for the tool in use, and the leg that a tool draws.
 
 use glam::DVec2;
 
@@ -14,7 +14,7 @@ use crate::geometry::parameters::Quantity;
 use crate::geometry::{FloatPolygon, MAX_DEGREE};
 
 impl Hand {
-    /// Find what can be typed on the canvas with the tool in use.
+    /// The entry that the tool in use takes on the canvas.
     pub fn entry(&self, viewport: &Viewport) -> Option<Entry> {
         self.tools.used().entry(viewport)
     }

@@ -32,7 +32,7 @@ impl Follow {
         }
     }
 
-    /// What it does, in one sentence.
+    /// The help text.
     pub fn tooltip(self) -> &'static str {
         match self {
             Self::Softly => {

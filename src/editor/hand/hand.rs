@@ -1,4 +1,4 @@
-//! What the hand holds.
+//! The state of the hand.
 
 use std::ops::RangeInclusive;
 
@@ -56,7 +56,7 @@ impl Hand {
     /// The steps that arrow keys can have.
     pub const NUDGE_STEPS: RangeInclusive<f64> = 1e-12..=1e12;
 
-    /// Forget what belongs to a document, with the same tool for the next one.
+    /// Forget the selection and the settings of a document; the tool stays in use.
     pub(in crate::editor) fn begin_document(&mut self) {
         self.selection = Selection::default();
         self.settings = ToolSettings::default();
@@ -124,7 +124,7 @@ impl Hand {
         layers
     }
 
-    /// What the pointer can be over.
+    /// The items that the pointer can hover.
     pub(in crate::editor) fn hovering(&self, shown: Shown<'_>) -> Hovering {
         let tool = self.tool();
         if self.gestures.is_dragging() {
@@ -155,7 +155,7 @@ impl Hand {
         self.typed = None;
     }
 
-    /// What is selected.
+    /// The selection.
     pub fn selection(&self) -> &Selection {
         &self.selection
     }

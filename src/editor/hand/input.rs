@@ -1,4 +1,4 @@
-//! What the hand does, in words that no window system owns.
+//! Input from mouse and keys, independent of the window system.
 
 use glam::DVec2;
 
@@ -115,7 +115,7 @@ pub enum Input {
     Zoomed {
         /// Where.
         at: DVec2,
-        /// By what factor things grow.
+        /// The factor of the scale.
         factor: f64,
     },
     /// The view was pushed without a button (two fingers).

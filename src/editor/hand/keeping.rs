@@ -23,7 +23,7 @@ const ASIDE: [f64; 6] = [20.0, -20.0, 45.0, -45.0, 70.0, -70.0];
 #[derive(Debug, Default)]
 pub struct Keeping {
     curves: KeptCurves,
-    /// The last places of what is dragged that were proved to add nothing.
+    /// The last places of the dragged vertices that were proved to add no feature.
     good: Places,
     /// Why the vertices are not where the pointer has them.
     held_back: Option<String>,
@@ -35,7 +35,7 @@ type Moves = BTreeMap<usize, DVec3>;
 /// Vertices of several curves with their places.
 type Places = BTreeMap<CurveId, Moves>;
 
-/// What a drag works on.
+/// The dragged vertices.
 struct Drag<'a> {
     /// The document as it was when the drag began.
     settled: &'a Document,

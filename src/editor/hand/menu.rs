@@ -14,7 +14,7 @@ use crate::geometry::End;
 /// How near to a leg a click must be to hit it, in screen points.
 const LEG_REACH: f64 = 0.5 * REACH;
 
-/// What a click for a menu hits.
+/// The item that a click for a menu hits.
 #[derive(Clone, Debug)]
 pub(in crate::editor) struct MenuTarget {
     subject: MenuSubject,
@@ -36,7 +36,7 @@ impl MenuSubject {
 }
 
 impl MenuTarget {
-    /// Find what lies at a place on the canvas: a vertex, an end, a leg, a curve or nothing.
+    /// Find the item at a place on the canvas: a vertex, an end, a leg, a curve or nothing.
     pub(in crate::editor) fn at(at: DVec2, context: &Context) -> Self {
         let (hits, document) = (context.hits, context.document);
         let target = |subject, item| Self {
@@ -99,7 +99,7 @@ impl Hand {
         self.menu.take()
     }
 
-    /// Select what a click for a menu hits, unless it is selected, and ask for the menu.
+    /// Select the item that a click for a menu hits, unless it is selected, and ask for the menu.
     pub(in crate::editor) fn ask_for_menu_about(&mut self, target: MenuTarget) {
         let selection = &mut self.selection;
         let mut vertices = target.vertices.iter();

@@ -15,7 +15,7 @@ pub enum MenuSubject {
     Curve,
     /// The active reference.
     Reference,
-    /// What lies at no curve.
+    /// A place away from all curves.
     Canvas,
     /// A feature of the active curve or reference, in the list.
     Feature,

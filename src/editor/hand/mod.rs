@@ -1,4 +1,4 @@
-//! What the hand holds and does: the tool, its gesture, the selection, and the keys that are held.
+//! The hand: the tool, its gesture, the selection, and the keys that are held.
 
 mod clean_step;
 mod cycle;

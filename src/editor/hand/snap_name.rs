@@ -1,10 +1,10 @@
-//! The name of what a click snaps to, beside the pointer.
+//! The name of the snap, beside the pointer.
 
 use super::snapping::{Carried, snap_to_point};
 use super::tools::{Context, ToolKind};
 use crate::editor::view::scene::Mark;
 
-/// Name what a click of a tool that sets points would snap to.
+/// Name the snap of a click with a tool that sets points.
 pub fn snap_name(tool: ToolKind, context: &Context) -> Option<Mark> {
     let sets_points = matches!(
         tool,
@@ -16,7 +16,7 @@ pub fn snap_name(tool: ToolKind, context: &Context) -> Option<Mark> {
     }
     let (at, carried) = (context.pointer?, Carried::default());
     let snap = match tool {
-        // What is measured is attracted without the switch.
+        // The measure tool snaps without the switch.
         ToolKind::Measure if context.modifiers.ctrl => None,
         ToolKind::Measure => snap_to_point(at, context.before, &carried, context.viewport),
         _ => context.snap(at, &carried),

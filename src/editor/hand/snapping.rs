@@ -27,19 +27,19 @@ pub struct Carried {
     pub is_off_ground: bool,
 }
 
-/// What a dragged place snaps to.
+/// A snap of a dragged place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snap {
     /// The point of the model.
     pub point: DVec3,
-    /// What is there, in a word or two.
+    /// Its name, in a word or two.
     pub name: String,
 }
 
 /// Find what a dragged place of the view plane snaps to, or `None` if nothing is near: vertices, end
 /// points, targets, the points of lists, and the origin.
 ///
-/// What is carried along does not attract.
+/// Vertices that are carried along do not attract.
 pub fn snap_to_point(
     place: DVec2,
     document: &Document,
@@ -92,7 +92,7 @@ pub fn snap_to_point(
     })
 }
 
-/// What is at a point that attracts.
+/// The kind of a point that attracts.
 #[derive(Clone, Copy)]
 enum Snapped {
     Vertex(usize),
@@ -115,7 +115,7 @@ impl Snapped {
     }
 }
 
-/// What a snap to a reference is called.
+/// The name of a snap to a reference.
 pub fn reference_name(id: CurveId, document: &Document) -> String {
     format!("Reference {}", document.name(id).unwrap_or_default())
 }

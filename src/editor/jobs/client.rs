@@ -92,7 +92,7 @@ impl<Q, T: Send + 'static> Client<Q, T> {
         self.sort(replies);
     }
 
-    /// Take what the worker has finished. Call this once a frame.
+    /// Take the results of the worker. Call this once a frame.
     pub fn receive(&mut self) {
         self.outdated.clear();
         let replies = self.worker.take();

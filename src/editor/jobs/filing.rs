@@ -27,7 +27,7 @@ pub struct Filing {
 /// A task that is not finished.
 #[derive(Clone, Debug)]
 pub struct FileWork {
-    /// What the window says of it, as "Saving hull.batten…".
+    /// The text in the window, as "Saving hull.batten…".
     pub text: String,
     /// The revision of the document at the request.
     pub(in crate::editor) revision: u64,
@@ -50,7 +50,7 @@ pub(in crate::editor) enum FileTask {
         document: Document,
         known: Option<Fingerprint>,
     },
-    /// Write what is visible of the document.
+    /// Write the visible curves and references.
     Export {
         path: PathBuf,
         exporter: Exporter,
@@ -167,7 +167,7 @@ impl Filing {
         autosaver: Option<Autosaver>,
         patience: &mut Patience,
     ) {
-        // What was seen before the task does not count after it.
+        // A change that was seen before the task does not count after it.
         self.watch.forget();
         let work = FileWork {
             text: task.text(),
@@ -243,7 +243,7 @@ impl FileResult {
 }
 
 impl FileTask {
-    /// What the window says while the task is not finished.
+    /// The text in the window while the task runs.
     fn text(&self) -> String {
         let name = |path: &Path| {
             let name = path.file_name().unwrap_or_default();

@@ -3,7 +3,7 @@
 use super::Recoverable;
 use super::autosaving::{Autosaver, Autosaving};
 
-/// Hold what a crash needs: this session's autosaves, and the documents of earlier sessions.
+/// Hold this session's autosaves and the documents of earlier sessions, for recovery after a crash.
 #[derive(Debug, Default)]
 pub struct Recovery {
     pub(in crate::editor) autosaving: Autosaving,

@@ -1,4 +1,4 @@
-//! What the result of an operation means to the end-fit tool, whose panel started it.
+//! The result of an operation that the end-fit panel started.
 
 use crate::document::{Curve, CurveId};
 use crate::editor::hand::end_fit::{EndFitAction, LastAction};

@@ -518,7 +518,7 @@ impl Operating<'_> {
         }
     }
 
-    /// Only what the document holds can be selected.
+    /// Deselect vertices that the document no longer has.
     fn document_changed(&mut self) {
         self.hand.selection.retain_valid(self.workspace.document());
     }

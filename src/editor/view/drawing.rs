@@ -29,7 +29,7 @@ const BORDER: f64 = 16.0;
 const JOINT_SPACING: f64 = 6.0;
 
 impl View {
-    /// Make the scene of what is analysed.
+    /// Make the scene of the analysed curves.
     pub(in crate::editor) fn draw(&mut self, shown: Shown<'_>, overlay: &mut Overlay) {
         let mut scene = std::mem::take(&mut self.scene);
         let mut view = self.viewport.view_box();
@@ -60,7 +60,7 @@ impl View {
         let mut curves: Vec<_> = document.curves().filter(|(_, it)| it.visible).collect();
         let references = document.references();
         let mut references: Vec<_> = references.filter(|(_, it)| it.visible).collect();
-        // What is active is drawn last, on top.
+        // The active curve is drawn last, on top.
         curves.sort_by_key(|(id, _)| Some(*id) == active);
         references.sort_by_key(|(id, _)| Some(*id) == active);
         scenes.resize_with(references.len() + curves.len(), CurveScene::default);
@@ -103,7 +103,7 @@ impl View {
         }
     }
 
-    /// Append the marks of the features of what is active.
+    /// Append the marks of the active item's features.
     fn append_features(
         &self,
         shown: Shown<'_>,

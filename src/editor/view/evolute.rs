@@ -71,7 +71,7 @@ impl Evolute<'_> {
         }
     }
 
-    /// Append what lies between the ends of a step.
+    /// Append the points between the ends of a step.
     fn follow(&self, step: Step<'_>, out: &mut Vec<DVec2>) {
         let (from, to) = (self.place(step.from.1), self.place(step.to.1));
         let turns = turned(step.from.1, step.to.1);

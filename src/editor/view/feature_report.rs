@@ -58,7 +58,7 @@ impl FeatureKind {
 /// One feature, as the list shows it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FeatureRow {
-    /// What it is.
+    /// Its kind.
     pub kind: FeatureKind,
     /// The interval of u that holds it; of a reference the place of its own parameter t.
     pub u: [f64; 2],
@@ -234,7 +234,7 @@ fn doubtful(quantity: Feature) -> &'static str {
 /// A feature as it is marked on the canvas.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FeatureMark {
-    /// What it is.
+    /// Its kind.
     pub kind: FeatureKind,
     /// Where it is.
     pub at: DVec2,

@@ -19,7 +19,7 @@ const TEETH: usize = 256;
 /// A float polygon that is so many times as large as its curve is left out of a fitted view.
 const FAR_POLYGON: f64 = 8.0;
 
-/// What is smaller than this share of the view's smaller side is a speck.
+/// A curve smaller than this share of the view's smaller side is a speck.
 const SPECK: f64 = 0.15;
 
 /// How far beside curve and polygon a fitted view follows the comb, in units of their extent.

@@ -36,7 +36,7 @@ impl Sight<'_> {
                 Flow::Curvatures => figures.sharpest,
                 Flow::TorsionAngles => figures.torsions,
             };
-            // What is even throughout has no worst vertex.
+            // An even polygon has no worst vertex.
             let is_even = |value: f64| flow != Flow::Curvatures && value <= EVEN;
             let worst = worst.filter(|figure| !is_even(figure.value))?;
             Some((flow, worst.vertex))

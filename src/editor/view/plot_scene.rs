@@ -68,16 +68,16 @@ pub struct PlotScene {
 /// A feature as a plot marks it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlotFeature {
-    /// What it is.
+    /// Its kind.
     pub kind: FeatureKind,
     /// Its arc length, and the curvature or torsion there; not finite at a cusp.
     pub at: DVec2,
 }
 
-/// A part of a curve, by arc length, on which its curvature does one thing.
+/// A part of a curve, by arc length, on which its curvature has one trend.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlotBand {
-    /// What it does.
+    /// The trend of the curvature on it.
     pub trend: PieceTrend,
     /// Where the part begins.
     pub from: f64,

@@ -225,7 +225,7 @@ pub enum Mark {
 /// A figure of a measurement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredFigure {
-    /// What it is.
+    /// Its name.
     pub name: &'static str,
     /// Its value, in units of the model or in degrees; two where a periodic curve may be followed either way.
     pub values: Vec<f64>,

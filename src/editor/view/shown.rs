@@ -24,7 +24,7 @@ pub struct Shown<'a> {
     pub is_dragging: bool,
     /// Whether the primary button is held on the canvas.
     pub is_holding: bool,
-    /// How often Tab was pressed over things that overlap.
+    /// How often Tab was pressed over items that overlap.
     pub cycle: usize,
 }
 

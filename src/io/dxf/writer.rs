@@ -44,7 +44,7 @@ impl Writer {
         self.next_handle - 1
     }
 
-    /// What is written so far.
+    /// The text written so far.
     pub(super) fn into_text(self) -> String {
         self.text
     }

@@ -200,7 +200,7 @@ impl EndFitTool {
         self.wheel_turns(&context.following)
     }
 
-    /// What a target that is dragged snaps to.
+    /// The snap of a dragged target.
     fn snap_marks(&self, context: &Context) -> Vec<Mark> {
         let (State::Target { offset }, false, Some(at)) =
             (&self.state, context.modifiers.shift, context.pointer)
@@ -327,7 +327,7 @@ impl EndFitTool {
     }
 }
 
-/// What a click picks of another curve: an end that is near, or the point that is hit.
+/// The place of another curve that a click picks: an end that is near, or the point that is hit.
 fn picked(place: DVec2, subject: &Subject, context: &Context) -> Option<EndMatch> {
     let own = (subject.id, subject.end);
     let at = context.model(place);

@@ -42,7 +42,7 @@ pub(super) fn drag_direction(at: DVec2, subject: &Subject, context: &Context) ->
     let direction = Some(if subject.is_planar() {
         context.viewport.movement(push, true).normalize_or(DVec3::X)
     } else {
-        // What the direction has along the line of sight is kept.
+        // The component along the line of sight stays.
         let before = target.direction.and_then(DVec3::try_normalize);
         let height = before.map_or(0.0, |d| view.depth(d));
         let flat = push * (1.0 - height * height).max(0.0).sqrt();

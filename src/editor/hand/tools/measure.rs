@@ -78,7 +78,7 @@ impl MeasureTool {
         free(grid.map_or_else(|| view.grounded(at), |snap| snap.point))
     }
 
-    /// What is measured while the second point follows the pointer.
+    /// The measurement while the second point follows the pointer.
     fn figures(&self, context: &Context) -> Option<([DVec3; 2], Vec<MeasuredFigure>)> {
         let from = self.from.as_ref()?;
         let to = self.place(context.pointer?, context);

@@ -74,7 +74,7 @@ impl MoveDrag {
         }
     }
 
-    /// The line that the drag keeps to, what it snaps to, and the readout.
+    /// The line that the drag keeps to, its snap, and the readout.
     pub fn marks(&self, readout: Option<DragReadout>, context: &Context) -> Vec<Mark> {
         let snap = self.snap.as_ref();
         let at = snap.map(|snap| Mark::Snap(context.viewport.flatten(snap.point)));

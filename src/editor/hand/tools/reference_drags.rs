@@ -230,7 +230,7 @@ impl ReferenceDrag {
         }
     }
 
-    /// What is drawn while it is dragged.
+    /// The marks of the drag.
     pub fn marks(&self, context: &Context) -> Vec<Mark> {
         if let Kind::Move { drag, held, .. } = &self.kind {
             return drag.marks(self.readout(drag, *held, context), context);

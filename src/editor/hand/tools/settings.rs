@@ -11,13 +11,13 @@ use crate::editor::hand::end_fit::{EndFitSettings, LastAction};
 pub struct ToolSettings {
     /// How the draw tool makes curves.
     pub draw: DrawSettings,
-    /// What is locked of the leg that is drawn.
+    /// The locked length or direction of the leg that is drawn.
     pub locks: LegLocks,
     /// Where the user has put the pivot of rotations and scalings; `None` while it follows the selection.
     pub pivot: Option<DVec2>,
     /// The finished measurement.
     pub measurement: Option<Measurement>,
-    /// What the end-fit tool works on, and how.
+    /// The settings of the end-fit tool.
     pub end_fit: EndFitSettings,
     /// The result of the last action of the end-fit panel.
     pub last_end_fit: Option<LastAction>,

@@ -23,17 +23,17 @@ use crate::geometry::FloatPolygon;
 /// Distance of a label below the pointer, in screen points: the readout of a drag is above.
 const LABEL_BELOW: f64 = 72.0;
 
-/// What a tool may look at. It changes nothing itself: it returns [`Effect`]s.
+/// The state that a tool reads. A tool changes nothing itself: it returns [`Effect`]s.
 pub struct Context<'a> {
     /// The document, a running gesture's preview included.
     pub document: &'a Document,
     /// The document as it was when the running gesture began.
     pub before: &'a Document,
-    /// What is selected.
+    /// The selection.
     pub selection: &'a Selection,
     /// How the model is mapped to the canvas.
     pub viewport: &'a Viewport,
-    /// What lies where.
+    /// Finds the item at a place.
     pub hits: Sight<'a>,
     /// The modifier keys that are held.
     pub modifiers: Modifiers,
@@ -53,7 +53,7 @@ pub struct Context<'a> {
     pub typed: Option<TypedPoint>,
 }
 
-/// What a tool wants done.
+/// A request of a tool to the editor.
 #[derive(Clone, Debug)]
 pub enum Effect {
     /// Begin a gesture with this label.
@@ -95,10 +95,10 @@ pub trait Tool: std::fmt::Debug + Send {
         false
     }
 
-    /// Say what the mouse will do now, in a sentence.
+    /// The hint for the status bar: what a click or drag does now, in a sentence.
     fn hint(&self, context: &Context) -> String;
 
-    /// Draw what the tool shows besides the document.
+    /// The marks that the tool draws.
     fn marks(&self, _context: &Context) -> Vec<Mark> {
         Vec::new()
     }
@@ -114,7 +114,7 @@ pub trait Tool: std::fmt::Debug + Send {
         None
     }
 
-    /// Take back the last point of what is not finished.
+    /// Take back the last point of an unfinished drawing.
     fn undo(&mut self) {}
 
     /// Whether the wheel sets how neighbours follow, while something is dragged.
@@ -122,7 +122,7 @@ pub trait Tool: std::fmt::Debug + Send {
         false
     }
 
-    /// What can be typed on the canvas.
+    /// The entry that the tool takes on the canvas.
     fn entry(&self, _viewport: &Viewport) -> Option<Entry> {
         None
     }
@@ -154,7 +154,7 @@ pub trait Tool: std::fmt::Debug + Send {
     }
 }
 
-/// What a tool takes from the keyboard.
+/// An entry on the canvas.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Entry {
     /// A point, by the names of the two axes that it is drawn along.
@@ -184,7 +184,7 @@ pub enum Cursor {
     Grabbing,
     /// A cross: a click sets a point.
     Crosshair,
-    /// Four arrows: a drag moves what is here.
+    /// Four arrows: a drag moves the item here.
     Move,
 }
 
@@ -251,7 +251,7 @@ impl Context<'_> {
         self.snap(place, carried).map(|snap| snap.point)
     }
 
-    /// What a place of the view plane snaps to, if snapping is on and something is near.
+    /// The snap of a place of the view plane, if snapping is on and something is near.
     pub fn snap(&self, place: DVec2, carried: &Carried) -> Option<Snap> {
         let snaps = self.snapping != self.modifiers.ctrl;
         let near = || {
@@ -270,7 +270,7 @@ impl Context<'_> {
         (!(carried.is_off_ground && is_turned)).then(grid).flatten()
     }
 
-    /// Mark and name what a place of the view plane snaps to, if anything.
+    /// Mark and name the snap of a place of the view plane, if there is one.
     pub fn snap_marks(&self, place: DVec2, carried: &Carried) -> Vec<Mark> {
         let snap = self.snap(place, carried);
         let marks = snap.map(|snap| named_snap(self.viewport.flatten(snap.point), snap.name));

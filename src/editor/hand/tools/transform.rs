@@ -12,7 +12,7 @@ use crate::editor::view::hit::REACH;
 use crate::editor::view::scene::Mark;
 use crate::editor::view::viewport::Viewport;
 
-/// What is said where there is nothing to rotate or scale.
+/// The message where there is nothing to rotate or scale.
 pub const NOTHING_TO_TRANSFORM: &str =
     "Nothing to transform: select vertices or a curve; what is locked or hidden stays";
 
@@ -22,7 +22,7 @@ const RING: f64 = 88.0;
 /// Half the side of the box that scales, in screen points.
 const HALF_BOX: f64 = 64.0;
 
-/// What a drag does to the vertices.
+/// The transformation of a drag.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Transform {
     /// Turn them about the pivot.
@@ -46,7 +46,7 @@ enum State {
         before: Option<DVec2>,
     },
     Turning(Box<Turning>),
-    /// What is typed is shown.
+    /// The typed figure is previewed.
     Typed(Transformation),
 }
 
@@ -118,7 +118,7 @@ impl TransformTool {
         [0, 1].into_iter().filter_map(side).flatten().collect()
     }
 
-    /// What the drag does, with a label of it.
+    /// The transformation of the drag, with a label.
     fn action(&self, turning: &Turning, context: &Context) -> (Transformation, String) {
         let (from, to) = (turning.origin - turning.pivot, turning.now - turning.pivot);
         match self.transform {
@@ -217,7 +217,7 @@ impl Tool for TransformTool {
                 [Effect::Commit].into_iter().chain(staying).collect()
             }
             (State::Turning(_), Gesture::Cancel) => vec![Effect::Abort],
-            // What was typed and not entered goes.
+            // A typed figure that was not entered is dropped.
             (State::Typed(_), gesture) => {
                 let effects = self.gesture(gesture, context);
                 [Effect::Abort].into_iter().chain(effects).collect()

@@ -1,4 +1,4 @@
-//! What a transformation takes: vertices, or a reference as a whole.
+//! The items of a transformation: vertices, or a reference as a whole.
 
 use glam::{DQuat, DVec2, DVec3};
 
@@ -11,7 +11,7 @@ use crate::editor::view::viewport::Viewport;
 use crate::geometry::counted;
 use crate::geometry::references::{Placement, ReferenceCurve, ReferenceError};
 
-/// Hold what a transformation takes, as it was before.
+/// Hold the items of a transformation, as they were before.
 #[derive(Clone, Debug)]
 pub struct Transformed {
     vertices: Vec<(VertexId, DVec3)>,
@@ -41,7 +41,7 @@ impl Transformed {
         self.reference.is_none()
     }
 
-    /// The middle of what is taken as it is seen, if there is anything.
+    /// The middle of the items as they are seen, if there are any.
     pub fn middle(&self, context: &Context) -> Option<DVec2> {
         let mut bounds = Bounds::EMPTY;
         for (_, vertex) in &self.vertices {

@@ -19,7 +19,7 @@ use crate::geometry::{End, FloatPolygon};
 /// Legs are found from this far, in screen points, when a vertex shall be inserted.
 const LEG_REACH: f64 = 24.0;
 
-/// What is said where there is no leg to insert a vertex into.
+/// The message where there is no leg to insert a vertex into.
 const NO_LEG: &str = "There is no leg here: click on a leg of a float S-polygon";
 
 /// Make new vertices of a polygon.
@@ -53,7 +53,7 @@ struct Adding {
 }
 
 impl Adding {
-    /// What is added to the active curve at the end that is nearer to a place of the view plane.
+    /// The vertex that is added to the active curve at the end nearer to a place of the view plane.
     fn at_end(at: Option<DVec2>, context: &Context) -> Result<Self, String> {
         let active = context.selection.active();
         let found = active.and_then(|id| Some((id, context.document.curve(id)?)));
@@ -81,7 +81,7 @@ impl Adding {
         })
     }
 
-    /// What is inserted into a leg.
+    /// The vertex that is inserted into a leg.
     fn into_leg(hit: LegHit, context: &Context) -> Result<Self, String> {
         let curve = context.document.curve(hit.curve).ok_or_else(String::new)?;
         curve.check_editable().map_err(|error| error.to_string())?;
@@ -129,7 +129,7 @@ impl NewVertexTool {
         Self { place, dragged }
     }
 
-    /// What a click would add at a place, of the canvas and as it is in the view plane.
+    /// The vertex that a click adds at a place, given on the canvas and in the view plane.
     fn plan(&self, [place, at]: [DVec2; 2], context: &Context) -> Result<(Adding, DVec3), String> {
         let (adding, at) = match self.place {
             NewVertex::AtEnd => {
@@ -170,7 +170,7 @@ impl NewVertexTool {
         Ok((adding, vertex))
     }
 
-    /// What would be added now, unless a vertex is dragged.
+    /// The vertex that a click adds now, unless a vertex is dragged.
     fn planned(&self, context: &Context) -> Option<(Adding, DVec3)> {
         if self.dragged.is_some() {
             return None;
