@@ -17,6 +17,15 @@ pub fn small_angle(radians: f64) -> String {
     significant(radians.to_degrees(), 3) + "°"
 }
 
+/// Write an angle given in radians as degrees; a tiny one with its own digits.
+pub fn angle(radians: f64) -> String {
+    let shown = radians.to_degrees();
+    match shown != 0.0 && shown.abs() < 1e-3 {
+        true => small_angle(radians),
+        false => degrees(radians, 4),
+    }
+}
+
 /// Write a number so that reading it gives the very same number.
 pub fn exact(value: f64) -> String {
     let magnitude = value.abs();

@@ -3,12 +3,13 @@
 use std::sync::Arc;
 
 use eframe::egui::{
-    self, Align, Align2, Color32, Galley, InnerResponse, Layout, Rect, RectAlign, Response,
-    RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, Tooltip, Ui, UiBuilder, Vec2,
-    WidgetInfo, text::LayoutJob,
+    self, Align, Align2, Color32, Context, Galley, Id, InnerResponse, Layout, Modal, Rect,
+    RectAlign, Response, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, Tooltip, Ui,
+    UiBuilder, Vec2, WidgetInfo, text::LayoutJob,
 };
 use lucide_icons::Icon;
 
+use super::icons;
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
 
 /// The width of the captions at the left of a form's rows.
@@ -85,6 +86,13 @@ impl<'a> IconButton<'a> {
     }
 }
 
+/// Paint a colour as a small square.
+pub fn swatch(ui: &Ui, rect: Rect, colour: Color32) {
+    let outline = Stroke::new(1.0, Tokens::of(ui).outline);
+    ui.painter()
+        .rect(rect, 2, colour, outline, StrokeKind::Inside);
+}
+
 /// Paint an icon into the middle of a box.
 pub fn icon(ui: &Ui, rect: Rect, icon: Icon, colour: Color32) {
     ui.painter().text(
@@ -101,6 +109,14 @@ pub fn focus_ring(ui: &Ui, rect: Rect) {
     let stroke = Stroke::new(1.0, Tokens::of(ui).accent);
     ui.painter()
         .rect_stroke(rect, RADIUS, stroke, StrokeKind::Inside);
+}
+
+/// Allocate a row of a list across all the width, with its background.
+pub fn row(ui: &mut Ui, sense: Sense, is_selected: bool) -> (Rect, Response) {
+    let size = Vec2::new(ui.available_width(), ROW);
+    let (rect, response) = ui.allocate_exact_size(size, sense);
+    row_background(ui, rect, &response, is_selected);
+    (rect, response)
 }
 
 /// Paint the background of a row that is selected or hovered, and outline it while it has the keyboard.
@@ -218,6 +234,33 @@ pub fn figure_row(ui: &mut Ui, name: &str, figures: &str) -> Response {
     response
 }
 
+/// Rows of two figures each.
+pub fn figure_pairs(ui: &mut Ui, pairs: &[(&str, String)]) {
+    let gap = 4.0 * STEP;
+    let width = 0.5 * (ui.available_width() - gap);
+    for row in pairs.chunks(2) {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = gap;
+            for (name, figures) in row {
+                ui.allocate_ui(Vec2::new(width, 5.0 * STEP), |ui| {
+                    ui.set_width(width);
+                    figure_row(ui, name, figures);
+                });
+            }
+        });
+    }
+}
+
+/// A remark with its icon, wrapped; its text can be selected.
+pub fn remark_with_icon(ui: &mut Ui, icon: Icon, text: &str, colour: Color32) {
+    ui.horizontal_top(|ui| {
+        ui.spacing_mut().item_spacing.x = 1.5 * STEP;
+        ui.label(icons::text(icon).color(colour));
+        let text = egui::Label::new(RichText::new(text).color(colour));
+        ui.add(text.wrap().selectable(true));
+    });
+}
+
 /// One row of facts: a caption at the left, words flush right.
 pub fn fact_row(ui: &mut Ui, name: &str, fact: &str) {
     let tokens = Tokens::of(ui);
@@ -271,6 +314,22 @@ pub fn number_in(ui: &Ui, rect: Rect, text: &str, colour: Color32) {
 /// The frame of a dialog.
 pub fn dialog_frame(style: &egui::Style) -> egui::Frame {
     egui::Frame::window(style).inner_margin(4.0 * STEP)
+}
+
+/// Show a dialog that stops everything else; returns the answer. Esc and a press beside it answer `closed`.
+pub fn modal<R>(
+    context: &Context,
+    name: &str,
+    closed: R,
+    contents: impl FnOnce(&mut Ui) -> Option<R>,
+) -> Option<R> {
+    let modal = Modal::new(Id::unique(name)).frame(dialog_frame(&context.global_style()));
+    let modal = modal.show(context, |ui| {
+        ui.spacing_mut().item_spacing.y = 2.0 * STEP;
+        contents(ui)
+    });
+    let closes = modal.should_close();
+    modal.inner.or(closes.then_some(closed))
 }
 
 /// The button that Enter presses too.
