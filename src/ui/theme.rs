@@ -113,102 +113,76 @@ const fn rgb(hex: u32) -> Color32 {
 }
 
 /// A colour at 35 per cent; egui's colours are premultiplied.
-const fn at_35_percent(hex: u32) -> Color32 {
-    const fn share(channel: u32) -> u8 {
-        ((channel & 0xFF) * 35 / 100) as u8
+const fn at_35_percent(colour: Color32) -> Color32 {
+    const fn share(channel: u8) -> u8 {
+        (channel as u32 * 35 / 100) as u8
     }
-    Color32::from_rgba_premultiplied(share(hex >> 16), share(hex >> 8), share(hex), 89)
+    let [red, green, blue] = [share(colour.r()), share(colour.g()), share(colour.b())];
+    Color32::from_rgba_premultiplied(red, green, blue, 89)
 }
 
-static DARK: Tokens = Tokens {
-    background: rgb(0x14161A),
-    panel: rgb(0x1B1E24),
-    inset: rgb(0x14161A),
-    outline: rgb(0x2E333D),
-    text: rgb(0xD3D8E2),
-    faint_text: rgb(0x98A1B0),
-    strong_text: rgb(0xF4F6FA),
-    button: [rgb(0x282D36), rgb(0x333945), rgb(0x3D4452)],
-    selection: rgb(0x23406A),
-    accent: rgb(0x5B9BF5),
-    grid_minor: rgb(0x1E2127),
-    grid_major: rgb(0x272B33),
-    axes: rgb(0x3A404B),
-    model_axes: [rgb(0xE5716B), rgb(0x6CBF5B), rgb(0x6A9CF0)],
-    curve: rgb(0xF4F6FA),
-    items: [
-        rgb(0xF4F6FA),
-        rgb(0xB3FF98),
-        rgb(0x9C5D93),
-        rgb(0xAFA464),
-        rgb(0xFEB5FF),
-        rgb(0x06825D),
-        rgb(0x99B7A8),
-        rgb(0x647B00),
-    ],
-    rising: rgb(0x34D399),
-    falling: rgb(0x38BDF8),
-    undecided: rgb(0x9CA3AF),
-    float: rgb(0xF5A524),
-    clamped: rgb(0x2DD4BF),
-    joints: rgb(0x94A3B8),
-    reference: rgb(0x94A3B8),
-    evolute: rgb(0xA78BFA),
-    comb: rgb(0x5B9BF5),
-    comb_teeth: at_35_percent(0x5B9BF5),
-    target: rgb(0xF472B6),
-    good: rgb(0x34D399),
-    warning: rgb(0xFB923C),
-    error: rgb(0xF87171),
-    veil: Color32::from_black_alpha(120),
-    shadow: Color32::from_black_alpha(96),
-};
-
-static LIGHT: Tokens = Tokens {
-    background: rgb(0xFBFBFA),
-    panel: rgb(0xF1F1EF),
-    inset: rgb(0xFBFBFA),
-    outline: rgb(0xD3D3CE),
-    text: rgb(0x2A2E35),
-    faint_text: rgb(0x5A616D),
-    strong_text: rgb(0x0C0E11),
-    button: [rgb(0xE3E3DF), rgb(0xD8D8D3), rgb(0xCBCBC5)],
-    selection: rgb(0xCBDDF8),
-    accent: rgb(0x2F6FD0),
-    grid_minor: rgb(0xEFEFEC),
-    grid_major: rgb(0xE2E2DE),
-    axes: rgb(0xC9C9C3),
-    model_axes: [rgb(0xBF3B34), rgb(0x3D8A2B), rgb(0x2F62C4)],
-    curve: rgb(0x14161A),
-    items: [
-        rgb(0x14161A),
-        rgb(0xD95654),
-        rgb(0x713C5B),
-        rgb(0x501500),
-        rgb(0xB271BA),
-        rgb(0x3E005B),
-        rgb(0x838A8E),
-        rgb(0x555A00),
-    ],
-    rising: rgb(0x0E9F6E),
-    falling: rgb(0x0369A1),
-    undecided: rgb(0x6B7280),
-    float: rgb(0xC27803),
-    clamped: rgb(0x0F8F80),
-    joints: rgb(0x64748B),
-    reference: rgb(0x64748B),
-    evolute: rgb(0x6D4AE0),
-    comb: rgb(0x2F6FD0),
-    comb_teeth: at_35_percent(0x2F6FD0),
-    target: rgb(0xC2257A),
-    good: rgb(0x0E7A55),
-    warning: rgb(0xB04E08),
-    error: rgb(0xC81E1E),
-    veil: Color32::from_black_alpha(70),
-    shadow: Color32::from_black_alpha(28),
-};
+static DARK: Tokens = Tokens::new(true);
+static LIGHT: Tokens = Tokens::new(false);
 
 impl Tokens {
+    /// The table of colours: in the dark theme, in the light theme.
+    const fn new(dark: bool) -> Self {
+        const fn pick(dark: bool, [of_dark, of_light]: [u32; 2]) -> Color32 {
+            rgb(if dark { of_dark } else { of_light })
+        }
+        Self {
+            background: pick(dark, [0x14161A, 0xFBFBFA]),
+            panel: pick(dark, [0x1B1E24, 0xF1F1EF]),
+            inset: pick(dark, [0x14161A, 0xFBFBFA]),
+            outline: pick(dark, [0x2E333D, 0xD3D3CE]),
+            text: pick(dark, [0xD3D8E2, 0x2A2E35]),
+            faint_text: pick(dark, [0x98A1B0, 0x5A616D]),
+            strong_text: pick(dark, [0xF4F6FA, 0x0C0E11]),
+            button: [
+                pick(dark, [0x282D36, 0xE3E3DF]),
+                pick(dark, [0x333945, 0xD8D8D3]),
+                pick(dark, [0x3D4452, 0xCBCBC5]),
+            ],
+            selection: pick(dark, [0x23406A, 0xCBDDF8]),
+            accent: pick(dark, [0x5B9BF5, 0x2F6FD0]),
+            grid_minor: pick(dark, [0x1E2127, 0xEFEFEC]),
+            grid_major: pick(dark, [0x272B33, 0xE2E2DE]),
+            axes: pick(dark, [0x3A404B, 0xC9C9C3]),
+            model_axes: [
+                pick(dark, [0xE5716B, 0xBF3B34]),
+                pick(dark, [0x6CBF5B, 0x3D8A2B]),
+                pick(dark, [0x6A9CF0, 0x2F62C4]),
+            ],
+            curve: pick(dark, [0xF4F6FA, 0x14161A]),
+            items: [
+                pick(dark, [0xF4F6FA, 0x14161A]),
+                pick(dark, [0xB3FF98, 0xD95654]),
+                pick(dark, [0x9C5D93, 0x713C5B]),
+                pick(dark, [0xAFA464, 0x501500]),
+                pick(dark, [0xFEB5FF, 0xB271BA]),
+                pick(dark, [0x06825D, 0x3E005B]),
+                pick(dark, [0x99B7A8, 0x838A8E]),
+                pick(dark, [0x647B00, 0x555A00]),
+            ],
+            rising: pick(dark, [0x34D399, 0x0E9F6E]),
+            falling: pick(dark, [0x38BDF8, 0x0369A1]),
+            undecided: pick(dark, [0x9CA3AF, 0x6B7280]),
+            float: pick(dark, [0xF5A524, 0xC27803]),
+            clamped: pick(dark, [0x2DD4BF, 0x0F8F80]),
+            joints: pick(dark, [0x94A3B8, 0x64748B]),
+            reference: pick(dark, [0x94A3B8, 0x64748B]),
+            evolute: pick(dark, [0xA78BFA, 0x6D4AE0]),
+            comb: pick(dark, [0x5B9BF5, 0x2F6FD0]),
+            comb_teeth: at_35_percent(pick(dark, [0x5B9BF5, 0x2F6FD0])),
+            target: pick(dark, [0xF472B6, 0xC2257A]),
+            good: pick(dark, [0x34D399, 0x0E7A55]),
+            warning: pick(dark, [0xFB923C, 0xB04E08]),
+            error: pick(dark, [0xF87171, 0xC81E1E]),
+            veil: Color32::from_black_alpha(if dark { 120 } else { 70 }),
+            shadow: Color32::from_black_alpha(if dark { 96 } else { 28 }),
+        }
+    }
+
     /// The colours of the theme that a panel is painted in.
     pub fn of(ui: &Ui) -> &'static Self {
         Self::of_theme(ui.visuals().dark_mode)
