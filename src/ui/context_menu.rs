@@ -1,11 +1,11 @@
 //! Menus of the item under the pointer, read from the table of commands.
 
 use eframe::egui::{
-    Align, Context, Id, LayerId, Layout, Popup, PopupKind, Pos2, SetOpenCommand, containers,
+    Align, Context, Id, LayerId, Layout, Popup, PopupKind, Pos2, SetOpenCommand, containers, vec2,
 };
 
 use super::action::Action;
-use super::menu::{Entry, command, entries_ui};
+use super::menu::{Entry, command, compare, entries_ui, references};
 use super::menu_item::WIDTH;
 use super::shell::Shell;
 use crate::editor::{Command, Editor, Follow, Layer, MenuSubject, NamedView, ToolKind};
@@ -39,9 +39,7 @@ impl ContextMenu {
         let asked = editor.hand_mut().take_menu();
         if let Some(asked) = asked {
             let pointer = context.input(|input| input.pointer.latest_pos());
-            let by_key = asked
-                .at
-                .map(|at| canvas + eframe::egui::vec2(at.x as f32, at.y as f32));
+            let by_key = asked.at.map(|at| canvas + vec2(at.x as f32, at.y as f32));
             self.open = Some(Shown {
                 subject: asked.subject,
                 at: by_key.or(pointer).unwrap_or(canvas),
@@ -89,33 +87,28 @@ fn operation(operation: &'static Operation) -> Entry {
 /// The entries of a subject.
 fn entries(subject: MenuSubject, editor: &Editor) -> Vec<Entry> {
     use Entry::Divider;
+    let views = NamedView::ALL.map(|view| command(Command::View(view)));
     match subject {
-        MenuSubject::Vertex | MenuSubject::Leg => {
-            let mut entries = vec![
-                command(Command::Delete),
-                Entry::Action(Action::Cut),
-                Entry::Action(Action::Copy),
-                Divider,
-                command(Command::ToggleVerticesLocked),
-                tool(ToolKind::Rotate),
-                tool(ToolKind::Scale),
-                Divider,
-                command(Command::Follow(Follow::InHarmony)),
-                command(Command::Follow(Follow::Softly)),
-                command(Command::ToggleKeeping),
-                Divider,
-                command(Command::SelectAll),
-                command(Command::Fit),
-            ];
-            entries.insert(
-                4,
-                match subject {
-                    MenuSubject::Leg => tool(ToolKind::Insert),
-                    _ => layer(Layer::SafeRegion),
-                },
-            );
-            entries
-        }
+        MenuSubject::Vertex | MenuSubject::Leg => vec![
+            command(Command::Delete),
+            Entry::Action(Action::Cut),
+            Entry::Action(Action::Copy),
+            Divider,
+            match subject {
+                MenuSubject::Leg => tool(ToolKind::Insert),
+                _ => layer(Layer::SafeRegion),
+            },
+            command(Command::ToggleVerticesLocked),
+            tool(ToolKind::Rotate),
+            tool(ToolKind::Scale),
+            Divider,
+            command(Command::Follow(Follow::InHarmony)),
+            command(Command::Follow(Follow::Softly)),
+            command(Command::ToggleKeeping),
+            Divider,
+            command(Command::SelectAll),
+            command(Command::Fit),
+        ],
         MenuSubject::End => vec![
             tool(ToolKind::EndFit),
             operation(&operations::extend::OPERATION),
@@ -129,51 +122,40 @@ fn entries(subject: MenuSubject, editor: &Editor) -> Vec<Entry> {
             operation(&operations::join::OPERATION),
             operation(&operations::close::OPERATION),
         ],
-        MenuSubject::Curve => {
-            let changing = operations::ALL.iter().copied();
-            let changing =
-                changing.filter(|it| it.inputs != Inputs::None && it.inputs != Inputs::Points);
-            vec![
+        MenuSubject::Curve | MenuSubject::Reference => {
+            let mut entries = vec![
                 command(Command::Duplicate),
                 Entry::Action(Action::Rename),
                 command(Command::DeleteCurve),
                 Entry::Action(Action::Copy),
                 Divider,
-                Entry::Submenu("Operations", changing.map(operation).collect()),
-                command(Command::TogglePeriodic),
-                tool(ToolKind::Rotate),
-                tool(ToolKind::Scale),
-                Divider,
-                command(Command::SelectAll),
-                command(Command::Fit),
-                Divider,
-                command(Command::ToggleVisible),
-                command(Command::ToggleLocked),
-            ]
-        }
-        MenuSubject::Reference => {
-            let points = editor
-                .active()
-                .and_then(|id| editor.document().reference(id))
-                .is_some_and(|reference| reference.points().is_some());
-            vec![
-                command(Command::Duplicate),
-                Entry::Action(Action::Rename),
-                command(Command::DeleteCurve),
-                Entry::Action(Action::Copy),
-                Divider,
-                operation(match points {
+            ];
+            let (rotate, scale) = (tool(ToolKind::Rotate), tool(ToolKind::Scale));
+            if subject == MenuSubject::Curve {
+                let mut changing = operations::ALL.to_vec();
+                changing.retain(|it| !matches!(it.inputs, Inputs::None | Inputs::Points));
+                let changing = changing.into_iter().map(operation).collect();
+                let operations = Entry::Submenu("Operations", changing);
+                let periodic = command(Command::TogglePeriodic);
+                let select = command(Command::SelectAll);
+                entries.extend([operations, periodic, rotate, scale, Divider, select]);
+            } else {
+                let document = editor.document();
+                let reference = editor.active().and_then(|id| document.reference(id));
+                let is_list = reference.is_some_and(|it| it.points().is_some());
+                let fit = operation(match is_list {
                     true => &operations::fit::OPERATION,
                     false => &operations::approximate::OPERATION,
-                }),
-                tool(ToolKind::Rotate),
-                tool(ToolKind::Scale),
-                Divider,
+                });
+                entries.extend([fit, rotate, scale, Divider]);
+            }
+            entries.extend([
                 command(Command::Fit),
                 Divider,
                 command(Command::ToggleVisible),
                 command(Command::ToggleLocked),
-            ]
+            ]);
+            entries
         }
         MenuSubject::Canvas => vec![
             command(Command::Undo),
@@ -181,18 +163,13 @@ fn entries(subject: MenuSubject, editor: &Editor) -> Vec<Entry> {
             Divider,
             Entry::Action(Action::Paste),
             tool(ToolKind::Draw),
-            Entry::References,
+            references(),
             Divider,
             command(Command::SelectAll),
             command(Command::SelectNone),
             Divider,
             command(Command::FitAll),
-            Entry::Submenu(
-                "View from",
-                NamedView::ALL
-                    .map(|view| command(Command::View(view)))
-                    .into(),
-            ),
+            Entry::Submenu("View from", views.into()),
             Entry::Submenu("Layers", Layer::ALL.map(layer).into()),
             command(Command::ToggleSnapping),
         ],
@@ -210,7 +187,7 @@ fn entries(subject: MenuSubject, editor: &Editor) -> Vec<Entry> {
         MenuSubject::Plot => vec![
             Entry::Action(Action::FitPlot),
             Entry::Action(Action::NormaliseLength),
-            Entry::Compare,
+            compare(editor),
             Divider,
             layer(Layer::Features),
             layer(Layer::Comb),

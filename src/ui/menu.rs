@@ -8,9 +8,9 @@ use super::help::{self, Topic};
 use super::menu_item::{WIDTH, blank, item_ui};
 use super::plots::others;
 use super::shell::Shell;
-use super::unit_menu::units_ui;
 use super::widgets;
 use crate::editor::{Command, Editor, Follow, Layer, NamedView, ToolKind};
+use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::KINDS;
 use crate::io::examples::EXAMPLES;
 use crate::io::formats;
@@ -20,16 +20,10 @@ use crate::operations;
 pub enum Entry {
     /// An action of the table.
     Action(Action),
+    /// A command under a label and a help of its own.
+    Named(&'static str, String, Command),
     /// A line between groups.
     Divider,
-    /// The built-in examples, in a menu of their own.
-    Examples,
-    /// The kinds of references, in a menu of their own.
-    References,
-    /// The document's unit, in a menu of its own.
-    Units,
-    /// The curves and references to compare the active one with, in a menu of their own.
-    Compare,
     /// Other lines, in a menu of their own with this title.
     Submenu(&'static str, Vec<Entry>),
 }
@@ -44,7 +38,7 @@ pub fn command(command: Command) -> Entry {
 /// Show the menu bar, and the verdict on the active curve at its right end.
 pub fn menu_ui(ui: &mut Ui, editor: &mut Editor, shell: &Shell, commands: &mut Vec<Action>) {
     MenuBar::new().ui(ui, |ui| {
-        for (title, entries) in menus() {
+        for (title, entries) in menus(editor) {
             ui.menu_button(title, |ui| {
                 ui.set_min_width(WIDTH);
                 entries_ui(ui, editor, shell, entries, commands);
@@ -77,43 +71,65 @@ pub fn entries_ui(
                 first = first.or(Some(item).filter(Response::enabled));
             }
             Divider => drop(ui.separator()),
-            Entry::References => references_ui(ui, commands),
-            Entry::Units => document_unit_ui(ui, editor, shell, commands),
-            Entry::Examples => examples_ui(ui, editor, shell, commands),
-            Entry::Compare => {
-                let others = others(editor).into_iter().map(|(id, _)| Some(id));
-                let compare = [None].into_iter().chain(others).map(Command::Compare);
-                let entries = compare.map(command).collect();
-                submenu_ui(ui, editor, shell, ("Compare with", entries), commands);
+            Entry::Named(label, help, command) => {
+                let button = Button::new((blank(), label)).min_size(vec2(WIDTH, 0.0));
+                let response = ui.add(button).accessible_name(label);
+                if response.on_hover_text(help).clicked() {
+                    commands.push(command.into());
+                    ui.close();
+                }
             }
             Entry::Submenu(title, entries) => {
-                submenu_ui(ui, editor, shell, (title, entries), commands);
+                let menu = ui.menu_button((blank(), title), |ui| {
+                    ui.set_min_width(WIDTH);
+                    entries_ui(ui, editor, shell, entries, commands);
+                });
+                menu.response.accessible_name(title);
             }
         }
     }
     first
 }
 
-fn submenu_ui(
-    ui: &mut Ui,
-    editor: &Editor,
-    shell: &Shell,
-    (title, entries): (&str, Vec<Entry>),
-    commands: &mut Vec<Action>,
-) {
-    let response = ui.menu_button((blank(), title), |ui| {
-        ui.set_min_width(WIDTH);
-        entries_ui(ui, editor, shell, entries, commands);
-    });
-    response.response.accessible_name(title);
+/// The built-in examples, in a menu of their own.
+fn examples() -> Entry {
+    let examples = (0..EXAMPLES.len()).map(|example| Item(Action::OpenExample(example)));
+    Entry::Submenu("Examples", examples.collect())
 }
 
-fn menus() -> [(&'static str, Vec<Entry>); 6] {
+/// The kinds of references that can be added, in a menu of their own.
+pub fn references() -> Entry {
+    let named = |label, help: &str, command| Entry::Named(label, help.to_owned(), command);
+    let kinds = KINDS.iter().copied();
+    let kinds = kinds.map(|kind| named(kind.label, kind.help, Command::AddReference(kind)));
+    let formula = named(
+        "Formula",
+        &Command::AddFormula.tooltip(),
+        Command::AddFormula,
+    );
+    Entry::Submenu("Add reference", kinds.chain([formula]).collect())
+}
+
+/// The units that the document can have, and those that it can be converted to.
+pub fn units() -> Vec<Entry> {
+    let conversions = LengthUnit::ALL.map(Command::ConvertUnit);
+    let units = Command::units().map(command).chain([Divider]);
+    units.chain(conversions.map(command)).collect()
+}
+
+/// The curves and references to compare the active one with, in a menu of their own.
+pub fn compare(editor: &Editor) -> Entry {
+    let others = others(editor).into_iter().map(|(id, _)| Some(id));
+    let compare = [None].into_iter().chain(others).map(Command::Compare);
+    Entry::Submenu("Compare with", compare.map(command).collect())
+}
+
+fn menus(editor: &Editor) -> [(&'static str, Vec<Entry>); 6] {
     let mut file = vec![
         Item(Action::New),
         Item(Action::Open),
         Item(Action::Import),
-        Entry::Examples,
+        examples(),
         Divider,
         Item(Action::Save),
         Item(Action::SaveAs),
@@ -144,10 +160,10 @@ fn menus() -> [(&'static str, Vec<Entry>); 6] {
         command(Command::Follow(Follow::Softly)),
         command(Command::ToggleKeeping),
         Divider,
-        Entry::Units,
+        Entry::Submenu("Document unit", units()),
     ];
     let mut curve = vec![
-        Entry::References,
+        references(),
         Divider,
         command(Command::Duplicate),
         Item(Action::Rename),
@@ -181,7 +197,7 @@ fn menus() -> [(&'static str, Vec<Entry>); 6] {
         Item(Action::TogglePlots),
         Item(Action::FitPlot),
         Item(Action::NormaliseLength),
-        Entry::Compare,
+        compare(editor),
         Divider,
         Item(Action::ToggleTheme),
     ]);
@@ -204,45 +220,4 @@ fn menus() -> [(&'static str, Vec<Entry>); 6] {
         ("Tools", tools),
         ("Help", help),
     ]
-}
-
-fn examples_ui(ui: &mut Ui, editor: &Editor, shell: &Shell, commands: &mut Vec<Action>) {
-    let title = (blank(), "Examples");
-    let response = ui.menu_button(title, |ui| {
-        ui.set_min_width(WIDTH);
-        for example in 0..EXAMPLES.len() {
-            item_ui(ui, editor, shell, Action::OpenExample(example), commands);
-        }
-    });
-    response.response.accessible_name("Examples");
-}
-
-/// The units that the document can have.
-fn document_unit_ui(ui: &mut Ui, editor: &Editor, shell: &Shell, commands: &mut Vec<Action>) {
-    let response = ui.menu_button((blank(), "Document unit"), |ui| {
-        ui.set_min_width(WIDTH);
-        units_ui(ui, editor, shell, commands);
-    });
-    response.response.accessible_name("Document unit");
-}
-
-/// The kinds of references that can be added, from their table.
-fn references_ui(ui: &mut Ui, commands: &mut Vec<Action>) {
-    let title = (blank(), "Add reference");
-    let response = ui.menu_button(title, |ui| {
-        ui.set_min_width(WIDTH);
-        let kinds = KINDS.iter().copied();
-        let kinds = kinds.map(|kind| (kind.label, kind.help, Command::AddReference(kind)));
-        let help = Command::AddFormula.tooltip();
-        let formula = ("Formula", help.as_str(), Command::AddFormula);
-        for (label, help, command) in kinds.chain([formula]) {
-            let button = Button::new((blank(), label)).min_size(vec2(WIDTH, 0.0));
-            let response = ui.add(button).accessible_name(label);
-            if response.on_hover_text(help).clicked() {
-                commands.push(command.into());
-                ui.close();
-            }
-        }
-    });
-    response.response.accessible_name("Add reference");
 }

@@ -7,12 +7,12 @@ use eframe::egui::{
 
 use super::action::Action;
 use super::figures;
-use super::menu_item::item_ui;
+use super::menu::{entries_ui, units};
 use super::number_field::NumberField;
 use super::shell::Shell;
 use super::theme::{self, STEP, Tokens};
 use super::widgets;
-use crate::editor::{Command, Editor, Hand};
+use crate::editor::{Editor, Hand};
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::parameters::Quantity;
 
@@ -21,23 +21,6 @@ pub const CELL: Vec2 = Vec2::new(72.0, 5.0 * STEP);
 
 /// The width of the popup.
 const POPUP: f32 = 260.0;
-
-/// Show the units that the document can have, and those that it can be converted to.
-pub fn units_ui(ui: &mut Ui, editor: &Editor, shell: &Shell, actions: &mut Vec<Action>) {
-    for command in Command::units() {
-        item_ui(ui, editor, shell, command.into(), actions);
-    }
-    ui.separator();
-    for unit in LengthUnit::ALL {
-        item_ui(
-            ui,
-            editor,
-            shell,
-            Command::ConvertUnit(unit).into(),
-            actions,
-        );
-    }
-}
 
 /// Open the menu of the status bar, with the nudge step.
 pub fn open(context: &Context) {
@@ -56,7 +39,7 @@ pub fn unit_cell_ui(ui: &mut Ui, editor: &mut Editor, shell: &Shell, actions: &m
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     popup.show(|ui| {
         ui.set_width(POPUP);
-        units_ui(ui, editor, shell, actions);
+        entries_ui(ui, editor, shell, units(), actions);
         ui.separator();
         nudge_ui(ui, editor);
     });
