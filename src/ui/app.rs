@@ -381,10 +381,8 @@ impl App {
             Some(Choice::Later) => self.editor.recovery_mut().leave(),
             None => {}
         }
-        let decided = self
-            .dialog
-            .as_mut()
-            .and_then(|dialog| dialogs::dialog_ui(context, dialog, &self.editor));
+        let dialog = self.dialog.as_ref();
+        let decided = dialog.and_then(|it| dialogs::dialog_ui(context, it, &self.editor));
         if let Some(decision) = decided {
             self.dialog = None;
             self.decide(context, decision);

@@ -1,11 +1,10 @@
 //! The few things that stop everything else: unsaved changes, a file that has changed, the list of
 //! keys, about.
 
-use eframe::egui::{Context, Id, Key, Modal, Ui};
+use eframe::egui::{Context, Key, Ui};
 
 use super::file_dialogs::AfterDiscard;
 use super::key_list::key_list_ui;
-use super::theme::STEP;
 use super::widgets;
 use crate::document::quoted;
 use crate::editor::Editor;
@@ -43,55 +42,62 @@ pub enum Decision {
 }
 
 /// Show a dialog; returns the user's decision.
-pub fn dialog_ui(context: &Context, dialog: &mut Dialog, editor: &Editor) -> Option<Decision> {
-    let frame = widgets::dialog_frame(&context.global_style());
-    let modal = Modal::new(Id::unique("dialog"))
-        .frame(frame)
-        .show(context, |ui| {
-            ui.spacing_mut().item_spacing.y = 2.0 * STEP;
-            match dialog {
-                Dialog::Unsaved(after) => unsaved_ui(ui, after, editor),
-                Dialog::Changed(after) => changed_ui(ui, after, editor),
-                Dialog::Keys => keys_ui(ui),
-                Dialog::About => about_ui(ui),
-            }
-        });
-    let closes = modal.should_close();
-    modal.inner.or(closes.then_some(Decision::Close))
+pub fn dialog_ui(context: &Context, dialog: &Dialog, editor: &Editor) -> Option<Decision> {
+    widgets::modal(context, "dialog", Decision::Close, |ui| match dialog {
+        Dialog::Unsaved(after) => unsaved_ui(ui, after, editor),
+        Dialog::Changed(after) => changed_ui(ui, after, editor),
+        Dialog::Keys => {
+            key_list_ui(ui);
+            buttons_ui(ui, [("Close", Decision::Close)])
+        }
+        Dialog::About => about_ui(ui),
+    })
 }
 
 /// Ask for the unit of a document that receives curves in another unit. Returns the answer once there is one:
 /// `None` adds nothing.
 pub fn unit_ui(context: &Context, incoming: LengthUnit) -> Option<Option<LengthUnit>> {
-    let frame = widgets::dialog_frame(&context.global_style());
-    let modal = Modal::new(Id::unique("unit"))
-        .frame(frame)
-        .show(context, |ui| {
-            ui.spacing_mut().item_spacing.y = 2.0 * STEP;
-            ui.set_width(400.0);
-            ui.strong("Choose the document's unit");
-            let name = incoming.name();
-            widgets::note(
-                ui,
-                &format!("The curves to add are in {name}; the document states no unit."),
-            );
-            let mut answer = None;
-            ui.horizontal(|ui| {
-                for unit in LengthUnit::ALL {
-                    if ui.button(unit.name()).clicked() {
-                        answer = Some(Some(unit));
-                    }
+    widgets::modal(context, "unit", None, |ui| {
+        ui.set_width(400.0);
+        ui.strong("Choose the document's unit");
+        let name = incoming.name();
+        let text = format!("The curves to add are in {name}; the document states no unit.");
+        widgets::note(ui, &text);
+        let mut answer = None;
+        ui.horizontal(|ui| {
+            for unit in LengthUnit::ALL {
+                if ui.button(unit.name()).clicked() {
+                    answer = Some(Some(unit));
                 }
-                widgets::at_right(ui, |ui| {
-                    if ui.button("Cancel").clicked() {
-                        answer = Some(None);
-                    }
-                });
+            }
+            widgets::at_right(ui, |ui| {
+                if ui.button("Cancel").clicked() {
+                    answer = Some(None);
+                }
             });
-            answer
         });
-    let closes = modal.should_close();
-    modal.inner.or(closes.then_some(None))
+        answer
+    })
+}
+
+/// Show a dialog's buttons from the right edge on. Enter presses the first.
+fn buttons_ui<const N: usize>(ui: &mut Ui, all: [(&str, Decision); N]) -> Option<Decision> {
+    let is_entered = ui.input(|input| input.key_pressed(Key::Enter));
+    let mut decision = None;
+    ui.horizontal(|ui| {
+        widgets::at_right(ui, |ui| {
+            for (place, (label, own)) in all.into_iter().enumerate() {
+                let is_pressed = match place {
+                    0 => widgets::primary_button(ui, label).clicked() || is_entered,
+                    _ => ui.button(label).clicked(),
+                };
+                if is_pressed {
+                    decision = Some(own);
+                }
+            }
+        });
+    });
+    decision
 }
 
 fn unsaved_ui(ui: &mut Ui, after: &AfterDiscard, editor: &Editor) -> Option<Decision> {
@@ -99,22 +105,12 @@ fn unsaved_ui(ui: &mut Ui, after: &AfterDiscard, editor: &Editor) -> Option<Deci
     ui.strong("Save changes?");
     let name = name_of(editor);
     widgets::note(ui, &format!("Unsaved changes to {name} will be lost."));
-    let mut decision = None;
-    ui.horizontal(|ui| {
-        widgets::at_right(ui, |ui| {
-            let save = widgets::primary_button(ui, "Save");
-            if save.clicked() || ui.input(|input| input.key_pressed(Key::Enter)) {
-                decision = Some(Decision::Save(after.clone()));
-            }
-            if ui.button("Discard").clicked() {
-                decision = Some(Decision::Discard(after.clone()));
-            }
-            if ui.button("Cancel").clicked() {
-                decision = Some(Decision::Close);
-            }
-        });
-    });
-    decision
+    let buttons = [
+        ("Save", Decision::Save(after.clone())),
+        ("Discard", Decision::Discard(after.clone())),
+        ("Cancel", Decision::Close),
+    ];
+    buttons_ui(ui, buttons)
 }
 
 fn changed_ui(ui: &mut Ui, after: &Option<AfterDiscard>, editor: &Editor) -> Option<Decision> {
@@ -128,25 +124,13 @@ fn changed_ui(ui: &mut Ui, after: &Option<AfterDiscard>, editor: &Editor) -> Opt
         false => "Overwrite loses its changes.",
     };
     widgets::note(ui, &format!("Another program has changed {name}. {what}"));
-    let mut decision = None;
-    ui.horizontal(|ui| {
-        widgets::at_right(ui, |ui| {
-            let save_as = widgets::primary_button(ui, "Save as…");
-            if save_as.clicked() || ui.input(|input| input.key_pressed(Key::Enter)) {
-                decision = Some(Decision::SaveAs(after.clone()));
-            }
-            if ui.button("Overwrite").clicked() {
-                decision = Some(Decision::Overwrite(after.clone()));
-            }
-            if ui.button("Reload").clicked() {
-                decision = Some(Decision::Reload);
-            }
-            if ui.button("Cancel").clicked() {
-                decision = Some(Decision::Close);
-            }
-        });
-    });
-    decision
+    let buttons = [
+        ("Save as…", Decision::SaveAs(after.clone())),
+        ("Overwrite", Decision::Overwrite(after.clone())),
+        ("Reload", Decision::Reload),
+        ("Cancel", Decision::Close),
+    ];
+    buttons_ui(ui, buttons)
 }
 
 /// What dialogs call the document.
@@ -157,33 +141,14 @@ fn name_of(editor: &Editor) -> String {
     })
 }
 
-fn keys_ui(ui: &mut Ui) -> Option<Decision> {
-    key_list_ui(ui);
-    close_ui(ui)
-}
-
 fn about_ui(ui: &mut Ui) -> Option<Decision> {
     ui.set_width(400.0);
     ui.strong(format!("Batten {}", env!("CARGO_PKG_VERSION")));
-    widgets::note(
-        ui,
-        "Batten is an editor for fair curves. Shape a curve by its float S-polygon; curvature and \
-         evolute follow on every frame. A batten is the thin strip that loftsmen bend to draw a fair line.",
-    );
-    widgets::note(
-        ui,
-        "Licensed under MIT or Apache-2.0, at your option. Icons: Lucide (ISC).",
-    );
-    close_ui(ui)
-}
-
-fn close_ui(ui: &mut Ui) -> Option<Decision> {
-    let mut closed = false;
-    ui.horizontal(|ui| {
-        widgets::at_right(ui, |ui| {
-            closed = widgets::primary_button(ui, "Close").clicked()
-        })
-    });
-    let entered = ui.input(|input| input.key_pressed(Key::Enter));
-    (closed || entered).then_some(Decision::Close)
+    let what = "Batten is an editor for fair curves. Shape a curve by its float S-polygon; curvature \
+        and evolute follow on every frame. A batten is the thin strip that loftsmen bend to draw a \
+        fair line.";
+    widgets::note(ui, what);
+    let licence = "Licensed under MIT or Apache-2.0, at your option. Icons: Lucide (ISC).";
+    widgets::note(ui, licence);
+    buttons_ui(ui, [("Close", Decision::Close)])
 }
