@@ -6,7 +6,7 @@ use eframe::egui::text::LayoutJob;
 use eframe::egui::{Response, Role, Sense, TextStyle, Ui, WidgetInfo, pos2, vec2};
 use lucide_icons::Icon;
 
-use super::theme::{RADIUS, ROW, STEP, Tokens};
+use super::theme::{RADIUS, STEP, Tokens};
 use super::{figures, widgets};
 use crate::analysis::CurveAnalysis;
 use crate::editor::{Editor, Look};
@@ -39,19 +39,23 @@ struct Sentence {
     place: Option<Place>,
 }
 
-/// The place under the pointer.
-#[derive(Clone, Copy, Debug)]
-struct Pointed {
-    place: Place,
-    chosen: bool,
+impl Sentence {
+    fn new(text: String, is_good: Option<bool>, place: Option<Place>) -> Self {
+        Self {
+            text,
+            is_good,
+            place,
+        }
+    }
 }
 
-impl Pointed {
-    fn at(place: Option<Place>, response: &Response) -> Option<Self> {
-        let chosen = response.clicked();
-        let place = place.filter(|_| chosen || response.hovered())?;
-        Some(Self { place, chosen })
-    }
+/// The place under the pointer, and whether it was pressed.
+type Pointed = (Place, bool);
+
+fn pointed(place: Option<Place>, response: &Response) -> Option<Pointed> {
+    let is_chosen = response.clicked();
+    let place = place.filter(|_| is_chosen || response.hovered())?;
+    Some((place, is_chosen))
 }
 
 /// Show the harmony of the active curve; hovering a sentence marks its place, choosing one selects
@@ -64,35 +68,34 @@ pub fn harmony_list_ui(ui: &mut Ui, editor: &mut Editor) {
         return;
     };
     ui.spacing_mut().item_spacing.y = 0.0;
-    let mut pointed = None;
+    let mut found = None;
     for sentence in sentences(harmony) {
-        pointed = sentence_ui(ui, &sentence).or(pointed);
+        found = sentence_ui(ui, &sentence).or(found);
     }
     let fairness = harmony.fairness;
-    let energy = |energy: Option<f64>| {
-        energy.map_or("infinite".to_owned(), |energy| {
-            figures::significant(energy, 6)
-        })
+    let energy = |energy: Option<f64>| match energy {
+        Some(energy) => figures::significant(energy, 6),
+        None => "infinite".to_owned(),
     };
     widgets::figure_row(ui, "Bending energy", &energy(fairness.bending_energy))
         .on_hover_text("∫κ² ds times the length: independent of the curve's size");
     widgets::figure_row(ui, "Variation", &energy(fairness.variation))
         .on_hover_text("∫(dκ/ds)² ds times the length cubed: independent of the curve's size");
-    pointed = pieces_ui(ui, &harmony.slopes).or(pointed);
-    if let Some(pointed) = pointed {
-        follow(editor, pointed);
+    found = pieces_ui(ui, &harmony.slopes).or(found);
+    if let Some(found) = found {
+        follow(editor, found);
     }
 }
 
 /// Mark the hovered place, and go to the chosen one.
-fn follow(editor: &mut Editor, Pointed { place, chosen }: Pointed) {
+fn follow(editor: &mut Editor, (place, is_chosen): Pointed) {
     let Some(id) = editor.active() else {
         return;
     };
     match place {
         Place::Vertex(vertex) => {
             editor.view_mut().hover_vertex(vertex);
-            if chosen {
+            if is_chosen {
                 editor.select_vertex(id, vertex, false);
             }
         }
@@ -105,7 +108,7 @@ fn follow(editor: &mut Editor, Pointed { place, chosen }: Pointed) {
             let u = if u > last { u - last } else { u };
             let length = sampled.length_at(u);
             editor.view_mut().hover_length(length);
-            if chosen {
+            if is_chosen {
                 editor.look(Look::Around(u));
             }
         }
@@ -143,46 +146,33 @@ fn isogeometry(name: &str, zeros: Option<[&str; 2]>, isogeometry: &Isogeometry) 
     };
     let curve = isogeometry.curve;
     let zero = zeros.map_or("zero", |zeros| zeros[0]);
-    match isogeometry.verdict {
-        Match::Agrees if curve.extrema + curve.sign_changes == 0 => Sentence {
-            text: format!("{name} follows the curve: {}", counts(curve)),
-            is_good: Some(true),
-            place: None,
-        },
-        Match::Agrees => Sentence {
-            text: format!(
-                "{name} follows the curve: {} in the same order",
-                counts(curve)
-            ),
-            is_good: Some(true),
-            place: None,
-        },
-        Match::Differs(Mismatch::OfPolygon { event, vertex }) => Sentence {
-            text: format!(
-                "{name} differs first at vertex {vertex}: {} that the curve does not have",
-                article(event, zero)
-            ),
-            is_good: Some(false),
-            place: Some(Place::Vertex(vertex)),
-        },
-        Match::Differs(Mismatch::OfCurve { event, u }) => Sentence {
-            text: format!(
-                "{name} differs first at u {}: the curve has {} there",
-                figures::to_resolution(u, 0.01),
-                article(event, zero)
-            ),
-            is_good: Some(false),
-            place: Some(Place::Parameter(u)),
-        },
-        Match::Undecided([low, _]) => Sentence {
-            text: format!(
-                "{name} not compared: the curve's features are undecided at u {}",
-                figures::to_resolution(low, 0.01)
-            ),
-            is_good: Some(false),
-            place: Some(Place::Parameter(low)),
-        },
-    }
+    let place = |u: f64| figures::to_resolution(u, 0.01);
+    let (text, at) = match isogeometry.verdict {
+        Match::Agrees => {
+            let has_events = curve.extrema + curve.sign_changes > 0;
+            let order = if has_events { " in the same order" } else { "" };
+            let text = format!("{name} follows the curve: {}{order}", counts(curve));
+            return Sentence::new(text, Some(true), None);
+        }
+        Match::Differs(Mismatch::OfPolygon { event, vertex }) => {
+            let event = article(event, zero);
+            let at = format!("vertex {vertex}: {event} that the curve does not have");
+            (
+                format!("{name} differs first at {at}"),
+                Place::Vertex(vertex),
+            )
+        }
+        Match::Differs(Mismatch::OfCurve { event, u }) => {
+            let event = article(event, zero);
+            let at = format!("u {}: the curve has {event} there", place(u));
+            (format!("{name} differs first at {at}"), Place::Parameter(u))
+        }
+        Match::Undecided([low, _]) => {
+            let why = format!("the curve's features are undecided at u {}", place(low));
+            (format!("{name} not compared: {why}"), Place::Parameter(low))
+        }
+    };
+    Sentence::new(text, Some(false), Some(at))
 }
 
 fn article(event: Event, zero: &str) -> String {
@@ -197,25 +187,17 @@ fn article(event: Event, zero: &str) -> String {
 fn regularity(regularity: &Regularity) -> Sentence {
     let Regularity { order, highest, .. } = *regularity;
     let Some(found) = regularity.irregularity else {
-        return Sentence {
-            text: format!("Regular to order {order}, the highest of this degree"),
-            is_good: Some(true),
-            place: None,
-        };
+        let text = format!("Regular to order {order}, the highest of this degree");
+        return Sentence::new(text, Some(true), None);
     };
     let happens = match found.kind {
         IrregularityKind::ZeroLeg => "vanish",
         IrregularityKind::TurnsBack => "turn back",
     };
-    Sentence {
-        text: format!(
-            "Regular to order {order} of {highest}; the {} differences {happens} at vertex {}",
-            ordinal(order + 1),
-            found.vertex
-        ),
-        is_good: Some(false),
-        place: Some(Place::Vertex(found.vertex)),
-    }
+    let (next, vertex) = (ordinal(order + 1), found.vertex);
+    let differences = format!("the {next} differences {happens} at vertex {vertex}");
+    let text = format!("Regular to order {order} of {highest}; {differences}");
+    Sentence::new(text, Some(false), Some(Place::Vertex(vertex)))
 }
 
 fn ordinal(number: usize) -> String {
@@ -231,50 +213,31 @@ fn ordinal(number: usize) -> String {
 /// Name the vertices where the flow is least even.
 fn evenness(figures: &HarmonyFigures) -> Vec<Sentence> {
     let even = |name: &str, figure: Option<VertexFigure>, text: &dyn Fn(f64) -> String| {
-        let figure = figure?;
-        let is_even = figure.value <= EVEN;
-        Some(Sentence {
-            text: if is_even {
-                format!("{name} even throughout")
-            } else {
-                let change = text(figure.value);
-                format!("{name} least even at vertex {}: Δ² {change}", figure.vertex)
-            },
-            is_good: None,
-            place: Some(Place::Vertex(figure.vertex)).filter(|_| !is_even),
-        })
-    };
-    let log = |value: f64| {
-        if value.is_finite() {
-            format!("log {}", figures::significant(value, 3))
-        } else {
-            "∞, no length".to_owned()
+        let VertexFigure { value, vertex } = figure?;
+        if value <= EVEN {
+            return Some(Sentence::new(format!("{name} even throughout"), None, None));
         }
+        let text = format!("{name} least even at vertex {vertex}: Δ² {}", text(value));
+        Some(Sentence::new(text, None, Some(Place::Vertex(vertex))))
+    };
+    let log = |value: f64| match value.is_finite() {
+        true => format!("log {}", figures::significant(value, 3)),
+        false => "∞, no length".to_owned(),
     };
     let extrema = counted(figures.curvature_extrema, "extremum", "extrema");
-    let sharpest = figures.sharpest;
-    let sharpest = Sentence {
-        text: sharpest.map_or(
-            "Discrete curvature has no extremum".to_owned(),
-            |sharpest| {
-                format!(
-                    "Discrete κ: {extrema}, sharpest at vertex {}",
-                    sharpest.vertex
-                )
-            },
-        ),
-        is_good: None,
-        place: sharpest.map(|sharpest| Place::Vertex(sharpest.vertex)),
+    let sharpest = figures.sharpest.map(|sharpest| sharpest.vertex);
+    let text = match sharpest {
+        Some(vertex) => format!("Discrete κ: {extrema}, sharpest at vertex {vertex}"),
+        None => "Discrete curvature has no extremum".to_owned(),
     };
-    [
+    let sharpest = Sentence::new(text, None, sharpest.map(Place::Vertex));
+    let sentences = [
         even("Legs", figures.legs, &log),
         even("Turning", figures.turns, &figures::small_angle),
         even("Torsion", figures.torsions, &figures::small_angle),
         Some(sharpest),
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
+    ];
+    sentences.into_iter().flatten().collect()
 }
 
 /// Show a sentence: a judgement on two lines, others on one.
@@ -288,7 +251,7 @@ fn sentence_ui(ui: &mut Ui, sentence: &Sentence) -> Option<Pointed> {
     let height = lines as f32 * ui.text_style_height(&TextStyle::Body) + 1.5 * STEP;
     let size = vec2(ui.available_width(), height);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    let pointed = Pointed::at(sentence.place, &response);
+    let pointed = pointed(sentence.place, &response);
     if pointed.is_some() {
         ui.painter().rect_filled(rect, RADIUS, tokens.button[0]);
     }
@@ -314,43 +277,35 @@ fn sentence_ui(ui: &mut Ui, sentence: &Sentence) -> Option<Pointed> {
 
 /// Show the slope of the logarithmic curvature graph on each monotone piece.
 fn pieces_ui(ui: &mut Ui, pieces: &[LogarithmicPiece]) -> Option<Pointed> {
-    let tooltip = "Slope α of the logarithmic curvature graph, and R²: 1 on a log-aesthetic curve";
     widgets::fact_row(ui, "Logarithmic graph", "slope α and R²");
-    let mut pointed = None;
     if pieces.is_empty() {
         widgets::caption(ui, "The curvature is constant");
     }
+    let mut found = None;
     for piece in pieces {
-        let row = piece_ui(ui, piece).on_hover_text(tooltip);
         let middle = 0.5 * (piece.u[0] + piece.u[1]);
-        pointed = Pointed::at(Some(Place::Parameter(middle)), &row).or(pointed);
+        let row = piece_ui(ui, piece);
+        found = pointed(Some(Place::Parameter(middle)), &row).or(found);
     }
-    pointed
+    found
 }
 
 fn piece_ui(ui: &mut Ui, piece: &LogarithmicPiece) -> Response {
-    let tokens = Tokens::of(ui);
-    let size = vec2(ui.available_width(), ROW);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    if response.hovered() {
-        ui.painter().rect_filled(rect, RADIUS, tokens.button[0]);
-    }
+    let (rect, response) = widgets::row(ui, Sense::click(), false);
     let [from, to] = piece.u.map(|u| figures::to_resolution(u, 0.01));
     let slope = figures::to_resolution(piece.slope, 0.001);
     let straightness = figures::to_resolution(piece.straightness, 0.0001);
     let place = format!("u {from} … {to}");
+    let colour = Tokens::of(ui).text;
     let rect = rect.shrink2(vec2(STEP, 0.0));
-    widgets::label_in(ui, rect, &place, tokens.text);
-    widgets::number_in(
-        ui,
-        rect.with_max_x(rect.right() - 18.0 * STEP),
-        &slope,
-        tokens.text,
-    );
-    widgets::number_in(ui, rect, &straightness, tokens.text);
+    widgets::label_in(ui, rect, &place, colour);
+    let left = rect.with_max_x(rect.right() - 18.0 * STEP);
+    widgets::number_in(ui, left, &slope, colour);
+    widgets::number_in(ui, rect, &straightness, colour);
     let told = format!("{place}: slope α {slope}, R² {straightness}");
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &told));
-    response
+    let tooltip = "Slope α of the logarithmic curvature graph, and R²: 1 on a log-aesthetic curve";
+    response.on_hover_text(tooltip)
 }
 
 #[cfg(test)]
