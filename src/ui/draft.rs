@@ -6,7 +6,8 @@ use std::ops::RangeInclusive;
 use eframe::egui::text::{CCursor, CCursorRange};
 use eframe::egui::text_edit::{TextEditOutput, TextEditState};
 use eframe::egui::{
-    Align2, EventFilter, Id, Rect, Response, Stroke, TextEdit, Tooltip, Ui, UiBuilder, vec2,
+    Align2, Context, EventFilter, Id, Rect, Response, Stroke, TextEdit, Tooltip, Ui, UiBuilder,
+    vec2,
 };
 
 use super::figures;
@@ -169,10 +170,7 @@ impl Draft {
         let (id, rect, name) = field;
         if is_new {
             // Before the field is shown: keys that come in the same frame replace the number.
-            let mut state = TextEditState::default();
-            let all = CCursorRange::select_all_str(&self.text);
-            state.cursor.set_char_range(Some(all));
-            state.store(ui.ctx(), id);
+            select_all(ui.ctx(), id, &self.text);
         }
         let fault = self.fault(accepted);
         let tokens = Tokens::of(ui);
@@ -242,6 +240,15 @@ impl Remark {
         }
         left > 0.0
     }
+}
+
+/// Select all of a text field's text: typing replaces it.
+pub fn select_all(context: &Context, id: Id, text: &str) {
+    let mut state = TextEditState::load(context, id).unwrap_or_default();
+    state
+        .cursor
+        .set_char_range(Some(CCursorRange::select_all_str(text)));
+    state.store(context, id);
 }
 
 /// Mark a place in a text field from below: the left edge of the character in a column, counted from 1.

@@ -1,12 +1,12 @@
 //! The inspector: everything of the active curve, in numbers.
 
 use eframe::egui::{
-    Align2, Button, Color32, Key, Rect, RichText, Sense, Stroke, TextBuffer, TextEdit, Ui, Vec2,
-    vec2,
+    Align2, Button, Color32, Key, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind,
+    TextBuffer, TextEdit, Ui, Vec2, WidgetInfo, vec2,
 };
 use lucide_icons::Icon;
 
-use super::curve_list::swatch_in;
+use super::curve_list::Item;
 use super::distance_panel::distance_ui;
 use super::document_panel::document_ui;
 use super::formula_fields::FormulaFields;
@@ -17,7 +17,7 @@ use super::reference_panel;
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
 use super::{document_unit, figures};
-use crate::document::{Colour, Curve, CurveId, Edit, Reference};
+use crate::document::{Curve, CurveId, Edit, Reference};
 use crate::editor::{Command, CurveReport, Editor, told};
 use crate::geometry::MAX_DEGREE;
 use crate::operations::{Value, reinterpret_degree};
@@ -31,90 +31,62 @@ pub struct Inspector {
 }
 
 impl Inspector {
-    /// Show the inspector of the active curve.
+    /// Show the inspector of the active curve or reference.
     pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor) {
-        let active = editor.active();
-        let reference = active.and_then(|id| Some((id, editor.document().reference(id)?.clone())));
-        if let Some((id, reference)) = reference {
-            return self.reference_sections_ui(ui, editor, id, &reference);
-        }
-        let found = active.and_then(|id| Some((id, editor.document().curve(id)?.clone())));
-        let Some((id, curve)) = found else {
-            widgets::note(
-                ui,
-                "Draw or select a curve to see its degree, properties and features.",
-            );
+        let Some(item) = Item::active(editor) else {
+            let text = "Draw or select a curve to see its degree, properties and features.";
+            widgets::note(ui, text);
             return document_section_ui(ui, editor, true);
         };
+        let (id, document) = (item.id, editor.document());
+        let (curve, reference) = (document.curve(id).cloned(), document.reference(id).cloned());
         // Each curve has fields of its own, so that no text goes to another curve.
-        ui.push_id(id, |ui| self.curve_ui(ui, editor, id, &curve));
+        ui.push_id(id, |ui| {
+            widgets::form_row(ui, "Name", |ui| self.name_ui(ui, editor, id, &item.name));
+            widgets::form_row(ui, "Colour", |ui| colour_ui(ui, editor, &item));
+            if let Some(curve) = &curve {
+                ui.add_enabled_ui(curve.check_editable().is_ok(), |ui| {
+                    widgets::form_row(ui, "Degree", |ui| degree_ui(ui, editor, curve));
+                    widgets::form_row(ui, "Ends", |ui| ends_ui(ui, editor, curve));
+                });
+            }
+            widgets::form_row(ui, "State", |ui| state_ui(ui, editor, &item));
+        });
+        if let Some(reference) = &reference {
+            self.reference_ui(ui, editor, id, reference);
+        }
         widgets::section(ui, "Properties", true, |ui| {
-            if let Some(report) = editor.sight().report() {
-                figures_ui(ui, &curve, &report);
+            if let Some((curve, report)) = curve.as_ref().zip(editor.sight().report()) {
+                figures_ui(ui, curve, &report);
+            }
+            if let Some((curve, report)) = reference.zip(editor.sight().reference_report()) {
+                reference_panel::figures_ui(ui, &curve, &report);
             }
             distance_ui(ui, editor);
         });
         document_section_ui(ui, editor, false);
-        // Its sentences come and go: nothing stands below them.
-        widgets::section(ui, "Harmony", false, |ui| harmony_list_ui(ui, editor));
+        if curve.is_some() {
+            // Its sentences come and go: nothing stands below them.
+            widgets::section(ui, "Harmony", false, |ui| harmony_list_ui(ui, editor));
+        }
     }
 
-    fn reference_sections_ui(
-        &mut self,
-        ui: &mut Ui,
-        editor: &mut Editor,
-        id: CurveId,
-        reference: &Reference,
-    ) {
-        let may_change = reference.check_editable().is_ok();
-        ui.push_id(id, |ui| {
-            widgets::form_row(ui, "Name", |ui| {
-                self.name_ui(ui, editor, id, &reference.name)
-            });
-            let default = Tokens::of(ui).of_reference(id);
-            widgets::form_row(ui, "Colour", |ui| {
-                colour_ui(ui, editor, id, (reference.colour, default));
-            });
-            widgets::form_row(ui, "State", |ui| {
-                state_ui(ui, editor, id, [reference.visible, reference.locked]);
-            });
-        });
-        widgets::section(ui, reference.curve.form().label(), true, |ui| {
+    /// Show the shape and the placement of a reference.
+    fn reference_ui(&mut self, ui: &mut Ui, editor: &mut Editor, id: CurveId, own: &Reference) {
+        let may_change = own.check_editable().is_ok();
+        widgets::section(ui, own.curve.form().label(), true, |ui| {
             ui.push_id(id, |ui| {
                 ui.add_enabled_ui(may_change, |ui| {
-                    let shown = (id, reference);
-                    reference_panel::shape_ui(ui, editor, &mut self.formulas, shown);
+                    reference_panel::shape_ui(ui, editor, &mut self.formulas, (id, own));
                 });
             });
         });
         widgets::section(ui, "Placement", true, |ui| {
             ui.push_id(id, |ui| {
                 ui.add_enabled_ui(may_change, |ui| {
-                    reference_panel::placement_ui(ui, editor, &reference.curve);
+                    reference_panel::placement_ui(ui, editor, &own.curve);
                 });
             });
-        });
-        widgets::section(ui, "Properties", true, |ui| {
-            if let Some(report) = editor.sight().reference_report() {
-                reference_panel::figures_ui(ui, reference, &report);
-            }
-            distance_ui(ui, editor);
-        });
-        document_section_ui(ui, editor, false);
-    }
-
-    fn curve_ui(&mut self, ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
-        widgets::form_row(ui, "Name", |ui| self.name_ui(ui, editor, id, &curve.name));
-        let default = Tokens::of(ui).of_curve(id);
-        widgets::form_row(ui, "Colour", |ui| {
-            colour_ui(ui, editor, id, (curve.colour, default));
-        });
-        ui.add_enabled_ui(curve.check_editable().is_ok(), |ui| {
-            widgets::form_row(ui, "Degree", |ui| degree_ui(ui, editor, curve));
-            widgets::form_row(ui, "Ends", |ui| ends_ui(ui, editor, curve));
-        });
-        widgets::form_row(ui, "State", |ui| {
-            state_ui(ui, editor, id, [curve.visible, curve.locked]);
         });
     }
 
@@ -146,10 +118,8 @@ impl Inspector {
         if response.lost_focus() {
             let called_off = ui.input(|input| input.key_pressed(Key::Escape));
             if !called_off && text.trim() != name {
-                told(editor.change(Edit::Rename {
-                    curve: id,
-                    name: text,
-                }));
+                let (curve, name) = (id, text);
+                told(editor.change(Edit::Rename { curve, name }));
             }
         } else if response.has_focus() {
             self.name = Some((id, text));
@@ -169,25 +139,21 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor, curve: &Curve) {
     let degree = curve.polygon.degree();
     let most = MAX_DEGREE.min(curve.polygon.vertices().len() - 1);
     ui.spacing_mut().item_spacing.x = STEP;
-    let lower = format!("Reinterpret as degree {}", degree.saturating_sub(1));
-    let lower = IconButton::new(Icon::Minus, &lower)
-        .tooltip("Keep the polygon; the curve follows it more closely")
-        .enabled(degree > 1);
-    if lower.show(ui).clicked() {
-        set_degree(editor, degree as f64 - 1.0);
-    }
-    let field = NumberField::new("Degree", degree as f64, degree.to_string())
-        .width(48.0)
-        .range(1.0..=most as f64);
-    if let Some(value) = field.typed(ui) {
-        set_degree(editor, value);
-    }
-    let raise = format!("Reinterpret as degree {}", degree + 1);
-    let raise = IconButton::new(Icon::Plus, &raise)
-        .tooltip("Keep the polygon; the curve becomes smoother (Elevate degree keeps the curve)")
-        .enabled(degree < MAX_DEGREE);
-    if raise.show(ui).clicked() {
-        set_degree(editor, degree as f64 + 1.0);
+    let step = |ui: &mut Ui, icon, to: usize, help: &str, is_possible| {
+        let name = format!("Reinterpret as degree {to}");
+        let button = IconButton::new(icon, &name)
+            .tooltip(help)
+            .enabled(is_possible);
+        button.show(ui).clicked().then_some(to as f64)
+    };
+    let help = "Keep the polygon; the curve follows it more closely";
+    let lower = step(ui, Icon::Minus, degree.saturating_sub(1), help, degree > 1);
+    let field = NumberField::new("Degree", degree as f64, degree.to_string());
+    let typed = field.width(48.0).range(1.0..=most as f64).typed(ui);
+    let help = "Keep the polygon; the curve becomes smoother (Elevate degree keeps the curve)";
+    let raised = step(ui, Icon::Plus, degree + 1, help, degree < MAX_DEGREE);
+    if let Some(degree) = lower.or(typed).or(raised) {
+        set_degree(editor, degree);
     }
 }
 
@@ -214,32 +180,22 @@ fn ends_ui(ui: &mut Ui, editor: &mut Editor, curve: &Curve) {
 }
 
 /// Switches of a curve or a reference: visible, locked.
-fn state_ui(ui: &mut Ui, editor: &mut Editor, id: CurveId, [visible, locked]: [bool; 2]) {
-    let mut shown = visible;
-    if ui.checkbox(&mut shown, "Visible").clicked() {
-        told(editor.change(Edit::SetVisible {
-            curve: id,
-            visible: shown,
-        }));
+fn state_ui(ui: &mut Ui, editor: &mut Editor, item: &Item) {
+    let (curve, mut visible, mut locked) = (item.id, item.visible, item.locked);
+    if ui.checkbox(&mut visible, "Visible").clicked() {
+        told(editor.change(Edit::SetVisible { curve, visible }));
     }
-    let mut protected = locked;
-    if ui.checkbox(&mut protected, "Locked").clicked() {
-        told(editor.change(Edit::SetLocked {
-            curve: id,
-            locked: protected,
-        }));
+    if ui.checkbox(&mut locked, "Locked").clicked() {
+        told(editor.change(Edit::SetLocked { curve, locked }));
     }
 }
 
 /// A swatch that opens a choice of colours; shows the own colour, or the theme's.
-fn colour_ui(
-    ui: &mut Ui,
-    editor: &mut Editor,
-    id: CurveId,
-    (own, default): (Option<Colour>, Color32),
-) {
-    let shown = own.map_or(default, theme::of_document);
-    let name = if own.is_some() { "Custom" } else { "Default" };
+fn colour_ui(ui: &mut Ui, editor: &mut Editor, item: &Item) {
+    let (shown, name) = match item.colour {
+        Some(own) => (theme::of_document(own), "Custom"),
+        None => (item.default_colour(Tokens::of(ui)), "Default"),
+    };
     let swatch = RichText::new("      ").background_color(shown);
     let button = ui.menu_button((swatch, name), |ui| {
         let mut chosen = None;
@@ -255,27 +211,24 @@ fn colour_ui(
             chosen = Some(None);
         }
         if let Some(colour) = chosen {
-            told(editor.change(Edit::Recolour { curve: id, colour }));
+            let curve = item.id;
+            told(editor.change(Edit::Recolour { curve, colour }));
             ui.close();
         }
     });
     button.response.accessible_name("Colour");
 }
 
-fn choice_ui(ui: &mut Ui, name: &str, colour: Color32) -> eframe::egui::Response {
+fn choice_ui(ui: &mut Ui, name: &str, colour: Color32) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(ROW), Sense::click());
     if response.hovered() || response.has_focus() {
         let stroke = Stroke::new(1.5, Tokens::of(ui).accent);
         ui.painter()
-            .rect_stroke(rect, RADIUS, stroke, eframe::egui::StrokeKind::Inside);
+            .rect_stroke(rect, RADIUS, stroke, StrokeKind::Inside);
     }
-    swatch_in(
-        ui,
-        Rect::from_center_size(rect.center(), Vec2::splat(4.0 * STEP)),
-        colour,
-    );
-    response
-        .widget_info(|| eframe::egui::WidgetInfo::labeled(eframe::egui::Role::Button, true, name));
+    let swatch = Rect::from_center_size(rect.center(), Vec2::splat(4.0 * STEP));
+    widgets::swatch(ui, swatch, colour);
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
     response.on_hover_text(name)
 }
 
