@@ -1,20 +1,11 @@
 //! The edit of a number in a table.
 
 use super::draft::{Accepted, Draft, Fault};
-use super::vertex_columns::Column;
+use super::vertex_columns::Cell;
 use crate::document::CurveId;
 use crate::editor::{Editor, told};
 use crate::geometry::FloatPolygon;
 use crate::geometry::expressions::LengthUnit;
-
-/// A place in the table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Cell {
-    /// The row.
-    pub vertex: usize,
-    /// The column.
-    pub column: Column,
-}
 
 /// The edit of a number, with its curve and its cell.
 pub struct Entry {

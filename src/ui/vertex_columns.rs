@@ -19,6 +19,22 @@ pub enum Column {
     Weight,
 }
 
+/// A place in the table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Cell {
+    /// The row.
+    pub vertex: usize,
+    /// The column.
+    pub column: Column,
+}
+
+impl Cell {
+    /// Its name for screen readers.
+    pub fn name(self) -> String {
+        format!("vertex {} {}", self.vertex, self.column.name())
+    }
+}
+
 impl Column {
     /// The name of the column.
     pub fn name(self) -> &'static str {

@@ -3,12 +3,12 @@
 use eframe::egui::{Align2, Id, Rect, Role, Sense, Ui, WidgetInfo, vec2};
 use lucide_icons::Icon;
 
-use super::cell_entry::Cell;
-use super::number_field::{FieldEvent, NumberField};
+use super::number_field::NumberField;
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
-use super::vertex_columns::Column;
+use super::vertex_columns::{Cell, Column};
 use super::widgets;
-use crate::document::Curve;
+use crate::document::{Curve, CurveId, Edit};
+use crate::editor::{Editor, told};
 
 /// The width of the column of vertex numbers.
 const NUMBER: f32 = 44.0;
@@ -31,20 +31,10 @@ pub fn id() -> Id {
     Id::unique("vertex table")
 }
 
-/// An action of the user in a row.
-pub enum RowAction {
-    /// Select a vertex, alone or in addition.
-    Select { vertex: usize, add: bool },
-    /// Lock or unlock a vertex.
-    Lock { vertex: usize, locked: bool },
-    /// Give a cell the keyboard, and edit it.
-    Focus { cell: Cell, edit: bool },
-    /// Drag or set the number of a cell.
-    Field(Cell, FieldEvent),
-}
-
 /// The data that the rows share.
 pub struct Rows<'a> {
+    /// The curve's identity.
+    pub id: CurveId,
     /// The curve.
     pub curve: &'a Curve,
     /// The columns beside the vertices' numbers.
@@ -57,8 +47,6 @@ pub struct Rows<'a> {
     pub hovered: Option<usize>,
     /// How much of the model a point of the canvas spans.
     pub pixel: f64,
-    /// Whether the curve's numbers can be edited.
-    pub can_edit: bool,
 }
 
 impl Rows<'_> {
@@ -77,102 +65,110 @@ impl Rows<'_> {
     }
 
     /// Show a vertex's number: pressing it selects the vertex.
-    pub fn number_ui(&self, ui: &mut Ui, vertex: usize) -> Option<RowAction> {
+    pub fn number_ui(&self, ui: &mut Ui, editor: &mut Editor, vertex: usize) {
         let (_, rect) = ui.allocate_space(vec2(NUMBER, ROW));
         let response = ui.interact(rect, id().with(("number", vertex)), Sense::click());
         let tokens = Tokens::of(ui);
         let selected = self.is_selected(vertex);
-        let colour = if selected {
-            tokens.strong_text
-        } else {
-            tokens.faint_text
+        let colour = match selected {
+            true => tokens.strong_text,
+            false => tokens.faint_text,
         };
         let inner = rect.with_max_x(rect.right() - 1.5 * STEP);
         widgets::number_in(ui, inner, &vertex.to_string(), colour);
         if response.has_focus() {
             widgets::focus_ring(ui, rect);
         }
-        response.widget_info(|| {
-            let name = format!("vertex {vertex}");
-            WidgetInfo::selected(Role::Button, true, selected, name)
-        });
-        let add = ui.input(|input| input.modifiers.shift || input.modifiers.command);
-        response
-            .clicked()
-            .then_some(RowAction::Select { vertex, add })
+        let name = format!("vertex {vertex}");
+        response.widget_info(|| WidgetInfo::selected(Role::Button, true, selected, &name));
+        if response.clicked() {
+            let add = ui.input(|input| input.modifiers.shift || input.modifiers.command);
+            editor.select_vertex(self.id, vertex, add);
+        }
     }
 
     /// Show whether a vertex is locked: pressing the lock changes it. An open lock shows where the
     /// pointer is.
-    pub fn lock_ui(&self, ui: &mut Ui, vertex: usize, row: Rect) -> Option<RowAction> {
+    pub fn lock_ui(&self, ui: &mut Ui, editor: &mut Editor, vertex: usize, row: Rect) {
         let (_, rect) = ui.allocate_space(vec2(LOCK, ROW));
         let response = ui.interact(rect, id().with(("lock", vertex)), Sense::click());
-        let response = response.on_hover_text(if self.is_locked(vertex) {
-            "Unlock the vertex"
-        } else {
-            "Lock the vertex in place"
+        let is_locked = self.is_locked(vertex);
+        let response = response.on_hover_text(match is_locked {
+            true => "Unlock the vertex",
+            false => "Lock the vertex in place",
         });
         let tokens = Tokens::of(ui);
-        let shown = match (self.is_locked(vertex), response.hovered()) {
+        let has_focus = response.has_focus();
+        let is_near = ui.rect_contains_pointer(row) || has_focus;
+        let shown = match (is_locked, response.hovered()) {
             (true, _) => Some((Icon::Lock, tokens.float)),
             (false, true) => Some((Icon::LockOpen, tokens.text)),
-            (false, false) if ui.rect_contains_pointer(row) || response.has_focus() => {
-                Some((Icon::LockOpen, tokens.faint_text))
-            }
-            (false, false) => None,
+            (false, false) => is_near.then_some((Icon::LockOpen, tokens.faint_text)),
         };
         if let Some((icon, colour)) = shown {
             let (text, font) = (char::from(icon), theme::icon_font(SIGN));
+            let centre = rect.center();
             ui.painter()
-                .text(rect.center(), Align2::CENTER_CENTER, text, font, colour);
+                .text(centre, Align2::CENTER_CENTER, text, font, colour);
         }
-        if response.has_focus() {
+        if has_focus {
             widgets::focus_ring(ui, rect);
         }
-        let locked = self.is_locked(vertex);
-        response.widget_info(|| {
-            let name = format!("vertex {vertex} locked");
-            WidgetInfo::selected(Role::CheckBox, true, locked, name)
-        });
-        let locked = !locked;
-        let action = RowAction::Lock { vertex, locked };
-        response.clicked().then_some(action)
+        let name = format!("vertex {vertex} locked");
+        response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, is_locked, &name));
+        if response.clicked() {
+            told(editor.change(Edit::SetVerticesLocked {
+                curve: self.id,
+                vertices: vec![vertex],
+                locked: !is_locked,
+            }));
+        }
+    }
+
+    /// The number of the last vertex.
+    pub fn last(&self) -> usize {
+        self.curve.polygon.vertices().len().saturating_sub(1)
     }
 
     fn is_locked(&self, vertex: usize) -> bool {
         self.curve.locked_vertices.contains(vertex)
     }
 
-    /// Show a cell in which nothing is typed.
-    pub fn cell_ui(&self, ui: &mut Ui, cell: Cell, rect: Rect) -> Option<RowAction> {
-        let value = cell.column.value(&self.curve.polygon, cell.vertex)?;
-        let (shown, speed) = cell.column.shown(value, self.pixel);
-        let name = name(cell);
-        let mut field = NumberField::new(&name, value, shown)
+    /// Show a cell in which nothing is typed. Returns whether to edit it, if it was pressed.
+    pub fn cell_ui(
+        &self,
+        ui: &mut Ui,
+        editor: &mut Editor,
+        cell: Cell,
+        rect: Rect,
+    ) -> Option<bool> {
+        let Cell { vertex, column } = cell;
+        let value = column.value(&self.curve.polygon, vertex)?;
+        let (shown, speed) = column.shown(value, self.pixel);
+        let can_edit = self.curve.check_editable().is_ok() && !self.is_locked(vertex);
+        let name = cell.name();
+        let field = NumberField::new(&name, value, shown)
             .speed(speed)
-            .quantity(cell.column.quantity());
-        if cell.column == Column::Weight {
-            field = field.range(value.min(LEAST_WEIGHT)..=f64::MAX);
+            .quantity(column.quantity());
+        let field = match column {
+            Column::Axis(_) => field,
+            Column::Weight => field.range(value.min(LEAST_WEIGHT)..=f64::MAX),
+        };
+        let field = field.flat().read_only(!can_edit);
+        let (response, event) = field.resting_ui(ui, rect, id().with(cell));
+        if let Some(event) = event {
+            let label = column.label();
+            let polygon = (self.id, &self.curve.polygon);
+            let edits = |value: f64| vec![column.edit(polygon, vertex, value)];
+            event.map(edits).send(
+                editor,
+                |editor, edits| editor.preview(label, edits),
+                |editor, edits| told(editor.apply(label, edits)),
+            );
+            return None;
         }
-        let field = field
-            .flat()
-            .read_only(!self.can_edit || self.is_locked(cell.vertex));
-        let (response, event) = field.resting_ui(ui, rect, id().with(cell_key(cell)));
-        let edit = response.double_clicked();
-        let focus = response
-            .clicked()
-            .then_some(RowAction::Focus { cell, edit });
-        event.map(|event| RowAction::Field(cell, event)).or(focus)
+        response.clicked().then(|| response.double_clicked())
     }
-}
-
-fn cell_key(cell: Cell) -> (usize, Column) {
-    (cell.vertex, cell.column)
-}
-
-/// The name of a cell for screen readers.
-pub fn name(cell: Cell) -> String {
-    format!("vertex {} {}", cell.vertex, cell.column.name())
 }
 
 /// Show the names of the columns.

@@ -3,21 +3,23 @@
 
 use std::ops::Range;
 
+use eframe::egui::style::ScrollAnimation;
 use eframe::egui::{
-    EventFilter, Rect, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, vec2,
+    Event, EventFilter, Rect, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo,
+    vec2,
 };
 
-use super::cell_entry::{Cell, Entry};
+use super::cell_entry::Entry;
 use super::cell_keys::{self, CellKey, Step};
 use super::document_unit;
 use super::draft::Remark;
 use super::figures;
 use super::keyboard::{self, Typing};
 use super::theme::{RADIUS, ROW, STEP, Tokens};
-use super::vertex_columns::{Column, MoreColumns};
-use super::vertex_rows::{HEAD, RowAction, Rows, heading_ui, id, name};
-use crate::document::{Curve, CurveId, Edit};
-use crate::editor::{Editor, told};
+use super::vertex_columns::{Cell, Column, MoreColumns};
+use super::vertex_rows::{HEAD, Rows, heading_ui, id};
+use crate::document::{Curve, CurveId};
+use crate::editor::Editor;
 
 /// The keys that egui leaves to the table.
 const KEYS: EventFilter = EventFilter {
@@ -66,38 +68,29 @@ impl VertexTable {
     pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor, id: CurveId, curve: &Curve) {
         self.more.show(ui, curve);
         let columns = self.more.of(&curve.polygon);
-        let count = curve.polygon.vertices().len();
-        self.keep_cell(&columns, count);
-        let ending = self.take_keys(ui, editor, id, curve, &columns);
-
-        let selected = editor
-            .hand()
-            .selection()
-            .of_curve(id)
-            .collect::<Vec<usize>>();
+        let selected: Vec<usize> = editor.hand().selection().of_curve(id).collect();
         let width = ui.available_width() - 3.0 * STEP;
         let rows = Rows {
+            id,
             curve,
             columns: &columns,
             width: ((width - HEAD) / columns.len() as f32).floor(),
             selected: &selected,
             hovered: editor.sight().hovered_vertex(),
             pixel: editor.view().viewport().pixel(),
-            can_edit: curve.check_editable().is_ok(),
         };
+        self.keep_cell(&rows);
+        let ending = self.take_keys(ui, editor, &rows);
         heading_ui(ui, &columns, rows.width);
         let has_keyboard = has_keyboard(ui);
-        let (hovered, action, place) = self.rows_ui(ui, &rows);
-        self.selected = selected;
+        let (hovered, place) = self.rows_ui(ui, editor, &rows);
         if let Some(hovered) = hovered.or(has_keyboard.then_some(self.cell.vertex)) {
             editor.view_mut().hover_vertex(hovered);
         }
-        if let Some(action) = action {
-            self.execute(ui, editor, id, curve, action);
-        }
         if let Some(key) = ending {
-            self.end_entry(ui, editor, &columns, count, key);
+            self.end_entry(ui, editor, &rows, key);
         }
+        self.selected = selected;
         let typing = match self.entry {
             Some(_) => Typing::Text,
             None => Typing::Cell,
@@ -106,10 +99,10 @@ impl VertexTable {
     }
 
     /// The cell stays within the table, whatever the curve has become.
-    fn keep_cell(&mut self, columns: &[Column], count: usize) {
-        self.cell.vertex = self.cell.vertex.min(count.saturating_sub(1));
-        if !columns.contains(&self.cell.column)
-            && let Some(last) = columns.last()
+    fn keep_cell(&mut self, rows: &Rows<'_>) {
+        self.cell.vertex = self.cell.vertex.min(rows.last());
+        if !rows.columns.contains(&self.cell.column)
+            && let Some(last) = rows.columns.last()
         {
             self.cell.column = *last;
         }
@@ -117,16 +110,9 @@ impl VertexTable {
 
     /// Take the keys that are the table's. Returns the one that ends an edit: it counts after
     /// the text field has taken the text typed before it.
-    fn take_keys(
-        &mut self,
-        ui: &mut Ui,
-        editor: &mut Editor,
-        curve_id: CurveId,
-        curve: &Curve,
-        columns: &[Column],
-    ) -> Option<CellKey> {
+    fn take_keys(&mut self, ui: &mut Ui, editor: &mut Editor, rows: &Rows<'_>) -> Option<CellKey> {
         let has_keyboard = has_keyboard(ui);
-        let is_other = |entry: &mut Entry| entry.curve != curve_id;
+        let is_other = |entry: &mut Entry| entry.curve != rows.id;
         if let Some(entry) = self.entry.take_if(|entry| !has_keyboard || is_other(entry)) {
             self.leave(ui, editor, entry);
         }
@@ -135,42 +121,34 @@ impl VertexTable {
         }
         if self.entry.is_some() {
             let key = cell_keys::for_text(ui);
-            let typed = ui.input(|input| {
-                let mut events = input.events.iter();
-                events.any(|event| matches!(event, eframe::egui::Event::Text(_)))
-            });
+            let is_text = |event: &Event| matches!(event, Event::Text(_));
+            let typed = ui.input(|input| input.events.iter().any(is_text));
             self.follow |= typed || key.is_some();
             return key;
         }
-        self.idle_keys(ui, editor, curve_id, curve, columns);
+        self.idle_keys(ui, editor, rows);
         // The key that ends an edit can come in the frame that begins it.
         self.entry.as_ref().and_then(|_| cell_keys::for_text(ui))
     }
 
     /// Handle keys while no number is edited.
-    fn idle_keys(
-        &mut self,
-        ui: &mut Ui,
-        editor: &mut Editor,
-        curve_id: CurveId,
-        curve: &Curve,
-        columns: &[Column],
-    ) {
+    fn idle_keys(&mut self, ui: &mut Ui, editor: &mut Editor, rows: &Rows<'_>) {
         for key in cell_keys::for_cell(ui) {
             self.follow = true;
             self.remark = None;
             match key {
-                CellKey::Step(step) => self.go(step, columns, curve.polygon.vertices().len()),
-                CellKey::Edit => self.begin(ui, curve_id, curve, None),
-                CellKey::Replace => self.begin(ui, curve_id, curve, Some("")),
+                CellKey::Step(step) => self.go(step, rows),
+                CellKey::Edit => self.begin(ui, rows, None),
+                CellKey::Replace => self.begin(ui, rows, Some("")),
                 CellKey::Copy => {
-                    if let Some(value) = self.cell.column.value(&curve.polygon, self.cell.vertex) {
+                    let polygon = &rows.curve.polygon;
+                    if let Some(value) = self.cell.column.value(polygon, self.cell.vertex) {
                         ui.copy_text(figures::exact(value));
                     }
                 }
                 CellKey::Paste(text) => {
                     let line = text.trim().lines().next().unwrap_or_default();
-                    self.begin(ui, curve_id, curve, Some(line));
+                    self.begin(ui, rows, Some(line));
                     if let Some(entry) = self.entry.take() {
                         self.finish(ui, editor, entry);
                     }
@@ -181,26 +159,19 @@ impl VertexTable {
     }
 
     /// Begin to edit the cell's number: as it stands, or with another text in its place.
-    fn begin(&mut self, ui: &Ui, curve_id: CurveId, curve: &Curve, text: Option<&str>) {
-        let vertex = [self.cell.vertex];
+    fn begin(&mut self, ui: &Ui, rows: &Rows<'_>, text: Option<&str>) {
+        let curve = rows.curve;
         let checked = curve.check_editable();
-        if let Err(reason) = checked.and_then(|()| curve.check_vertices_unlocked(vertex)) {
-            self.remark = Some((self.cell, Remark::new(ui, reason.to_string())));
-            return;
+        let checked = checked.and_then(|()| curve.check_vertices_unlocked([self.cell.vertex]));
+        let reason = checked.err().map(|reason| reason.to_string());
+        if reason.is_none() {
+            self.entry = Entry::new(rows.id, &curve.polygon, self.cell, text);
         }
-        self.remark = None;
-        self.entry = Entry::new(curve_id, &curve.polygon, self.cell, text);
+        self.remark = reason.map(|reason| (self.cell, Remark::new(ui, reason)));
     }
 
     /// End the edit by a key: take the number, or show why not.
-    fn end_entry(
-        &mut self,
-        ui: &mut Ui,
-        editor: &mut Editor,
-        columns: &[Column],
-        count: usize,
-        key: CellKey,
-    ) {
+    fn end_entry(&mut self, ui: &mut Ui, editor: &mut Editor, rows: &Rows<'_>, key: CellKey) {
         let Some(entry) = self.entry.take() else {
             return;
         };
@@ -208,7 +179,7 @@ impl VertexTable {
         if let CellKey::Step(step) = key
             && self.finish(ui, editor, entry)
         {
-            self.go(step, columns, count);
+            self.go(step, rows);
         }
     }
 
@@ -230,10 +201,8 @@ impl VertexTable {
         if let Err(fault) = entry.take_over(editor)
             && is_shown
         {
-            let (shown, _) = entry
-                .cell
-                .column
-                .shown(entry.before, editor.view().viewport().pixel());
+            let pixel = editor.view().viewport().pixel();
+            let (shown, _) = entry.cell.column.shown(entry.before, pixel);
             let remark = entry.draft.left(ui, &fault, &shown);
             self.remark = Some((entry.cell, remark));
         }
@@ -243,13 +212,12 @@ impl VertexTable {
         }
     }
 
-    fn go(&mut self, step: Step, columns: &[Column], count: usize) {
+    fn go(&mut self, step: Step, rows: &Rows<'_>) {
+        let (columns, last) = (rows.columns, rows.last());
         let places = columns.len();
-        let place = columns
-            .iter()
-            .position(|column| *column == self.cell.column);
+        let mut own = columns.iter();
+        let place = own.position(|column| *column == self.cell.column);
         let (place, vertex) = (place.unwrap_or(0), self.cell.vertex);
-        let last = count.saturating_sub(1);
         let page = self.visible.len().max(2) - 1;
         let (vertex, place) = match step {
             Step::Up => (vertex.saturating_sub(1), place),
@@ -275,13 +243,13 @@ impl VertexTable {
         self.follow = true;
     }
 
-    /// Show the visible rows; returns the hovered one, the user's action, and the place of the cell
-    /// that has the keyboard.
+    /// Show the visible rows; returns the hovered one, and the place of the cell that has the keyboard.
     fn rows_ui(
         &mut self,
         ui: &mut Ui,
+        editor: &mut Editor,
         rows: &Rows<'_>,
-    ) -> (Option<usize>, Option<RowAction>, Rect) {
+    ) -> (Option<usize>, Rect) {
         let follow = std::mem::take(&mut self.follow);
         let height = ui.available_height();
         let mut area = ScrollArea::vertical()
@@ -292,11 +260,9 @@ impl VertexTable {
         }
         ui.spacing_mut().item_spacing = Vec2::ZERO;
         let top = ui.cursor().min;
-        let (mut action, mut hovered, mut visible) = (None, None, 0..0);
-        let mut focused = None;
-        let count = rows.curve.polygon.vertices().len();
-        let shown = area.show_rows(ui, ROW, count, |ui, range| {
-            visible = range.clone();
+        let (mut hovered, mut focused, mut pressed) = (None, None, None);
+        let shown = area.show_rows(ui, ROW, rows.last() + 1, |ui, range| {
+            self.visible = range.clone();
             for vertex in range {
                 let at = ui.cursor().min;
                 let width = HEAD + rows.width * rows.columns.len() as f32;
@@ -304,15 +270,13 @@ impl VertexTable {
                 if ui.rect_contains_pointer(rect) {
                     hovered = Some(vertex);
                 }
-                let (more, cell) = self.row_ui(ui, rows, vertex, rect);
-                action = more.or(action.take());
-                focused = focused.or(cell);
+                let (cell, more) = self.row_ui(ui, editor, rows, (vertex, rect));
+                (focused, pressed) = (focused.or(cell), more.or(pressed));
             }
         });
-        self.visible = visible;
         self.offset = shown.state.clamped_offset().y;
         if let Some(cell) = focused.filter(|_| follow) {
-            ui.scroll_to_rect_animation(cell, None, eframe::egui::style::ScrollAnimation::none());
+            ui.scroll_to_rect_animation(cell, None, ScrollAnimation::none());
         }
         let place = focused.unwrap_or_else(|| {
             // Out of sight, but the keyboard stays.
@@ -320,7 +284,15 @@ impl VertexTable {
             focus_ui(ui, nowhere);
             nowhere
         });
-        (hovered, action, place)
+        if let Some((cell, edit)) = pressed {
+            self.cell = cell;
+            self.remark = None;
+            ui.memory_mut(|memory| memory.request_focus(id()));
+            if edit {
+                self.begin(ui, rows, None);
+            }
+        }
+        (hovered, place)
     }
 
     /// How far to scroll, so that a selection made elsewhere or the cell comes into sight.
@@ -336,29 +308,27 @@ impl VertexTable {
         is_news.then_some((first as f32 * ROW - 0.4 * height).max(0.0))
     }
 
-    /// Show a row; returns the user's action and, if it is in this row, the place of the cell that
-    /// has the keyboard.
+    /// Show a row; returns, if it is in this row, the place of the cell that has the keyboard, and the cell
+    /// that was pressed, with whether to edit it.
     fn row_ui(
         &mut self,
         ui: &mut Ui,
+        editor: &mut Editor,
         rows: &Rows<'_>,
-        vertex: usize,
-        rect: Rect,
-    ) -> (Option<RowAction>, Option<Rect>) {
-        rows.paint(ui, vertex, rect);
-        let (mut action, mut focused) = (None, None);
+        (vertex, row): (usize, Rect),
+    ) -> (Option<Rect>, Option<(Cell, bool)>) {
+        rows.paint(ui, vertex, row);
+        let (mut focused, mut pressed) = (None, None);
         ui.horizontal(|ui| {
-            action = rows.number_ui(ui, vertex);
-            action = rows.lock_ui(ui, vertex, rect).or(action.take());
-            for column in rows.columns {
-                let cell = Cell {
-                    vertex,
-                    column: *column,
-                };
+            rows.number_ui(ui, editor, vertex);
+            rows.lock_ui(ui, editor, vertex, row);
+            for column in rows.columns.iter().copied() {
+                let cell = Cell { vertex, column };
                 let (_, rect) = ui.allocate_space(vec2(rows.width, ROW));
                 let is_here = cell == self.cell;
                 if !(is_here && self.entry_ui(ui, rect)) {
-                    action = rows.cell_ui(ui, cell, rect).or(action.take());
+                    let edit = rows.cell_ui(ui, editor, cell, rect);
+                    pressed = edit.map(|edit| (cell, edit)).or(pressed);
                 }
                 if is_here {
                     self.cell_focus_ui(ui, rect);
@@ -367,7 +337,7 @@ impl VertexTable {
                 self.remark_ui(ui, cell, rect);
             }
         });
-        (action, focused)
+        (focused, pressed)
     }
 
     /// Show the number that is being typed, if one is.
@@ -375,7 +345,7 @@ impl VertexTable {
         let Some(entry) = self.entry.as_mut().filter(|_| has_keyboard(ui)) else {
             return false;
         };
-        let name = name(entry.cell);
+        let name = entry.cell.name();
         let accepted = entry.accepted(document_unit::get(ui.ctx()));
         let is_new = std::mem::take(&mut entry.is_new);
         let field = (id(), rect, name.as_str());
@@ -402,46 +372,6 @@ impl VertexTable {
         {
             self.remark = None;
         }
-    }
-
-    fn execute(
-        &mut self,
-        ui: &mut Ui,
-        editor: &mut Editor,
-        curve_id: CurveId,
-        curve: &Curve,
-        action: RowAction,
-    ) {
-        let (cell, event) = match action {
-            RowAction::Select { vertex, add } => {
-                return editor.select_vertex(curve_id, vertex, add);
-            }
-            RowAction::Lock { vertex, locked } => {
-                return told(editor.change(Edit::SetVerticesLocked {
-                    curve: curve_id,
-                    vertices: vec![vertex],
-                    locked,
-                }));
-            }
-            RowAction::Focus { cell, edit } => {
-                self.cell = cell;
-                self.remark = None;
-                ui.memory_mut(|memory| memory.request_focus(id()));
-                if edit {
-                    self.begin(ui, curve_id, curve, None);
-                }
-                return;
-            }
-            RowAction::Field(cell, event) => (cell, event),
-        };
-        let label = cell.column.label();
-        let polygon = (curve_id, &curve.polygon);
-        let edits = |value: f64| vec![cell.column.edit(polygon, cell.vertex, value)];
-        event.map(edits).send(
-            editor,
-            |editor, edits| editor.preview(label, edits),
-            |editor, edits| told(editor.apply(label, edits)),
-        );
     }
 }
 
