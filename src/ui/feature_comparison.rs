@@ -7,7 +7,7 @@ use super::theme::{STEP, Tokens};
 use super::{figures, widgets};
 use crate::editor::OperationInProgress;
 use crate::geometry::features::Verdict;
-use crate::geometry::harmony::{Harmony, Match};
+use crate::geometry::harmony::Match;
 use crate::operations::FeatureCounts;
 
 /// How faint figures are that are of other values.
@@ -15,9 +15,6 @@ pub const OUTDATED: f32 = 0.5;
 
 /// The width of a column of figures.
 const COLUMN: f32 = 96.0;
-
-/// How many features of a kind there are.
-type Count = fn(&FeatureCounts) -> usize;
 
 /// The features before and after an operation: rows keep their places.
 #[derive(Default)]
@@ -47,74 +44,72 @@ impl Comparison {
     }
 }
 
-/// The rows: name, text before and text afterwards.
+/// The rows: name, text before and text afterwards. A row stands where any curve has its figure.
 fn rows(before: &[FeatureCounts], after: &[FeatureCounts]) -> Vec<(&'static str, [String; 2])> {
-    let kinds: [(&str, Count); 6] = [
-        ("Curvature extrema", |counts| counts.curvature_extrema),
-        ("Inflections", |counts| counts.inflections),
-        ("Torsion extrema", |counts| counts.torsion_extrema),
-        ("Torsion zeros", |counts| counts.torsion_zeros),
-        ("Cusps", |counts| counts.cusps),
-        ("Undecided", |counts| counts.undecided),
-    ];
     let mut rows = Vec::new();
-    for (number, (name, count)) in kinds.into_iter().enumerate() {
-        let mut all = before.iter().chain(after);
-        // Curvature extrema are the measure of a curve: their row stays even without any.
-        if number == 0 || all.any(|counts| count(counts) > 0) {
-            let listed = |counts: &[FeatureCounts]| joined(counts, |c| count(c).to_string());
-            rows.push((name, [listed(before), listed(after)]));
-        }
-    }
-    for (name, text) in HARMONY {
-        let has = |counts: &FeatureCounts| text(&counts.harmony).is_some();
-        if before.iter().chain(after).any(has) {
-            let or_none = |text: Option<String>| text.unwrap_or_else(|| "–".to_owned());
-            let told = |counts: &[FeatureCounts]| joined(counts, |c| or_none(text(&c.harmony)));
-            rows.push((name, [told(before), told(after)]));
+    for (table, none) in [(&FEATURES[..], "0"), (&HARMONY[..], "–")] {
+        for (name, text) in table {
+            let of = |c: &FeatureCounts| text(c).unwrap_or_else(|| none.to_owned());
+            if before.iter().chain(after).any(|c| text(c).is_some()) {
+                rows.push((*name, [joined(before, of), joined(after, of)]));
+            }
         }
     }
     rows
 }
 
-/// A figure of the harmony in a few characters; `None` of a curve that has none.
-type HarmonyText = fn(&Harmony) -> Option<String>;
+/// A figure in a few characters; `None` of a curve that has none.
+type Text = fn(&FeatureCounts) -> Option<String>;
 
-/// The harmony, before and afterwards.
-const HARMONY: [(&str, HarmonyText); 10] = [
-    ("Discrete κ follows", |harmony| {
-        Some(follows(harmony.curvature.verdict))
+/// How many features of a kind there are. Curvature extrema are the measure of a curve: their row stays even
+/// without any.
+const FEATURES: [(&str, Text); 6] = [
+    ("Curvature extrema", |c| {
+        Some(c.curvature_extrema.to_string())
     }),
-    ("Discrete τ follows", |harmony| {
-        Some(follows(harmony.torsion?.verdict))
-    }),
-    ("Regular to order", |harmony| {
-        let regularity = harmony.regularity;
-        Some(format!("{} of {}", regularity.order, regularity.highest))
-    }),
-    ("Leg change Δ²", |harmony| {
-        Some(figures::significant(harmony.figures.legs?.value, 3))
-    }),
-    ("Turning change Δ²", |harmony| {
-        Some(figures::small_angle(harmony.figures.turns?.value))
-    }),
-    ("Torsion change Δ²", |harmony| {
-        Some(figures::small_angle(harmony.figures.torsions?.value))
-    }),
-    ("Discrete κ extrema", |harmony| {
-        Some(harmony.figures.curvature_extrema.to_string())
-    }),
-    ("Bending energy", |harmony| {
-        Some(energy(harmony.fairness.bending_energy))
-    }),
-    ("Variation", |harmony| {
-        Some(energy(harmony.fairness.variation))
-    }),
-    ("Slope α (longest)", |harmony| {
-        Some(figures::significant(harmony.longest_slope()?.slope, 3))
-    }),
+    ("Inflections", |c| several(c.inflections)),
+    ("Torsion extrema", |c| several(c.torsion_extrema)),
+    ("Torsion zeros", |c| several(c.torsion_zeros)),
+    ("Cusps", |c| several(c.cusps)),
+    ("Undecided", |c| several(c.undecided)),
 ];
 
+fn several(count: usize) -> Option<String> {
+    (count > 0).then(|| count.to_string())
+}
+
+/// The harmony, before and afterwards.
+const HARMONY: [(&str, Text); 10] = [
+    ("Discrete κ follows", |c| {
+        Some(follows(c.harmony.curvature.verdict))
+    }),
+    ("Discrete τ follows", |c| {
+        Some(follows(c.harmony.torsion?.verdict))
+    }),
+    ("Regular to order", |c| {
+        let regularity = c.harmony.regularity;
+        Some(format!("{} of {}", regularity.order, regularity.highest))
+    }),
+    ("Leg change Δ²", |c| {
+        Some(figures::significant(c.harmony.figures.legs?.value, 3))
+    }),
+    ("Turning change Δ²", |c| {
+        Some(figures::small_angle(c.harmony.figures.turns?.value))
+    }),
+    ("Torsion change Δ²", |c| {
+        Some(figures::small_angle(c.harmony.figures.torsions?.value))
+    }),
+    ("Discrete κ extrema", |c| {
+        Some(c.harmony.figures.curvature_extrema.to_string())
+    }),
+    ("Bending energy", |c| {
+        Some(energy(c.harmony.fairness.bending_energy))
+    }),
+    ("Variation", |c| Some(energy(c.harmony.fairness.variation))),
+    ("Slope α (longest)", |c| {
+        Some(figures::significant(c.harmony.longest_slope()?.slope, 3))
+    }),
+];
 /// The row on whether a polygon's extrema and sign changes are those of its curve.
 fn follows(verdict: Match) -> String {
     match verdict {

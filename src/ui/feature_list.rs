@@ -33,23 +33,18 @@ pub fn feature_list_ui(ui: &mut Ui, editor: &mut Editor) {
     let (_, heading) = ui.allocate_space(vec2(ui.available_width(), ROW));
     ui.scope_builder(UiBuilder::new().max_rect(heading), |ui| match report {
         Some(report) => verdict_ui(ui, report),
-        None => {
-            proving_ui(ui, editor);
-        }
+        None => drop(proving_ui(ui, editor)),
     });
     let chosen = editor.view().chosen_feature();
-    match report.and_then(|report| rows_ui(ui, report, chosen)) {
-        Some((u, PointerButton::Secondary)) => {
-            if chosen != Some(u) {
-                editor.look(Look::Feature(u));
-            }
-            editor.hand_mut().ask_for_menu(MenuSubject::Feature);
-        }
-        Some((u, _)) => {
-            editor.look(Look::Feature(u));
-            editor.look(Look::Around(u));
-        }
-        None => {}
+    let Some((u, button)) = report.and_then(|report| rows_ui(ui, report, chosen)) else {
+        return;
+    };
+    if chosen != Some(u) || button == PointerButton::Primary {
+        editor.look(Look::Feature(u));
+    }
+    match button {
+        PointerButton::Secondary => editor.hand_mut().ask_for_menu(MenuSubject::Feature),
+        _ => editor.look(Look::Around(u)),
     }
 }
 
@@ -65,12 +60,9 @@ fn rows_ui(ui: &mut Ui, report: &FeatureReport, own: Option<f64>) -> Option<(f64
         ui.set_max_width(width);
         for row in report.rows.get(range).unwrap_or_default() {
             let response = row_ui(ui, row, report.sampled, own == Some(row.middle));
-            if response.clicked() {
-                clicked = Some((row.middle, PointerButton::Primary));
-            }
-            if response.secondary_clicked() {
-                clicked = Some((row.middle, PointerButton::Secondary));
-            }
+            let buttons = [PointerButton::Secondary, PointerButton::Primary];
+            let button = buttons.into_iter().find(|it| response.clicked_by(*it));
+            clicked = button.map(|button| (row.middle, button)).or(clicked);
         }
     });
     clicked
@@ -100,52 +92,45 @@ fn verdict(report: &FeatureReport) -> (Icon, String) {
         return (Icon::ChartSpline, format!("{counts}, sampled"));
     }
     let is_doubtful = report.count(&[FeatureKind::Undecided]) > 0 || report.has_doubts;
+    let doubt = |otherwise| match is_doubtful {
+        true => Icon::CircleQuestionMark,
+        false => otherwise,
+    };
     match report.monotone {
-        Verdict::Undecided => (
-            Icon::CircleQuestionMark,
-            "Curvature monotone: undecided".to_owned(),
-        ),
-        Verdict::Disproved if is_doubtful => {
-            (Icon::CircleQuestionMark, format!("At least {counts}"))
+        Verdict::Undecided => {
+            let text = "Curvature monotone: undecided".to_owned();
+            (Icon::CircleQuestionMark, text)
         }
+        Verdict::Disproved if is_doubtful => (doubt(Icon::Spline), format!("At least {counts}")),
         Verdict::Disproved => (Icon::Spline, counts),
         Verdict::Proved => {
             let kind = match report.constant {
                 true => "constant",
                 false => "monotone",
             };
-            let icon = match is_doubtful {
-                true => Icon::CircleQuestionMark,
-                false => Icon::Check,
-            };
             let verdict = format!("Curvature {kind}: proved");
-            let Others { inflections, rest } = others(report);
-            let parts = [verdict].into_iter().chain(inflections).chain(rest);
-            (icon, parts.collect::<Vec<String>>().join(" · "))
+            (doubt(Icon::Check), listed(report, Some(verdict), None))
         }
     }
 }
 
 /// Count all features that the list has: "2 inflections · 4 extrema".
 fn counts(report: &FeatureReport) -> String {
-    let Others { inflections, rest } = others(report);
     let extrema = report.count(&[FeatureKind::CurvatureMaximum, FeatureKind::CurvatureMinimum]);
     // Where curvature is proved not to be monotone there is an extremum, even if none was counted; it may be
     // a cusp.
     let is_disproved = report.monotone == Verdict::Disproved;
     let has_cusps = report.count(&[FeatureKind::Cusp]) > 0;
-    let least = usize::from(is_disproved && !has_cusps);
-    let names = match report.count(&TORSION) {
+    let extrema = extrema.max(usize::from(is_disproved && !has_cusps));
+    let others = listed(report, None, None);
+    if extrema == 0 && !others.is_empty() {
+        return others;
+    }
+    let [one, several] = match report.count(&TORSION) {
         0 => ["extremum", "extrema"],
         _ => ["κ extremum", "κ extrema"],
     };
-    let [one, several] = names;
-    let extrema = match extrema.max(least) {
-        0 if inflections.is_some() || !rest.is_empty() => None,
-        count => Some(counted(count, one, several)),
-    };
-    let parts = inflections.into_iter().chain(extrema).chain(rest);
-    parts.collect::<Vec<String>>().join(" · ")
+    listed(report, None, Some(counted(extrema, one, several)))
 }
 
 /// The features of the torsion.
@@ -155,28 +140,22 @@ const TORSION: [FeatureKind; 3] = [
     FeatureKind::TorsionZero,
 ];
 
-/// Counts of features other than curvature extrema: those named before the extrema, and those after.
-struct Others {
-    inflections: Option<String>,
-    rest: Vec<String>,
-}
-
-/// Count inflections, and the features named after the extrema.
-fn others(report: &FeatureReport) -> Others {
+/// List a verdict, the inflections, the curvature extrema as they are written, and the other features.
+fn listed(report: &FeatureReport, verdict: Option<String>, extrema: Option<String>) -> String {
     let said = |kinds: &[FeatureKind], one: &str, several: &str| {
         let count = report.count(kinds);
         (count > 0).then(|| counted(count, one, several))
     };
-    let [maximum, minimum, zero] = TORSION;
-    let rest = [
-        said(&[maximum, minimum], "τ extremum", "τ extrema"),
-        said(&[zero], "τ zero", "τ zeros"),
+    let parts = [
+        verdict,
+        said(&[FeatureKind::Inflection], "inflection", "inflections"),
+        extrema,
+        said(&TORSION[..2], "τ extremum", "τ extrema"),
+        said(&TORSION[2..], "τ zero", "τ zeros"),
         said(&[FeatureKind::Cusp], "cusp", "cusps"),
     ];
-    Others {
-        inflections: said(&[FeatureKind::Inflection], "inflection", "inflections"),
-        rest: rest.into_iter().flatten().collect(),
-    }
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    parts.join(" · ")
 }
 
 fn colour_of(icon: Icon, tokens: &Tokens) -> Color32 {
@@ -189,16 +168,15 @@ fn colour_of(icon: Icon, tokens: &Tokens) -> Color32 {
 
 /// Show the progress of the proofs of a long curve.
 fn proving_ui(ui: &mut Ui, editor: &Editor) -> Option<Response> {
-    if let Some(progress) = editor.sight().proof_progress() {
-        ui.ctx().request_repaint_after(PROGRESS);
-        let text = format!("Proving features: {:.0} %", 100.0 * progress);
-        Some(widgets::caption(ui, &text))
-    } else if editor.active().is_some() {
-        let text = "Features could not be proved: please report this curve";
-        Some(widgets::caption(ui, text))
-    } else {
-        None
-    }
+    editor.active()?;
+    let text = match editor.sight().proof_progress() {
+        Some(progress) => {
+            ui.ctx().request_repaint_after(PROGRESS);
+            format!("Proving features: {:.0} %", 100.0 * progress)
+        }
+        None => "Features could not be proved: please report this curve".to_owned(),
+    };
+    Some(widgets::caption(ui, &text))
 }
 
 /// Show the verdict as a chip; pressing it shows the features.
@@ -243,9 +221,8 @@ fn short_name(kind: FeatureKind) -> &'static str {
 }
 
 fn row_ui(ui: &mut Ui, row: &FeatureRow, sampled: bool, is_chosen: bool) -> Response {
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
+    let (rect, response) = widgets::row(ui, Sense::click(), is_chosen);
     let tokens = Tokens::of(ui);
-    widgets::row_background(ui, rect, &response, is_chosen);
     let at = pos2(rect.left() + 3.0 * STEP, rect.center().y);
     glyph(ui.painter(), at, row.kind, tokens);
     let bend = row.bend().map_or(String::new(), |bend| format!(", {bend}"));
@@ -255,44 +232,35 @@ fn row_ui(ui: &mut Ui, row: &FeatureRow, sampled: bool, is_chosen: bool) -> Resp
         (remark, _) => remark.to_owned(),
     };
     let [low, high] = row.u;
+    let is_wide = high - low > WIDE;
     let figure = |u: f64| figures::to_resolution(u, 1e-4);
-    let u = if high - low > WIDE {
-        format!("u {} … {}", figure(low), figure(high))
-    } else {
-        let name = if sampled { "t" } else { "u" };
-        let at = if sampled { low } else { row.middle };
-        format!("{name} {}", figure(at))
+    let u = match (is_wide, sampled) {
+        (true, _) => format!("u {} … {}", figure(low), figure(high)),
+        (false, true) => format!("t {}", figure(low)),
+        (false, false) => format!("u {}", figure(row.middle)),
     };
     let mut left = rect.with_min_x(rect.left() + 6.0 * STEP);
-    left.max.x -= if high - low > WIDE { 24.0 } else { 38.0 } * STEP;
+    left.max.x -= if is_wide { 24.0 } else { 38.0 } * STEP;
     let short = name.replace("maximum", "max").replace("minimum", "min");
     widgets::label_in(ui, left, &short, tokens.text);
     let inner = rect.with_max_x(rect.right() - STEP);
-    let is_wide = row.value.is_none() && high - low > WIDE;
-    let place = if is_wide {
-        inner
-    } else {
-        inner.with_max_x(inner.right() - 20.0 * STEP)
+    let place = match row.value.is_none() && is_wide {
+        true => inner,
+        false => inner.with_max_x(inner.right() - 20.0 * STEP),
     };
     widgets::number_in(ui, place, &u, tokens.text);
-    let value = row.value.map_or(String::new(), |bounds| {
-        if sampled {
-            return figures::significant(bounds[0], DIGITS);
-        }
-        certain_text(bounds, DIGITS).unwrap_or_else(|| "?".to_owned())
+    let value = row.value.map_or(String::new(), |bounds| match sampled {
+        true => figures::significant(bounds[0], DIGITS),
+        false => certain_text(bounds, DIGITS).unwrap_or_else(|| "?".to_owned()),
     });
     widgets::number_in(ui, inner, &value, tokens.text);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{name} at {u}")));
-    if sampled {
-        let tooltip = format!(
-            "{}{bend}, sampled\nt {low}. Click to go there.",
-            row.kind.label()
-        );
-        return response.on_hover_text(tooltip);
-    }
+    let kind = row.kind.label();
     let width = figures::significant(high - low, 2);
-    response.on_hover_text(format!(
-        "{}{bend}\nu from {low}\nto {high}\n{width} wide. Click to go there and see the shortest moves that remove it.",
-        row.kind.label()
-    ))
+    response.on_hover_text(match sampled {
+        true => format!("{kind}{bend}, sampled\nt {low}. Click to go there."),
+        false => format!(
+            "{kind}{bend}\nu from {low}\nto {high}\n{width} wide. Click to go there and see the shortest moves that remove it."
+        ),
+    })
 }
