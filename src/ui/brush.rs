@@ -51,22 +51,21 @@ impl Brush<'_> {
     }
 
     /// Paint the legs of a polygon, fainter where they crowd.
-    pub fn legs(&self, legs: &Legs, stroke: Stroke) {
+    pub fn legs(&self, legs: &Legs, is_dashed: bool, stroke: Stroke) {
         for (chain, strength) in legs.chains() {
-            self.chain(chain, faded(stroke, strength));
+            let stroke = Stroke::new(stroke.width, stroke.color.gamma_multiply(strength));
+            match is_dashed {
+                true => self.dashed_chain(chain, stroke),
+                false => self.chain(chain, stroke),
+            }
         }
     }
 
-    /// Paint the legs of a polygon as dashed lines, fainter where they crowd.
-    pub fn dashed_legs(&self, legs: &Legs, stroke: Stroke) {
-        for (chain, strength) in legs.chains() {
-            self.dashed_chain(chain, faded(stroke, strength));
+    /// Paint a line between two model points.
+    pub fn segment(&self, ends: [DVec2; 2], stroke: Stroke) {
+        if let Some(ends) = self.screen.segment(ends) {
+            self.painter.line_segment(ends, stroke);
         }
-    }
-
-    /// Paint a dashed line between two model points.
-    pub fn dashed(&self, segment: [DVec2; 2], stroke: Stroke) {
-        self.dashed_chain(&segment, stroke);
     }
 
     /// Paint a disc at a model point, with its radius in points.
@@ -81,8 +80,8 @@ impl Brush<'_> {
         if let Some(at) = self.screen.point(at) {
             let rect = Rect::from_center_size(at, Vec2::splat(side));
             let rounding = u8::from(fill != Color32::TRANSPARENT);
-            self.painter
-                .rect(rect, rounding, fill, outline, StrokeKind::Middle);
+            let kind = StrokeKind::Middle;
+            self.painter.rect(rect, rounding, fill, outline, kind);
         }
     }
 
@@ -101,8 +100,4 @@ impl Brush<'_> {
                 .add(Shape::convex_polygon(points, stroke.color, Stroke::NONE));
         }
     }
-}
-
-fn faded(stroke: Stroke, strength: f32) -> Stroke {
-    Stroke::new(stroke.width, stroke.color.gamma_multiply(strength))
 }

@@ -350,9 +350,6 @@ impl Canvas {
         painter.rect_filled(rect, 0, tokens.background);
         let has_grid = editor.sight().layers().shows(Layer::Grid);
         let viewport = *editor.view().viewport();
-        if has_grid {
-            grid::paint(&painter, rect, &viewport, tokens);
-        }
         let brush = Brush {
             painter: &painter,
             screen: Screen::new(&viewport, rect),
@@ -360,12 +357,15 @@ impl Canvas {
             tokens,
             texts: RefCell::default(),
         };
+        if has_grid {
+            grid::paint(&brush);
+        }
         // Panels may have changed the scene.
         editor.refresh();
         let scene = editor.view().scene();
         painting::paint(&brush, scene);
         if has_grid {
-            grid::paint_numbers(&painter, rect, &viewport, tokens);
+            grid::paint_numbers(&brush);
         }
         painting::paint_hand(&brush, scene);
     }

@@ -12,7 +12,8 @@ const MARGIN: f64 = 64.0;
 /// Map model points to the screen.
 #[derive(Clone, Copy, Debug)]
 pub struct Screen<'a> {
-    viewport: &'a Viewport,
+    /// The viewport.
+    pub viewport: &'a Viewport,
     origin: DVec2,
     low: DVec2,
     high: DVec2,
@@ -45,6 +46,11 @@ impl<'a> Screen<'a> {
     pub fn point(&self, point: DVec2) -> Option<Pos2> {
         let place = self.exact(point);
         self.holds(place).then(|| single(place))
+    }
+
+    /// Map a point, however far away it is.
+    pub fn pos(&self, point: DVec2) -> Pos2 {
+        single(self.exact(point))
     }
 
     fn holds(&self, place: DVec2) -> bool {

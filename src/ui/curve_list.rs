@@ -9,7 +9,7 @@ use lucide_icons::Icon;
 use super::action::Action;
 use super::draft;
 use super::keyboard::{self, Typing};
-use super::theme::{self, RADIUS, ROW, STEP, Tokens};
+use super::theme::{RADIUS, ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
 use crate::document::{Colour, CurveId, Edit};
 use crate::editor::{Command, Editor, MenuOf, told};
@@ -242,12 +242,9 @@ impl Item {
         Self::all(editor).into_iter().find(|item| item.active)
     }
 
-    /// The colour that it is shown in without one of its own.
-    pub fn default_colour(&self, tokens: &Tokens) -> Color32 {
-        match self.is_reference {
-            true => tokens.of_reference(self.id),
-            false => tokens.of_curve(self.id),
-        }
+    /// The colour that it is shown in.
+    pub fn shown_colour(&self, tokens: &Tokens) -> Color32 {
+        tokens.of_item(Some(self.id), self.colour, self.is_reference)
     }
 
     /// What screen readers and tooltips call it.
@@ -259,8 +256,7 @@ impl Item {
     }
 
     fn paint(&self, ui: &Ui, rect: Rect, response: &Response) {
-        let own = self.colour.map(theme::of_document);
-        let colour = own.unwrap_or_else(|| self.default_colour(Tokens::of(ui)));
+        let colour = self.shown_colour(Tokens::of(ui));
         let centre = rect.left_center() + vec2(4.0 * STEP, 0.0);
         let swatch = Rect::from_center_size(centre, Vec2::splat(3.0 * STEP));
         match self.is_reference {

@@ -40,13 +40,8 @@ fn target(brush: &Brush<'_>, marks: &EndFitMarks) {
     if let Some(met) = marks.matched {
         link(brush, at, met);
     }
-    let corners = [
-        vec2(0.0, -DIAMOND),
-        vec2(DIAMOND, 0.0),
-        vec2(0.0, DIAMOND),
-        vec2(-DIAMOND, 0.0),
-    ];
-    let outline = corners.map(|corner| at + corner).to_vec();
+    let corners = [(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)];
+    let outline = corners.map(|(x, y)| at + DIAMOND * vec2(x, y)).to_vec();
     brush.painter.add(Shape::closed_line(outline, stroke));
 }
 
@@ -54,22 +49,13 @@ fn target(brush: &Brush<'_>, marks: &EndFitMarks) {
 /// that is not met.
 fn link(brush: &Brush<'_>, at: Pos2, met: bool) {
     let tokens = brush.tokens;
-    let (icon, colour) = if met {
-        (Icon::Link, tokens.target)
-    } else {
-        (Icon::Unlink, tokens.error)
+    let (icon, colour) = match met {
+        true => (Icon::Link, tokens.target),
+        false => (Icon::Unlink, tokens.error),
     };
     let place = at + vec2(-DIAMOND - 5.0, DIAMOND + 5.0);
     let (text, font) = (char::from(icon).to_string(), theme::icon_font(14.0));
-    labels::paint(
-        brush.painter,
-        place,
-        Align2::CENTER_CENTER,
-        &text,
-        font,
-        colour,
-        tokens,
-    );
+    labels::paint(brush, place, Align2::CENTER_CENTER, &text, font, colour);
 }
 
 fn actual(brush: &Brush<'_>, marks: &EndFitMarks) {
@@ -84,7 +70,7 @@ fn actual(brush: &Brush<'_>, marks: &EndFitMarks) {
     if let Some(point) = marks.target {
         let apart = point.distance(marks.actual) * brush.screen.scale();
         if apart > VISIBLE {
-            brush.dashed([marks.actual, point], Stroke::new(1.0, tokens.target));
+            brush.dashed_chain(&[marks.actual, point], Stroke::new(1.0, tokens.target));
         }
     }
     if let Some(at) = brush.screen.point(marks.actual) {
@@ -127,20 +113,12 @@ fn angle(brush: &Brush<'_>, marks: &EndFitMarks) {
     let arc: Vec<DVec2> = marks.arc.iter().map(|along| place(along, ARC)).collect();
     brush.chain(&arc, Stroke::new(2.0, tokens.target));
     let ray = [marks.actual, place(last, 1.0)];
-    brush.dashed(ray, Stroke::new(1.0, tokens.target));
+    brush.dashed_chain(&ray, Stroke::new(1.0, tokens.target));
     let behind = free_place(brush, marks, *middle);
     if let Some(at) = brush.screen.point(behind) {
         let text = figures::degrees(marks.angle, 2);
-        let font = theme::number_font();
-        labels::paint(
-            brush.painter,
-            at,
-            Align2::CENTER_CENTER,
-            &text,
-            font,
-            tokens.target,
-            tokens,
-        );
+        let (font, colour) = (theme::number_font(), tokens.target);
+        labels::paint(brush, at, Align2::CENTER_CENTER, &text, font, colour);
     }
 }
 
@@ -151,11 +129,9 @@ fn free_place(brush: &Brush<'_>, marks: &EndFitMarks, middle: DVec2) -> DVec2 {
     const TRIED: u8 = 16;
     let pixel = 1.0 / brush.screen.scale();
     let radius = marks.ring + 28.0 * pixel;
-    let taken: Vec<DVec2> = [marks.target, marks.target_tip, marks.tangent_tip]
-        .into_iter()
-        .flatten()
-        .chain(marks.terminal.iter().copied())
-        .collect();
+    let tips = [marks.target, marks.target_tip, marks.tangent_tip];
+    let terminal = marks.terminal.iter().copied();
+    let taken: Vec<DVec2> = tips.into_iter().flatten().chain(terminal).collect();
     let opposite = -middle.try_normalize().unwrap_or(DVec2::NEG_Y);
     let place = |step: u8| {
         let turn = std::f64::consts::TAU * f64::from(step) / f64::from(TRIED);

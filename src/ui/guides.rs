@@ -1,7 +1,7 @@
 //! The guides for moving vertices on the canvas: the border of the safe region, the moves that lose a
 //! feature, and their texts.
 
-use eframe::egui::{Align2, Color32, Mesh, Pos2, Rect, Shape, Stroke, Vec2, pos2, vec2};
+use eframe::egui::{Align2, Color32, Mesh, Pos2, Rect, Shape, Stroke, Vec2, vec2};
 use glam::DVec2;
 
 use super::brush::Brush;
@@ -45,12 +45,9 @@ pub fn paint(brush: &Brush<'_>, guides: &GuideScene) {
 impl Brush<'_> {
     /// Fill the triangles between a point and the corners round it.
     fn fan(&self, centre: DVec2, corners: &[DVec2], colour: Color32) {
-        let place = |point: DVec2| {
-            let place = self.screen.exact(point);
-            // Single numbers are exact enough within this distance.
-            let is_near = place.abs().max_element() < FARTHEST;
-            is_near.then(|| pos2(place.x as f32, place.y as f32))
-        };
+        // Single numbers are exact enough within this distance.
+        let is_near = |point: DVec2| self.screen.exact(point).abs().max_element() < FARTHEST;
+        let place = |point: DVec2| is_near(point).then(|| self.screen.pos(point));
         let all = [centre].into_iter().chain(corners.iter().copied());
         let Some(places) = all.map(place).collect::<Option<Vec<Pos2>>>() else {
             return;
@@ -92,25 +89,21 @@ impl Brush<'_> {
         if !self.keep_text(rect) {
             return;
         }
-        let (colour, tokens) = (self.tokens.strong_text, self.tokens);
         let (at, align) = (rect.left_top(), Align2::LEFT_TOP);
-        labels::paint(self.painter, at, align, &label.text, font, colour, tokens);
+        labels::paint(self, at, align, &label.text, font, self.tokens.strong_text);
     }
 }
 
 /// Find a box of some size on one side of a place, moved so that it stays on the canvas.
 fn beside(canvas: Rect, at: Pos2, outwards: Vec2, size: Vec2) -> Rect {
-    let outwards = outwards.normalized();
-    let half = 0.5 * (outwards.x.abs() * size.x + outwards.y.abs() * size.y);
-    let rect = Rect::from_center_size(at + outwards * (CLEARANCE + half), size);
-    let room = canvas.shrink(EDGE);
-    let low = (room.min - rect.min).max(Vec2::ZERO);
-    let high = (room.max - rect.max).min(Vec2::ZERO);
-    rect.translate(low + high)
+    let rect = labels::outside(at, outwards.normalized(), size, CLEARANCE);
+    labels::moved_into(canvas.shrink(EDGE), rect)
 }
 
 #[cfg(test)]
 mod tests {
+    use eframe::egui::pos2;
+
     use super::*;
 
     #[test]

@@ -192,11 +192,12 @@ fn state_ui(ui: &mut Ui, editor: &mut Editor, item: &Item) {
 
 /// A swatch that opens a choice of colours; shows the own colour, or the theme's.
 fn colour_ui(ui: &mut Ui, editor: &mut Editor, item: &Item) {
-    let (shown, name) = match item.colour {
-        Some(own) => (theme::of_document(own), "Custom"),
-        None => (item.default_colour(Tokens::of(ui)), "Default"),
+    let name = if item.colour.is_some() {
+        "Custom"
+    } else {
+        "Default"
     };
-    let swatch = RichText::new("      ").background_color(shown);
+    let swatch = RichText::new("      ").background_color(item.shown_colour(Tokens::of(ui)));
     let button = ui.menu_button((swatch, name), |ui| {
         let mut chosen = None;
         ui.horizontal(|ui| {

@@ -2,7 +2,8 @@
 
 use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, StrokeKind, Vec2, vec2};
 
-use super::theme::{self, RADIUS, STEP, Tokens};
+use super::brush::Brush;
+use super::theme::{self, RADIUS, STEP};
 
 /// The longest line of a box, in points: longer ones, such as long names, are broken.
 const WIDEST: f32 = 320.0;
@@ -22,36 +23,31 @@ pub fn size(painter: &Painter, text: &str, font: FontId) -> Vec2 {
 
 /// Write a text on a plate in the canvas's colour, so that lines under it don't disturb.
 pub fn paint(
-    painter: &Painter,
+    brush: &Brush<'_>,
     at: Pos2,
     align: Align2,
     text: &str,
     font: FontId,
     colour: Color32,
-    tokens: &Tokens,
 ) {
-    let galley = painter.layout_no_wrap(text.to_owned(), font, colour);
+    let galley = brush.painter.layout_no_wrap(text.to_owned(), font, colour);
     let rect = align.anchor_size(at, galley.size());
-    let plate = tokens.background.gamma_multiply(PLATE);
-    painter.rect_filled(rect.expand2(vec2(0.75 * STEP, 0.25 * STEP)), RADIUS, plate);
-    painter.galley(rect.min, galley, colour);
+    let fill = brush.tokens.background.gamma_multiply(PLATE);
+    let plate = rect.expand2(vec2(0.75 * STEP, 0.25 * STEP));
+    brush.painter.rect_filled(plate, RADIUS, fill);
+    brush.painter.galley(rect.min, galley, colour);
 }
 
 /// Show some lines in a box beside a point: within the canvas, never over the point, and over as few of some
 /// `others` as can be.
-pub fn tooltip(
-    painter: &Painter,
-    (canvas, others): (Rect, &[Pos2]),
-    point: Pos2,
-    text: &str,
-    tokens: &Tokens,
-) {
-    let place = |size| beside(canvas.shrink(STEP), point, size, others);
-    lines_in_box(painter, text, tokens, place);
+pub fn tooltip(brush: &Brush<'_>, others: &[Pos2], point: Pos2, text: &str) {
+    let canvas = brush.rect.shrink(STEP);
+    lines_in_box(brush, text, |size| beside(canvas, point, size, others));
 }
 
 /// Show some lines in a box, which a function places by its size.
-fn lines_in_box(painter: &Painter, text: &str, tokens: &Tokens, place: impl Fn(Vec2) -> Rect) {
+fn lines_in_box(brush: &Brush<'_>, text: &str, place: impl Fn(Vec2) -> Rect) {
+    let (painter, tokens) = (brush.painter, brush.tokens);
     let font = theme::number_font();
     let galley = painter.layout(text.to_owned(), font, tokens.text, WIDEST);
     let padding = vec2(2.0 * STEP, 1.5 * STEP);
@@ -68,26 +64,28 @@ fn covered(rect: &Rect, points: &[Pos2]) -> usize {
 }
 
 /// Name a point in small type below it.
-pub fn name(painter: &Painter, canvas: Rect, point: Pos2, text: &str, tokens: &Tokens) {
+pub fn name(brush: &Brush<'_>, point: Pos2, text: &str) {
     let font = theme::small_font();
-    let size = size(painter, text, font.clone());
+    let size = size(brush.painter, text, font.clone());
     let rect = Rect::from_center_size(point + vec2(0.0, CLEARANCE + 0.5 * size.y), size);
-    let at = moved_into(canvas.shrink(STEP), rect).left_top();
-    let colour = tokens.strong_text;
-    paint(painter, at, Align2::LEFT_TOP, text, font, colour, tokens);
+    let at = moved_into(brush.rect.shrink(STEP), rect).left_top();
+    paint(
+        brush,
+        at,
+        Align2::LEFT_TOP,
+        text,
+        font,
+        brush.tokens.strong_text,
+    );
 }
 
 /// Show some lines in a box beside a point that moves along `way`: behind it, where it comes from, and over as
 /// few of some `others` as can be.
-pub fn behind(
-    painter: &Painter,
-    (canvas, others): (Rect, &[Pos2]),
-    (point, way): (Pos2, Vec2),
-    text: &str,
-    tokens: &Tokens,
-) {
-    let place = |size| place_behind(canvas.shrink(STEP), (point, way), size, others);
-    lines_in_box(painter, text, tokens, place);
+pub fn behind(brush: &Brush<'_>, others: &[Pos2], moved: (Pos2, Vec2), text: &str) {
+    let canvas = brush.rect.shrink(STEP);
+    lines_in_box(brush, text, |size| {
+        place_behind(canvas, moved, size, others)
+    });
 }
 
 /// Find a box of some size behind a point that moves along `way`, where it covers as few of some `others` as can be;
@@ -98,7 +96,7 @@ fn place_behind(canvas: Rect, (point, way): (Pos2, Vec2), size: Vec2, others: &[
         false => -way.normalized(),
     };
     let (left, right) = (back.rot90(), -back.rot90());
-    let boxed = |side: Vec2| moved_into(canvas, outside(point, side, size));
+    let boxed = |side: Vec2| moved_into(canvas, outside(point, side, size, CLEARANCE));
     let is_clear = |rect: &Rect| !rect.expand(0.5 * CLEARANCE).contains(point);
     let best = |sides: &[Vec2]| {
         let boxes = sides.iter().map(|side| boxed(*side)).filter(is_clear);
@@ -112,14 +110,14 @@ fn place_behind(canvas: Rect, (point, way): (Pos2, Vec2), size: Vec2, others: &[
     behind.or_else(around).or_else(ahead).unwrap_or(boxed(back))
 }
 
-/// Find a box of some size on one side of a point.
-fn outside(point: Pos2, side: Vec2, size: Vec2) -> Rect {
+/// Find a box of some size on one side of a point, clear of it by some distance.
+pub fn outside(point: Pos2, side: Vec2, size: Vec2, clearance: f32) -> Rect {
     let half = 0.5 * (side.x.abs() * size.x + side.y.abs() * size.y);
-    Rect::from_center_size(point + side * (CLEARANCE + half), size)
+    Rect::from_center_size(point + side * (clearance + half), size)
 }
 
 /// Move a box so that it lies on the canvas.
-fn moved_into(canvas: Rect, rect: Rect) -> Rect {
+pub fn moved_into(canvas: Rect, rect: Rect) -> Rect {
     let low = (canvas.min - rect.min).max(Vec2::ZERO);
     let high = (canvas.max - rect.max).min(Vec2::ZERO);
     rect.translate(low + high)
@@ -139,11 +137,8 @@ fn beside(canvas: Rect, point: Pos2, size: Vec2, others: &[Pos2]) -> Rect {
         return best;
     }
     // Near a short edge: keep to a side of the point and slide along it.
-    let x = if right + size.x <= canvas.right() {
-        right
-    } else {
-        left
-    };
+    let fits = right + size.x <= canvas.right();
+    let x = if fits { right } else { left };
     let y = above.clamp(canvas.top(), (canvas.bottom() - size.y).max(canvas.top()));
     Rect::from_min_size(Pos2::new(x.max(canvas.left()), y), size)
 }
@@ -188,7 +183,7 @@ mod tests {
             }
             let rect = place_behind(canvas, (point, along), size, &curve);
             assert!((rect.center() - point).dot(along) < 1.0);
-            let behind = covered(&outside(point, -along, size), &curve);
+            let behind = covered(&outside(point, -along, size, CLEARANCE), &curve);
             assert!(covered(&rect, &curve) < behind.max(1));
         }
         let diagonal: Vec<Pos2> = (0..300)

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use eframe::egui::{Align2, Color32, Mesh, Pos2, Rect, Shape, Stroke, StrokeKind, pos2, vec2};
+use eframe::egui::{Align2, Color32, Mesh, Pos2, Rect, Shape, Stroke, StrokeKind, vec2};
 use glam::DVec2;
 
 use super::brush::Brush;
@@ -62,7 +62,7 @@ pub fn paint(brush: &Brush<'_>, scene: &Scene) {
     }
     let ghostly = |width, colour: Color32| Stroke::new(width, colour.gamma_multiply(GHOST));
     let (curve, float) = (brush.tokens.curve, brush.tokens.float);
-    brush.legs(&scene.ghost_polygon, ghostly(1.0, float));
+    brush.legs(&scene.ghost_polygon, false, ghostly(1.0, float));
     brush.chain(&scene.ghost, ghostly(1.5, curve));
     for curve in others.iter().chain(&active) {
         brush.bands(curve);
@@ -116,13 +116,11 @@ impl Brush<'_> {
         let tokens = self.tokens;
         self.hairs(&curve.teeth, fade(tokens.comb_teeth));
         self.chain(&curve.comb, Stroke::new(1.0, fade(tokens.comb)));
-        self.evolute(
-            &curve.evolute,
-            fade(tokens.evolute).gamma_multiply(EVOLUTE_STRENGTH),
-        );
-        self.dashed_legs(&curve.clamped, Stroke::new(1.0, fade(tokens.clamped)));
+        let evolute = fade(tokens.evolute).gamma_multiply(EVOLUTE_STRENGTH);
+        self.evolute(&curve.evolute, evolute);
+        self.legs(&curve.clamped, true, Stroke::new(1.0, fade(tokens.clamped)));
         let float = if curve.active { 1.25 } else { 1.0 };
-        self.legs(&curve.float, Stroke::new(float, fade(tokens.float)));
+        self.legs(&curve.float, false, Stroke::new(float, fade(tokens.float)));
     }
 
     /// The evolute of an arc of nearly constant curvature is hardly more than a point: it gets a
@@ -131,8 +129,8 @@ impl Brush<'_> {
         for line in self.screen.lines(evolute) {
             let around = Rect::from_points(&line);
             if around.size().max_elem() < SMALL_EVOLUTE {
-                self.painter
-                    .circle_filled(around.center(), 0.75 * SMALL_EVOLUTE, colour);
+                let radius = 0.75 * SMALL_EVOLUTE;
+                self.painter.circle_filled(around.center(), radius, colour);
             }
             self.painter
                 .add(Shape::line(line, Stroke::new(1.0, colour)));
@@ -151,24 +149,19 @@ impl Brush<'_> {
 
     fn curve(&self, curve: &CurveScene) {
         let fade = fading(curve);
-        let own = curve.colour.map(theme::of_document);
-        let tokens = self.tokens;
+        let own = self
+            .tokens
+            .of_item(curve.id, curve.colour, curve.is_reference);
         if curve.is_reference {
-            let next = || {
-                curve
-                    .id
-                    .map_or(tokens.reference, |id| tokens.of_reference(id))
-            };
-            return self.reference(curve, own.unwrap_or_else(next));
+            return self.reference(curve, own);
         }
-        let next = || curve.id.map_or(tokens.curve, |id| tokens.of_curve(id));
         // What tells curves apart fades less than what belongs to them.
         let strength = match (curve.active, curve.locked) {
             (true, false) => 1.0,
             (true, true) | (false, false) => 0.75,
             (false, true) => 0.5,
         };
-        let colour = own.unwrap_or_else(next).gamma_multiply(strength);
+        let colour = own.gamma_multiply(strength);
         let width = if curve.active { 2.0 } else { 1.5 };
         self.chain(&curve.curve, Stroke::new(width, colour));
         let tick = Stroke::new(1.5, fade(self.tokens.joints));
@@ -281,8 +274,7 @@ impl Brush<'_> {
         let Some(at) = self.screen.point(at) else {
             return;
         };
-        let tokens = self.tokens;
-        let colour = tokens.warning;
+        let colour = self.tokens.warning;
         self.painter
             .circle_stroke(at, EXTREME, Stroke::new(1.5, colour));
         let font = theme::small_font();
@@ -296,7 +288,7 @@ impl Brush<'_> {
         let boxes = sides.map(|(align, by)| align.anchor_size(at + by, size));
         if let Some(free) = boxes.into_iter().find(|rect| self.keep_text(*rect)) {
             let (place, align) = (free.left_top(), Align2::LEFT_TOP);
-            labels::paint(self.painter, place, align, text, font, colour, tokens);
+            labels::paint(self, place, align, text, font, colour);
         }
     }
 
@@ -304,7 +296,7 @@ impl Brush<'_> {
         let tokens = self.tokens;
         let accent = Stroke::new(1.5, tokens.accent);
         match mark {
-            Mark::Guide(segment) => self.dashed(*segment, Stroke::new(1.0, tokens.float)),
+            Mark::Guide(ends) => self.dashed_chain(ends, Stroke::new(1.0, tokens.float)),
             Mark::Ruler(segment) => self.ruler(*segment),
             Mark::SelectionBox([a, b]) => self.selection_box(*a, *b),
             Mark::NewVertex(at) => {
@@ -321,15 +313,13 @@ impl Brush<'_> {
             Mark::Snap(at) => self.square(*at, 14.0, Color32::TRANSPARENT, accent),
             Mark::Name(at, name) => {
                 if let Some(at) = self.screen.point(*at) {
-                    labels::name(self.painter, self.rect, at, name, tokens);
+                    labels::name(self, at, name);
                 }
             }
             Mark::Axis { ends, axis } => {
                 let own = axis.and_then(|axis| tokens.model_axes.get(axis).copied());
                 let stroke = Stroke::new(1.0, own.unwrap_or(tokens.accent));
-                if let Some(line) = self.screen.segment(*ends) {
-                    self.painter.line_segment(line, stroke);
-                }
+                self.segment(*ends, stroke);
             }
             Mark::Measured(at, figures) => {
                 let pixel = 1.0 / self.screen.scale();
@@ -340,7 +330,13 @@ impl Brush<'_> {
             }
             Mark::Drag(readout) => self.drag_readout(readout, others),
             Mark::Extreme { at, text } => self.extreme(*at, text),
-            Mark::Handle { at, marked } => self.handle(*at, *marked),
+            Mark::Handle { at, marked } => {
+                let fill = match marked {
+                    true => tokens.accent,
+                    false => tokens.background,
+                };
+                self.disc(*at, HANDLE, fill, Stroke::new(2.0, tokens.accent));
+            }
             Mark::Label(at, text) => self.text_beside(*at, text, others),
         }
     }
@@ -348,7 +344,7 @@ impl Brush<'_> {
     /// Show some lines beside a place.
     fn text_beside(&self, at: DVec2, text: &str, others: &[Pos2]) {
         if let Some(at) = self.screen.point(at) {
-            labels::tooltip(self.painter, (self.rect, others), at, text, self.tokens);
+            labels::tooltip(self, others, at, text);
         }
     }
 
@@ -360,17 +356,7 @@ impl Brush<'_> {
         let pixel = 1.0 / self.screen.scale();
         let text = drag_text(readout, pixel);
         let way = vec2(readout.way.x as f32, -readout.way.y as f32);
-        let around = (self.rect, others);
-        labels::behind(self.painter, around, (at, way), &text, self.tokens);
-    }
-
-    fn handle(&self, at: DVec2, marked: bool) {
-        let tokens = self.tokens;
-        let fill = match marked {
-            true => tokens.accent,
-            false => tokens.background,
-        };
-        self.disc(at, HANDLE, fill, Stroke::new(2.0, tokens.accent));
+        labels::behind(self, others, (at, way), &text);
     }
 
     fn ruler(&self, segment: [DVec2; 2]) {
@@ -381,26 +367,16 @@ impl Brush<'_> {
         self.painter.line_segment([from, to], stroke);
         let across = (to - from).normalized().rot90() * 6.0;
         for end in [from, to] {
-            self.painter
-                .line_segment([end - across, end + across], stroke);
+            let tick = [end - across, end + across];
+            self.painter.line_segment(tick, stroke);
         }
     }
 
     fn selection_box(&self, a: DVec2, b: DVec2) {
-        let corner = |point: DVec2| {
-            let place = self.screen.exact(point);
-            pos2(place.x as f32, place.y as f32)
-        };
-        let rect = Rect::from_two_pos(corner(a), corner(b));
+        let rect = Rect::from_two_pos(self.screen.pos(a), self.screen.pos(b));
         let accent = self.tokens.accent;
-        let stroke = Stroke::new(1.0, accent);
-        self.painter.rect(
-            rect,
-            0,
-            accent.gamma_multiply(0.12),
-            stroke,
-            StrokeKind::Middle,
-        );
+        let (fill, stroke) = (accent.gamma_multiply(0.12), Stroke::new(1.0, accent));
+        self.painter.rect(rect, 0, fill, stroke, StrokeKind::Middle);
     }
 
     fn pivot(&self, at: DVec2) {
@@ -419,15 +395,13 @@ impl Brush<'_> {
         let ring = Stroke::new(1.5, tokens.accent);
         match hover {
             HoverScene::Vertex { at, text, .. } | HoverScene::Handle { at, text } => {
-                if let Some(at) = self.screen.point(*at) {
-                    if matches!(hover, HoverScene::Vertex { .. }) {
-                        // In a crowd it may have no disc otherwise.
-                        self.painter.circle_filled(at, DISC, tokens.float);
-                    }
-                    self.painter.circle_stroke(at, 8.0, ring);
-                    if !text.is_empty() {
-                        labels::tooltip(self.painter, (self.rect, others), at, text, tokens);
-                    }
+                if matches!(hover, HoverScene::Vertex { .. }) {
+                    // In a crowd it may have no disc otherwise.
+                    self.disc(*at, DISC, tokens.float, Stroke::NONE);
+                }
+                self.disc(*at, 8.0, Color32::TRANSPARENT, ring);
+                if !text.is_empty() {
+                    self.text_beside(*at, text, others);
                 }
             }
             HoverScene::Curve {
@@ -442,10 +416,8 @@ impl Brush<'_> {
                 if let Some(centre) = centre {
                     self.osculating_circle(*at, *centre);
                 }
-                if let Some(at) = self.screen.point(*at) {
-                    self.painter.circle(at, 4.0, tokens.background, ring);
-                    labels::tooltip(self.painter, (self.rect, others), at, text, tokens);
-                }
+                self.disc(*at, 4.0, tokens.background, ring);
+                self.text_beside(*at, text, others);
             }
         }
     }
@@ -466,7 +438,7 @@ impl Brush<'_> {
             .collect();
         let faint = self.tokens.evolute.gamma_multiply(0.6);
         self.chain(&chain, Stroke::new(1.0, faint));
-        self.dashed([at, centre], Stroke::new(1.0, faint));
+        self.dashed_chain(&[at, centre], Stroke::new(1.0, faint));
         self.disc(centre, 2.5, self.tokens.evolute, Stroke::NONE);
     }
 }
@@ -489,10 +461,8 @@ fn drag_text(readout: &DragReadout, pixel: f64) -> String {
         cells.collect::<Vec<String>>().join("  ")
     };
     let lines = [line(0, "Δ"), line(1, " ")].into_iter();
-    lines
-        .chain(readout.remarks.iter().cloned())
-        .collect::<Vec<String>>()
-        .join("\n")
+    let lines = lines.chain(readout.remarks.iter().cloned());
+    lines.collect::<Vec<String>>().join("\n")
 }
 
 /// Whether a vertex is more than a disc of its polygon.
@@ -507,12 +477,9 @@ fn fading(curve: &CurveScene) -> impl Fn(Color32) -> Color32 {
         (true, true) => 0.65,
         (false, _) => 0.3,
     };
-    move |colour| {
-        if strength < 1.0 {
-            colour.gamma_multiply(strength)
-        } else {
-            colour
-        }
+    move |colour| match strength < 1.0 {
+        true => colour.gamma_multiply(strength),
+        false => colour,
     }
 }
 

@@ -1,9 +1,8 @@
 //! The preview of the curve that a click would make, fainter than the drawing.
 
-use eframe::egui::Stroke;
+use eframe::egui::{Color32, Stroke};
 
 use super::brush::Brush;
-use super::theme;
 use crate::editor::ProposalScene;
 
 /// How faint its polygons are.
@@ -12,10 +11,9 @@ const FAINT: f32 = 0.55;
 /// Paint the curve that a click would make, and its polygons.
 pub fn paint(brush: &Brush<'_>, proposal: &ProposalScene) {
     let tokens = brush.tokens;
-    let faint = |colour: eframe::egui::Color32| Stroke::new(1.0, colour.gamma_multiply(FAINT));
-    brush.dashed_legs(&proposal.clamped, faint(tokens.clamped));
-    brush.legs(&proposal.float, faint(tokens.float));
-    let next = || proposal.id.map_or(tokens.curve, |id| tokens.of_curve(id));
-    let colour = proposal.colour.map_or_else(next, theme::of_document);
+    let faint = |colour: Color32| Stroke::new(1.0, colour.gamma_multiply(FAINT));
+    brush.legs(&proposal.clamped, true, faint(tokens.clamped));
+    brush.legs(&proposal.float, false, faint(tokens.float));
+    let colour = tokens.of_item(proposal.id, proposal.colour, false);
     brush.chain(&proposal.curve, Stroke::new(1.5, colour));
 }

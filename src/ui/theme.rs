@@ -209,16 +209,14 @@ impl Tokens {
         }
     }
 
-    /// The colour of a curve that was given none: the next for each one that is added.
-    pub fn of_curve(&self, id: CurveId) -> Color32 {
-        self.items[(id.number() % self.items.len() as u64) as usize]
-    }
-
-    /// The colour of a reference that was given none: as for a curve, and quieter if it is the first.
-    pub fn of_reference(&self, id: CurveId) -> Color32 {
-        match self.of_curve(id) {
-            first if first == self.curve => self.reference,
-            next => next,
+    /// The colour of a curve or reference: its own, or else the next for each one that is added. That of a
+    /// reference is quieter if it is the first.
+    pub fn of_item(&self, id: Option<CurveId>, own: Option<Colour>, is_reference: bool) -> Color32 {
+        let place = id.map_or(0, |id| id.number() % self.items.len() as u64);
+        match own {
+            Some(own) => of_document(own),
+            None if is_reference && place == 0 => self.reference,
+            None => self.items[place as usize],
         }
     }
 

@@ -29,9 +29,8 @@ pub fn ring(brush: &Brush<'_>, centre: DVec2, handle: DVec2, swept: f64) {
     let steps = (swept.abs() / STEP).ceil().clamp(1.0, 512.0) as u32;
     let place = |step: u32| {
         let back = swept * (1.0 - f64::from(step) / f64::from(steps));
-        brush
-            .screen
-            .point(centre + DVec2::from_angle(-back).rotate(arm))
+        let border = centre + DVec2::from_angle(-back).rotate(arm);
+        brush.screen.point(border)
     };
     let mut mesh = Mesh::default();
     let fill = accent.gamma_multiply(SWEPT);
@@ -58,8 +57,8 @@ pub fn ring(brush: &Brush<'_>, centre: DVec2, handle: DVec2, swept: f64) {
 pub fn corners(brush: &Brush<'_>, corners: &[DVec2; 4], handles: &[DVec2]) {
     let line = Stroke::new(1.0, brush.tokens.accent.gamma_multiply(LINE));
     let sides = corners.iter().zip(corners.iter().cycle().skip(1));
-    for side in sides.filter_map(|(from, to)| brush.screen.segment([*from, *to])) {
-        brush.painter.line_segment(side, line);
+    for (from, to) in sides {
+        brush.segment([*from, *to], line);
     }
     let (fill, outline) = handle_colours(brush);
     for handle in handles {
@@ -73,9 +72,7 @@ pub fn corners(brush: &Brush<'_>, corners: &[DVec2; 4], handles: &[DVec2]) {
 /// Paint the frame of a reference: its squares scale, the disc at the end of its arm rotates.
 pub fn frame(brush: &Brush<'_>, box_corners: &[DVec2; 4], arm: [DVec2; 2]) {
     let line = Stroke::new(1.0, brush.tokens.accent.gamma_multiply(LINE));
-    if let Some(arm) = brush.screen.segment(arm) {
-        brush.painter.line_segment(arm, line);
-    }
+    brush.segment(arm, line);
     corners(brush, box_corners, &[]);
     let (fill, outline) = handle_colours(brush);
     brush.disc(arm[1], DISC, fill, outline);
