@@ -1,9 +1,7 @@
 //! The entry field on the canvas, for a point, an angle or a factor of the tool in hand, and the
 //! figures of the leg in progress.
 
-use eframe::egui::{
-    Align2, Area, Context, Event, Frame, Id, Key, Order, Rect, Stroke, TextEdit, Ui, vec2,
-};
+use eframe::egui::{Align2, Context, Event, Frame, Id, Key, Rect, Stroke, TextEdit, Ui, vec2};
 use lucide_icons::Icon;
 
 use super::canvas::{self, Canvas};
@@ -46,8 +44,8 @@ impl CanvasEntry {
     /// Give the keyboard to the field when something is typed on the canvas that the tool takes.
     /// Called before keys are looked at as commands.
     pub fn take_keys(&mut self, context: &Context, editor: &Editor, canvas: &Canvas) {
-        if editor.hand().entry(editor.view().viewport()).is_none() || !canvas.has_keyboard(context)
-        {
+        let takes_text = editor.hand().entry(editor.view().viewport()).is_some();
+        if !takes_text || !canvas.has_keyboard(context) {
             return;
         }
         let begins = |event: &Event| matches!(event, Event::Text(text) if begins(text));
@@ -67,12 +65,9 @@ impl CanvasEntry {
             *self = Self::default();
             return None;
         };
-        let area = Area::new(Id::unique("drawing"))
-            .order(Order::Middle)
-            .pivot(Align2::CENTER_BOTTOM)
-            .fixed_pos(canvas.center_bottom() - vec2(0.0, 6.0 * STEP))
-            .constrain(false);
-        let shown = area.show(context, |ui| {
+        let at = canvas.center_bottom() - vec2(0.0, 6.0 * STEP);
+        let place = (Align2::CENTER_BOTTOM, at);
+        let shown = widgets::overlay(context, "drawing", place, |ui| {
             let outline = Stroke::new(1.0, Tokens::of(ui).outline);
             let frame = Frame::popup(ui.style()).stroke(outline);
             frame.inner_margin(2.0 * STEP).show(ui, |ui| {
@@ -198,21 +193,13 @@ fn leg_ui(ui: &mut Ui, editor: &mut Editor) {
     let unit = editor.document().unit().map(LengthUnit::symbol);
     let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
     let shown = |value| figures::to_resolution(value, 0.1 * pixel) + &unit;
-    let length = figure_ui(
-        ui,
-        ("Length", "leg length", Quantity::Length),
-        (locks.length, length),
-        shown,
-    );
+    let words = ("Length", "leg length", Quantity::Length);
+    let length = figure_ui(ui, words, (locks.length, length), shown);
     ui.add_space(2.0 * STEP);
     let degrees = leg.and_then(|leg| leg.degrees);
     let shown = |value| format!("{}°", figures::to_resolution(value, 0.01));
-    let degrees = figure_ui(
-        ui,
-        ("Angle", "leg angle", Quantity::Angle),
-        (locks.degrees, degrees),
-        shown,
-    );
+    let words = ("Angle", "leg angle", Quantity::Angle);
+    let degrees = figure_ui(ui, words, (locks.degrees, degrees), shown);
     let new = LegLocks { length, degrees };
     if new != locks {
         editor.hand_mut().lock_leg(new);
@@ -259,17 +246,14 @@ fn figure_ui(
         .width(FIGURE)
         .quantity(quantity);
     let typed = field.typed(ui);
-    let (icon, verb) = match locked {
-        Some(_) => (Icon::Lock, "Unlock"),
-        None => (Icon::LockOpen, "Lock"),
+    let tokens = Tokens::of(ui);
+    let (icon, verb, colour) = match locked {
+        Some(_) => (Icon::Lock, "Unlock", tokens.accent),
+        None => (Icon::LockOpen, "Lock", tokens.text),
     };
     let label = format!("{verb} {name}");
-    let lock = IconButton::new(icon, &label).enabled(value.is_some());
-    let lock = match locked {
-        Some(_) => lock.colour(Tokens::of(ui).accent),
-        None => lock,
-    };
-    if lock.show(ui).clicked() {
+    let lock = IconButton::new(icon, &label).colour(colour);
+    if lock.enabled(value.is_some()).show(ui).clicked() {
         return if locked.is_some() { None } else { drawn };
     }
     typed.or(locked)

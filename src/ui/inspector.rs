@@ -8,7 +8,6 @@ use lucide_icons::Icon;
 
 use super::curve_list::Item;
 use super::distance_panel::distance_ui;
-use super::document_panel::document_ui;
 use super::formula_fields::FormulaFields;
 use super::harmony_list::harmony_list_ui;
 use super::keyboard::{self, Typing};
@@ -20,6 +19,7 @@ use super::{document_unit, figures};
 use crate::document::{Curve, CurveId, Edit, Reference};
 use crate::editor::{Command, CurveReport, Editor, told};
 use crate::geometry::MAX_DEGREE;
+use crate::geometry::expressions::LengthUnit;
 use crate::operations::{Value, reinterpret_degree};
 
 /// The inspector's own state.
@@ -131,8 +131,20 @@ impl Inspector {
 fn document_section_ui(ui: &mut Ui, editor: &mut Editor, open: bool) {
     let id = if open { "empty" } else { "beside" };
     ui.push_id(id, |ui| {
-        widgets::section(ui, "Document", open, |ui| document_ui(ui, editor));
+        widgets::section(ui, "Document", open, |ui| {
+            let row = widgets::form_row(ui, "Unit", |ui| unit_ui(ui, editor));
+            row.response.on_hover_text(Command::SetUnit(None).tooltip());
+        });
     });
+}
+
+fn unit_ui(ui: &mut Ui, editor: &mut Editor) {
+    let all = [None].into_iter().chain(LengthUnit::ALL.map(Some));
+    let all = all.map(|unit| (unit, unit.map_or("none", LengthUnit::name).to_owned()));
+    let (unit, width) = (editor.document().unit(), ui.spacing().combo_width);
+    if let (Some(unit), _) = widgets::drop_down(ui, "Document unit", width, &unit, all) {
+        told(editor.execute(Command::SetUnit(unit)));
+    }
 }
 
 fn degree_ui(ui: &mut Ui, editor: &mut Editor, curve: &Curve) {

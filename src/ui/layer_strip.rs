@@ -1,7 +1,7 @@
 //! The layers' switches over the canvas, each in its layer's colour, and the comb's scale and density.
 
 use eframe::egui::{
-    Area, Context, Frame, Id, Margin, Order, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2,
+    Align2, Context, Frame, Margin, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2,
 };
 use lucide_icons::Icon;
 
@@ -27,14 +27,11 @@ pub fn layer_strip_ui(
     editor: &mut Editor,
     commands: &mut Vec<Action>,
 ) {
-    let area = Area::new(Id::unique("layers"))
-        .order(Order::Middle)
-        .fixed_pos(canvas.min + Vec2::splat(2.0 * STEP))
-        .constrain(false);
     let right = gizmo::place(canvas).map_or(canvas.right(), |gizmo| gizmo.left());
     let width = right - canvas.left() - 4.0 * STEP;
     let is_narrow = width < Layer::ALL.len() as f32 * SIDE + COMB;
-    area.show(context, |ui| {
+    let place = (Align2::LEFT_TOP, canvas.min + Vec2::splat(2.0 * STEP));
+    widgets::overlay(context, "layers", place, |ui| {
         let tokens = Tokens::of(ui);
         let frame = Frame::NONE
             .fill(tokens.panel)
@@ -64,17 +61,11 @@ pub fn layer_strip_ui(
 fn switch_ui(ui: &mut Ui, editor: &Editor, layer: Layer, commands: &mut Vec<Action>) {
     let command = Command::ToggleLayer(layer);
     let shown = editor.sight().layers().shows(layer);
-    let (rect, response) = ui.allocate_exact_size(Vec2::splat(SIDE), Sense::click());
     let tokens = Tokens::of(ui);
-    if response.hovered() {
-        ui.painter().rect_filled(rect, RADIUS, tokens.button[1]);
-    }
-    if response.has_focus() {
-        widgets::focus_ring(ui, rect);
-    }
     let own = tokens.named(layer.row().colour);
-    let icon = if shown { own } else { tokens.faint_text };
-    widgets::icon(ui, rect, icons::of_layer(layer), icon);
+    let colours = [if shown { own } else { tokens.faint_text }; 2];
+    let (size, icon) = (Vec2::splat(SIDE), icons::of_layer(layer));
+    let (rect, response) = widgets::pressable_icon(ui, size, icon, colours, false);
     if shown {
         // A bar below the icon of a layer that is shown: hue is not the only cue.
         let edge = rect.shrink2(vec2(2.0 * STEP, 1.0));

@@ -1,12 +1,12 @@
 //! The editor's message, in the canvas's corner above the status bar.
 
-use eframe::egui::{Align2, Area, Context, Frame, Id, Label, Order, Rect, RichText, Stroke, vec2};
+use eframe::egui::{Align2, Context, Frame, Label, Rect, RichText, Stroke, vec2};
 use lucide_icons::Icon;
 
 use super::action::Action;
 use super::icons;
 use super::theme::{STEP, Tokens};
-use super::widgets::IconButton;
+use super::widgets::{self, IconButton};
 use crate::editor::{Command, Editor};
 
 /// The widest that a message gets before it wraps.
@@ -34,22 +34,12 @@ pub fn message_ui(
         return;
     };
     let corner = canvas.left_bottom() + vec2(2.0 * STEP, -6.0 * STEP);
-    let area = Area::new(Id::unique("message"))
-        .order(Order::Middle)
-        .pivot(Align2::LEFT_BOTTOM)
-        .fixed_pos(corner)
-        .constrain(false);
-    let dismissed = area.show(context, |ui| {
+    let place = (Align2::LEFT_BOTTOM, corner);
+    let dismissed = widgets::overlay(context, "message", place, |ui| {
         let tokens = Tokens::of(ui);
-        let (icon, colour) = if message.is_error {
-            (Icon::TriangleAlert, tokens.error)
-        } else {
-            (Icon::Info, tokens.faint_text)
-        };
-        let outline = if message.is_error {
-            tokens.error
-        } else {
-            tokens.outline
+        let (icon, colour, outline) = match message.is_error {
+            true => (Icon::TriangleAlert, tokens.error, tokens.error),
+            false => (Icon::Info, tokens.faint_text, tokens.outline),
         };
         let frame = Frame::popup(ui.style()).stroke(Stroke::new(1.0, outline));
         let shown = frame.inner_margin(2.0 * STEP).show(ui, |ui| {

@@ -14,7 +14,6 @@ mod context_menu;
 mod curve_list;
 mod dialogs;
 mod distance_panel;
-mod document_panel;
 mod document_unit;
 mod draft;
 mod end_fit_panel;

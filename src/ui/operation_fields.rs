@@ -2,9 +2,7 @@
 
 use std::ops::{Bound, RangeInclusive};
 
-use eframe::egui::{
-    Button, ComboBox, Key, Label, RichText, Role, TextEdit, TextStyle, Ui, Vec2, WidgetInfo,
-};
+use eframe::egui::{Button, Key, Label, RichText, Role, TextEdit, TextStyle, Ui, Vec2, WidgetInfo};
 
 use super::number_field::{FieldEvent, NumberField};
 use super::theme::{self, STEP, Tokens};
@@ -243,24 +241,13 @@ fn hint_of(in_progress: &OperationInProgress, parameter: &Parameter) -> &'static
 
 /// A row of buttons of which one is pressed; options that do not fit into it are a list that opens.
 fn choice_ui(ui: &mut Ui, label: &str, options: &'static [Choice], chosen: usize) -> Option<Value> {
-    let mut clicked = None;
     if !fits_as_buttons(ui, options) {
-        let now = options.get(chosen).map_or("", |option| option.label);
-        let list = ComboBox::from_id_salt(label)
-            .selected_text(now)
-            .width(FIELD.max(ui.available_width()));
-        let list = list.show_ui(ui, |ui| {
-            for (index, option) in options.iter().enumerate() {
-                let row = ui.selectable_label(index == chosen, option.label);
-                if row.clicked() && index != chosen {
-                    clicked = Some(Value::Choice(index));
-                }
-            }
-        });
-        let info = || WidgetInfo::labeled(Role::ComboBox, true, label);
-        list.response.widget_info(info);
-        return clicked;
+        let all = options.iter().map(|option| option.label.to_owned());
+        let width = FIELD.max(ui.available_width());
+        let (other, _) = widgets::drop_down(ui, label, width, &chosen, all.enumerate());
+        return other.map(Value::Choice);
     }
+    let mut clicked = None;
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing = Vec2::splat(STEP);
         for (index, option) in options.iter().enumerate() {

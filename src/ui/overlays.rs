@@ -1,8 +1,8 @@
 //! Overlays of the canvas: the advice for an empty document, the offer of the tour, and files about to drop.
 
 use eframe::egui::{
-    Align2, Area, Button, Context, Frame, Id, LayerId, Order, Rect, RichText, Stroke, StrokeKind,
-    TextWrapMode, Vec2, pos2,
+    Align2, Area, Button, Context, FontId, Frame, Id, LayerId, Order, Rect, RichText, Stroke,
+    StrokeKind, TextWrapMode, Vec2, pos2,
 };
 
 use super::action::Action;
@@ -39,21 +39,17 @@ pub fn empty_ui(context: &Context, canvas: Rect) {
 /// Warn that a planar drawing is seen at an angle, with the way back.
 pub fn orbited_ui(context: &Context, canvas: Rect, commands: &mut Vec<Action>) {
     let top = gizmo::name_place(canvas).map_or(canvas.top(), |name| name.bottom());
-    let area = Area::new(Id::unique("orbited"))
-        .order(Order::Middle)
-        .pivot(Align2::RIGHT_TOP)
-        .fixed_pos(pos2(canvas.right() - 2.0 * STEP, top + STEP));
-    let clicked = area.show(context, |ui| {
+    let at = pos2(canvas.right() - 2.0 * STEP, top + STEP);
+    let place = (Align2::RIGHT_TOP, at);
+    let clicked = widgets::overlay(context, "orbited", place, |ui| {
         let tokens = Tokens::of(ui);
         let key = Command::View(NamedView::Xy).shortcut();
         let key = key.map(keyboard::shortcut_text).unwrap_or_default();
         let text = RichText::new(format!("Orbited · {key}")).color(tokens.strong_text);
         let badge = Button::new(text).wrap_mode(TextWrapMode::Extend);
         let badge = badge.stroke(Stroke::new(1.0, tokens.accent));
-        let response = ui.add(badge);
-        response
-            .on_hover_text("The drawing is planar and seen at an angle: view it from above")
-            .clicked()
+        let help = "The drawing is planar and seen at an angle: view it from above";
+        ui.add(badge).on_hover_text(help).clicked()
     });
     if clicked.inner {
         commands.push(Command::View(NamedView::Xy).into());
@@ -62,12 +58,8 @@ pub fn orbited_ui(context: &Context, canvas: Rect, commands: &mut Vec<Action>) {
 
 /// Offer the tour of the paper in the lower right corner. Returns whether the user answered.
 pub fn tour_ui(context: &Context, canvas: Rect, commands: &mut Vec<Action>) -> bool {
-    let area = Area::new(Id::unique("tour"))
-        .order(Order::Middle)
-        .pivot(Align2::RIGHT_BOTTOM)
-        .fixed_pos(canvas.right_bottom() - Vec2::splat(2.0 * STEP))
-        .constrain(false);
-    let shown = area.show(context, |ui| {
+    let at = canvas.right_bottom() - Vec2::splat(2.0 * STEP);
+    let shown = widgets::overlay(context, "tour", (Align2::RIGHT_BOTTOM, at), |ui| {
         let frame = Frame::popup(ui.style()).inner_margin(2.0 * STEP);
         let shown = frame.show(ui, |ui| {
             ui.set_max_width(TOUR);
@@ -98,13 +90,8 @@ pub fn drop_ui(context: &Context, canvas: Rect) {
     let rect = canvas.shrink(2.0 * STEP);
     let stroke = Stroke::new(2.0, tokens.accent);
     painter.rect(rect, 2 * RADIUS, tokens.veil, stroke, StrokeKind::Inside);
-    let font = eframe::egui::FontId::proportional(13.0);
+    let font = FontId::proportional(13.0);
     let text = "Drop a project to open it, or tables to add their curves";
-    painter.text(
-        rect.center(),
-        Align2::CENTER_CENTER,
-        text,
-        font,
-        tokens.strong_text,
-    );
+    let (at, align) = (rect.center(), Align2::CENTER_CENTER);
+    painter.text(at, align, text, font, tokens.strong_text);
 }

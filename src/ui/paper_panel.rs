@@ -1,8 +1,8 @@
 //! The panel of the tour: the text and the figures of a page, beside the document that it opened.
 
 use eframe::egui::{
-    Align2, Button, ComboBox, Frame, Label, Margin, Panel, Response, RichText, Role, Sense, Slider,
-    Ui, WidgetInfo, vec2,
+    Align2, Button, Frame, Label, Margin, Panel, Response, RichText, Role, Sense, Slider, Ui,
+    WidgetInfo, vec2,
 };
 use lucide_icons::Icon;
 
@@ -239,21 +239,13 @@ fn heading_ui(ui: &mut Ui, page: PaperPage) -> Option<Request> {
             }
         });
     });
-    let width = ui.available_width();
-    let choice = ComboBox::from_id_salt("paper page")
-        .selected_text(page.title())
-        .width(width)
-        .show_ui(ui, |ui| {
-            for other in PaperPage::ALL {
-                let chosen = other.place() == page.place();
-                if ui.selectable_label(chosen, other.title()).clicked() && !chosen {
-                    request = Some(Request::Open(other));
-                }
-            }
-        });
-    choice.response.accessible_name("Page of the paper");
+    let titles = PaperPage::ALL.iter().map(|page| page.title().to_owned());
+    let (width, place) = (ui.available_width(), page.place());
+    let titles = titles.enumerate();
+    let (other, _) = widgets::drop_down(ui, "Page of the paper", width, &place, titles);
+    let opened = other.map(|place| Request::Open(PaperPage::ALL[place]));
     ui.add_space(STEP);
-    request
+    opened.or(request)
 }
 
 /// Show buttons to the pages before and after, and one that opens this page again.

@@ -1,6 +1,6 @@
 //! The status bar: the mouse's next action, and its place.
 
-use eframe::egui::{Label, Response, RichText, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
+use eframe::egui::{Align, Label, Layout, RichText, Role, Sense, Ui, WidgetInfo, vec2};
 
 use super::action::Action;
 use super::figures;
@@ -38,15 +38,15 @@ pub fn status_bar_ui(
         let unit = editor.document().unit();
         let cells = fitting(cells(&readout, unit), width - CELL.x - GAP);
         for (name, text, width) in cells.into_iter().rev() {
-            cell_ui(ui, name, &text, width);
+            let (size, font) = (vec2(width, CELL.y), theme::number_font());
+            let cell = widgets::cell(ui, size, Sense::hover(), [name, &text], font);
+            let name = format!("{name} {text}");
+            cell.widget_info(|| WidgetInfo::labeled(Role::Label, true, &name));
         }
-        ui.with_layout(
-            eframe::egui::Layout::left_to_right(eframe::egui::Align::Center),
-            |ui| {
-                let hint = RichText::new(hint).color(Tokens::of(ui).text);
-                ui.add(Label::new(hint).truncate());
-            },
-        );
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            let hint = RichText::new(hint).color(Tokens::of(ui).text);
+            ui.add(Label::new(hint).truncate());
+        });
     });
 }
 
@@ -68,64 +68,29 @@ fn fitting(mut cells: Vec<Cell>, width: f32) -> Vec<Cell> {
 /// moves its neighbours.
 fn cells(readout: &Readout, unit: Option<LengthUnit>) -> Vec<Cell> {
     let pixel = 1.0 / readout.scale.max(f64::MIN_POSITIVE);
-    let coordinate = |value: Option<f64>| {
-        value.map_or_else(blank, |value| figures::to_resolution(value, 0.5 * pixel))
-    };
-    let pointer = readout.pointer;
+    let coordinate = |value: Option<f64>| Some(figures::to_resolution(value?, 0.5 * pixel));
     let axes = if readout.in_space { 3 } else { 2 };
     let place = ["x", "y", "z"].into_iter().enumerate().take(axes);
-    let place = place.map(|(axis, name)| (name, coordinate(pointer.map(|at| at[axis])), 96.0));
-    let mut cells: Vec<(&'static str, String, f32)> = place.collect();
-    cells.extend([
-        (
-            readout.parameter_name,
-            readout
-                .parameter
-                .map_or_else(blank, |parameter| format!("{parameter:.3}")),
-            64.0,
-        ),
-        (
-            "κ",
-            readout
-                .curvature
-                .map_or_else(blank, |k| figures::significant(k, 5)),
-            88.0,
-        ),
-    ]);
-    let degree = readout
-        .degree
-        .map_or_else(blank, |degree| degree.to_string());
-    cells.push(("degree", degree, 60.0));
-    cells.push(("scale", zoom(readout.scale, unit), 136.0));
-    cells
-}
-
-fn blank() -> String {
-    "–".to_owned()
+    let place = place.map(|(axis, name)| {
+        let value = readout.pointer.map(|at| at[axis]);
+        (name, coordinate(value), 96.0)
+    });
+    let parameter = readout.parameter.map(|parameter| format!("{parameter:.3}"));
+    let curvature = readout.curvature.map(|k| figures::significant(k, 5));
+    let degree = readout.degree.map(|degree| degree.to_string());
+    let others = [
+        (readout.parameter_name, parameter, 64.0),
+        ("κ", curvature, 88.0),
+        ("degree", degree, 60.0),
+        ("scale", Some(zoom(readout.scale, unit)), 136.0),
+    ];
+    let all = place.chain(others);
+    all.map(|(name, text, width)| (name, text.unwrap_or("–".to_owned()), width))
+        .collect()
 }
 
 /// The zoom: how many points a unit of the model spans.
 fn zoom(scale: f64, unit: Option<LengthUnit>) -> String {
     let unit = unit.map_or("unit", LengthUnit::symbol);
     format!("{} px/{unit}", figures::significant(scale, 3))
-}
-
-fn cell_ui(ui: &mut Ui, name: &str, text: &str, width: f32) -> Response {
-    let (rect, response) =
-        ui.allocate_exact_size(Vec2::new(width, HEIGHT - 2.0 * STEP), Sense::hover());
-    let tokens = Tokens::of(ui);
-    let font = theme::small_font();
-    let divider = rect.left() - 2.0 * STEP;
-    ui.painter()
-        .vline(divider, rect.y_range(), Stroke::new(1.0, tokens.outline));
-    ui.painter().text(
-        rect.left_center(),
-        eframe::egui::Align2::LEFT_CENTER,
-        name,
-        font,
-        tokens.faint_text,
-    );
-    widgets::number_in(ui, rect, text, tokens.text);
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{name} {text}")));
-    response
 }

@@ -1,9 +1,10 @@
 //! The tools at the left edge, as icons.
 
 use eframe::egui::{Role, Sense, Ui, Vec2, WidgetInfo, vec2};
+use lucide_icons::Icon;
 
 use super::action::Action;
-use super::theme::{RADIUS, STEP, Tokens};
+use super::theme::{STEP, Tokens};
 use super::{icons, keyboard, widgets};
 use crate::editor::{Command, Editor, Follow, ToolKind};
 use crate::operations::{ALL, Inputs};
@@ -27,8 +28,9 @@ pub fn tool_rail_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<Action>) {
     let groups = groups();
     let count = groups.iter().map(Vec::len).sum::<usize>();
     let free = ui.available_height() - (groups.len() - 1) as f32 * DIVIDER;
-    let side = (free / count as f32 - GAP).floor();
-    let side = side.clamp(SIDES[0], SIDES[1]);
+    let side = (free / count as f32 - GAP)
+        .floor()
+        .clamp(SIDES[0], SIDES[1]);
     ui.vertical_centered(|ui| {
         for (index, group) in groups.into_iter().enumerate() {
             if index > 0 {
@@ -52,14 +54,9 @@ fn groups() -> Vec<Vec<Command>> {
             group.push(Command::Tool(tool));
         }
     }
-    let makers = ALL
-        .iter()
-        .filter(|operation| matches!(operation.inputs, Inputs::None | Inputs::UpToTwo));
-    groups.push(
-        makers
-            .map(|operation| Command::Operation(operation))
-            .collect(),
-    );
+    let makers = ALL.iter().copied();
+    let makers = makers.filter(|it| matches!(it.inputs, Inputs::None | Inputs::UpToTwo));
+    groups.push(makers.map(Command::Operation).collect());
     groups.push(vec![
         Command::ToggleSnapping,
         Command::Follow(Follow::InHarmony),
@@ -85,30 +82,17 @@ fn button_ui(
     let enabled = command.is_enabled(editor);
     let checked = command.is_checked(editor);
     let name = command.label();
+    let icon = icons::of_action(command.into()).unwrap_or(Icon::CircleQuestionMark);
     let button = ui.add_enabled_ui(enabled, |ui| {
-        let (rect, response) = ui.allocate_exact_size(vec2(SIDES[1], side), Sense::click());
         let tokens = Tokens::of(ui);
         let is_on = checked == Some(true);
-        let is_hot = response.hovered() || response.has_focus();
-        if is_on || is_hot {
-            let fill = if is_on {
-                tokens.selection
-            } else {
-                tokens.button[1]
-            };
-            ui.painter().rect_filled(rect, RADIUS, fill);
-        }
-        if response.has_focus() {
-            widgets::focus_ring(ui, rect);
-        }
-        let colour = if is_on || is_hot {
+        let rest = if is_on {
             tokens.strong_text
         } else {
             tokens.text
         };
-        if let Some(icon) = icons::of_action(command.into()) {
-            widgets::icon(ui, rect, icon, colour);
-        }
+        let (size, colours) = (vec2(SIDES[1], side), [rest, tokens.strong_text]);
+        let (_, response) = widgets::pressable_icon(ui, size, icon, colours, is_on);
         response.widget_info(|| match checked {
             Some(on) => WidgetInfo::selected(Role::Button, ui.is_enabled(), on, &name),
             None => WidgetInfo::labeled(Role::Button, ui.is_enabled(), &name),

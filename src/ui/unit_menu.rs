@@ -1,16 +1,13 @@
 //! The document's unit of length and the step of the arrow keys, in a menu.
 
-use eframe::egui::{
-    Align2, Context, Id, Popup, PopupCloseBehavior, Response, Role, Sense, Stroke, Ui, Vec2,
-    WidgetInfo,
-};
+use eframe::egui::{Context, Id, Popup, PopupCloseBehavior, Role, Sense, Ui, Vec2, WidgetInfo};
 
 use super::action::Action;
 use super::figures;
 use super::menu::{entries_ui, units};
 use super::number_field::NumberField;
 use super::shell::Shell;
-use super::theme::{self, STEP, Tokens};
+use super::theme::{self, STEP};
 use super::widgets;
 use crate::editor::{Editor, Hand};
 use crate::geometry::expressions::LengthUnit;
@@ -33,7 +30,11 @@ fn popup_id() -> Id {
 
 /// Show the document's unit in the status bar: a press opens its menu, with the nudge step.
 pub fn unit_cell_ui(ui: &mut Ui, editor: &mut Editor, shell: &Shell, actions: &mut Vec<Action>) {
-    let response = cell_ui(ui, editor.document().unit());
+    let unit = editor.document().unit().map_or("none", LengthUnit::symbol);
+    let texts = ["unit", unit];
+    let response = widgets::cell(ui, CELL, Sense::click(), texts, theme::small_font());
+    let name = format!("Unit {unit}");
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
     let popup = Popup::menu(&response)
         .id(popup_id())
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside);
@@ -44,32 +45,6 @@ pub fn unit_cell_ui(ui: &mut Ui, editor: &mut Editor, shell: &Shell, actions: &m
         nudge_ui(ui, editor);
     });
     response.on_hover_text("Document unit and nudge step");
-}
-
-fn cell_ui(ui: &mut Ui, unit: Option<LengthUnit>) -> Response {
-    let (rect, response) = ui.allocate_exact_size(CELL, Sense::click());
-    let tokens = Tokens::of(ui);
-    let divider = rect.left() - 2.0 * STEP;
-    ui.painter()
-        .vline(divider, rect.y_range(), Stroke::new(1.0, tokens.outline));
-    let text = unit.map_or("none", LengthUnit::symbol);
-    let font = theme::small_font();
-    let (left, right) = (Align2::LEFT_CENTER, Align2::RIGHT_CENTER);
-    let faint = tokens.faint_text;
-    ui.painter()
-        .text(rect.left_center(), left, "unit", font.clone(), faint);
-    let colour = match response.hovered() {
-        true => tokens.strong_text,
-        false => tokens.text,
-    };
-    ui.painter()
-        .text(rect.right_center(), right, text, font, colour);
-    if response.has_focus() {
-        widgets::focus_ring(ui, rect);
-    }
-    let name = format!("Unit {text}");
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name.clone()));
-    response
 }
 
 fn nudge_ui(ui: &mut Ui, editor: &mut Editor) {

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use eframe::egui::{
-    self, Align, Align2, Color32, Context, Galley, Id, InnerResponse, Layout, Modal, Rect,
-    RectAlign, Response, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, Tooltip, Ui,
-    UiBuilder, Vec2, WidgetInfo, text::LayoutJob,
+    self, Align, Align2, Area, Color32, ComboBox, Context, FontId, Galley, Id, InnerResponse,
+    Layout, Modal, Order, Pos2, Rect, RectAlign, Response, RichText, Role, ScrollArea, Sense,
+    Stroke, StrokeKind, Tooltip, Ui, UiBuilder, Vec2, WidgetInfo, text::LayoutJob,
 };
 use lucide_icons::Icon;
 
@@ -69,21 +69,107 @@ impl<'a> IconButton<'a> {
     }
 
     fn enabled_ui(self, ui: &mut Ui) -> Response {
-        let (rect, response) = ui.allocate_exact_size(Vec2::splat(self.size), Sense::click());
         let tokens = Tokens::of(ui);
-        let is_hot = response.hovered() || response.has_focus();
-        if is_hot {
-            ui.painter().rect_filled(rect, RADIUS, tokens.button[1]);
-        }
-        if response.has_focus() {
-            focus_ring(ui, rect);
-        }
-        let at_rest = self.colour.unwrap_or(tokens.text);
-        let colour = if is_hot { tokens.strong_text } else { at_rest };
-        icon(ui, rect, self.icon, colour);
+        let colours = [self.colour.unwrap_or(tokens.text), tokens.strong_text];
+        let size = Vec2::splat(self.size);
+        let (_, response) = pressable_icon(ui, size, self.icon, colours, false);
         response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), self.name));
         response.on_hover_text(self.tooltip)
     }
+}
+
+/// Show an icon that can be pressed, in one colour at rest and in another while it is hovered or has the
+/// keyboard. Its background shows that, and whether it `is_on`.
+pub fn pressable_icon(
+    ui: &mut Ui,
+    size: Vec2,
+    shown: Icon,
+    [rest, hot]: [Color32; 2],
+    is_on: bool,
+) -> (Rect, Response) {
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let tokens = Tokens::of(ui);
+    let is_hot = response.hovered() || response.has_focus();
+    if is_on {
+        ui.painter().rect_filled(rect, RADIUS, tokens.selection);
+    } else if is_hot {
+        ui.painter().rect_filled(rect, RADIUS, tokens.button[1]);
+    }
+    if response.has_focus() {
+        focus_ring(ui, rect);
+    }
+    icon(ui, rect, shown, if is_hot { hot } else { rest });
+    (rect, response)
+}
+
+/// Show a cell of the status bar: a line at its left, a name, and a text flush right.
+pub fn cell(
+    ui: &mut Ui,
+    size: Vec2,
+    sense: Sense,
+    [name, text]: [&str; 2],
+    font: FontId,
+) -> Response {
+    let (rect, response) = ui.allocate_exact_size(size, sense);
+    let tokens = Tokens::of(ui);
+    let stroke = Stroke::new(1.0, tokens.outline);
+    let painter = ui.painter();
+    painter.vline(rect.left() - 2.0 * STEP, rect.y_range(), stroke);
+    let (at, align) = (rect.left_center(), Align2::LEFT_CENTER);
+    painter.text(at, align, name, theme::small_font(), tokens.faint_text);
+    let is_hot = sense.senses_click() && response.hovered();
+    let colour = if is_hot {
+        tokens.strong_text
+    } else {
+        tokens.text
+    };
+    painter.text(
+        rect.right_center(),
+        Align2::RIGHT_CENTER,
+        text,
+        font,
+        colour,
+    );
+    if response.has_focus() {
+        focus_ring(ui, rect);
+    }
+    response
+}
+
+/// Show contents over the canvas, with one of their corners or edges at a place.
+pub fn overlay<R>(
+    context: &Context,
+    name: &str,
+    (pivot, at): (Align2, Pos2),
+    contents: impl FnOnce(&mut Ui) -> R,
+) -> InnerResponse<R> {
+    let area = Area::new(Id::unique(name)).order(Order::Middle);
+    let area = area.pivot(pivot).fixed_pos(at).constrain(false);
+    area.show(context, contents)
+}
+
+/// Show a list that opens, by its name for screen readers; returns another value that is chosen in it.
+pub fn drop_down<T: PartialEq>(
+    ui: &mut Ui,
+    name: &str,
+    width: f32,
+    chosen: &T,
+    all: impl IntoIterator<Item = (T, String)>,
+) -> (Option<T>, Response) {
+    let all: Vec<(T, String)> = all.into_iter().collect();
+    let shown = all.iter().find(|(value, _)| value == chosen);
+    let shown = shown.map_or("", |(_, text)| text).to_owned();
+    let list = ComboBox::from_id_salt(name).selected_text(shown);
+    let mut other = None;
+    let list = list.width(width).truncate().show_ui(ui, |ui| {
+        for (value, text) in all {
+            let is_chosen = value == *chosen;
+            if ui.selectable_label(is_chosen, text).clicked() && !is_chosen {
+                other = Some(value);
+            }
+        }
+    });
+    (other, list.response.accessible_name(name))
 }
 
 /// Paint a colour as a small square.

@@ -1,6 +1,6 @@
 //! The choice of a curve or reference to compare the active one with.
 
-use eframe::egui::{ComboBox, Ui};
+use eframe::egui::Ui;
 
 use crate::document::CurveId;
 use crate::editor::Editor;
@@ -28,36 +28,22 @@ pub fn choice_ui(ui: &mut Ui, editor: &mut Editor, name: &str) {
     let width = (ui.available_width() - BESIDE).clamp(WIDTH[0], WIDTH[1]);
     let others = others(editor);
     let compared = editor.view().compared;
-    let chosen = others.iter().find(|(id, _)| Some(*id) == compared);
-    let text = chosen.map_or("nothing", |(_, name)| name).to_owned();
     ui.add_enabled_ui(!others.is_empty(), |ui| {
-        let choice = ComboBox::from_id_salt(name)
-            .selected_text(text)
-            .width(width)
-            .truncate();
-        let choice = choice.show_ui(ui, |ui| {
-            let mut compared = compared;
-            ui.selectable_value(&mut compared, None, "nothing");
-            for (id, name) in &others {
-                ui.selectable_value(&mut compared, Some(*id), name);
-            }
-            editor.view_mut().compared = compared;
-        });
-        let response = choice.response.accessible_name(name);
-        response.on_hover_text(
-            "Plot another curve or reference beside this one, and measure their distance",
-        );
+        let others = others.into_iter().map(|(id, name)| (Some(id), name));
+        let all = [(None, "nothing".to_owned())].into_iter().chain(others);
+        let (chosen, list) = widgets::drop_down(ui, name, width, &compared, all);
+        if let Some(chosen) = chosen {
+            editor.view_mut().compared = chosen;
+        }
+        let help = "Plot another curve or reference beside this one, and measure their distance";
+        list.on_hover_text(help);
     });
 }
 
 /// The curves and references beside the active one, with their names.
 pub fn others(editor: &Editor) -> Vec<(CurveId, String)> {
     let document = editor.document();
-    let curves = document
-        .curves()
-        .map(|(id, curve)| (id, curve.name.clone()));
-    let references = document.references();
-    let references = references.map(|(id, reference)| (id, reference.name.clone()));
-    let all = curves.chain(references);
-    all.filter(|(id, _)| Some(*id) != editor.active()).collect()
+    let named = |id| Some((id, document.name(id)?.to_owned()));
+    let others = document.all_ids().filter(|id| Some(*id) != editor.active());
+    others.filter_map(named).collect()
 }
