@@ -111,11 +111,9 @@ impl App {
         }
         editor.view_mut().bands_only_plotted = !shell.bands;
         let mut plots = Plots::default();
-        plots.set_tab(if shell.harmony {
-            Tab::Harmony
-        } else {
-            Tab::CURVATURE
-        });
+        if shell.harmony {
+            plots.tab = Tab::Harmony;
+        }
         Self {
             editor,
             shell,
@@ -308,7 +306,7 @@ impl App {
         let frame = Frame::NONE
             .fill(tokens.panel)
             .inner_margin(Margin::symmetric(8, 0));
-        self.plots.set_normalised(self.shell.normalised);
+        self.plots.normalised = self.shell.normalised;
         if !self.shell.plots {
             self.editor.view_mut().plot = None;
             let bar = Panel::bottom("plots folded").frame(frame).resizable(false);
@@ -323,7 +321,7 @@ impl App {
             .default_size(232.0)
             .size_range(168.0..=640.0)
             .show(ui, |ui| {
-                self.plots.set_fingers(self.canvas.has_fingers());
+                self.plots.navigation.fingers = self.canvas.has_fingers();
                 widgets::filling(ui, |ui| {
                     ui.allocate_ui(egui::vec2(ui.available_width(), plots::BAR), |ui| {
                         self.plots
@@ -332,7 +330,7 @@ impl App {
                     self.plots.show(ui, &mut self.editor);
                 });
             });
-        let topic = match self.plots.tab() {
+        let topic = match self.plots.tab {
             Tab::Harmony => Topic::Harmony,
             _ => Topic::Plots,
         };
@@ -627,7 +625,7 @@ impl App {
 
     fn settings(&self) -> Shell {
         let mut shell = Shell {
-            harmony: self.plots.tab() == Tab::Harmony,
+            harmony: self.plots.tab == Tab::Harmony,
             nudge_step: Some(self.editor.hand().nudge_step()),
             bands: !self.editor.view().bands_only_plotted,
             ..self.shell.clone()

@@ -58,20 +58,20 @@ impl Canvas {
     /// Send this frame's events to the editor. Called before any panel is shown, so that all of
     /// them show the result.
     pub fn send_events(&mut self, context: &Context, editor: &mut Editor) {
-        let Some(rect) = self.rect else {
+        if self.rect.is_none() {
             return;
-        };
+        }
         let events = context.input(|input| input.events.clone());
         for event in &events {
-            self.send_event(context, editor, rect, event);
+            self.send_event(context, editor, event);
         }
         let modifiers = context.input(|input| keyboard::modifiers(input.modifiers));
         self.send_modifiers(editor, modifiers);
-        self.send_wheel(context, editor, rect);
+        self.send_wheel(context, editor);
         self.notice_covering(context, editor);
     }
 
-    fn send_event(&mut self, context: &Context, editor: &mut Editor, rect: Rect, event: &Event) {
+    fn send_event(&mut self, context: &Context, editor: &mut Editor, event: &Event) {
         if let Some((steering, pressed)) = keyboard::steering(event) {
             let mine = editor.hand().is_holding() || self.has_keyboard(context);
             match steering {
@@ -80,7 +80,7 @@ impl Canvas {
             }
         }
         match event {
-            Event::PointerMoved(pos) => self.moved(context, editor, rect, *pos),
+            Event::PointerMoved(pos) => self.moved(context, editor, *pos),
             Event::PointerButton {
                 pos,
                 button,
@@ -88,10 +88,9 @@ impl Canvas {
                 modifiers,
             } => {
                 self.send_modifiers(editor, keyboard::modifiers(*modifiers));
-                if *pressed {
-                    self.pressed(context, editor, rect, *pos, *button);
-                } else {
-                    self.released(context, editor, rect, *pos, *button);
+                match pressed {
+                    true => self.pressed(context, editor, *pos, *button),
+                    false => self.released(context, editor, *pos, *button),
                 }
             }
             Event::PointerGone => self.leave(editor),
@@ -121,15 +120,14 @@ impl Canvas {
         }
     }
 
-    fn moved(&mut self, context: &Context, editor: &mut Editor, rect: Rect, pos: Pos2) {
-        let inside = self.is_on_top(context, rect, pos);
+    fn moved(&mut self, context: &Context, editor: &mut Editor, pos: Pos2) {
+        let inside = self.is_on_top(context, pos);
         // A drag that began elsewhere, such as on a panel's edge, hovers nothing here.
         let foreign = self.held.is_empty() && context.input(|input| input.pointer.any_down());
         if !self.held.is_empty() || (inside && !foreign) {
             self.inside = true;
-            editor.input(Input::Moved {
-                at: place(rect, pos),
-            });
+            let at = self.place(pos);
+            editor.input(Input::Moved { at });
         } else {
             self.leave(editor);
         }
@@ -146,20 +144,17 @@ impl Canvas {
         &mut self,
         context: &Context,
         editor: &mut Editor,
-        rect: Rect,
         pos: Pos2,
-        button: PointerButton,
+        pressed: PointerButton,
     ) {
-        if self.is_on_top(context, rect, pos)
+        if self.is_on_top(context, pos)
             && self.has_the_press(context)
-            && let Some(translated) = translated(button)
+            && let Some(button) = translated(pressed)
         {
-            self.held.push(button);
+            self.held.push(pressed);
             context.memory_mut(|memory| memory.request_focus(id()));
-            editor.input(Input::Pressed {
-                button: translated,
-                at: place(rect, pos),
-            });
+            let at = self.place(pos);
+            editor.input(Input::Pressed { button, at });
         }
     }
 
@@ -177,37 +172,41 @@ impl Canvas {
         &mut self,
         context: &Context,
         editor: &mut Editor,
-        rect: Rect,
         pos: Pos2,
-        button: PointerButton,
+        released: PointerButton,
     ) {
-        let Some(index) = self.held.iter().position(|held| *held == button) else {
+        let Some(index) = self.held.iter().position(|held| *held == released) else {
             return;
         };
         self.held.swap_remove(index);
-        let Some(translated) = translated(button) else {
+        let Some(button) = translated(released) else {
             return;
         };
-        let at = place(rect, pos);
-        editor.input(Input::Released {
-            button: translated,
-            at,
-        });
-        let is_double = context.input(|input| input.pointer.button_double_clicked(button));
-        if is_double && button == PointerButton::Primary {
+        let at = self.place(pos);
+        editor.input(Input::Released { button, at });
+        let is_double = context.input(|input| input.pointer.button_double_clicked(released));
+        if is_double && button == Button::Primary {
             editor.input(Input::DoubleClicked { at });
         }
-        if !self.is_on_top(context, rect, pos) {
+        if !self.is_on_top(context, pos) {
             self.leave(editor);
         }
     }
 
-    fn is_on_top(&self, context: &Context, rect: Rect, pos: Pos2) -> bool {
-        let is_behind = context
-            .layer_id_at(pos)
-            .is_some_and(|layer| layer.order != egui::Order::Background);
-        let is_gizmo = gizmo::place(rect).is_some_and(|place| place.contains(pos));
-        rect.contains(pos) && !is_behind && !is_gizmo
+    /// Where a point of the window is on the canvas.
+    fn place(&self, pos: Pos2) -> DVec2 {
+        let offset = pos - self.rect.unwrap_or(Rect::ZERO).min;
+        DVec2::new(f64::from(offset.x), f64::from(offset.y))
+    }
+
+    fn is_on_top(&self, context: &Context, pos: Pos2) -> bool {
+        let layer = context.layer_id_at(pos);
+        let is_behind = layer.is_some_and(|layer| layer.order != egui::Order::Background);
+        let is_on = |rect: Rect| {
+            let gizmo = gizmo::place(rect);
+            rect.contains(pos) && !gizmo.is_some_and(|gizmo| gizmo.contains(pos))
+        };
+        self.rect.is_some_and(is_on) && !is_behind
     }
 
     fn send_modifiers(&mut self, editor: &mut Editor, modifiers: Modifiers) {
@@ -275,54 +274,43 @@ impl Canvas {
             && !keyboard::is_covered(context)
     }
 
-    fn send_wheel(&mut self, context: &Context, editor: &mut Editor, rect: Rect) {
+    fn send_wheel(&mut self, context: &Context, editor: &mut Editor) {
         let (pointer, scrolled, pinched) = context.input(|input| {
             let pointer = input.pointer.hover_pos();
             (pointer, input.smooth_scroll_delta(), input.zoom_delta())
         });
-        let Some(pos) = pointer.filter(|pos| self.is_on_top(context, rect, *pos)) else {
+        let Some(pos) = pointer.filter(|pos| self.is_on_top(context, *pos)) else {
             return;
         };
-        let at = place(rect, pos);
+        let at = self.place(pos);
         if pinched != 1.0 {
-            editor.input(Input::Zoomed {
-                at,
-                factor: f64::from(pinched),
-            });
+            let factor = f64::from(pinched);
+            editor.input(Input::Zoomed { at, factor });
         }
-        let (x, y) = (f64::from(scrolled.x), f64::from(scrolled.y));
+        let by = DVec2::new(f64::from(scrolled.x), f64::from(scrolled.y));
         if self.fingers {
-            if x != 0.0 || y != 0.0 {
-                editor.input(Input::Panned {
-                    by: DVec2::new(x, y),
-                });
+            if by != DVec2::ZERO {
+                editor.input(Input::Panned { by });
             }
-        } else {
-            // With Shift the wheel turns sideways.
-            let turns = editor.hand().turns_following();
-            let turned = if turns { x + y } else { y };
-            if turned != 0.0 {
-                editor.input(Input::Zoomed {
-                    at,
-                    factor: (turned / WHEEL_POINTS).exp(),
-                });
-            }
-            if x != 0.0 && !turns {
-                editor.input(Input::Panned {
-                    by: DVec2::new(x, 0.0),
-                });
-            }
+            return;
+        }
+        // With Shift the wheel turns sideways.
+        let turns = editor.hand().turns_following();
+        let turned = if turns { by.x + by.y } else { by.y };
+        if turned != 0.0 {
+            let factor = (turned / WHEEL_POINTS).exp();
+            editor.input(Input::Zoomed { at, factor });
+        }
+        if by.x != 0.0 && !turns {
+            let by = by.with_y(0.0);
+            editor.input(Input::Panned { by });
         }
     }
 
     /// A dialog that opens takes the hover away.
     fn notice_covering(&mut self, context: &Context, editor: &mut Editor) {
         let pointer = context.input(|input| input.pointer.hover_pos());
-        let uncovered = match (self.rect, pointer) {
-            (Some(rect), Some(pos)) => self.is_on_top(context, rect, pos),
-            _ => false,
-        };
-        if !uncovered {
+        if !pointer.is_some_and(|pos| self.is_on_top(context, pos)) {
             self.leave(editor);
         }
     }
@@ -334,10 +322,8 @@ impl Canvas {
         if self.rect != Some(rect) {
             self.rect = Some(rect);
             let size = rect.size();
-            editor.look(Look::Canvas(DVec2::new(
-                f64::from(size.x),
-                f64::from(size.y),
-            )));
+            let size = DVec2::new(f64::from(size.x), f64::from(size.y));
+            editor.look(Look::Canvas(size));
         }
         let response = ui.interact(rect, id(), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "Canvas"));
@@ -388,11 +374,6 @@ impl Canvas {
             }
         });
     }
-}
-
-fn place(rect: Rect, pos: Pos2) -> DVec2 {
-    let offset = pos - rect.min;
-    DVec2::new(f64::from(offset.x), f64::from(offset.y))
 }
 
 fn translated(button: PointerButton) -> Option<Button> {

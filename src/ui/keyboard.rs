@@ -50,30 +50,22 @@ fn named_key(name: &str) -> Option<Key> {
 
 /// Write a shortcut as menus show it.
 pub fn shortcut_text(shortcut: Shortcut) -> String {
-    let mut parts: Vec<String> = Vec::new();
-    let is_mac = cfg!(target_os = "macos");
-    if shortcut.modifiers.ctrl {
-        parts.push(if is_mac { "Cmd" } else { "Ctrl" }.to_owned());
-    }
-    if shortcut.modifiers.alt {
-        parts.push("Alt".to_owned());
-    }
-    if shortcut.modifiers.shift {
-        parts.push("Shift".to_owned());
-    }
+    let Modifiers { ctrl, alt, shift } = shortcut.modifiers;
+    let control = if cfg!(target_os = "macos") {
+        "Cmd"
+    } else {
+        "Ctrl"
+    };
+    let held = [(ctrl, control), (alt, "Alt"), (shift, "Shift")];
+    let held = held.into_iter().filter(|(is_held, _)| *is_held);
+    let mut parts: Vec<String> = held.map(|(_, name)| name.to_owned()).collect();
     parts.push(match shortcut.key {
         Key::Character(character) => character.to_uppercase().to_string(),
         Key::Function(number) => format!("F{number}"),
         Key::Delete => "Del".to_owned(),
-        Key::Enter => "Enter".to_owned(),
         Key::Escape => "Esc".to_owned(),
-        Key::Backspace => "Backspace".to_owned(),
-        Key::Tab => "Tab".to_owned(),
-        Key::Space => "Space".to_owned(),
-        Key::Left => "Left".to_owned(),
-        Key::Right => "Right".to_owned(),
-        Key::Up => "Up".to_owned(),
-        Key::Down => "Down".to_owned(),
+        // Others are written as they are called.
+        key => format!("{key:?}"),
     });
     parts.join("+")
 }
@@ -266,11 +258,9 @@ fn command_of(event: &Event, table: &[(Shortcut, Action)], typing: Typing) -> Op
             ..
         } => {
             let shortcut = pressed_shortcut(*pressed, *held)?;
-            let found = table
-                .iter()
-                .find(|(keys, _)| *keys == shortcut)
-                .map(|(_, command)| *command);
-            let command = found.or_else(|| alias(shortcut))?;
+            let found = table.iter().find(|(keys, _)| *keys == shortcut);
+            let command = found.map(|(_, command)| *command);
+            let command = command.or_else(|| alias(shortcut))?;
             let repeats = matches!(
                 command,
                 Action::Command(Command::Undo | Command::Redo | Command::ZoomIn | Command::ZoomOut)
@@ -296,11 +286,7 @@ fn pressed_shortcut(pressed: egui::Key, held: egui::Modifiers) -> Option<Shortcu
 
 /// Keys that people know from elsewhere.
 fn alias(shortcut: Shortcut) -> Option<Action> {
-    let redo = Shortcut {
-        modifiers: Modifiers::CTRL,
-        key: Key::Character('y'),
-    };
-    (shortcut == redo).then_some(Command::Redo.into())
+    (shortcut == Shortcut::ctrl('y')).then_some(Command::Redo.into())
 }
 
 /// Whether the text being edited needs the key.

@@ -255,11 +255,9 @@ impl<'a> NumberField<'a> {
     /// The number that was being typed when the keyboard went elsewhere, if it counts.
     fn typed_before_leaving(&self, ui: &Ui, id: Id) -> Option<f64> {
         let draft = take_kept(ui, id)?;
-        let called_off = ui.input(|input| input.key_pressed(Key::Escape));
-        if called_off {
-            None
-        } else {
-            self.taken(ui, id, &draft)
+        match ui.input(|input| input.key_pressed(Key::Escape)) {
+            true => None,
+            false => self.taken(ui, id, &draft),
         }
     }
 
@@ -286,10 +284,9 @@ impl<'a> NumberField<'a> {
 
     /// Show the field in a box as it is while nothing is typed: it can be dragged.
     pub fn resting_ui(&self, ui: &mut Ui, rect: Rect, id: Id) -> (Response, Option<FieldEvent>) {
-        let mut sense = if self.typed_only || self.read_only {
-            Sense::click()
-        } else {
-            Sense::click_and_drag()
+        let mut sense = match self.typed_only || self.read_only {
+            true => Sense::click(),
+            false => Sense::click_and_drag(),
         };
         if self.flat {
             sense -= Sense::FOCUSABLE;
@@ -303,20 +300,14 @@ impl<'a> NumberField<'a> {
         if self.read_only {
             return (response, None);
         }
-        let event = self
-            .requested_value(ui, id)
-            .or_else(|| self.drag(ui, &response));
-        let cursor = if self.typed_only {
-            CursorIcon::Text
-        } else {
-            CursorIcon::ResizeHorizontal
+        let requested = self.requested_value(ui, id);
+        let event = requested.or_else(|| self.drag(ui, &response));
+        let cursor = match (ui.is_enabled(), self.typed_only) {
+            (false, _) => return (response, event),
+            (true, true) => CursorIcon::Text,
+            (true, false) => CursorIcon::ResizeHorizontal,
         };
-        let response = if ui.is_enabled() {
-            response.on_hover_and_drag_cursor(cursor)
-        } else {
-            response
-        };
-        (response, event)
+        (response.on_hover_and_drag_cursor(cursor), event)
     }
 
     fn remark_ui(&self, ui: &Ui, rect: Rect, id: Id) {
@@ -329,30 +320,24 @@ impl<'a> NumberField<'a> {
     fn paint(&self, ui: &Ui, rect: Rect, response: &Response) {
         let tokens = Tokens::of(ui);
         let is_hot = !self.read_only && (response.hovered() || response.dragged());
-        let visible = ui.visuals().widgets.style(response);
         if !self.flat || is_hot {
             // In a table the accent is for the cell that has the keyboard.
-            let outline = if is_hot && !self.flat {
+            let is_marked = is_hot && !self.flat;
+            let outline = if is_marked {
                 tokens.accent
             } else {
                 tokens.outline
             };
-            ui.painter().rect(
-                rect,
-                RADIUS,
-                tokens.inset,
-                Stroke::new(1.0, outline),
-                StrokeKind::Inside,
-            );
+            let (fill, outline) = (tokens.inset, Stroke::new(1.0, outline));
+            ui.painter()
+                .rect(rect, RADIUS, fill, outline, StrokeKind::Inside);
         }
         let at = pos2(rect.right() - 1.5 * STEP, rect.center().y);
         let painter = ui.painter_at(rect);
-        let colour = if is_hot {
-            tokens.strong_text
-        } else if self.read_only {
-            tokens.faint_text
-        } else {
-            visible.text_color()
+        let colour = match (is_hot, self.read_only) {
+            (true, _) => tokens.strong_text,
+            (false, true) => tokens.faint_text,
+            (false, false) => ui.visuals().widgets.style(response).text_color(),
         };
         let text = self.fitting(&painter, rect.width() - 2.0 * STEP);
         painter.text(at, Align2::RIGHT_CENTER, text, theme::number_font(), colour);
@@ -381,13 +366,11 @@ impl<'a> NumberField<'a> {
     fn shorter(&self) -> impl Iterator<Item = String> {
         let value = self.value;
         let is_plain = self.shown.ends_with(|last: char| last.is_ascii_digit());
-        let plain = (1..=9).rev().map(move |decimals| (decimals, value));
-        let plain = plain
-            .filter(|(decimals, value)| value.abs() >= 0.1_f64.powi(*decimals).max(figures::SMALL));
-        let plain = plain.map(|(decimals, value)| {
-            let decimals = decimals as usize;
-            format!("{value:.decimals$}")
-        });
+        let shows = move |decimals: &usize| {
+            value.abs() >= 0.1_f64.powi(*decimals as i32).max(figures::SMALL)
+        };
+        let plain = (1..=9).rev().filter(shows);
+        let plain = plain.map(move |decimals| format!("{value:.decimals$}"));
         let short = (1..=4)
             .rev()
             .map(move |digits| figures::significant(value, digits));
@@ -428,8 +411,7 @@ impl<'a> NumberField<'a> {
         if response.drag_started() {
             let drag = Drag {
                 start: self.value,
-                points: 0.0,
-                called_off: false,
+                ..Drag::default()
             };
             ui.data_mut(|data| data.insert_temp(memory, drag));
             // Whatever had the keyboard is left, as it is by a click.
@@ -475,12 +457,11 @@ impl<'a> NumberField<'a> {
     fn dragged_to(&self, drag: &Drag, fine: f64) -> f64 {
         let value = drag.start + drag.points * self.speed;
         let step = 10f64.powf((self.speed * fine).log10().floor());
-        let rounded = (value / step).round() * step;
-        // Dividing by the inverse keeps decimal fractions short: 0.3, not 0.30000000000000004.
-        let short = if step < 1.0 {
-            (value / step).round() / (1.0 / step).round()
-        } else {
-            rounded
+        let steps = (value / step).round();
+        let short = match step < 1.0 {
+            // Dividing by the inverse keeps decimal fractions short: 0.3, not 0.30000000000000004.
+            true => steps / (1.0 / step).round(),
+            false => steps * step,
         };
         self.clamped(if short.is_finite() { short } else { value })
     }

@@ -6,7 +6,7 @@ use eframe::egui::{Button, Key, Label, RichText, Role, TextEdit, TextStyle, Ui, 
 
 use super::number_field::{FieldEvent, NumberField};
 use super::theme::{self, STEP, Tokens};
-use super::{figures, widgets};
+use super::{figures, labels, widgets};
 use crate::editor::OperationInProgress;
 use crate::geometry::parameters::{Limits, Quantity};
 use crate::operations::{Choice, Kind, Parameter, Value};
@@ -96,9 +96,8 @@ impl OperationFields {
                 ui.add(Label::new(text.font(theme::small_font())).wrap());
             });
         };
-        let is_empty = parameter
-            .text(in_progress.values().get(parameter))
-            .is_empty();
+        let value = in_progress.values().get(parameter);
+        let is_empty = parameter.text(value).is_empty();
         let room = ui.available_width() - label - gap;
         let hint = hint_of(in_progress, parameter);
         if is_empty && !fits(ui, hint, room) {
@@ -127,9 +126,8 @@ impl OperationFields {
         value: &Value,
         none: &str,
     ) -> Option<FieldEvent<Value>> {
-        let typed = self
-            .typed
-            .take_if(|typed| typed.parameter == parameter.name);
+        let is_own = |typed: &mut TypedList| typed.parameter == parameter.name;
+        let typed = self.typed.take_if(is_own);
         let (mut text, before) = match typed {
             Some(typed) => (typed.text, typed.before),
             None => (parameter.text(value), value.clone()),
@@ -218,11 +216,7 @@ fn label_width(ui: &Ui, in_progress: &OperationInProgress) -> f32 {
 
 fn text_width(ui: &Ui, text: &str) -> f32 {
     let font = TextStyle::Body.resolve(ui.style());
-    let colour = Tokens::of(ui).text;
-    ui.painter()
-        .layout_no_wrap(text.to_owned(), font, colour)
-        .size()
-        .x
+    labels::size(ui.painter(), text, font).x
 }
 
 /// Whether a text fits into a field of a width.
@@ -273,12 +267,7 @@ fn shown_number(value: &Value, quantity: Quantity) -> f64 {
     match value {
         Value::Whole(number) => *number as f64,
         Value::Real(number) => quantity.shown(*number),
-        Value::Choice(_)
-        | Value::Switch(_)
-        | Value::List(_)
-        | Value::Indices(_)
-        | Value::Ends(_)
-        | Value::Reference(_) => 0.0,
+        _ => 0.0,
     }
 }
 
@@ -292,25 +281,20 @@ fn given_number(number: f64, like: &Value, quantity: Quantity) -> Value {
 
 fn field_range(limits: Option<Limits>, quantity: Quantity) -> RangeInclusive<f64> {
     let (from, to) = limits.unwrap_or((Bound::Unbounded, Bound::Unbounded));
-    let from = match from {
+    let shown = |bound, unbounded| match bound {
         // The parameter's own message refuses an excluded bound.
-        Bound::Included(from) | Bound::Excluded(from) => quantity.shown(from),
-        Bound::Unbounded => f64::NEG_INFINITY,
+        Bound::Included(value) | Bound::Excluded(value) => quantity.shown(value),
+        Bound::Unbounded => unbounded,
     };
-    let to = match to {
-        Bound::Included(to) | Bound::Excluded(to) => quantity.shown(to),
-        Bound::Unbounded => f64::INFINITY,
-    };
-    from..=to
+    shown(from, f64::NEG_INFINITY)..=shown(to, f64::INFINITY)
 }
 
 /// By how much a number changes when its field is dragged by a point: a good way through a range
 /// that has an end, otherwise a share of the number.
 fn speed(range: &RangeInclusive<f64>, number: f64) -> f64 {
     let width = range.end() - range.start();
-    if width.is_finite() && width > 0.0 {
-        (0.005 * width).min(0.05)
-    } else {
-        (0.01 * number.abs()).max(f64::MIN_POSITIVE)
+    match width.is_finite() && width > 0.0 {
+        true => (0.005 * width).min(0.05),
+        false => (0.01 * number.abs()).max(f64::MIN_POSITIVE),
     }
 }

@@ -68,7 +68,7 @@ impl Side {
     /// Show the panel in all the room that there is.
     pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
         help::mark(ui, ui.max_rect(), Topic::Curves);
-        list_ui(ui, Edge::Top, "curves", |ui| {
+        list_ui(ui, true, "curves", |ui| {
             self.curves.show(ui, editor, commands);
         });
         self.notice_task(editor);
@@ -113,18 +113,18 @@ impl Side {
                 let button = Button::selectable(is_on, name).min_size(vec2(TABS[1], ROW));
                 ui.add(button).clicked()
             };
-            for (own, name) in [
-                (Tab::Inspector, "Inspector"),
-                (Tab::Vertices, vertices.as_str()),
-            ] {
+            for (own, name) in [(Tab::Inspector, "Inspector"), (Tab::Vertices, &*vertices)] {
                 if tab(ui, name, in_front.is_none() && self.tab == own) {
                     self.tab = own;
                     self.is_task_in_front = false;
                 }
             }
-            if let Some(task) = self.task
-                && tab(ui, task.label(), in_front.is_some())
-            {
+            let label = match self.task {
+                None => return,
+                Some(Task::Preview(_) | Task::Applied(_)) => "Operation",
+                Some(Task::Tool(_)) => "Tool",
+            };
+            if tab(ui, label, in_front.is_some()) {
                 self.is_task_in_front = true;
             }
         });
@@ -137,7 +137,7 @@ impl Side {
         });
         let task = self.task.filter(|_| self.is_task_in_front);
         if task.is_none() && self.tab == Tab::Inspector {
-            list_ui(ui, Edge::Bottom, "features", |ui| {
+            list_ui(ui, false, "features", |ui| {
                 help::mark(ui, ui.max_rect(), Topic::Features);
                 ui.strong("Features");
                 feature_list_ui(ui, editor);
@@ -158,7 +158,11 @@ impl Side {
             };
             help::mark(ui, ui.max_rect(), topic);
             widgets::filling(ui, |ui| match (task, self.tab) {
-                (Some(task), _) => self.task_ui(ui, editor, task),
+                (Some(Task::Preview(_) | Task::Applied(_)), _) => self.operation.show(ui, editor),
+                (Some(Task::Tool(ToolKind::EndFit)), _) => end_fit_panel_ui(ui, editor),
+                (Some(Task::Tool(_)), _) => {
+                    widgets::scrolling(ui, "tool", |ui| self.transform.show(ui, editor));
+                }
                 (None, Tab::Inspector) => {
                     widgets::scrolling(ui, "inspector", |ui| self.inspector.show(ui, editor));
                 }
@@ -167,36 +171,13 @@ impl Side {
         });
     }
 
-    fn task_ui(&mut self, ui: &mut Ui, editor: &mut Editor, task: Task) {
-        match task {
-            Task::Preview(_) | Task::Applied(_) => self.operation.show(ui, editor),
-            Task::Tool(ToolKind::EndFit) => end_fit_panel_ui(ui, editor),
-            Task::Tool(_) => {
-                widgets::scrolling(ui, "tool", |ui| self.transform.show(ui, editor));
-            }
-        }
-    }
-
     fn vertices_ui(&mut self, ui: &mut Ui, editor: &mut Editor) {
         let active = editor.active();
         let curve = active.and_then(|id| Some((id, editor.document().curve(id)?.clone())));
         match curve {
             Some((id, curve)) => self.table.show(ui, editor, id, &curve),
-            None if active.is_some() => {
-                widgets::note(ui, "A reference has no vertices.");
-            }
-            None => {
-                widgets::note(ui, "Select a curve to see its vertices.");
-            }
-        }
-    }
-}
-
-impl Task {
-    fn label(self) -> &'static str {
-        match self {
-            Self::Preview(_) | Self::Applied(_) => "Operation",
-            Self::Tool(_) => "Tool",
+            None if active.is_some() => drop(widgets::note(ui, "A reference has no vertices.")),
+            None => drop(widgets::note(ui, "Select a curve to see its vertices.")),
         }
     }
 }
@@ -216,39 +197,31 @@ fn task(editor: &Editor) -> Option<Task> {
     Some(Task::Applied(in_progress.operation().name))
 }
 
-/// Where a list stands.
-#[derive(Clone, Copy)]
-enum Edge {
-    Top,
-    Bottom,
-}
-
-/// Show a list with a share of the height that the user can change, and nothing else does.
-fn list_ui(ui: &mut Ui, edge: Edge, name: &str, contents: impl FnOnce(&mut Ui)) {
+/// Show a list at the top or at the bottom, with a share of the height that the user can change, and nothing
+/// else does.
+fn list_ui(ui: &mut Ui, is_at_top: bool, name: &str, contents: impl FnOnce(&mut Ui)) {
     let height = ui.available_height();
     let id = Id::unique(name);
     let [curves, features, most] = SHARES;
-    let (panel, first) = match edge {
-        Edge::Top => (Panel::top(name), curves),
-        Edge::Bottom => (Panel::bottom(name), features),
+    let (panel, first) = match is_at_top {
+        true => (Panel::top(name), curves),
+        false => (Panel::bottom(name), features),
     };
     let share = ui.data_mut(|data| data.get_persisted::<f32>(id));
     let most = (most * height).max(LEAST);
     let size = (share.unwrap_or(first) * height).clamp(LEAST, most);
-    let panel = panel
-        .frame(Frame::NONE.inner_margin(Margin::symmetric(12, 8)))
-        .resizable(false)
-        .exact_size(size.round());
-    let rect = panel.show(ui, |ui| widgets::filling(ui, contents));
-    let rect = rect.response.rect;
-    let line = match edge {
-        Edge::Top => rect.bottom(),
-        Edge::Bottom => rect.top(),
-    };
+    let panel = panel.frame(Frame::NONE.inner_margin(Margin::symmetric(12, 8)));
+    let panel = panel.resizable(false).exact_size(size.round());
+    let rect = panel
+        .show(ui, |ui| widgets::filling(ui, contents))
+        .response
+        .rect;
+    let line = if is_at_top { rect.bottom() } else { rect.top() };
     if let Some(at) = handle_ui(ui, name, rect.x_range(), line) {
-        let wanted = match edge {
-            Edge::Top => at - rect.top(),
-            Edge::Bottom => rect.bottom() - at,
+        let wanted = if is_at_top {
+            at - rect.top()
+        } else {
+            rect.bottom() - at
         };
         let share = wanted.clamp(LEAST, most) / height;
         ui.data_mut(|data| data.insert_persisted(id, share));

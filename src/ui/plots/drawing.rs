@@ -4,7 +4,8 @@ use std::ops::RangeInclusive;
 
 use eframe::egui::{Color32, Rangef, Vec2};
 use egui_plot::{
-    AxisHints, GridMark, Line, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points, VLine,
+    AxisHints, GridMark, HLine, Line, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points,
+    VLine,
 };
 use glam::DVec2;
 
@@ -41,21 +42,19 @@ pub fn plot<'a>(id: &'a str, axes: &Axes<'a>, pane: &Pane, tokens: &Tokens) -> P
     let least = axes.least;
     let slack = SLACK * (last - first);
     let numbered = first - slack..=last + slack;
-    let font = theme::small_font();
-    let across = AxisHints::new_x()
-        .label(axes.names[0])
-        .label_spacing(Rangef::new(1.0, 2.0))
-        .tick_label_font(font.clone())
-        .tick_label_color(tokens.faint_text)
-        .formatter(move |mark, range| match numbered.contains(&mark.value) {
+    let [across, upwards] = [AxisHints::new_x(), AxisHints::new_y()].map(|axis| {
+        axis.label_spacing(Rangef::new(1.0, 2.0))
+            .tick_label_font(theme::small_font())
+            .tick_label_color(tokens.faint_text)
+    });
+    let across = across.label(axes.names[0]).formatter(move |mark, range| {
+        match numbered.contains(&mark.value) {
             true => across_number(scale, mark, range, size.x),
             false => String::new(),
-        });
-    let upwards = AxisHints::new_y()
+        }
+    });
+    let upwards = upwards
         .label(axes.names[1])
-        .label_spacing(Rangef::new(1.0, 2.0))
-        .tick_label_font(font)
-        .tick_label_color(tokens.faint_text)
         .min_thickness(LEFT)
         .formatter(move |mark, range| match mark.value < least {
             true => String::new(),
@@ -110,31 +109,26 @@ pub fn upwards_number(
 }
 
 pub fn zero_line(plot: &mut PlotUi<'_>, tokens: &Tokens) {
-    let line = egui_plot::HLine::new("zero", 0.0)
-        .color(tokens.axes)
-        .width(1.0);
+    let line = HLine::new("zero", 0.0).color(tokens.axes).width(1.0);
     plot.hline(line.allow_hover(false));
 }
 
-/// Draw a chain, one line for each of its pieces.
-pub fn lines(plot: &mut PlotUi<'_>, name: &str, chain: &[DVec2], colour: Color32) {
-    for piece in pieces(plot, chain) {
-        let line = Line::new(name.to_owned(), piece).color(colour).width(1.5);
-        plot.line(line);
-    }
-}
+/// The name of lines of the curve before the change.
+pub const BEFORE: &str = "before";
 
-/// The pieces of a chain between its gaps, thinned to points that differ on screen.
-fn pieces(plot: &PlotUi<'_>, chain: &[DVec2]) -> Vec<PlotPoints<'static>> {
+/// Draw a chain, one line for each of its pieces between gaps, thinned to points that differ on screen. The
+/// lines before a change have no tooltip.
+pub fn lines(plot: &mut PlotUi<'_>, name: &str, chain: &[DVec2], colour: Color32) {
     let bounds = plot.plot_bounds();
     let size = plot.transform().frame().size();
     let size = DVec2::new(f64::from(size.x), f64::from(size.y)).max(DVec2::ONE);
     let point = DVec2::new(bounds.width(), bounds.height()) / size;
     let pieces = chain.split(|point| point.is_nan());
-    let pieces = pieces.filter(|piece| !piece.is_empty());
-    pieces
-        .map(|piece| series(&told_apart(piece, point)))
-        .collect()
+    for piece in pieces.filter(|piece| !piece.is_empty()) {
+        let line = Line::new(name.to_owned(), series(&told_apart(piece, point)));
+        let line = line.color(colour).width(1.5);
+        plot.line(line.allow_hover(name != BEFORE));
+    }
 }
 
 /// Leave out points less than a screen point from the last one; `point` is the extent of a point of
@@ -155,27 +149,16 @@ fn told_apart(piece: &[DVec2], point: DVec2) -> Vec<DVec2> {
     kept
 }
 
-/// Draw a chain before the change, faintly and without a tooltip.
-pub fn before_lines(plot: &mut PlotUi<'_>, chain: &[DVec2], tokens: &Tokens) {
-    for piece in pieces(plot, chain) {
-        let line = Line::new("before", piece)
-            .color(tokens.strong_text.gamma_multiply(0.3))
-            .width(1.5);
-        plot.line(line.allow_hover(false));
-    }
+/// The colour of a chain before the change.
+pub fn before_colour(tokens: &Tokens) -> Color32 {
+    tokens.strong_text.gamma_multiply(0.3)
 }
 
 pub fn dots_of(name: &str, points: &[DVec2], colour: Color32) -> Points<'static> {
-    let finite: Vec<DVec2> = points
-        .iter()
-        .copied()
-        .filter(|point| point.is_finite())
-        .collect();
-    let dots = Points::new(name.to_owned(), series(&finite));
-    dots.color(colour)
-        .radius(3.0)
-        .shape(MarkerShape::Circle)
-        .filled(true)
+    let finite = points.iter().copied().filter(|point| point.is_finite());
+    let dots = Points::new(name.to_owned(), series(&finite.collect::<Vec<_>>()));
+    let dots = dots.color(colour).radius(3.0);
+    dots.shape(MarkerShape::Circle).filled(true)
 }
 
 pub fn ring(at: DVec2, tokens: &Tokens) -> Points<'static> {
@@ -187,12 +170,8 @@ pub fn ring(at: DVec2, tokens: &Tokens) -> Points<'static> {
 }
 
 pub fn series(points: &[DVec2]) -> PlotPoints<'static> {
-    PlotPoints::Owned(
-        points
-            .iter()
-            .map(|point| PlotPoint::new(point.x, point.y))
-            .collect(),
-    )
+    let points = points.iter().map(|point| PlotPoint::new(point.x, point.y));
+    PlotPoints::Owned(points.collect())
 }
 
 /// Mark the place that is hovered on the canvas.
@@ -209,10 +188,8 @@ pub fn cursor(plot: &mut PlotUi<'_>, at: DVec2, tokens: &Tokens) {
 /// The abscissa under the pointer, if it is over the plot.
 pub fn hovered_x(plot: &PlotUi<'_>) -> Option<f64> {
     let is_over = plot.response().hovered() && !plot.response().dragged();
-    is_over
-        .then(|| plot.pointer_coordinate())
-        .flatten()
-        .map(|point| point.x)
+    let pointer = plot.pointer_coordinate().filter(|_| is_over);
+    pointer.map(|point| point.x)
 }
 
 #[cfg(test)]

@@ -43,10 +43,8 @@ impl Plots {
         let tokens = Tokens::of(ui);
         let held = is_held(ui, editor);
         let scene = editor.view().plots();
-        let strips: Vec<Flow> = Flow::ALL
-            .into_iter()
-            .filter(|flow| *flow != Flow::TorsionAngles || !scene.planar)
-            .collect();
+        let mut strips = Flow::ALL.to_vec();
+        strips.retain(|flow| *flow != Flow::TorsionAngles || !scene.planar);
         let count = last_vertex(scene) + 1.0;
         let whole = area(ui);
         let (width, height) = (whole.width(), whole.height() - BELOW);
@@ -95,10 +93,8 @@ impl Plots {
                 }
             }
         }
-        let vertex = hovered
-            .map(|x| x.round())
-            .filter(|x| (0.0..count).contains(x));
-        if let Some(vertex) = vertex {
+        let vertex = hovered.map(f64::round);
+        if let Some(vertex) = vertex.filter(|x| (0.0..count).contains(x)) {
             editor.view_mut().hover_vertex(vertex as usize);
         }
         // The strips are painted already: they mark it in the next frame.
@@ -110,19 +106,14 @@ impl Plots {
 
 /// The curves of a strip, from back to front.
 fn shown(scene: &PlotScene) -> [Option<&PlotScene>; 3] {
-    [
-        scene.before.as_deref(),
-        scene.compared.as_deref(),
-        Some(scene),
-    ]
+    let (before, compared) = (scene.before.as_deref(), scene.compared.as_deref());
+    [before, compared, Some(scene)]
 }
 
 /// The greatest number of a vertex in any strip.
 fn last_vertex(scene: &PlotScene) -> f64 {
-    let all = shown(scene)
-        .into_iter()
-        .flatten()
-        .flat_map(|scene| &scene.flow);
+    let all = shown(scene).into_iter().flatten();
+    let all = all.flat_map(|scene| &scene.flow);
     let last = all.filter_map(|series| series.last()).map(|point| point.x);
     last.fold(1.0, f64::max) + 1.0
 }
@@ -195,7 +186,7 @@ impl Strip<'_> {
         let (flow, tokens, scene) = (self.flow as usize, self.tokens, self.scene);
         zero_line(plot, tokens);
         if let Some(before) = &scene.before {
-            before_lines(plot, &before.flow[flow], tokens);
+            lines(plot, BEFORE, &before.flow[flow], before_colour(tokens));
         }
         if let Some(compared) = &scene.compared {
             self.series(plot, "compared", &compared.flow[flow], tokens.joints);

@@ -11,7 +11,7 @@ use super::frame::{most_of, padded, within_reason};
 use super::level_names::{across_name, axis_name};
 use super::pane::Pane;
 use super::ticks::Scale;
-use super::{Plots, area, discrete, is_held, peaks};
+use super::{Plots, area, discrete, empty_ui, is_held};
 use crate::analysis::LevelPlot;
 use crate::editor::{Editor, PlotFeature, PlotScene};
 use crate::ui::action::Action;
@@ -39,8 +39,8 @@ const DOTS_OF_SIZE: f64 = 0.1;
 const DOT_ROOM: f64 = 0.06;
 
 impl Plots {
-    /// The switch that scales the curve to length 1, and a remark beside it, where there is room.
-    pub(super) fn normalised_ui(&self, ui: &mut Ui, remark: &str, commands: &mut Vec<Action>) {
+    /// The switch that scales the curve to length 1, and the remark beside it, where there is room.
+    pub(super) fn normalised_ui(&self, ui: &mut Ui, commands: &mut Vec<Action>) {
         if ui.available_width() < SWITCH {
             return;
         }
@@ -51,18 +51,18 @@ impl Plots {
         if switch.on_hover_text(action.tooltip()).clicked() {
             commands.push(action);
         }
-        Self::remark_ui(ui, remark);
+        self.remark_ui(ui);
     }
 
     /// Show the remark up to its first semicolon where there is room; a tooltip shows all of it.
-    pub(super) fn remark_ui(ui: &mut Ui, remark: &str) {
+    pub(super) fn remark_ui(&self, ui: &mut Ui) {
         if ui.available_width() < REMARK {
             return;
         }
-        let short = remark.split(';').next().unwrap_or_default();
+        let short = self.remark.split(';').next().unwrap_or_default();
         let shown = widgets::remark(ui, short);
-        if short != remark {
-            shown.on_hover_text(remark);
+        if short != self.remark {
+            shown.on_hover_text(&self.remark);
         }
     }
 
@@ -82,14 +82,15 @@ impl Plots {
                 LevelPlot::Logarithmic => "The curvature is constant: there is no graph.",
                 _ => "This level is undefined everywhere.",
             };
-            widgets::note(ui, text);
-            ui.take_available_space();
-            return;
+            return empty_ui(ui, text);
         }
         let (wanted, cut) = wanted(scene, which);
         self.remark = match cut {
             _ if is_graph => slope_remark(editor),
-            Some(cut) => peaks(cut),
+            Some((low, high)) => {
+                let [low, high] = [low, high].map(|reach| figures::significant(reach, 4));
+                format!("Peaks beyond the plot: {low} … {high}")
+            }
             None if is_curvature && !scene.discrete.is_empty() => {
                 discrete::legend(scene.flank).to_owned()
             }
@@ -147,7 +148,7 @@ impl Plots {
                 zero_line(plot, tokens);
             }
             if let Some(before) = &scene.before {
-                before_lines(plot, &before.series, tokens);
+                lines(plot, BEFORE, &before.series, before_colour(tokens));
             }
             if let Some(other) = &scene.compared {
                 lines(plot, "compared", &other.series, tokens.joints);

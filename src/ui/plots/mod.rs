@@ -22,7 +22,6 @@ use eframe::egui::{Button, Context, Rect, Ui};
 use egui_plot::{PlotBounds, PlotResponse};
 use lucide_icons::Icon;
 
-use super::figures;
 use super::theme::{STEP, Tokens};
 use super::widgets::{self, IconButton};
 use crate::analysis::{Flow, LevelPlot};
@@ -30,7 +29,7 @@ use crate::document::CurveId;
 use crate::editor::{Editor, MenuSubject, PlotKind, PlotScene};
 use crate::geometry::LEVELS;
 use crate::ui::action::Action;
-use crate::ui::keyboard::{is_covered, shortcut_text};
+use crate::ui::keyboard::{is_covered, with_key};
 use compare::compare_ui;
 use frame::Frame;
 use level_names::{explanation, tab_name};
@@ -71,15 +70,6 @@ fn name(tab: Tab, short: bool) -> String {
     }
 }
 
-/// The name of a tab for screen readers: the inspector has a section of
-/// harmony too.
-fn full_name(tab: Tab) -> String {
-    match tab {
-        Tab::Harmony => "Harmony strips".to_owned(),
-        _ => name(tab, false),
-    }
-}
-
 /// The tooltip of the strips.
 const STRIPS: &str =
     "Leg lengths, angles and discrete curvature over the vertices; circles: least even";
@@ -87,16 +77,18 @@ const STRIPS: &str =
 /// The plots' own state: their bounds, which keep still while the curve is dragged.
 #[derive(Default)]
 pub struct Plots {
-    tab: Tab,
+    /// The tab in front.
+    pub tab: Tab,
     strips: [Frame; Flow::ALL.len()],
     /// The legend of the plot in front, or the reach of its peaks.
     remark: String,
     /// Whether levels are those of the curve scaled to length 1.
-    normalised: bool,
+    pub normalised: bool,
     levels: HashMap<(LevelPlot, bool), Frame>,
     /// The feature whose glyph the pointer is near, by its place in the plot's list.
     near: Option<usize>,
-    navigation: Navigation,
+    /// How the pointer zooms and pans.
+    pub navigation: Navigation,
     /// Where the plot in front was in the last frame, without its bar.
     rect: Option<Rect>,
     /// Whose plots they are.
@@ -128,6 +120,12 @@ fn close_part(known: Option<[f64; 2]>, [from, to]: [f64; 2], length: f64) -> Opt
     };
     let part = || [(from - extent).max(0.0), (to + extent).min(length)];
     known.filter(does).or_else(|| Some(part()))
+}
+
+/// Show a text in place of a plot; the panel keeps its height.
+fn empty_ui(ui: &mut Ui, text: &str) {
+    widgets::note(ui, text);
+    ui.take_available_space();
 }
 
 /// The status bar's hint over a plot.
@@ -169,15 +167,6 @@ impl Plots {
     }
 }
 
-/// The reach of peaks that the plot cuts off.
-fn peaks((low, high): (f64, f64)) -> String {
-    format!(
-        "Peaks beyond the plot: {} … {}",
-        figures::significant(low, 4),
-        figures::significant(high, 4)
-    )
-}
-
 impl Plots {
     /// The frame of a plot over arc length, or of the graph.
     fn frame(&self, of: (LevelPlot, bool)) -> Frame {
@@ -208,21 +197,11 @@ impl Plots {
         }
     }
 
-    /// Set whether plots show curves scaled to length 1.
-    pub fn set_normalised(&mut self, normalised: bool) {
-        self.normalised = normalised;
-    }
-
     /// The status bar's hint while the pointer is over a plot.
     pub fn hint(&self, context: &Context) -> Option<&'static str> {
         let pointer = context.pointer_hover_pos()?;
         let is_over = self.rect?.contains(pointer) && !is_covered(context);
         is_over.then_some(HINT)
-    }
-
-    /// Set whether a touchpad turns the wheel: its fingers pan a plot.
-    pub fn set_fingers(&mut self, fingers: bool) {
-        self.navigation.fingers = fingers;
     }
 
     /// Forget the zoom of another curve.
@@ -245,16 +224,6 @@ impl Plots {
             editor.view_mut().plot_part = part;
             ui.ctx().request_repaint();
         }
-    }
-
-    /// Which tab is in front.
-    pub fn tab(&self) -> Tab {
-        self.tab
-    }
-
-    /// Put a tab in front.
-    pub fn set_tab(&mut self, tab: Tab) {
-        self.tab = tab;
     }
 
     /// The tabs that the active curve has: a planar one has no torsion.
@@ -289,12 +258,13 @@ impl Plots {
             let short = ui.available_width() < SHORT * tabs.len() as f32;
             for tab in tabs {
                 let button = Button::selectable(shown && self.tab == tab, name(tab, short));
-                let mut response = ui.add(button).accessible_name(full_name(tab));
-                match tab {
-                    Tab::Levels(plot) => response = response.on_hover_text(explanation(plot)),
-                    Tab::Harmony => response = response.on_hover_text(STRIPS),
-                }
-                if response.clicked() {
+                // The inspector has a section of harmony too.
+                let (name, tooltip) = match tab {
+                    Tab::Levels(plot) => (tab_name(plot, false), explanation(plot)),
+                    Tab::Harmony => ("Harmony strips".to_owned(), STRIPS.to_owned()),
+                };
+                let response = ui.add(button).accessible_name(name);
+                if response.on_hover_text(tooltip).clicked() {
                     self.tab = tab;
                     if !shown {
                         commands.push(Action::TogglePlots);
@@ -302,19 +272,16 @@ impl Plots {
                 }
             }
             widgets::at_right(ui, |ui| {
-                let (icon, name) = if shown {
-                    (Icon::ChevronDown, "Collapse plots")
-                } else {
-                    (Icon::ChevronUp, "Expand plots")
+                let (icon, name) = match shown {
+                    true => (Icon::ChevronDown, "Collapse plots"),
+                    false => (Icon::ChevronUp, "Expand plots"),
                 };
                 if IconButton::new(icon, name).show(ui).clicked() {
                     commands.push(Action::TogglePlots);
                 }
                 if shown {
-                    let fit = IconButton::new(Icon::Maximize, "Fit the plot");
-                    let key = Action::FitPlot.shortcut().map(shortcut_text);
-                    let key = key.map_or(String::new(), |key| format!(" ({key})"));
-                    let fit = fit.tooltip(Action::FitPlot.tooltip() + &key);
+                    let tooltip = with_key(&Action::FitPlot.tooltip(), Action::FitPlot.shortcut());
+                    let fit = IconButton::new(Icon::Maximize, "Fit the plot").tooltip(tooltip);
                     if fit.enabled(self.is_moved()).show(ui).clicked() {
                         commands.push(Action::FitPlot);
                     }
@@ -325,10 +292,9 @@ impl Plots {
                     compare_ui(ui, editor);
                 }
                 match self.tab {
-                    _ if !shown => {}
-                    Tab::Levels(LevelPlot::Logarithmic) => Self::remark_ui(ui, &self.remark),
-                    Tab::Levels(_) => self.normalised_ui(ui, &self.remark, commands),
-                    Tab::Harmony => {}
+                    Tab::Levels(LevelPlot::Logarithmic) if shown => self.remark_ui(ui),
+                    Tab::Levels(_) if shown => self.normalised_ui(ui, commands),
+                    _ => {}
                 }
             });
         });
@@ -354,24 +320,17 @@ impl Plots {
     /// Show the plots of the tab in front.
     pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor) {
         self.rect = None;
-        if editor.active().is_none() {
-            widgets::note(ui, "Select a curve to see its plots.");
-            // The panel keeps its height.
-            ui.take_available_space();
-            return;
-        }
-        let reference = editor.active_reference().map(|(id, _)| id);
-        let reference = reference.and_then(|id| editor.document().reference(id));
-        if let Some(reference) = reference
-            && (self.tab == Tab::Harmony || !reference.curve.form().is_smooth())
-        {
-            let text = match self.tab {
-                Tab::Harmony => "A reference has no S-polygon to plot.",
-                _ => "Points have no curvature. Fit a curve to them to see its plots.",
-            };
-            widgets::note(ui, text);
-            ui.take_available_space();
-            return;
+        let Some(active) = editor.active() else {
+            return empty_ui(ui, "Select a curve to see its plots.");
+        };
+        if let Some(reference) = editor.document().reference(active) {
+            if self.tab == Tab::Harmony {
+                return empty_ui(ui, "A reference has no S-polygon to plot.");
+            }
+            if !reference.curve.form().is_smooth() {
+                let text = "Points have no curvature. Fit a curve to them to see its plots.";
+                return empty_ui(ui, text);
+            }
         }
         self.rect = Some(ui.available_rect_before_wrap());
         self.follow_active(editor);
