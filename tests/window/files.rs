@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use batten::document::Document;
 use batten::editor::Editor;
+use batten::geometry::expressions::LengthUnit;
 use batten::io::disk;
 use eframe::egui::{DroppedFile, Key, Modifiers, Pos2, Vec2};
 use egui_kittest::kittest::Queryable;
@@ -204,6 +205,31 @@ fn a_dropped_table_is_added_and_a_dropped_project_asks_about_changes() {
     click(&mut window, "Discard");
     assert_eq!(window.state().editor().document().len(), 1);
     assert_eq!(curve(&window).polygon.degree(), 1);
+}
+
+#[test]
+fn curves_in_another_unit_wait_for_the_unit_of_the_document() {
+    let mut window = open_window();
+    let folder = tempfile::tempdir().expect("a folder");
+    let table = folder.path().join("line.csv");
+    std::fs::write(&table, "# unit=in\n# degree=1 name=line\nx,y\n0,0\n1,2\n").expect("the file");
+    let question = "Choose the document's unit";
+    for answer in ["Cancel", "millimetres"] {
+        drop_file(&mut window, &table);
+        window.get_by_label(question);
+        assert_eq!(window.state().editor().document().len(), 1, "nothing yet");
+        click(&mut window, answer);
+        assert!(window.query_by_label(question).is_none(), "{answer}");
+    }
+    let document = window.state().editor().document();
+    assert_eq!(document.unit(), Some(LengthUnit::Millimetre));
+    let (_, line) = document.curves().last().expect("the line");
+    let height = line.polygon.vertex(1).y;
+    assert!((height - 50.8).abs() < 1e-12, "{height}");
+    // One step takes the curve and the unit back.
+    choose(&mut window, &["Edit", "Undo import curves"]);
+    let document = window.state().editor().document();
+    assert_eq!((document.len(), document.unit()), (1, None));
 }
 
 #[derive(Debug)]
