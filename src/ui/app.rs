@@ -29,9 +29,7 @@ use super::status_bar::{self, status_bar_ui};
 use super::theme::{self, Tokens};
 use super::tool_rail::{self, tool_rail_ui};
 use super::{canvas, overlays, unit_menu, widgets};
-use crate::editor::{
-    Command, Editor, FileReply, Layer, MenuOf, MenuSubject, Refusal, Reply, ToolKind, told,
-};
+use crate::editor::{Command, Editor, Layer, MenuOf, MenuSubject, Refusal, Reply, ToolKind, told};
 
 use crate::io::{Exporter, formats};
 
@@ -70,17 +68,6 @@ struct Requested {
     path: PathBuf,
     /// Whether the prompt asks again after a refusal.
     asks_again: bool,
-}
-
-impl Requested {
-    /// Save to the document's own file.
-    fn own(after: Option<AfterDiscard>, path: PathBuf) -> Self {
-        Self {
-            asks_again: after.is_some(),
-            purpose: Purpose::Save(after),
-            path,
-        }
-    }
 }
 
 impl App {
@@ -251,30 +238,23 @@ impl App {
 
     fn panels_ui(&mut self, ui: &mut Ui) {
         let tokens = Tokens::of(ui);
-        let bar = |x: i8, y: i8| {
-            Frame::NONE
-                .fill(tokens.panel)
-                .inner_margin(Margin::symmetric(x, y))
+        let frame = |x: i8, y: i8| {
+            let margin = Margin::symmetric(x, y);
+            Frame::NONE.fill(tokens.panel).inner_margin(margin)
         };
-        Panel::top("menu")
-            .frame(bar(4, 2))
-            .resizable(false)
-            .show(ui, |ui| {
-                menu_ui(ui, &mut self.editor, &self.shell, &mut self.actions);
-            });
-        let status = Panel::bottom("status").frame(bar(12, 0)).resizable(false);
+        let menu = Panel::top("menu").frame(frame(4, 2)).resizable(false);
+        menu.show(ui, |ui| {
+            menu_ui(ui, &mut self.editor, &self.shell, &mut self.actions)
+        });
+        let status = Panel::bottom("status").frame(frame(12, 0)).resizable(false);
         let status = status.exact_size(status_bar::HEIGHT).show(ui, |ui| {
             let hint = self.plots.hint(ui.ctx());
             let hint = hint.map_or_else(|| self.editor.hint(), str::to_owned);
-            status_bar_ui(
-                ui,
-                &mut self.editor,
-                &self.shell,
-                (&hint, &mut self.actions),
-            );
+            let hint = (hint.as_str(), &mut self.actions);
+            status_bar_ui(ui, &mut self.editor, &self.shell, hint);
         });
         help::mark(ui, status.response.rect, Topic::StatusBar);
-        let rail = Panel::left("tools").frame(bar(4, 4)).resizable(false);
+        let rail = Panel::left("tools").frame(frame(4, 4)).resizable(false);
         let rail = rail.exact_size(tool_rail::WIDTH).show(ui, |ui| {
             tool_rail_ui(ui, &self.editor, &mut self.actions);
         });
@@ -283,53 +263,42 @@ impl App {
             self.confirm(&ui.ctx().clone(), AfterDiscard::OpenPaper(page));
         }
         let side = Panel::right("side").frame(Frame::NONE.fill(tokens.panel));
-        side.default_size(320.0)
-            .size_range(280.0..=520.0)
-            .show(ui, |ui| {
-                widgets::filling(ui, |ui| {
-                    self.side.show(ui, &mut self.editor, &mut self.actions);
-                });
+        let side = side.default_size(320.0).size_range(280.0..=520.0);
+        side.show(ui, |ui| {
+            widgets::filling(ui, |ui| {
+                self.side.show(ui, &mut self.editor, &mut self.actions)
             });
-        self.plots_ui(ui);
-        CentralPanel::default()
-            .frame(Frame::NONE.fill(tokens.background))
-            .show(ui, |ui| {
-                self.canvas.show(ui, &mut self.editor);
-                if let Some(rect) = self.canvas.rect() {
-                    gizmo_ui(ui, rect, &mut self.editor, &mut self.actions);
-                }
-            });
+        });
+        self.plots_ui(ui, frame(8, 0));
+        let canvas = CentralPanel::default().frame(Frame::NONE.fill(tokens.background));
+        canvas.show(ui, |ui| {
+            self.canvas.show(ui, &mut self.editor);
+            if let Some(rect) = self.canvas.rect() {
+                gizmo_ui(ui, rect, &mut self.editor, &mut self.actions);
+            }
+        });
     }
 
-    fn plots_ui(&mut self, ui: &mut Ui) {
-        let tokens = Tokens::of(ui);
-        let frame = Frame::NONE
-            .fill(tokens.panel)
-            .inner_margin(Margin::symmetric(8, 0));
+    fn plots_ui(&mut self, ui: &mut Ui, frame: Frame) {
+        let (editor, actions) = (&mut self.editor, &mut self.actions);
         self.plots.normalised = self.shell.normalised;
         if !self.shell.plots {
-            self.editor.view_mut().plot = None;
+            editor.view_mut().plot = None;
             let bar = Panel::bottom("plots folded").frame(frame).resizable(false);
-            bar.exact_size(plots::BAR).show(ui, |ui| {
-                self.plots
-                    .bar_ui(ui, &mut self.editor, false, &mut self.actions);
-            });
+            let bar = bar.exact_size(plots::BAR);
+            bar.show(ui, |ui| self.plots.bar_ui(ui, editor, false, actions));
             return;
         }
         let panel = Panel::bottom("plots").frame(frame).resizable(true);
-        let shown = panel
-            .default_size(232.0)
-            .size_range(168.0..=640.0)
-            .show(ui, |ui| {
-                self.plots.navigation.fingers = self.canvas.has_fingers();
-                widgets::filling(ui, |ui| {
-                    ui.allocate_ui(egui::vec2(ui.available_width(), plots::BAR), |ui| {
-                        self.plots
-                            .bar_ui(ui, &mut self.editor, true, &mut self.actions);
-                    });
-                    self.plots.show(ui, &mut self.editor);
-                });
+        let panel = panel.default_size(232.0).size_range(168.0..=640.0);
+        let shown = panel.show(ui, |ui| {
+            self.plots.navigation.fingers = self.canvas.has_fingers();
+            widgets::filling(ui, |ui| {
+                let bar = egui::vec2(ui.available_width(), plots::BAR);
+                ui.allocate_ui(bar, |ui| self.plots.bar_ui(ui, editor, true, actions));
+                self.plots.show(ui, editor);
             });
+        });
         let topic = match self.plots.tab {
             Tab::Harmony => Topic::Harmony,
             _ => Topic::Plots,
@@ -406,7 +375,7 @@ impl App {
             Action::Paper => self.confirm(context, AfterDiscard::OpenPaper(self.paper.page())),
             Action::Quit => self.confirm(context, AfterDiscard::Quit),
             Action::Import => self.files.ask(context, Purpose::Import, self.folder()),
-            Action::Save => self.save_own(context, None),
+            Action::Save => self.save_own(context, None, false),
             Action::SaveAs => self.ask_save(context, None),
             Action::Reload => told(self.editor.reload()),
             Action::Export(exporter) => self.ask_export(context, exporter),
@@ -479,50 +448,37 @@ impl App {
     /// Where questions for files begin: beside the document's file, otherwise where the program
     /// was started. Ends with a separator, so that a name can be typed behind it.
     fn folder(&self) -> PathBuf {
-        let beside = self
-            .editor
-            .workspace()
-            .path()
-            .and_then(Path::parent)
-            .map(Path::to_owned);
-        let folder = beside.filter(|folder| folder.is_dir());
-        let folder = folder
-            .or_else(|| std::env::current_dir().ok())
-            .unwrap_or_default();
-        folder.join("")
+        let beside = self.editor.workspace().path().and_then(Path::parent);
+        let folder = beside.filter(|folder| folder.is_dir()).map(Path::to_owned);
+        let folder = folder.or_else(|| std::env::current_dir().ok());
+        folder.unwrap_or_default().join("")
     }
 
     fn decide(&mut self, context: &Context, decision: Decision) {
         match decision {
             Decision::Close => {}
             Decision::Discard(after) => self.go_on(context, after),
-            Decision::Save(after) => self.save_own(context, Some(after)),
+            Decision::Save(after) => self.save_own(context, Some(after), false),
             Decision::SaveAs(after) => self.ask_save(context, after),
-            Decision::Overwrite(after) => self.overwrite(context, after),
+            Decision::Overwrite(after) => self.save_own(context, after, true),
             Decision::Reload => told(self.editor.reload()),
         }
     }
 
-    /// Save to the document's own file, unless another program has changed it.
-    fn save_own(&mut self, context: &Context, after: Option<AfterDiscard>) {
-        match self.editor.workspace().path().map(Path::to_owned) {
-            Some(path) => {
-                let requested = Requested::own(after, path);
-                self.request_files(context, requested, |editor, _| editor.save_unless_changed());
-            }
-            None => self.ask_save(context, after),
-        }
-    }
-
-    /// Save to the document's own file, whatever it holds.
-    fn overwrite(&mut self, context: &Context, after: Option<AfterDiscard>) {
-        match self.editor.workspace().path().map(Path::to_owned) {
-            Some(path) => {
-                let requested = Requested::own(after, path);
-                self.request_files(context, requested, Editor::save);
-            }
-            None => self.ask_save(context, after),
-        }
+    /// Save to the document's own file: unless another program has changed it, or whatever it holds.
+    fn save_own(&mut self, context: &Context, after: Option<AfterDiscard>, overwrites: bool) {
+        let Some(path) = self.editor.workspace().path().map(Path::to_owned) else {
+            return self.ask_save(context, after);
+        };
+        let requested = Requested {
+            asks_again: after.is_some(),
+            purpose: Purpose::Save(after),
+            path,
+        };
+        self.request_files(context, requested, |editor, path| match overwrites {
+            true => editor.save(path),
+            false => editor.save_unless_changed(),
+        });
     }
 
     fn use_chosen(&mut self, context: &Context, chosen: Chosen) {
@@ -562,46 +518,34 @@ impl App {
 
     /// Do what follows from the reply to the last request for files, once it is there.
     fn take_file_reply(&mut self, context: &Context) {
-        let Some(FileReply {
-            reply,
-            is_file_changed,
-        }) = self.editor.filing_mut().take_reply()
-        else {
+        let Some(answer) = self.editor.filing_mut().take_reply() else {
             return;
         };
         let Some(requested) = self.requested.take() else {
             return;
         };
-        match (requested.purpose, reply) {
-            (Purpose::Save(after), _) if is_file_changed => {
+        match (requested.purpose, answer.reply) {
+            (Purpose::Save(after), _) if answer.is_file_changed => {
                 self.editor.dismiss_message();
                 self.dialog = Some(Dialog::Changed(after));
             }
-            (purpose, Err(refusal)) if requested.asks_again => {
-                self.ask_again(purpose, &requested.path, refusal);
+            // In the system's dialogs the refusal stays the message.
+            (purpose, Err(Refusal(reason))) if requested.asks_again => {
+                if !self.files.is_native() {
+                    self.editor.dismiss_message();
+                    self.files.ask_again(purpose, &requested.path, reason);
+                }
             }
             (Purpose::Save(Some(after)), Ok(_)) => self.go_on(context, after),
             _ => {}
         }
     }
 
-    /// A refusal is shown in the window's own prompt if that was in use; otherwise it stays the
-    /// message.
-    fn ask_again(&mut self, purpose: Purpose, path: &Path, refusal: Refusal) {
-        if !self.files.is_native() {
-            self.editor.dismiss_message();
-            self.files.ask_again(purpose, path, refusal.to_string());
-        }
-    }
-
     fn update_title(&mut self, context: &Context) {
         let name = self.editor.workspace().path().and_then(Path::file_name);
         let name = name.map_or("Untitled".into(), |name| name.to_string_lossy());
-        let dot = if self.editor.workspace().is_modified() {
-            "• "
-        } else {
-            ""
-        };
+        let is_modified = self.editor.workspace().is_modified();
+        let dot = if is_modified { "• " } else { "" };
         let title = format!("{dot}{name} – Batten");
         if title != self.title {
             context.send_viewport_cmd(ViewportCommand::Title(title.clone()));

@@ -98,10 +98,10 @@ impl AtlasView {
             let clicked = response.clicked().then(values).flatten();
             return clicked.map(FieldEvent::Set);
         }
-        self.dragged = response.dragged()
-            && editor
-                .operation()
-                .is_some_and(OperationInProgress::holds_values);
+        let holds = editor
+            .operation()
+            .is_some_and(OperationInProgress::holds_values);
+        self.dragged = response.dragged() && holds;
         if ui.input(|input| input.key_pressed(Key::Escape)) {
             self.dragged = false;
             return Some(FieldEvent::Abort);
@@ -121,23 +121,11 @@ impl AtlasView {
                 stride: found.stride(),
                 dark: ui.visuals().dark_mode,
             };
-            let known = self
-                .picture
-                .as_ref()
-                .is_some_and(|(known, _)| *known == picture);
-            if !known {
+            let known = self.picture.take().filter(|(known, _)| *known == picture);
+            self.picture = known.or_else(|| {
                 let (image, options) = (image(found, tokens), TextureOptions::NEAREST);
-                match &mut self.picture {
-                    Some((known, texture)) => {
-                        texture.set(image, options);
-                        *known = picture;
-                    }
-                    None => {
-                        let texture = ui.ctx().load_texture("atlas", image, options);
-                        self.picture = Some((picture, texture));
-                    }
-                }
-            }
+                Some((picture, ui.ctx().load_texture("atlas", image, options)))
+            });
         }
         // Until there is another picture, the last one is shown.
         if let Some((_, texture)) = &self.picture {
@@ -176,48 +164,32 @@ fn at(rect: Rect, [across, up]: [f64; 2]) -> Pos2 {
 
 /// The place of the atlas at a point of the screen.
 fn place_at(rect: Rect, point: Pos2) -> [f64; 2] {
-    let from = point - rect.left_bottom();
-    [
-        f64::from(from.x / rect.width()),
-        f64::from(-from.y / rect.height()),
-    ]
+    let from = (point - rect.left_bottom()) / rect.size();
+    [f64::from(from.x), f64::from(-from.y)]
 }
 
 fn paint_axes(ui: &Ui, rect: Rect, atlas: &Atlas) {
-    let (tokens, font) = (Tokens::of(ui), theme::small_font());
-    let tick = Stroke::new(1.0, tokens.faint_text);
+    let (font, colour) = (theme::small_font(), Tokens::of(ui).faint_text);
+    let tick = Stroke::new(1.0, colour);
     let painter = ui.painter();
     for share in TICKS {
         let (across, up) = atlas.plane.at([share, share]);
-        let below = at(rect, [share, 0.0]);
+        let [below, beside] = [at(rect, [share, 0.0]), at(rect, [0.0, share])];
         painter.line_segment([below, below + vec2(0.0, STEP)], tick);
-        let align = match share {
-            0.0 => Align2::LEFT_TOP,
-            1.0 => Align2::RIGHT_TOP,
-            _ => Align2::CENTER_TOP,
-        };
-        let text = number(atlas.across, across);
-        let place = below + vec2(0.0, 1.25 * STEP);
-        painter.text(place, align, text, font.clone(), tokens.faint_text);
-        let beside = at(rect, [0.0, share]);
         painter.line_segment([beside, beside - vec2(STEP, 0.0)], tick);
-        let align = match share {
-            0.0 => Align2::RIGHT_BOTTOM,
-            1.0 => Align2::RIGHT_TOP,
-            _ => Align2::RIGHT_CENTER,
+        let [across_align, up_align] = match share {
+            0.0 => [Align2::LEFT_TOP, Align2::RIGHT_BOTTOM],
+            1.0 => [Align2::RIGHT_TOP, Align2::RIGHT_TOP],
+            _ => [Align2::CENTER_TOP, Align2::RIGHT_CENTER],
         };
-        let place = beside - vec2(1.5 * STEP, 0.0);
-        painter.text(
-            place,
-            align,
-            number(atlas.up, up),
-            font.clone(),
-            tokens.faint_text,
-        );
+        let (place, text) = (below + vec2(0.0, 1.25 * STEP), number(atlas.across, across));
+        painter.text(place, across_align, text, font.clone(), colour);
+        let (place, text) = (beside - vec2(1.5 * STEP, 0.0), number(atlas.up, up));
+        painter.text(place, up_align, text, font.clone(), colour);
     }
     let name = format!("{} across, {} up", atlas.across.label, atlas.up.label);
     let place = pos2(rect.center().x, rect.bottom() + MARGINS[1]);
-    painter.text(place, Align2::CENTER_BOTTOM, name, font, tokens.faint_text);
+    painter.text(place, Align2::CENTER_BOTTOM, name, font, colour);
 }
 
 fn paint_bound(painter: &Painter, rect: Rect, atlas: &Atlas, tokens: &Tokens) {
@@ -255,10 +227,7 @@ fn legend_ui(ui: &mut Ui, atlas: &Atlas) {
             (Verdict::Undecided, "undecided"),
         ] {
             let (rect, _) = ui.allocate_exact_size(vec2(3.0 * STEP, 3.0 * STEP), Sense::hover());
-            let outline = Stroke::new(1.0, tokens.outline);
-            let fill = colour(verdict, tokens);
-            ui.painter()
-                .rect(rect, 2, fill, outline, StrokeKind::Inside);
+            widgets::swatch(ui, rect, colour(verdict, tokens));
             widgets::caption(ui, text);
             ui.add_space(STEP);
         }
@@ -269,8 +238,8 @@ fn legend_ui(ui: &mut Ui, atlas: &Atlas) {
             let (rect, _) = ui.allocate_exact_size(vec2(6.0 * STEP, 3.0 * STEP), Sense::hover());
             let line = [rect.left_center(), rect.right_center()];
             let stroke = Stroke::new(1.5, tokens.strong_text);
-            ui.painter()
-                .extend(Shape::dashed_line(&line, stroke, 5.0, 3.0));
+            let line = Shape::dashed_line(&line, stroke, 5.0, 3.0);
+            ui.painter().extend(line);
             widgets::caption(ui, bound);
         });
     }
@@ -290,10 +259,9 @@ fn describe(response: &Response, in_progress: &OperationInProgress, atlas: &Atla
 fn number(parameter: &Parameter, number: f64) -> String {
     let quantity = parameter.quantity();
     let text = figures::significant(quantity.shown(number), 3);
-    let text = if text.contains('.') && !text.contains('e') {
-        text.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        &text
+    let text = match text.contains('.') && !text.contains('e') {
+        true => text.trim_end_matches('0').trim_end_matches('.'),
+        false => &text,
     };
     match quantity {
         Quantity::Angle => format!("{text}°"),

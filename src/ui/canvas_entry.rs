@@ -92,22 +92,20 @@ impl CanvasEntry {
         self.rect = Some(rect);
         keyboard::claim(ui.ctx(), id(), Typing::Text, rect);
         let tokens = Tokens::of(ui);
-        let is_wrong = self.error.is_some();
         let edit = TextEdit::singleline(&mut self.text)
             .id(id())
             .font(theme::number_font())
             .hint_text(hint)
-            .text_color(if is_wrong {
-                tokens.error
-            } else {
-                tokens.strong_text
+            .text_color(match self.error {
+                None => tokens.strong_text,
+                Some(_) => tokens.error,
             })
             .return_key(None)
             .min_size(rect.size())
             .desired_width(rect.width());
         let response = ui.put(rect, edit);
-        ui.ctx()
-            .accesskit_node_builder(id(), |node| node.set_label(name));
+        let context = ui.ctx();
+        context.accesskit_node_builder(id(), |node| node.set_label(name));
         if response.changed() {
             self.error = None;
         }
@@ -137,9 +135,11 @@ impl CanvasEntry {
 
     fn enter(&mut self, ui: &Ui, editor: &mut Editor) {
         let is_empty = self.text.trim().is_empty();
-        let entered = if is_empty {
+        if is_empty {
             // As on the canvas, it ends the drawing.
             editor.input(Input::Key(EditorKey::Enter));
+        }
+        let entered = if is_empty {
             Ok(())
         } else {
             editor.enter(&self.text)

@@ -13,8 +13,6 @@ pub struct Entry {
     pub curve: CurveId,
     /// The cell it is typed into.
     pub cell: Cell,
-    /// The number that the cell has had so far.
-    pub before: f64,
     /// The text so far.
     pub draft: Draft,
     /// Whether it is yet to be shown.
@@ -40,7 +38,6 @@ impl Entry {
         Some(Self {
             curve,
             cell,
-            before,
             draft,
             is_new: true,
             count: polygon.vertices().len(),
@@ -71,7 +68,7 @@ impl Entry {
         };
         let polygon = &curve.polygon;
         let is_same = polygon.vertices().len() == self.count
-            && column.value(polygon, vertex) == Some(self.before);
+            && column.value(polygon, vertex) == Some(self.draft.before);
         if !is_same {
             return Ok(());
         }

@@ -45,8 +45,8 @@ pub struct Fault {
 #[derive(Clone, Debug, Default)]
 pub struct Draft {
     text: String,
-    /// The text that it began with, and its number.
-    before: (String, f64),
+    /// The number that it takes the place of.
+    pub before: f64,
     /// Why Enter did not take it, until the text changes.
     refusal: Option<Fault>,
 }
@@ -108,19 +108,15 @@ impl fmt::Display for Fault {
 impl Draft {
     /// Begin with a number's exact digits.
     pub fn of(value: f64) -> Self {
-        let text = figures::exact(value);
-        Self {
-            before: (text.clone(), value),
-            text,
-            refusal: None,
-        }
+        Self::instead_of(value, &figures::exact(value))
     }
 
     /// Begin with another text in a number's place.
     pub fn instead_of(value: f64, text: &str) -> Self {
         Self {
             text: text.to_owned(),
-            ..Self::of(value)
+            before: value,
+            refusal: None,
         }
     }
 
@@ -129,14 +125,13 @@ impl Draft {
     /// # Errors
     /// Why it cannot be taken.
     pub fn value(&self, accepted: &Accepted) -> Result<Option<f64>, Fault> {
-        let (before, number) = &self.before;
-        if self.text == *before {
+        if self.text == figures::exact(self.before) {
             return Ok(None);
         }
         if self.text.trim().is_empty() {
             return Err(Fault::from("Type a number, such as 12.5".to_owned()));
         }
-        accepted.read(&self.text, *number).map(Some)
+        accepted.read(&self.text, self.before).map(Some)
     }
 
     /// Keep the text for correction and show why it is not taken.
@@ -148,13 +143,11 @@ impl Draft {
     pub fn left(&self, ui: &Ui, fault: &Fault, shown: &str) -> Remark {
         let Fault { column, reason } = fault;
         let text = quoted(self.text.trim());
-        Remark::new(
-            ui,
-            match column {
-                Some(column) => format!("{text}, column {column}: {reason}: {shown} stays"),
-                None => format!("{reason}: {shown} stays"),
-            },
-        )
+        let text = match column {
+            Some(column) => format!("{text}, column {column}: {reason}: {shown} stays"),
+            None => format!("{reason}: {shown} stays"),
+        };
+        Remark::new(ui, text)
     }
 
     /// Show it as a text field that has the keyboard; all of it is selected when it `is_new`.
@@ -178,10 +171,9 @@ impl Draft {
             .id(id)
             .font(theme::number_font())
             .align(Align2::RIGHT_CENTER)
-            .text_color(if fault.is_none() {
-                tokens.strong_text
-            } else {
-                tokens.error
+            .text_color(match fault {
+                None => tokens.strong_text,
+                Some(_) => tokens.error,
             })
             .event_filter(keys)
             .return_key(None)
@@ -190,8 +182,8 @@ impl Draft {
         let place = UiBuilder::new().max_rect(rect);
         let output = ui.scope_builder(place, |ui| edit.show(ui)).inner;
         let response = output.response.response.clone();
-        ui.ctx()
-            .accesskit_node_builder(id, |node| node.set_label(name));
+        let context = ui.ctx();
+        context.accesskit_node_builder(id, |node| node.set_label(name));
         if response.changed() {
             self.refusal = None;
         }
@@ -210,7 +202,7 @@ impl Draft {
             return self.refusal.clone();
         }
         let fault = self.value(accepted).err()?;
-        let is_begun = || accepted.context(self.before.1).is_begun(&self.text);
+        let is_begun = || accepted.context(self.before).is_begun(&self.text);
         let is_whole = fault.column.is_none() && !self.text.trim().is_empty();
         (is_whole || !is_begun()).then_some(fault)
     }

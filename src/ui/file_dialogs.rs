@@ -4,11 +4,10 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::{Duration, Instant};
 
-use eframe::egui::{Align2, Context, Id, Key, Label, Modal, RichText, TextEdit, Ui, vec2};
-
+use eframe::egui::{Align2, Context, Key, Label, RichText, TextEdit, Ui, vec2};
 use rfd::FileDialog;
 
-use super::theme::{ROW, STEP, Tokens};
+use super::theme::{ROW, Tokens};
 use super::widgets;
 use crate::document::quoted;
 use crate::editor::with_extension;
@@ -187,35 +186,25 @@ impl FileDialogs {
     /// Show the window's own prompt, if it is open.
     pub fn show(&mut self, context: &Context) -> Option<Chosen> {
         let prompt = self.prompt.as_mut()?;
-        let frame = widgets::dialog_frame(&context.global_style());
-        let modal = Modal::new(Id::unique("path prompt")).frame(frame);
-        let modal = modal.show(context, |ui| prompt.show(ui));
-        let closes = modal.should_close();
-        let answer = modal.inner.or(closes.then_some(Answer::Cancel))?;
-        match answer {
-            Answer::Cancel => self.prompt = None,
-            Answer::Path(path) if prompt.accepts(&path) => {
-                let purpose = self.prompt.take()?.purpose;
-                let paths = vec![path];
-                return Some(Chosen { purpose, paths });
-            }
-            Answer::Path(_) => {}
+        let Some(path) = widgets::modal(context, "path prompt", None, |ui| prompt.show(ui))? else {
+            self.prompt = None;
+            return None;
+        };
+        if !prompt.accepts(&path) {
+            return None;
         }
-        None
+        let purpose = self.prompt.take()?.purpose;
+        let paths = vec![path];
+        Some(Chosen { purpose, paths })
     }
 }
 
-/// The user's decision in the prompt.
-enum Answer {
-    Cancel,
-    Path(PathBuf),
-}
-
 impl Prompt {
-    fn show(&mut self, ui: &mut Ui) -> Option<Answer> {
+    /// Show the prompt; returns the path once the user confirms it, or `None` in its place to cancel.
+    fn show(&mut self, ui: &mut Ui) -> Option<Option<PathBuf>> {
+        let (title, verb) = self.purpose.words();
         ui.set_width(520.0);
-        ui.spacing_mut().item_spacing.y = 2.0 * STEP;
-        ui.strong(title(&self.purpose));
+        ui.strong(title);
         let field = TextEdit::singleline(&mut self.text)
             .desired_width(f32::INFINITY)
             .align(Align2::LEFT_CENTER)
@@ -231,18 +220,20 @@ impl Prompt {
         }
         self.remark_ui(ui);
         let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-        let mut answer = entered.then(|| self.path());
+        let path = || completed(&self.purpose, &from_home(self.text.trim()));
+        let mut answer = entered.then(|| Some(path()));
         ui.horizontal(|ui| {
             widgets::at_right(ui, |ui| {
-                let verb = match self.replacing {
-                    Some(_) => "Replace",
-                    None => verb(&self.purpose),
+                let verb = if self.replacing.is_some() {
+                    "Replace"
+                } else {
+                    verb
                 };
                 if widgets::primary_button(ui, verb).clicked() {
-                    answer = Some(self.path());
+                    answer = Some(Some(path()));
                 }
                 if ui.button("Cancel").clicked() {
-                    answer = Some(Answer::Cancel);
+                    answer = Some(None);
                 }
             });
         });
@@ -251,10 +242,6 @@ impl Prompt {
             response.request_focus();
         }
         answer
-    }
-
-    fn path(&self) -> Answer {
-        Answer::Path(completed(&self.purpose, &from_home(self.text.trim())))
     }
 
     /// Whether a path can be used as it is; otherwise the remark says why not.
@@ -289,19 +276,42 @@ impl Prompt {
     }
 }
 
+impl Purpose {
+    /// The format of the file to write; `None` if files are read.
+    fn written(&self) -> Option<&'static Format> {
+        match self {
+            Self::Open | Self::Import => None,
+            Self::Save(_) => Some(&PROJECT),
+            Self::Export(exporter) => Some(exporter.format),
+        }
+    }
+
+    /// The title of the dialog, and the verb on its button.
+    fn words(&self) -> (String, &'static str) {
+        match self {
+            Self::Open => ("Open a file".to_owned(), "Open"),
+            Self::Import => ("Import curves from a file".to_owned(), "Import"),
+            Self::Save(_) => ("Save the document".to_owned(), "Save"),
+            Self::Export(exporter) => {
+                let format = exporter.format.extension().to_uppercase();
+                (format!("Export as {format}"), "Export")
+            }
+        }
+    }
+}
+
 /// The path with the extension of the written format.
 fn completed(purpose: &Purpose, path: &Path) -> PathBuf {
     let is_name = path.file_name().is_some() && !path.is_dir();
-    match purpose {
-        Purpose::Save(_) if is_name => with_extension(path, PROJECT.extension()),
-        Purpose::Export(exporter) if is_name => with_extension(path, exporter.format.extension()),
+    match purpose.written() {
+        Some(format) if is_name => with_extension(path, format.extension()),
         _ => path.to_owned(),
     }
 }
 
 /// Whether a file would be written over.
 fn replaces(purpose: &Purpose, path: &Path) -> bool {
-    matches!(purpose, Purpose::Save(_) | Purpose::Export(_)) && path.is_file()
+    purpose.written().is_some() && path.is_file()
 }
 
 /// Read "~" as the home folder, as people type it.
@@ -318,73 +328,38 @@ fn refused(purpose: &Purpose, path: &Path) -> Option<String> {
     if path.as_os_str().is_empty() {
         return Some("Type the path of a file.".to_owned());
     }
+    let shown = shown_path(path);
     if path.is_dir() {
-        return Some(format!(
-            "{} is a folder: add a file's name.",
-            shown_path(path)
-        ));
+        return Some(format!("{shown} is a folder: add a file's name."));
     }
-    match purpose {
-        Purpose::Open | Purpose::Import if !path.is_file() => {
-            Some(format!("There is no file {}.", shown_path(path)))
-        }
-        Purpose::Save(_) | Purpose::Export(_) => {
-            let folder = path
-                .parent()
-                .filter(|folder| !folder.as_os_str().is_empty())?;
-            let missing = || format!("There is no folder {}.", shown_path(folder));
-            (!folder.is_dir()).then(missing)
-        }
-        _ => None,
+    if purpose.written().is_none() {
+        return (!path.is_file()).then(|| format!("There is no file {shown}."));
     }
-}
-
-fn title(purpose: &Purpose) -> String {
-    match purpose {
-        Purpose::Open => "Open a file".to_owned(),
-        Purpose::Import => "Import curves from a file".to_owned(),
-        Purpose::Save(_) => "Save the document".to_owned(),
-        Purpose::Export(exporter) => {
-            format!("Export as {}", exporter.format.extension().to_uppercase())
-        }
-    }
-}
-
-fn verb(purpose: &Purpose) -> &'static str {
-    match purpose {
-        Purpose::Open => "Open",
-        Purpose::Import => "Import",
-        Purpose::Save(_) => "Save",
-        Purpose::Export(_) => "Export",
-    }
+    let folder = path
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty())?;
+    let missing = || format!("There is no folder {}.", shown_path(folder));
+    (!folder.is_dir()).then(missing)
 }
 
 fn native_dialog(purpose: &Purpose, proposal: &Path) -> Vec<PathBuf> {
-    let mut dialog = FileDialog::new().set_title(title(purpose));
+    let mut dialog = FileDialog::new().set_title(purpose.words().0);
     if let Some(folder) = proposal.parent().filter(|folder| folder.is_dir()) {
         dialog = dialog.set_directory(folder);
     }
     if let Some(name) = proposal.file_name() {
         dialog = dialog.set_file_name(name.to_string_lossy());
     }
+    if let Some(format) = purpose.written() {
+        let dialog = dialog.add_filter(format.name, format.extensions);
+        return dialog.save_file().into_iter().collect();
+    }
     let readable = formats::readable().flat_map(|format| format.extensions);
     let readable: Vec<&str> = readable.copied().collect();
-    let save = |dialog: FileDialog, format: &Format| {
-        let dialog = dialog.add_filter(format.name, format.extensions);
-        dialog.save_file().into_iter().collect()
-    };
+    let dialog = dialog.add_filter("Curves", &readable);
     match purpose {
-        Purpose::Open => dialog
-            .add_filter("Curves", &readable)
-            .pick_file()
-            .into_iter()
-            .collect(),
-        Purpose::Import => dialog
-            .add_filter("Curves", &readable)
-            .pick_files()
-            .unwrap_or_default(),
-        Purpose::Save(_) => save(dialog, &PROJECT),
-        Purpose::Export(exporter) => save(dialog, exporter.format),
+        Purpose::Import => dialog.pick_files().unwrap_or_default(),
+        _ => dialog.pick_file().into_iter().collect(),
     }
 }
 

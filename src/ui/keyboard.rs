@@ -90,31 +90,25 @@ pub enum Typing {
 /// The target of keys in the widget that has the keyboard.
 pub fn typing(context: &Context) -> Typing {
     match claimed(context) {
-        Some(claim) => claim.typing,
+        Some((typing, _)) => typing,
         None if context.text_edit_focused() => Typing::Text,
         None => Typing::Nothing,
     }
 }
 
-/// The claim of a widget that takes numbers.
-#[derive(Clone, Copy, Debug)]
-struct Claim {
-    typing: Typing,
-    rect: Rect,
-}
-
 /// Claim keys for a widget while it has the keyboard. The claim comes before the focus:
 /// even the first key is no command then.
 pub fn claim(context: &Context, id: Id, typing: Typing, rect: Rect) {
-    context.data_mut(|data| data.insert_temp(id, Claim { typing, rect }));
+    context.data_mut(|data| data.insert_temp(id, (typing, rect)));
 }
 
 /// Where the field or cell is that has the keyboard and takes numbers.
 pub fn number_field(context: &Context) -> Option<Rect> {
-    Some(claimed(context)?.rect)
+    Some(claimed(context)?.1)
 }
 
-fn claimed(context: &Context) -> Option<Claim> {
+/// The claim of the widget that has the keyboard.
+fn claimed(context: &Context) -> Option<(Typing, Rect)> {
     let focused = context.memory(|memory| memory.focused())?;
     context.data(|data| data.get_temp(focused))
 }

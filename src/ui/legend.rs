@@ -1,8 +1,8 @@
 //! The legend: the meaning of colours and marks on the canvas.
 
 use eframe::egui::{
-    Color32, Label, Painter, Pos2, Rect, RichText, Sense, Shape, Stroke, StrokeKind, TextWrapMode,
-    Ui, Vec2, vec2,
+    Color32, Label, Painter, Rect, RichText, Sense, Shape, Stroke, StrokeKind, TextWrapMode, Ui,
+    Vec2, vec2,
 };
 
 use super::feature_marks::glyph;
@@ -15,24 +15,27 @@ const SAMPLE: f32 = 7.0 * STEP;
 /// The height of a row.
 const HEIGHT: f32 = 5.0 * STEP;
 
-/// The sample in a row.
+/// The sample in a row, beside its colour.
 #[derive(Clone, Copy)]
 enum Sample {
     /// A band along the curve.
-    Band(Color32),
+    Band,
     /// A line.
-    Line(Color32),
+    Line,
     /// A dashed line with a square.
-    Closed(Color32),
+    Closed,
     /// A line with a disc.
-    Float(Color32),
+    Float,
     /// A tick across the curve.
-    Tick(Color32),
-    /// A feature's glyph.
+    Tick,
+    /// A feature's glyph, in a colour of its own.
     Glyph(FeatureKind),
     /// A disc in a square.
-    Locked(Color32),
+    Locked,
 }
+
+/// A row: sample, colour and text.
+type Row = (Sample, Color32, &'static str);
 
 /// Show the legend under a remark.
 pub fn legend_ui(ui: &mut Ui, remark: &str) {
@@ -46,24 +49,24 @@ pub fn legend_ui(ui: &mut Ui, remark: &str) {
         let [left, right] = columns else {
             return;
         };
-        for (sample, text) in bands(tokens).into_iter().chain(glyphs()) {
-            row_ui(left, sample, text);
+        for row in bands(tokens).into_iter().chain(glyphs(tokens)) {
+            row_ui(left, row);
         }
-        for (sample, text) in lines(tokens) {
-            row_ui(right, sample, text);
+        for row in lines(tokens) {
+            row_ui(right, row);
         }
     });
 }
 
-fn bands(tokens: &Tokens) -> [(Sample, &'static str); 3] {
+fn bands(tokens: &Tokens) -> [Row; 3] {
     [
-        (Sample::Band(tokens.rising), "Curvature rises"),
-        (Sample::Band(tokens.falling), "Curvature falls"),
-        (Sample::Band(tokens.undecided), "Undecided"),
+        (Sample::Band, tokens.rising, "Curvature rises"),
+        (Sample::Band, tokens.falling, "Curvature falls"),
+        (Sample::Band, tokens.undecided, "Undecided"),
     ]
 }
 
-fn glyphs() -> impl Iterator<Item = (Sample, &'static str)> {
+fn glyphs(tokens: &Tokens) -> [Row; 8] {
     let kinds = [
         FeatureKind::CurvatureMaximum,
         FeatureKind::CurvatureMinimum,
@@ -74,76 +77,74 @@ fn glyphs() -> impl Iterator<Item = (Sample, &'static str)> {
         FeatureKind::TorsionZero,
         FeatureKind::Undecided,
     ];
-    let named = kinds.map(|kind| {
+    kinds.map(|kind| {
         let name = match kind {
             FeatureKind::Undecided => "Undecided feature",
             _ => kind.label(),
         };
-        (Sample::Glyph(kind), name)
-    });
-    named.into_iter()
+        (Sample::Glyph(kind), tokens.text, name)
+    })
 }
 
-fn lines(tokens: &Tokens) -> impl Iterator<Item = (Sample, &'static str)> {
+fn lines(tokens: &Tokens) -> impl Iterator<Item = Row> {
     let layers = Layer::ALL.into_iter().filter_map(|layer| {
-        let (row, colour) = (layer.row(), tokens.named(layer.row().colour));
+        let row = layer.row();
         let sample = match row.sample? {
-            LayerSample::Line => Sample::Line(colour),
-            LayerSample::Discs => Sample::Float(colour),
-            LayerSample::Squares => Sample::Closed(colour),
+            LayerSample::Line => Sample::Line,
+            LayerSample::Discs => Sample::Float,
+            LayerSample::Squares => Sample::Closed,
         };
-        Some((sample, row.label))
+        Some((sample, tokens.named(row.colour), row.label))
     });
     layers.chain([
-        (Sample::Locked(tokens.float), "Locked vertex"),
-        (Sample::Tick(tokens.joints), "Joint of segments"),
-        (Sample::Line(tokens.reference), "Reference"),
+        (Sample::Locked, tokens.float, "Locked vertex"),
+        (Sample::Tick, tokens.joints, "Joint of segments"),
+        (Sample::Line, tokens.reference, "Reference"),
     ])
 }
 
-fn row_ui(ui: &mut Ui, sample: Sample, text: &str) {
+fn row_ui(ui: &mut Ui, (sample, colour, text): Row) {
     ui.horizontal(|ui| {
         let (rect, _) = ui.allocate_exact_size(vec2(SAMPLE, HEIGHT), Sense::hover());
-        paint(ui.painter(), rect, sample, Tokens::of(ui));
+        paint(ui.painter(), rect, (sample, colour), Tokens::of(ui));
         ui.add(Label::new(RichText::new(text)));
     });
 }
 
-fn paint(painter: &Painter, rect: Rect, sample: Sample, tokens: &Tokens) {
+fn paint(painter: &Painter, rect: Rect, (sample, colour): (Sample, Color32), tokens: &Tokens) {
     let at = rect.center();
     let ends = [rect.left_center(), rect.right_center()];
     let line = |width: f32, colour: Color32| {
         painter.line_segment(ends, Stroke::new(width, colour));
     };
+    let square = |side: f32| {
+        let rect = Rect::from_center_size(at, Vec2::splat(side));
+        painter.rect_stroke(rect, 0, Stroke::new(1.25, colour), StrokeKind::Middle);
+    };
     match sample {
-        Sample::Band(colour) => {
+        Sample::Band => {
             line(7.0, colour.gamma_multiply(0.4));
             line(2.0, tokens.curve);
         }
-        Sample::Line(colour) => line(1.5, colour),
-        Sample::Closed(colour) => {
+        Sample::Line => line(1.5, colour),
+        Sample::Closed => {
             let stroke = Stroke::new(1.0, colour);
             painter.extend(Shape::dashed_line(&ends, stroke, 5.0, 4.0));
-            square(painter, at, 7.0, colour);
+            square(7.0);
         }
-        Sample::Float(colour) => {
+        Sample::Float => {
             line(1.25, colour);
             painter.circle_filled(at, 4.0, colour);
         }
-        Sample::Tick(colour) => {
+        Sample::Tick => {
             line(2.0, tokens.curve);
             let half = vec2(0.0, 5.0);
             painter.line_segment([at - half, at + half], Stroke::new(1.5, colour));
         }
         Sample::Glyph(kind) => glyph(painter, at, kind, tokens),
-        Sample::Locked(colour) => {
+        Sample::Locked => {
             painter.circle_filled(at, 3.0, colour);
-            square(painter, at, 13.0, colour);
+            square(13.0);
         }
     }
-}
-
-fn square(painter: &Painter, at: Pos2, side: f32, colour: Color32) {
-    let rect = Rect::from_center_size(at, Vec2::splat(side));
-    painter.rect_stroke(rect, 0, Stroke::new(1.25, colour), StrokeKind::Middle);
 }

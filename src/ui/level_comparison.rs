@@ -1,6 +1,6 @@
 //! The features of two curves side by side, level by level.
 
-use eframe::egui::{Align2, Rect, Role, Sense, Ui, WidgetInfo, vec2};
+use eframe::egui::{Align2, Role, Sense, Ui, WidgetInfo, vec2};
 
 use super::theme::{self, STEP, Tokens};
 use super::{figures, widgets};
@@ -29,12 +29,8 @@ fn level_ui(ui: &mut Ui, level: &LevelComparison) {
     if level.there.is_empty() && level.here.is_empty() {
         return;
     }
-    row_ui(
-        ui,
-        &name,
-        ["reference".into(), "curve".into()],
-        Row::Heading,
-    );
+    let heading = ["reference", "curve"].map(str::to_owned);
+    row_ui(ui, &name, heading, Row::Heading);
     for (index, (there, here)) in level.side_by_side().enumerate() {
         let there = there.map(|(t, feature)| told("t", t, feature));
         let here = here.map(|(u, feature)| told("u", u, feature));
@@ -69,8 +65,7 @@ fn heading_ui(ui: &mut Ui, name: &str, text: &str, differs: bool) {
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     widgets::label_in(ui, rect, name, tokens.text);
     let colour = if differs { tokens.error } else { tokens.good };
-    let font = theme::small_font();
-    let at = rect.right_center();
+    let (at, font) = (rect.right_center(), theme::small_font());
     ui.painter()
         .text(at, Align2::RIGHT_CENTER, text, font, colour);
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{name}: {text}")));
@@ -92,14 +87,10 @@ fn row_ui(ui: &mut Ui, level: &str, texts: [String; 2], row: Row) {
     let middle = rect.center().x;
     let columns = [rect.with_max_x(middle), rect.with_min_x(middle)];
     for (column, text) in columns.into_iter().zip(&texts) {
-        let column = Rect::from_min_max(column.min + vec2(STEP, 0.0), column.max);
-        ui.painter_at(column).text(
-            column.left_center(),
-            Align2::LEFT_CENTER,
-            text,
-            theme::small_font(),
-            colour,
-        );
+        let column = column.with_min_x(column.left() + STEP);
+        let (at, font) = (column.left_center(), theme::small_font());
+        ui.painter_at(column)
+            .text(at, Align2::LEFT_CENTER, text, font, colour);
     }
     let difference = match row {
         Row::Difference => "first difference, ",

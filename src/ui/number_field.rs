@@ -165,27 +165,16 @@ impl<'a> NumberField<'a> {
         self
     }
 
-    /// Without a frame until it is hovered: a cell, whose table has the keyboard.
-    pub fn flat(mut self) -> Self {
+    /// A cell, whose table has the keyboard: without a frame until it is hovered, and perhaps only to be read.
+    pub fn cell(mut self, read_only: bool) -> Self {
         self.flat = true;
-        self
-    }
-
-    /// Not to be dragged.
-    pub fn typed_only(mut self) -> Self {
-        self.typed_only = true;
+        self.read_only = read_only;
         self
     }
 
     /// The text of its tooltip.
     pub fn help(mut self, help: &'a str) -> Self {
         self.help = Some(help);
-        self
-    }
-
-    /// Only to be read.
-    pub fn read_only(mut self, read_only: bool) -> Self {
-        self.read_only = read_only;
         self
     }
 
@@ -209,8 +198,9 @@ impl<'a> NumberField<'a> {
     }
 
     /// Show the field; returns the number that was typed.
-    pub fn typed(self, ui: &mut Ui) -> Option<f64> {
-        match self.typed_only().show(ui) {
+    pub fn typed(mut self, ui: &mut Ui) -> Option<f64> {
+        self.typed_only = true;
+        match self.show(ui) {
             Some(FieldEvent::Set(value)) => Some(value),
             _ => None,
         }

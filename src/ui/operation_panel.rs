@@ -10,7 +10,7 @@ use super::operation_report::{ReportView, error_ui, failure, summary_ui};
 use super::theme::STEP;
 use super::widgets::{self, IconButton};
 use crate::editor::{Editor, OperationInProgress, told};
-use crate::operations::{Atlas, Value};
+use crate::operations::Atlas;
 
 /// The heights of the places for the summary, the error and the buttons, one below the other.
 const FOOT: [f32; 3] = [16.0 * STEP, 9.0 * STEP, 9.0 * STEP];
@@ -67,20 +67,15 @@ impl OperationPanel {
         }
     }
 
-    fn perform(
-        &mut self,
-        action: PanelAction,
-        editor: &mut Editor,
-        refused_before: &Option<Refused>,
-    ) {
+    fn perform(&mut self, action: PanelAction, editor: &mut Editor, before: &Option<Refused>) {
         match action {
             PanelAction::Change(FieldEvent::Set(values)) => {
-                self.set(editor, &values, refused_before);
+                self.set(editor, &values, before);
                 editor.operating().keep_values();
             }
             PanelAction::Change(FieldEvent::Preview(values)) => {
                 editor.operating().hold_values();
-                self.set(editor, &values, refused_before);
+                self.set(editor, &values, before);
             }
             PanelAction::Change(FieldEvent::Commit) => editor.operating().keep_values(),
             PanelAction::Change(FieldEvent::Abort) => editor.operating().restore_values(),
@@ -89,22 +84,17 @@ impl OperationPanel {
         }
     }
 
-    fn set(
-        &mut self,
-        editor: &mut Editor,
-        values: &[(&'static str, Value)],
-        refused_before: &Option<Refused>,
-    ) {
+    fn set(&mut self, editor: &mut Editor, values: &Values, before: &Option<Refused>) {
         let refused = editor.operating().set_values(values).err();
         let refused = refused.map(|error| Refused {
-            parameter: match values {
+            parameter: match values.as_slice() {
                 [(parameter, _)] => Some(*parameter),
                 _ => None,
             },
             text: error.to_string(),
         });
         // A text that was refused just now gave back the value before it.
-        if refused.is_some() || self.fields.refusal == *refused_before {
+        if refused.is_some() || self.fields.refusal == *before {
             self.fields.refusal = refused;
         }
     }
@@ -189,10 +179,10 @@ fn buttons_ui(
     progress: Option<f64>,
 ) -> Option<PanelAction> {
     let mut action = None;
-    let fails = |run: &Result<crate::editor::Run, _>| {
-        run.as_ref().map_or(true, |run| !run.outcome.is_useful())
+    let enabled = match in_progress.run() {
+        None => true,
+        Some(run) => run.as_ref().is_ok_and(|run| run.outcome.is_useful()),
     };
-    let enabled = !in_progress.run().is_some_and(fails);
     ui.horizontal_centered(|ui| {
         let apply = ui.add_enabled_ui(enabled, |ui| widgets::primary_button(ui, "Apply"));
         if apply.inner.on_hover_text("Enter").clicked() {

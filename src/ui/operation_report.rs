@@ -120,11 +120,10 @@ fn largest_move(report: &Report) -> Option<String> {
 
 /// Whether the curve has the shape of its source, in words.
 fn shape(report: &Report) -> String {
-    let differing = report.differing_level();
-    differing.map_or_else(
-        || "the same at all levels".to_owned(),
-        |level| format!("{} differs", level.name()),
-    )
+    match report.differing_level() {
+        Some(level) => format!("{} differs", level.name()),
+        None => "the same at all levels".to_owned(),
+    }
 }
 
 fn length(value: f64) -> String {
@@ -133,15 +132,12 @@ fn length(value: f64) -> String {
 
 /// The figures beside those of the summary, by their names.
 fn figures_of(report: &Report) -> Vec<(&'static str, String)> {
-    let mut rows = Vec::new();
-    rows.extend(
-        report
-            .residual
-            .map(|residual| ("Residual", length(residual))),
-    );
+    let residual = report
+        .residual
+        .map(|residual| ("Residual", length(residual)));
     let figures = report.figures.iter();
-    rows.extend(figures.map(|figure| (figure.label, figure_text(figure))));
-    rows
+    let figures = figures.map(|figure| (figure.label, figure_text(figure)));
+    residual.into_iter().chain(figures).collect()
 }
 
 fn figure_text(figure: &Figure) -> String {
@@ -150,16 +146,8 @@ fn figure_text(figure: &Figure) -> String {
         Value::Real(number) if figure.quantity == Quantity::Angle => figures::degrees(*number, 4),
         Value::Real(number) => figures::significant(*number, 4),
         Value::Choice(index) => index.to_string(),
-        Value::List(numbers) => {
-            let numbers = numbers
-                .iter()
-                .map(|number| figures::significant(*number, 4));
-            numbers.collect::<Vec<_>>().join(", ")
-        }
-        Value::Indices(indices) => {
-            let indices = indices.iter().map(usize::to_string);
-            indices.collect::<Vec<_>>().join(", ")
-        }
+        Value::List(numbers) => joined(numbers, |number| figures::significant(*number, 4)),
+        Value::Indices(indices) => joined(indices, usize::to_string),
         Value::Ends([first, second]) => format!("{} and {}", first.name(), second.name()),
         Value::Reference(reference) => {
             let text = reference.as_ref().map(|reference| reference.to_string());
@@ -167,6 +155,10 @@ fn figure_text(figure: &Figure) -> String {
         }
         Value::Switch(on) => if *on { "yes" } else { "no" }.to_owned(),
     }
+}
+
+fn joined<T>(all: &[T], text: impl Fn(&T) -> String) -> String {
+    all.iter().map(text).collect::<Vec<_>>().join(", ")
 }
 
 /// Show an error on two lines; a tooltip shows a longer one.

@@ -1,8 +1,8 @@
 //! The command palette: find a command by typing a part of its name.
 
 use eframe::egui::{
-    Align2, Area, Context, Event, Frame, Id, Key, Order, Role, ScrollArea, Sense, TextEdit, Ui,
-    Vec2, WidgetInfo,
+    Align2, Area, Context, Frame, Id, Key, Modifiers, Order, Response, Role, ScrollArea, Sense,
+    TextEdit, Ui, Vec2, WidgetInfo,
 };
 use nucleo_matcher::pattern::{CaseMatching, Normalization, Pattern};
 use nucleo_matcher::{Config, Matcher, Utf32Str};
@@ -49,47 +49,41 @@ impl Palette {
             .order(Order::Foreground)
             .anchor(Align2::CENTER_TOP, Vec2::new(0.0, 72.0));
         let shown = area.show(context, |ui| {
-            Frame::popup(ui.style())
-                .inner_margin(2.0 * STEP)
-                .show(ui, |ui| {
-                    ui.set_width(WIDTH);
-                    self.contents_ui(ui, editor)
-                })
+            let frame = Frame::popup(ui.style()).inner_margin(2.0 * STEP);
+            frame.show(ui, |ui| {
+                ui.set_width(WIDTH);
+                self.contents_ui(ui, editor)
+            })
         });
         let chosen = shown.inner.inner;
-        if let Some(action) = chosen {
-            commands.push(action);
-            self.open = false;
-        } else if shown.response.clicked_elsewhere() && !self.fresh {
-            self.open = false;
-        }
+        let is_left = shown.response.clicked_elsewhere() && !self.fresh;
+        self.open &= chosen.is_none() && !is_left;
+        commands.extend(chosen);
         self.fresh = false;
     }
 
     fn contents_ui(&mut self, ui: &mut Ui, editor: &Editor) -> Option<Action> {
-        let keys = self.take_keys(ui);
-        let field = ui.add(
-            TextEdit::singleline(&mut self.typed)
-                .hint_text("Find a command")
-                .desired_width(f32::INFINITY)
-                .min_size(Vec2::new(0.0, 32.0))
-                .align(Align2::LEFT_CENTER),
-        );
-        let field = field.accessible_name("Find a command");
+        let (steps, is_entered, is_left) = ui.input_mut(|input| {
+            let mut count = |key| input.count_and_consume_key(Modifiers::NONE, key) as i64;
+            let steps = count(Key::ArrowDown) - count(Key::ArrowUp);
+            (steps, count(Key::Enter) > 0, count(Key::Escape) > 0)
+        });
+        let field = TextEdit::singleline(&mut self.typed)
+            .hint_text("Find a command")
+            .desired_width(f32::INFINITY)
+            .min_size(Vec2::new(0.0, 32.0))
+            .align(Align2::LEFT_CENTER);
+        let field = ui.add(field).accessible_name("Find a command");
         field.request_focus();
         if field.changed() {
             self.chosen = 0;
         }
         let found = matches(&self.typed);
-        if keys.escape {
-            self.open = false;
-        }
-        let moved = self.chosen as i64 + keys.steps;
+        self.open &= !is_left;
+        let moved = self.chosen as i64 + steps;
         self.chosen = moved.clamp(0, found.len().max(1) as i64 - 1) as usize;
-        let by_key = (keys.enter)
-            .then(|| found.get(self.chosen).copied())
-            .flatten();
-        let by_hand = self.list_ui(ui, editor, &found, keys.steps != 0);
+        let by_key = found.get(self.chosen).copied().filter(|_| is_entered);
+        let by_hand = self.list_ui(ui, editor, &found, steps != 0);
         by_key
             .or(by_hand)
             .filter(|action| action.is_enabled(editor))
@@ -124,45 +118,12 @@ impl Palette {
             });
         clicked
     }
-
-    fn take_keys(&self, ui: &Ui) -> Keys {
-        let mut keys = Keys::default();
-        ui.input_mut(|input| {
-            input.events.retain(|event| {
-                let Event::Key {
-                    key, pressed: true, ..
-                } = event
-                else {
-                    return true;
-                };
-                match key {
-                    Key::ArrowDown => keys.steps += 1,
-                    Key::ArrowUp => keys.steps -= 1,
-                    Key::Enter => keys.enter = true,
-                    Key::Escape => keys.escape = true,
-                    _ => return true,
-                }
-                false
-            });
-        });
-        keys
-    }
 }
 
-#[derive(Default)]
-struct Keys {
-    steps: i64,
-    enter: bool,
-    escape: bool,
-}
-
-fn row_ui(ui: &mut Ui, editor: &Editor, action: Action, chosen: bool) -> eframe::egui::Response {
-    let width = ui.available_width();
+fn row_ui(ui: &mut Ui, editor: &Editor, action: Action, chosen: bool) -> Response {
     let enabled = action.is_enabled(editor);
-    let (rect, response) = ui.allocate_exact_size(Vec2::new(width, ROW), Sense::click());
+    let (rect, response) = widgets::row(ui, Sense::click(), chosen);
     let tokens = Tokens::of(ui);
-    widgets::row_background(ui, rect, &response, chosen);
-    let label = action.label_now(editor);
     let colour = match (enabled, chosen) {
         (false, _) => tokens.faint_text,
         (true, true) => tokens.strong_text,
@@ -173,17 +134,12 @@ fn row_ui(ui: &mut Ui, editor: &Editor, action: Action, chosen: bool) -> eframe:
         let place = inner.with_max_x(inner.left() + theme::ICON);
         widgets::icon(ui, place, icon, colour);
     }
-    widgets::label_in(
-        ui,
-        inner.with_min_x(inner.left() + 7.0 * STEP),
-        &label,
-        colour,
-    );
+    let label = inner.with_min_x(inner.left() + 7.0 * STEP);
+    widgets::label_in(ui, label, &action.label_now(editor), colour);
     if let Some(text) = beside(action, editor) {
-        let at = inner.right_center();
+        let (at, align) = (inner.right_center(), Align2::RIGHT_CENTER);
         let font = theme::small_font();
-        ui.painter()
-            .text(at, Align2::RIGHT_CENTER, text, font, tokens.faint_text);
+        ui.painter().text(at, align, text, font, tokens.faint_text);
     }
     let name = action.name_now(editor);
     response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, enabled, chosen, &name));

@@ -29,12 +29,6 @@ pub struct PaperPanel {
     figures: Figures,
 }
 
-/// A request of the user.
-enum Request {
-    Open(PaperPage),
-    Close,
-}
-
 impl PaperPanel {
     /// Show a page whose document is open.
     pub fn open(&mut self, page: PaperPage) {
@@ -65,16 +59,14 @@ impl PaperPanel {
                     ui.add_space(2.0 * STEP);
                     opened.or(turning_ui(ui, page))
                 });
-                request.or(opened.map(Request::Open))
+                request.or(opened.map(Some))
             })
         });
-        match request.inner? {
-            Request::Open(page) => Some(page),
-            Request::Close => {
-                self.page = None;
-                None
-            }
+        let opened = request.inner?;
+        if opened.is_none() {
+            self.page = None;
         }
+        opened
     }
 
     fn page_ui(&mut self, ui: &mut Ui, editor: &mut Editor, page: PaperPage) -> Option<PaperPage> {
@@ -157,7 +149,7 @@ impl PaperPanel {
         ui.scope(|ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
             let headings = ["Degree", "Bézier", "B-spline"].map(str::to_owned);
-            columns_ui(ui, [(headings, Type::Caption)], Sense::hover(), false);
+            columns_ui(ui, &[(headings, true)], Sense::hover(), false);
             for row in Figures::DEGREES {
                 if self.row_ui(ui, row, row == degree).clicked() {
                     opened = Some(PaperPage::Circles { degree: row });
@@ -176,29 +168,17 @@ impl PaperPanel {
         if let Some([_, bezier, bspline]) = &printed {
             label += &format!("; printed {bezier}, {bspline}");
         }
-        let printed = printed.map(|texts| (texts, Type::Caption));
-        let lines = [(figures, Type::Number)].into_iter().chain(printed);
-        let response = columns_ui(ui, lines, Sense::click(), shown);
-        response.widget_info(|| WidgetInfo::selected(Role::Button, true, shown, label.clone()));
+        let mut lines = vec![(figures, false)];
+        lines.extend(printed.map(|texts| (texts, true)));
+        let response = columns_ui(ui, &lines, Sense::click(), shown);
+        response.widget_info(|| WidgetInfo::selected(Role::Button, true, shown, &label));
         response.on_hover_text("Open the curves of this degree")
     }
 }
 
-/// The type of a line of a table.
-#[derive(Clone, Copy)]
-enum Type {
-    Number,
-    Caption,
-}
-
-/// Show lines of three columns as one row, marked if it is chosen or a hovered button.
-fn columns_ui(
-    ui: &mut Ui,
-    lines: impl IntoIterator<Item = ([String; 3], Type)>,
-    sense: Sense,
-    chosen: bool,
-) -> Response {
-    let lines: Vec<_> = lines.into_iter().collect();
+/// Show lines of three columns as one row, marked if it is chosen or a hovered button: numbers, or captions in
+/// smaller type.
+fn columns_ui(ui: &mut Ui, lines: &[([String; 3], bool)], sense: Sense, chosen: bool) -> Response {
     let size = vec2(ui.available_width(), LINE * lines.len() as f32);
     let (rect, response) = ui.allocate_exact_size(size, sense);
     let tokens = Tokens::of(ui);
@@ -211,10 +191,10 @@ fn columns_ui(
         };
         ui.painter().rect_filled(rect, theme::RADIUS, fill);
     }
-    for (line, (texts, kind)) in lines.iter().enumerate() {
-        let (font, colour) = match kind {
-            Type::Number => (theme::number_font(), tokens.text),
-            Type::Caption => (theme::small_font(), tokens.faint_text),
+    for (line, (texts, is_caption)) in lines.iter().enumerate() {
+        let (font, colour) = match is_caption {
+            true => (theme::small_font(), tokens.faint_text),
+            false => (theme::number_font(), tokens.text),
         };
         for (column, text) in texts.iter().enumerate() {
             let x = STEP + COLUMN * column as f32;
@@ -226,16 +206,15 @@ fn columns_ui(
     response
 }
 
-fn heading_ui(ui: &mut Ui, page: PaperPage) -> Option<Request> {
+/// Show the title and the list of pages; returns the page to open, or that the panel is to close.
+fn heading_ui(ui: &mut Ui, page: PaperPage) -> Option<Option<PaperPage>> {
     let mut request = None;
     ui.horizontal(|ui| {
         ui.strong("The paper");
         widgets::at_right(ui, |ui| {
-            if IconButton::new(Icon::X, "Close the paper")
-                .show(ui)
-                .clicked()
-            {
-                request = Some(Request::Close);
+            let close = IconButton::new(Icon::X, "Close the paper");
+            if close.show(ui).clicked() {
+                request = Some(None);
             }
         });
     });
@@ -243,7 +222,7 @@ fn heading_ui(ui: &mut Ui, page: PaperPage) -> Option<Request> {
     let (width, place) = (ui.available_width(), page.place());
     let titles = titles.enumerate();
     let (other, _) = widgets::drop_down(ui, "Page of the paper", width, &place, titles);
-    let opened = other.map(|place| Request::Open(PaperPage::ALL[place]));
+    let opened = other.map(|place| PaperPage::ALL.get(place).copied());
     ui.add_space(STEP);
     opened.or(request)
 }

@@ -66,9 +66,8 @@ pub fn recovery_ui(context: &Context, canvas: Rect, all: &[Recoverable]) -> Opti
         let mut later = None;
         ui.horizontal(|ui| {
             widgets::at_right(ui, |ui| {
-                let button = ui
-                    .button("Later")
-                    .on_hover_text("Offer them again at the next start (Esc)");
+                let help = "Offer them again at the next start (Esc)";
+                let button = ui.button("Later").on_hover_text(help);
                 later = button.clicked().then_some(Choice::Later);
                 folder_ui(ui, all);
             });
@@ -85,7 +84,7 @@ fn folder_ui(ui: &mut Ui, all: &[Recoverable]) {
     };
     let text = format!("In {}", folder.display());
     let text = RichText::new(text).color(Tokens::of(ui).faint_text);
-    let room = vec2(ui.available_width(), ui.available_height());
+    let room = ui.available_size();
     ui.allocate_ui_with_layout(room, Layout::left_to_right(Align::Center), |ui| {
         ui.add(Label::new(text).truncate());
     });
@@ -101,10 +100,8 @@ fn row_ui(ui: &mut Ui, recoverable: &Recoverable) -> Option<Choice> {
             // Each row's buttons have names of their own.
             let [title, lines] = texts(recoverable);
             let discard = ui.button("Discard");
-            if discard
-                .accessible_name(format!("Discard {title}"))
-                .clicked()
-            {
+            let discard = discard.accessible_name(format!("Discard {title}"));
+            if discard.clicked() {
                 choice = Some(Choice::Discard(recoverable.id));
             }
             if recoverable.content.is_ok() {

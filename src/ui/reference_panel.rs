@@ -34,8 +34,7 @@ pub fn shape_ui(
             interval_ui(ui, editor, curve);
         }
         ReferenceForm::Formula(formula) => {
-            let help = "Expressions in t, such as 2*cos(pi*t).";
-            widgets::note(ui, help);
+            widgets::note(ui, "Expressions in t, such as 2*cos(pi*t).");
             formulas.show(ui, editor, id, formula);
             interval_ui(ui, editor, curve);
         }
@@ -155,11 +154,8 @@ pub fn figures_ui(ui: &mut Ui, reference: &Reference, report: &ReferenceReport) 
         true => "planar",
         false => "in space",
     };
-    widgets::fact_row(
-        ui,
-        "Kind",
-        &format!("{kind}, {}", reference.curve.form().label().to_lowercase()),
-    );
+    let form = reference.curve.form().label().to_lowercase();
+    widgets::fact_row(ui, "Kind", &format!("{kind}, {form}"));
     let length = report.length.map(|length| figures::significant(length, 8));
     let length = length.map(|length| document_unit::length(ui.ctx(), length));
     let length = length.unwrap_or_else(|| "none: it has a gap".to_owned());

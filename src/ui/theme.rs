@@ -108,7 +108,9 @@ pub const CURVE_COLOURS: [(&str, Colour); 8] = [
     ("Violet", Colour([0x8B, 0x6F, 0xDB])),
 ];
 
-const fn rgb(hex: u32) -> Color32 {
+/// One of two colours: that of the dark theme, or that of the light one.
+const fn pick(dark: bool, [of_dark, of_light]: [u32; 2]) -> Color32 {
+    let hex = if dark { of_dark } else { of_light };
     Color32::from_rgb((hex >> 16) as u8, (hex >> 8) as u8, hex as u8)
 }
 
@@ -127,9 +129,6 @@ static LIGHT: Tokens = Tokens::new(false);
 impl Tokens {
     /// The table of colours: in the dark theme, in the light theme.
     const fn new(dark: bool) -> Self {
-        const fn pick(dark: bool, [of_dark, of_light]: [u32; 2]) -> Color32 {
-            rgb(if dark { of_dark } else { of_light })
-        }
         Self {
             background: pick(dark, [0x14161A, 0xFBFBFA]),
             panel: pick(dark, [0x1B1E24, 0xF1F1EF]),
@@ -324,13 +323,10 @@ pub fn small_font() -> FontId {
 fn fonts() -> FontDefinitions {
     let mut fonts = FontDefinitions::default();
     let lucide = FontData::from_static(lucide_icons::LUCIDE_FONT_BYTES);
-    fonts
-        .font_data
-        .insert(ICON_FAMILY.to_owned(), Arc::new(lucide));
-    fonts.families.insert(
-        FontFamily::Name(ICON_FAMILY.into()),
-        vec![ICON_FAMILY.to_owned()],
-    );
+    let name = ICON_FAMILY.to_owned();
+    fonts.font_data.insert(name.clone(), Arc::new(lucide));
+    let family = FontFamily::Name(ICON_FAMILY.into());
+    fonts.families.insert(family, vec![name]);
     fonts
 }
 

@@ -62,10 +62,8 @@ impl TransformPanel {
 
 fn pivot_ui(ui: &mut Ui, editor: &mut Editor) {
     let Some(pivot) = editor.hand().pivot(&editor.context()) else {
-        widgets::note(
-            ui,
-            "Select vertices, or a curve that is neither locked nor hidden.",
-        );
+        let text = "Select vertices, or a curve that is neither locked nor hidden.";
+        widgets::note(ui, text);
         return;
     };
     widgets::form_row(ui, "Pivot", |ui| {
@@ -74,13 +72,10 @@ fn pivot_ui(ui: &mut Ui, editor: &mut Editor) {
         for (name, axis) in axes {
             let value = pivot.dot(axis);
             let shown = figures::significant(value, 6);
-            let field = NumberField::new(name, value, shown)
-                .speed(pixel)
-                .quantity(Quantity::Length);
-            if let Some(changed) = field.changed(ui) {
-                editor
-                    .hand_mut()
-                    .set_pivot(Some(pivot + axis * (changed - value)));
+            let field = NumberField::new(name, value, shown).speed(pixel);
+            if let Some(changed) = field.quantity(Quantity::Length).changed(ui) {
+                let pivot = pivot + axis * (changed - value);
+                editor.hand_mut().set_pivot(Some(pivot));
             }
         }
     });

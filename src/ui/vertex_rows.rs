@@ -154,7 +154,7 @@ impl Rows<'_> {
             Column::Axis(_) => field,
             Column::Weight => field.range(value.min(LEAST_WEIGHT)..=f64::MAX),
         };
-        let field = field.flat().read_only(!can_edit);
+        let field = field.cell(!can_edit);
         let (response, event) = field.resting_ui(ui, rect, id().with(cell));
         if let Some(event) = event {
             let label = column.label();

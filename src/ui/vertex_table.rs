@@ -202,7 +202,7 @@ impl VertexTable {
             && is_shown
         {
             let pixel = editor.view().viewport().pixel();
-            let (shown, _) = entry.cell.column.shown(entry.before, pixel);
+            let (shown, _) = entry.cell.column.shown(entry.draft.before, pixel);
             let remark = entry.draft.left(ui, &fault, &shown);
             self.remark = Some((entry.cell, remark));
         }
