@@ -66,7 +66,7 @@ impl Canvas {
             self.send_event(context, editor, event);
         }
         let modifiers = context.input(|input| keyboard::modifiers(input.modifiers));
-        self.send_modifiers(editor, modifiers);
+        send(editor, &mut self.modifiers, modifiers, Input::Modifiers);
         self.send_wheel(context, editor);
         self.notice_covering(context, editor);
     }
@@ -76,7 +76,14 @@ impl Canvas {
             let mine = editor.hand().is_holding() || self.has_keyboard(context);
             match steering {
                 Steering::Axis(axis) => self.hold_axis(editor, axis, pressed && mine),
-                Steering::Features => self.hold_keeping(editor, pressed && mine),
+                Steering::Features => {
+                    send(
+                        editor,
+                        &mut self.keeping,
+                        pressed && mine,
+                        Input::KeepingHeld,
+                    );
+                }
             }
         }
         match event {
@@ -87,7 +94,8 @@ impl Canvas {
                 pressed,
                 modifiers,
             } => {
-                self.send_modifiers(editor, keyboard::modifiers(*modifiers));
+                let held = keyboard::modifiers(*modifiers);
+                send(editor, &mut self.modifiers, held, Input::Modifiers);
                 match pressed {
                     true => self.pressed(context, editor, *pos, *button),
                     false => self.released(context, editor, *pos, *button),
@@ -105,16 +113,22 @@ impl Canvas {
                 repeat,
                 ..
             } => {
-                self.send_modifiers(editor, keyboard::modifiers(*modifiers));
-                self.key(context, editor, *key, (*pressed, *repeat));
+                let held = keyboard::modifiers(*modifiers);
+                send(editor, &mut self.modifiers, held, Input::Modifiers);
+                self.key(context, editor, *key, [*pressed, *repeat]);
             }
             Event::WindowFocused(false) => {
-                self.send_modifiers(editor, Modifiers::NONE);
-                self.hold_space(editor, false);
+                send(
+                    editor,
+                    &mut self.modifiers,
+                    Modifiers::NONE,
+                    Input::Modifiers,
+                );
+                send(editor, &mut self.space, false, Input::SpaceHeld);
                 if let Some(axis) = self.axis {
                     self.hold_axis(editor, axis, false);
                 }
-                self.hold_keeping(editor, false);
+                send(editor, &mut self.keeping, false, Input::KeepingHeld);
             }
             _ => {}
         }
@@ -209,27 +223,6 @@ impl Canvas {
         self.rect.is_some_and(is_on) && !is_behind
     }
 
-    fn send_modifiers(&mut self, editor: &mut Editor, modifiers: Modifiers) {
-        if modifiers != self.modifiers {
-            self.modifiers = modifiers;
-            editor.input(Input::Modifiers(modifiers));
-        }
-    }
-
-    fn hold_space(&mut self, editor: &mut Editor, held: bool) {
-        if held != self.space {
-            self.space = held;
-            editor.input(Input::SpaceHeld(held));
-        }
-    }
-
-    fn hold_keeping(&mut self, editor: &mut Editor, held: bool) {
-        if held != self.keeping {
-            self.keeping = held;
-            editor.input(Input::KeepingHeld(held));
-        }
-    }
-
     /// An axis's key steers a drag while it is held.
     fn hold_axis(&mut self, editor: &mut Editor, axis: usize, pressed: bool) {
         let wanted = match (pressed, self.axis) {
@@ -237,27 +230,19 @@ impl Canvas {
             (false, Some(held)) if held == axis => None,
             (_, held) => held,
         };
-        if wanted != self.axis {
-            self.axis = wanted;
-            editor.input(Input::AxisHeld(wanted));
-        }
+        send(editor, &mut self.axis, wanted, Input::AxisHeld);
     }
 
-    fn key(
-        &mut self,
-        context: &Context,
-        editor: &mut Editor,
-        key: egui::Key,
-        (pressed, repeated): (bool, bool),
-    ) {
+    fn key(&mut self, context: &Context, editor: &mut Editor, key: egui::Key, state: [bool; 2]) {
+        let [pressed, repeated] = state;
         if key == egui::Key::Space && !pressed {
-            self.hold_space(editor, false);
+            send(editor, &mut self.space, false, Input::SpaceHeld);
         }
         if !pressed || !self.has_keyboard(context) {
             return;
         }
         match keyboard::key(key) {
-            Some(Key::Space) => self.hold_space(editor, true),
+            Some(Key::Space) => send(editor, &mut self.space, true, Input::SpaceHeld),
             Some(key) if repeated => editor.input(Input::KeyRepeated(key)),
             Some(key) => editor.input(Input::Key(key)),
             None => {}
@@ -373,6 +358,14 @@ impl Canvas {
                 memory.set_focus_lock_filter(id(), all);
             }
         });
+    }
+}
+
+/// Send what is held now, if that is new.
+fn send<T: Copy + PartialEq>(editor: &mut Editor, known: &mut T, now: T, input: fn(T) -> Input) {
+    if *known != now {
+        *known = now;
+        editor.input(input(now));
     }
 }
 

@@ -16,12 +16,8 @@ const COORDINATES: [(&str, &str); 3] = [("x(t)", "x"), ("y(t)", "y"), ("z(t)", "
 /// The texts in the fields of a reference.
 #[derive(Default)]
 pub struct FormulaFields {
-    draft: Option<Draft>,
-}
-
-struct Draft {
-    /// The reference that it belongs to.
-    reference: CurveId,
+    /// The reference that they belong to, while one of them has the keyboard.
+    reference: Option<CurveId>,
     texts: [String; 3],
     /// Why the texts are no curve.
     error: Option<ReferenceError>,
@@ -30,26 +26,16 @@ struct Draft {
 impl FormulaFields {
     /// Show the fields of the active reference.
     pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor, id: CurveId, formula: &Formula) {
-        let kept = self.draft.take().filter(|draft| draft.reference == id);
-        let mut draft = kept.unwrap_or_else(|| Draft::of(id, formula));
+        if self.reference != Some(id) {
+            let text = |text: Option<&str>| text.unwrap_or_default().to_owned();
+            self.texts = formula.texts().map(text);
+            self.error = None;
+        }
         let mut is_typed = false;
         for coordinate in 0..COORDINATES.len() {
-            is_typed |= draft.field_ui(ui, editor, coordinate);
+            is_typed |= self.field_ui(ui, editor, coordinate);
         }
-        if is_typed {
-            self.draft = Some(draft);
-        }
-    }
-}
-
-impl Draft {
-    fn of(reference: CurveId, formula: &Formula) -> Self {
-        let text = |text: Option<&str>| text.unwrap_or_default().to_owned();
-        Self {
-            reference,
-            texts: formula.texts().map(text),
-            error: None,
-        }
+        self.reference = is_typed.then_some(id);
     }
 
     /// Show the field of one coordinate; returns whether it has the keyboard.

@@ -6,106 +6,8 @@ use super::action::Action;
 use super::keyboard;
 use super::theme::{STEP, Tokens};
 
-/// A gesture and its effect.
-type Row = (&'static str, &'static str);
-
-/// The gestures that the table of commands does not hold.
-const GROUPS: [(&str, &[Row]); 8] = [
-    (
-        "View",
-        &[
-            ("Wheel, pinch", "Zoom to the pointer"),
-            ("Middle button, Space and drag", "Pan"),
-            ("Right button and drag", "Orbit"),
-            ("Double-click on empty canvas", "Fit all"),
-            ("Right click, menu key", "Menu of what is there"),
-            ("Alt", "Hold to compare with the state before"),
-            ("F6", "Focus panels"),
-        ],
-    ),
-    (
-        "Select and shape",
-        &[
-            ("Click, Shift and click", "Select, add to the selection"),
-            ("Drag on empty canvas", "Select by a box"),
-            ("Tab", "Cycle overlapping"),
-            ("Drag a vertex", "Move the selection"),
-            (
-                "Drag a hollow square",
-                "Move a vertex of the closed S-polygon",
-            ),
-            ("Drag the tip of a comb tooth", "Scale the comb"),
-            (
-                "Shift while dragging",
-                "Lock to an axis, or to steps of 15°",
-            ),
-            ("X, Y, Z while dragging", "Lock to X, Y, Z"),
-            ("Ctrl while dragging", "Toggle snapping"),
-            ("K while dragging", "Toggle keeping features"),
-            (
-                "Wheel while dragging",
-                "Live harmony, soft drag: how many vertices follow",
-            ),
-            ("Arrows; with Shift, Ctrl", "Nudge; nudge ×10, ×0.1"),
-            ("Enter, Esc", "Operation: apply, cancel"),
-            ("Esc", "Cancel the drag, leave the tool"),
-        ],
-    ),
-    (
-        "Draw",
-        &[
-            ("Click", "Set a vertex"),
-            ("Click the first vertex", "End as a periodic curve"),
-            ("Enter, right click", "End the curve"),
-            ("Backspace", "Remove the last vertex"),
-        ],
-    ),
-    (
-        "Type on the canvas",
-        &[
-            ("x,y", "Draw, Add, Insert: a point; in space x,y,z"),
-            ("@dx,dy", "A point relative to the last vertex"),
-            ("@length<angle", "A point by length and angle from it"),
-            ("Number", "Rotate: an angle in degrees. Scale: a factor"),
-            ("Enter, Esc", "Confirm, cancel"),
-        ],
-    ),
-    (
-        "Numbers",
-        &[
-            ("Drag a number", "Change it; type for an exact value"),
-            ("2*pi, 10*cos(30deg)", "Arithmetic and functions"),
-            ("+=2, -=1, *=1.1, /=2", "Change the current number"),
-            ("12mm, 2.5cm, 1/2in", "Convert to the document's unit"),
-        ],
-    ),
-    (
-        "Plots",
-        &[
-            ("Wheel, drag", "Zoom to the pointer, pan"),
-            ("Shift and wheel", "Zoom along the curve alone"),
-            ("Double-click", "Fit the plot"),
-        ],
-    ),
-    (
-        "List of curves",
-        &[
-            ("Double-click", "Rename"),
-            ("Drag a row", "Move it to another place"),
-        ],
-    ),
-    (
-        "Table of vertices",
-        &[
-            ("Enter, Shift and Enter", "Confirm and go down, up"),
-            ("Tab, Shift and Tab", "Confirm and go right, left"),
-            ("Arrows, Page Up, Page Down", "Go to another cell"),
-            ("Digit, sign, letter", "Replace the number"),
-            ("Space, double-click", "Edit the number"),
-            ("Esc", "Cancel the edit; leave"),
-        ],
-    ),
-];
+/// The gestures that the table of commands does not hold: headings behind `#`, and rows of keys and their effect.
+const GESTURES: &str = include_str!("../../assets/keys.txt");
 
 /// The width of a column, and of the keys in it.
 const COLUMN: [f32; 2] = [340.0, 132.0];
@@ -138,14 +40,22 @@ pub fn key_list_ui(ui: &mut Ui) {
 
 /// The groups of the list; the commands that have keys come last.
 fn groups() -> Vec<Group> {
-    let owned = |(keys, what): &Row| ((*keys).to_owned(), (*what).to_owned());
-    let groups = GROUPS.into_iter();
-    let groups = groups.map(|(heading, rows)| (heading, rows.iter().map(owned).collect()));
+    let mut groups: Vec<Group> = Vec::new();
+    for line in GESTURES.lines() {
+        if let Some(heading) = line.strip_prefix("# ") {
+            groups.push((heading, Vec::new()));
+        } else if let Some((keys, what)) = line.split_once(" | ")
+            && let Some((_, rows)) = groups.last_mut()
+        {
+            rows.push((keys.to_owned(), what.to_owned()));
+        }
+    }
     let commands = Action::all().into_iter().filter_map(|action| {
         let keys = keyboard::shortcut_text(action.shortcut()?);
         Some((keys, action.label()))
     });
-    groups.chain([("Commands", commands.collect())]).collect()
+    groups.push(("Commands", commands.collect()));
+    groups
 }
 
 /// Fill so many columns evenly. Only a group longer than the rest of a column continues in the next.
@@ -161,11 +71,8 @@ fn in_columns(groups: Vec<Group>, count: usize) -> Vec<Vec<Group>> {
         }
         loop {
             let is_last = columns.len() == count;
-            let fitting = if is_last {
-                rows.len()
-            } else {
-                left.saturating_sub(1)
-            };
+            let room = left.saturating_sub(1);
+            let fitting = if is_last { rows.len() } else { room };
             let rest = rows.split_off(fitting.min(rows.len()));
             left = left.saturating_sub(rows.len() + 1);
             if let Some(column) = columns.last_mut()
@@ -213,6 +120,16 @@ mod tests {
     use super::*;
 
     #[test]
+    fn every_line_of_the_gestures_is_a_heading_or_a_row() {
+        let all = groups();
+        let gestures = &all[..all.len() - 1];
+        let lines = gestures.iter().map(|(_, rows)| 1 + rows.len());
+        let written = GESTURES.lines().filter(|line| !line.is_empty());
+        assert_eq!(lines.sum::<usize>(), written.count());
+        assert!(gestures.iter().all(|(_, rows)| !rows.is_empty()));
+    }
+
+    #[test]
     fn columns_hold_every_line_and_break_between_groups() {
         let rows = |groups: &[Group]| -> Vec<(String, String)> {
             groups.iter().flat_map(|(_, rows)| rows.clone()).collect()
@@ -228,7 +145,7 @@ mod tests {
             // The groups in the source are short: only the commands continue in another column.
             let headings = columns.concat().into_iter().map(|group| group.0);
             let commands = headings.clone().filter(|heading| *heading == "Commands");
-            assert_eq!(headings.count() - commands.count(), GROUPS.len());
+            assert_eq!(headings.count() - commands.count(), groups().len() - 1);
         }
     }
 }

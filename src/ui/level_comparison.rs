@@ -1,6 +1,6 @@
 //! The features of two curves side by side, level by level.
 
-use eframe::egui::{Align2, Role, Sense, Ui, WidgetInfo, vec2};
+use eframe::egui::{Align2, Color32, Role, Sense, Ui, WidgetInfo, vec2};
 
 use super::theme::{self, STEP, Tokens};
 use super::{figures, widgets};
@@ -29,17 +29,18 @@ fn level_ui(ui: &mut Ui, level: &LevelComparison) {
     if level.there.is_empty() && level.here.is_empty() {
         return;
     }
+    let tokens = Tokens::of(ui);
     let heading = ["reference", "curve"].map(str::to_owned);
-    row_ui(ui, &name, heading, Row::Heading);
+    row_ui(ui, &name, heading, tokens.faint_text, false);
     for (index, (there, here)) in level.side_by_side().enumerate() {
         let there = there.map(|(t, feature)| told("t", t, feature));
         let here = here.map(|(u, feature)| told("u", u, feature));
-        let row = match difference {
-            Some(first) if first == index => Row::Difference,
-            _ => Row::Feature,
+        let texts = [there, here].map(|text| text.unwrap_or_else(|| "–".to_owned()));
+        let (colour, is_first) = match difference == Some(index) {
+            true => (tokens.strong_text, true),
+            false => (tokens.text, false),
         };
-        let or_none = |text: Option<String>| text.unwrap_or_else(|| "–".to_owned());
-        row_ui(ui, &name, [or_none(there), or_none(here)], row);
+        row_ui(ui, &name, texts, colour, is_first);
     }
     ui.add_space(STEP);
 }
@@ -48,15 +49,6 @@ fn level_ui(ui: &mut Ui, level: &LevelComparison) {
 fn told(parameter: &str, at: f64, feature: LevelFeature) -> String {
     let at = figures::significant(at, 4);
     format!("{} at {parameter} = {at}", feature.name())
-}
-
-/// The contents of a row.
-#[derive(Clone, Copy, PartialEq)]
-enum Row {
-    Heading,
-    Feature,
-    /// The first features that differ.
-    Difference,
 }
 
 fn heading_ui(ui: &mut Ui, name: &str, text: &str, differs: bool) {
@@ -71,19 +63,14 @@ fn heading_ui(ui: &mut Ui, name: &str, text: &str, differs: bool) {
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{name}: {text}")));
 }
 
-fn row_ui(ui: &mut Ui, level: &str, texts: [String; 2], row: Row) {
-    let tokens = Tokens::of(ui);
+/// Show a row, marked if it has the first features that differ.
+fn row_ui(ui: &mut Ui, level: &str, texts: [String; 2], colour: Color32, is_difference: bool) {
     let size = vec2(ui.available_width(), LINE);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-    if row == Row::Difference {
-        let fill = tokens.error.gamma_multiply(0.18);
+    if is_difference {
+        let fill = Tokens::of(ui).error.gamma_multiply(0.18);
         ui.painter().rect_filled(rect, 2, fill);
     }
-    let colour = match row {
-        Row::Heading => tokens.faint_text,
-        Row::Feature => tokens.text,
-        Row::Difference => tokens.strong_text,
-    };
     let middle = rect.center().x;
     let columns = [rect.with_max_x(middle), rect.with_min_x(middle)];
     for (column, text) in columns.into_iter().zip(&texts) {
@@ -92,9 +79,10 @@ fn row_ui(ui: &mut Ui, level: &str, texts: [String; 2], row: Row) {
         ui.painter_at(column)
             .text(at, Align2::LEFT_CENTER, text, font, colour);
     }
-    let difference = match row {
-        Row::Difference => "first difference, ",
-        _ => "",
+    let difference = if is_difference {
+        "first difference, "
+    } else {
+        ""
     };
     let told = format!("{level}: {difference}{} | {}", texts[0], texts[1]);
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, told.clone()));

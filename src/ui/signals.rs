@@ -29,16 +29,12 @@ impl Signals {
     pub fn have_come(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
-
-    #[cfg_attr(not(unix), expect(dead_code, reason = "no signals there"))]
-    fn take_note(&self) {
-        self.0.store(true, Ordering::Relaxed);
-    }
 }
 
 #[cfg(unix)]
 mod system {
     use std::io;
+    use std::sync::atomic::Ordering;
     use std::thread;
     use std::time::Duration;
 
@@ -71,7 +67,7 @@ mod system {
                 if let Some(Err(error)) = autosaver.as_ref().map(Autosaver::write) {
                     eprintln!("batten: {error}");
                 }
-                signals.take_note();
+                signals.0.store(true, Ordering::Relaxed);
                 context.request_repaint();
                 thread::sleep(seconds_of(PATIENCE_VARIABLE).unwrap_or(PATIENCE));
                 // A hidden window may have no frames.

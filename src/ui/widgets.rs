@@ -181,13 +181,10 @@ pub fn swatch(ui: &Ui, rect: Rect, colour: Color32) {
 
 /// Paint an icon into the middle of a box.
 pub fn icon(ui: &Ui, rect: Rect, icon: Icon, colour: Color32) {
-    ui.painter().text(
-        rect.center(),
-        Align2::CENTER_CENTER,
-        char::from(icon),
-        theme::icon_font(theme::ICON),
-        colour,
-    );
+    let (text, font) = (char::from(icon), theme::icon_font(theme::ICON));
+    let centre = rect.center();
+    ui.painter()
+        .text(centre, Align2::CENTER_CENTER, text, font, colour);
 }
 
 /// Outline the widget that has the keyboard.
@@ -220,20 +217,18 @@ pub fn row_background(ui: &Ui, rect: Rect, response: &Response, is_selected: boo
 
 /// A caption that is cut short where there is too little room; a tooltip shows all of it.
 pub fn remark(ui: &mut Ui, text: &str) -> Response {
-    let text = RichText::new(text)
-        .font(theme::small_font())
-        .color(Tokens::of(ui).faint_text);
-    ui.add(egui::Label::new(text).truncate())
+    ui.add(egui::Label::new(small(ui, text)).truncate())
+}
+
+fn small(ui: &Ui, text: &str) -> RichText {
+    let text = RichText::new(text).font(theme::small_font());
+    text.color(Tokens::of(ui).faint_text)
 }
 
 /// A caption in small, faint type.
 pub fn caption(ui: &mut Ui, text: &str) -> Response {
-    let tokens = Tokens::of(ui);
-    ui.label(
-        RichText::new(text)
-            .font(theme::small_font())
-            .color(tokens.faint_text),
-    )
+    let text = small(ui, text);
+    ui.label(text)
 }
 
 /// A line of text that wraps, faint: hints and explanations.
@@ -311,12 +306,24 @@ pub fn wide_form_row<R>(
 
 /// One row of figures: a caption at the left, numbers flush right in tabular figures.
 pub fn figure_row(ui: &mut Ui, name: &str, figures: &str) -> Response {
+    text_row(ui, name, figures, theme::number_font())
+}
+
+/// One row of facts: a caption at the left, words flush right.
+pub fn fact_row(ui: &mut Ui, name: &str, fact: &str) -> Response {
+    let font = egui::TextStyle::Body.resolve(ui.style());
+    text_row(ui, name, fact, font)
+}
+
+fn text_row(ui: &mut Ui, name: &str, text: &str, font: FontId) -> Response {
     let tokens = Tokens::of(ui);
-    let width = ui.available_width();
-    let (rect, response) = ui.allocate_exact_size(Vec2::new(width, 5.0 * STEP), Sense::hover());
+    let size = Vec2::new(ui.available_width(), 5.0 * STEP);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     label_in(ui, rect, name, tokens.faint_text);
-    number_in(ui, rect, figures, tokens.text);
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{name}: {figures}")));
+    let at = rect.right_center();
+    ui.painter()
+        .text(at, Align2::RIGHT_CENTER, text, font, tokens.text);
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{name}: {text}")));
     response
 }
 
@@ -345,19 +352,6 @@ pub fn remark_with_icon(ui: &mut Ui, icon: Icon, text: &str, colour: Color32) {
         let text = egui::Label::new(RichText::new(text).color(colour));
         ui.add(text.wrap().selectable(true));
     });
-}
-
-/// One row of facts: a caption at the left, words flush right.
-pub fn fact_row(ui: &mut Ui, name: &str, fact: &str) {
-    let tokens = Tokens::of(ui);
-    let size = Vec2::new(ui.available_width(), 5.0 * STEP);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-    label_in(ui, rect, name, tokens.faint_text);
-    let font = egui::TextStyle::Body.resolve(ui.style());
-    let at = rect.right_center();
-    ui.painter()
-        .text(at, Align2::RIGHT_CENTER, fact, font, tokens.text);
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{name}: {fact}")));
 }
 
 /// Write a text at the left of a box. Where there is too little room it ends with an ellipsis; returns
@@ -393,8 +387,9 @@ pub fn tooltip_at_right(response: &Response, text: &str) {
 /// Write a number at the right of a box.
 pub fn number_in(ui: &Ui, rect: Rect, text: &str, colour: Color32) {
     let at = rect.right_center();
+    let font = theme::number_font();
     ui.painter()
-        .text(at, Align2::RIGHT_CENTER, text, theme::number_font(), colour);
+        .text(at, Align2::RIGHT_CENTER, text, font, colour);
 }
 
 /// The frame of a dialog.

@@ -4,16 +4,13 @@ use crate::analysis::LevelPlot;
 
 /// The label of a tab; `short` where there is little room.
 pub fn tab_name(plot: LevelPlot, short: bool) -> String {
+    let level_word = if short { "" } else { "level " };
     match plot {
         LevelPlot::CURVATURE => "Curvature".to_owned(),
-        LevelPlot::Curvature(level) if short => format!("κ {level}"),
-        LevelPlot::Torsion(1) if short => "τ".to_owned(),
-        LevelPlot::Torsion(level) if short => format!("τ {level}"),
-        LevelPlot::Logarithmic if short => "Log".to_owned(),
-        LevelPlot::Curvature(level) => format!("κ level {level}"),
-        LevelPlot::Torsion(1) => "Torsion".to_owned(),
-        LevelPlot::Torsion(level) => format!("τ level {level}"),
-        LevelPlot::Logarithmic => "Log graph".to_owned(),
+        LevelPlot::Torsion(1) => if short { "τ" } else { "Torsion" }.to_owned(),
+        LevelPlot::Logarithmic => if short { "Log" } else { "Log graph" }.to_owned(),
+        LevelPlot::Curvature(level) => format!("κ {level_word}{level}"),
+        LevelPlot::Torsion(level) => format!("τ {level_word}{level}"),
     }
 }
 
