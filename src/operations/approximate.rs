@@ -97,7 +97,7 @@ const COUNT: Parameter = Parameter {
 const TOLERANCE: Parameter = Parameter {
     name: "tolerance",
     label: "Tolerance",
-    help: "How far the curve may be from the nearest points of the reference, and its ends from those of the part; its levels must have the features of the reference too",
+    help: "Largest distance of the curve from the reference; its levels must have the same features too",
     kind: Kind::number(POSITIVE, |_| "none"),
 };
 
@@ -126,14 +126,14 @@ const SPACINGS: [Option<Spacing>; 4] = [
 const LEVELS: Parameter = Parameter {
     name: "levels",
     label: "Levels",
-    help: "How many levels of curvature and torsion are compared with those of the reference. What rises and falls by less than 1e-8 of a level's largest value does not count; nor, above level 1, by less than 1e-5 of what level 1 over the curve's length makes of it; nor ripples below 1e-5 of a curvature that is constant to 1e-5",
+    help: "How many levels of curvature and torsion must have the features of the reference",
     kind: Kind::whole(0, crate::geometry::LEVELS, 2),
 };
 
 const FIT_ENDS: Parameter = Parameter {
     name: "fit-ends",
     label: "Exact ends",
-    help: "Bring both ends to the points and directions of the reference, moving all vertices evenly; a periodic curve has no ends",
+    help: "Bring both ends to the reference's points and directions; all vertices move evenly",
     kind: Kind::Switch { default: false },
 };
 

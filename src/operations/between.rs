@@ -38,7 +38,7 @@ const CLOTHOID: f64 = -1.0;
 const KIND: Parameter = Parameter {
     name: "kind",
     label: "Kind",
-    help: "What the segment is: log-aesthetic, superspiral, any curve with monotone curvature, or a clothoid, which is log-aesthetic with α = −1",
+    help: "Kind of the segment; any: some curve with monotone curvature",
     kind: Kind::Choice {
         options: &[
             Choice {
@@ -61,7 +61,7 @@ const KIND: Parameter = Parameter {
 const ALPHA: Parameter = Parameter {
     name: "alpha",
     label: "Slope α",
-    help: "The slope α of the logarithmic curvature graph: −1 clothoid, 0 Nielsen's spiral, 1 logarithmic spiral, 2 circle involute",
+    help: "Slope of the logarithmic curvature graph: −1 clothoid, 1 logarithmic spiral, 2 circle involute",
     kind: Kind::number(ANY, |_| "−1, or from the curvatures"),
 };
 
@@ -74,7 +74,7 @@ const fn spiral(name: &'static str, label: &'static str, default: f64) -> Parame
     Parameter {
         name,
         label,
-        help: "Of a superspiral, whose radius of curvature is ₂F₁(a, b; c; −ψ) at direction angle ψ, a > 0 and c > b > 0",
+        help: "Of a superspiral: radius ₂F₁(a, b; c; −ψ) at direction angle ψ, with a > 0 and c > b > 0",
         kind: Kind::Real(Number {
             from: Bound::Excluded(Amount::Number(0.0)),
             to: Bound::Included(Amount::Number(20.0)),
@@ -151,7 +151,7 @@ const TOLERANCE: Parameter = Parameter {
 pub static OPERATION: Operation = Operation {
     name: "between",
     label: "Segment between two ends",
-    help: "Make a segment with monotone curvature between two points with directions: those that are given, or the nearest ends of two chosen open curves in the plane, or both ends of one",
+    help: "Join two points with directions by a segment of monotone curvature",
     inputs: Inputs::UpToTwo,
     parameters: &[
         KIND,

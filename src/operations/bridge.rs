@@ -11,7 +11,7 @@ use crate::geometry::parameters::Quantity;
 pub(super) const BRIDGE: Parameter = Parameter {
     name: "bridge",
     label: "Bridge vertices",
-    help: "How many vertices the bridge has; automatic takes the number that makes legs and turning angles most even, with few curvature extrema and inflections and without a long way round",
+    help: "Vertices of the bridge; automatic: the number that makes legs and angles most even",
     kind: Kind::count(MAX_BRIDGE, false, |_| "automatic"),
 };
 

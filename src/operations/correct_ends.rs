@@ -45,7 +45,7 @@ const METHOD: Parameter = Parameter {
 const ORDER: Parameter = Parameter {
     name: "order",
     label: "Disturb least",
-    help: "What both ends at once keep small: the first, second or third differences of the vertices' moves, or what is not harmonious",
+    help: "Minimised while both ends are met: a difference of the moves, or disharmony",
     kind: Kind::Choice {
         options: &[
             Choice::new("1", "Order 1"),
@@ -60,7 +60,7 @@ const ORDER: Parameter = Parameter {
 const TOLERANCE: Parameter = Parameter {
     name: "tolerance",
     label: "Tolerance",
-    help: "How far an end may stay off its target; angles count as arcs over the size of the polygon, curvatures times its square, slopes times its cube",
+    help: "Largest miss of a target; angles, curvatures and slopes count as lengths",
     kind: Kind::Real(Number {
         from: Bound::Excluded(Amount::Number(0.0)),
         to: Bound::Unbounded,
@@ -196,7 +196,7 @@ const FINISH: Asked = Asked {
 pub static OPERATION: Operation = Operation {
     name: "correct-ends",
     label: "Correct ends",
-    help: "Bring the ends of the curve to their targets; at once, an end without a target keeps its point and direction",
+    help: "Bring the ends to their targets; an end without one keeps its point and direction",
     inputs: Inputs::One,
     parameters: &[
         METHOD,

@@ -9,7 +9,7 @@ use crate::geometry::{End, MAX_SUBDIVISIONS};
 pub(super) const SUBDIVISIONS: Parameter = Parameter {
     name: "subdivisions",
     label: "Maximum subdivisions",
-    help: "How often segments may be halved to put a knot at the cut, which makes the part exact; without a knot there it is approximate",
+    help: "How often segments are halved to put a knot at the cut; only a cut at a knot is exact",
     kind: Kind::whole(0, MAX_SUBDIVISIONS as usize, 0),
 };
 

@@ -29,7 +29,7 @@ const ALL: Choice = Choice::new("all", "All");
 const KEEP: Parameter = Parameter {
     name: "keep",
     label: "Keep ends",
-    help: "What the ends keep: nothing, the position, also the direction, also the curvature, also its slope; or all derivatives that join, so that the curve beyond a stretch stays",
+    help: "Conditions that the ends keep; all derivatives: the curve beyond a stretch stays",
     kind: Kind::Choice {
         options: &[FREE, POSITION, DIRECTION, CURVATURE, SLOPE, ALL],
         default: 2,
@@ -69,7 +69,7 @@ const KEEP_END: Parameter = Parameter {
 const STRETCH: Parameter = Parameter {
     name: "stretch",
     label: "Stretch",
-    help: "The stretch of the curve that is harmonised, of a periodic one from a larger u over the seam to a smaller; its ends keep what the ends keep",
+    help: "Stretch to harmonise; on a periodic curve from a larger u over the seam to a smaller",
     kind: Kind::List {
         count: 2..=2,
         whole: false,
@@ -83,7 +83,7 @@ const STRETCH: Parameter = Parameter {
 const EXTREMA: Parameter = Parameter {
     name: "extrema",
     label: "Curvature extrema",
-    help: "How many extrema of the curvature are to be left; those that stand out have a prominence of 5 % of the range of the curvature",
+    help: "Curvature extrema that remain; those with a prominence of 5 % of its range stand out",
     kind: Kind::count(usize::MAX, false, STANDING_OUT),
 };
 

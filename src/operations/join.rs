@@ -40,14 +40,14 @@ const MEANINGS: [Option<End>; 3] = [None, Some(End::Start), Some(End::Finish)];
 
 const FIRST_END: Parameter = Parameter {
     name: "first-end",
-    label: "End of the first",
-    help: "The end of the first curve that is joined; the nearest is that of the two ends that lie closest to each other, and of pairs as close that of the two ends that point at each other",
+    label: "First curve's end",
+    help: "Which end of the first curve to join. Nearest: the closest pair of ends",
     kind: ENDS,
 };
 
 const SECOND_END: Parameter = Parameter {
     name: "second-end",
-    label: "End of the second",
+    label: "Second curve's end",
     help: "The end of the second curve that is joined",
     kind: ENDS,
 };

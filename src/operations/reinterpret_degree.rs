@@ -32,7 +32,7 @@ const DEGREE: Parameter = degree(
 pub static OPERATION: Operation = Operation {
     name: "reinterpret-degree",
     label: "Reinterpret degree",
-    help: "Give the polygon another degree: higher ones make a smoother curve, lower ones follow the polygon closer",
+    help: "Give the polygon another degree: higher is smoother, lower follows the polygon closer",
     inputs: Inputs::One,
     parameters: &[DEGREE],
     check: check_editable,

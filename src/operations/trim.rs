@@ -31,7 +31,7 @@ const FROM: Parameter = Parameter {
 const TO: Parameter = Parameter {
     name: "to",
     label: "To u",
-    help: "Where the part that is kept ends; on a periodic curve it may lie past the joint, up to one turn after its beginning",
+    help: "End of the part that is kept; on a periodic curve it may lie up to one turn past the start",
     kind: Kind::Real(Number {
         from: Bound::Excluded(Amount::Number(0.0)),
         to: Bound::Included(Amount::Of {

@@ -28,6 +28,14 @@ fn is_name(name: &str) -> bool {
 }
 
 /// Whether a text begins with a capital letter and is one line without a full stop.
+/// The most words of a parameter's label.
+const MOST_WORDS: usize = 3;
+
+/// Whether a help text is short enough for a tooltip.
+fn is_help(text: &str) -> bool {
+    text.chars().count() <= 100
+}
+
 fn is_phrase(text: &str) -> bool {
     text.starts_with(char::is_uppercase) && !text.ends_with('.') && !text.contains('\n')
 }
@@ -53,6 +61,7 @@ fn names_are_distinct_and_everything_has_words() {
             is_phrase(operation.label) && is_phrase(operation.help),
             "{name}"
         );
+        assert!(is_help(operation.help), "{name}: {}", operation.help);
         let mut names: HashSet<&str> = RESERVED.into_iter().collect();
         let mut shown = HashSet::new();
         for parameter in operation.parameters {
@@ -62,6 +71,8 @@ fn names_are_distinct_and_everything_has_words() {
             assert!(shown.insert(parameter.label), "{place}");
             assert!(is_phrase(parameter.label), "{place}");
             assert!(is_phrase(parameter.help), "{place}");
+            assert!(is_help(parameter.help), "{place}: {}", parameter.help);
+            assert!(parameter.label.split(' ').count() <= MOST_WORDS, "{place}");
             assert!(!parameter.range_words().is_empty(), "{place}");
             assert!(!parameter.default_words().is_empty(), "{place}");
             if let Kind::Choice { options, default } = parameter.kind {
