@@ -5,7 +5,7 @@ use super::error::{Place, Problem, ReadError};
 /// The decimal mark of a table, as far as the numbers read so far tell it.
 #[derive(Default)]
 pub(super) struct Decimals {
-    mark: Option<Mark>,
+    mark: Option<DecimalMark>,
     /// Whether a comma was found that cannot be one between thousands.
     is_proved: bool,
     /// The first number whose comma can be one between thousands, with its line.
@@ -13,7 +13,7 @@ pub(super) struct Decimals {
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum Mark {
+enum DecimalMark {
     Point,
     Comma,
 }
@@ -32,11 +32,11 @@ impl Decimals {
         let text = text.trim();
         let mark = match (text.contains('.'), text.contains(',')) {
             (false, false) => None,
-            (true, _) => Some(Mark::Point),
-            (false, true) => Some(Mark::Comma),
+            (true, _) => Some(DecimalMark::Point),
+            (false, true) => Some(DecimalMark::Comma),
         };
         let value: Option<f64> = match mark {
-            Some(Mark::Comma) => text.replacen(',', ".", 1).parse().ok(),
+            Some(DecimalMark::Comma) => text.replacen(',', ".", 1).parse().ok(),
             _ => text.parse().ok(),
         };
         let value = value.ok_or_else(|| Problem::NotANumber {
@@ -50,7 +50,7 @@ impl Decimals {
             return Err(Problem::MixedDecimals(text.to_owned()));
         }
         self.mark = self.mark.or(mark);
-        if mark == Some(Mark::Comma) {
+        if mark == Some(DecimalMark::Comma) {
             if !may_be_grouped(text) {
                 self.is_proved = true;
             } else if self.doubtful.is_none() {
@@ -70,7 +70,7 @@ impl Decimals {
             Some((line, text)) if !self.is_proved => {
                 Err(Place::line(line).problem(Problem::AmbiguousComma(text)))
             }
-            _ => Ok(self.mark == Some(Mark::Comma)),
+            _ => Ok(self.mark == Some(DecimalMark::Comma)),
         }
     }
 }

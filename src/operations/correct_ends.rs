@@ -75,8 +75,8 @@ const TOLERANCE: Parameter = Parameter {
     }),
 };
 
-/// What can be asked of one end.
-struct Asked {
+/// The parameters of one end.
+struct EndParameters {
     point: Parameter,
     direction: Parameter,
     curvature: Parameter,
@@ -84,8 +84,68 @@ struct Asked {
     normal: Parameter,
 }
 
-/// Say what an end keeps where nothing is given: what its target asks for, otherwise what it has, or
-/// nothing.
+/// Describe the parameters of an end, whose names begin with that of the end.
+macro_rules! end_parameters {
+    ($end:expr, $name:literal, $label:literal) => {
+        EndParameters {
+            point: Parameter {
+                name: $name,
+                label: concat!($label, " point"),
+                help: concat!("The point of the ", $name),
+                kind: Kind::vector(false, |input| kept(input, $end, |_| true, "where it is")),
+            },
+            direction: Parameter {
+                name: concat!($name, "-direction"),
+                label: concat!($label, " direction"),
+                help: concat!("The direction at the ", $name, ", along the curve"),
+                kind: Kind::vector(false, |input| {
+                    kept(input, $end, |it| it.direction.is_some(), "as it is")
+                }),
+            },
+            curvature: Parameter {
+                name: concat!($name, "-curvature"),
+                label: concat!($label, " curvature"),
+                help: concat!(
+                    "The curvature at the ",
+                    $name,
+                    "; of a planar curve positive where it turns left"
+                ),
+                kind: Kind::number(ANY, |input| {
+                    kept(input, $end, |it| it.curvature.is_some(), "free")
+                }),
+            },
+            slope: Parameter {
+                name: concat!($name, "-slope"),
+                label: concat!($label, " slope"),
+                help: concat!(
+                    "The slope of the curvature at the ",
+                    $name,
+                    ", by arc length"
+                ),
+                kind: Kind::number(ANY, |input| {
+                    kept(input, $end, |it| it.slope.is_some(), "free")
+                }),
+            },
+            normal: Parameter {
+                name: concat!($name, "-normal"),
+                label: concat!($label, " normal"),
+                help: concat!(
+                    "The normal of the osculating plane at the ",
+                    $name,
+                    ", in space"
+                ),
+                kind: Kind::vector(true, |input| {
+                    kept(input, $end, |it| it.normal.is_some(), "free")
+                }),
+            },
+        }
+    };
+}
+
+const START: EndParameters = end_parameters!(End::Start, "start", "Start");
+const FINISH: EndParameters = end_parameters!(End::Finish, "end", "End");
+
+/// The default of a condition in words: as its target requires, otherwise as it is, or free.
 fn kept(
     input: Option<&Operands>,
     end: End,
@@ -105,92 +165,6 @@ fn kept(
         None => otherwise,
     }
 }
-
-const START: Asked = Asked {
-    point: Parameter {
-        name: "start",
-        label: "Start point",
-        help: "Where the curve begins; without a point it begins where it does",
-        kind: Kind::vector(false, |input| {
-            kept(input, End::Start, |_| true, "where it is")
-        }),
-    },
-    direction: Parameter {
-        name: "start-direction",
-        label: "Start direction",
-        help: "The direction at the start, along the curve",
-        kind: Kind::vector(false, |input| {
-            kept(input, End::Start, |it| it.direction.is_some(), "as it is")
-        }),
-    },
-    curvature: Parameter {
-        name: "start-curvature",
-        label: "Start curvature",
-        help: "The curvature at the start; of a planar curve positive where it turns left",
-        kind: Kind::number(ANY, |input| {
-            kept(input, End::Start, |it| it.curvature.is_some(), "free")
-        }),
-    },
-    slope: Parameter {
-        name: "start-slope",
-        label: "Start slope",
-        help: "The slope of the curvature at the start, by arc length",
-        kind: Kind::number(ANY, |input| {
-            kept(input, End::Start, |it| it.slope.is_some(), "free")
-        }),
-    },
-    normal: Parameter {
-        name: "start-normal",
-        label: "Start normal",
-        help: "The normal of the osculating plane at the start, of a curve in space",
-        kind: Kind::vector(true, |input| {
-            kept(input, End::Start, |it| it.normal.is_some(), "free")
-        }),
-    },
-};
-
-const FINISH: Asked = Asked {
-    point: Parameter {
-        name: "end",
-        label: "End point",
-        help: "Where the curve ends; without a point it ends where it does",
-        kind: Kind::vector(false, |input| {
-            kept(input, End::Finish, |_| true, "where it is")
-        }),
-    },
-    direction: Parameter {
-        name: "end-direction",
-        label: "End direction",
-        help: "The direction at the end, along the curve",
-        kind: Kind::vector(false, |input| {
-            kept(input, End::Finish, |it| it.direction.is_some(), "as it is")
-        }),
-    },
-    curvature: Parameter {
-        name: "end-curvature",
-        label: "End curvature",
-        help: "The curvature at the end; of a planar curve positive where it turns left",
-        kind: Kind::number(ANY, |input| {
-            kept(input, End::Finish, |it| it.curvature.is_some(), "free")
-        }),
-    },
-    slope: Parameter {
-        name: "end-slope",
-        label: "End slope",
-        help: "The slope of the curvature at the end, by arc length",
-        kind: Kind::number(ANY, |input| {
-            kept(input, End::Finish, |it| it.slope.is_some(), "free")
-        }),
-    },
-    normal: Parameter {
-        name: "end-normal",
-        label: "End normal",
-        help: "The normal of the osculating plane at the end, of a curve in space",
-        kind: Kind::vector(true, |input| {
-            kept(input, End::Finish, |it| it.normal.is_some(), "free")
-        }),
-    },
-};
 
 /// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
@@ -219,7 +193,7 @@ pub static OPERATION: Operation = Operation {
     run,
 };
 
-/// What a method comes to.
+/// The result of a method.
 struct Correction {
     /// The polygon, if the ends reach their targets.
     polygon: Option<FloatPolygon>,
@@ -231,7 +205,7 @@ struct Correction {
 
 fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
     let (id, curve) = input.curve()?;
-    let curve = &asked(input, id, curve, values)?;
+    let curve = &with_targets(input, id, curve, values)?;
     let tolerance = values.real(&TOLERANCE);
     let correction = if values.choice(&METHOD, &[true, false]) {
         at_once(curve, values, tolerance, progress)?
@@ -268,18 +242,18 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     Ok(outcome)
 }
 
-/// The curve with the targets that are set, and what the values ask for beside them.
+/// The curve with its targets, changed by the values.
 ///
 /// # Errors
-/// [`OperationError::NoTarget`] if nothing is asked for at all, [`EditError::BadTarget`], or
+/// [`OperationError::NoTarget`] without any target, [`EditError::BadTarget`], or
 /// [`EditError::MatchedEnd`].
-fn asked(
+fn with_targets(
     input: &Operands,
     id: CurveId,
     curve: &Curve,
     values: &Values,
 ) -> Result<Curve, OperationError> {
-    let mut asked = curve.clone();
+    let mut aimed = curve.clone();
     for (end, parameters) in [(End::Start, &START), (End::Finish, &FINISH)] {
         let target = parameters.target(curve, end, values);
         if target != curve.targets.get(end) {
@@ -288,17 +262,17 @@ fn asked(
         if target.is_some_and(|target| !target.is_usable()) {
             return Err(EditError::BadTarget.into());
         }
-        asked.targets.set(end, target);
+        aimed.targets.set(end, target);
     }
-    if asked.targets.list().is_empty() {
+    if aimed.targets.list().is_empty() {
         return Err(OperationError::NoTarget { end: None });
     }
-    Ok(asked)
+    Ok(aimed)
 }
 
-impl Asked {
-    /// The target of an end: the one that is set, changed by what is given. Where none is set and
-    /// no point is given, the end keeps its point and direction.
+impl EndParameters {
+    /// The target of an end, changed by the values. Without a target and a point the end keeps its
+    /// point and direction.
     fn target(&self, curve: &Curve, end: End, values: &Values) -> Option<EndTarget> {
         let vector = |parameter| match *values.list(parameter) {
             [x, y] => Some(DVec3::new(x, y, 0.0)),
