@@ -523,3 +523,96 @@ impl Operating<'_> {
         self.hand.selection.retain_valid(self.workspace.document());
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Mutex;
+    use std::sync::mpsc::{Receiver, Sender, channel};
+    use std::time::Duration;
+
+    use glam::DVec3;
+
+    use super::*;
+    use crate::document::Curve;
+    use crate::editor::Editor;
+    use crate::geometry::end_correction::EndTarget;
+    use crate::geometry::{End, FloatPolygon};
+    use crate::operations::{Outcome, translate_end};
+
+    /// Longer than any job here takes.
+    const LONG: Duration = Duration::from_secs(60);
+
+    /// Says that a run begins, and what holds it; the first run takes both.
+    static HELD: Mutex<Option<(Sender<()>, Receiver<()>)>> = Mutex::new(None);
+
+    /// Translate an end; the run that is held panics.
+    static OPERATION: Operation = Operation {
+        name: "translate-end-or-panic",
+        run: panic_if_held,
+        ..translate_end::OPERATION
+    };
+
+    fn panic_if_held(
+        input: &Operands,
+        values: &Values,
+        progress: &Progress,
+    ) -> Result<Outcome, OperationError> {
+        let held = HELD.lock().expect("channels").take();
+        if let Some((begins, held)) = held {
+            begins.send(()).expect("the test waits");
+            held.recv().expect("the test lets go");
+            panic!("on purpose");
+        }
+        (translate_end::OPERATION.run)(input, values, progress)
+    }
+
+    #[test]
+    fn a_panic_in_an_outdated_run_leaves_the_newer_preview_alone() {
+        let points = [(0.0, 0.0), (1.0, 2.0), (3.0, 3.0), (5.0, 2.0), (6.0, 0.0)];
+        let polygon = FloatPolygon::planar(2, &points).expect("a polygon");
+        let mut curve = Curve::new("arc", polygon);
+        let target = DVec3::new(-1.0, 0.5, 0.0);
+        for end in End::BOTH {
+            let target = EndTarget {
+                point: target,
+                ..EndTarget::default()
+            };
+            curve.targets.set(end, Some(target));
+        }
+        let mut editor = Editor::with_document(Document::from_curves([curve]));
+        let (sender, woken) = channel();
+        editor.run_in_background(Duration::ZERO, move || sender.send(()).unwrap_or_default());
+        let (begins, begun) = channel();
+        let (lets_go, held) = channel();
+        *HELD.lock().expect("channels") = Some((begins, held));
+        editor.preview_operation(&OPERATION).expect("a preview");
+        begun.recv_timeout(LONG).expect("the run begins");
+
+        let [parameter] = OPERATION.parameters else {
+            panic!("which end is the only parameter");
+        };
+        let is_first = |values: &Values| *values.get(parameter) == Value::Choice(0);
+        let in_progress = editor.operation().expect("an operation");
+        let other = Value::Choice(usize::from(is_first(in_progress.values())));
+        let set = editor.operating().set_values(&[(parameter.name, other)]);
+        assert_eq!(set, Ok(()));
+        lets_go.send(()).expect("the run is held");
+        while editor
+            .operation()
+            .is_some_and(OperationInProgress::is_pending)
+        {
+            woken.recv_timeout(LONG).expect("the frame is woken");
+            editor.begin_frame();
+        }
+
+        let previewed = editor.previewed_operation().expect("it is still previewed");
+        assert!(previewed.report().is_some());
+        assert!(editor.message().is_none(), "{:?}", editor.message());
+        let (_, curve) = editor.document().curves().next().expect("a curve");
+        let ends = End::BOTH.map(|end| curve.polygon.end_jet(end).point);
+        let met = ends.iter().filter(|end| end.distance(target) < 1e-12);
+        assert_eq!(met.count(), 1, "the preview shows the newer run: {ends:?}");
+        assert!(editor.operating().apply().is_ok());
+        assert_eq!(editor.workspace().history().undo_steps(), 1);
+    }
+}
