@@ -2,11 +2,11 @@
 
 use std::any::Any;
 use std::collections::VecDeque;
-use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crate::geometry::Progress;
 
@@ -37,28 +37,12 @@ enum Place<T> {
     /// On the calling thread, at once.
     Inline(VecDeque<Reply<T>>),
     /// On a thread of their own.
-    Thread(Arc<Desk<T>>),
-}
-
-/// State shared by the two threads.
-struct Desk<T> {
-    tray: Mutex<Tray<T>>,
-    /// Signals a new job, or the end of the worker.
-    job_ready: Condvar,
-    /// Signals a new reply.
-    reply_ready: Condvar,
-}
-
-/// Jobs and replies on their way.
-struct Tray<T> {
-    job: Option<Job<T>>,
-    replies: VecDeque<Reply<T>>,
-    /// The number of the last finished job.
-    done: u64,
-    /// Whether the caller waits for a reply: then the thread need not wake a frame.
-    awaited: bool,
-    /// Whether the worker was dropped.
-    closed: bool,
+    Thread {
+        jobs: Sender<Job<T>>,
+        replies: Receiver<Reply<T>>,
+        /// Whether the caller waits for a reply: then the thread need not wake a frame.
+        awaited: Arc<Mutex<bool>>,
+    },
 }
 
 struct Job<T> {
@@ -78,11 +62,33 @@ impl<T: Send + 'static> Worker<T> {
     /// Run jobs on a thread of this name. The thread calls `wake` after a job that nobody waits for.
     /// Without threads, jobs run inline.
     pub fn background(name: &str, wake: impl Fn() + Send + 'static) -> Self {
-        let desk = Arc::new(Desk::default());
-        let own = desk.clone();
+        let (jobs, next) = channel::<Job<T>>();
+        let (finished, replies) = channel();
+        let awaited = Arc::new(Mutex::new(false));
+        let is_awaited = awaited.clone();
+        let serve = move || {
+            for job in next {
+                // A newer job has replaced it, or nobody wants it any more.
+                if job.progress.is_cancelled() {
+                    continue;
+                }
+                let reply = job.run();
+                let is_awaited = held(&is_awaited);
+                let is_sent = finished.send(reply).is_ok();
+                let wakes = is_sent && !*is_awaited;
+                drop(is_awaited);
+                if wakes {
+                    wake();
+                }
+            }
+        };
         let thread = thread::Builder::new().name(name.to_owned());
-        match thread.spawn(move || own.serve(&wake)) {
-            Ok(_) => Self::at(Place::Thread(desk)),
+        match thread.spawn(serve) {
+            Ok(_) => Self::at(Place::Thread {
+                jobs,
+                replies,
+                awaited,
+            }),
             Err(_) => Self::inline(),
         }
     }
@@ -105,12 +111,10 @@ impl<T: Send + 'static> Worker<T> {
         };
         match &mut self.place {
             Place::Inline(replies) => replies.push_back(job.run()),
-            Place::Thread(desk) => {
-                let mut tray = desk.tray();
-                tray.job = Some(job);
-                tray.awaited = !at_most.is_zero();
-                drop(tray);
-                desk.job_ready.notify_one();
+            Place::Thread { jobs, awaited, .. } => {
+                *held(awaited) = !at_most.is_zero();
+                // The thread ends no sooner than this worker.
+                let _ = jobs.send(job);
             }
         }
         self.wait(at_most)
@@ -133,27 +137,32 @@ impl<T: Send + 'static> Worker<T> {
 
     /// Take the replies that are ready, in the order of their jobs.
     pub fn take(&mut self) -> VecDeque<Reply<T>> {
-        match &mut self.place {
-            Place::Inline(replies) => std::mem::take(replies),
-            Place::Thread(desk) => std::mem::take(&mut desk.tray().replies),
-        }
+        self.wait(Duration::ZERO)
     }
 
     /// Wait for the newest job no longer than `at_most`, and take the replies that are ready then.
     pub fn wait(&mut self, at_most: Duration) -> VecDeque<Reply<T>> {
-        if let Place::Thread(desk) = &self.place
-            && !at_most.is_zero()
-        {
-            let mut tray = desk.tray();
-            tray.awaited = true;
-            let newest = self.newest;
-            let waited = desk
-                .reply_ready
-                .wait_timeout_while(tray, at_most, |tray| tray.done != newest);
-            let (mut tray, _) = waited.unwrap_or_else(PoisonError::into_inner);
-            tray.awaited = false;
+        match &mut self.place {
+            Place::Inline(replies) => std::mem::take(replies),
+            Place::Thread {
+                replies, awaited, ..
+            } => {
+                let mut taken: VecDeque<Reply<T>> = replies.try_iter().collect();
+                let end = Instant::now() + at_most;
+                let left = || end.saturating_duration_since(Instant::now());
+                while !at_most.is_zero() && taken.back().is_none_or(|it| it.job != self.newest) {
+                    *held(awaited) = true;
+                    let Ok(reply) = replies.recv_timeout(left()) else {
+                        break;
+                    };
+                    taken.push_back(reply);
+                }
+                *held(awaited) = false;
+                // What came after the wait, and wakes no frame.
+                taken.extend(replies.try_iter());
+                taken
+            }
         }
-        self.take()
     }
 
     fn at(place: Place<T>) -> Self {
@@ -169,68 +178,12 @@ impl<T> Drop for Worker<T> {
     /// Cancel the job and let the thread end after it, without waiting.
     fn drop(&mut self) {
         self.progress.cancel();
-        if let Place::Thread(desk) = &self.place {
-            let mut tray = desk.tray();
-            tray.closed = true;
-            tray.job = None;
-            desk.job_ready.notify_one();
-        }
     }
 }
 
-impl<T> Default for Desk<T> {
-    fn default() -> Self {
-        Self {
-            tray: Mutex::new(Tray {
-                job: None,
-                replies: VecDeque::new(),
-                done: 0,
-                awaited: false,
-                closed: false,
-            }),
-            job_ready: Condvar::new(),
-            reply_ready: Condvar::new(),
-        }
-    }
-}
-
-impl<T> fmt::Debug for Desk<T> {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.debug_struct("Desk").finish_non_exhaustive()
-    }
-}
-
-impl<T> Desk<T> {
-    /// Lock the tray. No code panics while it holds the lock.
-    fn tray(&self) -> MutexGuard<'_, Tray<T>> {
-        self.tray.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// Run jobs until the worker is dropped.
-    fn serve(&self, wake: &impl Fn()) {
-        while let Some(job) = self.next() {
-            let reply = job.run();
-            let mut tray = self.tray();
-            tray.done = reply.job;
-            tray.replies.push_back(reply);
-            let awaited = tray.awaited;
-            drop(tray);
-            self.reply_ready.notify_all();
-            if !awaited {
-                wake();
-            }
-        }
-    }
-
-    /// Wait for a job; `None` once the worker is dropped.
-    fn next(&self) -> Option<Job<T>> {
-        let tray = self.tray();
-        let waited = self
-            .job_ready
-            .wait_while(tray, |tray| tray.job.is_none() && !tray.closed);
-        let mut tray = waited.unwrap_or_else(PoisonError::into_inner);
-        tray.job.take()
-    }
+/// Lock a flag. No code panics while it holds the lock.
+fn held(flag: &Mutex<bool>) -> MutexGuard<'_, bool> {
+    flag.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl<T> Job<T> {
@@ -252,8 +205,6 @@ fn panic_message(panic: &(dyn Any + Send)) -> String {
 
 #[cfg(test)]
 mod tests {
-    use std::sync::mpsc::{Receiver, Sender, channel};
-
     use super::*;
 
     /// Longer than any job here takes.
